@@ -1,1 +1,15 @@
-//! Asperity.
+//! Asperity: implicit finite elements for contact with friction under large displacements and strains.
+//!
+//! The rooms, by layer; a room may use rooms of lower layers only (`tests/layers.rs` holds the rule):
+//!
+//! 1. [`tensor`] dual numbers, vectors, tensors.
+//! 2. [`mesh`] nodes, cells, groups, files.
+//! 6. The program.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod error;
+pub mod mesh;
+pub mod tensor;
+
+pub use error::{Error, Failure};

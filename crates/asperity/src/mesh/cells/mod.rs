@@ -1,0 +1,76 @@
+//! Reference cells: each is data plus one function, one file.
+//!
+//! To add a cell: its file here, its `mod` line and its name in [`ALL`].
+
+mod line;
+mod quad;
+
+pub use line::{LINE2, LINE3};
+pub use quad::{QUAD4, QUAD8};
+
+/// Every cell the program knows.
+pub static ALL: &[&Cell] = &[&LINE2, &LINE3, &QUAD4, &QUAD8];
+
+/// A reference cell. Coordinates are in its own system: `[-1, 1]` along a line or the sides of a quad or hex, area
+/// coordinates in `[0, 1]` for triangles and tetrahedra.
+pub struct Cell {
+    /// The name a deck and a message use: `quad8`.
+    pub name: &'static str,
+    /// Dimension of the cell itself: 1, 2 or 3.
+    pub dimension: usize,
+    /// Degree of its edges: 1 or 2.
+    pub degree: usize,
+    /// Reference coordinates of its nodes.
+    pub nodes: &'static [[f64; 3]],
+    /// Values `n[i]` and gradients `dn[i][a]` of the shape functions at a reference point.
+    pub shape: fn(xi: [f64; 3], n: &mut [f64], dn: &mut [[f64; 3]]),
+    /// Edges of a plane cell (counter-clockwise: the cell lies on the left), faces of a solid one (normal outward by
+    /// the right-hand rule).
+    pub faces: &'static [Face],
+    /// Quadrature that integrates the stiffness of an undistorted cell exactly.
+    pub full: &'static Rule,
+    /// Quadrature one order lower; absent where that is meaningless.
+    pub reduced: Option<&'static Rule>,
+    /// Quadratures for surfaces with 1, 2 and 3 points an edge; empty for cells that are never a face.
+    pub gauss: [Option<&'static Rule>; 3],
+    /// VTK cell type.
+    pub vtk: u8,
+}
+
+/// One edge or face of a cell.
+pub struct Face {
+    /// The reference cell of the face itself.
+    pub cell: &'static Cell,
+    /// The face's nodes as positions in the cell's node list.
+    pub nodes: &'static [usize],
+}
+
+/// A quadrature rule: points in reference coordinates and weights that sum to the reference measure.
+pub struct Rule {
+    /// Points.
+    pub points: &'static [[f64; 3]],
+    /// Weights.
+    pub weights: &'static [f64],
+}
+
+/// The largest number of nodes of any cell (hex27).
+pub const MAX_NODES: usize = 27;
+
+impl std::fmt::Debug for Cell {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl PartialEq for Cell {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Cell {
+    /// Looks a cell up by its name.
+    pub fn named(name: &str) -> Option<&'static Cell> {
+        ALL.iter().copied().find(|cell| cell.name == name)
+    }
+}

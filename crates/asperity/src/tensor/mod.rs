@@ -1,0 +1,14 @@
+//! Numbers that carry their derivatives, and the vectors and tensors of mechanics over them.
+//!
+//! Every law and every contact point is written once, generic over [`Scalar`]; evaluated with `f64` it gives the
+//! value, with [`Dual`] the value and its exact derivative along `N` directions.
+
+mod dual;
+mod scalar;
+mod tensor2;
+mod vec3;
+
+pub use dual::Dual;
+pub use scalar::Scalar;
+pub use tensor2::Tensor2;
+pub use vec3::Vec3;

@@ -10,10 +10,8 @@ pub static GAUSS1: Rule = Rule { points: &[[0.0, 0.0, 0.0]], weights: &[2.0] };
 /// Two Gauss points: exact to degree 3.
 pub static GAUSS2: Rule = Rule { points: &[[-G2, 0.0, 0.0], [G2, 0.0, 0.0]], weights: &[1.0, 1.0] };
 /// Three Gauss points: exact to degree 5.
-pub static GAUSS3: Rule = Rule {
-    points: &[[-G3, 0.0, 0.0], [0.0, 0.0, 0.0], [G3, 0.0, 0.0]],
-    weights: &[5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0],
-};
+pub static GAUSS3: Rule =
+    Rule { points: &[[-G3, 0.0, 0.0], [0.0, 0.0, 0.0], [G3, 0.0, 0.0]], weights: &[5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0] };
 
 /// Two nodes, first degree.
 pub static LINE2: Cell = Cell {

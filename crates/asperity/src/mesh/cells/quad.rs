@@ -8,10 +8,8 @@ const G3: f64 = 0.774_596_669_241_483_4;
 /// One point.
 pub static GAUSS1X1: Rule = Rule { points: &[[0.0, 0.0, 0.0]], weights: &[4.0] };
 /// Two by two points.
-pub static GAUSS2X2: Rule = Rule {
-    points: &[[-G2, -G2, 0.0], [G2, -G2, 0.0], [G2, G2, 0.0], [-G2, G2, 0.0]],
-    weights: &[1.0, 1.0, 1.0, 1.0],
-};
+pub static GAUSS2X2: Rule =
+    Rule { points: &[[-G2, -G2, 0.0], [G2, -G2, 0.0], [G2, G2, 0.0], [-G2, G2, 0.0]], weights: &[1.0, 1.0, 1.0, 1.0] };
 /// Three by three points.
 pub static GAUSS3X3: Rule = Rule {
     points: &[

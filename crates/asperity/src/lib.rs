@@ -2,12 +2,13 @@
 //!
 //! The rooms, by layer; a room may use rooms of lower layers only (`tests/layers.rs` holds the rule):
 //!
-//! 1. [`tensor`] dual numbers, vectors, tensors.
+//! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names.
 //! 2. [`mesh`] nodes, cells, groups, files.
 //! 6. The program.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod declare;
 pub mod error;
 pub mod mesh;
 pub mod tensor;

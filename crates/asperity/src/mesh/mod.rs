@@ -1,7 +1,12 @@
 //! Nodes, cells and named groups: what is computed on, and nothing of mechanics.
 
 pub mod cells;
-mod mesh;
+pub mod generate;
+mod groups;
+mod measure;
+mod unstructured;
 
 pub use cells::{Cell, Face, Rule};
-pub use mesh::{CellView, Group, Mesh, Side};
+pub use groups::{Group, Side};
+pub use measure::Adjacency;
+pub use unstructured::{CellView, Mesh};

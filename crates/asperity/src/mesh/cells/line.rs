@@ -18,6 +18,7 @@ pub static LINE2: Cell = Cell {
     name: "line2",
     dimension: 1,
     degree: 1,
+    linear: &LINE2,
     nodes: &[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
     shape: |xi, n, dn| {
         let x = xi[0];
@@ -36,6 +37,7 @@ pub static LINE3: Cell = Cell {
     name: "line3",
     dimension: 1,
     degree: 2,
+    linear: &LINE2,
     nodes: &[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
     shape: |xi, n, dn| {
         let x = xi[0];

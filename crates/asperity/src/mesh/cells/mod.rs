@@ -20,6 +20,8 @@ pub struct Cell {
     pub dimension: usize,
     /// Degree of its edges: 1 or 2.
     pub degree: usize,
+    /// The cell of first degree on its corners, which are the first of its nodes; itself if it is of first degree.
+    pub linear: &'static Cell,
     /// Reference coordinates of its nodes.
     pub nodes: &'static [[f64; 3]],
     /// Values `n[i]` and gradients `dn[i][a]` of the shape functions at a reference point.

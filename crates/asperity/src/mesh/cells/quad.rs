@@ -52,6 +52,7 @@ pub static QUAD4: Cell = Cell {
     name: "quad4",
     dimension: 2,
     degree: 1,
+    linear: &QUAD4,
     nodes: NODES.first_chunk::<4>().unwrap(),
     shape: |xi, n, dn| {
         for (i, &[a, b, _]) in NODES[..4].iter().enumerate() {
@@ -77,6 +78,7 @@ pub static QUAD8: Cell = Cell {
     name: "quad8",
     dimension: 2,
     degree: 2,
+    linear: &QUAD4,
     nodes: &NODES,
     shape: |[x, y, _], n, dn| {
         for (i, &[a, b, _]) in NODES.iter().enumerate() {

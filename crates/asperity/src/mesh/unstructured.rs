@@ -1,11 +1,12 @@
 //! The mesh itself: points, cells of any kinds, named groups.
 
-use super::Cell;
+use super::{Cell, Group, Side};
+use crate::error::Error;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
 
 /// Points, cells and groups. Plane meshes have z = 0; axisymmetric ones are drawn in (r, z) = (x, y).
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Mesh {
     /// Positions of the nodes, undeformed.
     pub points: Vec<Vec3>,
@@ -19,27 +20,6 @@ pub struct Mesh {
     pub groups: BTreeMap<String, Group>,
 }
 
-/// A named part of the mesh: cells for a body, sides for a contact or a load, nodes for a support. `nodes` always
-/// holds the nodes of the cells and sides too; all three are sorted and without repeats.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Group {
-    /// Cells.
-    pub cells: Vec<usize>,
-    /// Edges or faces, each by the cell behind it.
-    pub sides: Vec<Side>,
-    /// Nodes.
-    pub nodes: Vec<usize>,
-}
-
-/// An edge or face, named by the cell it belongs to and its place in that cell's list of faces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Side {
-    /// The cell behind it.
-    pub cell: usize,
-    /// Which of the cell's faces.
-    pub face: usize,
-}
-
 /// One cell of a mesh.
 #[derive(Debug, Clone, Copy)]
 pub struct CellView<'a> {
@@ -49,10 +29,16 @@ pub struct CellView<'a> {
     pub nodes: &'a [usize],
 }
 
+impl Default for Mesh {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Mesh {
     /// An empty mesh.
     pub fn new() -> Self {
-        Self { starts: vec![0], ..Self::default() }
+        Self { points: vec![], kinds: vec![], starts: vec![0], nodes: vec![], groups: BTreeMap::new() }
     }
     /// Number of cells.
     pub fn cell_count(&self) -> usize {
@@ -64,6 +50,22 @@ impl Mesh {
         self.nodes.extend_from_slice(nodes);
         self.starts.push(self.nodes.len());
         self.kinds.len() - 1
+    }
+    /// Adds another part. Nodes are not merged: parts touch only by contact.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if both parts have a group of the same name; the mesh is then unchanged.
+    pub fn append(&mut self, part: Mesh) -> Result<(), Error> {
+        if let Some(name) = part.groups.keys().find(|name| self.groups.contains_key(*name)) {
+            return Err(Error::input(format!("two parts of the mesh have a group '{name}'; rename one of them")));
+        }
+        let (nodes, cells, entries) = (self.points.len(), self.cell_count(), self.nodes.len());
+        self.points.extend(part.points);
+        self.kinds.extend(part.kinds);
+        self.starts.extend(part.starts.iter().skip(1).map(|start| start + entries));
+        self.nodes.extend(part.nodes.iter().map(|node| node + nodes));
+        self.groups.extend(part.groups.into_iter().map(|(name, group)| (name, group.shifted(nodes, cells))));
+        Ok(())
     }
     /// One cell.
     pub fn cell(&self, cell: usize) -> CellView<'_> {

@@ -1,0 +1,113 @@
+//! Measures of a mesh and its cells: positions, Jacobians, volumes, extent; and which cells a node belongs to.
+//!
+//! The Jacobian of a solid cell is `det(dx/dxi)`, of a plane cell its area ratio in the plane (positive when its nodes
+//! run counter-clockwise), of a line its length ratio.
+
+use super::cells::MAX_NODES;
+use super::{CellView, Mesh};
+use crate::tensor::Vec3;
+
+impl CellView<'_> {
+    /// Position of a reference point and the tangents `dx/dxi` along the reference directions.
+    pub fn map(&self, points: &[Vec3], xi: [f64; 3]) -> (Vec3, [Vec3; 3]) {
+        let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+        (self.kind.shape)(xi, &mut n, &mut dn);
+        let (mut x, mut tangents) = (Vec3::zero(), [Vec3::zero(); 3]);
+        for (i, &node) in self.nodes.iter().enumerate() {
+            x += points[node] * n[i];
+            (0..3).for_each(|a| tangents[a] += points[node] * dn[i][a]);
+        }
+        (x, tangents)
+    }
+
+    /// Ratio of the measure in space to that on the reference cell; negative where the cell is turned inside out.
+    pub fn jacobian(&self, points: &[Vec3], xi: [f64; 3]) -> f64 {
+        let [u, v, w] = self.map(points, xi).1;
+        match self.kind.dimension {
+            1 => u.norm(),
+            2 => u[0] * v[1] - u[1] * v[0],
+            _ => u.cross(v).dot(w),
+        }
+    }
+
+    /// Length, area or volume by the full quadrature of the cell.
+    pub fn measure(&self, points: &[Vec3]) -> f64 {
+        let rule = self.kind.full;
+        rule.points.iter().zip(rule.weights).map(|(&xi, weight)| weight * self.jacobian(points, xi)).sum()
+    }
+}
+
+impl Mesh {
+    /// Area of a plane cell, volume of a solid one, in the undeformed mesh; the factor `2 pi r` of an axisymmetric
+    /// space is the caller's.
+    pub fn measure(&self, cell: usize) -> f64 {
+        self.cell(cell).measure(&self.points)
+    }
+
+    /// Lower and upper corner of the box around all points; both zero without points.
+    pub fn bounds(&self) -> [Vec3; 2] {
+        let Some(&first) = self.points.first() else { return [Vec3::zero(); 2] };
+        self.points.iter().fold([first; 2], |[low, high], point| {
+            let extreme = |a: Vec3, pick: fn(f64, f64) -> f64| Vec3(std::array::from_fn(|i| pick(a[i], point[i])));
+            [extreme(low, f64::min), extreme(high, f64::max)]
+        })
+    }
+
+    /// Length of the diagonal of [`Mesh::bounds`], the characteristic length of the whole.
+    pub fn size(&self) -> f64 {
+        let [low, high] = self.bounds();
+        (high - low).norm()
+    }
+
+    /// The highest dimension of any cell: 2 for a plane mesh, 3 for a solid one, 0 without cells.
+    pub fn dimension(&self) -> usize {
+        self.kinds.iter().map(|kind| kind.dimension).max().unwrap_or(0)
+    }
+
+    /// Which cells each node belongs to.
+    pub fn adjacency(&self) -> Adjacency {
+        let mut starts = vec![0; self.points.len() + 1];
+        self.nodes.iter().for_each(|&node| starts[node + 1] += 1);
+        (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
+        let (mut next, mut cells) = (starts.clone(), vec![0; self.nodes.len()]);
+        for cell in 0..self.cell_count() {
+            for &node in self.cell(cell).nodes {
+                cells[next[node]] = cell;
+                next[node] += 1;
+            }
+        }
+        Adjacency { starts, cells }
+    }
+}
+
+/// The cells around each node.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Adjacency {
+    starts: Vec<usize>,
+    cells: Vec<usize>,
+}
+
+impl Adjacency {
+    /// The cells around one node, in increasing order.
+    pub fn cells(&self, node: usize) -> &[usize] {
+        &self.cells[self.starts[node]..self.starts[node + 1]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Cell;
+    use crate::mesh::generate::Rectangle;
+
+    #[test]
+    fn a_rectangle_has_its_area_its_bounds_and_its_neighbours() {
+        let mesh = Rectangle::new([1.0, -2.0], [4.0, 2.0], [3, 2], Cell::named("quad4").unwrap()).mesh("r").unwrap();
+        assert!((0..6).all(|cell| (mesh.measure(cell) - 2.0).abs() < 1e-14));
+        assert_eq!(mesh.bounds(), [Vec3([1.0, -2.0, 0.0]), Vec3([4.0, 2.0, 0.0])]);
+        assert_eq!((mesh.size(), mesh.dimension()), (5.0, 2));
+        let adjacency = mesh.adjacency();
+        assert_eq!(adjacency.cells(5), [0, 1, 3, 4]);
+        assert_eq!(adjacency.cells(0), [0]);
+    }
+}

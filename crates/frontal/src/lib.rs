@@ -1,1 +1,54 @@
-//! Sparse LU.
+//! Sparse LU for matrices with symmetric pattern and unsymmetric values, by the multifrontal method.
+//!
+//! Friction, follower forces and non-associated plasticity give finite element matrices whose pattern is symmetric
+//! while their values are not. For these the fill-reducing ordering of the undirected graph is the right one, and the
+//! work can be done in dense *fronts* (Duff & Reid, ACM TOMS 9, 1983; Liu, SIAM Review 34, 1992).
+//!
+//! Three phases, with nothing about mechanics in them:
+//!
+//! 1. [`Symbolic::analyse`] orders a [`Pattern`], once per pattern, and predicts flops and memory exactly;
+//! 2. [`Symbolic::factorise`] puts values into a [`Factor`] and re-uses all of its memory;
+//! 3. [`Factor::solve`] solves for one or many right-hand sides, [`Factor::solve_transposed`] for the adjoint.
+//!
+//! ```
+//! use frontal::{Options, Pattern, Symbolic};
+//!
+//! // A 3 x 3 matrix by rows: [4 1 0; 2 5 1; 0 3 6].
+//! let pattern = Pattern::new(vec![0, 2, 5, 7], vec![0, 1, 0, 1, 2, 1, 2])?;
+//! let symbolic = Symbolic::analyse(&pattern, &Options::default())?;
+//! let mut factor = symbolic.new_factor();
+//! symbolic.factorise(&[4.0, 1.0, 2.0, 5.0, 1.0, 3.0, 6.0], &mut factor)?;
+//!
+//! let mut x = [5.0, 8.0, 9.0];
+//! factor.solve(&mut x)?;
+//! assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-14));
+//! # Ok::<(), frontal::Error>(())
+//! ```
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+mod assembly_tree;
+mod dense;
+mod diagnose;
+mod error;
+mod etree;
+mod factor;
+mod graph;
+mod metis;
+mod numeric;
+mod options;
+mod ordering;
+mod pattern;
+mod refine;
+mod scaling;
+mod solve;
+mod supernode;
+mod symbolic;
+
+pub use diagnose::{NullVector, Singular};
+pub use error::Error;
+pub use factor::{Factor, Report};
+pub use options::{Amalgamation, Options, Ordering};
+pub use pattern::Pattern;
+pub use refine::Accuracy;
+pub use symbolic::{Prediction, Symbolic};

@@ -1,0 +1,288 @@
+//! The assembly tree: fronts in the order in which they are eliminated, and where every number goes.
+
+use crate::error::Error;
+use crate::etree::{NONE, children, postorder};
+use crate::graph::Graph;
+use crate::pattern::Pattern;
+use crate::supernode::Supernode;
+use std::ops::Range;
+
+/// A dense matrix of order `pivots + border`, in four parts stored column by column:
+///
+/// ```text
+///    pivots  border
+///  [  F11  |  F12  ]  pivots      left   = [F11; F21], leading dimension `size()`
+///  [  F21  |  F22  ]  border      right  = F12 transposed, leading dimension `border`
+///                                 F22    = what goes to the parent, leading dimension `border`
+/// ```
+/// `left` and `right` lie next to each other in the factor; F22, the contribution block, lies in working memory. F12
+/// is kept transposed so that small fronts, with few pivots and a long border, still work on long columns.
+#[derive(Debug, Clone)]
+pub(crate) struct Front {
+    /// First pivot, in elimination order.
+    pub first: usize,
+    pub pivots: usize,
+    pub border: usize,
+    /// Where the border's rows start in [`AssemblyTree::rows`].
+    pub rows: usize,
+    /// Where the front starts in the factor.
+    pub factor: usize,
+    /// Where its entries of the matrix start in [`AssemblyTree::entries`].
+    pub entries: usize,
+    /// First front of its subtree, which ends with this front.
+    pub first_descendant: usize,
+    /// Distance from its root.
+    pub depth: u32,
+}
+
+impl Front {
+    pub fn size(&self) -> usize {
+        self.pivots + self.border
+    }
+
+    /// Numbers kept in the factor.
+    pub fn factor_len(&self) -> usize {
+        self.pivots * (self.size() + self.border)
+    }
+
+    pub fn factor_range(&self) -> Range<usize> {
+        self.factor..self.factor + self.factor_len()
+    }
+
+    pub fn pivot_range(&self) -> Range<usize> {
+        self.first..self.first + self.pivots
+    }
+
+    /// Multiplications and additions of the elimination.
+    pub fn flops(&self) -> f64 {
+        let (p, b) = (self.pivots as f64, self.border as f64);
+        2.0 / 3.0 * p * p * p + 2.0 * p * p * b + 2.0 * p * b * b
+    }
+}
+
+/// An entry of the matrix and its place in the front where it is assembled.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry {
+    /// Index among the values of the pattern.
+    pub value: u32,
+    /// Index in the front's part of the factor.
+    pub place: u32,
+}
+
+/// All fronts, children before parents.
+#[derive(Debug)]
+pub(crate) struct AssemblyTree {
+    pub fronts: Vec<Front>,
+    /// Children of each front, in the order of assembly; the roots are the children of front `n`.
+    pub child_starts: Vec<usize>,
+    pub child_list: Vec<u32>,
+    /// Rows of the borders, as positions in elimination order.
+    pub rows: Vec<u32>,
+    /// The same rows as indices in the parent's front.
+    pub relative: Vec<u32>,
+    pub entries: Vec<Entry>,
+    /// Unknown at each position of the elimination order, and the position of each unknown.
+    pub order: Vec<u32>,
+    pub position: Vec<u32>,
+}
+
+impl AssemblyTree {
+    /// # Errors
+    /// [`Error::TooLarge`] if a front has too many entries for 32 bits.
+    pub fn new(pattern: &Pattern, graph: &Graph, node_order: &[u32], supernodes: &[Supernode]) -> Result<Self, Error> {
+        let (supernodes, parents) = in_final_order(supernodes);
+        let (child_starts, child_list) = children(&parents);
+        let nodes = supernodes.iter().flat_map(|s| s.nodes.iter().map(|&k| node_order[k as usize]));
+        let order = nodes.flat_map(|node| graph.members(node as usize).iter().copied()).collect::<Vec<_>>();
+        let mut position = vec![0; order.len()];
+        for (k, &unknown) in order.iter().enumerate() {
+            position[unknown as usize] = k as u32;
+        }
+        let mut tree = AssemblyTree {
+            fronts: Vec::with_capacity(supernodes.len()),
+            child_starts,
+            child_list,
+            rows: Vec::new(),
+            relative: Vec::new(),
+            entries: Vec::with_capacity(pattern.nonzeros()),
+            order,
+            position,
+        };
+        tree.lay_out(pattern, graph, &supernodes, &parents)?;
+        tree.place_entries(pattern);
+        tree.find_relative_rows();
+        Ok(tree)
+    }
+
+    pub fn children(&self, front: usize) -> &[u32] {
+        &self.child_list[self.child_starts[front]..self.child_starts[front + 1]]
+    }
+
+    pub fn rows(&self, front: &Front) -> &[u32] {
+        &self.rows[front.rows..front.rows + front.border]
+    }
+
+    pub fn relative(&self, front: &Front) -> &[u32] {
+        &self.relative[front.rows..front.rows + front.border]
+    }
+
+    pub fn entries(&self, front: usize) -> &[Entry] {
+        let end = self.fronts.get(front + 1).map_or(self.entries.len(), |next| next.entries);
+        &self.entries[self.fronts[front].entries..end]
+    }
+
+    /// Numbers in the factor.
+    pub fn factor_len(&self) -> usize {
+        self.fronts.last().map_or(0, |front| front.factor_range().end)
+    }
+
+    fn lay_out(
+        &mut self,
+        pattern: &Pattern,
+        graph: &Graph,
+        supernodes: &[&Supernode],
+        parents: &[u32],
+    ) -> Result<(), Error> {
+        let mut seen_by = vec![NONE; self.order.len()];
+        let mut first = 0;
+        for (s, supernode) in supernodes.iter().enumerate() {
+            let pivots = supernode.pivots as usize;
+            let rows = self.rows.len();
+            self.append_rows(pattern, s, first..first + pivots, &mut seen_by);
+            let first_descendant =
+                self.children(s).first().map_or(s, |&child| self.fronts[child as usize].first_descendant);
+            let border = self.rows.len() - rows;
+            let factor = self.factor_len();
+            let front = Front { first, pivots, border, rows, factor, entries: 0, first_descendant, depth: 0 };
+            u32::try_from(front.factor_len()).map_err(|_| Error::TooLarge)?;
+            self.fronts.push(front);
+            first += pivots;
+        }
+        debug_assert_eq!(graph.members.len(), first);
+        for s in (0..self.fronts.len()).rev().filter(|&s| parents[s] != NONE) {
+            self.fronts[s].depth = self.fronts[parents[s] as usize].depth + 1;
+        }
+        Ok(())
+    }
+
+    /// Rows of the border: those of the children and of the matrix, past the pivots.
+    fn append_rows(&mut self, pattern: &Pattern, s: usize, pivots: Range<usize>, seen_by: &mut [u32]) {
+        let start = self.rows.len();
+        let end = pivots.end as u32;
+        let mut fresh = |row: u32| row >= end && std::mem::replace(&mut seen_by[row as usize], s as u32) != s as u32;
+        for k in self.child_starts[s]..self.child_starts[s + 1] {
+            let child = &self.fronts[self.child_list[k] as usize];
+            for at in child.rows..child.rows + child.border {
+                let row = self.rows[at];
+                if fresh(row) {
+                    self.rows.push(row);
+                }
+            }
+        }
+        for pivot in pivots {
+            for &column in pattern.row(self.order[pivot] as usize) {
+                let row = self.position[column];
+                if fresh(row) {
+                    self.rows.push(row);
+                }
+            }
+        }
+        self.rows[start..].sort_unstable();
+    }
+
+    /// An entry belongs to the front that eliminates its row or its column, whichever comes first.
+    fn place_entries(&mut self, pattern: &Pattern) {
+        let mirror = mirrors(pattern);
+        let mut local = vec![0; self.order.len()];
+        for s in 0..self.fronts.len() {
+            let front = self.fronts[s].clone();
+            self.fronts[s].entries = self.entries.len();
+            for (k, &row) in self.rows(&front).iter().enumerate() {
+                local[row as usize] = front.pivots + k;
+            }
+            for pivot in front.pivot_range() {
+                let unknown = self.order[pivot] as usize;
+                let k = pivot - front.first;
+                for (at, column) in pattern.entries(unknown) {
+                    let other = self.position[column] as usize;
+                    if other >= front.first + front.pivots {
+                        let j = local[other];
+                        self.push_entry(at, front.pivots * front.size() + k * front.border + j - front.pivots);
+                        self.push_entry(mirror[at] as usize, k * front.size() + j);
+                    } else if other >= front.first {
+                        self.push_entry(at, (other - front.first) * front.size() + k);
+                    }
+                }
+            }
+        }
+    }
+
+    fn push_entry(&mut self, value: usize, place: usize) {
+        self.entries.push(Entry { value: value as u32, place: place as u32 });
+    }
+
+    fn find_relative_rows(&mut self) {
+        let mut local = vec![0; self.order.len()];
+        self.relative = vec![0; self.rows.len()];
+        for s in 0..self.fronts.len() {
+            let front = &self.fronts[s];
+            for (k, pivot) in front.pivot_range().enumerate() {
+                local[pivot] = k as u32;
+            }
+            for (k, &row) in self.rows(front).iter().enumerate() {
+                local[row as usize] = (front.pivots + k) as u32;
+            }
+            for k in self.child_starts[s]..self.child_starts[s + 1] {
+                let child = &self.fronts[self.child_list[k] as usize];
+                for at in child.rows..child.rows + child.border {
+                    self.relative[at] = local[self.rows[at] as usize];
+                }
+            }
+        }
+    }
+}
+
+/// For every entry of a pattern the index of its mirror image.
+fn mirrors(pattern: &Pattern) -> Vec<u32> {
+    let mut next = pattern.starts()[..pattern.len()].to_vec();
+    let mut mirror = vec![0; pattern.nonzeros()];
+    for row in 0..pattern.len() {
+        for (at, column) in pattern.entries(row) {
+            // Rows come in order, so each meets the entries of a column's own row one after the other.
+            mirror[at] = next[column] as u32;
+            next[column] += 1;
+        }
+    }
+    mirror
+}
+
+/// Supernodes in the postorder that needs the least memory for contribution blocks, and their parents in it.
+///
+/// The children with the largest excess of their subtree's peak over what they leave behind go first (Liu, ACM TOMS
+/// 12, 1986).
+fn in_final_order(supernodes: &[Supernode]) -> (Vec<&Supernode>, Vec<u32>) {
+    let parents = supernodes.iter().map(|s| s.parent).collect::<Vec<_>>();
+    let (starts, mut list) = children(&parents);
+    let block = |s: usize| (supernodes[s].size - supernodes[s].pivots).pow(2);
+    let mut peak = vec![0; supernodes.len()];
+    for s in 0..supernodes.len() {
+        let own = &mut list[starts[s]..starts[s + 1]];
+        own.sort_by_key(|&child| (block(child as usize) as i128 - i128::from(peak[child as usize]), child));
+        let mut left_behind = 0;
+        for &child in own.iter() {
+            peak[s] = peak[s].max(left_behind + peak[child as usize]);
+            left_behind += block(child as usize);
+        }
+        peak[s] = peak[s].max(left_behind + block(s));
+    }
+    let order = postorder(&starts, &list);
+    let mut number = vec![NONE; supernodes.len()];
+    for (new, &old) in order.iter().enumerate() {
+        number[old as usize] = new as u32;
+    }
+    let parent = |&s: &u32| match parents[s as usize] {
+        NONE => NONE,
+        p => number[p as usize],
+    };
+    (order.iter().map(|&s| &supernodes[s as usize]).collect(), order.iter().map(parent).collect())
+}

@@ -1,0 +1,103 @@
+//! A factorised matrix.
+
+use crate::dense::{Pivot, PivotRule};
+use crate::diagnose;
+use crate::error::Error;
+use crate::numeric;
+use crate::pattern::check_length;
+use crate::scaling::Scaling;
+use crate::symbolic::{Inner, Symbolic};
+use std::sync::Arc;
+
+/// Perturbed pivots get this share of the largest value: the square root of the unit round-off balances the error
+/// made against the growth allowed (Li & Demmel, ACM TOMS 29, 2003).
+const PERTURBATION: f64 = 1.5e-8;
+
+/// L and U, with a copy of the equilibrated matrix for refinement and the working memory of the next factorisation.
+#[derive(Debug, Clone)]
+pub struct Factor {
+    pub(crate) symbolic: Arc<Inner>,
+    pub(crate) factors: Vec<f64>,
+    pub(crate) pivots: Vec<Pivot>,
+    pub(crate) scaling: Scaling,
+    /// Values of the equilibrated matrix, in the pattern's order.
+    pub(crate) values: Vec<f64>,
+    stack: Vec<f64>,
+    perturbed: Vec<usize>,
+    pub(crate) ready: bool,
+}
+
+/// What a factorisation met.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Report {
+    /// Unknowns whose pivots were too small and were perturbed; solutions are refined to make up for it.
+    pub perturbed: Vec<usize>,
+}
+
+impl Symbolic {
+    /// Factorises the matrix with these values, in the order of [`Pattern::columns`](crate::Pattern::columns).
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`], [`Error::NotFinite`]; [`Error::ForeignFactor`] unless the factor came from this
+    /// analysis; [`Error::Singular`] with the unknowns responsible. After an error the factor holds no values.
+    pub fn factorise(&self, values: &[f64], factor: &mut Factor) -> Result<Report, Error> {
+        if !Arc::ptr_eq(&self.inner, &factor.symbolic) {
+            return Err(Error::ForeignFactor);
+        }
+        factor.ready = false;
+        check_length("values", self.inner.pattern.nonzeros(), values.len())?;
+        factor.load(values)?;
+        factor.collect_perturbed();
+        factor.ready = true;
+        if !factor.perturbed.is_empty() {
+            diagnose::check_regular(factor).inspect_err(|_| factor.ready = false)?;
+        }
+        Ok(Report { perturbed: factor.perturbed.clone() })
+    }
+}
+
+impl Factor {
+    pub(crate) fn new(symbolic: Arc<Inner>) -> Self {
+        let n = symbolic.pattern.len();
+        Factor {
+            factors: vec![0.0; symbolic.tree.factor_len()],
+            pivots: vec![Pivot::default(); n],
+            scaling: Scaling::identity(n),
+            values: vec![0.0; symbolic.pattern.nonzeros()],
+            stack: vec![0.0; symbolic.stack.len],
+            perturbed: Vec::new(),
+            ready: false,
+            symbolic,
+        }
+    }
+
+    /// Unknowns whose pivots were perturbed by the last factorisation.
+    pub fn perturbed(&self) -> &[usize] {
+        &self.perturbed
+    }
+
+    pub(crate) fn check_ready(&self) -> Result<(), Error> {
+        if self.ready { Ok(()) } else { Err(Error::NotFactorised) }
+    }
+
+    fn load(&mut self, values: &[f64]) -> Result<(), Error> {
+        let Inner { pattern, options, .. } = &*self.symbolic;
+        if options.equilibrate {
+            self.scaling.equilibrate(pattern, values);
+        }
+        let largest = self.scaling.apply(pattern, values, &mut self.values)?;
+        // A matrix of zeros only is singular, not a division by zero.
+        let largest = if largest > 0.0 { largest } else { 1.0 };
+        let rule = PivotRule { smallest: options.pivot_threshold * largest, replacement: PERTURBATION * largest };
+        numeric::factorise(&self.symbolic, &self.values, rule, &mut self.factors, &mut self.pivots, &mut self.stack);
+        Ok(())
+    }
+
+    fn collect_perturbed(&mut self) {
+        self.perturbed.clear();
+        let order = &self.symbolic.tree.order;
+        let unknowns = self.pivots.iter().zip(order).filter(|(pivot, _)| pivot.perturbed);
+        self.perturbed.extend(unknowns.map(|(_, &unknown)| unknown as usize));
+    }
+}

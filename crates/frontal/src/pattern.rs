@@ -1,0 +1,159 @@
+//! The places of a sparse matrix that may be nonzero.
+
+use crate::error::Error;
+
+/// A square, structurally symmetric pattern in compressed rows, with the columns of each row in ascending order.
+///
+/// Values that go with it are given in the same order, row by row. The diagonal need not be stored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pattern {
+    starts: Vec<usize>,
+    columns: Vec<usize>,
+    node_of: Option<Vec<usize>>,
+}
+
+impl Pattern {
+    /// Takes the row starts (`n + 1` numbers) and the columns of all rows.
+    ///
+    /// # Errors
+    /// [`Error::InvalidStarts`], [`Error::InvalidColumn`] or [`Error::NotSymmetric`], at the first offence.
+    pub fn new(starts: Vec<usize>, columns: Vec<usize>) -> Result<Self, Error> {
+        check_starts(&starts, columns.len())?;
+        check_columns(&starts, &columns)?;
+        check_symmetry(&starts, &columns)?;
+        Ok(Pattern { starts, columns, node_of: None })
+    }
+
+    /// Names the node of every unknown, so that the ordering works on the smaller graph of the nodes. Nodes may be
+    /// numbered in any way and may have any number of unknowns.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] unless there is one node per unknown; [`Error::InvalidOrder`] if a node's number is not
+    /// below the number of unknowns.
+    pub fn with_nodes(mut self, node_of: Vec<usize>) -> Result<Self, Error> {
+        check_length("node_of", self.len(), node_of.len())?;
+        if let Some(unknown) = node_of.iter().position(|&node| node >= self.len()) {
+            return Err(Error::InvalidOrder { unknown });
+        }
+        self.node_of = Some(node_of);
+        Ok(self)
+    }
+
+    /// Says that every `k` consecutive unknowns are those of one node.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if the number of unknowns is not a multiple of `k`.
+    pub fn with_block(self, k: usize) -> Result<Self, Error> {
+        let n = self.len();
+        if k == 0 || !n.is_multiple_of(k) {
+            return Err(Error::WrongLength { what: "a block of unknowns", expected: n, found: k });
+        }
+        self.with_nodes((0..n).map(|unknown| unknown / k).collect())
+    }
+
+    /// Number of unknowns.
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of entries stored.
+    pub fn nonzeros(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Where each row starts in [`Pattern::columns`]: `n + 1` numbers.
+    pub fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    /// The columns of all rows.
+    pub fn columns(&self) -> &[usize] {
+        &self.columns
+    }
+
+    /// The columns of one row.
+    pub(crate) fn row(&self, row: usize) -> &[usize] {
+        &self.columns[self.starts[row]..self.starts[row + 1]]
+    }
+
+    /// The entries of one row: index among the values, and column.
+    pub(crate) fn entries(&self, row: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let range = self.starts[row]..self.starts[row + 1];
+        range.clone().zip(self.columns[range].iter().copied())
+    }
+
+    /// The node of each unknown, if it was given.
+    pub(crate) fn node_of(&self) -> Option<&[usize]> {
+        self.node_of.as_deref()
+    }
+}
+
+/// Refuses a slice of the wrong length.
+pub(crate) fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), Error> {
+    if expected == found { Ok(()) } else { Err(Error::WrongLength { what, expected, found }) }
+}
+
+fn check_starts(starts: &[usize], nonzeros: usize) -> Result<(), Error> {
+    if starts.first() != Some(&0) {
+        return Err(Error::InvalidStarts { row: 0 });
+    }
+    if let Some(row) = starts.windows(2).position(|pair| pair[0] > pair[1]) {
+        return Err(Error::InvalidStarts { row: row + 1 });
+    }
+    let row = starts.len() - 1;
+    if starts[row] == nonzeros { Ok(()) } else { Err(Error::InvalidStarts { row }) }
+}
+
+fn check_columns(starts: &[usize], columns: &[usize]) -> Result<(), Error> {
+    let n = starts.len() - 1;
+    for row in 0..n {
+        let mut least = 0;
+        for &column in &columns[starts[row]..starts[row + 1]] {
+            if column < least || column >= n {
+                return Err(Error::InvalidColumn { row, column });
+            }
+            least = column + 1;
+        }
+    }
+    Ok(())
+}
+
+/// Walks the rows in order; `seen[c]` counts the entries of row `c` that have met their mirror images. As rows are
+/// sorted, the entry `(r, c)` must meet the next entry of row `c` not met so far.
+fn check_symmetry(starts: &[usize], columns: &[usize]) -> Result<(), Error> {
+    let mut seen = starts[..starts.len() - 1].to_vec();
+    for row in 0..seen.len() {
+        for &column in &columns[starts[row]..starts[row + 1]] {
+            let mirror = seen[column];
+            if mirror == starts[column + 1] || columns[mirror] > row {
+                return Err(Error::NotSymmetric { row, column });
+            }
+            if columns[mirror] < row {
+                return Err(Error::NotSymmetric { row: column, column: columns[mirror] });
+            }
+            seen[column] += 1;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn offences_are_named() {
+        assert_eq!(Pattern::new(vec![], vec![]), Err(Error::InvalidStarts { row: 0 }));
+        assert_eq!(Pattern::new(vec![0, 2, 1], vec![0]), Err(Error::InvalidStarts { row: 2 }));
+        assert_eq!(Pattern::new(vec![0, 1], vec![1]), Err(Error::InvalidColumn { row: 0, column: 1 }));
+        assert_eq!(Pattern::new(vec![0, 2, 2], vec![1, 1]), Err(Error::InvalidColumn { row: 0, column: 1 }));
+        assert_eq!(Pattern::new(vec![0, 1, 1], vec![1]), Err(Error::NotSymmetric { row: 0, column: 1 }));
+        assert_eq!(Pattern::new(vec![0, 0, 1], vec![0]), Err(Error::NotSymmetric { row: 1, column: 0 }));
+    }
+
+    #[test]
+    fn a_pattern_may_be_empty() {
+        assert_eq!(Pattern::new(vec![0], vec![]).map(|pattern| pattern.len()), Ok(0));
+    }
+}

@@ -1,0 +1,158 @@
+//! Substitution with the factors: `P A = L U` front by front, and the transposed system.
+
+use crate::assembly_tree::Front;
+use crate::factor::Factor;
+
+/// Working memory of a solve, in elimination order.
+pub(crate) struct Workspace {
+    x: Vec<f64>,
+    /// Gathered unknowns of one front.
+    local: Vec<f64>,
+}
+
+impl Workspace {
+    pub fn new(factor: &Factor) -> Self {
+        let symbolic = &factor.symbolic;
+        Workspace { x: vec![0.0; symbolic.pattern.len()], local: vec![0.0; symbolic.prediction.largest_front] }
+    }
+}
+
+impl Factor {
+    /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included.
+    pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
+        self.permuted(x, work, |factor, work| {
+            for front in &factor.symbolic.tree.fronts {
+                factor.at_front(front, work, forward);
+            }
+            for front in factor.symbolic.tree.fronts.iter().rev() {
+                factor.at_front(front, work, backward);
+            }
+        });
+    }
+
+    /// `x <- A^-T x`.
+    pub(crate) fn substitute_transposed(&self, x: &mut [f64], work: &mut Workspace) {
+        self.permuted(x, work, |factor, work| {
+            for front in &factor.symbolic.tree.fronts {
+                factor.at_front(front, work, forward_transposed);
+            }
+            for front in factor.symbolic.tree.fronts.iter().rev() {
+                factor.at_front(front, work, backward_transposed);
+            }
+        });
+    }
+
+    fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&Self, &mut Workspace)) {
+        let order = &self.symbolic.tree.order;
+        for (permuted, &unknown) in work.x.iter_mut().zip(order) {
+            *permuted = x[unknown as usize];
+        }
+        solve(self, work);
+        for (permuted, &unknown) in work.x.iter().zip(order) {
+            x[unknown as usize] = *permuted;
+        }
+    }
+
+    /// Gathers the unknowns of a front, pivots first, lets `step` work on them and scatters them.
+    fn at_front(&self, front: &Front, work: &mut Workspace, step: impl Fn(&Panels, &mut [f64])) {
+        let tree = &self.symbolic.tree;
+        let (left, right) = self.factors[front.factor_range()].split_at(front.size() * front.pivots);
+        let pivots = &self.pivots[front.pivot_range()];
+        let panels = Panels { left, right, pivots, m: front.size(), p: front.pivots, b: front.border };
+        let local = &mut work.local[..front.size()];
+        let (top, border) = local.split_at_mut(front.pivots);
+        top.copy_from_slice(&work.x[front.pivot_range()]);
+        for (value, &row) in border.iter_mut().zip(tree.rows(front)) {
+            *value = work.x[row as usize];
+        }
+        step(&panels, local);
+        let (top, border) = local.split_at(front.pivots);
+        work.x[front.pivot_range()].copy_from_slice(top);
+        for (value, &row) in border.iter().zip(tree.rows(front)) {
+            work.x[row as usize] = *value;
+        }
+    }
+}
+
+/// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) is `b` x `p`.
+struct Panels<'a> {
+    left: &'a [f64],
+    right: &'a [f64],
+    pivots: &'a [crate::dense::Pivot],
+    m: usize,
+    p: usize,
+    b: usize,
+}
+
+impl Panels<'_> {
+    fn left(&self, k: usize) -> &[f64] {
+        &self.left[self.m * k..self.m * (k + 1)]
+    }
+
+    fn right(&self, k: usize) -> &[f64] {
+        &self.right[self.b * k..self.b * (k + 1)]
+    }
+}
+
+/// `[L11; L21]` downwards.
+fn forward(panels: &Panels, x: &mut [f64]) {
+    for (k, pivot) in panels.pivots.iter().enumerate() {
+        x.swap(k, pivot.row as usize);
+    }
+    for k in 0..panels.p {
+        let (done, rest) = x.split_at_mut(k + 1);
+        subtract(rest, done[k], &panels.left(k)[k + 1..]);
+    }
+}
+
+/// `[U11 U12]` upwards.
+fn backward(panels: &Panels, x: &mut [f64]) {
+    let (x, border) = x.split_at_mut(panels.p);
+    for k in (0..panels.p).rev() {
+        let column = panels.left(k);
+        let value = (x[k] - dot(panels.right(k), border)) / column[k];
+        x[k] = value;
+        subtract(&mut x[..k], value, &column[..k]);
+    }
+}
+
+/// `[U11 U12]^T` downwards.
+fn forward_transposed(panels: &Panels, x: &mut [f64]) {
+    let (x, border) = x.split_at_mut(panels.p);
+    for k in 0..panels.p {
+        let column = panels.left(k);
+        let value = (x[k] - dot(&column[..k], &x[..k])) / column[k];
+        x[k] = value;
+        subtract(border, value, panels.right(k));
+    }
+}
+
+/// `[L11; L21]^T` upwards.
+fn backward_transposed(panels: &Panels, x: &mut [f64]) {
+    for k in (0..panels.p).rev() {
+        x[k] -= dot(&panels.left(k)[k + 1..], &x[k + 1..]);
+    }
+    for (k, pivot) in panels.pivots.iter().enumerate().rev() {
+        x.swap(k, pivot.row as usize);
+    }
+}
+
+/// `y <- y - factor x`.
+fn subtract(y: &mut [f64], factor: f64, x: &[f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y -= factor * x;
+    }
+}
+
+/// Sum of products in four interleaved parts, so that it vectorises.
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (x4, y4) = (x.chunks_exact(4), y.chunks_exact(4));
+    let tail = x4.remainder().iter().zip(y4.remainder()).map(|(x, y)| x * y).sum::<f64>();
+    for (x, y) in x4.zip(y4) {
+        for lane in 0..4 {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3]) + tail
+}

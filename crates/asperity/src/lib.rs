@@ -11,6 +11,7 @@
 pub mod declare;
 pub mod error;
 pub mod mesh;
+pub mod system;
 pub mod tensor;
 
 pub use error::{Error, Failure};

@@ -1,0 +1,21 @@
+//! The discrete system: unknowns, constraints, state, and the sum of terms.
+//!
+//! Equilibrium is `sum of internal terms - sum of loads = 0`. A [`Term`] is a list of small stencils (an element, a
+//! contact point, a loaded face), each a pure function of the accepted state, the trial unknowns and the instant.
+//! This room knows neither mechanics nor contact: it sums, scatters and eliminates constrained unknowns.
+
+mod assembly;
+mod check;
+mod constraint;
+mod dofs;
+mod pattern;
+mod state;
+mod term;
+
+pub use assembly::{Assembly, Evaluation, Tangent, Workspace};
+pub use check::{TangentCheck, check_tangent};
+pub use constraint::{Constraints, Row};
+pub use dofs::{Dofs, Unknown};
+pub use pattern::{Couplings, Csr};
+pub use state::{Energies, History, State};
+pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};

@@ -1,0 +1,93 @@
+//! Everything the next increment reads.
+
+use serde::{Deserialize, Serialize};
+
+/// History of one term: a block of values for each of its slots (an element, a contact point).
+///
+/// Two lanes, two rules. The lane in the accepted [`State`] is at t_n: read during evaluation, never changed. The
+/// lane of an attempt is at t_n+1: written during evaluation, never read before it is written. To commit is to swap;
+/// to cut back is to do nothing.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// Values of slot `i` are `data[starts[i]..starts[i + 1]]`.
+    pub starts: Vec<usize>,
+    /// All values.
+    pub data: Vec<f64>,
+}
+
+impl History {
+    /// Zeroed history whose slots have the given lengths.
+    pub fn new(lengths: impl IntoIterator<Item = usize>) -> Self {
+        let mut starts = vec![0];
+        let mut total = 0;
+        for length in lengths {
+            total += length;
+            starts.push(total);
+        }
+        Self { starts, data: vec![0.0; total] }
+    }
+    /// Number of slots.
+    pub fn slots(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+    /// Values of one slot.
+    pub fn slot(&self, i: usize) -> &[f64] {
+        &self.data[self.starts[i]..self.starts[i + 1]]
+    }
+    /// Values of one slot, to write.
+    pub fn slot_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.data[self.starts[i]..self.starts[i + 1]]
+    }
+}
+
+/// Energies of one term: what it stores now and what it has dissipated since the start.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energies {
+    /// Recoverable energy in the current state.
+    pub stored: f64,
+    /// Dissipated energy, accumulated over accepted increments.
+    pub dissipated: f64,
+}
+
+/// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Current step, from zero; equal to the number of steps when all are done.
+    pub step: usize,
+    /// Accepted increments so far in all steps.
+    pub increment: usize,
+    /// Time since the start.
+    pub time: f64,
+    /// Time since the start of the step.
+    pub step_time: f64,
+    /// All unknowns: displacements and the motion of the tools.
+    pub u: Vec<f64>,
+    /// Change of the unknowns over the last accepted increment.
+    pub last_change: Vec<f64>,
+    /// Time of the last accepted increment; zero before the first and where its motion must not be carried on.
+    pub last_dt: f64,
+    /// Size the controller wants for the next increment.
+    pub next_dt: f64,
+    /// Accepted increments in a row that converged easily.
+    pub easy: usize,
+    /// Unknowns at the beginning of the step, from which prescribed values ramp.
+    pub step_start: Vec<f64>,
+    /// Forces of all internal terms on all unknowns: reactions and applied loads together.
+    pub internal: Vec<f64>,
+    /// Forces of all loads on all unknowns.
+    pub load: Vec<f64>,
+    /// Reference force and moment of the convergence test.
+    pub reference: [f64; 2],
+    /// Energies of each term.
+    pub energies: Vec<Energies>,
+    /// Work of supports and loads since the start.
+    pub external_work: f64,
+    /// History of each term.
+    pub histories: Vec<History>,
+    /// Attempts and iterations spent so far.
+    pub attempts: usize,
+    /// Iterations spent so far.
+    pub iterations: usize,
+    /// Result frames written so far.
+    pub frames: usize,
+}

@@ -1,0 +1,150 @@
+//! What equilibrium is a sum of.
+
+use super::{Couplings, History, State};
+use crate::Failure;
+
+/// Whether a term resists (a body, a contact, a spring) or acts from outside (a load).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Its forces enter equilibrium with a plus sign, and their work is stored or dissipated.
+    Internal,
+    /// Its forces enter equilibrium with a minus sign, and their work is supplied.
+    Load,
+}
+
+/// The instant at which an attempt ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Instant {
+    /// Step, from zero.
+    pub step: usize,
+    /// Time since the start of the step.
+    pub step_time: f64,
+    /// Time since the start.
+    pub time: f64,
+    /// Length of the increment.
+    pub dt: f64,
+}
+
+/// Which smooth piece of its function a stencil was evaluated on (open, stick, slip); Newton's order is measured only
+/// while no branch changes. The meaning belongs to the term.
+pub type Branch = u8;
+
+/// One stencil of one iteration. Its number in the list is its history slot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Stencil {
+    /// First of its unknowns in [`Stencils::dofs`].
+    pub start: usize,
+    /// Number of its unknowns; repeats are allowed.
+    pub len: usize,
+    /// Discrete choice made by the search (hit segment); zero when there is none.
+    pub choice: u32,
+}
+
+/// The stencils of a term, owned by the assembly for one iteration.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Stencils {
+    /// One stencil for each history slot.
+    pub list: Vec<Stencil>,
+    /// Their unknowns.
+    pub dofs: Vec<usize>,
+}
+
+impl Stencils {
+    /// Forgets all stencils and keeps the memory.
+    pub fn clear(&mut self) {
+        self.list.clear();
+        self.dofs.clear();
+    }
+    /// Adds a stencil.
+    pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32) {
+        let start = self.dofs.len();
+        self.dofs.extend(dofs);
+        self.list.push(Stencil { start, len: self.dofs.len() - start, choice });
+    }
+    /// Unknowns of a stencil.
+    pub fn dofs(&self, stencil: &Stencil) -> &[usize] {
+        &self.dofs[stencil.start..stencil.start + stencil.len]
+    }
+}
+
+/// Where a stencil reads and writes: scratch of one thread, reused without allocation.
+#[derive(Debug, Default)]
+pub struct Local {
+    /// Trial values of the stencil's unknowns.
+    pub u: Vec<f64>,
+    /// Forces on the stencil's unknowns, zeroed before evaluation.
+    pub force: Vec<f64>,
+    /// Derivative of `force[i]` along `u[j]` at `[i * n + j]`, zeroed before evaluation.
+    pub tangent: Vec<f64>,
+    /// Whether the tangent is wanted.
+    pub wants_tangent: bool,
+    /// Energy stored in the stencil at the trial state.
+    pub stored: f64,
+    /// Energy dissipated over the increment.
+    pub dissipated: f64,
+}
+
+impl Local {
+    /// Makes room for a stencil and zeroes its results.
+    pub fn reset(&mut self, len: usize) {
+        self.force.clear();
+        self.force.resize(len, 0.0);
+        if self.wants_tangent {
+            self.tangent.clear();
+            self.tangent.resize(len * len, 0.0);
+        }
+        (self.stored, self.dissipated) = (0.0, 0.0);
+    }
+}
+
+/// A term of equilibrium: what of it lasts through the run.
+pub trait Term: Send + Sync {
+    /// The user's name for it.
+    fn name(&self) -> &str;
+    /// Whether it resists or acts.
+    fn role(&self) -> Role {
+        Role::Internal
+    }
+    /// History before the first increment.
+    fn initial(&self) -> History;
+    /// Opens an attempt at the increment that follows `accepted`. What is derived from the accepted state (gradients,
+    /// capture bands, search trees) lives in the returned object and dies with the attempt.
+    ///
+    /// # Errors
+    /// A [`Failure`] when the accepted state cannot be continued.
+    fn attempt<'a>(&'a self, accepted: &'a State, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure>;
+    /// Words for a stencil in messages: "cell 12 of body 'tube'".
+    fn name_of(&self, stencil: usize) -> String;
+    /// Words for a branch in tables; empty when the term has only one.
+    fn branches(&self) -> &'static [&'static str] {
+        &[]
+    }
+}
+
+/// A term during one attempt: a pure function of trial unknowns.
+pub trait Attempt: Send + Sync {
+    /// Whether the stencils are the same whatever the trial unknowns.
+    fn is_fixed(&self) -> bool {
+        true
+    }
+    /// Room for the new history of one stencil, for evaluations whose history is thrown away.
+    fn scratch(&self, index: usize) -> Vec<f64>;
+    /// Groups of unknowns that may couple during the attempt, beyond those of the stencils at the accepted state.
+    fn reach(&self, _couplings: &mut Couplings) {}
+    /// Lists the stencils at trial unknowns `u`: one for each history slot, in order.
+    ///
+    /// # Errors
+    /// A [`Failure`] when the trial state is inadmissible (a point that jumped through a tool).
+    fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure>;
+    /// Evaluates stencil number `index` at `local.u`, writes its forces, tangent, energies and new history.
+    ///
+    /// # Errors
+    /// A [`Failure`] when the law or the geometry cannot be evaluated there.
+    fn evaluate(
+        &self,
+        index: usize,
+        stencil: &Stencil,
+        new: &mut [f64],
+        local: &mut Local,
+    ) -> Result<Branch, Failure>;
+}

@@ -10,7 +10,9 @@
 
 pub mod declare;
 pub mod error;
+pub mod material;
 pub mod mesh;
+pub mod solid;
 pub mod system;
 pub mod tensor;
 

@@ -108,11 +108,17 @@ pub trait Term: Send + Sync {
     /// History before the first increment.
     fn initial(&self) -> History;
     /// Opens an attempt at the increment that follows `accepted`. What is derived from the accepted state (gradients,
-    /// capture bands, search trees) lives in the returned object and dies with the attempt.
+    /// capture bands, search trees) lives in the returned object and dies with the attempt. `history` is this term's
+    /// own lane of it.
     ///
     /// # Errors
     /// A [`Failure`] when the accepted state cannot be continued.
-    fn attempt<'a>(&'a self, accepted: &'a State, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure>;
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        history: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure>;
     /// Words for a stencil in messages: "cell 12 of body 'tube'".
     fn name_of(&self, stencil: usize) -> String;
     /// Words for a branch in tables; empty when the term has only one.

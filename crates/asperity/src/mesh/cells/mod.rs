@@ -75,4 +75,9 @@ impl Cell {
     pub fn named(name: &str) -> Option<&'static Cell> {
         ALL.iter().copied().find(|cell| cell.name == name)
     }
+    /// Reference coordinates of the centre: the mean of the corners, which is the mean of all nodes.
+    pub fn center(&self) -> [f64; 3] {
+        let count = self.nodes.len() as f64;
+        std::array::from_fn(|a| self.nodes.iter().map(|x| x[a]).sum::<f64>() / count)
+    }
 }

@@ -1,0 +1,113 @@
+//! What a body asks of a law.
+
+use crate::Failure;
+use crate::tensor::Tensor2;
+
+/// The components of the deformation gradient along which a derivative is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Directions {
+    /// The four in-plane ones (plane strain).
+    Plane,
+    /// The in-plane ones and 33 (axisymmetric, plane stress).
+    PlaneAndNormal,
+    /// All nine.
+    Space,
+}
+
+impl Directions {
+    /// Row and column of each component.
+    pub fn components(self) -> &'static [(usize, usize)] {
+        const PLANE: [(usize, usize); 5] = [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)];
+        const SPACE: [(usize, usize); 9] =
+            [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1), (2, 2)];
+        match self {
+            Self::Plane => &PLANE[..4],
+            Self::PlaneAndNormal => &PLANE,
+            Self::Space => &SPACE,
+        }
+    }
+}
+
+/// Derivative of the six stress components (XX YY ZZ XY YZ XZ) along the components of [`Directions`].
+pub type Gradient = [[f64; 9]; 6];
+
+/// Nature of a history variable: how it turns and how it is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VariableKind {
+    /// One value, which does not turn.
+    Scalar,
+    /// Three components.
+    Vector,
+    /// Six components XX YY ZZ XY YZ XZ.
+    Symmetric,
+}
+
+/// A history variable of a law, besides the stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Variable {
+    /// The name outputs use: `equivalent_plastic_strain`.
+    pub name: &'static str,
+    /// Its nature.
+    pub kind: VariableKind,
+}
+
+impl Variable {
+    /// Number of values it takes.
+    pub fn len(&self) -> usize {
+        match self.kind {
+            VariableKind::Scalar => 1,
+            VariableKind::Vector => 3,
+            VariableKind::Symmetric => 6,
+        }
+    }
+    /// Never: every variable has a value.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+}
+
+/// A law of a solid at one point, driven by the deformation `f` of the increment. Its state is the Cauchy stress (six
+/// values) followed by its variables.
+pub trait Material: Send + Sync {
+    /// History variables after the six stress components.
+    fn variables(&self) -> &'static [Variable];
+    /// Number of values of the state.
+    fn state_len(&self) -> usize {
+        6 + self.variables().iter().map(Variable::len).sum::<usize>()
+    }
+    /// The state of the undeformed, unstressed solid.
+    fn initialise(&self, state: &mut [f64]) {
+        state.fill(0.0);
+    }
+    /// The state at the end of an increment with deformation `f` relative to its beginning.
+    ///
+    /// # Errors
+    /// A [`Failure`] when the deformation is inadmissible or a local iteration does not converge.
+    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure>;
+    /// The same, with the derivative of the stress along the components of `f`.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    fn update_with_gradient(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        new: &mut [f64],
+        directions: Directions,
+    ) -> Result<Gradient, Failure>;
+    /// Recoverable energy per current volume.
+    fn stored_energy(&self, state: &[f64]) -> f64;
+    /// Energy per current volume dissipated between two states.
+    fn dissipation(&self, _old: &[f64], _new: &[f64]) -> f64 {
+        0.0
+    }
+    /// Confined modulus `lambda + 2 G` of the undeformed solid, which scales contact penalties.
+    fn confined_modulus(&self) -> f64 {
+        let mut state = vec![0.0; self.state_len()];
+        self.initialise(&mut state);
+        let old = state.clone();
+        let identity = Tensor2::identity();
+        self.update_with_gradient(&identity, 1.0, &old, &mut state, Directions::Plane).map_or(0.0, |c| c[0][0])
+    }
+}

@@ -1,0 +1,150 @@
+//! Rate laws in an objective frame: Jaumann's rate by Hughes and Winget (1980).
+//!
+//! With `f` the deformation of the increment, `G = 2 (f - I)(f + I)^-1` is the gradient of the displacement increment
+//! about the midpoint configuration, exactly. Its symmetric part drives the law, its skew part `W` the rotation
+//! `Q = (I - W/2)^-1 (I + W/2)` of the old stress and of tensor variables: exact for a rigid rotation below 180
+//! degrees.
+
+use super::{Directions, Gradient, Material, Variable};
+use crate::Failure;
+use crate::tensor::{Dual, Scalar, Tensor2};
+
+/// History variables of a law, over any scalar so that sub-steps may carry derivatives.
+pub trait Vars<T: Scalar>: Copy {
+    /// From stored values, as constants.
+    fn read(values: &[f64]) -> Self;
+    /// To stored values, without derivatives.
+    fn write(&self, values: &mut [f64]);
+    /// Turned by `q`; scalars stay.
+    fn rotate(self, _q: &Tensor2<T>) -> Self {
+        self
+    }
+}
+
+impl<T: Scalar> Vars<T> for () {
+    fn read(_: &[f64]) -> Self {}
+    fn write(&self, _: &mut [f64]) {}
+}
+
+impl<T: Scalar, const N: usize> Vars<T> for [T; N] {
+    fn read(values: &[f64]) -> Self {
+        std::array::from_fn(|i| T::from(values[i]))
+    }
+    fn write(&self, values: &mut [f64]) {
+        values.iter_mut().zip(self).for_each(|(value, x)| *value = x.re());
+    }
+}
+
+/// A law between the strain increment of an objective frame and the rotated stress.
+pub trait RateLaw: Send + Sync {
+    /// Its history variables.
+    type Vars<T: Scalar>: Vars<T>;
+    /// Their declaration, in the order in which they are stored.
+    const VARIABLES: &'static [Variable];
+
+    /// Stress and variables after the strain increment `de` over the time `dt`.
+    ///
+    /// # Errors
+    /// A [`Failure`] when a local iteration does not converge or the strain is inadmissible.
+    fn update<T: Scalar>(
+        &self,
+        de: Tensor2<T>,
+        stress: Tensor2<T>,
+        vars: &Self::Vars<T>,
+        dt: f64,
+    ) -> Result<(Tensor2<T>, Self::Vars<T>), Failure>;
+
+    /// Recoverable energy per volume at a stress.
+    fn stored_energy(&self, stress: &Tensor2, vars: &Self::Vars<f64>) -> f64;
+    /// Energy dissipated per volume between two states.
+    fn dissipation(&self, _old: (&Tensor2, &Self::Vars<f64>), _new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
+        0.0
+    }
+}
+
+/// A [`RateLaw`] as a [`Material`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rate<L>(pub L);
+
+/// Midpoint strain increment and rotation of a deformation `f`.
+pub fn hughes_winget<T: Scalar>(f: &Tensor2<T>) -> (Tensor2<T>, Tensor2<T>) {
+    let identity = Tensor2::<T>::identity();
+    let g = (*f - identity) * (*f + identity).inverse() * T::from(2.0);
+    let half = g.skew() * T::from(0.5);
+    (g.sym(), (identity - half).inverse() * (identity + half))
+}
+
+impl<L: RateLaw> Rate<L> {
+    fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64]) -> Result<(Tensor2<T>, L::Vars<T>), Failure> {
+        if f.re().det() <= 0.0 {
+            return Err(Failure::new("a cell is turned inside out"));
+        }
+        let (de, q) = hughes_winget(f);
+        let stress = q * stress_of(old).lift() * q.transpose();
+        self.0.update(de, stress, &L::Vars::<T>::read(&old[6..]).rotate(&q), dt)
+    }
+
+    fn advance_dual<const N: usize>(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        new: &mut [f64],
+        directions: Directions,
+    ) -> Result<Gradient, Failure> {
+        let mut dual = f.lift::<Dual<N>>();
+        for (d, &place) in directions.components().iter().enumerate() {
+            dual[place] = Dual::variable(f[place], d);
+        }
+        let (stress, vars) = self.advance(&dual, dt, old)?;
+        let stress = stress.to_voigt();
+        let mut gradient = [[0.0; 9]; 6];
+        for (row, s) in gradient.iter_mut().zip(&stress) {
+            row[..N].copy_from_slice(&s.du);
+        }
+        new[..6].copy_from_slice(&stress.map(Scalar::re));
+        vars.write(&mut new[6..]);
+        Ok(gradient)
+    }
+}
+
+impl<L: RateLaw> Material for Rate<L> {
+    fn variables(&self) -> &'static [Variable] {
+        L::VARIABLES
+    }
+
+    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        let (stress, vars) = self.advance(f, dt, old)?;
+        new[..6].copy_from_slice(&stress.to_voigt());
+        vars.write(&mut new[6..]);
+        Ok(())
+    }
+
+    fn update_with_gradient(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        new: &mut [f64],
+        directions: Directions,
+    ) -> Result<Gradient, Failure> {
+        match directions {
+            Directions::Plane => self.advance_dual::<4>(f, dt, old, new, directions),
+            Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, new, directions),
+            Directions::Space => self.advance_dual::<9>(f, dt, old, new, directions),
+        }
+    }
+
+    fn stored_energy(&self, state: &[f64]) -> f64 {
+        self.0.stored_energy(&stress_of(state), &L::Vars::read(&state[6..]))
+    }
+
+    fn dissipation(&self, old: &[f64], new: &[f64]) -> f64 {
+        let vars = |state: &[f64]| L::Vars::<f64>::read(&state[6..]);
+        self.0.dissipation((&stress_of(old), &vars(old)), (&stress_of(new), &vars(new)))
+    }
+}
+
+fn stress_of(state: &[f64]) -> Tensor2 {
+    Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]])
+}

@@ -1,0 +1,12 @@
+//! Bodies: sums of cells whose stress follows from a law.
+//!
+//! Updated Lagrangian: with `f` the deformation of the increment and `sigma` the Cauchy stress at its end, the nodal
+//! forces are `F_L = integral of P grad_n N_L dv_n`, `P = det(f) sigma f^-T`, with gradients and volume taken at the
+//! beginning of the increment. The tangent is the exact derivative of that same expression.
+
+mod body;
+mod gradient;
+mod plane_stress;
+mod point;
+
+pub use body::{Body, BodyOptions, Formulation, Integration};

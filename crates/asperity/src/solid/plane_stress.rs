@@ -1,0 +1,57 @@
+//! Plane stress: the stretch through the thickness is a local unknown of each point.
+//!
+//! It is found from `sigma_33 = 0` in plain numbers; its derivative follows from the implicit function theorem with
+//! the exact gradient at the solution. The current thickness, as a ratio to the nominal one, is the last history value.
+
+use super::point::{PointLaw, PointStress};
+use crate::Failure;
+use crate::material::Directions;
+use crate::tensor::Tensor2;
+
+const LIMIT: usize = 30;
+
+/// Solves for f33 starting from `f`; returns the deformation with the stretch in it.
+fn solve(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<Tensor2, Failure> {
+    let mut f = *f;
+    for _ in 0..LIMIT {
+        let c = law.material.update_with_gradient(&f, law.dt, old, new, Directions::PlaneAndNormal)?;
+        let change = -new[2] / c[2][4];
+        f[(2, 2)] += change.clamp(-0.5 * f[(2, 2)], f[(2, 2)]);
+        if change.abs() <= 4.0 * f64::EPSILON {
+            return Ok(f);
+        }
+    }
+    Err(Failure::new("the stretch through the thickness was not found"))
+}
+
+/// Writes the thickness; the state of the law is already in `new`.
+fn finish(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) {
+    let place = law.material.state_len();
+    new[place] = old[place] * f[(2, 2)];
+}
+
+/// New state, `P` and `det f`.
+pub fn stress(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<([f64; 9], f64), Failure> {
+    let f = solve(law, f, old, new)?;
+    let mut p = law.stress(&f, old, new)?;
+    p[4] = 0.0;
+    finish(law, &f, old, new);
+    Ok((p, f.det()))
+}
+
+/// New state, `P` and its derivatives with the thickness following.
+pub fn stress_with_tangent(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<PointStress, Failure> {
+    let f = solve(law, f, old, new)?;
+    let mut s = law.stress_with_tangent(&f, old, new)?;
+    // P_33 is det(f) / f33 times sigma_33 = 0, so its row of the tangent is the condition's own derivative.
+    let condition = s.tangent[4];
+    for row in &mut s.tangent {
+        let along_stretch = row[4];
+        for (value, condition_d) in row.iter_mut().zip(condition) {
+            *value -= along_stretch * condition_d / condition[4];
+        }
+    }
+    s.p[4] = 0.0;
+    finish(law, &f, old, new);
+    Ok(s)
+}

@@ -18,8 +18,7 @@ impl Directions {
     /// Row and column of each component.
     pub fn components(self) -> &'static [(usize, usize)] {
         const PLANE: [(usize, usize); 5] = [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)];
-        const SPACE: [(usize, usize); 9] =
-            [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1), (2, 2)];
+        const SPACE: [(usize, usize); 9] = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1), (2, 2)];
         match self {
             Self::Plane => &PLANE[..4],
             Self::PlaneAndNormal => &PLANE,

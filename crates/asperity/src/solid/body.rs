@@ -1,8 +1,8 @@
 //! A body as a term of equilibrium: one stencil a cell.
 
 use super::gradient::{self, PointGradient};
-use super::point::PointLaw;
 use super::plane_stress;
+use super::point::PointLaw;
 use crate::material::Material;
 use crate::mesh::cells::{Cell, MAX_NODES, Rule};
 use crate::mesh::{Mesh, Space};
@@ -365,4 +365,3 @@ fn add_center<const DIM: usize>(
         row.iter_mut().zip(gradient).for_each(|(k, g)| *k += f * g);
     }
 }
-

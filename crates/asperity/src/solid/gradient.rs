@@ -1,8 +1,8 @@
 //! Gradients of the shape functions at the points of a cell, in the configuration of the accepted state: the only
 //! place, with the weights, where plane, axisymmetric and solid bodies differ.
 
-use crate::mesh::cells::{Cell, MAX_NODES};
 use crate::mesh::Space;
+use crate::mesh::cells::{Cell, MAX_NODES};
 use crate::tensor::Tensor2;
 
 /// Gradient operator of one point of a cell with a given number of nodes.

@@ -93,8 +93,7 @@ impl PointLaw<'_> {
             out.along_center[a] = along(&|v| center[v], (i, j));
             for (b, &(m, n)) in places.iter().enumerate() {
                 let p_in = places.iter().position(|&place| place == (i, n)).map_or(0.0, |k| p[k]);
-                out.tangent[a][b] =
-                    p[a] * inverse[(n, m)] - p_in * inverse[(j, m)] + along(&|v| c[v][b], (i, j));
+                out.tangent[a][b] = p[a] * inverse[(n, m)] - p_in * inverse[(j, m)] + along(&|v| c[v][b], (i, j));
             }
         }
         Ok(out)

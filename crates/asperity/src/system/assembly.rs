@@ -4,7 +4,9 @@
 //! on the number of threads. The [`Workspace`] only keeps memory and what follows exactly from the pattern.
 
 use super::check::perturb;
-use super::{Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, Local, Role, Row, State, Stencils, Term};
+use super::{
+    Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, Local, Role, Row, State, Stencils, Term,
+};
 use crate::Failure;
 use rayon::prelude::*;
 

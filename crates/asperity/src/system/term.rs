@@ -146,11 +146,5 @@ pub trait Attempt: Send + Sync {
     ///
     /// # Errors
     /// A [`Failure`] when the law or the geometry cannot be evaluated there.
-    fn evaluate(
-        &self,
-        index: usize,
-        stencil: &Stencil,
-        new: &mut [f64],
-        local: &mut Local,
-    ) -> Result<Branch, Failure>;
+    fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure>;
 }

@@ -8,13 +8,8 @@ use crate::declare::{Entry, Parameter, Range, unit};
 use crate::material::{Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
-pub(super) const YOUNG: Parameter = Parameter {
-    key: "young",
-    meaning: "Young's modulus",
-    unit: unit::STRESS,
-    range: Range::POSITIVE,
-    default: None,
-};
+pub(super) const YOUNG: Parameter =
+    Parameter { key: "young", meaning: "Young's modulus", unit: unit::STRESS, range: Range::POSITIVE, default: None };
 
 pub(super) const POISSON: Parameter = Parameter {
     key: "poisson",

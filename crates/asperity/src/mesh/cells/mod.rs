@@ -1,18 +1,31 @@
-//! Reference cells: each is data plus one function, one file.
+//! Reference cells: shape functions, quadratures and faces; each cell is data plus one function, a family to a file.
 //!
-//! To add a cell: its file here, its `mod` line and its name in [`ALL`].
+//! The order of the nodes is that of VTK, so that results are written without a permutation; the orders of other
+//! formats stand in `formats`. Shape functions as in Zienkiewicz and Taylor, "The finite element method".
+//! To add a cell: its file here, its `mod` line and its name in [`ALL`]; `tests` then walks it.
 
+mod hex;
 mod line;
 mod quad;
+mod rules;
+mod tet;
+mod tri;
+mod wedge;
 
+pub use hex::{HEX8, HEX20, HEX27};
 pub use line::{LINE2, LINE3};
-pub use quad::{QUAD4, QUAD8};
+pub use quad::{QUAD4, QUAD8, QUAD9};
+pub use tet::{TET4, TET10};
+pub use tri::{TRI3, TRI6};
+pub use wedge::{WEDGE6, WEDGE15};
 
 /// Every cell the program knows.
-pub static ALL: &[&Cell] = &[&LINE2, &LINE3, &QUAD4, &QUAD8];
+pub static ALL: &[&Cell] = &[
+    &LINE2, &LINE3, &TRI3, &TRI6, &QUAD4, &QUAD8, &QUAD9, &TET4, &TET10, &HEX8, &HEX20, &HEX27, &WEDGE6, &WEDGE15,
+];
 
-/// A reference cell. Coordinates are in its own system: `[-1, 1]` along a line or the sides of a quad or hex, area
-/// coordinates in `[0, 1]` for triangles and tetrahedra.
+/// A reference cell. Coordinates are in its own system: `[-1, 1]` along a line, the sides of a quad or hex and the
+/// uprights of a wedge, area coordinates in `[0, 1]` for triangles and tetrahedra.
 pub struct Cell {
     /// The name a deck and a message use: `quad8`.
     pub name: &'static str,
@@ -31,7 +44,7 @@ pub struct Cell {
     pub faces: &'static [Face],
     /// Quadrature that integrates the stiffness of an undistorted cell exactly.
     pub full: &'static Rule,
-    /// Quadrature one order lower; absent where that is meaningless.
+    /// Quadrature with fewer points, as programs of the field call it; absent where that is meaningless.
     pub reduced: Option<&'static Rule>,
     /// Quadratures for surfaces with 1, 2 and 3 points an edge; empty for cells that are never a face.
     pub gauss: [Option<&'static Rule>; 3],
@@ -49,6 +62,8 @@ pub struct Face {
 
 /// A quadrature rule: points in reference coordinates and weights that sum to the reference measure.
 pub struct Rule {
+    /// Polynomials up to this total degree are integrated exactly.
+    pub degree: usize,
     /// Points.
     pub points: &'static [[f64; 3]],
     /// Weights.
@@ -75,9 +90,22 @@ impl Cell {
     pub fn named(name: &str) -> Option<&'static Cell> {
         ALL.iter().copied().find(|cell| cell.name == name)
     }
-    /// Reference coordinates of the centre: the mean of the corners, which is the mean of all nodes.
+
+    /// Reference coordinates of the centroid.
     pub fn center(&self) -> [f64; 3] {
-        let count = self.nodes.len() as f64;
-        std::array::from_fn(|a| self.nodes.iter().map(|x| x[a]).sum::<f64>() / count)
+        let corners = self.linear.nodes;
+        let sum = |a: usize| corners.iter().map(|corner| corner[a]).sum::<f64>();
+        std::array::from_fn(|a| sum(a) / corners.len() as f64)
+    }
+
+    /// The order of the nodes that turns the cell inside out: node `i` of the turned cell is node `mirror()[i]` of the
+    /// cell. Along a line the ends change places, elsewhere the first two reference coordinates.
+    pub fn mirror(&self) -> Vec<usize> {
+        let reflect = |[x, y, z]: [f64; 3]| if self.dimension == 1 { [-x, y, z] } else { [y, x, z] };
+        let place = |image: [f64; 3]| self.nodes.iter().position(|&node| node == image);
+        self.nodes.iter().enumerate().map(|(i, &node)| place(reflect(node)).unwrap_or(i)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,42 +1,16 @@
-//! Quadrilaterals: corners counter-clockwise, then mid-sides in the same turn.
+//! Quadrilaterals on `[-1, 1]^2`: corners counter-clockwise, then mid-sides in the same turn, then the centre.
 
+use super::rules::{X1, X2, X3, bubble, hat, lagrange, square_points, square_weights};
 use super::{Cell, Face, LINE2, LINE3, Rule};
 
-const G2: f64 = 0.577_350_269_189_625_8;
-const G3: f64 = 0.774_596_669_241_483_4;
-
 /// One point.
-pub static GAUSS1X1: Rule = Rule { points: &[[0.0, 0.0, 0.0]], weights: &[4.0] };
-/// Two by two points.
-pub static GAUSS2X2: Rule =
-    Rule { points: &[[-G2, -G2, 0.0], [G2, -G2, 0.0], [G2, G2, 0.0], [-G2, G2, 0.0]], weights: &[1.0, 1.0, 1.0, 1.0] };
-/// Three by three points.
-pub static GAUSS3X3: Rule = Rule {
-    points: &[
-        [-G3, -G3, 0.0],
-        [0.0, -G3, 0.0],
-        [G3, -G3, 0.0],
-        [-G3, 0.0, 0.0],
-        [0.0, 0.0, 0.0],
-        [G3, 0.0, 0.0],
-        [-G3, G3, 0.0],
-        [0.0, G3, 0.0],
-        [G3, G3, 0.0],
-    ],
-    weights: &[
-        25.0 / 81.0,
-        40.0 / 81.0,
-        25.0 / 81.0,
-        40.0 / 81.0,
-        64.0 / 81.0,
-        40.0 / 81.0,
-        25.0 / 81.0,
-        40.0 / 81.0,
-        25.0 / 81.0,
-    ],
-};
+pub static GAUSS1X1: Rule = Rule { degree: 1, points: &square_points::<1, 1>(&X1), weights: &square_weights::<1, 1>(&X1) };
+/// Two by two points, x running fastest.
+pub static GAUSS2X2: Rule = Rule { degree: 3, points: &square_points::<2, 4>(&X2), weights: &square_weights::<2, 4>(&X2) };
+/// Three by three points, x running fastest.
+pub static GAUSS3X3: Rule = Rule { degree: 5, points: &square_points::<3, 9>(&X3), weights: &square_weights::<3, 9>(&X3) };
 
-const NODES: [[f64; 3]; 8] = [
+const NODES: [[f64; 3]; 9] = [
     [-1.0, -1.0, 0.0],
     [1.0, -1.0, 0.0],
     [1.0, 1.0, 0.0],
@@ -45,6 +19,14 @@ const NODES: [[f64; 3]; 8] = [
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
     [-1.0, 0.0, 0.0],
+    [0.0, 0.0, 0.0],
+];
+
+const EDGES: &[Face] = &[
+    Face { cell: &LINE3, nodes: &[0, 1, 4] },
+    Face { cell: &LINE3, nodes: &[1, 2, 5] },
+    Face { cell: &LINE3, nodes: &[2, 3, 6] },
+    Face { cell: &LINE3, nodes: &[3, 0, 7] },
 ];
 
 /// Four nodes, bilinear.
@@ -54,11 +36,10 @@ pub static QUAD4: Cell = Cell {
     degree: 1,
     linear: &QUAD4,
     nodes: NODES.first_chunk::<4>().unwrap(),
-    shape: |xi, n, dn| {
+    shape: |[x, y, _], n, dn| {
         for (i, &[a, b, _]) in NODES[..4].iter().enumerate() {
-            let (x, y) = (1.0 + a * xi[0], 1.0 + b * xi[1]);
-            n[i] = 0.25 * x * y;
-            dn[i] = [0.25 * a * y, 0.25 * b * x, 0.0];
+            let ((f, df), (g, dg)) = (hat(a, x), hat(b, y));
+            (n[i], dn[i]) = (0.25 * f * g, [0.25 * df * g, 0.25 * f * dg, 0.0]);
         }
     },
     faces: &[
@@ -79,33 +60,41 @@ pub static QUAD8: Cell = Cell {
     dimension: 2,
     degree: 2,
     linear: &QUAD4,
-    nodes: &NODES,
+    nodes: NODES.first_chunk::<8>().unwrap(),
     shape: |[x, y, _], n, dn| {
-        for (i, &[a, b, _]) in NODES.iter().enumerate() {
-            if i < 4 {
-                n[i] = 0.25 * (1.0 + a * x) * (1.0 + b * y) * (a * x + b * y - 1.0);
-                dn[i] = [
-                    0.25 * a * (1.0 + b * y) * (2.0 * a * x + b * y),
-                    0.25 * b * (1.0 + a * x) * (a * x + 2.0 * b * y),
-                    0.0,
-                ];
-            } else if a == 0.0 {
-                n[i] = 0.5 * (1.0 - x * x) * (1.0 + b * y);
-                dn[i] = [-x * (1.0 + b * y), 0.5 * b * (1.0 - x * x), 0.0];
-            } else {
-                n[i] = 0.5 * (1.0 + a * x) * (1.0 - y * y);
-                dn[i] = [0.5 * a * (1.0 - y * y), -y * (1.0 + a * x), 0.0];
-            }
+        for (i, &[a, b, _]) in NODES[..4].iter().enumerate() {
+            let ((f, df), (g, dg), h) = (hat(a, x), hat(b, y), a * x + b * y - 1.0);
+            (n[i], dn[i]) = (0.25 * f * g * h, [0.25 * df * g * (f + h), 0.25 * f * dg * (g + h), 0.0]);
+        }
+        for (i, &[a, b, _]) in NODES[..8].iter().enumerate().skip(4) {
+            let (f, df) = if a == 0.0 { bubble(x) } else { hat(a, x) };
+            let (g, dg) = if b == 0.0 { bubble(y) } else { hat(b, y) };
+            (n[i], dn[i]) = (0.5 * f * g, [0.5 * df * g, 0.5 * f * dg, 0.0]);
         }
     },
-    faces: &[
-        Face { cell: &LINE3, nodes: &[0, 1, 4] },
-        Face { cell: &LINE3, nodes: &[1, 2, 5] },
-        Face { cell: &LINE3, nodes: &[2, 3, 6] },
-        Face { cell: &LINE3, nodes: &[3, 0, 7] },
-    ],
+    faces: EDGES,
     full: &GAUSS3X3,
     reduced: Some(&GAUSS2X2),
     gauss: [Some(&GAUSS1X1), Some(&GAUSS2X2), Some(&GAUSS3X3)],
     vtk: 23,
+};
+
+/// Nine nodes, biquadratic.
+pub static QUAD9: Cell = Cell {
+    name: "quad9",
+    dimension: 2,
+    degree: 2,
+    linear: &QUAD4,
+    nodes: &NODES,
+    shape: |[x, y, _], n, dn| {
+        for (i, &[a, b, _]) in NODES.iter().enumerate() {
+            let ((f, df), (g, dg)) = (lagrange(a, x), lagrange(b, y));
+            (n[i], dn[i]) = (f * g, [df * g, f * dg, 0.0]);
+        }
+    },
+    faces: EDGES,
+    full: &GAUSS3X3,
+    reduced: Some(&GAUSS2X2),
+    gauss: [Some(&GAUSS1X1), Some(&GAUSS2X2), Some(&GAUSS3X3)],
+    vtk: 28,
 };

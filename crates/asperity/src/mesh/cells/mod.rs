@@ -20,9 +20,8 @@ pub use tri::{TRI3, TRI6};
 pub use wedge::{WEDGE6, WEDGE15};
 
 /// Every cell the program knows.
-pub static ALL: &[&Cell] = &[
-    &LINE2, &LINE3, &TRI3, &TRI6, &QUAD4, &QUAD8, &QUAD9, &TET4, &TET10, &HEX8, &HEX20, &HEX27, &WEDGE6, &WEDGE15,
-];
+pub static ALL: &[&Cell] =
+    &[&LINE2, &LINE3, &TRI3, &TRI6, &QUAD4, &QUAD8, &QUAD9, &TET4, &TET10, &HEX8, &HEX20, &HEX27, &WEDGE6, &WEDGE15];
 
 /// A reference cell. Coordinates are in its own system: `[-1, 1]` along a line, the sides of a quad or hex and the
 /// uprights of a wedge, area coordinates in `[0, 1]` for triangles and tetrahedra.

@@ -16,11 +16,8 @@ const WB: f64 = 0.054_975_871_827_660_93;
 /// The centroid.
 pub static TRI_P1: Rule = Rule { degree: 1, points: &[[T, T, 0.0]], weights: &[0.5] };
 /// Three points inside.
-pub static TRI_P3: Rule = Rule {
-    degree: 2,
-    points: &[[S, S, 0.0], [1.0 - 2.0 * S, S, 0.0], [S, 1.0 - 2.0 * S, 0.0]],
-    weights: &[S, S, S],
-};
+pub static TRI_P3: Rule =
+    Rule { degree: 2, points: &[[S, S, 0.0], [1.0 - 2.0 * S, S, 0.0], [S, 1.0 - 2.0 * S, 0.0]], weights: &[S, S, S] };
 /// Six points inside.
 pub static TRI_P6: Rule = Rule {
     degree: 4,

@@ -4,7 +4,7 @@
 //!
 //! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names.
 //! 2. [`mesh`] nodes, cells, groups, files.
-//! 6. The program.
+//! 6. The program: [`output`] files, tables, pictures.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
@@ -12,6 +12,7 @@ pub mod declare;
 pub mod error;
 pub mod material;
 pub mod mesh;
+pub mod output;
 pub mod solid;
 pub mod system;
 pub mod tensor;

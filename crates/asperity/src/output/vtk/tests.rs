@@ -85,7 +85,10 @@ fn a_mesh_comes_back_in_our_order_of_nodes() {
     let grid = sample();
     let back = grid.to_mesh().unwrap();
     let kinds = |mesh: &Mesh| mesh.kinds.iter().map(|k: &&Cell| k.name).collect::<Vec<_>>();
-    assert_eq!((back.nodes.clone(), back.starts.clone(), kinds(&back)), (mesh.nodes.clone(), mesh.starts.clone(), kinds(&mesh)));
+    assert_eq!(
+        (back.nodes.clone(), back.starts.clone(), kinds(&back)),
+        (mesh.nodes.clone(), mesh.starts.clone(), kinds(&mesh))
+    );
 }
 
 #[test]

@@ -1,0 +1,103 @@
+//! The certificate of a run: how far the accepted increments were from what they claim. It is gathered from the global
+//! quantities of each frame, by name, and from nothing else: what stands in `history.csv` is what is certified.
+
+use serde::{Deserialize, Serialize};
+
+/// The worst of each figure over all accepted increments. A figure is absent, never zero, when no frame reported it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// Largest penetration at an integration point, as a length.
+    pub max_penetration: Option<f64>,
+    /// The same over the size of the cell behind the point.
+    pub max_penetration_relative: Option<f64>,
+    /// Largest unbalanced force over all reactions, contacts and loads, relative to the largest of them.
+    pub equilibrium_error: Option<f64>,
+    /// External work less stored and dissipated energy, relative to the largest energy so far; the largest magnitude.
+    pub energy_balance: Option<f64>,
+    /// Largest excess of the shear stress over the friction limit, relative to that limit.
+    pub coulomb_violation: Option<f64>,
+    /// Least frictional dissipation of a point in an increment; below zero would be energy from nowhere.
+    pub least_dissipation: Option<f64>,
+    /// Hits of a ray that the rules against false contact turned away, summed over the increments.
+    pub rejected_false_contacts: Option<f64>,
+}
+
+/// How the figures of several frames become one.
+#[derive(Clone, Copy)]
+enum Worst {
+    Largest,
+    LargestMagnitude,
+    Least,
+    Sum,
+}
+
+impl Certificate {
+    /// Takes in one frame, given as columns of the history.
+    pub fn observe<'a>(&mut self, columns: impl IntoIterator<Item = (&'a str, f64)>) {
+        for (name, value) in columns {
+            if let Some((figure, worst)) = self.figure(name) {
+                *figure = Some(figure.map_or(value, |old| worst.of(old, value)));
+            }
+        }
+    }
+    /// The figure that a column of the history belongs to.
+    fn figure(&mut self, column: &str) -> Option<(&mut Option<f64>, Worst)> {
+        let (room, last) = column.split_once('.').map_or((column, ""), |(room, rest)| {
+            let last = rest.rsplit_once('.').map_or(rest, |(_, last)| last);
+            (room, last)
+        });
+        Some(match (room, last) {
+            ("contact", "max_penetration") => (&mut self.max_penetration, Worst::Largest),
+            ("contact", "max_penetration_relative") => (&mut self.max_penetration_relative, Worst::Largest),
+            ("contact", "coulomb_violation") => (&mut self.coulomb_violation, Worst::Largest),
+            ("contact", "least_dissipation") => (&mut self.least_dissipation, Worst::Least),
+            ("contact", "false_contacts") => (&mut self.rejected_false_contacts, Worst::Sum),
+            ("equilibrium", "error") => (&mut self.equilibrium_error, Worst::Largest),
+            ("energy", "balance") => (&mut self.energy_balance, Worst::LargestMagnitude),
+            _ => return None,
+        })
+    }
+}
+
+impl Worst {
+    fn of(self, old: f64, new: f64) -> f64 {
+        match self {
+            Self::Largest => old.max(new),
+            Self::LargestMagnitude => old.abs().max(new.abs()),
+            Self::Least => old.min(new),
+            Self::Sum => old + new,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_of_all_frames_and_contacts_stands() {
+        let mut certificate = Certificate::default();
+        certificate.observe([
+            ("contact.bore.max_penetration", 1e-3),
+            ("contact.a.b.max_penetration", 2e-3),
+            ("energy.balance", -0.2),
+        ]);
+        certificate.observe([
+            ("contact.bore.max_penetration", 5e-4),
+            ("contact.bore.least_dissipation", -1e-18),
+            ("contact.bore.least_dissipation", 0.0),
+            ("contact.bore.false_contacts", 2.0),
+            ("contact.bore.false_contacts", 3.0),
+            ("energy.balance", 0.1),
+            ("time", 9.0),
+        ]);
+        let expected = Certificate {
+            max_penetration: Some(2e-3),
+            energy_balance: Some(0.2),
+            least_dissipation: Some(-1e-18),
+            rejected_false_contacts: Some(5.0),
+            ..Certificate::default()
+        };
+        assert_eq!(certificate, expected);
+    }
+}

@@ -1,0 +1,112 @@
+//! `history.csv`: one row an accepted increment, one column a component of every global quantity of its frame.
+
+use super::quantity::{Frame, Place};
+use super::table::{Columns, Field, Table};
+use crate::Error;
+use std::path::{Path, PathBuf};
+
+/// The columns before those of the quantities.
+const LEADING: [&str; 3] = ["time", "step", "increment"];
+
+/// Writes the history of a run. The first frame gives the columns.
+#[derive(Debug)]
+pub struct HistoryTable {
+    path: PathBuf,
+    plane: bool,
+    columns: Vec<String>,
+    table: Option<Table>,
+}
+
+/// The global quantities of a frame by column; a plane has no z forces and no x, y moments.
+pub fn global_columns(frame: &Frame, plane: bool) -> Vec<(String, f64)> {
+    let entries = |quantity: &super::Quantity| {
+        let columns = quantity.width.columns(plane).iter();
+        columns.map(|&(c, suffix)| (format!("{}{suffix}", quantity.name), quantity.values[c])).collect::<Vec<_>>()
+    };
+    frame.at(Place::Global).flat_map(entries).collect()
+}
+
+impl HistoryTable {
+    /// A history in `directory`; the file appears with the first frame.
+    pub fn create(directory: &Path, plane: bool) -> Self {
+        Self { path: directory.join("history.csv"), plane, columns: Vec::new(), table: None }
+    }
+    /// Continues a history after a restart from `increment`; later rows are dropped. Returns also the rows that stay.
+    ///
+    /// # Errors
+    /// [`Error::File`] when the old history cannot be read or rewritten.
+    pub fn resume(directory: &Path, plane: bool, increment: usize) -> Result<(Self, Columns), Error> {
+        let mut history = Self::create(directory, plane);
+        if !history.path.exists() {
+            return Ok((history, Columns::default()));
+        }
+        history.table = Some(Table::resume(&history.path, |columns, row| {
+            let at = columns.position("increment").and_then(|i| row[i].parse::<usize>().ok());
+            at.is_some_and(|at| at <= increment)
+        })?);
+        let kept = Columns::read(&history.path)?;
+        history.columns = kept.header.iter().skip(LEADING.len()).cloned().collect();
+        Ok((history, kept))
+    }
+    /// Adds the row of a frame.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be written, [`Error::Internal`] when its columns differ from the first frame's.
+    pub fn push(&mut self, frame: &Frame) -> Result<(), Error> {
+        let (names, values): (Vec<String>, Vec<f64>) = global_columns(frame, self.plane).into_iter().unzip();
+        if self.table.is_none() {
+            let header = LEADING.iter().map(|name| name.to_string()).chain(names.iter().cloned());
+            self.table = Some(Table::create(&self.path, &header.collect::<Vec<_>>())?);
+            self.columns.clone_from(&names);
+        }
+        if let Some(odd) = first_difference(&self.columns, &names) {
+            return Err(Error::Internal(format!("the columns of history.csv changed within the run, at '{odd}'")));
+        }
+        let leading = [frame.time.into(), frame.step.into(), frame.increment.into()];
+        let row: Vec<Field> = leading.into_iter().chain(values.into_iter().map(Field::Real)).collect();
+        self.table.as_mut().map_or(Ok(()), |table| table.push(&row))
+    }
+}
+
+fn first_difference<'a>(old: &'a [String], new: &'a [String]) -> Option<&'a str> {
+    let longest = if old.len() > new.len() { old } else { new };
+    let same = old.iter().zip(new).take_while(|(a, b)| a == b).count();
+    longest.get(same).map(String::as_str)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Quantity, Unit, Width};
+    use super::*;
+
+    fn frame(increment: usize, names: &[&str]) -> Frame {
+        let mut frame = Frame::new(1, increment, 0.1 * increment as f64);
+        for name in names {
+            let values = vec![1.0, 2.0, increment as f64];
+            frame.push(Quantity::new(*name, Unit::Force, Place::Global, Width::Vector, values)).unwrap();
+        }
+        frame
+    }
+
+    #[test]
+    fn columns_follow_the_space_and_rows_the_frames() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut history = HistoryTable::create(directory.path(), true);
+        (1..=3).for_each(|i| history.push(&frame(i, &["reaction.end"])).unwrap());
+        let columns = Columns::read(&directory.path().join("history.csv")).unwrap();
+        assert_eq!(columns.header, ["time", "step", "increment", "reaction.end.x", "reaction.end.y"]);
+        assert_eq!(columns.numbers("increment").unwrap(), [1.0, 2.0, 3.0]);
+        assert_eq!(global_columns(&frame(3, &["a"]), false)[2], ("a.z".to_string(), 3.0));
+    }
+
+    #[test]
+    fn a_restart_continues_the_same_columns() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut history = HistoryTable::create(directory.path(), false);
+        (1..=3).for_each(|i| history.push(&frame(i, &["a"])).unwrap());
+        let (mut history, kept) = HistoryTable::resume(directory.path(), false, 2).unwrap();
+        assert_eq!(kept.rows.len(), 2);
+        history.push(&frame(3, &["a"])).unwrap();
+        assert!(history.push(&frame(4, &["a", "b"])).unwrap_err().to_string().contains("b.x"));
+    }
+}

@@ -237,13 +237,28 @@ mod tests {
     fn the_fields_that_scripts_read_are_there() {
         let json = serde_json::to_value(Summary::begin("", "solid")).unwrap();
         let fields = [
-            "status", "reason", "increments", "attempts", "iterations", "unknowns", "timings", "peak_memory",
-            "contacts", "reactions", "certificate", "files",
+            "status",
+            "reason",
+            "increments",
+            "attempts",
+            "iterations",
+            "unknowns",
+            "timings",
+            "peak_memory",
+            "contacts",
+            "reactions",
+            "certificate",
+            "files",
         ];
         assert!(fields.iter().all(|field| json.get(field).is_some()));
         let figures = [
-            "max_penetration", "max_penetration_relative", "equilibrium_error", "energy_balance", "coulomb_violation",
-            "least_dissipation", "rejected_false_contacts",
+            "max_penetration",
+            "max_penetration_relative",
+            "equilibrium_error",
+            "energy_balance",
+            "coulomb_violation",
+            "least_dissipation",
+            "rejected_false_contacts",
         ];
         assert!(figures.iter().all(|field| json["certificate"].get(field).is_some()));
     }

@@ -3,7 +3,9 @@
 //! The rooms, by layer; a room may use rooms of lower layers only (`tests/layers.rs` holds the rule):
 //!
 //! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names.
-//! 2. [`mesh`] nodes, cells, groups, files.
+//! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
+//! 3. [`system`] unknowns, state, terms, assembly.
+//! 4. [`solid`] bodies.
 //! 6. The program: [`output`] files, tables, pictures.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -16,5 +18,6 @@ pub mod output;
 pub mod solid;
 pub mod system;
 pub mod tensor;
+pub mod tool;
 
 pub use error::{Error, Failure};

@@ -1,0 +1,22 @@
+//! Rigid tools: profiles of smooth segments, moved by the unknowns of a reference node.
+//!
+//! A profile is drawn with the tool's material on its left. Its segments stand in the tool's own frame for ever; a ray
+//! is carried into that frame by the inverse of the tool's [`Pose`], so no motion can accumulate rounding. What a ray
+//! meets, [`select`] judges by the paper's two rules against false contacts. This room knows neither meshes nor laws.
+
+mod check;
+mod pose;
+mod search;
+mod select;
+pub mod shapes;
+#[allow(clippy::module_inception)]
+mod tool;
+
+#[cfg(test)]
+mod conformance;
+
+pub use check::{Finding, Severity};
+pub use pose::Pose;
+pub use select::{Rejected, Rules, select};
+pub use shapes::{Bounds, Kind, Ray, Shape};
+pub use tool::{Chain, Hit, Tool};

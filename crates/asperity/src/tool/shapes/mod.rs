@@ -1,0 +1,183 @@
+//! Segments of a rigid tool's profile in the plane: each is a smooth curve through its nodes, one file.
+//!
+//! A segment stands in the tool's own frame and never moves: a ray is carried into that frame instead. It is
+//! parametrised by `s` in `[0, 1]` in the direction of travel. A ray meets the *carrier* of a segment (the whole line,
+//! parabola or circle) in at most two points; those with `s` in `[0, 1]` are the crossings of the segment itself.
+//! Segments know neither their neighbours nor on which side the material lies.
+//!
+//! To add a shape: its file here, its `mod` line and its line in [`ALL`].
+
+mod arc;
+mod line;
+mod parabola;
+
+use crate::declare::nearest;
+use crate::tensor::Vec3;
+use std::fmt::Debug;
+
+/// Every shape of segment that a profile may be made of.
+pub static ALL: &[&Kind] = &[&line::KIND, &parabola::KIND, &arc::KIND];
+
+/// How far beyond its ends a segment still counts as hit, in units of `s`: a ray through a common node must not slip
+/// between two neighbours by rounding.
+pub const END: f64 = 1e-10;
+
+/// A registered shape.
+#[derive(Debug)]
+pub struct Kind {
+    /// The word a deck uses: `arc`.
+    pub key: &'static str,
+    /// What it is, in one line.
+    pub meaning: &'static str,
+    /// Number of its nodes, written along the profile: first end, middle where there is one, last end.
+    pub nodes: usize,
+    build: fn(&[Vec3]) -> Box<dyn Shape>,
+}
+
+impl Kind {
+    /// The segment through `nodes`. Degenerate nodes are accepted here and found by [`check`](super::check).
+    ///
+    /// # Errors
+    /// In words, when the number of nodes is wrong.
+    pub fn build(&self, nodes: &[Vec3]) -> Result<Box<dyn Shape>, String> {
+        if nodes.len() != self.nodes {
+            return Err(format!("a segment `{}` has {} nodes, not {}", self.key, self.nodes, nodes.len()));
+        }
+        Ok((self.build)(nodes))
+    }
+}
+
+/// Looks a shape up by the word a deck uses.
+///
+/// # Errors
+/// In words, with the nearest known shape, when there is none of that name.
+pub fn find(key: &str) -> Result<&'static Kind, String> {
+    let keys = || ALL.iter().map(|kind| kind.key);
+    ALL.iter().copied().find(|kind| kind.key == key).ok_or_else(|| match nearest(key, keys()) {
+        Some(near) => format!("there is no segment `{key}`; did you mean `{near}`?"),
+        None => format!("there is no segment `{key}`; there are {}", keys().collect::<Vec<_>>().join(", ")),
+    })
+}
+
+/// A straight line that is followed both ways from its origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    /// Where `u = 0`.
+    pub origin: Vec3,
+    /// Its direction, of unit length.
+    pub direction: Vec3,
+}
+
+impl Ray {
+    /// The point at signed distance `u`.
+    pub fn point(&self, u: f64) -> Vec3 {
+        self.origin + self.direction * u
+    }
+    /// Where it meets the straight line through `point` along `tangent`: the distance along the ray, and along the
+    /// line in units of `tangent`. Not finite when the two are parallel.
+    pub fn meet_line(&self, point: Vec3, tangent: Vec3) -> Crossing {
+        let (to, span) = (point - self.origin, turn(self.direction, tangent));
+        Crossing { u: turn(to, tangent) / span, s: turn(to, self.direction) / span }
+    }
+}
+
+/// Where a ray meets a segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Signed distance from the ray's origin along its direction.
+    pub u: f64,
+    /// Coordinate along the segment.
+    pub s: f64,
+}
+
+impl Crossing {
+    /// Whether it is a point at all (parallel and missing rays give infinite and undefined numbers) and lies within
+    /// the segment lengthened at both ends by the part `beyond` of its `s`.
+    pub fn lies_within(&self, beyond: f64) -> bool {
+        self.u.is_finite() && self.s >= -beyond && self.s <= 1.0 + beyond
+    }
+}
+
+/// An axis-parallel box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Smallest coordinates.
+    pub min: Vec3,
+    /// Largest coordinates.
+    pub max: Vec3,
+}
+
+impl Bounds {
+    /// The box that holds nothing.
+    pub const EMPTY: Bounds = Bounds { min: Vec3([f64::INFINITY; 3]), max: Vec3([f64::NEG_INFINITY; 3]) };
+
+    /// The smallest box around points; coordinates that are not numbers are passed over.
+    pub fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| b.union(Bounds { min: p, max: p }))
+    }
+    /// The smallest box around two.
+    pub fn union(self, other: Self) -> Self {
+        let pick = |a: Vec3, b: Vec3, f: fn(f64, f64) -> f64| Vec3(std::array::from_fn(|i| f(a[i], b[i])));
+        Self { min: pick(self.min, other.min, f64::min), max: pick(self.max, other.max, f64::max) }
+    }
+    /// Length of its diagonal; zero for the empty box.
+    pub fn size(&self) -> f64 {
+        if self.min[0] <= self.max[0] { (self.max - self.min).norm() } else { 0.0 }
+    }
+    /// Its middle.
+    pub fn centre(&self) -> Vec3 {
+        (self.min + self.max) * 0.5
+    }
+}
+
+/// A smooth segment of a profile, in the tool's own frame.
+pub trait Shape: Debug + Send + Sync {
+    /// What it is.
+    fn kind(&self) -> &'static Kind;
+    /// Its nodes, in the order in which they are written.
+    fn nodes(&self) -> &[Vec3];
+    /// The point at `s`; the end nodes themselves, bit for bit, at 0 and 1.
+    fn point(&self, s: f64) -> Vec3;
+    /// `dx/ds`, a length.
+    fn tangent(&self, s: f64) -> Vec3;
+    /// Where a ray meets the carrier, whatever `s`; places that do not exist are not finite.
+    fn meet(&self, ray: &Ray) -> [Crossing; 2];
+    /// The smallest box around the segment, to rounding.
+    fn bounds(&self) -> Bounds;
+    /// Arc length.
+    fn length(&self) -> f64;
+    /// Number of equal parts in `s` whose chords are nowhere farther than `sagitta` from the segment.
+    fn pieces(&self, sagitta: f64) -> usize;
+    /// What makes the nodes unfit for this shape, if anything: the rest of a sentence that begins with the segment.
+    fn flaw(&self) -> Option<String> {
+        None
+    }
+    /// The crossings of the segment itself: `s` in `[0, 1]`, ends included.
+    fn cast(&self, ray: &Ray, hits: &mut dyn FnMut(Crossing)) {
+        for crossing in self.meet(ray) {
+            if crossing.lies_within(END) {
+                hits(Crossing { s: crossing.s.clamp(0.0, 1.0), ..crossing });
+            }
+        }
+    }
+    /// Points along the segment, both ends included, whose chords are nowhere farther than `sagitta` from it.
+    fn flatten(&self, sagitta: f64) -> Vec<Vec3> {
+        let n = self.pieces(sagitta).clamp(1, MOST_PIECES);
+        (0..=n).map(|i| self.point(i as f64 / n as f64)).collect()
+    }
+}
+
+/// A picture never needs more chords on one segment.
+const MOST_PIECES: usize = 4096;
+
+/// The part of the plane's vector product that points out of it: positive when `b` lies to the left of `a`.
+pub(super) fn turn(a: Vec3, b: Vec3) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// The roots of `a x^2 + b x + c`, without cancellation; the one that does not exist is not finite.
+fn quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let q = -0.5 * (b + root.copysign(b));
+    [q / a, c / q]
+}

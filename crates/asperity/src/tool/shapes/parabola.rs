@@ -1,0 +1,104 @@
+//! The parabola through three nodes, the middle one at half its coordinate.
+//!
+//! About the middle node, with `w = s - 1/2`: `x = m + b1 w + b2 w^2`, `b1 = c - a`, `b2 = 2 (a - m) + 2 (c - m)`.
+//! A ray meets it where `(e x b2) w^2 + (e x b1) w + e x (m - o) = 0`; `b2 = 0` leaves the straight line.
+
+use super::{Bounds, Crossing, Kind, Ray, Shape, quadratic, turn};
+use crate::tensor::Vec3;
+
+pub(super) static KIND: Kind = Kind {
+    key: "parabola",
+    meaning: "parabola through three nodes: end, middle, end",
+    nodes: 3,
+    build: |nodes| Box::new(Parabola { nodes: [nodes[0], nodes[1], nodes[2]] }),
+};
+
+#[derive(Debug)]
+struct Parabola {
+    nodes: [Vec3; 3],
+}
+
+impl Parabola {
+    fn b1(&self) -> Vec3 {
+        self.nodes[2] - self.nodes[0]
+    }
+    fn b2(&self) -> Vec3 {
+        ((self.nodes[0] - self.nodes[1]) + (self.nodes[2] - self.nodes[1])) * 2.0
+    }
+    /// The smallest length of `dx/ds` over the segment: the hodograph is a straight line run through once.
+    fn slowest(&self) -> f64 {
+        let (b1, b2) = (self.b1(), self.b2());
+        let nearest = (-0.5 * b1.dot(b2) / b2.dot(b2)).clamp(-0.5, 0.5);
+        self.tangent(0.5 + if nearest.is_nan() { 0.0 } else { nearest }).norm()
+    }
+}
+
+impl Shape for Parabola {
+    fn kind(&self) -> &'static Kind {
+        &KIND
+    }
+    fn nodes(&self) -> &[Vec3] {
+        &self.nodes
+    }
+    fn point(&self, s: f64) -> Vec3 {
+        let w = s - 0.5;
+        match s {
+            0.0 => self.nodes[0],
+            1.0 => self.nodes[2],
+            _ => self.nodes[1] + (self.b1() + self.b2() * w) * w,
+        }
+    }
+    fn tangent(&self, s: f64) -> Vec3 {
+        self.b1() + self.b2() * (2.0 * (s - 0.5))
+    }
+    fn meet(&self, ray: &Ray) -> [Crossing; 2] {
+        let e = ray.direction;
+        let roots = quadratic(turn(e, self.b2()), turn(e, self.b1()), turn(e, self.nodes[1] - ray.origin));
+        roots.map(|w| {
+            let x = self.nodes[1] + (self.b1() + self.b2() * w) * w;
+            Crossing { u: (x - ray.origin).dot(e), s: 0.5 + w }
+        })
+    }
+    fn bounds(&self) -> Bounds {
+        let (b1, b2) = (self.b1(), self.b2());
+        let turning = |axis: usize| Some(-0.5 * b1[axis] / b2[axis]).filter(|w| w.abs() < 0.5);
+        let extremes = [0, 1].into_iter().filter_map(turning).map(|w| self.point(0.5 + w));
+        Bounds::of(extremes.chain([self.nodes[0], self.nodes[2]]))
+    }
+    fn length(&self) -> f64 {
+        let speed = |s: f64| self.tangent(s).norm();
+        integral(&speed, 0.0, 1.0, gauss(&speed, 0.0, 1.0), 0)
+    }
+    fn pieces(&self, sagitta: f64) -> usize {
+        // A chord over dw leaves the parabola by at most |b2| dw^2 / 4.
+        (self.b2().norm() / (4.0 * sagitta)).sqrt().ceil() as usize
+    }
+    fn flaw(&self) -> Option<String> {
+        let legs = (self.nodes[1] - self.nodes[0]).norm() + (self.nodes[2] - self.nodes[1]).norm();
+        (self.slowest() <= 1e-6 * legs)
+            .then(|| "turns back on itself: its middle node must lie well between its ends".to_owned())
+    }
+}
+
+/// Five Gauss points on `[a, b]`.
+fn gauss(f: &dyn Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+    const POINTS: [(f64, f64); 5] = [
+        (0.0, 0.568_888_888_888_888_9),
+        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+        (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+        (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    ];
+    let (half, middle) = (0.5 * (b - a), 0.5 * (a + b));
+    POINTS.iter().map(|&(x, w)| w * f(middle + half * x)).sum::<f64>() * half
+}
+
+/// The integral over `[a, b]`, halving until two halves agree with their `whole`.
+fn integral(f: &dyn Fn(f64) -> f64, a: f64, b: f64, whole: f64, depth: u8) -> f64 {
+    let middle = 0.5 * (a + b);
+    let (left, right) = (gauss(f, a, middle), gauss(f, middle, b));
+    if depth == 30 || (left + right - whole).abs() <= 1e-14 * whole {
+        return left + right;
+    }
+    integral(f, a, middle, left, depth + 1) + integral(f, middle, b, right, depth + 1)
+}

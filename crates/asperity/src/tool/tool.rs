@@ -1,0 +1,173 @@
+//! A rigid tool and what a ray meets on it.
+
+use super::search::Tree;
+use super::shapes::{Bounds, Ray, Shape};
+use super::{Finding, Pose, check};
+use crate::tensor::{Scalar, Vec3};
+
+/// How far beyond its ends [`Tool::cast_segment`] follows a segment's own curve, in units of `s`.
+const EXTENSION: f64 = 0.1;
+
+/// A rigid tool in the plane: chains of segments with the material on their left, and a reference point.
+#[derive(Debug)]
+pub struct Tool {
+    name: String,
+    reference: Vec3,
+    segments: Vec<Box<dyn Shape>>,
+    chains: Vec<Chain>,
+    size: f64,
+    bounds: Bounds,
+    tree: Tree,
+}
+
+/// One profile: segments that follow each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Chain {
+    /// Its first segment.
+    pub first: usize,
+    /// One behind its last segment.
+    pub end: usize,
+    /// Whether its last segment ends where its first begins.
+    pub closed: bool,
+}
+
+/// A place where a ray meets a tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// The segment.
+    pub segment: usize,
+    /// Coordinate along the segment.
+    pub s: f64,
+    /// Signed distance along the ray.
+    pub u: f64,
+    /// Outward unit normal of the tool there, in space.
+    pub normal: Vec3,
+}
+
+impl Tool {
+    /// A tool of one or more profiles, each a list of segments in the order of travel; `reference` is the point that
+    /// its translation moves and about which it turns. Anything is accepted here; [`check`](Self::check) says what is
+    /// wrong with it.
+    pub fn new(name: impl Into<String>, profiles: Vec<Vec<Box<dyn Shape>>>, reference: Vec3) -> Self {
+        let lengths: Vec<usize> = profiles.iter().map(Vec::len).collect();
+        let segments: Vec<_> = profiles.into_iter().flatten().collect();
+        let boxes: Vec<Bounds> = segments.iter().map(|segment| segment.bounds()).collect();
+        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b));
+        let size = bounds.size();
+        let chains = chains(&segments, &lengths, check::TOGETHER * size);
+        let tree = Tree::new(&boxes, 1e-9 * size);
+        Self { name: name.into(), reference, segments, chains, size, bounds, tree }
+    }
+
+    /// The user's name for it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+    /// The reference point, where it stood before any motion.
+    pub fn reference(&self) -> Vec3 {
+        self.reference
+    }
+    /// Its segments, in the order of the profiles.
+    pub fn segments(&self) -> &[Box<dyn Shape>] {
+        &self.segments
+    }
+    /// Its profiles.
+    pub fn chains(&self) -> &[Chain] {
+        &self.chains
+    }
+    /// The box around it in its own frame.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+    /// The diagonal of that box, a length.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+    /// What is wrong with its profiles or worth knowing; `axisymmetric` ones must have `r >= 0`.
+    pub fn check(&self, axisymmetric: bool) -> Vec<Finding> {
+        check::findings(self, axisymmetric)
+    }
+    pub(super) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// Present position of the material point at `s` on a segment.
+    pub fn point<T: Scalar>(&self, pose: &Pose<T>, segment: usize, s: f64) -> Vec3<T> {
+        pose.place(self.reference, self.segments[segment].point(s))
+    }
+    /// Present `dx/ds` there.
+    pub fn tangent(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
+        pose.rotate(self.segments[segment].tangent(s))
+    }
+    /// Present outward unit normal there: the material is on the left.
+    pub fn normal(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
+        pose.rotate(-self.segments[segment].tangent(s).left().unit())
+    }
+
+    /// All places with `u` in `range` where the line through `ray` meets the tool, by segment and then by `u`;
+    /// `hits` is cleared first and its memory reused.
+    pub fn cast(&self, pose: &Pose, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+        hits.clear();
+        let own = self.own_frame(pose, ray);
+        self.tree.along(&own, range, &mut |segment| {
+            self.segments[segment].cast(&own, &mut |place| {
+                if (range[0]..=range[1]).contains(&place.u) {
+                    hits.push(self.hit(pose, segment, place.u, place.s));
+                }
+            });
+        });
+        hits.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
+    }
+
+    /// Where a ray meets one given segment, whether or not others are nearer: the crossing with `s` nearest to `near`
+    /// on the segment's curve, followed a little beyond its ends; where it does not meet that, the crossing with the
+    /// tangent at `near`. Continuous in the ray, so that a point whose ray is perturbed keeps its segment. None if the
+    /// ray runs along that tangent.
+    pub fn cast_segment(&self, pose: &Pose, segment: usize, ray: &Ray, near: f64) -> Option<Hit> {
+        let (own, shape) = (self.own_frame(pose, ray), &self.segments[segment]);
+        let near = near.clamp(0.0, 1.0);
+        let on_curve = shape.meet(&own).into_iter().filter(|place| place.lies_within(EXTENSION));
+        if let Some(place) = on_curve.min_by(|a, b| (a.s - near).abs().total_cmp(&(b.s - near).abs())) {
+            return Some(self.hit(pose, segment, place.u, place.s));
+        }
+        let place = own.meet_line(shape.point(near), shape.tangent(near));
+        let normal = self.normal(pose, segment, near);
+        place.u.is_finite().then_some(Hit { segment, s: near + place.s, u: place.u, normal })
+    }
+
+    /// The profiles in space as polylines nowhere farther than `sagitta` from them, for drawing.
+    pub fn outline(&self, pose: &Pose, sagitta: f64) -> Vec<Vec<Vec3>> {
+        let polyline = |chain: &Chain| {
+            let mut points: Vec<Vec3> = Vec::new();
+            for segment in &self.segments[chain.first..chain.end] {
+                let skip = usize::from(!points.is_empty());
+                points.extend(segment.flatten(sagitta).into_iter().skip(skip));
+            }
+            points.iter().map(|&p| pose.place(self.reference, p)).collect()
+        };
+        self.chains.iter().map(polyline).collect()
+    }
+
+    fn own_frame(&self, pose: &Pose, ray: &Ray) -> Ray {
+        let origin = pose.withdraw(self.reference, ray.origin);
+        Ray { origin, direction: pose.rotate_back(ray.direction) }
+    }
+    fn hit(&self, pose: &Pose, segment: usize, u: f64, s: f64) -> Hit {
+        Hit { segment, s, u, normal: self.normal(pose, segment, s) }
+    }
+}
+
+/// Cuts the list of all segments into profiles and finds which of them close.
+fn chains(segments: &[Box<dyn Shape>], lengths: &[usize], together: f64) -> Vec<Chain> {
+    let mut end = 0;
+    let ranges = lengths.iter().filter(|&&length| length > 0).map(|length| {
+        end += length;
+        (end - length, end)
+    });
+    ranges
+        .map(|(first, end)| {
+            let gap = (segments[end - 1].point(1.0) - segments[first].point(0.0)).norm();
+            Chain { first, end, closed: end - first > 1 && gap <= together }
+        })
+        .collect()
+}

@@ -12,6 +12,9 @@ pub struct Group {
     pub sides: Vec<Side>,
     /// Nodes.
     pub nodes: Vec<usize>,
+    /// Edges or faces of a file that have a cell on either side. They are not among `sides`: which of the two is meant
+    /// is open, and no contact or load can act on them; their nodes are among `nodes`.
+    pub inner: Vec<[Side; 2]>,
 }
 
 /// An edge or face, named by the cell it belongs to and its place in that cell's list of faces.
@@ -27,26 +30,34 @@ impl Group {
     /// A group of cells, sides and single nodes, in any order and with any repeats; the nodes of the cells and sides
     /// are added.
     pub fn new(mesh: &Mesh, cells: Vec<usize>, sides: Vec<Side>, nodes: Vec<usize>) -> Self {
-        let mut group = Self { cells, sides, nodes };
+        let mut group = Self { cells, sides, nodes, inner: vec![] };
         for &cell in &group.cells {
             group.nodes.extend_from_slice(mesh.cell(cell).nodes);
         }
         for &side in &group.sides {
             group.nodes.extend(mesh.side(side).1);
         }
-        group.cells.sort_unstable();
-        group.cells.dedup();
-        group.sides.sort_unstable();
-        group.sides.dedup();
-        group.nodes.sort_unstable();
-        group.nodes.dedup();
+        group.tidy();
         group
+    }
+
+    /// Sorts the lists and drops repeats.
+    pub(super) fn tidy(&mut self) {
+        self.cells.sort_unstable();
+        self.cells.dedup();
+        self.sides.sort_unstable();
+        self.sides.dedup();
+        self.nodes.sort_unstable();
+        self.nodes.dedup();
+        self.inner.sort_unstable();
+        self.inner.dedup();
     }
 
     pub(super) fn shifted(mut self, nodes: usize, cells: usize) -> Self {
         self.nodes.iter_mut().for_each(|node| *node += nodes);
         self.cells.iter_mut().for_each(|cell| *cell += cells);
         self.sides.iter_mut().for_each(|side| side.cell += cells);
+        self.inner.iter_mut().flatten().for_each(|side| side.cell += cells);
         self
     }
 }

@@ -44,6 +44,13 @@ impl Mesh {
         self.cell(cell).measure(&self.points)
     }
 
+    /// The longest straight distance between two corners that an edge of a cell joins.
+    pub fn longest_edge(&self, cell: usize) -> f64 {
+        let cell = self.cell(cell);
+        let point = |corner: usize| self.points[cell.nodes[corner]];
+        cell.kind.edges().map(|[one, other]| (point(one) - point(other)).norm()).fold(0.0, f64::max)
+    }
+
     /// Lower and upper corner of the box around all points; both zero without points.
     pub fn bounds(&self) -> [Vec3; 2] {
         let Some(&first) = self.points.first() else { return [Vec3::zero(); 2] };

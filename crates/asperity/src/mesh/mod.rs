@@ -1,14 +1,17 @@
 //! Nodes, cells and named groups: what is computed on, and nothing of mechanics.
 
+mod boundary;
 pub mod cells;
 pub mod generate;
 mod groups;
+pub mod lint;
 mod measure;
 mod space;
 mod unstructured;
 
+pub use boundary::{Behind, Faces};
 pub use cells::{Cell, Face, Rule};
 pub use groups::{Group, Side};
 pub use measure::Adjacency;
 pub use space::Space;
-pub use unstructured::{CellView, Mesh};
+pub use unstructured::{CellView, Mesh, Numbers};

@@ -18,6 +18,17 @@ pub struct Mesh {
     pub nodes: Vec<usize>,
     /// Groups by the name that the mesh or the deck gave them.
     pub groups: BTreeMap<String, Group>,
+    /// The numbers by which the mesh's file knows its nodes and cells.
+    pub numbers: Numbers,
+}
+
+/// The numbers of nodes and cells in the file they come from; empty if the mesh was generated.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Numbers {
+    /// One for each node, or none at all.
+    pub nodes: Vec<u64>,
+    /// One for each cell, or none at all.
+    pub cells: Vec<u64>,
 }
 
 /// One cell of a mesh.
@@ -38,7 +49,14 @@ impl Default for Mesh {
 impl Mesh {
     /// An empty mesh.
     pub fn new() -> Self {
-        Self { points: vec![], kinds: vec![], starts: vec![0], nodes: vec![], groups: BTreeMap::new() }
+        Self {
+            points: vec![],
+            kinds: vec![],
+            starts: vec![0],
+            nodes: vec![],
+            groups: BTreeMap::new(),
+            numbers: Numbers::default(),
+        }
     }
     /// Number of cells.
     pub fn cell_count(&self) -> usize {
@@ -59,6 +77,8 @@ impl Mesh {
         if let Some(name) = part.groups.keys().find(|name| self.groups.contains_key(*name)) {
             return Err(Error::input(format!("two parts of the mesh have a group '{name}'; rename one of them")));
         }
+        append_numbers(&mut self.numbers.nodes, self.points.len(), &part.numbers.nodes, part.points.len());
+        append_numbers(&mut self.numbers.cells, self.kinds.len(), &part.numbers.cells, part.kinds.len());
         let (nodes, cells, entries) = (self.points.len(), self.cell_count(), self.nodes.len());
         self.points.extend(part.points);
         self.kinds.extend(part.kinds);
@@ -66,6 +86,14 @@ impl Mesh {
         self.nodes.extend(part.nodes.iter().map(|node| node + nodes));
         self.groups.extend(part.groups.into_iter().map(|(name, group)| (name, group.shifted(nodes, cells))));
         Ok(())
+    }
+    /// The number by which the user knows a node: that of the file, or its place counted from 1.
+    pub fn node_number(&self, node: usize) -> u64 {
+        number(&self.numbers.nodes, node)
+    }
+    /// The number by which the user knows a cell: that of the file, or its place counted from 1.
+    pub fn cell_number(&self, cell: usize) -> u64 {
+        number(&self.numbers.cells, cell)
     }
     /// One cell.
     pub fn cell(&self, cell: usize) -> CellView<'_> {
@@ -77,4 +105,17 @@ impl Mesh {
         let face = &cell.kind.faces[side.face];
         (face.cell, face.nodes.iter().map(move |&local| cell.nodes[local]))
     }
+}
+
+fn number(numbers: &[u64], place: usize) -> u64 {
+    numbers.get(place).copied().unwrap_or(place as u64 + 1)
+}
+
+/// Appends the numbers of a part; a part without numbers counts its own from 1.
+fn append_numbers(all: &mut Vec<u64>, before: usize, part: &[u64], count: usize) {
+    if all.is_empty() && part.is_empty() {
+        return;
+    }
+    all.extend((all.len()..before).map(|place| place as u64 + 1));
+    all.extend((0..count).map(|place| number(part, place)));
 }

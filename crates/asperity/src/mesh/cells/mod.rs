@@ -97,12 +97,33 @@ impl Cell {
         std::array::from_fn(|a| sum(a) / corners.len() as f64)
     }
 
+    /// The pairs of corners that its edges join; an edge that two faces share comes twice.
+    pub fn edges(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.faces.iter().flat_map(|face| match face.cell.dimension {
+            1 => vec![[face.nodes[0], face.nodes[1]]],
+            _ => face.cell.faces.iter().map(|edge| [0, 1].map(|end| face.nodes[edge.nodes[end]])).collect(),
+        })
+    }
+
     /// The order of the nodes that turns the cell inside out: node `i` of the turned cell is node `mirror()[i]` of the
     /// cell. Along a line the ends change places, elsewhere the first two reference coordinates.
     pub fn mirror(&self) -> Vec<usize> {
         let reflect = |[x, y, z]: [f64; 3]| if self.dimension == 1 { [-x, y, z] } else { [y, x, z] };
         let place = |image: [f64; 3]| self.nodes.iter().position(|&node| node == image);
         self.nodes.iter().enumerate().map(|(i, &node)| place(reflect(node)).unwrap_or(i)).collect()
+    }
+
+    /// Where a face stands in the list of faces after the cell has been turned inside out by [`Cell::mirror`].
+    pub fn mirrored_face(&self, face: usize) -> usize {
+        let mirror = self.mirror();
+        let sorted = |nodes: &mut dyn Iterator<Item = usize>| {
+            let mut nodes: Vec<usize> = nodes.collect();
+            nodes.sort_unstable();
+            nodes
+        };
+        let wanted = sorted(&mut self.faces[face].nodes.iter().map(|&node| mirror[node]));
+        let found = self.faces.iter().position(|other| sorted(&mut other.nodes.iter().copied()) == wanted);
+        found.unwrap_or(face)
     }
 }
 

@@ -32,12 +32,17 @@ pub(crate) struct Front {
     /// First front of its subtree, which ends with this front.
     pub first_descendant: usize,
     /// Distance from its root.
-    pub depth: u32,
+    pub depth: usize,
 }
 
 impl Front {
     pub fn size(&self) -> usize {
         self.pivots + self.border
+    }
+
+    /// Numbers in the contribution block.
+    pub fn block_len(&self) -> usize {
+        self.border * self.border
     }
 
     /// Numbers kept in the factor.

@@ -4,11 +4,15 @@ use crate::assembly_tree::Front;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Columns factorised by simple loops; wider blocks are halved.
 const NARROW: usize = 16;
 /// Below this many multiplications simple loops beat the set-up of blocked kernels.
-const SMALL: usize = 8 * 1024;
+const SMALL: usize = 1024;
+/// Columns of a tile, the unit of parallel work; large enough to keep the blocked kernels at full speed.
+const TILE: usize = 256;
 
 /// The row exchanged with that of a pivot, counted in the front, and whether the pivot had to be enlarged.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,12 +28,30 @@ pub(crate) struct PivotRule {
     pub replacement: f64,
 }
 
+impl PivotRule {
+    /// Replaces a pivot that is too small, and says so.
+    fn enforce(&self, pivot: &mut f64) -> bool {
+        let too_small = pivot.abs() <= self.smallest;
+        if too_small {
+            *pivot = self.replacement.copysign(*pivot);
+        }
+        too_small
+    }
+}
+
 /// Eliminates the pivots of an assembled front: `factor` holds its `left` and `right` parts, `block` its F22, which
-/// becomes the contribution to the parent.
-pub(crate) fn eliminate(front: &Front, factor: &mut [f64], block: &mut [f64], pivots: &mut [Pivot], rule: PivotRule) {
+/// becomes the contribution to the parent. The tiles are the same whether or not they are computed in parallel.
+pub(crate) fn eliminate(
+    front: &Front,
+    factor: &mut [f64],
+    block: &mut [f64],
+    pivots: &mut [Pivot],
+    rule: PivotRule,
+    parallel: bool,
+) {
     let (m, p, b) = (front.size(), front.pivots, front.border);
     let (left, right) = factor.split_at_mut(m * p);
-    factorise(left, m, p, 0..p, pivots, rule);
+    Panel { left: &mut *left, m, p, rule, parallel }.factorise(0..p, pivots);
     if b == 0 {
         return;
     }
@@ -39,75 +61,93 @@ pub(crate) fn eliminate(front: &Front, factor: &mut [f64], block: &mut [f64], pi
     if p * b * b <= SMALL {
         solve_right_small(left, right, m, p, b);
         update_block_small(left, right, block, m, p, b);
-    } else {
-        let left = MatRef::from_column_major_slice(left, m, p);
-        let mut right = MatMut::from_column_major_slice_mut(right, b, p);
-        let lower = left.subrows(0, p);
-        solve_unit_lower_triangular_in_place(lower, right.as_mut().transpose_mut(), Par::Seq);
-        let block = MatMut::from_column_major_slice_mut(block, b, b);
-        matmul(block, Accum::Add, left.subrows(p, b), right.as_ref().transpose(), -1.0, Par::Seq);
+        return;
+    }
+    let left = MatRef::from_column_major_slice(left, m, p);
+    let (upper, lower) = left.split_at_row(p);
+    let mut right = MatMut::from_column_major_slice_mut(right, b, p);
+    tiles(right.as_mut().transpose_mut(), parallel, |_, tile| {
+        solve_unit_lower_triangular_in_place(upper, tile, Par::Seq);
+    });
+    let right = right.as_ref();
+    tiles(MatMut::from_column_major_slice_mut(block, b, b), parallel, |first, tile| {
+        let rows = right.subrows(first, tile.ncols());
+        matmul(tile, Accum::Add, lower, rows.transpose(), -1.0, Par::Seq);
+    });
+}
+
+/// Does the work on tiles of columns; it is told the first column of each.
+fn tiles(matrix: MatMut<'_, f64>, parallel: bool, work: impl Fn(usize, MatMut<'_, f64>) + Sync) {
+    if parallel {
+        return matrix.par_col_chunks_mut(TILE).enumerate().for_each(|(k, tile)| work(k * TILE, tile));
+    }
+    let (mut rest, mut first) = (matrix, 0);
+    while rest.ncols() > 0 {
+        let width = rest.ncols().min(TILE);
+        let (tile, later) = rest.split_at_col_mut(width);
+        work(first, tile);
+        (rest, first) = (later, first + width);
     }
 }
 
-/// LU of the columns `range` of the `m` x `p` matrix `left`, whose earlier columns are done, by halves. Pivots come
-/// from the first `p` rows; exchanges are made in all columns.
-fn factorise(
-    left: &mut [f64],
+/// The fully summed columns of a front: `left`, `m` x `p`.
+struct Panel<'a> {
+    left: &'a mut [f64],
     m: usize,
     p: usize,
-    range: std::ops::Range<usize>,
-    pivots: &mut [Pivot],
     rule: PivotRule,
-) {
-    let (start, end) = (range.start, range.end);
-    if end - start <= NARROW {
-        return factorise_narrow(left, m, p, range, pivots, rule);
-    }
-    let middle = start + ((end - start) / 2).next_multiple_of(8);
-    factorise(left, m, p, start..middle, pivots, rule);
-    let (done, rest) = left.split_at_mut(m * middle);
-    let done = MatRef::from_column_major_slice(&done[m * start..], m, middle - start);
-    let rest = MatMut::from_column_major_slice_mut(&mut rest[..m * (end - middle)], m, end - middle);
-    let (upper, lower) = rest.subrows_mut(start, m - start).split_at_row_mut(middle - start);
-    let mut upper = upper;
-    solve_unit_lower_triangular_in_place(done.subrows(start, middle - start), upper.as_mut(), Par::Seq);
-    matmul(lower, Accum::Add, done.subrows(middle, m - middle), upper.as_ref(), -1.0, Par::Seq);
-    factorise(left, m, p, middle..end, pivots, rule);
+    parallel: bool,
 }
 
-/// The same for a few columns, one after the other.
-fn factorise_narrow(
-    left: &mut [f64],
-    m: usize,
-    p: usize,
-    range: std::ops::Range<usize>,
-    pivots: &mut [Pivot],
-    rule: PivotRule,
-) {
-    for k in range.clone() {
-        let column = &mut left[m * k..m * (k + 1)];
-        let row = largest(&column[k..p]) + k;
-        pivots[k] = Pivot { row: row as u32, perturbed: false };
-        for j in range.clone() {
-            left.swap(m * j + k, m * j + row);
+impl Panel<'_> {
+    /// LU of the columns `range`, whose earlier columns are done, by halves. Pivots come from the first `p` rows;
+    /// exchanges are made in all columns.
+    fn factorise(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
+        let (start, end) = (range.start, range.end);
+        if end - start <= NARROW {
+            return self.factorise_narrow(range, pivots);
         }
-        let (done, rest) = left[..m * range.end].split_at_mut(m * (k + 1));
-        let column = &mut done[m * k..];
-        if column[k].abs() <= rule.smallest {
-            pivots[k].perturbed = true;
-            column[k] = rule.replacement.copysign(column[k]);
-        }
-        let inverse = 1.0 / column[k];
-        column[k + 1..].iter_mut().for_each(|x| *x *= inverse);
-        for other in rest.chunks_exact_mut(m) {
-            let factor = other[k];
-            subtract(&mut other[k + 1..], factor, &column[k + 1..]);
-        }
+        let middle = start + ((end - start) / 2).next_multiple_of(8);
+        self.factorise(start..middle, pivots);
+        self.update(start, middle, end);
+        self.factorise(middle..end, pivots);
     }
-    for j in (0..range.start).chain(range.end..p) {
-        let column = &mut left[m * j..m * (j + 1)];
+
+    /// Applies the pivots `start..middle` to the columns `middle..end`.
+    fn update(&mut self, start: usize, middle: usize, end: usize) {
+        let m = self.m;
+        let (done, rest) = self.left.split_at_mut(m * middle);
+        let done = MatRef::from_column_major_slice(&done[m * start..], m, middle - start);
+        let (upper, lower) = (done.subrows(start, middle - start), done.subrows(middle, m - middle));
+        let rest = MatMut::from_column_major_slice_mut(&mut rest[..m * (end - middle)], m, end - middle);
+        tiles(rest, self.parallel, |_, tile| {
+            let (_, tile) = tile.split_at_row_mut(start);
+            let (mut top, bottom) = tile.split_at_row_mut(middle - start);
+            solve_unit_lower_triangular_in_place(upper, top.as_mut(), Par::Seq);
+            matmul(bottom, Accum::Add, lower, top.as_ref(), -1.0, Par::Seq);
+        });
+    }
+
+    /// The same for a few columns, one after the other.
+    fn factorise_narrow(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
+        let (m, p) = (self.m, self.p);
         for k in range.clone() {
-            column.swap(k, pivots[k].row as usize);
+            let row = largest(&self.left[m * k + k..m * k + p]) + k;
+            range.clone().for_each(|j| self.left.swap(m * j + k, m * j + row));
+            let (done, rest) = self.left[..m * range.end].split_at_mut(m * (k + 1));
+            let column = &mut done[m * k..];
+            let perturbed = self.rule.enforce(&mut column[k]);
+            pivots[k] = Pivot { row: row as u32, perturbed };
+            let inverse = 1.0 / column[k];
+            column[k + 1..].iter_mut().for_each(|x| *x *= inverse);
+            for other in rest.chunks_exact_mut(m) {
+                let factor = other[k];
+                subtract(&mut other[k + 1..], factor, &column[k + 1..]);
+            }
+        }
+        for j in (0..range.start).chain(range.end..p) {
+            let column = &mut self.left[m * j..m * (j + 1)];
+            range.clone().for_each(|k| column.swap(k, pivots[k].row as usize));
         }
     }
 }

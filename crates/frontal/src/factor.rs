@@ -3,18 +3,19 @@
 use crate::dense::{Pivot, PivotRule};
 use crate::diagnose;
 use crate::error::Error;
-use crate::numeric;
+use crate::numeric::Numeric;
 use crate::pattern::check_length;
+use crate::plan::Plan;
 use crate::scaling::Scaling;
 use crate::symbolic::{Inner, Symbolic};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// Perturbed pivots get this share of the largest value: the square root of the unit round-off balances the error
 /// made against the growth allowed (Li & Demmel, ACM TOMS 29, 2003).
 const PERTURBATION: f64 = 1.5e-8;
 
 /// L and U, with a copy of the equilibrated matrix for refinement and the working memory of the next factorisation.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Factor {
     pub(crate) symbolic: Arc<Inner>,
     pub(crate) factors: Vec<f64>,
@@ -22,7 +23,9 @@ pub struct Factor {
     pub(crate) scaling: Scaling,
     /// Values of the equilibrated matrix, in the pattern's order.
     pub(crate) values: Vec<f64>,
-    stack: Vec<f64>,
+    plan: Plan,
+    shared: Vec<f64>,
+    stacks: Mutex<Vec<Vec<f64>>>,
     perturbed: Vec<usize>,
     pub(crate) ready: bool,
 }
@@ -58,14 +61,17 @@ impl Symbolic {
 }
 
 impl Factor {
-    pub(crate) fn new(symbolic: Arc<Inner>) -> Self {
+    pub(crate) fn new(symbolic: Arc<Inner>, threads: usize) -> Self {
         let n = symbolic.pattern.len();
+        let plan = symbolic.plan(threads);
         Factor {
             factors: vec![0.0; symbolic.tree.factor_len()],
             pivots: vec![Pivot::default(); n],
             scaling: Scaling::identity(n),
             values: vec![0.0; symbolic.pattern.nonzeros()],
-            stack: vec![0.0; symbolic.stack.len],
+            shared: vec![0.0; plan.shared_len()],
+            stacks: Mutex::new(vec![vec![0.0; plan.stack_len]; plan.stacks()]),
+            plan,
             perturbed: Vec::new(),
             ready: false,
             symbolic,
@@ -90,7 +96,9 @@ impl Factor {
         // A matrix of zeros only is singular, not a division by zero.
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let rule = PivotRule { smallest: options.pivot_threshold * largest, replacement: PERTURBATION * largest };
-        numeric::factorise(&self.symbolic, &self.values, rule, &mut self.factors, &mut self.pivots, &mut self.stack);
+        let numeric =
+            Numeric { symbolic: &self.symbolic, plan: &self.plan, values: &self.values, rule, stacks: &self.stacks };
+        numeric.factorise(&mut self.factors, &mut self.pivots, &mut self.shared);
         Ok(())
     }
 

@@ -1,79 +1,161 @@
 //! The numeric factorisation: assemble, eliminate, pass on, from the leaves to the roots.
 
-use crate::assembly_tree::{Entry, Front};
+use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule, eliminate};
+use crate::extend_add::{Contribution, assemble};
+use crate::plan::{Plan, Role};
 use crate::symbolic::Inner;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
-/// Factorises all fronts in postorder.
-pub(crate) fn factorise(
-    symbolic: &Inner,
-    values: &[f64],
-    rule: PivotRule,
-    factors: &mut [f64],
-    pivots: &mut [Pivot],
-    stack: &mut [f64],
-) {
-    for (s, front) in symbolic.tree.fronts.iter().enumerate() {
-        let factor = &mut factors[front.factor_range()];
-        assemble_entries(factor, symbolic.tree.entries(s), values);
-        let (block, children) = split_stack(front, symbolic.stack.offsets[s], stack);
-        block.fill(0.0);
-        for &child in symbolic.tree.children(s) {
-            let relative = symbolic.tree.relative(&symbolic.tree.fronts[child as usize]);
-            let offset = symbolic.stack.offsets[child as usize] - children.offset;
-            let contribution = &children.stack[offset..offset + relative.len() * relative.len()];
-            extend_add(front, factor, block, contribution, relative);
+/// What all fronts are computed from.
+pub(crate) struct Numeric<'a> {
+    pub symbolic: &'a Inner,
+    pub plan: &'a Plan,
+    pub values: &'a [f64],
+    pub rule: PivotRule,
+    /// Stacks that no task is using.
+    pub stacks: &'a Mutex<Vec<Vec<f64>>>,
+}
+
+/// The parts of the factor and of the shared blocks that belong to consecutive subtrees.
+struct Part<'a> {
+    /// First front.
+    first: usize,
+    factors: &'a mut [f64],
+    pivots: &'a mut [Pivot],
+    shared: &'a mut [f64],
+}
+
+impl<'a> Part<'a> {
+    /// The parts before and from front `at`, with so many numbers of the shared blocks before it.
+    fn split(self, fronts: &[Front], at: usize, shared: usize) -> (Part<'a>, Part<'a>) {
+        let (first, next) = (&fronts[self.first], &fronts[at]);
+        let (factors, later_factors) = self.factors.split_at_mut(next.factor - first.factor);
+        let (pivots, later_pivots) = self.pivots.split_at_mut(next.first - first.first);
+        let (shared, later_shared) = self.shared.split_at_mut(shared);
+        let later = Part { first: at, factors: later_factors, pivots: later_pivots, shared: later_shared };
+        (Part { first: self.first, factors, pivots, shared }, later)
+    }
+}
+
+impl Numeric<'_> {
+    /// Factorises all fronts.
+    pub fn factorise(&self, factors: &mut [f64], pivots: &mut [Pivot], shared: &mut [f64]) {
+        let tree = &self.symbolic.tree;
+        let roots = tree.child_starts[tree.fronts.len()]..tree.child_list.len();
+        self.subtrees(roots, Part { first: 0, factors, pivots, shared });
+    }
+
+    /// Factorises the subtrees of some entries of `child_list`, side by side where that is worth while.
+    fn subtrees(&self, children: Range<usize>, part: Part) {
+        let tree = &self.symbolic.tree;
+        match children.len() {
+            0 => {}
+            1 => self.subtree(tree.child_list[children.start] as usize, part),
+            count => {
+                let middle = children.start + count / 2;
+                let earlier = &tree.child_list[children.start..middle];
+                let shared = earlier.iter().map(|&child| self.plan.shared_with(tree, child as usize)).sum();
+                let next = tree.fronts[tree.child_list[middle] as usize].first_descendant;
+                let (part, later) = part.split(&tree.fronts, next, shared);
+                let first = || self.subtrees(children.start..middle, part);
+                let second = || self.subtrees(middle..children.end, later);
+                if self.plan.threads > 1 {
+                    rayon::join(first, second);
+                } else {
+                    first();
+                    second();
+                }
+            }
         }
-        eliminate(front, factor, block, &mut pivots[front.pivot_range()], rule);
+    }
+
+    /// Factorises the subtree of `s` and leaves its block at the end of the shared ones.
+    fn subtree(&self, s: usize, part: Part) {
+        let tree = &self.symbolic.tree;
+        if self.plan.roles[s] == Role::Task {
+            return self.task(s, part);
+        }
+        let (below, own) = part.split(&tree.fronts, s, self.plan.shared_below[s]);
+        let Part { first, factors, pivots, shared } = below;
+        self.subtrees(
+            tree.child_starts[s]..tree.child_starts[s + 1],
+            Part { first, factors, pivots, shared: &mut *shared },
+        );
+        let child = |k: usize| {
+            let start = tree.children(s)[..k].iter().map(|&c| self.plan.shared_with(tree, c as usize)).sum::<usize>();
+            let child = tree.children(s)[k] as usize;
+            let start = start + self.plan.shared_below[child];
+            self.contribution(child, &shared[start..])
+        };
+        self.front(s, own.factors, own.pivots, own.shared, child, true);
+    }
+
+    /// Factorises the subtree of `task` in postorder, on a stack of its own.
+    fn task(&self, task: usize, part: Part) {
+        let mut stack = self.stacks.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        // Only a pool with more threads than the factor was made for finds no stack left.
+        stack.resize(self.plan.stack_len, 0.0);
+        let tree = &self.symbolic.tree;
+        let start = &tree.fronts[part.first];
+        for s in part.first..=task {
+            let front = &tree.fronts[s];
+            let factor = &mut part.factors[front.factor - start.factor..][..front.factor_len()];
+            let pivots = &mut part.pivots[front.first - start.first..][..front.pivots];
+            let (block, others) = match s == task {
+                true => (&mut *part.shared, Others { stack: &stack, offset: 0 }),
+                false => split_stack(front, self.plan.offsets[s], &mut stack),
+            };
+            let child = |k: usize| {
+                let child = tree.children(s)[k] as usize;
+                self.contribution(child, &others.stack[self.plan.offsets[child] - others.offset..])
+            };
+            self.front(s, factor, pivots, block, child, false);
+        }
+        self.stacks.lock().unwrap_or_else(PoisonError::into_inner).push(stack);
+    }
+
+    /// Assembles and eliminates one front.
+    fn front<'b>(
+        &self,
+        s: usize,
+        factor: &mut [f64],
+        pivots: &mut [Pivot],
+        block: &mut [f64],
+        child: impl Fn(usize) -> Contribution<'b> + Sync,
+        parallel: bool,
+    ) {
+        let tree = &self.symbolic.tree;
+        let front = &tree.fronts[s];
+        factor.fill(0.0);
+        for entry in tree.entries(s) {
+            factor[entry.place as usize] += self.values[entry.value as usize];
+        }
+        assemble(front, factor, block, tree.children(s).len(), child, parallel);
+        eliminate(front, factor, block, pivots, self.rule, parallel);
+    }
+
+    fn contribution<'b>(&'b self, child: usize, from: &'b [f64]) -> Contribution<'b> {
+        let front = &self.symbolic.tree.fronts[child];
+        Contribution { block: &from[..front.block_len()], relative: self.symbolic.tree.relative(front) }
     }
 }
 
-fn assemble_entries(factor: &mut [f64], entries: &[Entry], values: &[f64]) {
-    factor.fill(0.0);
-    for entry in entries {
-        factor[entry.place as usize] += values[entry.value as usize];
-    }
-}
-
-/// The side of the stack with the children's blocks.
-struct Children<'a> {
+/// The side of a stack that holds the blocks of a front's children.
+struct Others<'a> {
     stack: &'a [f64],
     offset: usize,
 }
 
-/// The block of a front at one side of the stack, and the other side, which holds its children's.
-fn split_stack<'a>(front: &Front, offset: usize, stack: &'a mut [f64]) -> (&'a mut [f64], Children<'a>) {
-    let len = front.border * front.border;
+/// The block of a front at one side of the stack, and the other side.
+fn split_stack<'a>(front: &Front, offset: usize, stack: &'a mut [f64]) -> (&'a mut [f64], Others<'a>) {
+    let len = front.block_len();
     if front.depth.is_multiple_of(2) {
         let (low, high) = stack.split_at_mut(offset + len);
-        (&mut low[offset..], Children { stack: high, offset: offset + len })
+        (&mut low[offset..], Others { stack: high, offset: offset + len })
     } else {
         let (low, high) = stack.split_at_mut(offset);
-        (&mut high[..len], Children { stack: low, offset: 0 })
-    }
-}
-
-/// Adds a child's contribution; `relative` are its rows in the front, in ascending order.
-fn extend_add(front: &Front, factor: &mut [f64], block: &mut [f64], contribution: &[f64], relative: &[u32]) {
-    let (m, p, b) = (front.size(), front.pivots, front.border);
-    let (left, right) = factor.split_at_mut(m * p);
-    let summed = relative.partition_point(|&row| (row as usize) < p);
-    for (column, &j) in contribution.chunks_exact(relative.len().max(1)).zip(relative) {
-        let j = j as usize;
-        if j < p {
-            scatter(&mut left[m * j..m * (j + 1)], column, relative, 0);
-        } else {
-            for (value, &i) in column[..summed].iter().zip(relative) {
-                right[b * i as usize + j - p] += value;
-            }
-            scatter(&mut block[b * (j - p)..b * (j - p + 1)], &column[summed..], &relative[summed..], p);
-        }
-    }
-}
-
-/// `target[rows - shift] += values`.
-fn scatter(target: &mut [f64], values: &[f64], rows: &[u32], shift: usize) {
-    for (value, &row) in values.iter().zip(rows) {
-        target[row as usize - shift] += value;
+        (&mut high[..len], Others { stack: low, offset: 0 })
     }
 }

@@ -7,6 +7,7 @@ use crate::factor::Factor;
 use crate::options::Options;
 use crate::ordering;
 use crate::pattern::Pattern;
+use crate::plan::Plan;
 use crate::supernode::supernodes;
 use std::sync::Arc;
 
@@ -17,13 +18,13 @@ pub struct Prediction {
     pub flops: f64,
     /// Numbers in the factors L and U, stored zeros included.
     pub factor_entries: usize,
-    /// Numbers in the stack of contribution blocks.
+    /// Numbers in the stack of contribution blocks, for one thread.
     pub stack_entries: usize,
     /// Order of the largest front.
     pub largest_front: usize,
     /// Number of fronts.
     pub fronts: usize,
-    /// Bytes of the analysis, one factor and its working memory.
+    /// Bytes of the analysis, one factor and its working memory, for one thread.
     pub bytes: usize,
 }
 
@@ -38,19 +39,7 @@ pub(crate) struct Inner {
     pub pattern: Pattern,
     pub options: Options,
     pub tree: AssemblyTree,
-    pub stack: Stack,
     pub prediction: Prediction,
-}
-
-/// Where each contribution block lies in the working memory.
-///
-/// A front is assembled while its children's blocks are still there. Blocks of even depth therefore grow from the
-/// front of the memory and those of odd depth from its back: on either side the last block in is the first out, and
-/// none is ever moved.
-#[derive(Debug)]
-pub(crate) struct Stack {
-    pub offsets: Vec<usize>,
-    pub len: usize,
 }
 
 impl Symbolic {
@@ -69,10 +58,9 @@ impl Symbolic {
         let weight = |k: usize| u64::from(graph.weights[order[k] as usize]);
         let supernodes = supernodes(&parent, &counts, weight, &options.amalgamation);
         let tree = AssemblyTree::new(pattern, &graph, &order, &supernodes)?;
-        let stack = Stack::new(&tree);
-        let prediction = predict(pattern, &tree, &stack);
+        let prediction = predict(pattern, &tree, Plan::new(&tree, 1).len());
         check_limit(prediction.bytes, options.memory_limit)?;
-        let inner = Inner { pattern: pattern.clone(), options: options.clone(), tree, stack, prediction };
+        let inner = Inner { pattern: pattern.clone(), options: options.clone(), tree, prediction };
         Ok(Symbolic { inner: Arc::new(inner) })
     }
 
@@ -97,8 +85,12 @@ impl Symbolic {
     }
 
     /// Room for a factorisation; every factorisation into it re-uses the same memory.
+    ///
+    /// The memory is laid out for as many threads as the current rayon pool has. More threads need more of it; where
+    /// that would exceed [`Options::memory_limit`] one thread does all. Results are the same
+    /// to the last bit for any number of threads.
     pub fn new_factor(&self) -> Factor {
-        Factor::new(self.inner.clone())
+        Factor::new(self.inner.clone(), rayon::current_num_threads())
     }
 }
 
@@ -117,39 +109,29 @@ fn inverse(order: &[u32]) -> Vec<u32> {
     position
 }
 
-impl Stack {
-    fn new(tree: &AssemblyTree) -> Self {
-        let mut offsets = vec![0; tree.fronts.len()];
-        // Filled lengths of the two sides and the most that both ever took together.
-        let (mut filled, mut len) = ([0, 0], 0);
-        for (s, front) in tree.fronts.iter().enumerate() {
-            let side = (front.depth % 2) as usize;
-            offsets[s] = filled[side];
-            filled[side] += front.border * front.border;
-            len = len.max(filled[0] + filled[1]);
-            for &child in tree.children(s) {
-                filled[1 - side] -= tree.fronts[child as usize].border.pow(2);
-            }
+impl Inner {
+    /// The plan for so many threads, or that for one if the memory limit leaves no room for more.
+    pub fn plan(&self, threads: usize) -> Plan {
+        let plan = Plan::new(&self.tree, threads);
+        let more = 8 * plan.len().saturating_sub(self.prediction.stack_entries);
+        match self.options.memory_limit {
+            Some(limit) if self.prediction.bytes + more > limit => Plan::new(&self.tree, 1),
+            _ => plan,
         }
-        // The back side counts from the end.
-        for (s, front) in tree.fronts.iter().enumerate().filter(|(_, front)| front.depth % 2 == 1) {
-            offsets[s] = len - offsets[s] - front.border * front.border;
-        }
-        Stack { offsets, len }
     }
 }
 
-fn predict(pattern: &Pattern, tree: &AssemblyTree, stack: &Stack) -> Prediction {
+fn predict(pattern: &Pattern, tree: &AssemblyTree, stack_entries: usize) -> Prediction {
     let indices = 4 * (tree.rows.len() * 2 + tree.order.len() * 3) + 8 * tree.entries.len();
     let pattern_bytes = 8 * (pattern.starts().len() + pattern.columns().len());
     let values = 8 * (pattern.nonzeros() + 2 * pattern.len());
     Prediction {
         flops: tree.fronts.iter().map(|front| front.flops()).sum(),
         factor_entries: tree.factor_len(),
-        stack_entries: stack.len,
+        stack_entries,
         largest_front: tree.fronts.iter().map(|front| front.size()).max().unwrap_or(0),
         fronts: tree.fronts.len(),
-        bytes: 8 * (tree.factor_len() + stack.len) + indices + pattern_bytes + values,
+        bytes: 8 * (tree.factor_len() + stack_entries) + indices + pattern_bytes + values,
     }
 }
 

@@ -128,9 +128,8 @@ impl Matrix {
             pivots.push(a[k][k].abs());
             for i in k + 1..n {
                 let factor = a[i][k] / a[k][k];
-                for j in k..n {
-                    a[i][j] -= factor * a[k][j];
-                }
+                let (done, rest) = a.split_at_mut(i);
+                rest[0].iter_mut().zip(&done[k]).skip(k).for_each(|(lower, upper)| *lower -= factor * upper);
                 x[i] -= factor * x[k];
             }
         }

@@ -1,0 +1,31 @@
+//! The number of threads must not show in a single bit.
+
+#[path = "../benches/models/mod.rs"]
+mod models;
+
+use frontal::{Options, Symbolic};
+
+/// Bits of the solutions for a plain and a transposed right-hand side.
+fn solution_bits(model: &models::Model, threads: usize) -> Vec<u64> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    pool.install(|| {
+        let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+        let mut factor = symbolic.new_factor();
+        let n = model.pattern.len();
+        let mut x = (0..n).map(|k| (k as f64).sin()).collect::<Vec<_>>();
+        let mut y = x.clone();
+        symbolic.factorise(&model.values, &mut factor).expect("a regular matrix");
+        factor.solve(&mut x).expect("a regular matrix");
+        factor.solve_transposed(&mut y).expect("a regular matrix");
+        x.iter().chain(&y).map(|x| x.to_bits()).collect()
+    })
+}
+
+#[test]
+fn one_two_and_four_threads_give_the_same_bits() {
+    for model in [models::hex8([14, 14, 14]), models::bordered([8, 8, 8], 6), models::quad8([60, 60])] {
+        let one = solution_bits(&model, 1);
+        assert!(one == solution_bits(&model, 2), "{} with two threads", model.name);
+        assert!(one == solution_bits(&model, 4), "{} with four threads", model.name);
+    }
+}

@@ -1,6 +1,7 @@
 //! Elimination of one front: dense LU with partial pivoting among the fully summed rows.
 
 use crate::assembly_tree::Front;
+use crate::vector::subtract;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -186,12 +187,5 @@ fn update_block_small(left: &[f64], right: &[f64], block: &mut [f64], m: usize, 
         for k in 0..p {
             subtract(column, right[b * k + j], &left[m * k + p..m * (k + 1)]);
         }
-    }
-}
-
-/// `y <- y - factor x`.
-fn subtract(y: &mut [f64], factor: f64, x: &[f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y -= factor * x;
     }
 }

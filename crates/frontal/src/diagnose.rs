@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::factor::Factor;
+use crate::krylov::multiply;
 use crate::solve::Workspace;
 use std::fmt;
 
@@ -91,11 +92,8 @@ fn largest(x: &[f64]) -> Vec<usize> {
 impl Factor {
     /// The equilibrated matrix times `x`.
     fn times(&self, x: &[f64]) -> Vec<f64> {
-        let pattern = &self.symbolic.pattern;
-        let row_sum = |row: usize| {
-            let range = pattern.starts()[row]..pattern.starts()[row + 1];
-            self.values[range.clone()].iter().zip(&pattern.columns()[range]).map(|(a, &j)| a * x[j]).sum::<f64>()
-        };
-        (0..pattern.len()).map(row_sum).collect()
+        let mut y = vec![0.0; x.len()];
+        multiply(&self.symbolic.pattern, &self.values, x, &mut y);
+        y
     }
 }

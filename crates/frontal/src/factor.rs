@@ -89,10 +89,11 @@ impl Factor {
 
     fn load(&mut self, values: &[f64]) -> Result<(), Error> {
         let Inner { pattern, options, .. } = &*self.symbolic;
+        pattern.check_finite(values)?;
         if options.equilibrate {
             self.scaling.equilibrate(pattern, values);
         }
-        let largest = self.scaling.apply(pattern, values, &mut self.values)?;
+        let largest = self.scaling.apply(pattern, values, &mut self.values);
         // A matrix of zeros only is singular, not a division by zero.
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let rule = PivotRule { smallest: options.pivot_threshold * largest, replacement: PERTURBATION * largest };

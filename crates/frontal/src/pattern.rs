@@ -83,6 +83,13 @@ impl Pattern {
         range.clone().zip(self.columns[range].iter().copied())
     }
 
+    /// Refuses values, in the pattern's order, of which one is not finite.
+    pub(crate) fn check_finite(&self, values: &[f64]) -> Result<(), Error> {
+        let Some(at) = values.iter().position(|value| !value.is_finite()) else { return Ok(()) };
+        let row = self.starts.partition_point(|&start| start <= at) - 1;
+        Err(Error::NotFinite { row, column: self.columns[at] })
+    }
+
     /// The node of each unknown, if it was given.
     pub(crate) fn node_of(&self) -> Option<&[usize]> {
         self.node_of.as_deref()

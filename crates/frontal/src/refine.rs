@@ -2,11 +2,14 @@
 
 use crate::error::Error;
 use crate::factor::Factor;
+use crate::krylov::{Krylov, System, fgmres, multiply, multiply_transposed};
 use crate::pattern::{Pattern, check_length};
 use crate::solve::Workspace;
 
 /// A solution with a larger backward error than this is refused.
 const ACCEPTABLE: f64 = 1e-10;
+/// What is tried when refinement does not converge because pivots were perturbed.
+const LAST_RESORT: Krylov = Krylov { tolerance: 1e-13, iterations: 90, restart: 30 };
 
 /// How well a solution satisfies its equations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,10 +22,40 @@ pub struct Accuracy {
 }
 
 /// Whether the equations are those of the matrix or of its transpose.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 enum Side {
     Plain,
     Transposed,
+}
+
+impl Side {
+    fn substitute(self, factor: &Factor, x: &mut [f64], work: &mut Workspace) {
+        match self {
+            Side::Plain => factor.substitute(x, work),
+            Side::Transposed => factor.substitute_transposed(x, work),
+        }
+    }
+}
+
+/// The equilibrated matrix, preconditioned by its own factor with perturbed pivots.
+struct Perturbed<'a> {
+    factor: &'a Factor,
+    side: Side,
+    work: &'a mut Workspace,
+}
+
+impl System for Perturbed<'_> {
+    fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
+        let (pattern, values) = (&self.factor.symbolic.pattern, &self.factor.values);
+        match self.side {
+            Side::Plain => multiply(pattern, values, x, y),
+            Side::Transposed => multiply_transposed(pattern, values, x, y),
+        }
+    }
+
+    fn precondition(&mut self, x: &mut [f64]) {
+        self.side.substitute(self.factor, x, self.work);
+    }
 }
 
 impl Factor {
@@ -64,7 +97,7 @@ impl Factor {
     }
 }
 
-fn check_finite(rhs: &[f64], n: usize) -> Result<(), Error> {
+pub(crate) fn check_finite(rhs: &[f64], n: usize) -> Result<(), Error> {
     match rhs.iter().position(|value| !value.is_finite()) {
         Some(at) => Err(Error::NotFinite { row: at % n, column: at / n }),
         None => Ok(()),
@@ -106,7 +139,7 @@ impl<'a> Refinement<'a> {
     fn refine(&mut self, b: &[f64]) -> Result<Accuracy, Error> {
         let options = &self.factor.symbolic.options;
         self.x.copy_from_slice(b);
-        self.substitute_x();
+        self.side.substitute(self.factor, &mut self.x, &mut self.work);
         let mut accuracy = Accuracy { backward_error: self.backward_error(b), refinements: 0 };
         while accuracy.backward_error > options.backward_error && accuracy.refinements < options.refinements {
             accuracy.refinements += 1;
@@ -116,6 +149,11 @@ impl<'a> Refinement<'a> {
                 break;
             }
         }
+        if accuracy.backward_error > ACCEPTABLE {
+            let system = &mut Perturbed { factor: self.factor, side: self.side, work: &mut self.work };
+            accuracy.refinements += fgmres(system, b, &mut self.x, &LAST_RESORT).iterations;
+            accuracy.backward_error = self.backward_error(b);
+        }
         if accuracy.backward_error <= ACCEPTABLE {
             return Ok(accuracy);
         }
@@ -123,19 +161,9 @@ impl<'a> Refinement<'a> {
         Err(Error::Inaccurate { backward_error: accuracy.backward_error, unknowns })
     }
 
-    fn substitute_x(&mut self) {
-        match self.side {
-            Side::Plain => self.factor.substitute(&mut self.x, &mut self.work),
-            Side::Transposed => self.factor.substitute_transposed(&mut self.x, &mut self.work),
-        }
-    }
-
     /// `x <- x + A^-1 r`.
     fn correct(&mut self) {
-        match self.side {
-            Side::Plain => self.factor.substitute(&mut self.residual, &mut self.work),
-            Side::Transposed => self.factor.substitute_transposed(&mut self.residual, &mut self.work),
-        }
+        self.side.substitute(self.factor, &mut self.residual, &mut self.work);
         self.x.iter_mut().zip(&self.residual).for_each(|(x, dx)| *x += dx);
     }
 

@@ -1,6 +1,5 @@
 //! Equilibration: rows and columns scaled to largest values near one.
 
-use crate::error::Error;
 use crate::pattern::Pattern;
 
 /// Sweeps over the matrix; each halves the distance, on a logarithmic scale, to largest values of one.
@@ -33,21 +32,15 @@ impl Scaling {
     }
 
     /// Writes the scaled values and returns the largest of them.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] at the first value that is not.
-    pub fn apply(&self, pattern: &Pattern, values: &[f64], scaled: &mut [f64]) -> Result<f64, Error> {
+    pub fn apply(&self, pattern: &Pattern, values: &[f64], scaled: &mut [f64]) -> f64 {
         let mut largest = 0.0_f64;
         for row in 0..pattern.len() {
             for (at, column) in pattern.entries(row) {
-                if !values[at].is_finite() {
-                    return Err(Error::NotFinite { row, column });
-                }
                 scaled[at] = self.rows[row] * values[at] * self.columns[column];
                 largest = largest.max(scaled[at].abs());
             }
         }
-        Ok(largest)
+        largest
     }
 
     fn measure(&mut self, pattern: &Pattern, values: &[f64]) {

@@ -2,6 +2,7 @@
 
 use crate::assembly_tree::Front;
 use crate::factor::Factor;
+use crate::vector::{dot, subtract};
 
 /// Working memory of a solve, in elimination order.
 pub(crate) struct Workspace {
@@ -135,24 +136,4 @@ fn backward_transposed(panels: &Panels, x: &mut [f64]) {
     for (k, pivot) in panels.pivots.iter().enumerate().rev() {
         x.swap(k, pivot.row as usize);
     }
-}
-
-/// `y <- y - factor x`.
-fn subtract(y: &mut [f64], factor: f64, x: &[f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y -= factor * x;
-    }
-}
-
-/// Sum of products in four interleaved parts, so that it vectorises.
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (x4, y4) = (x.chunks_exact(4), y.chunks_exact(4));
-    let tail = x4.remainder().iter().zip(y4.remainder()).map(|(x, y)| x * y).sum::<f64>();
-    for (x, y) in x4.zip(y4) {
-        for lane in 0..4 {
-            sums[lane] += x[lane] * y[lane];
-        }
-    }
-    (sums[0] + sums[2]) + (sums[1] + sums[3]) + tail
 }

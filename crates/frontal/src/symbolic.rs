@@ -28,6 +28,18 @@ pub struct Prediction {
     pub bytes: usize,
 }
 
+impl Prediction {
+    /// Work of a factorisation, in flops at full speed: moving a number of the factor costs as much as so many flops.
+    pub fn factorisation_work(&self) -> f64 {
+        self.flops + 200.0 * self.factor_entries as f64
+    }
+
+    /// Work of one solution in the same unit: each number of the factor is read once.
+    pub fn solve_work(&self) -> f64 {
+        45.0 * self.factor_entries as f64
+    }
+}
+
 /// The analysis of a pattern: order, fronts, places, cost. Cheap to clone.
 #[derive(Debug, Clone)]
 pub struct Symbolic {

@@ -3,9 +3,9 @@
 #[path = "../benches/models/mod.rs"]
 mod models;
 
-use frontal::{Options, Symbolic};
+use frontal::{Krylov, Options, Symbolic};
 
-/// Bits of the solutions for a plain and a transposed right-hand side.
+/// Bits of the solutions of the system, of its transpose and of one with other values.
 fn solution_bits(model: &models::Model, threads: usize) -> Vec<u64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
     pool.install(|| {
@@ -17,7 +17,10 @@ fn solution_bits(model: &models::Model, threads: usize) -> Vec<u64> {
         symbolic.factorise(&model.values, &mut factor).expect("a regular matrix");
         factor.solve(&mut x).expect("a regular matrix");
         factor.solve_transposed(&mut y).expect("a regular matrix");
-        x.iter().chain(&y).map(|x| x.to_bits()).collect()
+        let other = model.values.iter().map(|value| value + 0.1 * value.abs()).collect::<Vec<_>>();
+        let mut z = x.clone();
+        factor.solve_with(&other, &mut z, &Krylov::default()).expect("good input");
+        x.iter().chain(&y).chain(&z).map(|x| x.to_bits()).collect()
     })
 }
 

@@ -1,0 +1,141 @@
+//! Not factorising at all when an old factor will do.
+
+use crate::error::Error;
+use crate::factor::{Factor, Report};
+use crate::krylov::{Convergence, Krylov};
+use crate::refine::Accuracy;
+use crate::symbolic::{Prediction, Symbolic};
+
+/// How long a factor may serve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Reuse {
+    /// Every matrix is factorised.
+    Never,
+    /// Until [`Solver::begin`]: a sequence of solves that starts with a fresh factor depends on nothing before it.
+    #[default]
+    WithinSequence,
+    /// As long as it pays. What was solved before then shows in the last digits of what is solved later.
+    AcrossSequences,
+}
+
+/// When to refactorise. Decisions follow from predicted costs and counted iterations, never from a clock, so that a
+/// run can be repeated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Policy {
+    /// How long a factor may serve.
+    pub reuse: Reuse,
+    /// Share of a factorisation's cost that one iterative solution may spend before it is given up.
+    pub share: f64,
+    /// Iterations that must be affordable for an old factor to be tried at all.
+    pub least_iterations: usize,
+}
+
+impl Default for Policy {
+    fn default() -> Self {
+        Policy { reuse: Reuse::default(), share: 0.5, least_iterations: 6 }
+    }
+}
+
+impl Policy {
+    /// Iterations that one solution may take; zero if a fresh factor is the cheaper way from the start.
+    pub fn affordable_iterations(&self, cost: &Prediction) -> usize {
+        let affordable = (self.share * cost.factorisation_work() / cost.solve_work().max(1.0)) as usize;
+        if self.reuse == Reuse::Never || affordable < self.least_iterations { 0 } else { affordable.min(40) }
+    }
+}
+
+/// What a solution took.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Outcome {
+    /// The matrix was factorised and solved with refinement.
+    Direct {
+        /// What the factorisation met.
+        report: Report,
+        /// Accuracy of the solution.
+        accuracy: Accuracy,
+        /// Iterations spent in vain on the old factor.
+        wasted: usize,
+    },
+    /// The factor of an earlier matrix was the preconditioner.
+    Iterative(Convergence),
+}
+
+/// Counts since the solver was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Factorisations made.
+    pub factorisations: usize,
+    /// Systems solved.
+    pub solutions: usize,
+    /// Iterations with an old factor, wasted ones included.
+    pub iterations: usize,
+}
+
+/// A factor with a policy: solves a sequence of systems with one pattern and slowly changing values.
+#[derive(Debug)]
+pub struct Solver {
+    symbolic: Symbolic,
+    factor: Factor,
+    policy: Policy,
+    /// Whether the factor may be used for the next matrix.
+    usable: bool,
+    counts: Counts,
+}
+
+impl Solver {
+    /// Takes an analysis and makes room for one factor.
+    pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
+        let factor = symbolic.new_factor();
+        Solver { symbolic, factor, policy, usable: false, counts: Counts::default() }
+    }
+
+    /// The analysis.
+    pub fn symbolic(&self) -> &Symbolic {
+        &self.symbolic
+    }
+
+    /// The factor of the last matrix that was factorised.
+    pub fn factor(&self) -> &Factor {
+        &self.factor
+    }
+
+    /// What was done so far.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Begins a new sequence, such as the attempt of an increment: the next matrix is factorised, unless the policy
+    /// reuses factors across sequences.
+    pub fn begin(&mut self) {
+        self.usable &= self.policy.reuse == Reuse::AcrossSequences;
+    }
+
+    /// Solves `A x = b` in place. With an old factor the residual is brought below `tolerance` times the right-hand
+    /// side (Euclidean norms); with a fresh one the solution is as good as [`Factor::solve`] makes it.
+    ///
+    /// # Errors
+    /// Those of [`Symbolic::factorise`] and [`Factor::solve`].
+    pub fn solve(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Outcome, Error> {
+        self.counts.solutions += 1;
+        let mut wasted = 0;
+        let iterations = self.policy.affordable_iterations(&self.symbolic.prediction());
+        if self.usable && iterations > 0 {
+            let mut x = rhs.to_vec();
+            let krylov = Krylov { tolerance, iterations, restart: iterations };
+            let convergence = self.factor.solve_with(values, &mut x, &krylov)?;
+            self.counts.iterations += convergence.iterations;
+            if convergence.converged {
+                rhs.copy_from_slice(&x);
+                return Ok(Outcome::Iterative(convergence));
+            }
+            wasted = convergence.iterations;
+        }
+        self.usable = false;
+        self.counts.factorisations += 1;
+        let report = self.symbolic.factorise(values, &mut self.factor)?;
+        let accuracy = self.factor.solve(rhs)?;
+        self.usable = true;
+        Ok(Outcome::Direct { report, accuracy, wasted })
+    }
+}

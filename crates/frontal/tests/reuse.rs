@@ -1,0 +1,78 @@
+//! Solving with the factor of another matrix.
+
+#[path = "../benches/models/mod.rs"]
+mod models;
+
+use frontal::{Krylov, Options, Outcome, Policy, Reuse, Solver, Symbolic};
+
+/// A body with stiff springs on some nodes of its top, as where a rigid body touches it.
+fn with_patch(model: &models::Model, first_node: usize) -> Vec<f64> {
+    let (starts, columns) = (model.pattern.starts(), model.pattern.columns());
+    let mut values = model.values.clone();
+    let n = model.pattern.len();
+    for unknown in (n - 3 * first_node - 60)..(n - 3 * first_node) {
+        let at = columns[starts[unknown]..starts[unknown + 1]].binary_search(&unknown).expect("a diagonal");
+        values[starts[unknown] + at] += 40.0;
+    }
+    values
+}
+
+fn residual(model: &models::Model, values: &[f64], x: &[f64], b: &[f64]) -> f64 {
+    let (starts, columns) = (model.pattern.starts(), model.pattern.columns());
+    let row = |i: usize| b[i] - (starts[i]..starts[i + 1]).map(|at| values[at] * x[columns[at]]).sum::<f64>();
+    let norm = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+    norm(&(0..b.len()).map(row).collect::<Vec<_>>()) / norm(b)
+}
+
+#[test]
+fn an_old_factor_solves_a_matrix_that_changed_in_a_patch() {
+    let model = models::hex8([9, 9, 9]);
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    let mut factor = symbolic.new_factor();
+    symbolic.factorise(&with_patch(&model, 0), &mut factor).expect("a regular matrix");
+    let values = with_patch(&model, 1);
+    let b = (0..model.pattern.len()).map(|k| (k as f64).cos()).collect::<Vec<_>>();
+    let mut x = b.clone();
+    let convergence = factor.solve_with(&values, &mut x, &Krylov::default()).expect("good input");
+    assert!(convergence.converged && convergence.iterations < 15, "{convergence:?}");
+    assert!(residual(&model, &values, &x, &b) < 1.01e-10);
+
+    let krylov = Krylov { restart: 8, iterations: 300, ..Krylov::default() };
+    let mut x = b.clone();
+    let restarted = factor.solve_with(&values, &mut x, &krylov).expect("good input");
+    assert!(restarted.converged && restarted.iterations >= convergence.iterations, "{restarted:?}");
+    assert!(residual(&model, &values, &x, &b) < 1.01e-10);
+}
+
+#[test]
+fn a_sequence_begins_with_a_fresh_factor() {
+    let model = models::hex8([12, 12, 12]);
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    let b = vec![1.0; model.pattern.len()];
+    let run = |policy: Policy| {
+        let mut solver = Solver::new(symbolic.clone(), policy);
+        let mut direct = Vec::new();
+        for node in [0, 1, 2, 3] {
+            if node == 2 {
+                solver.begin();
+            }
+            let (values, mut x) = (with_patch(&model, node), b.clone());
+            let outcome = solver.solve(&values, &mut x, 1e-9).expect("a regular matrix");
+            assert!(residual(&model, &values, &x, &b) < 1.01e-9);
+            direct.push(matches!(outcome, Outcome::Direct { .. }));
+        }
+        direct
+    };
+    // A body as small as this one would not do with half a factorisation's cost.
+    let policy = |reuse| Policy { reuse, share: 2.0, ..Policy::default() };
+    assert_eq!(run(policy(Reuse::WithinSequence)), [true, false, true, false]);
+    assert_eq!(run(policy(Reuse::Never)), [true; 4]);
+    assert_eq!(run(policy(Reuse::AcrossSequences)), [true, false, false, false]);
+}
+
+#[test]
+fn small_matrices_are_always_factorised() {
+    let model = models::quad4([8, 30]);
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    assert_eq!(Policy::default().affordable_iterations(&symbolic.prediction()), 0);
+}

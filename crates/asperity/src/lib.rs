@@ -2,16 +2,19 @@
 //!
 //! The rooms, by layer; a room may use rooms of lower layers only (`tests/layers.rs` holds the rule):
 //!
-//! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names.
+//! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names;
+//!    [`amplitude`] values in time.
 //! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
 //! 3. [`system`] unknowns, state, terms, assembly.
-//! 4. [`solid`] bodies.
+//! 4. [`solid`] bodies; [`load`] loads and springs.
 //! 6. The program: [`output`] files, tables, pictures.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod amplitude;
 pub mod declare;
 pub mod error;
+pub mod load;
 pub mod material;
 pub mod mesh;
 pub mod output;

@@ -1,0 +1,149 @@
+//! How given values run in time: within a step along an [`Amplitude`], over the steps of a run along a [`Timeline`].
+//!
+//! A condition that a step says goes from where it was to the value it says, `v = v0 + (v1 - v0) a(t / T)`, and holds
+//! in later steps until one of them says it anew or releases it. This room knows neither what the values are nor what
+//! they act on. Layer 1.
+
+/// A factor over a step: pairs of a fraction of the step and a factor, joined by straight lines and constant outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Amplitude {
+    points: Vec<[f64; 2]>,
+}
+
+impl Amplitude {
+    /// From pairs `[fraction of the step, factor]`.
+    ///
+    /// # Errors
+    /// In words, if there is no pair, one is not finite, or the fractions do not rise.
+    pub fn new(points: Vec<[f64; 2]>) -> Result<Self, String> {
+        if points.is_empty() {
+            return Err("an amplitude needs at least one pair [fraction of the step, factor]".into());
+        }
+        if let Some([t, a]) = points.iter().find(|p| !p.iter().all(|x| x.is_finite())) {
+            return Err(format!("the pair [{t}, {a}] of an amplitude is not finite"));
+        }
+        if let Some(two) = points.windows(2).find(|two| two[0][0] >= two[1][0]) {
+            return Err(format!("the fractions of an amplitude must rise, but {} follows {}", two[1][0], two[0][0]));
+        }
+        Ok(Self { points })
+    }
+    /// From 0 at the beginning of the step to 1 at its end: the default.
+    pub fn ramp() -> Self {
+        Self { points: vec![[0.0, 0.0], [1.0, 1.0]] }
+    }
+    /// 1 from the beginning of the step.
+    pub fn at_once() -> Self {
+        Self { points: vec![[0.0, 1.0]] }
+    }
+    /// The factor at a fraction of the step.
+    pub fn value(&self, fraction: f64) -> f64 {
+        let after = self.points.partition_point(|p| p[0] <= fraction);
+        match (after.checked_sub(1).map(|i| self.points[i]), self.points.get(after)) {
+            (Some([t0, a0]), Some([t1, a1])) => a0 + (a1 - a0) * ((fraction - t0) / (t1 - t0)),
+            (Some([_, a]), None) | (None, Some(&[_, a])) => a,
+            (None, None) => 0.0,
+        }
+    }
+}
+
+/// What a step says of a value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Change {
+    /// Nothing: it stays what it is.
+    Keep,
+    /// It goes to this value along the amplitude.
+    To(f64, Amplitude),
+    /// It goes to zero along a straight line.
+    Release,
+}
+
+/// A value over all steps of a run; zero before the first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timeline {
+    pieces: Vec<Piece>,
+}
+
+/// The course over one step.
+#[derive(Debug, Clone, PartialEq)]
+struct Piece {
+    duration: f64,
+    from: f64,
+    to: f64,
+    amplitude: Amplitude,
+}
+
+impl Piece {
+    fn value(&self, step_time: f64) -> f64 {
+        self.from + (self.to - self.from) * self.amplitude.value(step_time / self.duration)
+    }
+}
+
+impl Timeline {
+    /// From the duration of each step and what it says; there are as many changes as steps.
+    pub fn new(steps: impl IntoIterator<Item = (f64, Change)>) -> Self {
+        let mut from = 0.0;
+        let piece = |(duration, change)| {
+            let (to, amplitude) = match change {
+                Change::Keep => (from, Amplitude::ramp()),
+                Change::To(to, amplitude) => (to, amplitude),
+                Change::Release => (0.0, Amplitude::ramp()),
+            };
+            let piece = Piece { duration, from, to, amplitude };
+            from = piece.value(duration);
+            piece
+        };
+        Self { pieces: steps.into_iter().map(piece).collect() }
+    }
+    /// The same value in all steps, from the beginning of the first.
+    pub fn constant(value: f64) -> Self {
+        Self::new([(1.0, Change::To(value, Amplitude::at_once()))])
+    }
+    /// The value at a time of a step (counted from zero); after the last step it stays what it was then.
+    pub fn value(&self, step: usize, step_time: f64) -> f64 {
+        match (self.pieces.get(step), self.pieces.last()) {
+            (Some(piece), _) => piece.value(step_time),
+            (None, Some(last)) => last.value(last.duration),
+            (None, None) => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn amplitudes_are_linear_between_their_points_and_constant_outside() {
+        let a = Amplitude::new(vec![[0.0, 1.0], [0.5, 3.0], [1.0, -1.0]]).unwrap();
+        assert_eq!([-1.0, 0.0, 0.25, 0.5, 0.75, 1.0, 2.0].map(|t| a.value(t)), [1.0, 1.0, 2.0, 3.0, 1.0, -1.0, -1.0]);
+        assert_eq!([0.0, 0.3, 1.0].map(|t| Amplitude::ramp().value(t)), [0.0, 0.3, 1.0]);
+        assert_eq!([0.0, 0.3, 1.0].map(|t| Amplitude::at_once().value(t)), [1.0; 3]);
+    }
+
+    #[test]
+    fn bad_amplitudes_are_refused_in_words() {
+        let refused = |points: &[[f64; 2]]| Amplitude::new(points.to_vec()).unwrap_err();
+        assert!(refused(&[]).contains("at least one pair"));
+        assert!(refused(&[[0.0, f64::NAN]]).contains("not finite"));
+        assert_eq!(refused(&[[0.0, 0.0], [0.0, 1.0]]), "the fractions of an amplitude must rise, but 0 follows 0");
+    }
+
+    #[test]
+    fn a_value_ramps_persists_changes_and_is_released() {
+        let back = Amplitude::new(vec![[0.0, 0.0], [0.5, 1.0], [1.0, 0.5]]).unwrap();
+        let line = Timeline::new([
+            (2.0, Change::To(10.0, Amplitude::ramp())),
+            (1.0, Change::Keep),
+            (1.0, Change::To(20.0, back)),
+            (4.0, Change::Release),
+        ]);
+        let at = [(0, 0.5), (0, 2.0), (1, 0.7), (2, 0.5), (2, 1.0), (3, 1.0), (3, 4.0), (4, 0.0)];
+        assert_eq!(at.map(|(step, t)| line.value(step, t)), [2.5, 10.0, 10.0, 20.0, 15.0, 11.25, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn constants_hold_in_every_step() {
+        assert_eq!([(0, 0.0), (0, 1.0), (7, 0.3)].map(|(s, t)| Timeline::constant(4.0).value(s, t)), [4.0; 3]);
+        assert_eq!(Timeline::new([]).value(0, 1.0), 0.0);
+    }
+}

@@ -2,6 +2,7 @@
 
 mod boundary;
 pub mod cells;
+pub mod formats;
 pub mod generate;
 mod groups;
 pub mod lint;

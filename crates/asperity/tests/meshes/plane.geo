@@ -1,0 +1,31 @@
+// Two quadrilaterals that share an edge, one of triangles, one of quadrilaterals; all sides straight and skew.
+// Groups: named, unnamed, of two dimensions, overlapping, on the shared edge and of a single point.
+lc = 0.6;
+Point(1) = {0, 0, 0, lc};
+Point(2) = {1, 0.1, 0, lc};
+Point(3) = {1.2, 1, 0, lc};
+Point(4) = {0.1, 0.9, 0, lc};
+Point(5) = {2.2, 0, 0, lc};
+Point(6) = {2, 1.3, 0, lc};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {2, 5};
+Line(6) = {5, 6};
+Line(7) = {6, 3};
+Curve Loop(1) = {1, 2, 3, 4};
+Curve Loop(2) = {5, 6, 7, -2};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Curve{2, 6} = 3;
+Transfinite Curve{5, 7} = 4;
+Transfinite Surface{2};
+Recombine Surface{2};
+Physical Surface("triangles") = {1};
+Physical Surface("quads") = {2};
+Physical Surface("all cells") = {1, 2};
+Physical Curve("bottom") = {1, 5};
+Physical Curve("weld") = {2};
+Physical Curve(17) = {4};
+Physical Point("corner") = {6};

@@ -1,9 +1,9 @@
-//! Is a matrix with perturbed pivots singular, and if so, along which vector?
+//! Is a matrix with perturbed pivots singular, and if so, along which vectors?
 
 use crate::error::Error;
 use crate::factor::Factor;
-use crate::krylov::multiply;
 use crate::solve::Workspace;
+use crate::vector::{dot, norm, subtract};
 use std::fmt;
 
 /// A matrix is called singular if it sends some vector of largest entry one to entries below this, in the equilibrated
@@ -11,6 +11,8 @@ use std::fmt;
 const SINGULAR: f64 = 1e-12;
 /// Steps towards the null space; see `check_regular`.
 const STEPS: usize = 3;
+/// Null vectors looked for at the most: two free bodies in space have twelve rigid motions.
+const MOST: usize = 12;
 /// Entries of a null vector that are reported.
 const LARGEST: usize = 24;
 
@@ -20,8 +22,9 @@ const LARGEST: usize = 24;
 pub struct Singular {
     /// Unknowns whose pivots vanished.
     pub unknowns: Vec<usize>,
-    /// A vector that the matrix sends to zero, or nearly so: a rigid body mode, if the matrix is a stiffness.
-    pub null_vector: NullVector,
+    /// Vectors that the matrix sends to zero, or nearly so: if the matrix is a stiffness they span the rigid motions
+    /// of what is not held. At least one, orthogonal in the equilibrated scale, twelve at the most.
+    pub null_vectors: Vec<NullVector>,
 }
 
 /// A null vector of a matrix, scaled to a largest entry of one.
@@ -38,41 +41,71 @@ pub struct NullVector {
 
 impl fmt::Display for Singular {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the matrix is singular: no pivot for unknowns {:?}; its null vector is largest at", self.unknowns)?;
-        for &unknown in self.null_vector.largest.iter().take(6) {
-            write!(f, " {unknown} ({:.3})", self.null_vector.entries[unknown])?;
+        write!(f, "the matrix is singular: no pivot for unknowns {:?}", self.unknowns)?;
+        for vector in &self.null_vectors {
+            write!(f, "; a null vector is largest at")?;
+            for &unknown in vector.largest.iter().take(4) {
+                write!(f, " {unknown} ({:.3})", vector.entries[unknown])?;
+            }
         }
         Ok(())
     }
 }
 
-/// Iterates `x <- x - (A + E)^-1 A x`, where E holds the perturbations of the pivots: a null vector of A stays as it is
-/// and all else shrinks to what E leaves of it.
+/// Iterates `x <- x - (A + E)^-1 A x`, where E holds the perturbations of the pivots, on orthonormal vectors: null
+/// vectors of A stay as they are and all else shrinks to what E leaves of it.
 ///
 /// # Errors
-/// [`Error::Singular`] if there is a null vector.
+/// [`Error::Singular`] if there are null vectors.
 pub(crate) fn check_regular(factor: &Factor) -> Result<(), Error> {
     let mut work = Workspace::new(factor);
-    let mut x = (0..factor.symbolic.pattern.len()).map(start).collect::<Vec<_>>();
+    let n = factor.symbolic.pattern.len();
+    let count = factor.perturbed().len().min(MOST);
+    let mut vectors = (0..count).map(|v| (0..n).map(|k| start(k, v)).collect()).collect::<Vec<Vec<f64>>>();
     for _ in 0..STEPS {
-        let mut correction = factor.times(&x);
-        factor.substitute(&mut correction, &mut work);
-        x.iter_mut().zip(&correction).for_each(|(x, correction)| *x -= correction);
-        normalise(&mut x);
+        for x in &mut vectors {
+            let mut correction = factor.times(x);
+            factor.substitute(&mut correction, &mut work);
+            subtract(x, 1.0, &correction);
+        }
+        orthonormalise(&mut vectors);
     }
-    let residual = factor.times(&x).iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    if residual > SINGULAR {
+    let null_vectors = vectors.into_iter().filter_map(|x| null_vector(factor, x)).collect::<Vec<_>>();
+    if null_vectors.is_empty() {
         return Ok(());
     }
-    x.iter_mut().zip(&factor.scaling.columns).for_each(|(x, scale)| *x *= scale);
-    normalise(&mut x);
-    let null_vector = NullVector { largest: largest(&x), entries: x, residual };
-    Err(Error::Singular(Box::new(Singular { unknowns: factor.perturbed().to_vec(), null_vector })))
+    Err(Error::Singular(Box::new(Singular { unknowns: factor.perturbed().to_vec(), null_vectors })))
 }
 
-/// A vector with a share of everything: the fractional parts of the multiples of the golden section.
-fn start(k: usize) -> f64 {
-    (k as f64 * 0.618_033_988_749_894_9).fract() + 0.5
+/// A vector, in the equilibrated scale, as the caller sees it; `None` if the matrix does not send it to zero.
+fn null_vector(factor: &Factor, mut x: Vec<f64>) -> Option<NullVector> {
+    normalise(&mut x);
+    let residual = factor.times(&x).iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let is_null = residual <= SINGULAR && x.iter().any(|&x| x != 0.0);
+    x.iter_mut().zip(&factor.scaling.columns).for_each(|(x, scale)| *x *= scale);
+    normalise(&mut x);
+    is_null.then(|| NullVector { largest: largest(&x), entries: x, residual })
+}
+
+/// Vectors with a share of everything: fractional parts of the multiples of square roots.
+fn start(k: usize, vector: usize) -> f64 {
+    ((k + 1) as f64 * ((2 + vector) as f64 * 1.618_033_988_749_895).sqrt()).fract() - 0.5
+}
+
+/// Gram and Schmidt, twice for safety. A vector that depends on those before it becomes zero.
+fn orthonormalise(vectors: &mut [Vec<f64>]) {
+    for k in 0..vectors.len() {
+        let (done, rest) = vectors.split_at_mut(k);
+        let x = &mut rest[0];
+        let before = norm(x);
+        for v in done.iter().chain(done.iter()) {
+            let part = dot(x, v);
+            subtract(x, part, v);
+        }
+        let length = norm(x);
+        let factor = if length > 1e-10 * before { 1.0 / length } else { 0.0 };
+        x.iter_mut().for_each(|x| *x *= factor);
+    }
 }
 
 fn normalise(x: &mut [f64]) {
@@ -87,13 +120,4 @@ fn largest(x: &[f64]) -> Vec<usize> {
     unknowns.sort_by(|&i, &j| x[j].abs().total_cmp(&x[i].abs()));
     unknowns.truncate(LARGEST);
     unknowns
-}
-
-impl Factor {
-    /// The equilibrated matrix times `x`.
-    fn times(&self, x: &[f64]) -> Vec<f64> {
-        let mut y = vec![0.0; x.len()];
-        multiply(&self.symbolic.pattern, &self.values, x, &mut y);
-        y
-    }
 }

@@ -31,6 +31,7 @@ mod assembly_tree;
 mod dense;
 mod diagnose;
 mod error;
+mod estimate;
 mod etree;
 mod extend_add;
 mod factor;

@@ -89,7 +89,28 @@ fn a_free_chain_is_singular_along_its_translation() {
     match solve(&chain, &Options::default(), &vec![1.0; n]) {
         Err(Error::Singular(singular)) => {
             assert_eq!(singular.unknowns.len(), 1);
-            assert!(singular.null_vector.entries.iter().all(|x| (x - 1.0).abs() < 1e-9));
+            assert!(singular.null_vectors[0].entries.iter().all(|x| (x - 1.0).abs() < 1e-9));
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn two_free_chains_have_two_null_vectors() {
+    let pairs = (1..40).filter(|k| k % 20 != 0).map(|k| (k - 1, k)).collect::<Vec<_>>();
+    let stiffness = |k: usize| if k < 20 { 1.0 } else { 1e5 };
+    let chains = matrix(40, &pairs, |i, j| match i == j {
+        true if i % 20 == 0 || i % 20 == 19 => stiffness(i),
+        true => 2.0 * stiffness(i),
+        false => -stiffness(i),
+    });
+    match solve(&chains, &Options::default(), &[1.0; 40]) {
+        Err(Error::Singular(singular)) => {
+            assert_eq!(singular.null_vectors.len(), 2);
+            for vector in &singular.null_vectors {
+                let constant = |half: &[f64]| half.iter().all(|x| (x - half[0]).abs() < 1e-9);
+                assert!(vector.entries.chunks(20).all(constant), "{:?}", vector.entries);
+            }
         }
         other => panic!("{other:?}"),
     }
@@ -102,6 +123,19 @@ fn a_zero_pivot_of_a_regular_matrix_is_no_obstacle() {
     options.ordering = Ordering::Given(vec![2, 0, 1]);
     options.amalgamation.always = 0;
     assert_solves(&saddle, &options);
+}
+
+#[test]
+fn condition_and_growth_of_a_known_matrix() {
+    let diagonal = matrix(5, &[], |i, _| if i == 3 { 1e-6 } else { 1.0 });
+    let mut options = Options::default();
+    options.equilibrate = false;
+    let symbolic = Symbolic::analyse(&diagonal.pattern, &options).expect("a good pattern");
+    let mut factor = symbolic.new_factor();
+    symbolic.factorise(&diagonal.values, &mut factor).expect("a regular matrix");
+    let condition = factor.condition().expect("values");
+    assert!((condition / 1e6 - 1.0).abs() < 1e-12, "{condition}");
+    assert_eq!(factor.growth(), Ok(1.0));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 mod certificate;
 pub mod checkpoint;
+pub mod figure;
 pub mod file;
 mod history;
 mod quantity;

@@ -1,0 +1,204 @@
+//! Line charts: several series over two axes, with a legend where it hides least.
+
+use super::axes::{Axes, Axis, LARGE, MEDIUM, SMALL};
+use super::drawing::{Anchor, Drawing, Label, Point, Rect, Segment, Stroke, polyline};
+use super::palette::{self, Color};
+use super::text;
+use super::ticks::{Scale, ticks};
+
+/// A chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chart {
+    /// Written above; may be empty.
+    pub title: String,
+    /// Titles of the axes, x and y.
+    pub axes: [String; 2],
+    /// How the axes are divided, x and y.
+    pub scales: [Scale; 2],
+    /// What is drawn.
+    pub series: Vec<Series>,
+    /// Width and height of the page.
+    pub size: [f64; 2],
+}
+
+/// One line of a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Its name in the legend; an empty one does not appear there.
+    pub name: String,
+    /// Its points.
+    pub points: Vec<[f64; 2]>,
+    /// Whether its points are marked.
+    pub marks: bool,
+    /// Its colour and dashes, by number.
+    pub style: usize,
+}
+
+impl Chart {
+    /// A chart of ordinary size on linear axes.
+    pub fn new(title: impl Into<String>, x: impl Into<String>, y: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            axes: [x.into(), y.into()],
+            scales: [Scale::Linear, Scale::Linear],
+            series: Vec::new(),
+            size: [560.0, 380.0],
+        }
+    }
+    /// The same with the y axis by powers of ten.
+    pub fn log_y(mut self) -> Self {
+        self.scales[1] = Scale::Log;
+        self
+    }
+    /// Adds a line.
+    pub fn line(&mut self, name: impl Into<String>, points: Vec<[f64; 2]>) -> &mut Series {
+        let style = self.series.len();
+        self.series.push(Series { name: name.into(), points, marks: false, style });
+        let last = self.series.len() - 1;
+        &mut self.series[last]
+    }
+    /// Draws the chart.
+    pub fn draw(&self) -> Drawing {
+        let [width, height] = self.size;
+        let mut drawing = Drawing::new(width, height);
+        let axes = self.layout();
+        axes.draw_grid(&mut drawing);
+        drawing.clipped(axes.frame, |drawing| self.series.iter().for_each(|s| s.draw_line(drawing, &s.on_page(&axes))));
+        axes.draw_frame(&mut drawing);
+        self.series.iter().for_each(|s| s.draw_marks(&mut drawing, &s.on_page(&axes)));
+        let middle = axes.frame.x + 0.5 * axes.frame.width;
+        drawing.label(Label::new([middle, LARGE + 6.0], &self.title, LARGE).anchored(Anchor::Middle).bold());
+        self.draw_legend(&mut drawing, &axes);
+        drawing
+    }
+    fn axis(&self, which: usize, count: usize) -> Axis {
+        let scale = self.scales[which];
+        let values = self.series.iter().flat_map(|s| &s.points).map(|p| p[which]);
+        let usable = |x: &f64| x.is_finite() && (scale == Scale::Linear || *x > 0.0);
+        let (low, high) =
+            values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        // Time and travel fill the axis to its end; the other axis ends at round numbers.
+        let widen = which == 1;
+        Axis { title: self.axes[which].clone(), scale, ticks: ticks(scale, [low, high], count, widen) }
+    }
+    fn layout(&self) -> Axes {
+        let [width, height] = self.size;
+        let (x, y) = (self.axis(0, 7), self.axis(1, 6));
+        let left = Axes::left_margin(&y) + 8.0;
+        let above = if y.ticks.exponent != 0 { SMALL + 4.0 } else { 0.0 };
+        let top = if self.title.is_empty() { 12.0 + above } else { LARGE + 18.0 + above };
+        let bottom = Axes::bottom_margin(&x) + 8.0;
+        let frame = Rect { x: left, y: top, width: width - left - 20.0, height: height - top - bottom };
+        Axes { frame, x, y }
+    }
+    fn draw_legend(&self, drawing: &mut Drawing, axes: &Axes) {
+        let named: Vec<&Series> = self.series.iter().filter(|s| !s.name.is_empty()).collect();
+        if named.is_empty() {
+            return;
+        }
+        let widest = named.iter().map(|s| text::width(&s.name, MEDIUM, false)).fold(0.0, f64::max);
+        let size = [widest + 52.0, 18.0 * named.len() as f64 + 8.0];
+        let place = self.emptiest(axes, size);
+        drawing.fill(place.path(), Color::WHITE);
+        for (i, series) in named.iter().enumerate() {
+            let y = place.y + 18.0 * i as f64 + 13.0;
+            let sample = [[place.x + 8.0, y], [place.x + 36.0, y]];
+            series.draw_line(drawing, &sample);
+            series.draw_marks(drawing, &sample);
+            drawing.label(Label::new([place.x + 43.0, y + 0.36 * MEDIUM], &series.name, MEDIUM));
+        }
+    }
+    /// The corner of the frame where a box of this size covers the fewest points.
+    fn emptiest(&self, axes: &Axes, [width, height]: [f64; 2]) -> Rect {
+        let frame = axes.frame;
+        let (left, right) = (frame.x + 8.0, frame.right() - width - 8.0);
+        let (top, bottom) = (frame.y + 8.0, frame.bottom() - height - 8.0);
+        let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
+        let boxes = corners.map(|[x, y]| Rect { x, y, width, height });
+        let samples: Vec<Point> = self.series.iter().flat_map(|s| s.dense(axes)).collect();
+        let inside = |r: &Rect, p: &Point| p[0] > r.x && p[0] < r.right() && p[1] > r.y && p[1] < r.bottom();
+        let covered = |r: &&Rect| samples.iter().filter(|p| inside(r, p)).count();
+        *boxes.iter().min_by_key(covered).unwrap_or(&boxes[0])
+    }
+}
+
+impl Series {
+    /// Marks the points.
+    pub fn marked(&mut self) -> &mut Self {
+        self.marks = true;
+        self
+    }
+    /// Takes the colour and dashes of another number.
+    pub fn styled(&mut self, style: usize) -> &mut Self {
+        self.style = style;
+        self
+    }
+    fn on_page(&self, axes: &Axes) -> Vec<Point> {
+        self.points.iter().map(|&p| axes.map(p)).filter(|p| p.iter().all(|x| x.is_finite())).collect()
+    }
+    /// Points close together along the line, to see what it runs through.
+    fn dense(&self, axes: &Axes) -> Vec<Point> {
+        let between = |a: Point, b: Point, t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
+        let points = self.on_page(axes);
+        points.windows(2).flat_map(|w| (0..=8).map(|i| between(w[0], w[1], f64::from(i) / 8.0))).collect()
+    }
+    fn draw_line(&self, drawing: &mut Drawing, points: &[Point]) {
+        let color = palette::line(self.style);
+        drawing.stroke(polyline(points), Stroke { color, width: 1.8, dash: palette::dash(self.style) });
+    }
+    fn draw_marks(&self, drawing: &mut Drawing, points: &[Point]) {
+        let marked = if self.marks { points } else { &[] };
+        marked.iter().for_each(|&p| drawing.fill(disc(p, 2.6), palette::line(self.style)));
+    }
+}
+
+/// A small disc, as eight parabolas.
+fn disc([x, y]: Point, radius: f64) -> Vec<Segment> {
+    let at = |i: f64, r: f64| {
+        let (sin, cos) = (i * std::f64::consts::FRAC_PI_4).sin_cos();
+        [x + r * cos, y + r * sin]
+    };
+    let outer = radius / (0.5 * std::f64::consts::FRAC_PI_4).cos();
+    let arcs = (1..=8).map(|i| Segment::Quad(at(f64::from(i) - 0.5, outer), at(f64::from(i), radius)));
+    [Segment::Move(at(0.0, radius))].into_iter().chain(arcs).chain([Segment::Close]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::drawing::Item;
+    use super::*;
+
+    fn chart() -> Chart {
+        let mut chart = Chart::new("Force over travel", "travel", "force");
+        chart.line("low", (0..=100).map(|i| [f64::from(i), 10.0]).collect());
+        chart.line("rising", (0..=100).map(|i| [f64::from(i), f64::from(i)]).collect());
+        chart
+    }
+
+    #[test]
+    fn the_legend_goes_where_no_line_runs() {
+        let chart = chart();
+        let place = chart.emptiest(&chart.layout(), [100.0, 60.0]);
+        let frame = chart.layout().frame;
+        assert!(place.x < frame.x + 20.0 && place.y < frame.y + 20.0, "upper left, not {place:?}");
+    }
+
+    #[test]
+    fn everything_stays_on_the_page() {
+        for chart in [chart(), chart().log_y(), Chart::new("empty", "", "")] {
+            let drawing = chart.draw();
+            for item in &drawing.items {
+                let Item::Label(label) = item else { continue };
+                let [x, y] = label.at;
+                assert!((0.0..=drawing.width).contains(&x) && (0.0..=drawing.height).contains(&y), "{label:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_left_out() {
+        let mut chart = Chart::new("", "x", "y");
+        chart.line("a", vec![[0.0, 1.0], [1.0, f64::NAN], [2.0, 3.0]]);
+        assert_eq!(chart.series[0].on_page(&chart.layout()).len(), 2);
+    }
+}

@@ -1,0 +1,232 @@
+//! Pictures of meshes: one or more panels side by side, all in one scale, with tools, a colour field, stress vectors
+//! and their legends.
+
+use super::arrows::{Arrow, draw_arrows};
+use super::axes::{Axes, Axis, LARGE, MEDIUM};
+use super::drawing::{Anchor, Drawing, Label, Rect};
+use super::outline::draw_outline;
+use super::scene::{Scene, draw_mesh, draw_triad};
+use super::text;
+use super::ticks::{Scale, ticks};
+use super::view::{Projection, View, Window};
+
+/// A picture of one or more scenes.
+#[derive(Debug, Clone)]
+pub struct Panels<'a> {
+    /// Written above all; may be empty.
+    pub title: String,
+    /// The panels.
+    pub scenes: Vec<Scene<'a>>,
+    /// How space is looked at.
+    pub projection: Projection,
+    /// Titles of the axes, x and y.
+    pub axes: [String; 2],
+    /// What the arrows are, for the legend.
+    pub arrow_name: String,
+    /// What the field is, for the colour bar.
+    pub field_name: String,
+    /// What is shown of every scene; all bodies and arrows where not given.
+    pub window: Option<Window>,
+    /// The largest size of the panels together.
+    pub room: [f64; 2],
+}
+
+/// Space around a frame for its title, marks and labels.
+const LEFT: f64 = 62.0;
+const RIGHT: f64 = 14.0;
+const TOP: f64 = 26.0;
+const BOTTOM: f64 = 44.0;
+/// The longest arrow over the larger side of the window.
+const LONGEST: f64 = 0.10;
+/// Space around the bodies over the larger side of the window.
+const MARGIN: f64 = 0.03;
+
+/// Sizes shared by all panels.
+pub(super) struct Layout {
+    columns: usize,
+    rows: usize,
+    frame: [f64; 2],
+    windows: Vec<Window>,
+    /// Points of the page in a unit of length.
+    pub(super) scale: f64,
+    /// Lengths of space a unit of stress.
+    pub(super) arrow_scale: f64,
+    /// Least and largest value of the field.
+    pub(super) range: [f64; 2],
+}
+
+impl Panels<'_> {
+    /// Draws the picture.
+    pub fn draw(&self) -> Drawing {
+        let layout = self.layout();
+        let (cell_width, cell_height) = (self.cell_width(&layout), layout.frame[1] + TOP + BOTTOM);
+        let top = if self.title.is_empty() { 4.0 } else { LARGE + 16.0 };
+        let width = (cell_width * layout.columns as f64).max(self.legend_width());
+        let mut drawing = Drawing::new(width, top + cell_height * layout.rows as f64 + self.legend_height());
+        let middle = [0.5 * width, LARGE + 5.0];
+        drawing.label(Label::new(middle, &self.title, LARGE).anchored(Anchor::Middle).bold());
+        let left = 0.5 * (width - cell_width * layout.columns as f64);
+        for (i, scene) in self.scenes.iter().enumerate() {
+            let (column, row) = ((i % layout.columns) as f64, (i / layout.columns) as f64);
+            let corner = [left + column * cell_width + LEFT, top + row * cell_height + TOP];
+            let frame = Rect { x: corner[0], y: corner[1], width: layout.frame[0], height: layout.frame[1] };
+            let view = View { projection: self.projection, window: layout.windows[i], frame };
+            self.draw_scene(&mut drawing, scene, &view, &layout);
+        }
+        self.draw_legends(&mut drawing, &layout);
+        drawing
+    }
+
+    /// Width of a frame with its labels and its title, which may be the wider.
+    fn cell_width(&self, layout: &Layout) -> f64 {
+        let widest = self.scenes.iter().map(|s| text::width(&s.title, MEDIUM, false)).fold(0.0, f64::max);
+        let frame = layout.frame[0];
+        (frame + LEFT + RIGHT).max(LEFT + 0.5 * (frame + widest) + RIGHT)
+    }
+
+    fn layout(&self) -> Layout {
+        let flat = |p: [f64; 3]| self.projection.flat(p);
+        let bodies: Vec<Window> =
+            self.scenes.iter().map(|s| Window::around(s.points.iter().map(|&p| flat(p)))).collect();
+        let largest = bodies.iter().flat_map(|w| w.size()).fold(0.0, f64::max);
+        let strongest = self.strongest();
+        let extent = self.window.map_or(largest, |w| w.size()[0].max(w.size()[1]));
+        let arrow_scale = if strongest > 0.0 { LONGEST * extent / strongest } else { 0.0 };
+        let windows = self.windows(arrow_scale, MARGIN * extent);
+        let size = windows.first().map_or([1.0, 1.0], Window::size);
+        let (columns, scale) = best_columns(self.scenes.len(), size, self.room);
+        let frame = size.map(|s| s * scale);
+        let rows = self.scenes.len().div_ceil(columns);
+        Layout { columns, rows, frame, windows, scale, arrow_scale, range: self.field_range() }
+    }
+    /// Equal windows about each scene's bodies and arrows.
+    fn windows(&self, arrow_scale: f64, margin: f64) -> Vec<Window> {
+        if let Some(window) = self.window {
+            return vec![window; self.scenes.len()];
+        }
+        let around = |s: &Scene| {
+            let tails = s.arrows.iter().map(|a| a.tail(arrow_scale));
+            Window::around(s.points.iter().copied().chain(tails).map(|p| self.projection.flat(p)))
+        };
+        let own: Vec<Window> = self.scenes.iter().map(around).collect();
+        let largest = |a: usize| own.iter().map(|w| w.size()[a]).fold(0.0, f64::max) + 2.0 * margin;
+        let size = [largest(0), largest(1)];
+        own.iter().map(|w| w.resized(size)).collect()
+    }
+    fn field_range(&self) -> [f64; 2] {
+        let values = self.scenes.iter().filter_map(|s| s.field.as_ref()).flatten().filter(|x| x.is_finite());
+        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &x| [l.min(x), h.max(x)]);
+        if high > low { [low, high] } else { [low.min(0.0), low.max(0.0) + 1.0] }
+    }
+
+    fn draw_scene(&self, drawing: &mut Drawing, scene: &Scene, view: &View, layout: &Layout) {
+        drawing.clipped(view.frame, |drawing| {
+            scene.tools.iter().for_each(|profile| draw_outline(drawing, view, profile));
+            draw_mesh(drawing, scene, view, layout.range);
+            draw_arrows(drawing, view, &scene.arrows, layout.arrow_scale);
+        });
+        let above = [view.frame.x + 0.5 * view.frame.width, view.frame.y - 8.0];
+        drawing.label(Label::new(above, &scene.title, MEDIUM).anchored(Anchor::Middle));
+        match self.projection {
+            Projection::Plane => self.axes_of(view).draw_frame(drawing),
+            Projection::Corner => draw_triad(drawing, view),
+        }
+    }
+    fn axes_of(&self, view: &View) -> Axes {
+        let axis = |a: usize, length: f64, title: &str| {
+            let range = [view.window.low[a], view.window.high[a]];
+            let count = (length / 45.0).round().clamp(3.0, 9.0) as usize;
+            Axis { title: title.into(), scale: Scale::Linear, ticks: ticks(Scale::Linear, range, count, false) }
+        };
+        let frame = view.frame;
+        Axes { frame, x: axis(0, frame.width, &self.axes[0]), y: axis(1, frame.height, &self.axes[1]) }
+    }
+}
+
+/// The number of columns that lets equal frames be largest, and their scale.
+fn best_columns(count: usize, size: [f64; 2], room: [f64; 2]) -> (usize, f64) {
+    let scale = |columns: usize| {
+        let rows = count.div_ceil(columns);
+        let width = room[0] / columns as f64 - LEFT - RIGHT;
+        let height = room[1] / rows as f64 - TOP - BOTTOM;
+        (width.max(40.0) / size[0]).min(height.max(40.0) / size[1])
+    };
+    let candidates = (1..=count.max(1)).map(|columns| (columns, scale(columns)));
+    candidates.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((1, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::drawing::{Item, Segment};
+    use super::super::palette::Color;
+    use super::*;
+    use crate::mesh::{Cell, Mesh};
+    use crate::tensor::Vec3;
+
+    fn block() -> Mesh {
+        let mut mesh = Mesh::new();
+        mesh.points = [[0.0, 0.0], [10.0, 0.0], [10.0, 20.0], [0.0, 20.0]].map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
+        mesh.push_cell(Cell::named("quad4").unwrap(), &[0, 1, 2, 3]);
+        mesh
+    }
+
+    fn picture(mesh: &Mesh) -> Panels<'_> {
+        let scene = |i: usize| Scene {
+            title: format!("a long title of the panel number {i}"),
+            mesh,
+            points: mesh.points.iter().map(|p| [p[0], p[1] + 5.0 * i as f64, 0.0]).collect(),
+            field: Some(vec![0.0, 1.0, 2.0, 3.0]),
+            arrows: vec![Arrow { at: [0.0, 10.0, 0.0], vector: [400.0 + 80.0 * i as f64, 0.0, 0.0], group: 0 }],
+            tools: vec![vec![[0.0, -50.0, 0.0], [0.0, 50.0, 0.0]]],
+        };
+        Panels {
+            title: "title".into(),
+            scenes: (0..3).map(scene).collect(),
+            projection: Projection::Plane,
+            axes: ["x".into(), "y".into()],
+            arrow_name: "contact stress".into(),
+            field_name: "field".into(),
+            window: None,
+            room: [900.0, 700.0],
+        }
+    }
+
+    #[test]
+    fn labels_stay_on_the_page() {
+        let mesh = block();
+        let drawing = picture(&mesh).draw();
+        for item in &drawing.items {
+            let Item::Label(label) = item else { continue };
+            let left = label.at[0] + if label.upright { 0.0 } else { label.start_offset() };
+            let right = left + if label.upright { 0.0 } else { text::width(&label.text, label.size, label.bold) };
+            assert!(left >= 0.0 && right <= drawing.width, "{label:?}");
+            assert!(label.at[1] > 0.0 && label.at[1] < drawing.height, "{label:?}");
+        }
+    }
+
+    /// The arrows for 400, 480 and 560 and the one of the legend, for 500, have one scale.
+    #[test]
+    fn the_legend_is_to_scale() {
+        let mesh = block();
+        let length = |item: &Item| match item {
+            Item::Path { path, stroke: Some(stroke), .. } if stroke.color == Color::ARROW => match path[..] {
+                [Segment::Move(a), Segment::Line(b)] => Some(b[0] - a[0]),
+                _ => None,
+            },
+            _ => None,
+        };
+        let drawing = picture(&mesh).draw();
+        let found: Vec<f64> = drawing.items.iter().filter_map(length).collect();
+        let [first, second, third, legend] = found[..] else { panic!("{found:?}") };
+        // All heads have the same size, so differences of the shafts are those of the arrows.
+        assert!(((second - first) / (third - second) - 1.0).abs() < 1e-9);
+        let unit = (third - first) / 160.0;
+        assert!(((third - legend) / unit - 60.0).abs() < 1e-6, "the legend stands for 500: {found:?}");
+    }
+
+    #[test]
+    fn tall_panels_stand_side_by_side_and_wide_ones_above_each_other() {
+        assert_eq!(best_columns(3, [1.0, 8.0], [900.0, 700.0]).0, 3);
+        assert_eq!(best_columns(3, [8.0, 1.0], [900.0, 700.0]).0, 1);
+    }
+}

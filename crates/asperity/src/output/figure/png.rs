@@ -1,0 +1,160 @@
+//! A drawing as PNG, rasterised in software: no display, no other program, the same bytes every time.
+
+use super::drawing::{Drawing, Item, Label, Point, Rect, Segment, Stroke};
+use super::palette::Color;
+use super::text;
+use crate::Error;
+use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform};
+use ttf_parser::OutlineBuilder;
+
+/// Pixels along the longer side beyond which no picture is made.
+const LARGEST: f64 = 20_000.0;
+
+struct Canvas {
+    pixels: Pixmap,
+    transform: Transform,
+    clip: Option<Mask>,
+}
+
+impl Drawing {
+    /// The drawing as the bytes of a PNG file with `scale` pixels a point.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] when the page has no size, or too large a one.
+    pub fn to_png(&self, scale: f64) -> Result<Vec<u8>, Error> {
+        let mut canvas = Canvas::new(self.width * scale, self.height * scale, scale)?;
+        for item in &self.items {
+            canvas.draw(item);
+        }
+        canvas.pixels.encode_png().map_err(|error| Error::Internal(format!("a picture cannot be encoded: {error}")))
+    }
+}
+
+impl Canvas {
+    fn new(width: f64, height: f64, scale: f64) -> Result<Self, Error> {
+        let fits = width <= LARGEST && height <= LARGEST;
+        let pixels = fits.then(|| Pixmap::new(width.ceil() as u32, height.ceil() as u32)).flatten();
+        let mut pixels =
+            pixels.ok_or_else(|| Error::Internal(format!("a picture of {width} by {height} pixels cannot be made")))?;
+        pixels.fill(tiny_skia::Color::WHITE);
+        Ok(Self { pixels, transform: Transform::from_scale(scale as f32, scale as f32), clip: None })
+    }
+    fn draw(&mut self, item: &Item) {
+        match item {
+            Item::Path { path, fill, stroke } => self.path(path, *fill, *stroke),
+            Item::Label(label) => self.label(label),
+            Item::Clip(rect) => self.clip = self.mask(rect),
+            Item::Unclip => self.clip = None,
+        }
+    }
+    fn mask(&self, rect: &Rect) -> Option<Mask> {
+        let mut mask = Mask::new(self.pixels.width(), self.pixels.height())?;
+        mask.fill_path(&build(&rect.path())?, FillRule::Winding, true, self.transform);
+        Some(mask)
+    }
+    fn path(&mut self, segments: &[Segment], fill: Option<Color>, stroke: Option<Stroke>) {
+        let Some(path) = build(segments) else { return };
+        if let Some(color) = fill {
+            self.fill(&path, color);
+        }
+        if let Some(stroke) = stroke {
+            let line = tiny_skia::Stroke {
+                width: stroke.width as f32,
+                line_cap: LineCap::Butt,
+                line_join: LineJoin::Round,
+                dash: StrokeDash::new(stroke.dash.iter().map(|&d| d as f32).collect(), 0.0),
+                ..tiny_skia::Stroke::default()
+            };
+            self.pixels.stroke_path(&path, &paint(stroke.color), &line, self.transform, self.clip.as_ref());
+        }
+    }
+    fn fill(&mut self, path: &Path, color: Color) {
+        self.pixels.fill_path(path, &paint(color), FillRule::Winding, self.transform, self.clip.as_ref());
+    }
+    fn label(&mut self, label: &Label) {
+        let mut sink = Outlines(PathBuilder::new());
+        text::outline(label, &mut sink);
+        if let Some(path) = sink.0.finish() {
+            self.fill(&path, label.color);
+        }
+    }
+}
+
+fn paint(Color([r, g, b]): Color) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(r, g, b, 255);
+    paint.anti_alias = true;
+    paint
+}
+
+fn build(segments: &[Segment]) -> Option<Path> {
+    let single = |p: &Point| (p[0] as f32, p[1] as f32);
+    let mut path = PathBuilder::new();
+    for segment in segments {
+        match segment {
+            Segment::Move(p) => path.move_to(single(p).0, single(p).1),
+            Segment::Line(p) => path.line_to(single(p).0, single(p).1),
+            Segment::Quad(c, p) => path.quad_to(single(c).0, single(c).1, single(p).0, single(p).1),
+            Segment::Close => path.close(),
+        }
+    }
+    path.finish()
+}
+
+struct Outlines(PathBuilder);
+
+impl OutlineBuilder for Outlines {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to(x, y);
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to(x, y);
+    }
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.0.quad_to(x1, y1, x, y);
+    }
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.0.cubic_to(x1, y1, x2, y2, x, y);
+    }
+    fn close(&mut self) {
+        self.0.close();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pixels(drawing: &Drawing) -> Pixmap {
+        Pixmap::decode_png(&drawing.to_png(2.0).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn shapes_clips_and_words_reach_the_pixels() {
+        let mut drawing = Drawing::new(40.0, 20.0);
+        let left = Rect { x: 0.0, y: 0.0, width: 10.0, height: 20.0 };
+        let all = Rect { width: 40.0, ..left };
+        drawing.clipped(left, |d| d.fill(all.path(), Color([200, 0, 0])));
+        drawing.label(Label::new([20.0, 18.0], "M", 20.0));
+        let pixels = pixels(&drawing);
+        let at = |x, y| pixels.pixel(x, y).map(|p| (p.red(), p.green()));
+        assert_eq!((pixels.width(), pixels.height()), (80, 40));
+        assert_eq!(at(10, 20), Some((200, 0)), "inside the clip");
+        assert_eq!(at(30, 20), Some((255, 255)), "outside");
+        assert!((42..80).any(|x| at(x, 30) == Some((0, 0))), "the letter's ink");
+    }
+
+    #[test]
+    fn the_same_drawing_gives_the_same_bytes() {
+        let mut drawing = Drawing::new(100.0, 30.0);
+        drawing.label(Label::new([2.0, 20.0], "contact.force^{2}", 12.0));
+        assert_eq!(drawing.to_png(2.0).unwrap(), drawing.to_png(2.0).unwrap());
+    }
+
+    #[test]
+    fn a_page_without_size_is_an_error() {
+        assert!(Drawing::new(0.0, 10.0).to_png(2.0).is_err());
+        assert!(Drawing::new(1e9, 10.0).to_png(2.0).is_err());
+        assert!(Drawing::new(f64::NAN, 10.0).to_png(2.0).is_err());
+    }
+}

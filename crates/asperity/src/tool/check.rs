@@ -3,115 +3,19 @@
 //! The material lies on the left of a profile, so that a closed one must run counter-clockwise, and a left turn is a
 //! convex edge of the tool. All tolerances are ratios of the tool's size.
 
+use super::Finding;
 use super::shapes::{Bounds, Crossing, Ray, Shape, turn};
 use super::tool::{Chain, Tool};
 use crate::tensor::Vec3;
-use std::fmt;
 
 /// Ends nearer to each other than this part of the tool's size are one point.
 pub(super) const TOGETHER: f64 = 1e-9;
 /// Smaller kinks are the rounding of coordinates, in degrees.
 const KINK: f64 = 0.1;
-/// A kink from which the profile runs back along itself, in degrees.
-const REVERSAL: f64 = 179.0;
 /// Curves are compared as polylines this near to them, as a part of the tool's size.
 const FLAT: f64 = 1e-6;
 /// Neighbours may meet within this part of the shorter one from their common node.
 const NEIGHBOUR: f64 = 1e-4;
-
-/// How grave a finding is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// Worth knowing.
-    Note,
-    /// The tool cannot be used.
-    Error,
-}
-
-/// One finding. Segments are counted from zero here and from one in the sentence that [`Display`](fmt::Display) gives.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Finding {
-    /// There is no segment.
-    Empty,
-    /// A coordinate is not a finite number.
-    NotFinite(usize),
-    /// A segment begins and ends in the same place.
-    NoLength(usize),
-    /// The nodes of a segment do not suit its shape; the rest of the sentence.
-    Flaw(usize, String),
-    /// A profile reaches negative radii: the segment and the radius.
-    NegativeRadius(usize, f64),
-    /// Two consecutive segments do not meet: the first of them, the second, and their distance.
-    Gap(usize, usize, f64),
-    /// Two segments cross: the two and where.
-    Crossing(usize, usize, Vec3),
-    /// A closed profile runs clockwise: its first and last segments.
-    Clockwise(usize, usize),
-    /// Two consecutive segments meet at an angle: the two and the turn in degrees, positive at a convex edge.
-    Kink(usize, usize, f64),
-    /// A profile does not close: its first and last segments, where it begins and where it ends.
-    Open(usize, usize, [Vec3; 2]),
-}
-
-impl Finding {
-    /// How grave it is.
-    pub fn severity(&self) -> Severity {
-        match self {
-            Self::Kink(_, _, angle) if angle.abs() < REVERSAL => Severity::Note,
-            Self::Open(..) => Severity::Note,
-            _ => Severity::Error,
-        }
-    }
-    /// The segments it is about, counted from zero; none if it is about the whole tool.
-    pub fn segments(&self) -> Vec<usize> {
-        match self {
-            Self::Empty => vec![],
-            Self::NotFinite(a) | Self::NoLength(a) | Self::Flaw(a, _) | Self::NegativeRadius(a, _) => vec![*a],
-            Self::Gap(a, b, _)
-            | Self::Crossing(a, b, _)
-            | Self::Clockwise(a, b)
-            | Self::Kink(a, b, _)
-            | Self::Open(a, b, _) => vec![*a, *b],
-        }
-    }
-}
-
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let at = |p: &Vec3| format!("({}, {})", p[0], p[1]);
-        match self {
-            Self::Empty => f.write_str("the tool has no segments"),
-            Self::NotFinite(a) => write!(f, "segment {} has a coordinate that is not a finite number", a + 1),
-            Self::NoLength(a) => write!(f, "segment {} begins and ends in the same place", a + 1),
-            Self::Flaw(a, flaw) => write!(f, "segment {} {flaw}", a + 1),
-            Self::NegativeRadius(a, r) => write!(f, "segment {} reaches the negative radius {r}", a + 1),
-            Self::Gap(a, b, gap) => {
-                write!(f, "segments {} and {} do not meet: {gap:.3e} lies between them", a + 1, b + 1)
-            }
-            Self::Crossing(a, b, p) => write!(f, "segments {} and {} cross at {}", a + 1, b + 1, at(p)),
-            Self::Clockwise(a, b) => {
-                write!(f, "the closed profile of segments {} to {} runs clockwise, ", a + 1, b + 1)?;
-                f.write_str(
-                    "which puts the tool's material outside it: reverse the order of its segments and of their nodes",
-                )
-            }
-            Self::Kink(a, b, angle) => {
-                let kind = if *angle > 0.0 { "convex" } else { "concave" };
-                write!(f, "segments {} and {} meet at a {kind} edge of {:.1} degrees", a + 1, b + 1, angle.abs())
-            }
-            Self::Open(a, b, [from, to]) => {
-                write!(
-                    f,
-                    "the profile of segments {} to {} is open: it runs from {} to {}",
-                    a + 1,
-                    b + 1,
-                    at(from),
-                    at(to)
-                )
-            }
-        }
-    }
-}
 
 /// All findings, by chain and segment. What would make no sense after a grave one is not looked for.
 pub(super) fn findings(tool: &Tool, axisymmetric: bool) -> Vec<Finding> {
@@ -234,4 +138,90 @@ fn meet(from: Vec3, to: Vec3, segment: &dyn Shape, found: &mut dyn FnMut(Vec3)) 
             found(ray.point(u));
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::conformance::at;
+    use super::super::shapes::{ALL, find};
+    use super::super::{Finding, Severity, Tool};
+    use crate::tensor::Vec3;
+
+    fn square(corners: [[f64; 2]; 4], sides: usize) -> Tool {
+        let corner = |i: usize| at(corners[i % 4][0], corners[i % 4][1]);
+        let side = |i: usize| ALL[0].build(&[corner(i), corner(i + 1)]).unwrap();
+        Tool::new("square", vec![(0..sides).map(side).collect()], at(0.0, 0.0))
+    }
+
+    const UNIT: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+
+    fn errors(tool: &Tool) -> Vec<Finding> {
+        let grave = |finding: &Finding| finding.severity() == Severity::Error;
+        tool.check(false).into_iter().filter(grave).collect()
+    }
+
+    #[test]
+    fn a_sound_square_has_four_convex_edges_and_no_error() {
+        let found = square(UNIT, 4).check(true);
+        assert_eq!(found.len(), 4);
+        for finding in &found {
+            assert!(matches!(finding, Finding::Kink(_, _, angle) if (angle - 90.0).abs() < 1e-12), "{finding}");
+        }
+        assert_eq!(found[3].segments(), [3, 0]);
+        assert_eq!(found[0].to_string(), "segments 1 and 2 meet at a convex edge of 90.0 degrees");
+    }
+
+    #[test]
+    fn clockwise_open_gapped_and_crossing_profiles_are_found() {
+        let clockwise = square([UNIT[0], UNIT[3], UNIT[2], UNIT[1]], 4);
+        assert_eq!(errors(&clockwise), [Finding::Clockwise(0, 3)]);
+        assert!(clockwise.check(false).iter().any(|f| matches!(f, Finding::Kink(_, _, angle) if *angle < 0.0)));
+
+        let open = square(UNIT, 3).check(false);
+        assert!(open.contains(&Finding::Open(0, 2, [at(0.0, 0.0), at(0.0, 1.0)])));
+
+        let bow_tie = square([UNIT[0], UNIT[2], UNIT[1], UNIT[3]], 4);
+        assert!(errors(&bow_tie).contains(&Finding::Crossing(0, 2, at(0.5, 0.5))), "{:?}", errors(&bow_tie));
+
+        let piece = |a: [f64; 2], b: [f64; 2]| ALL[0].build(&[at(a[0], a[1]), at(b[0], b[1])]).unwrap();
+        let gapped = Tool::new(
+            "gapped",
+            vec![vec![piece([0.0, 0.0], [1.0, 0.0]), piece([1.0, 0.25], [1.0, 1.0])]],
+            at(0.0, 0.0),
+        );
+        assert_eq!(errors(&gapped), [Finding::Gap(0, 1, 0.25)]);
+        assert_eq!(errors(&gapped)[0].to_string(), "segments 1 and 2 do not meet: 2.500e-1 lies between them");
+    }
+
+    #[test]
+    fn bad_segments_are_named() {
+        let tool = |key: &str, nodes: &[Vec3]| {
+            Tool::new("bad", vec![vec![find(key).unwrap().build(nodes).unwrap()]], at(0.0, 0.0))
+        };
+        assert_eq!(errors(&Tool::new("none", vec![], at(0.0, 0.0))), [Finding::Empty]);
+        assert_eq!(errors(&tool("line", &[at(0.0, f64::NAN), at(1.0, 0.0)])), [Finding::NotFinite(0)]);
+        assert_eq!(
+            errors(&tool("arc", &[at(0.0, 0.0), at(f64::INFINITY, 0.0), at(1.0, 0.0)])),
+            [Finding::NotFinite(0)]
+        );
+        assert_eq!(errors(&tool("line", &[at(1.0, 1.0), at(1.0, 1.0)])), [Finding::NoLength(0)]);
+        assert_eq!(errors(&tool("arc", &[at(1.0, 1.0), at(2.0, 1.0), at(1.0, 1.0)])), [Finding::NoLength(0)]);
+        for key in ["arc", "parabola"] {
+            let beyond = errors(&tool(key, &[at(0.0, 0.0), at(3.0, 0.0), at(1.0, 0.0)]));
+            assert!(matches!(beyond[..], [Finding::Flaw(0, _)]), "{key}: {beyond:?}");
+        }
+        let left = tool("arc", &[at(0.0, 0.0), at(-1.0, 1.0), at(0.0, 2.0)]).check(true);
+        assert!(matches!(left[..], [Finding::NegativeRadius(0, r)] if (r + 1.0).abs() < 1e-15), "{left:?}");
+    }
+
+    #[test]
+    fn crossing_curves_are_found_and_smooth_joints_are_not_crossings() {
+        let arc = |nodes: [[f64; 2]; 3]| ALL[2].build(&nodes.map(|[x, y]| at(x, y))).unwrap();
+        let wave = vec![arc([[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]), arc([[2.0, 0.0], [3.0, -1.0], [4.0, 0.0]])];
+        assert!(errors(&Tool::new("wave", vec![wave], at(0.0, 0.0))).is_empty());
+        let lens =
+            vec![vec![arc([[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]])], vec![arc([[0.0, 1.0], [1.0, 0.0], [2.0, 1.0]])]];
+        let crossed = errors(&Tool::new("lens", lens, at(0.0, 0.0)));
+        assert!(matches!(crossed[..], [Finding::Crossing(0, 1, p)] if (p[1] - 0.5).abs() < 1e-5), "{crossed:?}");
+    }
 }

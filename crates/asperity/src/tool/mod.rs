@@ -5,6 +5,7 @@
 //! meets, [`select`] judges by the paper's two rules against false contacts. This room knows neither meshes nor laws.
 
 mod check;
+mod finding;
 mod pose;
 mod search;
 mod select;
@@ -14,8 +15,10 @@ mod tool;
 
 #[cfg(test)]
 mod conformance;
+#[cfg(test)]
+mod tests;
 
-pub use check::{Finding, Severity};
+pub use finding::{Finding, Severity};
 pub use pose::Pose;
 pub use select::{Rejected, Rules, select};
 pub use shapes::{Bounds, Kind, Ray, Shape};

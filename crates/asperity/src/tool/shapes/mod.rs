@@ -35,7 +35,7 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// The segment through `nodes`. Degenerate nodes are accepted here and found by [`check`](super::check).
+    /// The segment through `nodes`. Degenerate nodes are accepted here and found by [`Tool::check`](super::Tool::check).
     ///
     /// # Errors
     /// In words, when the number of nodes is wrong.

@@ -14,6 +14,7 @@
 pub mod amplitude;
 pub mod declare;
 pub mod error;
+pub mod interface;
 pub mod load;
 pub mod material;
 pub mod mesh;

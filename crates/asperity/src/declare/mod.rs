@@ -8,8 +8,10 @@ mod nearest;
 mod parameter;
 mod range;
 mod registry;
+mod variable;
 
 pub use nearest::nearest;
 pub use parameter::{Parameter, unit};
 pub use range::Range;
 pub use registry::{Entry, find};
+pub use variable::{Variable, VariableKind};

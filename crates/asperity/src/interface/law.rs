@@ -1,7 +1,7 @@
 //! What a contact point asks of a law.
 
 use crate::Failure;
-use crate::material::Variable;
+use crate::declare::Variable;
 use crate::tensor::{Dual, Scalar};
 
 /// How a contact point is moved over an increment, in its local triad.

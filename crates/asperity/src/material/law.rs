@@ -1,6 +1,7 @@
 //! What a body asks of a law.
 
 use crate::Failure;
+use crate::declare::Variable;
 use crate::tensor::Tensor2;
 
 /// The components of the deformation gradient along which a derivative is wanted.
@@ -29,41 +30,6 @@ impl Directions {
 
 /// Derivative of the six stress components (XX YY ZZ XY YZ XZ) along the components of [`Directions`].
 pub type Gradient = [[f64; 9]; 6];
-
-/// Nature of a history variable: how it turns and how it is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum VariableKind {
-    /// One value, which does not turn.
-    Scalar,
-    /// Three components.
-    Vector,
-    /// Six components XX YY ZZ XY YZ XZ.
-    Symmetric,
-}
-
-/// A history variable of a law, besides the stress.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Variable {
-    /// The name outputs use: `equivalent_plastic_strain`.
-    pub name: &'static str,
-    /// Its nature.
-    pub kind: VariableKind,
-}
-
-impl Variable {
-    /// Number of values it takes.
-    pub fn len(&self) -> usize {
-        match self.kind {
-            VariableKind::Scalar => 1,
-            VariableKind::Vector => 3,
-            VariableKind::Symmetric => 6,
-        }
-    }
-    /// Never: every variable has a value.
-    pub fn is_empty(&self) -> bool {
-        false
-    }
-}
 
 /// A law of a solid at one point, driven by the deformation `f` of the increment. Its state is the Cauchy stress (six
 /// values) followed by its variables.

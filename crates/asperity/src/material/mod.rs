@@ -9,5 +9,6 @@ mod law;
 pub mod laws;
 mod rate;
 
-pub use law::{Directions, Gradient, Material, Variable, VariableKind};
+pub use crate::declare::{Variable, VariableKind};
+pub use law::{Directions, Gradient, Material};
 pub use rate::{Rate, RateLaw, Vars, hughes_winget};

@@ -6,9 +6,8 @@
 
 use super::law;
 use crate::Failure;
-use crate::declare::{Entry, Parameter, Range, unit};
+use crate::declare::{Entry, Parameter, Range, Variable, unit};
 use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
-use crate::material::Variable;
 use crate::tensor::Scalar;
 
 const FRICTION: Parameter = Parameter {

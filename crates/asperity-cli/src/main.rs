@@ -1,1 +1,23 @@
-fn main() {}
+//! The `asperity` command: reads its arguments, calls one verb of the library and ends with an exit code that scripts
+//! can trust. It prints; the library does not. Mechanics is no business of this crate.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod arguments;
+mod exit;
+mod verbs;
+
+use arguments::{Command, Line};
+use clap::Parser;
+use exit::Exit;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let line = Line::parse();
+    let exit = match line.command {
+        Command::Check(check) => verbs::check(&check),
+        Command::Schema(schema) => verbs::schema(&schema),
+        Command::Completions(completions) => verbs::completions(&completions),
+    };
+    exit.unwrap_or_else(Exit::after).into()
+}

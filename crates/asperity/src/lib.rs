@@ -7,11 +7,12 @@
 //! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
 //! 3. [`system`] unknowns, state, terms, assembly.
 //! 4. [`solid`] bodies; [`load`] loads and springs.
-//! 6. The program: [`output`] files, tables, pictures.
+//! 6. The program: [`output`] files, tables, pictures; [`deck`] what a user writes.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod amplitude;
+pub mod deck;
 pub mod declare;
 pub mod error;
 pub mod interface;

@@ -1,0 +1,62 @@
+//! Externally tagged choices: a table with exactly one key, which says what stands behind it.
+
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::reader::Reader;
+use crate::deck::tree::{Entry, Node};
+
+/// The only key of a table, if it is one of `valid`; else messages.
+pub fn tag<'n>(node: &'n Node, valid: &[&'static str], reader: &mut Reader) -> Option<&'n Entry> {
+    let entries = reader.table(node)?;
+    let path = reader.path();
+    let before = reader.diagnostics.len();
+    for entry in entries.iter().filter(|entry| !valid.contains(&entry.key.as_str())) {
+        let what = format!("`{path}` cannot be `{}`", entry.key);
+        reader.report(Diagnostic::error(what).at(entry.place).suggest(&entry.key, valid.iter().copied()));
+    }
+    let words = valid.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+    match entries {
+        _ if reader.diagnostics.len() > before => None,
+        [entry] => Some(entry),
+        [] => reader.refuse(node.place, &format!("one of {words}"), "nothing"),
+        [_, second, ..] => reader.refuse(second.place, &format!("only one of {words}"), "two of them"),
+    }
+}
+
+/// Declares an enum of tables, of which a deck gives exactly one, under its key.
+macro_rules! one_of {
+    ($(#[doc = $about:literal])+ $vis:vis enum $name:ident {
+        $($(#[doc = $doc:literal])+ $variant:ident($type:ty) = $key:literal => $form:expr),+ $(,)?
+    }) => {
+        $(#[doc = $about])+
+        #[derive(Debug, Clone)]
+        $vis enum $name { $($(#[doc = $doc])+ $variant($type)),+ }
+
+        impl $name {
+            /// The form of this choice.
+            $vis fn form() -> impl $crate::deck::form::Form<Value = Self> {
+                struct Choice;
+                impl $crate::deck::form::Form for Choice {
+                    type Value = $name;
+                    fn schema(&self) -> $crate::deck::schema::Schema {
+                        use $crate::deck::form::key;
+                        let keys = vec![$(key::<$type>(&$form.required(), $key, concat!($($doc),+))),+];
+                        $crate::deck::schema::Schema::OneOf(keys)
+                    }
+                    fn read(
+                        &self,
+                        node: &$crate::deck::tree::Node,
+                        reader: &mut $crate::deck::reader::Reader,
+                    ) -> Option<$name> {
+                        let entry = $crate::deck::form::tag(node, &[$($key),+], reader)?;
+                        reader.under(entry.key.clone(), |reader| match entry.key.as_str() {
+                            $($key => $form.read(&entry.node, reader).map($name::$variant),)+
+                            _ => None,
+                        })
+                    }
+                }
+                Choice
+            }
+        }
+    };
+}
+pub(in crate::deck) use one_of;

@@ -1,0 +1,216 @@
+//! Supports, loads and motions: what stands behind the names of a step's tables.
+
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::form::{Form, list, number, table, word, words};
+use crate::deck::reader::Reader;
+use crate::deck::schema::Schema;
+use crate::deck::source::{Place, Spot};
+use crate::deck::tree::Node;
+use crate::declare::{Range, unit};
+
+/// How a condition goes from its old value (0) to its new one (1): pairs of a fraction of the step and a factor,
+/// linear between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Amplitude(pub Vec<[f64; 2]>);
+
+/// The default amplitude: in step with time.
+const RAMP: &str = "[[0.0, 0.0], [1.0, 1.0]]";
+
+struct AmplitudeForm;
+
+fn pairs() -> impl Form<Value = Vec<Vec<f64>>> {
+    list(list(number(unit::NONE, Range::ANY), 2..=2), 2..=usize::MAX)
+}
+
+fn amplitude() -> impl Form<Value = Amplitude> {
+    AmplitudeForm
+}
+
+impl Form for AmplitudeForm {
+    type Value = Amplitude;
+    fn schema(&self) -> Schema {
+        pairs().schema()
+    }
+    fn read(&self, node: &Node, reader: &mut Reader) -> Option<Amplitude> {
+        let pairs: Vec<[f64; 2]> = pairs().read(node, reader)?.iter().map(|pair| [pair[0], pair[1]]).collect();
+        let rising = pairs.windows(2).all(|two| two[0][0] < two[1][0]);
+        if rising && pairs[0][0] == 0.0 && pairs[pairs.len() - 1][0] == 1.0 {
+            return Some(Amplitude(pairs));
+        }
+        let what = format!("the times of `{}` must rise from 0 to 1", reader.path());
+        let label = "pairs [fraction of the step, factor]";
+        reader.report(Diagnostic::error(what).at(node.place).label(label));
+        None
+    }
+}
+
+table! {
+    /// A prescribed displacement: components, or one value along a direction.
+    pub struct Displacement check displacement {
+        /// Along x (r).
+        x: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("free"),
+        /// Along y (z when axisymmetric).
+        y: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("free"),
+        /// Along z.
+        z: Option<Spot<f64>> = number(unit::LENGTH, Range::ANY).spot().unless_given("free"),
+        /// A direction of any length, for inclined supports; across it the group is free.
+        along: Option<Spot<Vec<f64>>> =
+            list(number(unit::NONE, Range::ANY), 2..=3).spot().unless_given("the axes"),
+        /// Displacement along that direction.
+        value: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("see along"),
+        /// Course within the step.
+        amplitude: Amplitude = amplitude().or(RAMP),
+    }
+}
+
+/// Declares a load with components of one unit.
+macro_rules! vector_load {
+    ($name:ident, $unit:expr, $about:literal) => {
+        table! {
+            #[doc = $about]
+            pub struct $name check some_component {
+                /// Along x (r).
+                x: Option<f64> = number($unit, Range::ANY).unless_given("0"),
+                /// Along y (z when axisymmetric).
+                y: Option<f64> = number($unit, Range::ANY).unless_given("0"),
+                /// Along z.
+                z: Option<Spot<f64>> = number($unit, Range::ANY).spot().unless_given("0"),
+                /// Course within the step.
+                amplitude: Amplitude = amplitude().or(RAMP),
+            }
+        }
+
+        impl Components for $name {
+            fn components(&self) -> [Option<f64>; 3] {
+                [self.x, self.y, self.z.map(|z| z.value)]
+            }
+            fn place(&self) -> Place {
+                self.place
+            }
+        }
+    };
+}
+
+vector_load!(Force, unit::FORCE, " A force on each node.");
+vector_load!(Traction, unit::STRESS, " A force per undeformed area.");
+vector_load!(BodyForce, unit::BODY_FORCE, " A force per undeformed volume.");
+
+/// Something with components along the axes.
+pub trait Components {
+    /// The components that are given.
+    fn components(&self) -> [Option<f64>; 3];
+    /// Where it stands.
+    fn place(&self) -> Place;
+}
+
+table! {
+    /// A pressure.
+    pub struct Pressure {
+        /// The pressure, positive into the body.
+        value: f64 = number(unit::STRESS, Range::ANY).required(),
+        /// Whether it turns with the surface.
+        kind: PressureKind = word().or("\"follower\""),
+        /// Course within the step.
+        amplitude: Amplitude = amplitude().or(RAMP),
+    }
+}
+
+words! {
+    /// Whether a pressure turns with its surface.
+    pub enum PressureKind {
+        /// Along the present normal, over the present area.
+        Follower = "follower",
+        /// Along the undeformed normal, over the undeformed area.
+        Dead = "dead",
+    }
+}
+
+table! {
+    /// Springs to the ground.
+    pub struct Spring check some_component {
+        /// Stiffness along x (r).
+        x: Option<f64> = number(unit::STIFFNESS, Range::NOT_NEGATIVE).unless_given("0"),
+        /// Stiffness along y (z when axisymmetric).
+        y: Option<f64> = number(unit::STIFFNESS, Range::NOT_NEGATIVE).unless_given("0"),
+        /// Stiffness along z.
+        z: Option<Spot<f64>> = number(unit::STIFFNESS, Range::NOT_NEGATIVE).spot().unless_given("0"),
+    }
+}
+
+impl Components for Spring {
+    fn components(&self) -> [Option<f64>; 3] {
+        [self.x, self.y, self.z.map(|z| z.value)]
+    }
+    fn place(&self) -> Place {
+        self.place
+    }
+}
+
+table! {
+    /// Motion of a tool's reference point and its rotation. What no step says stays where it is.
+    pub struct Motion check motion {
+        /// Translation along x (r).
+        x: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("held"),
+        /// Translation along y (z when axisymmetric).
+        y: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("held"),
+        /// Rotation about the reference point, counter-clockwise.
+        rotation: Option<f64> = number(unit::DEGREES, Range::ANY).unless_given("held"),
+        /// Course within the step.
+        amplitude: Amplitude = amplitude().or(RAMP),
+    }
+}
+
+table! {
+    /// Force and torque on a tool's reference point; along what is loaded the tool is free to move.
+    pub struct ToolLoad check load {
+        /// Force along x (r).
+        x: Option<f64> = number(unit::FORCE, Range::ANY).unless_given("held"),
+        /// Force along y (z when axisymmetric).
+        y: Option<f64> = number(unit::FORCE, Range::ANY).unless_given("held"),
+        /// Torque about the reference point, counter-clockwise.
+        torque: Option<f64> = number(unit::TORQUE, Range::ANY).unless_given("held"),
+        /// Course within the step.
+        amplitude: Amplitude = amplitude().or(RAMP),
+    }
+}
+
+/// Reports a condition that says nothing.
+fn says_something(says: bool, place: Place, keys: &str, reader: &mut Reader) {
+    if !says {
+        let what = format!("`{}` says nothing", reader.path());
+        reader.report(Diagnostic::error(what).at(place).label(format!("give at least one of {keys}")));
+    }
+}
+
+fn some_component<T: Components>(load: &T, reader: &mut Reader) {
+    says_something(load.components().iter().any(Option::is_some), load.place(), "`x`, `y`, `z`", reader);
+}
+
+fn motion(motion: &Motion, reader: &mut Reader) {
+    let says = motion.x.is_some() || motion.y.is_some() || motion.rotation.is_some();
+    says_something(says, motion.place, "`x`, `y`, `rotation`", reader);
+}
+
+fn load(load: &ToolLoad, reader: &mut Reader) {
+    let says = load.x.is_some() || load.y.is_some() || load.torque.is_some();
+    says_something(says, load.place, "`x`, `y`, `torque`", reader);
+}
+
+fn displacement(given: &Displacement, reader: &mut Reader) {
+    let axes = given.x.is_some() || given.y.is_some() || given.z.is_some();
+    says_something(axes || given.along.is_some() || given.value.is_some(), given.place, "`x`, `y`, `z`", reader);
+    if given.along.is_some() != given.value.is_some() {
+        let what = format!("`{}` must say both `along` and `value`, or neither", reader.path());
+        reader.report(Diagnostic::error(what).at(given.place));
+    }
+    if let Some(along) = given.along.as_ref() {
+        if axes {
+            let what = format!("`{}` says both a direction and components", reader.path());
+            reader.report(Diagnostic::error(what).at(along.place).help("keep one of the two"));
+        }
+        if along.iter().all(|&x| x == 0.0) {
+            let what = format!("`{}.along` has no direction", reader.path());
+            reader.report(Diagnostic::error(what).at(along.place));
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The keys of a deck: every table once, with its words, units, ranges and defaults. These declarations are the
+//! reader, the schema and the manual; nothing about a key is written anywhere else.
+
+mod condition;
+mod contact;
+mod mesh;
+mod output;
+mod solver;
+mod step;
+mod tool;
+
+pub use condition::{
+    Amplitude, BodyForce, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction,
+};
+pub use contact::Contact;
+pub use mesh::{Generator, MeshKeys, Run, Selection};
+pub use output::Output;
+pub use solver::{Newton, Solver, Tangent};
+pub use step::{Increments, Step};
+pub use tool::{Segment, ToolKeys};
+
+use super::diagnose::Diagnostic;
+use super::form::{Form, Law, Words, defines, law, map, number, refers, table, table_of, text, whole, word, words};
+use super::reader::{Name, Reader};
+use super::schema::Names;
+use super::source::Spot;
+use crate::declare::{Range, unit};
+use crate::material::{self, Material};
+use crate::mesh::Space;
+
+table! {
+    /// A model and what is to be done with it.
+    pub struct Deck check deck {
+        /// Version of the deck's language.
+        version: usize = whole(1..=1).required(),
+        /// What pictures and summaries call the run.
+        title: String = text("a title").or("\"\""),
+        /// What the coordinates mean. In `axisymmetric` x is the radius and y the axis, and forces are those of the
+        /// full circumference.
+        space: Spot<Space> = word().spot().required(),
+        /// Thickness of a plane model.
+        thickness: Option<Spot<f64>> =
+            number(unit::LENGTH, Range::POSITIVE).spot().computed("1 in the plane spaces"),
+        /// Where the nodes and cells come from.
+        mesh: MeshKeys = table_of().required(),
+        /// Parts of groups, chosen by where they lie.
+        group: Vec<(Name, Selection)> = map(defines(Names::Group), table_of()).or("{}"),
+        /// Materials: a name, then a law and its numbers.
+        material: Vec<(Name, Law<Box<dyn Material>>)> =
+            map(defines(Names::Material), law(material::laws::ALL)).required(),
+        /// Bodies: a group of cells and what it is made of.
+        body: Vec<(Name, Body)> = map(refers(Names::Cells), table_of()).required(),
+        /// Rigid tools.
+        tool: Vec<(Name, ToolKeys)> = map(defines(Names::Tool), table_of()).or("{}"),
+        /// Surfaces and what they may touch.
+        contact: Vec<(Name, Contact)> = map(defines(Names::Contact), table_of()).or("{}"),
+        /// What is done, in order.
+        step: Vec<Step> = step::steps().required(),
+        /// How the equations are solved.
+        solver: Solver = table_of().or("{}"),
+        /// What is written, and how often.
+        output: Output = table_of().or("{}"),
+    }
+}
+
+table! {
+    /// A body.
+    pub struct Body {
+        /// The material it is made of.
+        material: Name = refers(Names::Material).required(),
+        /// How the deformation of a cell enters the law.
+        formulation: Spot<Formulation> = word().spot().or("\"standard\""),
+        /// How many integration points a cell has.
+        integration: Spot<Integration> = word().spot().or("\"full\""),
+    }
+}
+
+words! {
+    /// How the deformation of a cell enters the law.
+    pub enum Formulation {
+        /// As it is at each integration point.
+        Standard = "standard",
+        /// Its change of volume is that of the cell's centre, against locking.
+        FBar = "f-bar",
+    }
+}
+
+words! {
+    /// How many integration points a cell has.
+    pub enum Integration {
+        /// As many as integrate the stiffness of an undistorted cell exactly.
+        Full = "full",
+        /// One order fewer.
+        Reduced = "reduced",
+    }
+}
+
+impl Words for Space {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        let meaning = |space| match space {
+            Space::PlaneStrain => "plane, no strain across the plane",
+            Space::PlaneStress => "plane, no stress across the plane",
+            Space::Axisymmetric => "turned about the y axis",
+            Space::Solid => "three dimensions",
+        };
+        Space::ALL.map(|space| (space, space.name(), meaning(space))).into()
+    }
+}
+
+/// What several keys of a deck say together.
+fn deck(deck: &Deck, reader: &mut Reader) {
+    if let Some(thickness) = deck.thickness.filter(|_| !matches!(*deck.space, Space::PlaneStrain | Space::PlaneStress))
+    {
+        let what = format!("`thickness` has no meaning where space = \"{}\"", deck.space.name());
+        reader.report(Diagnostic::error(what).at(thickness.place).help("remove it, or choose a plane space"));
+    }
+}

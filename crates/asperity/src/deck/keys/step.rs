@@ -1,0 +1,174 @@
+//! Steps: increments, supports, loads and the motion of tools.
+//!
+//! A condition holds from the step that says it until a later step says it anew or releases it. Within a step it goes
+//! from where it was to the value it says, along its amplitude.
+
+use super::condition::{BodyForce, Displacement, Force, Motion, Pressure, Spring, ToolLoad, Traction};
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::form::{Form, list, map, number, refers, table, table_of, text, whole};
+use crate::deck::reader::{Name, Reader};
+use crate::deck::schema::{Names, Schema};
+use crate::deck::source::Spot;
+use crate::deck::tree::Node;
+use crate::declare::{Range, unit};
+use std::collections::BTreeSet;
+
+table! {
+    /// A step.
+    pub struct Step check conflicts {
+        /// What messages and results call it.
+        name: Option<Spot<String>> = text("the name of a step").spot().computed("step and its number"),
+        /// How long it lasts.
+        duration: f64 = number(unit::TIME, Range::POSITIVE).or("1.0"),
+        /// How its time is cut into increments.
+        increments: Increments = table_of().or("{}"),
+        /// Prescribed displacements of groups, from their undeformed place.
+        displacement: Vec<(Name, Displacement)> = map(refers(Names::Group), table_of()).or("{}"),
+        /// Flat groups of sides that may not move along their normal.
+        symmetry: Vec<Name> = list(refers(Names::Sides), 0..=usize::MAX).or("[]"),
+        /// Forces on each node of groups.
+        force: Vec<(Name, Force)> = map(refers(Names::Group), table_of()).or("{}"),
+        /// Pressures on groups of sides, positive into the body.
+        pressure: Vec<(Name, Pressure)> = map(refers(Names::Sides), table_of()).or("{}"),
+        /// Forces per undeformed area on groups of sides, of fixed direction.
+        traction: Vec<(Name, Traction)> = map(refers(Names::Sides), table_of()).or("{}"),
+        /// Forces per undeformed volume on groups of cells.
+        body_force: Vec<(Name, BodyForce)> = map(refers(Names::Cells), table_of()).or("{}"),
+        /// Springs to the ground at each node of groups.
+        spring: Vec<(Name, Spring)> = map(refers(Names::Group), table_of()).or("{}"),
+        /// Motions of tools, from their first place.
+        motion: Vec<(Name, Motion)> = map(refers(Names::Tool), table_of()).or("{}"),
+        /// Forces and torques on tools that are free to follow them.
+        load: Vec<(Name, ToolLoad)> = map(refers(Names::Tool), table_of()).or("{}"),
+        /// Conditions of earlier steps that end here: `["pressure.bore", "displacement.far_end"]`.
+        release: Vec<Name> = list(refers(Names::Condition), 0..=usize::MAX).or("[]"),
+    }
+}
+
+table! {
+    /// Increments of a step, as fractions of its duration.
+    pub struct Increments check increments {
+        /// A fixed number of equal increments; one that does not converge is still cut.
+        count: Option<Spot<usize>> = whole(1..=10_000_000).spot().unless_given("sizes chosen as the run goes"),
+        /// The first.
+        first: Option<Spot<f64>> = fraction().spot().computed("0.05"),
+        /// The largest.
+        largest: Option<Spot<f64>> = fraction().spot().computed("0.1"),
+        /// The smallest; a step that needs a smaller one fails.
+        smallest: Spot<f64> = fraction().spot().or("1e-6"),
+        /// The most increments of the step.
+        most: usize = whole(1..=100_000_000).or("100000"),
+    }
+}
+
+fn fraction() -> impl Form<Value = f64> {
+    number(unit::NONE, Range::above_to(0.0, 1.0))
+}
+
+fn increments(increments: &Increments, reader: &mut Reader) {
+    if increments.count.is_some() {
+        for (key, given) in [("first", increments.first), ("largest", increments.largest)] {
+            if let Some(given) = given {
+                let what = format!("`{}` says both `count` and `{key}`", reader.path());
+                reader.report(Diagnostic::error(what).at(given.place).help("equal increments have no other size"));
+            }
+        }
+    }
+    if let Some(largest) = increments.largest.filter(|largest| **largest < *increments.smallest) {
+        let what = format!("`{}.largest` lies below `smallest`, {}", reader.path(), *increments.smallest);
+        reader.report(Diagnostic::error(what).at(largest.place));
+    }
+}
+
+impl Increments {
+    /// First and largest increment as fractions of the step.
+    pub fn sizes(&self) -> (f64, f64) {
+        if let Some(count) = self.count {
+            return (1.0 / count.value as f64, 1.0 / count.value as f64);
+        }
+        let first = self.first.map(|first| first.value);
+        let largest = self.largest.map_or(first.unwrap_or(0.0).max(0.1), |largest| largest.value);
+        (first.unwrap_or(0.05).min(largest), largest)
+    }
+}
+
+impl Step {
+    /// All conditions of the step by the names under which a later step may release them.
+    pub fn conditions(&self) -> Vec<(String, &Name)> {
+        fn of<'a, T>(kind: &str, list: &'a [(Name, T)]) -> Vec<(String, &'a Name)> {
+            list.iter().map(|(name, _)| (format!("{kind}.{name}"), name)).collect()
+        }
+        let symmetries = self.symmetry.iter().map(|name| (format!("symmetry.{name}"), name)).collect();
+        [
+            of("displacement", &self.displacement),
+            symmetries,
+            of("force", &self.force),
+            of("pressure", &self.pressure),
+            of("traction", &self.traction),
+            of("body_force", &self.body_force),
+            of("spring", &self.spring),
+            of("motion", &self.motion),
+            of("load", &self.load),
+        ]
+        .concat()
+    }
+}
+
+/// A tool cannot be moved and loaded along the same direction.
+fn conflicts(step: &Step, reader: &mut Reader) {
+    for (tool, load) in &step.load {
+        let Some((_, motion)) = step.motion.iter().find(|(name, _)| name.text == tool.text) else { continue };
+        for (key, moved, loaded) in [
+            ("x", motion.x.is_some(), load.x.is_some()),
+            ("y", motion.y.is_some(), load.y.is_some()),
+            ("rotation", motion.rotation.is_some(), load.torque.is_some()),
+        ] {
+            if moved && loaded {
+                let what = format!("tool `{tool}` is both moved and loaded along `{key}` in `{}`", reader.path());
+                reader.report(Diagnostic::error(what).at(tool.place).help("keep one of the two"));
+            }
+        }
+    }
+}
+
+/// The list of all steps.
+pub(super) fn steps() -> Steps {
+    Steps
+}
+
+/// See [`steps`].
+pub(super) struct Steps;
+
+impl Form for Steps {
+    type Value = Vec<Step>;
+    fn schema(&self) -> Schema {
+        list(table_of::<Step>(), 1..=usize::MAX).schema()
+    }
+    fn read(&self, node: &Node, reader: &mut Reader) -> Option<Vec<Step>> {
+        let steps = list(table_of::<Step>(), 1..=usize::MAX).read(node, reader)?;
+        let before = reader.errors();
+        persistence(&steps, reader);
+        (reader.errors() == before).then_some(steps)
+    }
+}
+
+/// Step names differ, and only what an earlier step said is released.
+fn persistence(steps: &[Step], reader: &mut Reader) {
+    let mut names = BTreeSet::new();
+    let mut standing: BTreeSet<String> = BTreeSet::new();
+    for step in steps {
+        if let Some(name) = step.name.as_ref().filter(|name| !names.insert(name.value.clone())) {
+            let what = format!("two steps are called `{}`", name.value);
+            reader.report(Diagnostic::error(what).at(name.place).help("give each its own name"));
+        }
+        for released in step.release.iter().filter(|released| !standing.contains(&released.text)) {
+            let what = format!("no earlier step has a condition `{released}` to release");
+            let valid = standing.iter().map(String::as_str);
+            reader.report(Diagnostic::error(what).at(released.place).suggest(&released.text, valid));
+        }
+        for released in &step.release {
+            standing.remove(&released.text);
+        }
+        standing.extend(step.conditions().into_iter().map(|(name, _)| name));
+    }
+}

@@ -1,0 +1,97 @@
+//! Decks: what a user writes, read with all its faults at once, and made into a model.
+//!
+//! The text becomes a tree of values that know their places ([`tree`]); `--set` changes the tree ([`overrides`]); the
+//! declared tables of [`keys`] read it into a [`Deck`](keys::Deck) and describe it ([`schema`]); names are looked for
+//! in the deck and in the mesh ([`names`]). Every message goes through [`diagnose`]. What is not said has a default that
+//! is known and can be printed; what is said is used, or is an error.
+
+pub mod diagnose;
+pub mod form;
+pub mod keys;
+mod names;
+mod overrides;
+mod parts;
+mod reader;
+pub mod schema;
+pub mod source;
+pub mod tree;
+
+pub use diagnose::{Diagnostic, Diagnostics, Severity};
+pub use keys::Deck;
+pub use reader::{Name, Unsaid};
+
+use crate::error::Error;
+use crate::mesh::Mesh;
+use form::Table;
+use reader::Reader;
+use source::Source;
+use std::path::Path;
+use tree::Node;
+
+/// A deck that was read, with its mesh.
+#[derive(Debug)]
+pub struct Loaded {
+    /// The deck.
+    pub deck: Deck,
+    /// Its mesh, with the groups that the deck adds.
+    pub mesh: Mesh,
+    /// What was not said, and what holds instead.
+    pub unsaid: Vec<Unsaid>,
+    /// Warnings and notes, and the texts that later messages point into.
+    pub diagnostics: Diagnostics,
+}
+
+/// Reads a deck from its file.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it. A file that cannot be read is one of them.
+pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
+    let name = path.display().to_string();
+    let lost = |why: String| Diagnostics { sources: vec![], list: vec![Diagnostic::error(format!("{name}: {why}"))] };
+    let bytes = std::fs::read(path).map_err(|error| lost(error.to_string()))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|&&b| b == b'\n').count();
+        lost(format!("line {line} is not UTF-8 text; save the file as UTF-8"))
+    })?;
+    read(&text, &name, sets)
+}
+
+/// Reads a deck from text that messages call `name`.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it.
+pub fn read(text: &str, name: &str, sets: &[String]) -> Result<Loaded, Diagnostics> {
+    let mut reader = Reader::default();
+    let (mut tree, faults) = tree::parse(text, 0);
+    let torn = faults.iter().any(|fault| fault.what.contains("not valid TOML"));
+    reader.diagnostics.extend(faults);
+    let mut sources = vec![Source { name: name.to_owned(), text: text.to_owned() }];
+    for set in sets {
+        reader.diagnostics.extend(overrides::apply(set, sources.len(), &mut tree).err());
+        sources.push(Source { name: "--set".to_owned(), text: set.clone() });
+    }
+    // Text that is not TOML may hide the rest of its table: what would be said about that is not to be trusted.
+    let read = if torn { None } else { everything(&tree, &mut reader) };
+    let mut diagnostics = Diagnostics { sources, list: reader.diagnostics };
+    diagnostics.sort();
+    match read {
+        Some((deck, mesh)) if !diagnostics.has_errors() => {
+            Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics })
+        }
+        _ => Err(diagnostics),
+    }
+}
+
+/// Deck and mesh; faults of the one do not hide those of the other.
+fn everything(tree: &Node, reader: &mut Reader) -> Option<(Deck, Mesh)> {
+    let deck = Deck::read(tree, reader);
+    let mesh = parts::mesh(tree, reader);
+    names::resolve(mesh.as_ref(), reader);
+    Some((deck?, mesh?))
+}
+
+impl From<Diagnostics> for Error {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Error::Input(diagnostics.render(false))
+    }
+}

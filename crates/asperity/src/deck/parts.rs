@@ -1,0 +1,113 @@
+//! The mesh of a deck: its file, its generated parts, its chosen groups.
+
+use super::diagnose::Diagnostic;
+use super::form::{Form, map, refers, table_of};
+use super::keys::{Generator, MeshKeys, Run, Selection};
+use super::reader::{Name, Reader};
+use super::schema::Names;
+use super::tree::{Node, Value};
+use crate::error::Error;
+use crate::mesh::generate::{self, Grade, Spacing};
+use crate::mesh::{Group, Mesh, Side};
+
+/// The mesh that a tree asks for, even where the rest of the deck is in error; faults of the mesh go to `reader`.
+pub fn mesh(tree: &Node, reader: &mut Reader) -> Option<Mesh> {
+    // The keys were read and judged with the deck; here only their values are wanted.
+    let mut quiet = Reader::default();
+    let keys = table_of::<MeshKeys>().read(entry(tree, "mesh")?, &mut quiet)?;
+    let mut mesh = Mesh::new();
+    for (name, part) in &keys.part {
+        append(&mut mesh, generated(&name.text, part), name.place, reader)?;
+    }
+    let chosen = map(refers(Names::Group), table_of::<Selection>());
+    for (name, selection) in entry(tree, "group").and_then(|node| chosen.read(node, &mut quiet)).unwrap_or_default() {
+        choose(&name, &selection, &mut mesh, reader);
+    }
+    Some(mesh)
+}
+
+fn entry<'a>(tree: &'a Node, key: &str) -> Option<&'a Node> {
+    match &tree.value {
+        Value::Table(entries) => entries.iter().find(|entry| entry.key == key).map(|entry| &entry.node),
+        _ => None,
+    }
+}
+
+fn append(mesh: &mut Mesh, part: Result<Mesh, Error>, place: super::source::Place, reader: &mut Reader) -> Option<()> {
+    let appended = part.and_then(|part| mesh.append(part));
+    appended.map_err(|error| reader.report(Diagnostic::error(error.to_string()).at(place))).ok()
+}
+
+fn generated(name: &str, part: &Generator) -> Result<Mesh, Error> {
+    match part {
+        Generator::Rectangle(p) => {
+            let [x, y] = spacings(&p.from, (&p.to, &p.cells, &p.ratio), [&p.along_x, &p.along_y]);
+            generate::Rectangle { x, y, cell: *p.cell }.mesh(name)
+        }
+        Generator::Annulus(p) => {
+            let runs = [&p.along_radius, &p.along_angle];
+            let [radius, angle] = spacings(&p.from, (&p.to, &p.cells, &p.ratio), runs);
+            generate::Annulus { centre: [p.centre[0], p.centre[1]], radius, angle, cell: *p.cell }.mesh(name)
+        }
+        Generator::Block(p) => {
+            let runs = [&p.along_x, &p.along_y, &p.along_z];
+            let [x, y, z] = spacings(&p.from, (&p.to, &p.cells, &p.ratio), runs);
+            generate::Block { x, y, z, cell: *p.cell }.mesh(name)
+        }
+    }
+}
+
+/// Stations along each direction: graded between two ends, or by runs.
+fn spacings<const N: usize>(
+    from: &[f64],
+    (to, cells, ratio): (&Option<Vec<f64>>, &Option<Vec<usize>>, &[f64]),
+    runs: [&Vec<Run>; N],
+) -> [Spacing; N] {
+    std::array::from_fn(|a| match (to, cells) {
+        (Some(to), Some(cells)) => Spacing::graded(from[a], to[a], cells[a], ratio[a]),
+        _ => runs[a].iter().fold(Spacing::from(from[a]), |spacing, run| {
+            let grade = if run.smooth { Grade::Smooth } else { Grade::Ratio(run.ratio) };
+            spacing.run(run.to, run.cells, grade)
+        }),
+    })
+}
+
+/// Adds a group of what lies within ranges.
+fn choose(name: &Name, selection: &Selection, mesh: &mut Mesh, reader: &mut Reader) {
+    if mesh.groups.contains_key(&name.text) {
+        let what = format!("the mesh has a group `{name}` already");
+        return reader.report(Diagnostic::error(what).at(name.place).help("choose another name"));
+    }
+    // A name of no group is reported with all others.
+    let Some(of) = mesh.groups.get(&selection.of.text) else { return };
+    let group = within(of, selection, mesh);
+    if group.nodes.is_empty() {
+        let what = format!("no node of `{}` lies within the ranges of `{name}`", selection.of);
+        return reader.report(Diagnostic::error(what).at(selection.place));
+    }
+    mesh.groups.insert(name.text.clone(), group);
+}
+
+fn within(of: &Group, selection: &Selection, mesh: &Mesh) -> Group {
+    let slack = 1e-9 * size(mesh);
+    let ranges = [&selection.x, &selection.y, &selection.z];
+    let inside = |node: usize| {
+        ranges.iter().enumerate().all(|(axis, range)| {
+            let x = mesh.points[node][axis];
+            range.as_ref().is_none_or(|range| x >= range[0] - slack && x <= range[1] + slack)
+        })
+    };
+    let cells = of.cells.iter().copied().filter(|&cell| mesh.cell(cell).nodes.iter().all(|&n| inside(n)));
+    let sides = of.sides.iter().copied().filter(|&side: &Side| mesh.side(side).1.into_iter().all(inside));
+    let nodes = of.nodes.iter().copied().filter(|&node| inside(node));
+    Group::new(mesh, cells.collect(), sides.collect(), nodes.collect())
+}
+
+/// Largest extent of the mesh.
+fn size(mesh: &Mesh) -> f64 {
+    (0..3).fold(0.0, |size, axis| {
+        let x = mesh.points.iter().map(|point| point[axis]);
+        let (low, high) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        f64::max(size, high - low)
+    })
+}

@@ -1,0 +1,69 @@
+//! The schema as a page of the manual, in Markdown.
+
+use super::{Key, Presence, Schema, root};
+use std::fmt::Write;
+
+/// The page: a section for each table of a deck, a line for each key.
+pub fn manual() -> String {
+    let mut page = String::from("# Keys of a deck\n");
+    section("the deck", "", &root(), &mut page);
+    page
+}
+
+fn section(path: &str, about: &str, schema: &Schema, page: &mut String) {
+    let (keys, tagged) = match schema {
+        Schema::Table(keys) => (keys, false),
+        Schema::OneOf(keys) => (keys, true),
+        Schema::List { item, .. } => return section(&format!("{path}[]"), about, item, page),
+        Schema::Map { names, item, .. } => {
+            let name = names.noun().split(' ').next().unwrap_or_default().to_uppercase();
+            return section(&format!("{path}.{name}"), about, item, page);
+        }
+        _ => return,
+    };
+    // Writing into a String cannot fail.
+    let _ = writeln!(page, "\n## `{path}`\n\n{about}\n");
+    if tagged {
+        page.push_str("Exactly one of:\n\n");
+    }
+    page.push_str("| key | meaning | value | if not given |\n|---|---|---|---|\n");
+    for key in keys {
+        line(key, tagged, page);
+    }
+    let inner = |key: &str| if path == "the deck" { key.to_owned() } else { format!("{path}.{key}") };
+    for key in keys {
+        section(&inner(key.name), key.doc, &key.schema, page);
+    }
+}
+
+fn line(key: &Key, tagged: bool, page: &mut String) {
+    let unless = match &key.presence {
+        _ if tagged => "",
+        Presence::Required => "an error",
+        Presence::Default(text) => &format!("`{text}`"),
+        Presence::Optional(words) => words,
+    };
+    let _ = writeln!(page, "| `{}` | {} | {} | {unless} |", key.name, key.doc, value(&key.schema));
+}
+
+fn value(schema: &Schema) -> String {
+    match schema {
+        Schema::Number { unit: "", range } => format!("number, {range}"),
+        Schema::Number { unit, range } => format!("{unit}, {range}"),
+        Schema::Whole { least, most } if *most == u64::MAX => format!("whole number, {least} or more"),
+        Schema::Whole { least, most } => format!("whole number from {least} to {most}"),
+        Schema::Flag => "true or false".into(),
+        Schema::Text(what) => (*what).into(),
+        Schema::Word(words) => {
+            words.iter().map(|(word, meaning)| format!("`\"{word}\"` {meaning}")).collect::<Vec<_>>().join("; ")
+        }
+        Schema::Name(names) => format!("name of a {}", names.noun()),
+        Schema::List { item, least, most } if least == most => format!("list of {least}: {}", value(item)),
+        Schema::List { item, .. } => format!("list: {}", value(item)),
+        Schema::Map { names, .. } => format!("a table for each {}", names.noun()),
+        Schema::Table(_) => "table".into(),
+        Schema::OneOf(keys) => {
+            format!("one of {}", keys.iter().map(|key| format!("`{}`", key.name)).collect::<Vec<_>>().join(", "))
+        }
+    }
+}

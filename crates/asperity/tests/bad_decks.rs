@@ -1,0 +1,63 @@
+//! Broken decks and meshes, each beside the message that it must give.
+//!
+//! `tests/bad_decks/NAME.toml` is refused with exactly the text of `NAME.txt`. `ASPERITY_BLESS=1` writes these texts
+//! anew, to be read by a person before they are committed.
+
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_decks")
+}
+
+/// What a user reads, with paths as seen from the folder of the decks.
+fn message(path: &Path) -> String {
+    let text = match asperity::deck::load(path, &[]) {
+        Ok(_) => panic!("{} is taken for good", path.display()),
+        Err(diagnostics) => {
+            assert!(diagnostics.has_errors());
+            diagnostics.render(false)
+        }
+    };
+    text.replace(&format!("{}/", folder().display()), "") + "\n"
+}
+
+fn decks() -> Vec<PathBuf> {
+    let mut paths: Vec<_> = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    paths
+}
+
+#[test]
+fn each_broken_deck_gives_its_message() {
+    let decks = decks();
+    assert!(decks.len() >= 60);
+    let bless = std::env::var_os("ASPERITY_BLESS").is_some();
+    let mut different = Vec::new();
+    for path in &decks {
+        let (golden, found) = (path.with_extension("txt"), message(path));
+        if bless {
+            std::fs::write(&golden, &found).unwrap();
+        }
+        let wanted = std::fs::read_to_string(&golden).unwrap_or_default();
+        if wanted != found {
+            different.push(format!("{}\nwanted:\n{wanted}\nfound:\n{found}", path.display()));
+        }
+    }
+    assert!(different.is_empty(), "{}", different.join("\n\n"));
+}
+
+#[test]
+fn each_message_names_the_file_and_the_line() {
+    for path in decks() {
+        let (name, text) = (path.file_name().unwrap().to_string_lossy().into_owned(), message(&path));
+        assert!(text.contains(&name), "{name}: {text}");
+        let lines = std::fs::read(&path).unwrap().split(|&byte| byte == b'\n').count();
+        let line =
+            text.split(&format!("{name}:")).nth(1).and_then(|rest| rest.split(':').next()?.parse::<usize>().ok());
+        assert!(
+            line.is_some_and(|line| (1..=lines).contains(&line)) || text.contains("line 2 is not UTF-8"),
+            "{name}: {text}"
+        );
+    }
+}

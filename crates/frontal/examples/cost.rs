@@ -1,10 +1,15 @@
 //! What one matrix costs: `cargo run --release -p frontal --example cost -- hex8 32`.
-//! Times are processor time, user and system.
+//! The last line is the speed of a dense product on the same machine, in the same run.
 
+#[path = "../benches/measure/mod.rs"]
+mod measure;
 #[path = "../benches/models/mod.rs"]
 mod models;
 
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
 use frontal::{Options, Symbolic};
+use measure::{Time, timed};
 
 fn main() {
     let arguments = std::env::args().collect::<Vec<_>>();
@@ -22,20 +27,30 @@ fn main() {
     let symbolic = symbolic.expect("a good pattern");
     let cost = symbolic.prediction();
     println!("{cost:?}");
-    println!("analysis {analysis:.3} s");
+    println!("analysis       {}", show(analysis));
     let mut factor = symbolic.new_factor();
     for _ in 0..3 {
         let (report, time) = timed(|| symbolic.factorise(&model.values, &mut factor));
         report.expect("a regular matrix");
-        println!("factorisation {time:.4} s, {:.1} Gflop/s", cost.flops * 1e-9 / time);
+        println!("factorisation  {}, {:.1} Gflop/s per core", show(time), cost.flops * 1e-9 / time.processor);
     }
     let mut x = vec![1.0; n];
     let (accuracy, time) = timed(|| factor.solve(&mut x));
-    println!("solve {time:.4} s, {:?}", accuracy.expect("a regular matrix"));
+    println!("solve          {}, {:?}", show(time), accuracy.expect("a regular matrix"));
+    dense_product();
 }
 
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let start = std::time::Instant::now();
-    let result = work();
-    (result, start.elapsed().as_secs_f64())
+/// One thread's dense product of order 2000.
+fn dense_product() {
+    let n = 2000;
+    let a = Mat::<f64>::from_fn(n, n, |i, j| (i + 2 * j) as f64);
+    let mut c = Mat::<f64>::zeros(n, n);
+    for _ in 0..3 {
+        let (_, time) = timed(|| matmul(c.as_mut(), Accum::Add, a.as_ref(), a.as_ref(), -1.0, Par::Seq));
+        println!("dense product  {}, {:.1} Gflop/s", show(time), 2e-9 * (n as f64).powi(3) / time.processor);
+    }
+}
+
+fn show(time: Time) -> String {
+    format!("{:.4} s of processor time, {:.4} s on the wall", time.processor, time.wall)
 }

@@ -7,12 +7,15 @@
 //! `solve` prints one line: solver, unknowns, analysis, first and second factorisation and a bare solve in seconds of
 //! processor time, peak memory in kB, backward error.
 
+#[path = "../benches/measure/mod.rs"]
+mod measure;
 #[path = "../benches/models/mod.rs"]
 mod models;
 
 use frontal::{Options, Symbolic, market};
+use measure::{peak, timed};
 use std::error::Error;
-use std::fs::{File, read_to_string};
+use std::fs::File;
 use std::io::{BufReader, BufWriter};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -45,26 +48,8 @@ fn solve(path: &str, block: usize) -> Result<(), Box<dyn Error>> {
     report?;
     let mut x = vec![1.0; 10 * n];
     let (accuracy, solves) = timed(|| factor.solve(&mut x));
-    let (error, solve) = (accuracy?.backward_error, 0.1 * solves);
-    println!("frontal {n} {analysis:.4} {first:.4} {second:.4} {solve:.5} {} {error:.1e}", peak()?);
+    let (error, solve) = (accuracy?.backward_error, 0.1 * solves.processor);
+    let [analysis, first, second] = [analysis, first, second].map(|time| time.processor);
+    println!("frontal {n} {analysis:.4} {first:.4} {second:.4} {solve:.5} {} {error:.1e}", peak());
     Ok(())
-}
-
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let start = processor_time();
-    let result = work();
-    (result, processor_time() - start)
-}
-
-/// Seconds this thread has run for, from the kernel's own count.
-fn processor_time() -> f64 {
-    let text = read_to_string("/proc/self/schedstat").unwrap_or_default();
-    text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok()).unwrap_or(0.0) * 1e-9
-}
-
-/// Largest resident size so far, in kB.
-fn peak() -> Result<String, Box<dyn Error>> {
-    let status = read_to_string("/proc/self/status")?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:")).ok_or("no VmHWM")?;
-    Ok(line.split_whitespace().nth(1).ok_or("no value")?.to_string())
 }

@@ -5,6 +5,7 @@ use crate::vector::subtract;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};
+use pulp::Arch;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -60,9 +61,10 @@ pub(crate) fn eliminate(
         swap_columns(right, b, k, pivot.row as usize);
     }
     if p * b * b <= SMALL {
-        solve_right_small(left, right, m, p, b);
-        update_block_small(left, right, block, m, p, b);
-        return;
+        return Arch::new().dispatch(|| {
+            solve_right_small(left, right, m, p, b);
+            update_block_small(left, right, block, m, p, b);
+        });
     }
     let left = MatRef::from_column_major_slice(left, m, p);
     let (upper, lower) = left.split_at_row(p);
@@ -106,7 +108,7 @@ impl Panel<'_> {
     fn factorise(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
         let (start, end) = (range.start, range.end);
         if end - start <= NARROW {
-            return self.factorise_narrow(range, pivots);
+            return Arch::new().dispatch(|| self.factorise_narrow(range, pivots));
         }
         let middle = start + ((end - start) / 2).next_multiple_of(8);
         self.factorise(start..middle, pivots);
@@ -130,6 +132,7 @@ impl Panel<'_> {
     }
 
     /// The same for a few columns, one after the other.
+    #[inline(always)]
     fn factorise_narrow(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
         let (m, p) = (self.m, self.p);
         for k in range.clone() {
@@ -154,6 +157,7 @@ impl Panel<'_> {
 }
 
 /// Index of the first value of largest size.
+#[inline(always)]
 fn largest(values: &[f64]) -> usize {
     let mut best = 0;
     for (k, value) in values.iter().enumerate() {
@@ -172,6 +176,7 @@ fn swap_columns(matrix: &mut [f64], rows: usize, j: usize, k: usize) {
 }
 
 /// `right <- right L11^-T`, where L11 is the unit lower triangle of the first rows of `left`.
+#[inline(always)]
 fn solve_right_small(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usize) {
     for k in 0..p {
         let (done, rest) = right.split_at_mut(b * (k + 1));
@@ -182,6 +187,7 @@ fn solve_right_small(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usi
 }
 
 /// `block <- block - L21 U12`.
+#[inline(always)]
 fn update_block_small(left: &[f64], right: &[f64], block: &mut [f64], m: usize, p: usize, b: usize) {
     for (j, column) in block.chunks_exact_mut(b).enumerate() {
         for k in 0..p {

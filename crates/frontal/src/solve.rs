@@ -3,6 +3,7 @@
 use crate::assembly_tree::Front;
 use crate::factor::Factor;
 use crate::vector::{dot, subtract};
+use pulp::Arch;
 
 /// Working memory of a solve, in elimination order.
 pub(crate) struct Workspace {
@@ -66,7 +67,7 @@ impl Factor {
         for (value, &row) in border.iter_mut().zip(tree.rows(front)) {
             *value = work.x[row as usize];
         }
-        step(&panels, local);
+        Arch::new().dispatch(|| step(&panels, local));
         let (top, border) = local.split_at(front.pivots);
         work.x[front.pivot_range()].copy_from_slice(top);
         for (value, &row) in border.iter().zip(tree.rows(front)) {
@@ -96,6 +97,7 @@ impl Panels<'_> {
 }
 
 /// `[L11; L21]` downwards.
+#[inline(always)]
 fn forward(panels: &Panels, x: &mut [f64]) {
     for (k, pivot) in panels.pivots.iter().enumerate() {
         x.swap(k, pivot.row as usize);
@@ -107,6 +109,7 @@ fn forward(panels: &Panels, x: &mut [f64]) {
 }
 
 /// `[U11 U12]` upwards.
+#[inline(always)]
 fn backward(panels: &Panels, x: &mut [f64]) {
     let (x, border) = x.split_at_mut(panels.p);
     for k in (0..panels.p).rev() {
@@ -118,6 +121,7 @@ fn backward(panels: &Panels, x: &mut [f64]) {
 }
 
 /// `[U11 U12]^T` downwards.
+#[inline(always)]
 fn forward_transposed(panels: &Panels, x: &mut [f64]) {
     let (x, border) = x.split_at_mut(panels.p);
     for k in 0..panels.p {
@@ -129,6 +133,7 @@ fn forward_transposed(panels: &Panels, x: &mut [f64]) {
 }
 
 /// `[L11; L21]^T` upwards.
+#[inline(always)]
 fn backward_transposed(panels: &Panels, x: &mut [f64]) {
     for k in (0..panels.p).rev() {
         x[k] -= dot(&panels.left(k)[k + 1..], &x[k + 1..]);

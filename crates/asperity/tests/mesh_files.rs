@@ -173,3 +173,72 @@ fn turn_bytes_v2(bytes: &[u8]) -> Vec<u8> {
     (start..end).step_by(4).for_each(|at| reverse(at, at + 4));
     turned
 }
+
+#[test]
+fn input_files_of_gmsh_hold_the_same_mesh() {
+    for (name, groups) in [
+        ("plane1", ["bottom", "weld", "triangles", "quads"]),
+        ("plane2", ["bottom", "weld", "triangles", "quads"]),
+        ("solid1", ["tops", "flanks", "tets", "wedges"]),
+        ("solid2", ["tops", "edge", "hexes", "wedges"]),
+    ] {
+        let (inp, notes) = read(&format!("{name}.inp"));
+        let (msh, _) = read(&format!("{name}-41a.msh"));
+        assert_eq!(inp.kinds, msh.kinds, "{name}");
+        assert_nodes_in_order(&inp, name);
+        for group in groups {
+            let (one, other) = (&inp.groups[group], &msh.groups[group]);
+            assert_eq!((&one.cells, &one.sides, &one.inner), (&other.cells, &other.sides, &other.inner), "{group}");
+            let places = |mesh: &Mesh, nodes: &[usize]| nodes.iter().map(|&node| mesh.points[node]).collect::<Vec<_>>();
+            let pairs = places(&inp, &one.nodes).into_iter().zip(places(&msh, &other.nodes));
+            assert!(one.nodes.len() == other.nodes.len() && pairs.into_iter().all(|(a, b)| (a - b).norm() < 1e-9));
+        }
+        assert!(notes.iter().any(|note| note.text.contains("they only mark its sides")), "{notes:?}");
+    }
+}
+
+#[test]
+fn an_input_file_written_by_hand_is_read_whole() {
+    let (mesh, notes) = read("written.inp");
+    assert_eq!((mesh.points.len(), mesh.cell_count(), mesh.kinds[0].name), (32, 2, "hex20"));
+    assert_eq!((mesh.numbers.nodes[31], mesh.numbers.cells.as_slice()), (32, &[1, 2][..]));
+    assert_nodes_in_order(&mesh, "written.inp");
+    assert_eq!(lint::check(&mesh).iter().map(|finding| finding.kind).collect::<Vec<_>>(), [lint::Kind::InnerFaces]);
+    let nodes = |group: &str| mesh.groups[group].nodes.iter().map(|&node| mesh.node_number(node)).collect::<Vec<_>>();
+    assert_eq!(nodes("FEW"), [9, 10, 11, 12, 25, 27, 29]);
+    assert_eq!(nodes("Ground"), [1, 2, 3, 4, 9, 13, 14, 15, 16]);
+    assert_eq!(nodes("both"), [1, 2, 3, 4, 9, 10, 11, 12, 13, 14, 15, 16, 25, 27, 29]);
+    assert_eq!((nodes("Nall").len(), &mesh.groups["again"].cells[..]), (32, &[0, 1][..]));
+    assert_eq!(mesh.groups["EALL"].cells, [0, 1]);
+
+    let area = |group: &str| area_of_sides(&mesh, mesh.surface(group).unwrap());
+    assert!(close(area("Top"), 2.0) && close(area("flank"), 6.0) && close(area("skin"), 22.0));
+    assert!(mesh.groups["Top"].nodes.iter().all(|&node| mesh.points[node][2] == 3.0));
+    assert!(mesh.groups["flank"].nodes.iter().all(|&node| mesh.points[node][1] == 0.0));
+    assert!(mesh.surface("between").unwrap_err().to_string().contains("between cells 1 and 2"));
+
+    let texts: Vec<String> = notes.iter().map(|note| note.text.clone()).collect();
+    let expected = [
+        "keywords that are no part of the mesh are not used (with lines): *MATERIAL (37), *ELASTIC (38), *STEP (40), \
+         *STATIC (41), *CLOAD (42), *END STEP (44)",
+        "only the shape of C3D20R is read; the deck chooses the integration",
+        "set 'EALL': 2 numbers of its ranges do not exist",
+    ];
+    assert_eq!(texts, expected);
+    assert_eq!(notes[0].line, Some(37));
+}
+
+/// Every cell written with its own coordinates as nodes: the faces of an input file are those of the manual.
+#[test]
+fn faces_of_input_files_are_numbered_as_in_the_manual() {
+    let corners = "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1.\n";
+    let faces = [("S1", [1, 2, 3, 4]), ("S2", [5, 6, 7, 8]), ("S3", [1, 2, 5, 6]), ("S4", [2, 3, 6, 7])];
+    for (label, wanted) in faces.into_iter().chain([("S5", [3, 4, 7, 8]), ("S6", [1, 4, 5, 8])]) {
+        let text = format!(
+            "*NODE\n{corners}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*SURFACE, NAME=face\n1, {label}\n"
+        );
+        let (mesh, _) = (formats::ALL[1].read)(&path("face.inp"), text.as_bytes()).unwrap();
+        let found: Vec<u64> = mesh.groups["face"].nodes.iter().map(|&node| mesh.node_number(node)).collect();
+        assert_eq!(found, wanted, "{label}");
+    }
+}

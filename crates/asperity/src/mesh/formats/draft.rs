@@ -34,6 +34,8 @@ pub(super) struct Members {
     pub elements: Vec<usize>,
     /// Faces of elements.
     pub faces: Vec<(usize, usize)>,
+    /// Elements of which those faces belong to the group that no other element shares.
+    pub exposed: Vec<usize>,
     pub nodes: Vec<usize>,
 }
 
@@ -69,8 +71,13 @@ impl Draft {
     /// # Errors
     /// A sentence without its place if there is none.
     pub(super) fn node(&self, number: u64) -> Result<usize, String> {
-        let missing = || format!("there is no node {number}; list all nodes before they are used");
+        let missing = || format!("there is no node {number}; add it or correct the number");
         self.index.get(&number).copied().ok_or_else(missing)
+    }
+
+    /// The numbers of all nodes, in the order in which they came.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = u64> + '_ {
+        self.numbers.iter().copied()
     }
 
     pub(super) fn node_count(&self) -> usize {
@@ -86,6 +93,24 @@ impl Draft {
 
     pub(super) fn kind(&self, element: usize) -> &'static Cell {
         self.elements[element].kind
+    }
+
+    pub(super) fn number(&self, element: usize) -> u64 {
+        self.elements[element].number
+    }
+
+    /// Whether an element can only mark a side, `dimension` being that of the cells.
+    pub(super) fn is_skin(&self, element: usize, dimension: usize) -> bool {
+        self.elements[element].skin || self.kind(element).dimension < dimension
+    }
+
+    /// The highest dimension of any element.
+    pub(super) fn dimension(&self) -> usize {
+        self.elements.iter().map(|element| element.kind.dimension).max().unwrap_or(0)
+    }
+
+    pub(super) fn group_names(&self) -> impl Iterator<Item = &str> {
+        self.groups.keys().map(String::as_str)
     }
 
     pub(super) fn nodes_of(&self, element: usize) -> &[usize] {
@@ -106,7 +131,7 @@ impl Draft {
     /// # Errors
     /// [`Error::Input`] if there are no plane or solid elements.
     pub(super) fn finish(mut self) -> Result<(Mesh, Vec<Note>), Error> {
-        let dimension = self.elements.iter().map(|element| element.kind.dimension).max().unwrap_or(0);
+        let dimension = self.dimension();
         let is_cell = |element: &Element| element.kind.dimension == dimension && !element.skin;
         if dimension < 2 || !self.elements.iter().any(is_cell) {
             let what = if dimension < 2 { "plane or solid elements" } else { "elements that can be part of a body" };
@@ -127,9 +152,14 @@ impl Draft {
         let faces = Faces::of(mesh, 0..mesh.cell_count());
         let mut grouped = vec![false; self.elements.len()];
         for (name, members) in std::mem::take(&mut self.groups) {
-            members.elements.iter().chain(members.faces.iter().map(|(element, _)| element)).for_each(|&element| {
-                grouped[element] = true;
-            });
+            members
+                .elements
+                .iter()
+                .chain(members.faces.iter().map(|(element, _)| element))
+                .chain(&members.exposed)
+                .for_each(|&element| {
+                    grouped[element] = true;
+                });
             let group = Sorter { draft: self, mesh, faces: &faces, cells }.sort(&name, members);
             mesh.groups.insert(name, group);
         }
@@ -173,6 +203,15 @@ impl Sorter<'_> {
             let corners = self.mesh.kinds[cell].faces[face].cell.linear.nodes.len();
             put(&mut group, self.faces.behind(&nodes[..corners]));
             group.nodes.extend(nodes);
+        }
+        for cell in members.exposed.into_iter().filter_map(|element| self.cells[element]) {
+            for (face, reference) in self.mesh.kinds[cell].faces.iter().enumerate() {
+                let nodes: Vec<usize> = self.mesh.side(Side { cell, face }).1.collect();
+                if let Behind::One(side) = self.faces.behind(&nodes[..reference.cell.linear.nodes.len()]) {
+                    group.sides.push(side);
+                    group.nodes.extend(nodes);
+                }
+            }
         }
         if loose > 0 {
             let text = format!("{loose} elements of group '{name}' lie on no cell; only their nodes are kept");

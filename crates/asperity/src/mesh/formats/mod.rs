@@ -1,4 +1,4 @@
-//! Mesh files.
+//! Mesh files: Gmsh, Abaqus and CalculiX.
 //!
 //! A reader collects nodes, elements and groups as the file lists them in a draft, and the draft becomes the mesh:
 //! the elements of the highest dimension are its cells, those one dimension lower become sides of the cells behind
@@ -7,6 +7,7 @@
 //!
 //! To add a format: its module here, its `mod` line and its entry in [`ALL`].
 
+mod abaqus;
 mod draft;
 mod gmsh;
 mod note;
@@ -17,18 +18,24 @@ use super::Mesh;
 use crate::error::Error;
 use std::path::Path;
 
+/// Makes a mesh of a file's content; the path serves messages and included files only.
+pub type Read = fn(path: &Path, bytes: &[u8]) -> Result<(Mesh, Vec<Note>), Error>;
+
 /// One file format.
 pub struct Format {
     /// Its name: `Gmsh`.
     pub name: &'static str,
     /// The extension of its files, in lower case: `msh`.
     pub extension: &'static str,
-    /// Makes a mesh of a file's content; the path serves messages and included files only.
-    pub read: fn(path: &Path, bytes: &[u8]) -> Result<(Mesh, Vec<Note>), Error>,
+    /// Its reader.
+    pub read: Read,
 }
 
 /// Every format the program reads.
-pub static ALL: &[Format] = &[Format { name: "Gmsh", extension: "msh", read: gmsh::read }];
+pub static ALL: &[Format] = &[
+    Format { name: "Gmsh", extension: "msh", read: gmsh::read },
+    Format { name: "Abaqus/CalculiX", extension: "inp", read: abaqus::read },
+];
 
 /// Reads a mesh, its format chosen by the extension of the file.
 ///

@@ -21,6 +21,8 @@ const EXITS: &str = "Exit codes: 0 done, 1 fault of the program, 2 wrong input, 
 pub enum Command {
     /// Say everything that can be said about a deck before it is solved.
     Check(Check),
+    /// Say what a mesh file holds, and what is wrong with it.
+    Info(Info),
     /// Print the JSON Schema of decks, for editors, or the manual's page of all keys.
     Schema(Schema),
     /// Print the completions of a shell.
@@ -44,6 +46,14 @@ pub struct Check {
     /// The deck.
     #[command(flatten)]
     pub deck: Deck,
+}
+
+/// Arguments of `info`.
+#[derive(Debug, Args)]
+pub struct Info {
+    /// A mesh file.
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
 }
 
 /// Arguments of `schema`.

@@ -66,10 +66,10 @@ impl Exit {
 
     fn of(error: &Error) -> Self {
         match error {
-            Error::Input(_) => Self::Input,
+            Error::Input(_) | Error::File { .. } => Self::Input,
             Error::NotConverged(_) => Self::NotConverged,
             Error::Stopped => Self::Stopped,
-            Error::File { .. } | Error::Internal(_) => Self::Fault,
+            Error::Internal(_) => Self::Fault,
         }
     }
 }

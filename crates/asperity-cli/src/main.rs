@@ -16,6 +16,7 @@ fn main() -> ExitCode {
     let line = Line::parse();
     let exit = match line.command {
         Command::Check(check) => verbs::check(&check),
+        Command::Info(info) => verbs::info(&info),
         Command::Schema(schema) => verbs::schema(&schema),
         Command::Completions(completions) => verbs::completions(&completions),
     };

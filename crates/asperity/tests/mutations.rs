@@ -100,7 +100,7 @@ fn damaged_decks_are_read_or_refused() {
         if !modest(&text) {
             continue;
         }
-        match asperity::deck::read(&text, "damaged.toml", &[]) {
+        match asperity::deck::read(&text, "damaged.toml", &folder(), &[]) {
             Ok(_) => read += 1,
             Err(diagnostics) => {
                 assert!(diagnostics.has_errors() && !diagnostics.render(true).is_empty());
@@ -118,7 +118,7 @@ fn damaged_overrides_are_applied_or_refused() {
         let mut set = b"step.1.increments.first=0.25".to_vec();
         damage(&mut set, &mut dice);
         let set = String::from_utf8_lossy(&set).into_owned();
-        if let Err(diagnostics) = asperity::deck::read(&text, "deck.toml", std::slice::from_ref(&set)) {
+        if let Err(diagnostics) = asperity::deck::read(&text, "deck.toml", &folder(), std::slice::from_ref(&set)) {
             assert!(diagnostics.render(false).contains("error"), "{set}");
         }
     }

@@ -105,7 +105,7 @@ fn spoken(path: &[Step]) -> String {
 /// The errors of a deck, and its text. The text is written anew from the values, with each table on its own lines.
 fn errors(deck: &Value) -> (Vec<Diagnostic>, String) {
     let text = toml::to_string(deck).unwrap();
-    let list = read(&text, "broken.toml", &[]).err().map(|d| d.list).unwrap_or_default();
+    let list = read(&text, "broken.toml", &folder(), &[]).err().map(|d| d.list).unwrap_or_default();
     (list.into_iter().filter(|d| d.severity == Severity::Error).collect(), text)
 }
 

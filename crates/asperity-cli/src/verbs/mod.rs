@@ -2,10 +2,12 @@
 
 mod check;
 mod completions;
+mod info;
 mod schema;
 
 pub use check::check;
 pub use completions::completions;
+pub use info::info;
 pub use schema::schema;
 
 use crate::exit::{Exit, Trouble};

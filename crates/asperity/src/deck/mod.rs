@@ -53,39 +53,36 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
         let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|&&b| b == b'\n').count();
         lost(format!("line {line} is not UTF-8 text; save the file as UTF-8"))
     })?;
-    read(&text, &name, sets)
+    read(&text, &name, path.parent().unwrap_or(Path::new("")), sets)
 }
 
-/// Reads a deck from text that messages call `name`.
+/// Reads a deck from text that messages call `name`; mesh files are looked for in `folder`.
 ///
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
-pub fn read(text: &str, name: &str, sets: &[String]) -> Result<Loaded, Diagnostics> {
-    let mut reader = Reader::default();
+pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
+    let mut reader = Reader::new(Source::new(name, text));
     let (mut tree, faults) = tree::parse(text, 0);
     let torn = faults.iter().any(|fault| fault.what.contains("not valid TOML"));
     reader.diagnostics.extend(faults);
-    let mut sources = vec![Source { name: name.to_owned(), text: text.to_owned() }];
     for set in sets {
-        reader.diagnostics.extend(overrides::apply(set, sources.len(), &mut tree).err());
-        sources.push(Source { name: "--set".to_owned(), text: set.clone() });
+        reader.diagnostics.extend(overrides::apply(set, reader.sources.len(), &mut tree).err());
+        reader.sources.push(Source::new("--set", set));
     }
     // Text that is not TOML may hide the rest of its table: what would be said about that is not to be trusted.
-    let read = if torn { None } else { everything(&tree, &mut reader) };
-    let mut diagnostics = Diagnostics { sources, list: reader.diagnostics };
+    let read = if torn { None } else { everything(&tree, folder, &mut reader) };
+    let mut diagnostics = Diagnostics { sources: reader.sources, list: reader.diagnostics };
     diagnostics.sort();
     match read {
-        Some((deck, mesh)) if !diagnostics.has_errors() => {
-            Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics })
-        }
+        Some((deck, mesh)) if !diagnostics.has_errors() => Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics }),
         _ => Err(diagnostics),
     }
 }
 
 /// Deck and mesh; faults of the one do not hide those of the other.
-fn everything(tree: &Node, reader: &mut Reader) -> Option<(Deck, Mesh)> {
+fn everything(tree: &Node, folder: &Path, reader: &mut Reader) -> Option<(Deck, Mesh)> {
     let deck = Deck::read(tree, reader);
-    let mesh = parts::mesh(tree, reader);
+    let mesh = parts::mesh(tree, folder, reader);
     names::resolve(mesh.as_ref(), reader);
     Some((deck?, mesh?))
 }

@@ -5,20 +5,30 @@ use super::form::{Form, map, refers, table_of};
 use super::keys::{Generator, MeshKeys, Run, Selection};
 use super::reader::{Name, Reader};
 use super::schema::Names;
+use super::source::{Place, Source, Spot};
 use super::tree::{Node, Value};
 use crate::error::Error;
 use crate::mesh::generate::{self, Grade, Spacing};
-use crate::mesh::{Group, Mesh, Side};
+use crate::mesh::{Group, Mesh, Side, formats, lint};
+use std::path::Path;
+
+/// A longer line of a mesh file is shown only so far.
+const LINE_SHOWN: usize = 160;
 
 /// The mesh that a tree asks for, even where the rest of the deck is in error; faults of the mesh go to `reader`.
-pub fn mesh(tree: &Node, reader: &mut Reader) -> Option<Mesh> {
+pub fn mesh(tree: &Node, folder: &Path, reader: &mut Reader) -> Option<Mesh> {
     // The keys were read and judged with the deck; here only their values are wanted.
     let mut quiet = Reader::default();
     let keys = table_of::<MeshKeys>().read(entry(tree, "mesh")?, &mut quiet)?;
     let mut mesh = Mesh::new();
-    for (name, part) in &keys.part {
-        append(&mut mesh, generated(&name.text, part), name.place, reader)?;
+    if let Some(file) = &keys.file {
+        append(&mut mesh, read(file, folder, reader)?, file.place, reader)?;
     }
+    for (name, part) in &keys.part {
+        let part = generated(&name.text, part).map_err(|error| refuse(&error, name.place, reader)).ok()?;
+        append(&mut mesh, part, name.place, reader)?;
+    }
+    lint(&mut mesh, keys.file.as_ref().map_or(keys.place, |file| file.place), reader)?;
     let chosen = map(refers(Names::Group), table_of::<Selection>());
     for (name, selection) in entry(tree, "group").and_then(|node| chosen.read(node, &mut quiet)).unwrap_or_default() {
         choose(&name, &selection, &mut mesh, reader);
@@ -33,9 +43,60 @@ fn entry<'a>(tree: &'a Node, key: &str) -> Option<&'a Node> {
     }
 }
 
-fn append(mesh: &mut Mesh, part: Result<Mesh, Error>, place: super::source::Place, reader: &mut Reader) -> Option<()> {
-    let appended = part.and_then(|part| mesh.append(part));
-    appended.map_err(|error| reader.report(Diagnostic::error(error.to_string()).at(place))).ok()
+fn append(mesh: &mut Mesh, part: Mesh, place: Place, reader: &mut Reader) -> Option<()> {
+    mesh.append(part).map_err(|error| refuse(&error, place, reader)).ok()
+}
+
+fn refuse(error: &Error, place: Place, reader: &mut Reader) {
+    reader.report(Diagnostic::error(error.to_string()).at(place));
+}
+
+/// Reads a mesh file; its fault is shown at its own line, and the deck's line that names the file beside it.
+fn read(file: &Spot<String>, folder: &Path, reader: &mut Reader) -> Option<Mesh> {
+    let path = folder.join(&file.value);
+    match formats::read(&path) {
+        Ok((mesh, notes)) => {
+            let note = |note: &formats::Note| Diagnostic::note(note.to_string()).at(file.place);
+            reader.diagnostics.extend(notes.iter().map(note));
+            Some(mesh)
+        }
+        Err(error) => {
+            refuse_file(&path, &error.to_string(), file.place, reader);
+            None
+        }
+    }
+}
+
+/// `PATH:LINE: WHAT` is shown at that line of the file, anything else at the deck's key.
+fn refuse_file(path: &Path, error: &str, key: Place, reader: &mut Reader) {
+    let name = path.display().to_string();
+    let at_line = error.strip_prefix(&format!("{name}:")).and_then(|rest| rest.split_once(": "));
+    let numbered = at_line.and_then(|(line, what)| Some((line.parse::<usize>().ok().filter(|&n| n > 0)?, what)));
+    let Some((line, what)) = numbered else {
+        return reader.report(Diagnostic::error(error).at(key));
+    };
+    let bytes = std::fs::read(path).unwrap_or_default();
+    let text = bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default();
+    let text: String = String::from_utf8_lossy(text).trim_end().chars().take(LINE_SHOWN).collect();
+    let place = Place::new(reader.sources.len(), 0..text.len());
+    reader.sources.push(Source { name, text, first_line: line });
+    reader.report(Diagnostic::error(what).at(place));
+}
+
+/// Turns cells the right way round and reports what is wrong with the mesh or worth knowing. Nothing comes of a mesh
+/// with errors.
+fn lint(mesh: &mut Mesh, place: Place, reader: &mut Reader) -> Option<()> {
+    let before = reader.errors();
+    let turned = mesh.orient();
+    for finding in turned.into_iter().chain(lint::check(mesh)) {
+        let diagnostic = match finding.severity {
+            lint::Severity::Error => Diagnostic::error(finding.text),
+            lint::Severity::Warning => Diagnostic::warning(finding.text),
+            lint::Severity::Note => Diagnostic::note(finding.text),
+        };
+        reader.report(diagnostic.at(place));
+    }
+    (reader.errors() == before).then_some(())
 }
 
 fn generated(name: &str, part: &Generator) -> Result<Mesh, Error> {

@@ -2,12 +2,14 @@
 
 use super::diagnose::{Diagnostic, Severity};
 use super::schema::Names;
-use super::source::Place;
+use super::source::{Place, Source};
 use super::tree::{Entry, Node, Value};
 
 /// What a reading leaves besides the values.
 #[derive(Debug, Default)]
 pub struct Reader {
+    /// The texts that places point into: first the deck's file, then each `--set`, then what else was read.
+    pub sources: Vec<Source>,
     /// What is wrong.
     pub diagnostics: Vec<Diagnostic>,
     /// What was not said, and what holds instead.
@@ -59,6 +61,11 @@ fn quoted(key: String) -> String {
 }
 
 impl Reader {
+    /// A reader of a deck's text.
+    pub fn new(deck: Source) -> Self {
+        Self { sources: vec![deck], ..Self::default() }
+    }
+
     /// The path of what is being read: `step.1.displacement.far_end.y`.
     pub fn path(&self) -> String {
         self.path.join(".")

@@ -7,8 +7,17 @@ use std::ops::Range;
 pub struct Source {
     /// What messages call it: a path, or `--set`.
     pub name: String,
-    /// The whole text.
+    /// The text: the whole of a deck, one line of a mesh file.
     pub text: String,
+    /// The line at which it begins, from one.
+    pub first_line: usize,
+}
+
+impl Source {
+    /// A text from its first line on.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into(), first_line: 1 }
+    }
 }
 
 /// A stretch of a [`Source`], in bytes.

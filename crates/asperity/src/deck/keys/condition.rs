@@ -6,14 +6,11 @@ use crate::deck::reader::Reader;
 use crate::deck::schema::Schema;
 use crate::deck::source::{Place, Spot};
 use crate::deck::tree::Node;
+use crate::amplitude::Amplitude;
 use crate::declare::{Range, unit};
 
-/// How a condition goes from its old value (0) to its new one (1): pairs of a fraction of the step and a factor,
-/// linear between them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Amplitude(pub Vec<[f64; 2]>);
-
-/// The default amplitude: in step with time.
+/// The default amplitude: in step with time. A condition goes from its old value (0) to its new one (1) along pairs of a
+/// fraction of the step and a factor, linear between them.
 const RAMP: &str = "[[0.0, 0.0], [1.0, 1.0]]";
 
 struct AmplitudeForm;
@@ -33,14 +30,14 @@ impl Form for AmplitudeForm {
     }
     fn read(&self, node: &Node, reader: &mut Reader) -> Option<Amplitude> {
         let pairs: Vec<[f64; 2]> = pairs().read(node, reader)?.iter().map(|pair| [pair[0], pair[1]]).collect();
-        let rising = pairs.windows(2).all(|two| two[0][0] < two[1][0]);
-        if rising && pairs[0][0] == 0.0 && pairs[pairs.len() - 1][0] == 1.0 {
-            return Some(Amplitude(pairs));
+        if pairs[0][0] != 0.0 || pairs[pairs.len() - 1][0] != 1.0 {
+            let what = format!("`{}` must go from fraction 0 of the step to fraction 1", reader.path());
+            let label = "pairs [fraction of the step, factor]";
+            reader.report(Diagnostic::error(what).at(node.place).label(label));
+            return None;
         }
-        let what = format!("the times of `{}` must rise from 0 to 1", reader.path());
-        let label = "pairs [fraction of the step, factor]";
-        reader.report(Diagnostic::error(what).at(node.place).label(label));
-        None
+        let refuse = |why| reader.report(Diagnostic::error(format!("`{}`: {why}", reader.path())).at(node.place));
+        Amplitude::new(pairs).map_err(refuse).ok()
     }
 }
 

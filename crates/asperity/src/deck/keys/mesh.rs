@@ -1,7 +1,7 @@
 //! Where nodes, cells and groups come from.
 
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::form::{Form, Words, defines, flag, list, map, number, one_of, refers, table, table_of, whole, word};
+use crate::deck::form::{Form, Words, defines, flag, list, map, number, one_of, refers, table, table_of, text, whole, word};
 use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::{Names, Schema};
 use crate::deck::source::Spot;
@@ -10,11 +10,13 @@ use crate::declare::{Range, unit};
 use crate::mesh::{Cell, cells};
 
 table! {
-    /// Where the nodes and cells come from.
-    pub struct MeshKeys {
+    /// Where the nodes and cells come from: a file, generated parts, or both.
+    pub struct MeshKeys check given {
+        /// A mesh file, its path relative to the deck's. Its named groups keep their names.
+        file: Option<Spot<String>> = text("the path of a mesh file").spot().unless_given("no file"),
         /// Generated parts. A part NAME brings the group NAME of its cells, NAME.left and so on of its sides, and
         /// NAME.bottom_left and so on of its corners.
-        part: Vec<(Name, Generator)> = map(defines(Names::Part), Generator::form()).required(),
+        part: Vec<(Name, Generator)> = map(defines(Names::Part), Generator::form()).or("{}"),
     }
 }
 
@@ -137,6 +139,13 @@ fn ratios(length: usize) -> impl Form<Value = Vec<f64>> {
 
 fn runs() -> impl Form<Value = Vec<Run>> {
     list(table_of::<Run>(), 0..=usize::MAX)
+}
+
+fn given(mesh: &MeshKeys, reader: &mut Reader) {
+    if mesh.file.is_none() && mesh.part.is_empty() {
+        let nothing = Diagnostic::error("`mesh` has neither a file nor a part").at(mesh.place);
+        reader.report(nothing.help("say file = \"NAME.msh\", or part.NAME.rectangle = { ... }"));
+    }
 }
 
 /// `to` and `cells` for all directions, or runs for all: never a mixture that one has to guess.

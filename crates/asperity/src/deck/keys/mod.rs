@@ -10,7 +10,7 @@ mod step;
 mod tool;
 
 pub use condition::{
-    Amplitude, BodyForce, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction,
+    BodyForce, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction,
 };
 pub use contact::Contact;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
@@ -20,13 +20,14 @@ pub use step::{Increments, Step};
 pub use tool::{Segment, ToolKeys};
 
 use super::diagnose::Diagnostic;
-use super::form::{Form, Law, Words, defines, law, map, number, refers, table, table_of, text, whole, word, words};
+use super::form::{Form, Law, Words, defines, law, map, number, refers, table, table_of, text, whole, word};
 use super::reader::{Name, Reader};
 use super::schema::Names;
 use super::source::Spot;
 use crate::declare::{Range, unit};
 use crate::material::{self, Material};
 use crate::mesh::Space;
+use crate::solid::{Formulation, Integration};
 
 table! {
     /// A model and what is to be done with it.
@@ -75,23 +76,17 @@ table! {
     }
 }
 
-words! {
-    /// How the deformation of a cell enters the law.
-    pub enum Formulation {
-        /// As it is at each integration point.
-        Standard = "standard",
-        /// Its change of volume is that of the cell's centre, against locking.
-        FBar = "f-bar",
+impl Words for Formulation {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        let f_bar = "its change of volume is that of the cell's centre, against locking";
+        vec![(Self::Standard, "standard", "as it is at each point"), (Self::FBar, "f-bar", f_bar)]
     }
 }
 
-words! {
-    /// How many integration points a cell has.
-    pub enum Integration {
-        /// As many as integrate the stiffness of an undistorted cell exactly.
-        Full = "full",
-        /// One order fewer.
-        Reduced = "reduced",
+impl Words for Integration {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        let full = "as many as integrate the stiffness of an undistorted cell exactly";
+        vec![(Self::Full, "full", full), (Self::Reduced, "reduced", "one order fewer")]
     }
 }
 

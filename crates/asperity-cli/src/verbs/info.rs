@@ -1,0 +1,55 @@
+//! `asperity info`: what a mesh file holds, and what is wrong with it.
+
+use super::{Outcome, print};
+use crate::arguments::Info;
+use crate::exit::Exit;
+use asperity::mesh::lint::{self, Severity};
+use asperity::mesh::{Mesh, formats};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Prints counts, extents, groups and findings.
+pub fn info(arguments: &Info) -> Outcome {
+    let (mut mesh, notes) = formats::read(&arguments.mesh)?;
+    let findings: Vec<_> = mesh.orient().into_iter().chain(lint::check(&mesh)).collect();
+    let mut text = format!("{}\n{}\n{}", arguments.mesh.display(), size(&mesh), groups(&mesh));
+    for note in &notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    for finding in &findings {
+        let word = match finding.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        let _ = writeln!(text, "{word}: {}", finding.text);
+    }
+    print(&text)?;
+    let problems = findings.iter().any(|finding| finding.severity != Severity::Note);
+    Ok(if problems { Exit::Problems } else { Exit::Done })
+}
+
+fn size(mesh: &Mesh) -> String {
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    for kind in &mesh.kinds {
+        *kinds.entry(kind.name).or_default() += 1;
+    }
+    let kinds = kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect::<Vec<_>>().join(", ");
+    let mut text = format!("{} nodes, {} cells ({kinds})\n", mesh.points.len(), mesh.cell_count());
+    for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+        let x = mesh.points.iter().map(|point| point[axis]);
+        let (low, high) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let _ = writeln!(text, "{name} from {low} to {high}");
+    }
+    text
+}
+
+fn groups(mesh: &Mesh) -> String {
+    let widest = mesh.groups.keys().map(String::len).max().unwrap_or(0).max("group".len());
+    let mut text = format!("{:widest$}  {:>8}  {:>8}  {:>8}\n", "group", "cells", "sides", "nodes");
+    for (name, group) in &mesh.groups {
+        let (cells, sides, nodes) = (group.cells.len(), group.sides.len(), group.nodes.len());
+        let _ = writeln!(text, "{name:widest$}  {cells:>8}  {sides:>8}  {nodes:>8}");
+    }
+    text
+}

@@ -124,6 +124,11 @@ impl Diagnostics {
         let end = source.text.len();
         let mark = AnnotationKind::Primary.span(place.start.min(end)..place.end.clamp(place.start, end));
         let mark = if label.is_empty() { mark } else { mark.label(label) };
-        Some(Snippet::source(source.text.as_str()).path(source.name.as_str()).line_start(source.first_line).annotation(mark))
+        Some(
+            Snippet::source(source.text.as_str())
+                .path(source.name.as_str())
+                .line_start(source.first_line)
+                .annotation(mark),
+        )
     }
 }

@@ -74,7 +74,9 @@ pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Lo
     let mut diagnostics = Diagnostics { sources: reader.sources, list: reader.diagnostics };
     diagnostics.sort();
     match read {
-        Some((deck, mesh)) if !diagnostics.has_errors() => Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics }),
+        Some((deck, mesh)) if !diagnostics.has_errors() => {
+            Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics })
+        }
         _ => Err(diagnostics),
     }
 }

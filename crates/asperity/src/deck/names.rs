@@ -66,7 +66,9 @@ fn group(name: &Name, names: Names, mesh: &Mesh, others: &[&str]) -> Option<Diag
     };
     let inside = |group: &Group| matches!(names, Names::Sides | Names::Target) && !group.inner.is_empty();
     match mesh.groups.get(&name.text) {
-        Some(group) if inside(group) => mesh.surface(&name.text).err().map(|e| Diagnostic::error(e.to_string()).at(name.place)),
+        Some(group) if inside(group) => {
+            mesh.surface(&name.text).err().map(|e| Diagnostic::error(e.to_string()).at(name.place))
+        }
         Some(group) if fits(group) => None,
         Some(group) => {
             let what = format!("the group `{name}` has no {}", if names == Names::Cells { "cells" } else { "sides" });

@@ -1,12 +1,12 @@
 //! Supports, loads and motions: what stands behind the names of a step's tables.
 
+use crate::amplitude::Amplitude;
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::form::{Form, list, number, table, word, words};
 use crate::deck::reader::Reader;
 use crate::deck::schema::Schema;
 use crate::deck::source::{Place, Spot};
 use crate::deck::tree::Node;
-use crate::amplitude::Amplitude;
 use crate::declare::{Range, unit};
 
 /// The default amplitude: in step with time. A condition goes from its old value (0) to its new one (1) along pairs of a

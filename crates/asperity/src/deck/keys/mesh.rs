@@ -1,7 +1,9 @@
 //! Where nodes, cells and groups come from.
 
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::form::{Form, Words, defines, flag, list, map, number, one_of, refers, table, table_of, text, whole, word};
+use crate::deck::form::{
+    Form, Words, defines, flag, list, map, number, one_of, refers, table, table_of, text, whole, word,
+};
 use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::{Names, Schema};
 use crate::deck::source::Spot;

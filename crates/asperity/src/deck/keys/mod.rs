@@ -9,9 +9,7 @@ mod solver;
 mod step;
 mod tool;
 
-pub use condition::{
-    BodyForce, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction,
-};
+pub use condition::{BodyForce, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction};
 pub use contact::Contact;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;

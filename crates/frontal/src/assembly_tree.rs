@@ -1,10 +1,10 @@
 //! The assembly tree: fronts in the order in which they are eliminated, and where every number goes.
 
 use crate::error::Error;
-use crate::etree::{NONE, children, postorder};
+use crate::etree::{NONE, children};
 use crate::graph::Graph;
 use crate::pattern::Pattern;
-use crate::supernode::Supernode;
+use crate::supernode::{Supernode, in_final_order};
 use std::ops::Range;
 
 /// A dense matrix of order `pivots + border`, in four parts stored column by column:
@@ -15,7 +15,7 @@ use std::ops::Range;
 ///  [  F21  |  F22  ]  border      right  = F12 transposed, leading dimension `border`
 ///                                 F22    = what goes to the parent, leading dimension `border`
 /// ```
-/// `left` and `right` lie next to each other in the factor; F22, the contribution block, lies in working memory. F12
+/// `left` and `right` lie next to each other in the factor, but for a symmetric matrix only `left` is kept; F22, the contribution block, lies in working memory. F12
 /// is kept transposed so that small fronts, with few pivots and a long border, still work on long columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Front {
@@ -31,6 +31,8 @@ pub(crate) struct Front {
     pub entries: usize,
     /// First front of its subtree, which ends with this front.
     pub first_descendant: usize,
+    /// Whether only the lower half is computed.
+    pub symmetric: bool,
     /// Distance from its root.
     pub depth: usize,
 }
@@ -47,7 +49,15 @@ impl Front {
 
     /// Numbers kept in the factor.
     pub fn factor_len(&self) -> usize {
-        self.pivots * (self.size() + self.border)
+        if self.symmetric { self.left_len() } else { self.left_len() + self.right_len() }
+    }
+
+    pub fn left_len(&self) -> usize {
+        self.pivots * self.size()
+    }
+
+    pub fn right_len(&self) -> usize {
+        self.pivots * self.border
     }
 
     pub fn factor_range(&self) -> Range<usize> {
@@ -61,7 +71,8 @@ impl Front {
     /// Multiplications and additions of the elimination.
     pub fn flops(&self) -> f64 {
         let (p, b) = (self.pivots as f64, self.border as f64);
-        2.0 / 3.0 * p * p * p + 2.0 * p * p * b + 2.0 * p * b * b
+        let flops = 2.0 / 3.0 * p * p * p + 2.0 * p * p * b + 2.0 * p * b * b;
+        if self.symmetric { 0.5 * flops } else { flops }
     }
 }
 
@@ -94,7 +105,13 @@ pub(crate) struct AssemblyTree {
 impl AssemblyTree {
     /// # Errors
     /// [`Error::TooLarge`] if a front has too many entries for 32 bits.
-    pub fn new(pattern: &Pattern, graph: &Graph, node_order: &[u32], supernodes: &[Supernode]) -> Result<Self, Error> {
+    pub fn new(
+        pattern: &Pattern,
+        graph: &Graph,
+        node_order: &[u32],
+        supernodes: &[Supernode],
+        symmetric: bool,
+    ) -> Result<Self, Error> {
         let (supernodes, parents) = in_final_order(supernodes);
         let (child_starts, child_list) = children(&parents);
         let nodes = supernodes.iter().flat_map(|s| s.nodes.iter().map(|&k| node_order[k as usize]));
@@ -113,7 +130,7 @@ impl AssemblyTree {
             order,
             position,
         };
-        tree.lay_out(pattern, graph, &supernodes, &parents)?;
+        tree.lay_out(pattern, &supernodes, &parents, symmetric)?;
         tree.place_entries(pattern);
         tree.find_relative_rows();
         Ok(tree)
@@ -144,9 +161,9 @@ impl AssemblyTree {
     fn lay_out(
         &mut self,
         pattern: &Pattern,
-        graph: &Graph,
         supernodes: &[&Supernode],
         parents: &[u32],
+        symmetric: bool,
     ) -> Result<(), Error> {
         let mut seen_by = vec![NONE; self.order.len()];
         let mut first = 0;
@@ -158,12 +175,12 @@ impl AssemblyTree {
                 self.children(s).first().map_or(s, |&child| self.fronts[child as usize].first_descendant);
             let border = self.rows.len() - rows;
             let factor = self.factor_len();
-            let front = Front { first, pivots, border, rows, factor, entries: 0, first_descendant, depth: 0 };
+            let front =
+                Front { first, pivots, border, rows, factor, entries: 0, first_descendant, symmetric, depth: 0 };
             u32::try_from(front.factor_len()).map_err(|_| Error::TooLarge)?;
             self.fronts.push(front);
             first += pivots;
         }
-        debug_assert_eq!(graph.members.len(), first);
         for s in (0..self.fronts.len()).rev().filter(|&s| parents[s] != NONE) {
             self.fronts[s].depth = self.fronts[parents[s] as usize].depth + 1;
         }
@@ -197,7 +214,7 @@ impl AssemblyTree {
 
     /// An entry belongs to the front that eliminates its row or its column, whichever comes first.
     fn place_entries(&mut self, pattern: &Pattern) {
-        let mirror = mirrors(pattern);
+        let mirror = pattern.mirrors();
         let mut local = vec![0; self.order.len()];
         for s in 0..self.fronts.len() {
             let front = self.fronts[s].clone();
@@ -210,12 +227,15 @@ impl AssemblyTree {
                 let k = pivot - front.first;
                 for (at, column) in pattern.entries(unknown) {
                     let other = self.position[column] as usize;
-                    if other >= front.first + front.pivots {
-                        let j = local[other];
-                        self.push_entry(at, front.pivots * front.size() + k * front.border + j - front.pivots);
+                    let below = other >= front.first + front.pivots;
+                    let j = if below { local[other] } else { other.wrapping_sub(front.first) };
+                    if below && !front.symmetric {
+                        self.push_entry(at, front.left_len() + k * front.border + j - front.pivots);
+                    }
+                    if below {
                         self.push_entry(mirror[at] as usize, k * front.size() + j);
-                    } else if other >= front.first {
-                        self.push_entry(at, (other - front.first) * front.size() + k);
+                    } else if other >= front.first && (j <= k || !front.symmetric) {
+                        self.push_entry(at, j * front.size() + k);
                     }
                 }
             }
@@ -245,49 +265,4 @@ impl AssemblyTree {
             }
         }
     }
-}
-
-/// For every entry of a pattern the index of its mirror image.
-fn mirrors(pattern: &Pattern) -> Vec<u32> {
-    let mut next = pattern.starts()[..pattern.len()].to_vec();
-    let mut mirror = vec![0; pattern.nonzeros()];
-    for row in 0..pattern.len() {
-        for (at, column) in pattern.entries(row) {
-            // Rows come in order, so each meets the entries of a column's own row one after the other.
-            mirror[at] = next[column] as u32;
-            next[column] += 1;
-        }
-    }
-    mirror
-}
-
-/// Supernodes in the postorder that needs the least memory for contribution blocks, and their parents in it.
-///
-/// The children with the largest excess of their subtree's peak over what they leave behind go first (Liu, ACM TOMS
-/// 12, 1986).
-fn in_final_order(supernodes: &[Supernode]) -> (Vec<&Supernode>, Vec<u32>) {
-    let parents = supernodes.iter().map(|s| s.parent).collect::<Vec<_>>();
-    let (starts, mut list) = children(&parents);
-    let block = |s: usize| (supernodes[s].size - supernodes[s].pivots).pow(2);
-    let mut peak = vec![0; supernodes.len()];
-    for s in 0..supernodes.len() {
-        let own = &mut list[starts[s]..starts[s + 1]];
-        own.sort_by_key(|&child| (block(child as usize) as i128 - i128::from(peak[child as usize]), child));
-        let mut left_behind = 0;
-        for &child in own.iter() {
-            peak[s] = peak[s].max(left_behind + peak[child as usize]);
-            left_behind += block(child as usize);
-        }
-        peak[s] = peak[s].max(left_behind + block(s));
-    }
-    let order = postorder(&starts, &list);
-    let mut number = vec![NONE; supernodes.len()];
-    for (new, &old) in order.iter().enumerate() {
-        number[old as usize] = new as u32;
-    }
-    let parent = |&s: &u32| match parents[s as usize] {
-        NONE => NONE,
-        p => number[p as usize],
-    };
-    (order.iter().map(|&s| &supernodes[s as usize]).collect(), order.iter().map(parent).collect())
 }

@@ -1,6 +1,7 @@
 //! Elimination of one front: dense LU with partial pivoting among the fully summed rows.
 
 use crate::assembly_tree::Front;
+use crate::extend_add::Parts;
 use crate::vector::subtract;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
@@ -10,7 +11,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Columns factorised by simple loops; wider blocks are halved.
-const NARROW: usize = 16;
+const NARROW: usize = 4;
 /// Below this many multiplications simple loops beat the set-up of blocked kernels.
 const SMALL: usize = 1024;
 /// Columns of a tile, the unit of parallel work; large enough to keep the blocked kernels at full speed.
@@ -41,41 +42,55 @@ impl PivotRule {
     }
 }
 
-/// Eliminates the pivots of an assembled front: `factor` holds its `left` and `right` parts, `block` its F22, which
-/// becomes the contribution to the parent. The tiles are the same whether or not they are computed in parallel.
-pub(crate) fn eliminate(
-    front: &Front,
-    factor: &mut [f64],
-    block: &mut [f64],
-    pivots: &mut [Pivot],
-    rule: PivotRule,
-    parallel: bool,
-) {
+/// Eliminates the pivots of an assembled front; `block` becomes the contribution to the parent. The tiles are the same
+/// whether or not they are computed in parallel.
+pub(crate) fn eliminate(front: &Front, parts: &mut Parts, pivots: &mut [Pivot], rule: PivotRule, parallel: bool) {
     let (m, p, b) = (front.size(), front.pivots, front.border);
-    let (left, right) = factor.split_at_mut(m * p);
-    Panel { left: &mut *left, m, p, rule, parallel }.factorise(0..p, pivots);
+    let Parts { left, right, block } = parts;
+    Panel { left, m, p, rule, symmetric: front.symmetric, parallel }.factorise(0..p, pivots);
     if b == 0 {
         return;
     }
-    for (k, pivot) in pivots.iter().enumerate() {
-        swap_columns(right, b, k, pivot.row as usize);
+    let small = p * b * b <= SMALL;
+    if front.symmetric {
+        scale_right(left, right, m, p, b);
+    } else {
+        for (k, pivot) in pivots.iter().enumerate() {
+            swap_columns(right, b, k, pivot.row as usize);
+        }
+        solve_right(left, right, front, parallel && !small);
     }
-    if p * b * b <= SMALL {
-        return Arch::new().dispatch(|| {
-            solve_right_small(left, right, m, p, b);
-            update_block_small(left, right, block, m, p, b);
-        });
+    if small {
+        return Arch::new().dispatch(|| update_block_small(left, right, block, front));
     }
-    let left = MatRef::from_column_major_slice(left, m, p);
-    let (upper, lower) = left.split_at_row(p);
-    let mut right = MatMut::from_column_major_slice_mut(right, b, p);
-    tiles(right.as_mut().transpose_mut(), parallel, |_, tile| {
-        solve_unit_lower_triangular_in_place(upper, tile, Par::Seq);
-    });
-    let right = right.as_ref();
+    let lower = MatRef::from_column_major_slice(left, m, p).subrows(p, b);
+    let right = MatRef::from_column_major_slice(right, b, p);
     tiles(MatMut::from_column_major_slice_mut(block, b, b), parallel, |first, tile| {
-        let rows = right.subrows(first, tile.ncols());
-        matmul(tile, Accum::Add, lower, rows.transpose(), -1.0, Par::Seq);
+        let upper = right.subrows(first, tile.ncols()).transpose();
+        let top = if front.symmetric { first } else { 0 };
+        let tile = tile.subrows_mut(top, b - top);
+        matmul(tile, Accum::Add, lower.subrows(top, b - top), upper, -1.0, Par::Seq);
+    });
+}
+
+/// `right <- L21 D`: the transposed U12 of a symmetric front.
+fn scale_right(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usize) {
+    for (k, column) in right.chunks_exact_mut(b).enumerate() {
+        let (pivot, lower) = (left[m * k + k], &left[m * k + p..m * (k + 1)]);
+        column.iter_mut().zip(lower).for_each(|(right, lower)| *right = pivot * lower);
+    }
+}
+
+/// `right <- right L11^-T`, where L11 is the unit lower triangle of the first rows of `left`.
+fn solve_right(left: &[f64], right: &mut [f64], front: &Front, parallel: bool) {
+    let (m, p, b) = (front.size(), front.pivots, front.border);
+    if p * p * b <= SMALL {
+        return Arch::new().dispatch(|| solve_right_small(left, right, m, p, b));
+    }
+    let upper = MatRef::from_column_major_slice(left, m, p).subrows(0, p);
+    let right = MatMut::from_column_major_slice_mut(right, b, p);
+    tiles(right.transpose_mut(), parallel, |_, tile| {
+        solve_unit_lower_triangular_in_place(upper, tile, Par::Seq);
     });
 }
 
@@ -99,6 +114,7 @@ struct Panel<'a> {
     m: usize,
     p: usize,
     rule: PivotRule,
+    symmetric: bool,
     parallel: bool,
 }
 
@@ -110,7 +126,7 @@ impl Panel<'_> {
         if end - start <= NARROW {
             return Arch::new().dispatch(|| self.factorise_narrow(range, pivots));
         }
-        let middle = start + ((end - start) / 2).next_multiple_of(8);
+        let middle = start + ((end - start) / 2).next_multiple_of(4);
         self.factorise(start..middle, pivots);
         self.update(start, middle, end);
         self.factorise(middle..end, pivots);
@@ -123,9 +139,16 @@ impl Panel<'_> {
         let done = MatRef::from_column_major_slice(&done[m * start..], m, middle - start);
         let (upper, lower) = (done.subrows(start, middle - start), done.subrows(middle, m - middle));
         let rest = MatMut::from_column_major_slice_mut(&mut rest[..m * (end - middle)], m, end - middle);
-        tiles(rest, self.parallel, |_, tile| {
+        let symmetric = self.symmetric;
+        tiles(rest, self.parallel, |first, tile| {
             let (_, tile) = tile.split_at_row_mut(start);
             let (mut top, bottom) = tile.split_at_row_mut(middle - start);
+            if symmetric {
+                mirror(upper, lower.subrows(first, top.ncols()), top.as_mut());
+                let height = bottom.nrows() - first;
+                let (bottom, lower) = (bottom.subrows_mut(first, height), lower.subrows(first, height));
+                return matmul(bottom, Accum::Add, lower, top.as_ref(), -1.0, Par::Seq);
+            }
             solve_unit_lower_triangular_in_place(upper, top.as_mut(), Par::Seq);
             matmul(bottom, Accum::Add, lower, top.as_ref(), -1.0, Par::Seq);
         });
@@ -136,8 +159,12 @@ impl Panel<'_> {
     fn factorise_narrow(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
         let (m, p) = (self.m, self.p);
         for k in range.clone() {
-            let row = largest(&self.left[m * k + k..m * k + p]) + k;
-            range.clone().for_each(|j| self.left.swap(m * j + k, m * j + row));
+            let row = if self.symmetric { k } else { largest(&self.left[m * k + k..m * k + p]) + k };
+            if self.symmetric {
+                (k + 1..range.end).for_each(|j| self.left[m * j + k] = self.left[m * k + j]);
+            } else {
+                range.clone().for_each(|j| self.left.swap(m * j + k, m * j + row));
+            }
             let (done, rest) = self.left[..m * range.end].split_at_mut(m * (k + 1));
             let column = &mut done[m * k..];
             let perturbed = self.rule.enforce(&mut column[k]);
@@ -149,9 +176,19 @@ impl Panel<'_> {
                 subtract(&mut other[k + 1..], factor, &column[k + 1..]);
             }
         }
-        for j in (0..range.start).chain(range.end..p) {
+        let others = if self.symmetric { 0..0 } else { range.end..p };
+        for j in (0..range.start).filter(|_| !self.symmetric).chain(others) {
             let column = &mut self.left[m * j..m * (j + 1)];
             range.clone().for_each(|k| column.swap(k, pivots[k].row as usize));
+        }
+    }
+}
+
+/// `top <- D L^T`: the rows of U that follow from the columns of L in a symmetric front.
+fn mirror(done: MatRef<'_, f64>, lower: MatRef<'_, f64>, mut top: MatMut<'_, f64>) {
+    for j in 0..top.ncols() {
+        for i in 0..top.nrows() {
+            top[(i, j)] = done[(i, i)] * lower[(j, i)];
         }
     }
 }
@@ -175,7 +212,7 @@ fn swap_columns(matrix: &mut [f64], rows: usize, j: usize, k: usize) {
     }
 }
 
-/// `right <- right L11^-T`, where L11 is the unit lower triangle of the first rows of `left`.
+/// [`solve_right`] by simple loops.
 #[inline(always)]
 fn solve_right_small(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usize) {
     for k in 0..p {
@@ -186,12 +223,14 @@ fn solve_right_small(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usi
     }
 }
 
-/// `block <- block - L21 U12`.
+/// `block <- block - L21 U12` by simple loops.
 #[inline(always)]
-fn update_block_small(left: &[f64], right: &[f64], block: &mut [f64], m: usize, p: usize, b: usize) {
+fn update_block_small(left: &[f64], right: &[f64], block: &mut [f64], front: &Front) {
+    let (m, p, b) = (front.size(), front.pivots, front.border);
     for (j, column) in block.chunks_exact_mut(b).enumerate() {
+        let top = if front.symmetric { j } else { 0 };
         for k in 0..p {
-            subtract(column, right[b * k + j], &left[m * k + p..m * (k + 1)]);
+            subtract(&mut column[top..], right[b * k + j], &left[m * k + p + top..m * (k + 1)]);
         }
     }
 }

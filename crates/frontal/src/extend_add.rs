@@ -13,6 +13,8 @@ const NARROW_CHUNK: usize = 16;
 pub(crate) struct Contribution<'a> {
     pub block: &'a [f64],
     pub relative: &'a [u32],
+    /// Whether only the lower half of the block is there.
+    pub lower: bool,
 }
 
 impl<'a> Contribution<'a> {
@@ -22,23 +24,34 @@ impl<'a> Contribution<'a> {
         index(start)..index(end)
     }
 
+    /// First row of a column that is there.
+    fn top(&self, j: usize) -> usize {
+        if self.lower { j } else { 0 }
+    }
+
     fn column(&self, j: usize) -> &'a [f64] {
         let n = self.relative.len();
         &self.block[n * j..n * (j + 1)]
     }
 }
 
-/// Adds the children in their order to the front's parts; `block` is cleared first. See [`Front`] for the layout.
+/// The parts of a front, see [`Front`].
+pub(crate) struct Parts<'a> {
+    pub left: &'a mut [f64],
+    pub right: &'a mut [f64],
+    pub block: &'a mut [f64],
+}
+
+/// Adds the children in their order to the front's parts; `block` is cleared first.
 pub(crate) fn assemble<'a>(
     front: &Front,
-    factor: &mut [f64],
-    block: &mut [f64],
+    parts: &mut Parts,
     children: usize,
     child: impl Fn(usize) -> Contribution<'a> + Sync,
     parallel: bool,
 ) {
     let (m, p, b) = (front.size(), front.pivots, front.border);
-    let (left, right) = factor.split_at_mut(m * p);
+    let Parts { left, right, block } = parts;
     if parallel {
         chunks(left, m * CHUNK).for_each(|(k, columns)| {
             (0..children).for_each(|c| add_left(columns, m, k * CHUNK, &child(c)));
@@ -70,14 +83,15 @@ fn chunks(data: &mut [f64], len: usize) -> impl IndexedParallelIterator<Item = (
 fn add_left(columns: &mut [f64], m: usize, first: usize, child: &Contribution) {
     for k in child.rows_in(first, first + columns.len() / m) {
         let j = child.relative[k] as usize - first;
-        scatter(&mut columns[m * j..m * (j + 1)], child.column(k), child.relative, 0);
+        let top = child.top(k);
+        scatter(&mut columns[m * j..m * (j + 1)], &child.column(k)[top..], &child.relative[top..], 0);
     }
 }
 
 /// Adds to columns of F12 transposed, the first of which is row `first` of the front.
 fn add_right(columns: &mut [f64], p: usize, b: usize, first: usize, child: &Contribution) {
     let rows = child.rows_in(first, first + columns.len() / b);
-    if rows.is_empty() {
+    if rows.is_empty() || child.lower {
         return;
     }
     for k in child.rows_in(p, p + b) {
@@ -96,8 +110,9 @@ fn add_block(columns: &mut [f64], p: usize, b: usize, first: usize, child: &Cont
     let border = child.rows_in(p, p + b);
     for k in child.rows_in(p + first, p + first + columns.len() / b) {
         let j = child.relative[k] as usize - p - first;
-        let column = &child.column(k)[border.clone()];
-        scatter(&mut columns[b * j..b * (j + 1)], column, &child.relative[border.clone()], p);
+        let rows = border.start.max(child.top(k))..border.end;
+        let column = &child.column(k)[rows.clone()];
+        scatter(&mut columns[b * j..b * (j + 1)], column, &child.relative[rows], p);
     }
 }
 

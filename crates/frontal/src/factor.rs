@@ -70,7 +70,7 @@ impl Factor {
             scaling: Scaling::identity(n),
             values: vec![0.0; symbolic.pattern.nonzeros()],
             shared: vec![0.0; plan.shared_len()],
-            stacks: Mutex::new(vec![vec![0.0; plan.stack_len]; plan.stacks()]),
+            stacks: Mutex::new(vec![vec![0.0; plan.stack_len + plan.scratch_len]; plan.stacks()]),
             plan,
             perturbed: Vec::new(),
             ready: false,

@@ -2,7 +2,7 @@
 
 use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule, eliminate};
-use crate::extend_add::{Contribution, assemble};
+use crate::extend_add::{Contribution, Parts, assemble};
 use crate::plan::{Plan, Role};
 use crate::symbolic::Inner;
 use std::ops::Range;
@@ -89,56 +89,75 @@ impl Numeric<'_> {
             let start = start + self.plan.shared_below[child];
             self.contribution(child, &shared[start..])
         };
-        self.front(s, own.factors, own.pivots, own.shared, child, true);
+        if !tree.fronts[s].symmetric {
+            return self.front(s, own, &mut [], child, true);
+        }
+        let mut stack = self.take_stack();
+        self.front(s, own, &mut stack[self.plan.stack_len..], child, true);
+        self.return_stack(stack);
     }
 
     /// Factorises the subtree of `task` in postorder, on a stack of its own.
     fn task(&self, task: usize, part: Part) {
-        let mut stack = self.stacks.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
-        // Only a pool with more threads than the factor was made for finds no stack left.
-        stack.resize(self.plan.stack_len, 0.0);
+        let mut stack = self.take_stack();
+        let (blocks, scratch) = stack.split_at_mut(self.plan.stack_len);
         let tree = &self.symbolic.tree;
         let start = &tree.fronts[part.first];
         for s in part.first..=task {
             let front = &tree.fronts[s];
-            let factor = &mut part.factors[front.factor - start.factor..][..front.factor_len()];
+            let factors = &mut part.factors[front.factor - start.factor..][..front.factor_len()];
             let pivots = &mut part.pivots[front.first - start.first..][..front.pivots];
-            let (block, others) = match s == task {
-                true => (&mut *part.shared, Others { stack: &stack, offset: 0 }),
-                false => split_stack(front, self.plan.offsets[s], &mut stack),
+            let (shared, others) = match s == task {
+                true => (&mut *part.shared, Others { stack: &*blocks, offset: 0 }),
+                false => split_stack(front, self.plan.offsets[s], blocks),
             };
             let child = |k: usize| {
                 let child = tree.children(s)[k] as usize;
                 self.contribution(child, &others.stack[self.plan.offsets[child] - others.offset..])
             };
-            self.front(s, factor, pivots, block, child, false);
+            self.front(s, Part { first: s, factors, pivots, shared }, scratch, child, false);
         }
+        self.return_stack(stack);
+    }
+
+    fn take_stack(&self) -> Vec<f64> {
+        let mut stack = self.stacks.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        // More work may be under way than the factor was made for: in a larger pool, or where a thread that waits for
+        // others takes up a task.
+        stack.resize(self.plan.stack_len + self.plan.scratch_len, 0.0);
+        stack
+    }
+
+    fn return_stack(&self, stack: Vec<f64>) {
         self.stacks.lock().unwrap_or_else(PoisonError::into_inner).push(stack);
     }
 
-    /// Assembles and eliminates one front.
+    /// Assembles and eliminates the front `s`, which has the whole `part`; its block is the shared one.
     fn front<'b>(
         &self,
         s: usize,
-        factor: &mut [f64],
-        pivots: &mut [Pivot],
-        block: &mut [f64],
+        part: Part,
+        scratch: &mut [f64],
         child: impl Fn(usize) -> Contribution<'b> + Sync,
         parallel: bool,
     ) {
         let tree = &self.symbolic.tree;
         let front = &tree.fronts[s];
-        factor.fill(0.0);
+        part.factors.fill(0.0);
         for entry in tree.entries(s) {
-            factor[entry.place as usize] += self.values[entry.value as usize];
+            part.factors[entry.place as usize] += self.values[entry.value as usize];
         }
-        assemble(front, factor, block, tree.children(s).len(), child, parallel);
-        eliminate(front, factor, block, pivots, self.rule, parallel);
+        let (left, right) = part.factors.split_at_mut(front.left_len());
+        let right = if front.symmetric { &mut scratch[..front.right_len()] } else { right };
+        let mut parts = Parts { left, right, block: part.shared };
+        assemble(front, &mut parts, tree.children(s).len(), child, parallel);
+        eliminate(front, &mut parts, part.pivots, self.rule, parallel);
     }
 
     fn contribution<'b>(&'b self, child: usize, from: &'b [f64]) -> Contribution<'b> {
         let front = &self.symbolic.tree.fronts[child];
-        Contribution { block: &from[..front.block_len()], relative: self.symbolic.tree.relative(front) }
+        let block = &from[..front.block_len()];
+        Contribution { block, relative: self.symbolic.tree.relative(front), lower: front.symmetric }
     }
 }
 

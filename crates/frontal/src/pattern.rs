@@ -83,6 +83,20 @@ impl Pattern {
         range.clone().zip(self.columns[range].iter().copied())
     }
 
+    /// For every entry the index of its mirror image.
+    pub(crate) fn mirrors(&self) -> Vec<u32> {
+        let mut next = self.starts[..self.len()].to_vec();
+        let mut mirror = vec![0; self.nonzeros()];
+        for row in 0..self.len() {
+            for (at, column) in self.entries(row) {
+                // Rows come in order, so each meets the entries of a column's own row one after the other.
+                mirror[at] = next[column] as u32;
+                next[column] += 1;
+            }
+        }
+        mirror
+    }
+
     /// Refuses values, in the pattern's order, of which one is not finite.
     pub(crate) fn check_finite(&self, values: &[f64]) -> Result<(), Error> {
         let Some(at) = values.iter().position(|value| !value.is_finite()) else { return Ok(()) };

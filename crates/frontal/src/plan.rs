@@ -34,6 +34,8 @@ pub(crate) struct Plan {
     pub offsets: Vec<usize>,
     /// Length of the longest stack of a task.
     pub stack_len: usize,
+    /// Room after the stack for the right part of a symmetric front, which is not kept.
+    pub scratch_len: usize,
     /// Length of the shared blocks below each front, its own not counted; the last entry is that of all fronts.
     pub shared_below: Vec<usize>,
 }
@@ -42,7 +44,10 @@ impl Plan {
     pub fn new(tree: &AssemblyTree, threads: usize) -> Self {
         let n = tree.fronts.len();
         let roles = roles(tree, threads);
-        let mut plan = Plan { threads, roles, offsets: vec![0; n], stack_len: 0, shared_below: vec![0; n + 1] };
+        let mut plan =
+            Plan { threads, roles, offsets: vec![0; n], stack_len: 0, scratch_len: 0, shared_below: vec![0; n + 1] };
+        let scratch = tree.fronts.iter().filter(|front| front.symmetric).map(|front| front.right_len());
+        plan.scratch_len = scratch.max().unwrap_or(0);
         for s in 0..=n {
             match plan.roles.get(s) {
                 Some(Role::Inside) => {}
@@ -57,7 +62,7 @@ impl Plan {
 
     /// Numbers of working memory: the shared blocks and one stack per thread.
     pub fn len(&self) -> usize {
-        self.shared_len() + self.stacks() * self.stack_len
+        self.shared_len() + self.stacks() * (self.stack_len + self.scratch_len)
     }
 
     pub fn shared_len(&self) -> usize {

@@ -60,7 +60,7 @@ impl Factor {
         let tree = &self.symbolic.tree;
         let (left, right) = self.factors[front.factor_range()].split_at(front.size() * front.pivots);
         let pivots = &self.pivots[front.pivot_range()];
-        let panels = Panels { left, right, pivots, m: front.size(), p: front.pivots, b: front.border };
+        let panels = Panels { left, right, pivots, m: front.size(), p: front.pivots, symmetric: front.symmetric };
         let local = &mut work.local[..front.size()];
         let (top, border) = local.split_at_mut(front.pivots);
         top.copy_from_slice(&work.x[front.pivot_range()]);
@@ -76,14 +76,15 @@ impl Factor {
     }
 }
 
-/// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) is `b` x `p`.
+/// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) has `m - p` rows and is missing if
+/// the matrix is symmetric.
 struct Panels<'a> {
     left: &'a [f64],
     right: &'a [f64],
     pivots: &'a [crate::dense::Pivot],
     m: usize,
     p: usize,
-    b: usize,
+    symmetric: bool,
 }
 
 impl Panels<'_> {
@@ -91,8 +92,13 @@ impl Panels<'_> {
         &self.left[self.m * k..self.m * (k + 1)]
     }
 
-    fn right(&self, k: usize) -> &[f64] {
-        &self.right[self.b * k..self.b * (k + 1)]
+    /// Row `k` of U12, as a factor and a column to be multiplied with it.
+    fn right(&self, k: usize) -> (f64, &[f64]) {
+        let border = self.m - self.p;
+        match self.symmetric {
+            true => (self.left(k)[k], &self.left(k)[self.p..]),
+            false => (1.0, &self.right[border * k..border * (k + 1)]),
+        }
     }
 }
 
@@ -114,7 +120,8 @@ fn backward(panels: &Panels, x: &mut [f64]) {
     let (x, border) = x.split_at_mut(panels.p);
     for k in (0..panels.p).rev() {
         let column = panels.left(k);
-        let value = (x[k] - dot(panels.right(k), border)) / column[k];
+        let (scale, right) = panels.right(k);
+        let value = (x[k] - scale * dot(right, border)) / column[k];
         x[k] = value;
         subtract(&mut x[..k], value, &column[..k]);
     }
@@ -128,7 +135,8 @@ fn forward_transposed(panels: &Panels, x: &mut [f64]) {
         let column = panels.left(k);
         let value = (x[k] - dot(&column[..k], &x[..k])) / column[k];
         x[k] = value;
-        subtract(border, value, panels.right(k));
+        let (scale, right) = panels.right(k);
+        subtract(border, scale * value, right);
     }
 }
 

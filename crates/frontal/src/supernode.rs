@@ -1,6 +1,6 @@
 //! Supernodes: neighbouring columns of the factor with (nearly) the same rows, eliminated together in one front.
 
-use crate::etree::{NONE, children};
+use crate::etree::{NONE, children, postorder};
 use crate::options::Amalgamation;
 
 /// A group of nodes eliminated in one front, before the fronts are put in their final order.
@@ -122,4 +122,35 @@ fn compact(list: Vec<Supernode>, parents: &[u32]) -> Vec<Supernode> {
     let renumbered = |s: usize| if parents[s] == NONE { NONE } else { new_number[parents[s] as usize] };
     let with_parent = |(s, supernode)| Supernode { parent: renumbered(s), ..supernode };
     list.into_iter().enumerate().map(with_parent).filter(|supernode| !supernode.nodes.is_empty()).collect()
+}
+
+/// Supernodes in the postorder that needs the least memory for contribution blocks, and their parents in it.
+///
+/// The children with the largest excess of their subtree's peak over what they leave behind go first (Liu, ACM TOMS
+/// 12, 1986).
+pub(crate) fn in_final_order(supernodes: &[Supernode]) -> (Vec<&Supernode>, Vec<u32>) {
+    let parents = supernodes.iter().map(|s| s.parent).collect::<Vec<_>>();
+    let (starts, mut list) = children(&parents);
+    let block = |s: usize| (supernodes[s].size - supernodes[s].pivots).pow(2);
+    let mut peak = vec![0; supernodes.len()];
+    for s in 0..supernodes.len() {
+        let own = &mut list[starts[s]..starts[s + 1]];
+        own.sort_by_key(|&child| (block(child as usize) as i128 - i128::from(peak[child as usize]), child));
+        let mut left_behind = 0;
+        for &child in own.iter() {
+            peak[s] = peak[s].max(left_behind + peak[child as usize]);
+            left_behind += block(child as usize);
+        }
+        peak[s] = peak[s].max(left_behind + block(s));
+    }
+    let order = postorder(&starts, &list);
+    let mut number = vec![NONE; supernodes.len()];
+    for (new, &old) in order.iter().enumerate() {
+        number[old as usize] = new as u32;
+    }
+    let parent = |&s: &u32| match parents[s as usize] {
+        NONE => NONE,
+        p => number[p as usize],
+    };
+    (order.iter().map(|&s| &supernodes[s as usize]).collect(), order.iter().map(parent).collect())
 }

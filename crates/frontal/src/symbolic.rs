@@ -69,7 +69,7 @@ impl Symbolic {
         let counts = column_counts(&graph, &order, &position, &parent);
         let weight = |k: usize| u64::from(graph.weights[order[k] as usize]);
         let supernodes = supernodes(&parent, &counts, weight, &options.amalgamation);
-        let tree = AssemblyTree::new(pattern, &graph, &order, &supernodes)?;
+        let tree = AssemblyTree::new(pattern, &graph, &order, &supernodes, options.symmetric)?;
         let prediction = predict(pattern, &tree, Plan::new(&tree, 1).len());
         check_limit(prediction.bytes, options.memory_limit)?;
         let inner = Inner { pattern: pattern.clone(), options: options.clone(), tree, prediction };

@@ -56,6 +56,20 @@ fn the_transposed_system_and_many_right_hand_sides() {
 }
 
 #[test]
+fn symmetric_matrices_take_half_the_work() {
+    for (cells, k) in [([12, 30, 0], 2), ([6, 7, 8], 3), ([2, 1, 0], 1)] {
+        let mut matrix = grid(cells, k, 9);
+        let random = |i: usize, j: usize| Random((i * 1000 + j) as u64).next() + if i == j { 30.0 } else { 0.0 };
+        matrix.values = matrix.entries().map(|(i, j, _)| random(i.min(j), i.max(j))).collect();
+        let mut options = Options::default();
+        options.symmetric = true;
+        assert_solves(&matrix, &options);
+        let cost = |options: &Options| Symbolic::analyse(&matrix.pattern, options).expect("a pattern").prediction();
+        assert_eq!(cost(&options).flops, 0.5 * cost(&Options::default()).flops);
+    }
+}
+
+#[test]
 fn values_may_be_badly_scaled() {
     let mut matrix = grid([6, 6, 3], 3, 2);
     let scales = (0..matrix.len()).map(|k| 10f64.powi((k * 7 % 13) as i32 * 2 - 12)).collect::<Vec<_>>();

@@ -6,10 +6,10 @@ mod models;
 use frontal::{Krylov, Options, Symbolic};
 
 /// Bits of the solutions of the system, of its transpose and of one with other values.
-fn solution_bits(model: &models::Model, threads: usize) -> Vec<u64> {
+fn solution_bits(model: &models::Model, options: &Options, threads: usize) -> Vec<u64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
     pool.install(|| {
-        let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+        let symbolic = Symbolic::analyse(&model.pattern, options).expect("a good pattern");
         let mut factor = symbolic.new_factor();
         let n = model.pattern.len();
         let mut x = (0..n).map(|k| (k as f64).sin()).collect::<Vec<_>>();
@@ -24,11 +24,24 @@ fn solution_bits(model: &models::Model, threads: usize) -> Vec<u64> {
     })
 }
 
+fn assert_same_bits(model: &models::Model, options: &Options) {
+    let one = solution_bits(model, options, 1);
+    assert!(one == solution_bits(model, options, 2), "{} with two threads", model.name);
+    assert!(one == solution_bits(model, options, 4), "{} with four threads", model.name);
+}
+
 #[test]
 fn one_two_and_four_threads_give_the_same_bits() {
     for model in [models::hex8([11, 11, 11]), models::bordered([7, 7, 7], 6), models::quad8([40, 40])] {
-        let one = solution_bits(&model, 1);
-        assert!(one == solution_bits(&model, 2), "{} with two threads", model.name);
-        assert!(one == solution_bits(&model, 4), "{} with four threads", model.name);
+        assert_same_bits(&model, &Options::default());
     }
+}
+
+#[test]
+fn so_they_do_for_symmetric_matrices() {
+    let mut model = models::hex8([11, 11, 11]);
+    model.symmetrise();
+    let mut options = Options::default();
+    options.symmetric = true;
+    assert_same_bits(&model, &options);
 }

@@ -12,6 +12,22 @@ pub struct Model {
     pub values: Vec<f64>,
 }
 
+impl Model {
+    /// Takes the skew part away.
+    pub fn symmetrise(&mut self) {
+        let (starts, columns) = (self.pattern.starts(), self.pattern.columns());
+        let mut next = starts.to_vec();
+        for row in 0..self.pattern.len() {
+            for at in starts[row]..starts[row + 1] {
+                let mirror = next[columns[at]];
+                next[columns[at]] += 1;
+                let mean = 0.5 * (self.values[at] + self.values[mirror]);
+                (self.values[at], self.values[mirror]) = (mean, mean);
+            }
+        }
+    }
+}
+
 const YOUNG: f64 = 1.0;
 const POISSON: f64 = 0.3;
 /// Size of the skew part against the stiffness.

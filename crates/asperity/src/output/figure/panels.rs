@@ -1,7 +1,7 @@
 //! Pictures of meshes: one or more panels side by side, all in one scale, with tools, a colour field, stress vectors
 //! and their legends.
 
-use super::arrows::{Arrow, draw_arrows};
+use super::arrows::draw_arrows;
 use super::axes::{Axes, Axis, LARGE, MEDIUM};
 use super::drawing::{Anchor, Drawing, Label, Rect};
 use super::outline::draw_outline;

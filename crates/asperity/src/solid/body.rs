@@ -48,12 +48,12 @@ impl Default for BodyOptions {
 /// A set of cells made of one material.
 pub struct Body {
     name: String,
-    mesh: Arc<Mesh>,
-    dofs: Dofs,
-    space: Space,
-    cells: Vec<usize>,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) dofs: Dofs,
+    pub(super) space: Space,
+    pub(super) cells: Vec<usize>,
     material: Arc<dyn Material>,
-    options: BodyOptions,
+    pub(super) options: BodyOptions,
 }
 
 impl Body {

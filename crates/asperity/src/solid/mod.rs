@@ -8,5 +8,7 @@ mod body;
 mod gradient;
 mod plane_stress;
 mod point;
+mod record;
 
 pub use body::{Body, BodyOptions, Formulation, Integration};
+pub use record::PointRecord;

@@ -1,0 +1,151 @@
+//! Values at integration points to values at nodes: in each cell the least-squares field in the shape functions of its
+//! corners, taken at its nodes; then the mean over the cells at each node. A node in no cell has none (NaN).
+
+use crate::Error;
+use crate::mesh::cells::{Cell, MAX_NODES, Rule};
+use crate::mesh::{CellView, Mesh};
+use std::collections::BTreeMap;
+
+/// For each node of a cell the weights of the values at its integration points.
+type Extrapolation = Vec<Vec<f64>>;
+
+/// Means at the nodes of a mesh, gathered cell by cell.
+pub struct NodalMean<'a> {
+    mesh: &'a Mesh,
+    width: usize,
+    sums: Vec<f64>,
+    counts: Vec<usize>,
+    known: BTreeMap<(&'static str, usize), Extrapolation>,
+}
+
+impl<'a> NodalMean<'a> {
+    /// No values yet, of `width` components each.
+    pub fn new(mesh: &'a Mesh, width: usize) -> Self {
+        let nodes = mesh.points.len();
+        Self { mesh, width, sums: vec![0.0; width * nodes], counts: vec![0; nodes], known: BTreeMap::new() }
+    }
+    /// Adds a cell by the values at the points of `rule`, point after point.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] when the values are not as many as the points.
+    pub fn add(&mut self, cell: usize, rule: &Rule, values: &[f64]) -> Result<(), Error> {
+        let CellView { kind, nodes } = self.mesh.cell(cell);
+        if values.len() != self.width * rule.points.len() {
+            return Err(Error::Internal(format!("cell {cell} has {} values at its points", values.len())));
+        }
+        let key = (kind.name, rule.points.len());
+        let weights = self.known.entry(key).or_insert_with(|| extrapolation(kind, rule));
+        for (&node, weights) in nodes.iter().zip(weights.iter()) {
+            let sums = &mut self.sums[node * self.width..][..self.width];
+            for (value, weight) in values.chunks_exact(self.width).zip(weights) {
+                sums.iter_mut().zip(value).for_each(|(sum, value)| *sum += weight * value);
+            }
+            self.counts[node] += 1;
+        }
+        Ok(())
+    }
+    /// The means, node after node.
+    pub fn finish(mut self) -> Vec<f64> {
+        for (sums, &count) in self.sums.chunks_exact_mut(self.width).zip(&self.counts) {
+            sums.iter_mut().for_each(|sum| *sum /= count as f64);
+        }
+        self.sums
+    }
+}
+
+/// Least squares in the shape functions of the corners; the plain mean where the points are too few for them.
+fn extrapolation(kind: &Cell, rule: &Rule) -> Extrapolation {
+    let corners = kind.linear.nodes.len();
+    let at_points: Vec<Vec<f64>> = rule.points.iter().map(|&xi| corner_functions(kind, xi)).collect();
+    let normal: Vec<Vec<f64>> =
+        (0..corners).map(|i| (0..corners).map(|j| at_points.iter().map(|n| n[i] * n[j]).sum()).collect()).collect();
+    let Some(inverse) = inverse(normal) else {
+        let points = rule.points.len();
+        return vec![vec![1.0 / points as f64; points]; kind.nodes.len()];
+    };
+    let weight = |at_node: &[f64], at_point: &[f64]| -> f64 {
+        let row = |i: usize| -> f64 { (0..corners).map(|j| inverse[i][j] * at_point[j]).sum() };
+        (0..corners).map(|i| at_node[i] * row(i)).sum()
+    };
+    let node = |&xi: &[f64; 3]| {
+        let at_node = corner_functions(kind, xi);
+        at_points.iter().map(|at_point| weight(&at_node, at_point)).collect()
+    };
+    kind.nodes.iter().map(node).collect()
+}
+
+fn corner_functions(kind: &Cell, xi: [f64; 3]) -> Vec<f64> {
+    let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+    (kind.linear.shape)(xi, &mut n, &mut dn);
+    n[..kind.linear.nodes.len()].to_vec()
+}
+
+/// Inverse of a small symmetric matrix by Gauss and Jordan; none when it has no full rank.
+fn inverse(mut a: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+    let n = a.len();
+    let mut b: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    let size = (0..n).map(|i| a[i][i]).fold(0.0, f64::max);
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))?;
+        if a[pivot][k].abs() < 1e-10 * size {
+            return None;
+        }
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        let (row, right) = (a[k].clone(), b[k].clone());
+        for i in 0..n {
+            let factor = if i == k { 1.0 - 1.0 / row[k] } else { a[i][k] / row[k] };
+            (0..n).for_each(|j| a[i][j] -= factor * row[j]);
+            (0..n).for_each(|j| b[i][j] -= factor * right[j]);
+        }
+    }
+    Some(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::cells::ALL;
+
+    /// One undistorted cell, its nodes at their reference coordinates.
+    fn single(kind: &'static Cell) -> Mesh {
+        let mut mesh = Mesh::new();
+        mesh.points = kind.nodes.iter().map(|&x| crate::tensor::Vec3(x)).collect();
+        mesh.push_cell(kind, &(0..kind.nodes.len()).collect::<Vec<_>>());
+        mesh
+    }
+
+    #[test]
+    fn a_linear_field_is_met_exactly_where_the_points_can_hold_it() {
+        let field = |x: &[f64; 3]| [3.0 - x[0] + 2.0 * x[1] - 0.5 * x[2], 7.0];
+        let mut met = 0;
+        for kind in ALL.iter().filter(|kind| kind.dimension > 1) {
+            for rule in [Some(kind.full), kind.reduced].into_iter().flatten() {
+                let mesh = single(kind);
+                let mut mean = NodalMean::new(&mesh, 2);
+                mean.add(0, rule, &rule.points.iter().flat_map(field).collect::<Vec<_>>()).unwrap();
+                let nodal = mean.finish();
+                let enough = rule.points.len() >= kind.linear.nodes.len();
+                for (node, found) in kind.nodes.iter().zip(nodal.chunks_exact(2)) {
+                    let expected = field(node);
+                    assert!((found[1] - 7.0).abs() < 1e-12, "{}: a constant is a constant", kind.name);
+                    assert!(!enough || (found[0] - expected[0]).abs() < 1e-11, "{}: {found:?}", kind.name);
+                }
+                met += usize::from(enough);
+            }
+        }
+        assert!(met >= 3);
+    }
+
+    #[test]
+    fn a_node_in_no_cell_has_no_value_and_a_wrong_count_is_refused() {
+        let kind = ALL.iter().find(|kind| kind.name == "quad4").unwrap();
+        let mut mesh = single(kind);
+        mesh.points.push(crate::tensor::Vec3::zero());
+        let mut mean = NodalMean::new(&mesh, 1);
+        assert!(mean.add(0, kind.full, &[1.0]).is_err());
+        mean.add(0, kind.full, &[1.0; 4]).unwrap();
+        let nodal = mean.finish();
+        assert!(nodal[4].is_nan() && nodal[..4].iter().all(|x| (x - 1.0).abs() < 1e-12));
+    }
+}

@@ -1,0 +1,64 @@
+//! The integration points of a body in an accepted state: what outputs may ask of them.
+
+use super::Body;
+use crate::mesh::Space;
+use crate::mesh::cells::MAX_NODES;
+use crate::system::History;
+use crate::tensor::{Tensor2, Vec3};
+
+/// One integration point in an accepted state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointRecord<'a> {
+    /// The cell it lies in.
+    pub cell: usize,
+    /// Its number in the cell's quadrature.
+    pub point: usize,
+    /// Position before any motion.
+    pub reference: Vec3,
+    /// Present position.
+    pub position: Vec3,
+    /// Present volume it stands for: with the thickness in the plane, the full circumference when axisymmetric.
+    pub volume: f64,
+    /// Cauchy stress XX YY ZZ XY YZ XZ, then the variables of the law.
+    pub state: &'a [f64],
+}
+
+impl Body {
+    /// All integration points, cell by cell, at displacements `u` with this body's lane of the history.
+    pub fn records<'a>(&'a self, u: &'a [f64], history: &'a History) -> impl Iterator<Item = PointRecord<'a>> + 'a {
+        let len = self.point_len();
+        self.cells.iter().enumerate().flat_map(move |(slot, &cell)| {
+            let points = history.slot(slot).chunks_exact(len).enumerate();
+            points.map(move |(point, state)| self.record(cell, point, u, state))
+        })
+    }
+
+    fn record<'a>(&self, cell: usize, point: usize, u: &[f64], state: &'a [f64]) -> PointRecord<'a> {
+        let view = self.mesh.cell(cell);
+        let rule = self.rule(view.kind);
+        let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+        (view.kind.shape)(rule.points[point], &mut n, &mut dn);
+        let (mut reference, mut position, mut jacobian) = (Vec3::zero(), Vec3::zero(), Tensor2::zero());
+        for (&node, (n, dn)) in view.nodes.iter().zip(n.iter().zip(&dn)) {
+            let x = self.mesh.points[node];
+            let first = self.dofs.node(node);
+            let mut present = x;
+            (0..self.dofs.per_node()).for_each(|a| present[a] += u[first + a]);
+            reference += x * *n;
+            position += present * *n;
+            jacobian = jacobian + Tensor2::from_fn(|i, a| present[i] * dn[a]);
+        }
+        if self.space != Space::Solid {
+            jacobian[(2, 2)] = 1.0;
+        }
+        let (law, last) = state.split_at(self.material().state_len());
+        let extent = match self.space {
+            Space::PlaneStrain => self.options.thickness,
+            Space::PlaneStress => self.options.thickness * last[0],
+            Space::Axisymmetric => std::f64::consts::TAU * position[0],
+            Space::Solid => 1.0,
+        };
+        let volume = jacobian.det() * rule.weights[point] * extent;
+        PointRecord { cell, point, reference, position, volume, state: law }
+    }
+}

@@ -1,18 +1,26 @@
 //! Results: one store of quantities a frame, and the files, tables and pictures made from it. Layer 6; it reads the
 //! model and its state and never changes them, so that asking for an output cannot change a solution.
 
+mod average;
 mod certificate;
 pub mod checkpoint;
 pub mod figure;
 pub mod file;
+#[cfg(test)]
+mod fixture;
+mod grids;
 mod history;
+mod quantities;
 mod quantity;
+mod results;
 mod summary;
 mod table;
 pub mod vtk;
 
 pub use certificate::Certificate;
 pub use history::{HistoryTable, global_columns};
+pub use quantities::{Parts, Source};
 pub use quantity::{Frame, Number, Place, Quantity, Unit, Width};
+pub use results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
 pub use summary::{Status, Summary};
 pub use table::{Columns, Field, Table};

@@ -157,6 +157,7 @@ fn best_columns(count: usize, size: [f64; 2], room: [f64; 2]) -> (usize, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::arrows::Arrow;
     use super::super::drawing::{Item, Segment};
     use super::super::palette::Color;
     use super::*;

@@ -18,25 +18,49 @@ pub struct Series {
 }
 
 impl Series {
-    /// Begins a series in a directory; no file is written before the first frame.
+    /// Begins a series in a directory; no file is written before the first frame. Frames of an earlier run are removed.
     ///
     /// # Errors
-    /// [`Error::File`] when the folder of the frames cannot be made.
+    /// [`Error::File`] when the folder of the frames cannot be made, or an old file not removed.
     pub fn create(directory: &Path, name: &str, encoding: Encoding) -> Result<Self, Error> {
+        let series = Self { directory: directory.into(), name: name.into(), encoding, frames: Vec::new() };
         file::make_directory(&directory.join(name))?;
-        Ok(Self { directory: directory.into(), name: name.into(), encoding, frames: Vec::new() })
+        if series.path().exists() {
+            std::fs::remove_file(series.path()).map_err(|error| Error::file(series.path(), error))?;
+        }
+        series.clear()?;
+        Ok(series)
     }
     /// Continues a series after a restart: the frames up to `time` stay, later ones leave the list.
     ///
     /// # Errors
     /// [`Error::File`] when the folder or an existing list cannot be read.
     pub fn resume(directory: &Path, name: &str, encoding: Encoding, time: f64) -> Result<Self, Error> {
-        let mut series = Self::create(directory, name, encoding)?;
+        let mut series = Self { directory: directory.into(), name: name.into(), encoding, frames: Vec::new() };
+        file::make_directory(&directory.join(name))?;
         if series.path().exists() {
             series.frames = read_series(&series.path())?;
             series.frames.retain(|(at, _)| *at <= time);
         }
+        write_atomic(&series.path(), series.list().as_bytes(), Durability::Process)?;
+        series.clear()?;
         Ok(series)
+    }
+    /// Removes frames that the list does not name, and nothing else.
+    fn clear(&self) -> Result<(), Error> {
+        let folder = self.directory.join(&self.name);
+        let failed = |error: std::io::Error| Error::file(&folder, error);
+        for entry in std::fs::read_dir(&folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let ours = name.strip_prefix(&format!("{}_", self.name)).and_then(|rest| rest.strip_suffix(".vtu"));
+            let numbered = ours.is_some_and(|number| number.bytes().all(|b| b.is_ascii_digit()));
+            let listed = self.frames.iter().any(|(_, file)| *file == format!("{}/{name}", self.name));
+            if numbered && !listed {
+                std::fs::remove_file(entry.path()).map_err(|error| Error::file(entry.path(), error))?;
+            }
+        }
+        Ok(())
     }
     /// Writes the next frame and the list.
     ///

@@ -110,8 +110,12 @@ fn a_series_lists_its_frames_and_resumes() {
         assert_eq!(frames.len(), series.len());
         assert!(frames.iter().all(|(at, name)| read_grid(&directory.path().join(name)).unwrap().time == *at));
     }
+    let frames = || std::fs::read_dir(directory.path().join("bodies")).unwrap().count();
+    std::fs::write(directory.path().join("bodies/notes.txt"), "the user's own").unwrap();
     let resumed = Series::resume(directory.path(), "bodies", Encoding::default(), 0.1).unwrap();
-    assert_eq!(resumed.len(), 2);
+    assert_eq!((resumed.len(), read_series(&resumed.path()).unwrap().len(), frames()), (2, 2, 3));
+    Series::create(directory.path(), "bodies", Encoding::default()).unwrap();
+    assert_eq!(frames(), 1, "only the user's own file is left");
 }
 
 #[test]

@@ -1,0 +1,302 @@
+//! The standard pictures of a finished run, drawn from its files alone: contact stress on the deformed mesh, equivalent
+//! stress, forces over travel, convergence.
+
+use super::arrows::Arrow;
+use super::chart::Chart;
+use super::drawing::Drawing;
+use super::panels::Panels;
+use super::scene::Scene;
+use super::ticks::minus;
+use super::view::{Projection, Window};
+use crate::Error;
+use crate::mesh::Mesh;
+use crate::output::file::{Durability, write_atomic};
+use crate::output::vtk::{DataArray, Grid, read_grid, read_series};
+use crate::output::{Columns, Summary};
+use std::path::{Path, PathBuf};
+
+/// What is drawn, and how large.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FigureOptions {
+    /// Times of the frames shown side by side; the nearest written ones are taken. Empty: four, evenly over the run.
+    pub times: Vec<f64>,
+    /// What of the plane is shown; everything where not given.
+    pub window: Option<Window>,
+    /// Pixels of the PNG a point of the page.
+    pub resolution: f64,
+}
+
+impl Default for FigureOptions {
+    fn default() -> Self {
+        Self { times: Vec::new(), window: None, resolution: 2.0 }
+    }
+}
+
+/// Frames shown side by side where no times are given.
+const PANELS: usize = 4;
+/// Forces and motions smaller than this part of the largest are not drawn.
+const SMALL: f64 = 1e-9;
+
+/// Draws the standard pictures into the directory of the results and returns their files.
+///
+/// # Errors
+/// [`Error::File`] when a result cannot be read, or a picture not written.
+pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<PathBuf>, Error> {
+    let run = Run { directory, summary: Summary::read(&directory.join("summary.json"))?, options };
+    let mut written = Vec::new();
+    let mut save = |name: &str, drawing: Drawing| -> Result<(), Error> {
+        let (svg, png) = (directory.join(format!("{name}.svg")), directory.join(format!("{name}.png")));
+        write_atomic(&svg, drawing.to_svg().as_bytes(), Durability::Process)?;
+        write_atomic(&png, &drawing.to_png(options.resolution)?, Durability::Process)?;
+        written.extend([svg, png]);
+        Ok(())
+    };
+    let shots = run.shots()?;
+    if !shots.is_empty() {
+        save("contact_stress", run.panels("Contact stress", "", &shots).draw())?;
+        save("von_mises", run.panels("Equivalent stress", "von_mises_averaged", &shots).draw())?;
+    }
+    if let Some(chart) = run.forces()? {
+        save("forces", chart.draw())?;
+    }
+    if let Some(chart) = run.convergence()? {
+        save("convergence", chart.draw())?;
+    }
+    Ok(written)
+}
+
+/// The files of one run.
+struct Run<'a> {
+    directory: &'a Path,
+    summary: Summary,
+    options: &'a FigureOptions,
+}
+
+/// One frame, read back.
+struct Shot {
+    time: f64,
+    mesh: Mesh,
+    bodies: Grid,
+    arrows: Vec<Arrow>,
+    tools: Vec<Vec<[f64; 3]>>,
+}
+
+impl Run<'_> {
+    /// The frames to be shown.
+    fn shots(&self) -> Result<Vec<Shot>, Error> {
+        let series = |name: &str| {
+            let path = self.directory.join(format!("{name}.pvd"));
+            if path.exists() { read_series(&path) } else { Ok(Vec::new()) }
+        };
+        let (bodies, contacts, tools) = (series("bodies")?, series("contacts")?, series("tools")?);
+        let at = |series: &[(f64, String)], time: f64| {
+            let frame = series.iter().find(|(at, _)| *at == time);
+            frame.map_or(Ok(Grid::default()), |(_, file)| read_grid(&self.directory.join(file)))
+        };
+        let times: Vec<f64> = bodies.iter().map(|(time, _)| *time).collect();
+        let chosen = chosen(&times, &self.options.times).into_iter();
+        chosen.map(|time| shot(time, at(&bodies, time)?, &at(&contacts, time)?, &at(&tools, time)?)).collect()
+    }
+
+    fn panels<'b>(&self, title: &str, field: &str, shots: &'b [Shot]) -> Panels<'b> {
+        let solid = self.summary.space == "solid";
+        let axes = if self.summary.space == "axisymmetric" { ["r", "z"] } else { ["x", "y"] };
+        let title = match self.summary.title.as_str() {
+            "" => title.to_string(),
+            own => format!("{own}: {}", title.to_lowercase()),
+        };
+        Panels {
+            title,
+            scenes: shots.iter().map(|shot| shot.scene(field)).collect(),
+            projection: if solid { Projection::Corner } else { Projection::Plane },
+            axes: axes.map(str::to_string),
+            arrow_name: "contact stress (force / length^{2})".into(),
+            field_name: "von Mises stress (force / length^{2})".into(),
+            window: self.options.window,
+            room: [900.0, 760.0],
+        }
+    }
+
+    /// Contact forces over the largest prescribed motion; reactions where there is no contact.
+    fn forces(&self) -> Result<Option<Chart>, Error> {
+        let path = self.directory.join("history.csv");
+        if !path.exists() {
+            return Ok(None);
+        }
+        let history = Columns::read(&path)?;
+        let of = |column: &String| Some((column.clone(), history.numbers(column)?));
+        let columns: Vec<(String, Vec<f64>)> = history.header.iter().filter_map(of).collect();
+        let Some((name, travel)) = travel(&columns) else { return Ok(None) };
+        let contact = drawn(&columns, "contact.", ".force.");
+        let lines = if contact.is_empty() { drawn(&columns, "reaction.", ".") } else { contact };
+        let mut chart = Chart::new(self.summary.title.clone(), name, "force");
+        for (name, values) in lines {
+            let points = travel.iter().zip(values).map(|(&x, &y)| [x, y]).collect();
+            chart.line(name.trim_start_matches("contact.").to_string(), points);
+        }
+        Ok((!chart.series.is_empty() && travel.len() > 1).then_some(chart))
+    }
+
+    /// The residual of every iteration of every attempt, one after another.
+    fn convergence(&self) -> Result<Option<Chart>, Error> {
+        let path = self.directory.join("iterations.csv");
+        if !path.exists() {
+            return Ok(None);
+        }
+        let table = Columns::read(&path)?;
+        let (Some(iteration), Some(residual)) = (table.numbers("iteration"), table.numbers("residual")) else {
+            return Ok(None);
+        };
+        let mut chart = Chart::new("Convergence", "iterations", "largest unbalanced force, relative").log_y();
+        chart.size[0] = 760.0;
+        let mut attempt = Vec::new();
+        for (count, (&iteration, &residual)) in iteration.iter().zip(&residual).enumerate() {
+            if iteration == 0.0 {
+                chart.line("", std::mem::take(&mut attempt)).styled(0);
+            }
+            attempt.push([count as f64, residual]);
+        }
+        chart.line("", attempt).styled(0);
+        Ok(Some(chart))
+    }
+}
+
+impl Shot {
+    fn scene(&self, field: &str) -> Scene<'_> {
+        let field = self.bodies.point_array(field).map(|array| array.values.to_real());
+        Scene {
+            title: format!("time {}", minus(&super::ticks::short(self.time))),
+            mesh: &self.mesh,
+            points: moved(&self.bodies),
+            field,
+            arrows: self.arrows.clone(),
+            tools: self.tools.clone(),
+        }
+    }
+}
+
+/// The written times nearest to the wanted ones; evenly spread ones where none are wanted, the first left out.
+fn chosen(times: &[f64], wanted: &[f64]) -> Vec<f64> {
+    let (Some(first), Some(last)) = (times.first(), times.last()) else { return Vec::new() };
+    let even = (1..=PANELS).map(|i| first + (last - first) * i as f64 / PANELS as f64).collect();
+    let wanted = if wanted.is_empty() { even } else { wanted.to_vec() };
+    let near = |&want: &f64| times.iter().copied().min_by(|a, b| (a - want).abs().total_cmp(&(b - want).abs()));
+    let mut found: Vec<f64> = wanted.iter().filter_map(near).collect();
+    found.dedup();
+    found
+}
+
+fn shot(time: f64, bodies: Grid, contacts: &Grid, tools: &Grid) -> Result<Shot, Error> {
+    Ok(Shot { time, mesh: bodies.to_mesh()?, arrows: arrows(contacts), tools: profiles(tools), bodies })
+}
+
+/// Present positions of a grid's points.
+fn moved(grid: &Grid) -> Vec<[f64; 3]> {
+    let by = vectors(grid.point_array("displacement"));
+    let shift = |(i, p): (usize, &[f64; 3])| by.get(i).map_or(*p, |u| std::array::from_fn(|a| p[a] + u[a]));
+    grid.points.iter().enumerate().map(shift).collect()
+}
+
+fn vectors(array: Option<&DataArray>) -> Vec<[f64; 3]> {
+    array.filter(|a| a.components == 3).map_or(Vec::new(), |a| a.values.to_real().as_chunks().0.to_vec())
+}
+
+/// The stress vectors of closed contact points.
+fn arrows(contacts: &Grid) -> Vec<Arrow> {
+    let traction = vectors(contacts.point_array("contact_traction"));
+    let number = contacts.point_array("contact").map_or(Vec::new(), |a| a.values.to_real());
+    let group = |i: usize| number.get(i).map_or(0, |&n| n as usize);
+    let all = moved(contacts).into_iter().zip(traction).enumerate();
+    let all = all.map(|(i, (at, vector))| Arrow { at, vector, group: group(i) });
+    all.filter(|arrow| arrow.size() > 0.0).collect()
+}
+
+/// Lines that follow each other, joined.
+fn profiles(tools: &Grid) -> Vec<Vec<[f64; 3]>> {
+    let points = moved(tools);
+    let mut profiles: Vec<Vec<[f64; 3]>> = Vec::new();
+    let mut end = None;
+    for (_, nodes) in tools.cells.iter().flatten() {
+        let ends: Vec<usize> = nodes.iter().filter_map(|&n| usize::try_from(n).ok()).collect();
+        let (Some(&from), Some(&to)) = (ends.first(), ends.get(1)) else { continue };
+        let (Some(&a), Some(&b)) = (points.get(from), points.get(to)) else { continue };
+        match profiles.last_mut() {
+            Some(profile) if end == Some(from) => profile.push(b),
+            _ => profiles.push(vec![a, b]),
+        }
+        end = Some(to);
+    }
+    profiles
+}
+
+fn span(values: &[f64]) -> f64 {
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+    high - low
+}
+
+/// The prescribed motion that goes farthest, with a title; time where nothing moves.
+fn travel(columns: &[(String, Vec<f64>)]) -> Option<(String, Vec<f64>)> {
+    let time = &columns.iter().find(|(name, _)| name == "time")?.1;
+    let moves = |name: &str| name.starts_with("displacement.") || name.contains(".translation.");
+    let candidates = columns.iter().filter(|(name, values)| moves(name) && span(values) > 0.0);
+    let farthest = candidates.max_by(|a, b| span(&a.1).total_cmp(&span(&b.1)));
+    Some(match farthest {
+        Some((name, values)) => {
+            let axis = name.rsplit('.').next().unwrap_or("");
+            let what = name.trim_start_matches("displacement.").trim_start_matches("tool.");
+            let what = what.trim_end_matches(axis).trim_end_matches('.').trim_end_matches(".translation");
+            (format!("travel of {what} along {axis}"), values.iter().map(|x| x.abs()).collect())
+        }
+        None => ("time".into(), time.clone()),
+    })
+}
+
+/// Columns of one kind, without those that stay small.
+fn drawn<'a>(columns: &'a [(String, Vec<f64>)], start: &str, middle: &str) -> Vec<(&'a str, &'a [f64])> {
+    let kind = columns.iter().filter(|(name, _)| name.starts_with(start) && name.contains(middle));
+    let size = |values: &[f64]| values.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let largest = kind.clone().map(|(_, values)| size(values)).fold(0.0, f64::max);
+    kind.filter(|(_, v)| size(v) > SMALL * largest).map(|(name, v)| (name.as_str(), v.as_slice())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_chosen_by_time() {
+        let times: Vec<f64> = (0..=10).map(|i| 0.1 * f64::from(i)).collect();
+        assert_eq!(chosen(&times, &[]), [times[2], times[5], times[7], times[10]]);
+        assert_eq!(chosen(&times, &[0.29, 0.31, 0.9]), [times[3], times[9]]);
+        assert!(chosen(&[], &[0.5]).is_empty());
+    }
+
+    #[test]
+    fn the_travel_is_the_motion_that_goes_farthest() {
+        let column = |name: &str, values: &[f64]| (name.to_string(), values.to_vec());
+        let mut columns = vec![column("time", &[0.0, 1.0]), column("displacement.far.end.x", &[0.0, 0.0])];
+        assert_eq!(travel(&columns).unwrap().0, "time");
+        columns.push(column("displacement.far.end.y", &[0.0, -3.0]));
+        columns.push(column("tool.die.translation.x", &[0.0, 2.0]));
+        assert_eq!(travel(&columns).unwrap(), ("travel of far.end along y".into(), vec![0.0, 3.0]));
+        columns.push(column("tool.die.translation.y", &[0.0, 9.0]));
+        assert_eq!(travel(&columns).unwrap().0, "travel of die along y");
+    }
+
+    #[test]
+    fn forces_that_stay_small_are_not_drawn() {
+        let column = |name: &str, value: f64| (name.to_string(), vec![0.0, value]);
+        let columns =
+            [column("contact.a.force.x", 5.0), column("contact.a.force.y", 1e-12), column("contact.a.area", 9.0)];
+        let names: Vec<&str> = drawn(&columns, "contact.", ".force.").iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, ["contact.a.force.x"]);
+    }
+
+    #[test]
+    fn lines_that_follow_each_other_are_one_profile() {
+        let mut grid = Grid { points: (0..5).map(|i| [f64::from(i), 0.0, 0.0]).collect(), ..Grid::default() };
+        [[0, 1], [1, 2], [3, 4]].into_iter().for_each(|line| grid.cells.push(3, line));
+        let profiles = profiles(&grid);
+        assert_eq!(profiles.iter().map(Vec::len).collect::<Vec<_>>(), [3, 2]);
+    }
+}

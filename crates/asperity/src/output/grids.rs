@@ -1,0 +1,101 @@
+//! Frames as VTK grids: bodies, integration points, contact points, tools. Points stand where they were before any
+//! motion; `displacement` moves them ("Warp By Vector").
+
+use super::quantities::Source;
+use super::quantity::{Frame, Number, Place, Quantity};
+use super::vtk::{Cells, DataArray, Grid, Values};
+use crate::Error;
+use crate::mesh::Mesh;
+use crate::tool::Pose;
+
+/// Lines of a tool's outline leave its curves by no more than this part of its size.
+const SAGITTA: f64 = 1e-4;
+
+/// The grid of the bodies, whose cells and groups are the same in all frames.
+#[derive(Debug, Clone)]
+pub struct BodyGrid {
+    points: Vec<[f64; 3]>,
+    cells: Cells,
+    point_masks: Vec<DataArray>,
+    cell_masks: Vec<DataArray>,
+}
+
+impl BodyGrid {
+    /// The grid of a mesh, with a mask for each of its groups.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] for a cell that VTK does not know.
+    pub fn new(mesh: &Mesh) -> Result<Self, Error> {
+        let mask = |name: &str, count: usize, members: &[usize]| {
+            let mut mask = vec![0; count];
+            members.iter().for_each(|&i| mask[i] = 1);
+            DataArray::new(format!("group.{name}"), 1, Values::Byte(mask))
+        };
+        let groups = mesh.groups.iter();
+        let with_cells = groups.clone().filter(|(_, group)| !group.cells.is_empty());
+        Ok(Self {
+            points: mesh.points.iter().map(|p| p.0).collect(),
+            cells: Cells::of_mesh(mesh)?,
+            point_masks: groups.map(|(name, group)| mask(name, mesh.points.len(), &group.nodes)).collect(),
+            cell_masks: with_cells.map(|(name, group)| mask(name, mesh.cell_count(), &group.cells)).collect(),
+        })
+    }
+    /// The grid with the nodal and cell quantities of a frame.
+    pub fn at(&self, frame: &Frame) -> Grid {
+        let arrays = |place, masks: &[DataArray]| frame.at(place).map(array).chain(masks.iter().cloned()).collect();
+        Grid {
+            time: frame.time,
+            points: self.points.clone(),
+            cells: self.cells.clone(),
+            point_data: arrays(Place::Node, &self.point_masks),
+            cell_data: arrays(Place::Cell, &self.cell_masks),
+        }
+    }
+}
+
+/// One vertex for each integration point of a place, with the quantities there.
+pub fn cloud(frame: &Frame, place: Place) -> Grid {
+    const POSITION: &str = "reference_position";
+    let points = frame.get(place, POSITION).map_or(vec![], |q| q.values.as_chunks().0.to_vec());
+    let others = frame.at(place).filter(|q| q.name != POSITION);
+    Grid {
+        time: frame.time,
+        cells: Cells::vertices(points.len()),
+        points,
+        point_data: others.map(array).collect(),
+        cell_data: Vec::new(),
+    }
+}
+
+/// The outlines of the tools as lines, their material on the left.
+pub fn tools(source: &Source, frame: &Frame) -> Grid {
+    let mut grid = Grid { time: frame.time, ..Grid::default() };
+    let (mut displacement, mut number) = (Vec::new(), Vec::new());
+    for (index, tool) in source.parts.tools.iter().enumerate() {
+        let Some(pose) = source.pose(index) else { continue };
+        let sagitta = SAGITTA * tool.size();
+        let chains = tool.outline(&Pose::new(0.0, 0.0, 0.0), sagitta).into_iter().zip(tool.outline(&pose, sagitta));
+        for (before, now) in chains {
+            let first = grid.points.len();
+            displacement.extend(before.iter().zip(&now).flat_map(|(before, now)| (*now - *before).0));
+            grid.points.extend(before.iter().map(|p| p.0));
+            for end in first + 1..grid.points.len() {
+                grid.cells.push(3, [end - 1, end]);
+                number.push(index as i64);
+            }
+        }
+    }
+    grid.point_data = vec![DataArray::new("displacement", 3, Values::Real(displacement))];
+    grid.cell_data = vec![DataArray::new("tool", 1, Values::Integer(number))];
+    grid
+}
+
+/// A quantity as an array.
+fn array(quantity: &Quantity) -> DataArray {
+    let values = match quantity.number {
+        Number::Real => Values::Real(quantity.values.clone()),
+        Number::Integer => Values::Integer(quantity.values.iter().map(|&x| x as i64).collect()),
+        Number::Byte => Values::Byte(quantity.values.iter().map(|&x| x as u8).collect()),
+    };
+    DataArray::new(quantity.name.clone(), quantity.width.size(), values)
+}

@@ -1,0 +1,37 @@
+//! Energies: what is stored, what has been dissipated, what came from outside, and how far they are from balance.
+
+use super::Source;
+use crate::Error;
+use crate::output::{Frame, Quantity, Unit};
+use crate::system::Energies;
+
+pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
+    let energies = &source.state.energies;
+    let of = |terms: &mut dyn Iterator<Item = usize>| {
+        let each = terms.filter_map(|term| energies.get(term));
+        each.fold(Energies::default(), |sum, e| Energies {
+            stored: sum.stored + e.stored,
+            dissipated: sum.dissipated + e.dissipated,
+        })
+    };
+    let bodies = of(&mut source.parts.bodies.iter().map(|(term, _)| *term));
+    let springs = of(&mut source.parts.springs.iter().copied());
+    let all = of(&mut (0..energies.len()));
+    let contact = |whole: f64, bodies: f64, springs: f64| whole - bodies - springs;
+    let external = source.state.external_work;
+    let entries = [
+        ("energy.external", external),
+        ("energy.strain", bodies.stored),
+        ("energy.plastic", bodies.dissipated),
+        ("energy.contact", contact(all.stored, bodies.stored, springs.stored)),
+        ("energy.friction", contact(all.dissipated, bodies.dissipated, springs.dissipated)),
+        ("energy.spring", springs.stored),
+    ];
+    let largest = entries.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
+    for (name, value) in entries {
+        frame.push(Quantity::scalar(name, Unit::Energy, value))?;
+    }
+    let missing = external - all.stored - all.dissipated;
+    let balance = if largest > 0.0 { missing / largest } else { 0.0 };
+    frame.push(Quantity::scalar("energy.balance", Unit::One, balance))
+}

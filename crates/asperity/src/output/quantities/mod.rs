@@ -1,0 +1,105 @@
+//! What is reported of an accepted state: each file computes a few quantities from the parts of a model and its state
+//! and puts them into the frame. To add one: its file here and its line in [`ALL`].
+
+mod energy;
+mod equilibrium;
+mod nodes;
+mod reactions;
+mod stress;
+#[cfg(test)]
+mod tests;
+mod tools;
+
+use super::Frame;
+use crate::Error;
+use crate::mesh::{Mesh, Space};
+use crate::solid::Body;
+use crate::system::{Dofs, History, State};
+use crate::tool::{Pose, Tool};
+
+/// The parts of a model that outputs read. Numbers of terms are places in the list of terms and in the state.
+pub struct Parts<'a> {
+    /// The space.
+    pub space: Space,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// The numbering of the unknowns.
+    pub dofs: &'a Dofs,
+    /// The bodies with their numbers of terms.
+    pub bodies: Vec<(usize, &'a Body)>,
+    /// For each body the number of its material.
+    pub materials: Vec<usize>,
+    /// Terms that store energy and are neither bodies nor contacts.
+    pub springs: Vec<usize>,
+    /// The rigid tools.
+    pub tools: Vec<&'a Tool>,
+    /// Names and nodes of the groups that anything holds or moves in any step.
+    pub supports: Vec<(String, Vec<usize>)>,
+    /// For each step the unknowns that it prescribes.
+    pub held: Vec<Vec<usize>>,
+}
+
+/// An accepted state of a model.
+pub struct Source<'a> {
+    /// The model.
+    pub parts: &'a Parts<'a>,
+    /// Its state.
+    pub state: &'a State,
+    /// The step that led to it, from zero.
+    pub step: usize,
+}
+
+/// Computes some quantities and puts them into a frame.
+type Report = fn(&Source, &mut Frame) -> Result<(), Error>;
+
+/// Everything that is reported, in the order of the columns and arrays.
+static ALL: &[Report] =
+    &[nodes::report, stress::report, reactions::report, tools::report, energy::report, equilibrium::report];
+
+impl Source<'_> {
+    /// Everything that is reported of the state.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] when the parts and the state do not belong together.
+    pub fn gather(&self) -> Result<Frame, Error> {
+        let mut frame = Frame::new(self.step + 1, self.state.increment, self.state.time);
+        ALL.iter().try_for_each(|report| report(self, &mut frame))?;
+        Ok(frame)
+    }
+    /// Displacement of a node.
+    fn displacement(&self, node: usize) -> [f64; 3] {
+        self.nodal(&self.state.u, node)
+    }
+    /// Components at a node of values on all unknowns; the third is zero in the plane.
+    fn nodal(&self, values: &[f64], node: usize) -> [f64; 3] {
+        let (first, count) = (self.parts.dofs.node(node), self.parts.dofs.per_node());
+        std::array::from_fn(|a| if a < count { values[first + a] } else { 0.0 })
+    }
+    /// The force that holds an unknown: what resists less what acts.
+    fn reaction(&self, dof: usize) -> f64 {
+        self.state.internal[dof] - self.state.load[dof]
+    }
+    /// A term's lane of the history.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] when the state has no such term.
+    fn history(&self, term: usize) -> Result<&History, Error> {
+        self.state.histories.get(term).ok_or_else(|| Error::Internal(format!("the state has no term {term}")))
+    }
+    /// Where a tool stands; none for tools in space, whose motion is of another kind.
+    pub fn pose(&self, tool: usize) -> Option<Pose> {
+        let (first, u) = (self.parts.dofs.tool(tool), &self.state.u);
+        (self.parts.dofs.per_node() == 2).then(|| Pose::new(u[first], u[first + 1], u[first + 2]))
+    }
+    /// Whether forces and moments out of the plane have no meaning.
+    pub fn is_plane(&self) -> bool {
+        self.parts.space != Space::Solid
+    }
+}
+
+impl Parts<'_> {
+    /// Whether a column out of the plane would say nothing.
+    pub fn is_plane(&self) -> bool {
+        self.space != Space::Solid
+    }
+}

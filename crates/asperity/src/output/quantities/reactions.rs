@@ -1,0 +1,20 @@
+//! Reactions of the groups that something holds or moves, and how far these have moved.
+
+use super::Source;
+use crate::Error;
+use crate::output::{Frame, Place, Quantity, Unit, Width};
+
+pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
+    let reactions: Vec<f64> = (0..source.state.u.len()).map(|dof| source.reaction(dof)).collect();
+    let vector =
+        |name: String, unit, values: [f64; 3]| Quantity::new(name, unit, Place::Global, Width::Vector, values.to_vec());
+    for (group, nodes) in &source.parts.supports {
+        let sum = |of: &dyn Fn(usize) -> [f64; 3]| {
+            nodes.iter().fold([0.0; 3], |sum, &node| std::array::from_fn(|a| sum[a] + of(node)[a]))
+        };
+        let moved = sum(&|node| source.displacement(node)).map(|total| total / nodes.len() as f64);
+        frame.push(vector(format!("displacement.{group}"), Unit::Length, moved))?;
+        frame.push(vector(format!("reaction.{group}"), Unit::Force, sum(&|node| source.nodal(&reactions, node))))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,125 @@
+//! Stress and the variables of the laws: raw at the integration points, means over cells, and means at nodes, which are
+//! named as such.
+
+use super::Source;
+use crate::Error;
+use crate::material::{Variable, VariableKind};
+use crate::output::average::NodalMean;
+use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::solid::PointRecord;
+
+/// One integration point with the numbers of its body and material.
+struct Point<'a> {
+    record: PointRecord<'a>,
+    body: usize,
+}
+
+pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
+    let mut points = Vec::new();
+    for (body, (term, solid)) in source.parts.bodies.iter().enumerate() {
+        let records = solid.records(&source.state.u, source.history(*term)?);
+        points.extend(records.map(|record| Point { record, body }));
+    }
+    report_points(source, &points, frame)?;
+    report_cells(source, &points, frame)?;
+    report_nodes(source, frame)
+}
+
+fn report_points(source: &Source, points: &[Point], frame: &mut Frame) -> Result<(), Error> {
+    let gauss = |name: &str, unit, width, values| Quantity::new(name, unit, Place::Gauss, width, values);
+    let vector = |of: &dyn Fn(&PointRecord) -> [f64; 3]| points.iter().flat_map(|p| of(&p.record)).collect::<Vec<_>>();
+    let number = |of: &dyn Fn(&Point) -> usize| points.iter().map(|p| of(p) as f64).collect::<Vec<_>>();
+    frame.push(gauss("reference_position", Unit::Length, Width::Vector, vector(&|r| r.reference.0)))?;
+    frame.push(gauss("displacement", Unit::Length, Width::Vector, vector(&|r| (r.position - r.reference).0)))?;
+    frame.push(gauss("volume", Unit::Volume, Width::Scalar, points.iter().map(|p| p.record.volume).collect()))?;
+    frame.push(Quantity::integer("cell", Place::Gauss, number(&|p| p.record.cell)))?;
+    frame.push(Quantity::integer("body", Place::Gauss, number(&|p| p.body)))?;
+    let stress: Vec<f64> = points.iter().flat_map(|p| p.record.state[..6].iter().copied()).collect();
+    push_stress(frame, Place::Gauss, "", stress)?;
+    variables(source).into_iter().try_for_each(|variable| frame.push(values_of(variable, source, points)))
+}
+
+/// The variables of all laws, each name once.
+fn variables(source: &Source) -> Vec<Variable> {
+    let mut all: Vec<Variable> = Vec::new();
+    for variable in source.parts.bodies.iter().flat_map(|(_, body)| body.material().variables()) {
+        if all.iter().all(|known| known.name != variable.name) {
+            all.push(*variable);
+        }
+    }
+    all
+}
+
+/// A variable at all points; not a number where the law has none of that name.
+fn values_of(variable: Variable, source: &Source, points: &[Point]) -> Quantity {
+    let width = match variable.kind {
+        VariableKind::Scalar => Width::Scalar,
+        VariableKind::Vector => Width::Vector,
+        VariableKind::Symmetric => Width::Symmetric,
+    };
+    let mut values = Vec::with_capacity(points.len() * width.size());
+    for point in points {
+        let own = source.parts.bodies[point.body].1.material().variables();
+        let place = own.iter().position(|known| *known == variable);
+        match place.map(|place| 6 + own[..place].iter().map(Variable::len).sum::<usize>()) {
+            Some(start) => values.extend_from_slice(&point.record.state[start..start + width.size()]),
+            None => values.extend(std::iter::repeat_n(f64::NAN, width.size())),
+        }
+    }
+    Quantity::new(variable.name, Unit::One, Place::Gauss, width, values)
+}
+
+/// Means over the volume of each cell; cells of no body have none.
+fn report_cells(source: &Source, points: &[Point], frame: &mut Frame) -> Result<(), Error> {
+    let cells = source.parts.mesh.cell_count();
+    let (mut sums, mut volumes) = (vec![[0.0; 6]; cells], vec![0.0; cells]);
+    let (mut body, mut material) = (vec![-1.0; cells], vec![-1.0; cells]);
+    for Point { record, body: number } in points {
+        let cell = record.cell;
+        volumes[cell] += record.volume;
+        sums[cell].iter_mut().zip(record.state).for_each(|(sum, stress)| *sum += record.volume * stress);
+        (body[cell], material[cell]) = (*number as f64, source.parts.materials[*number] as f64);
+    }
+    let means = sums.iter().zip(&volumes).flat_map(|(sum, volume)| sum.map(|s| s / volume)).collect();
+    frame.push(Quantity::integer("body", Place::Cell, body))?;
+    frame.push(Quantity::integer("material", Place::Cell, material))?;
+    push_stress(frame, Place::Cell, "", means)
+}
+
+fn report_nodes(source: &Source, frame: &mut Frame) -> Result<(), Error> {
+    let mut mean = NodalMean::new(source.parts.mesh, 6);
+    for (term, body) in &source.parts.bodies {
+        let (history, len) = (source.history(*term)?, body.point_len());
+        for (slot, &cell) in body.cells().iter().enumerate() {
+            let states = history.slot(slot).chunks_exact(len);
+            let stress: Vec<f64> = states.flat_map(|state| state[..6].iter().copied()).collect();
+            mean.add(cell, body.rule(source.parts.mesh.cell(cell).kind), &stress)?;
+        }
+    }
+    push_stress(frame, Place::Node, "_averaged", mean.finish())
+}
+
+fn push_stress(frame: &mut Frame, place: Place, suffix: &str, stress: Vec<f64>) -> Result<(), Error> {
+    let equivalent = stress.as_chunks().0.iter().map(von_mises).collect();
+    let push = |name: &str, width, values| Quantity::new(format!("{name}{suffix}"), Unit::Stress, place, width, values);
+    frame.push(push("cauchy_stress", Width::Symmetric, stress))?;
+    frame.push(push("von_mises", Width::Scalar, equivalent))
+}
+
+/// `sqrt(3/2 s:s)` of the deviator s of a stress XX YY ZZ XY YZ XZ.
+fn von_mises(&[xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> f64 {
+    let normal = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
+    (0.5 * normal + 3.0 * (xy * xy + yz * yz + xz * xz)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::von_mises;
+
+    #[test]
+    fn von_mises_measures_shape_and_not_pressure() {
+        assert_eq!(von_mises(&[5.0, 5.0, 5.0, 0.0, 0.0, 0.0]), 0.0);
+        assert_eq!(von_mises(&[-7.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 7.0);
+        assert!((von_mises(&[0.0, 0.0, 0.0, 0.0, 2.0, 0.0]) - 12f64.sqrt()).abs() < 1e-15);
+    }
+}

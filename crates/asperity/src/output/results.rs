@@ -1,0 +1,314 @@
+//! The result directory of a run: every file in it is written from here, all from the same frames.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `bodies.pvd`, `points.pvd`, `contacts.pvd`, `tools.pvd` | frames: meshes, integration points, contact points, outlines |
+//! | `history.csv` | global quantities, a row an increment |
+//! | `summary.json` | how the run ended and its certificate |
+//! | `run.checkpoint` | the last checkpoint |
+
+use super::checkpoint::{self, Head, InputHash, Stamp};
+use super::file::make_directory;
+use super::grids::{BodyGrid, cloud, tools};
+use super::history::{HistoryTable, global_columns};
+use super::quantities::{Parts, Source};
+use super::quantity::Place;
+use super::summary::Summary;
+use super::vtk::{Encoding, Series};
+use crate::Error;
+use crate::system::{State, Term};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// What is written, and how often.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ResultOptions {
+    /// A frame of fields every so many increments; the last of a step always.
+    pub every: usize,
+    /// A checkpoint every so many increments.
+    pub checkpoint_every: usize,
+    /// How the arrays of frames are laid down.
+    pub encoding: Encoding,
+}
+
+impl Default for ResultOptions {
+    fn default() -> Self {
+        Self { every: 1, checkpoint_every: 10, encoding: Encoding::default() }
+    }
+}
+
+/// Writes the results of a run.
+pub struct Results {
+    directory: PathBuf,
+    options: ResultOptions,
+    input: InputHash,
+    grid: BodyGrid,
+    series: Vec<(Fields, Series)>,
+    history: HistoryTable,
+    /// What `summary.json` will say; the caller fills in what the results do not know.
+    pub summary: Summary,
+    spent: Duration,
+}
+
+/// The kinds of frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fields {
+    Bodies,
+    Points,
+    Contacts,
+    Tools,
+}
+
+/// Name of the checkpoint in the result directory.
+pub const CHECKPOINT: &str = "run.checkpoint";
+/// Name of the summary in the result directory.
+pub const SUMMARY: &str = "summary.json";
+
+impl Fields {
+    const ALL: [Self; 4] = [Self::Bodies, Self::Points, Self::Contacts, Self::Tools];
+    fn name(self) -> &'static str {
+        match self {
+            Self::Bodies => "bodies",
+            Self::Points => "points",
+            Self::Contacts => "contacts",
+            Self::Tools => "tools",
+        }
+    }
+}
+
+impl Results {
+    /// Begins the results of a run: makes the directory, says `running` in the summary, writes the frame of the start.
+    ///
+    /// # Errors
+    /// [`Error::File`] when something cannot be written.
+    pub fn create(directory: &Path, start: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
+        make_directory(directory)?;
+        let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
+        let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
+        let history = HistoryTable::create(directory, start.parts.is_plane());
+        let mut results = Self::new((directory, options, input), start.parts, (series, history))?;
+        results.write_frame(start)?;
+        results.write_summary()?;
+        Ok(results)
+    }
+    /// Continues the results of a run from a checkpoint: what came after it is dropped.
+    ///
+    /// # Errors
+    /// [`Error::File`] when an old file cannot be read or a new one not written.
+    pub fn resume(directory: &Path, at: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
+        let (parts, state) = (at.parts, at.state);
+        make_directory(directory)?;
+        let series = |fields: Fields| {
+            let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
+            Ok((fields, series))
+        };
+        let series = fields_of(parts).map(series).collect::<Result<_, Error>>()?;
+        let (history, kept) = HistoryTable::resume(directory, parts.is_plane(), state.increment)?;
+        let mut results = Self::new((directory, options, input), parts, (series, history))?;
+        for row in &kept.rows {
+            let numbers = row.iter().map(|entry| entry.parse().unwrap_or(f64::NAN));
+            results.summary.certificate.observe(kept.header.iter().map(String::as_str).zip(numbers));
+        }
+        results.write_summary()?;
+        Ok(results)
+    }
+    fn new(
+        (directory, options, input): (&Path, ResultOptions, InputHash),
+        parts: &Parts,
+        (series, history): (Vec<(Fields, Series)>, HistoryTable),
+    ) -> Result<Self, Error> {
+        let mut summary = Summary::begin("", parts.space.name());
+        summary.input_hash = Some(input.to_string());
+        summary.unknowns = parts.dofs.count();
+        summary.bodies = parts.bodies.iter().map(|(_, body)| body.name().to_string()).collect();
+        summary.tools = parts.tools.iter().map(|tool| tool.name().to_string()).collect();
+        let grid = BodyGrid::new(parts.mesh)?;
+        let directory = directory.to_path_buf();
+        Ok(Self { directory, options, input, grid, series, history, summary, spent: Duration::ZERO })
+    }
+
+    /// Writes what is due after an accepted increment. `last` says that it ended its step.
+    ///
+    /// # Errors
+    /// [`Error::File`] when something cannot be written.
+    pub fn accepted(&mut self, source: &Source, last: bool) -> Result<(), Error> {
+        let start = Instant::now();
+        let (increment, plane) = (source.state.increment, source.parts.is_plane());
+        let frame = source.gather()?;
+        self.history.push(&frame)?;
+        self.summary.observe(&frame, plane);
+        let columns = global_columns(&frame, plane);
+        self.summary.certificate.observe(columns.iter().map(|(name, value)| (name.as_str(), *value)));
+        (self.summary.attempts, self.summary.iterations) = (source.state.attempts, source.state.iterations);
+        self.summary.steps = source.state.step;
+        if last || increment % self.options.every == 0 {
+            self.write_grids(source, &frame)?;
+        }
+        if increment % self.options.checkpoint_every == 0 {
+            self.checkpoint(source.state)?;
+        }
+        self.spent += start.elapsed();
+        Ok(())
+    }
+    /// Writes a checkpoint of an accepted state.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be written; the one before then still stands.
+    pub fn checkpoint(&self, state: &State) -> Result<(), Error> {
+        let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
+        checkpoint::save(&self.directory.join(CHECKPOINT), &Head { input: self.input, stamp }, state)
+    }
+    /// Says in the summary how the run ended.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be written.
+    pub fn finish(&mut self, outcome: &Result<(), Error>) -> Result<(), Error> {
+        self.summary.end(outcome);
+        self.summary.timings.insert("output".into(), self.spent.as_secs_f64());
+        self.write_summary()
+    }
+    /// The result directory.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    fn write_frame(&mut self, source: &Source) -> Result<(), Error> {
+        self.write_grids(source, &source.gather()?)
+    }
+    fn write_grids(&mut self, source: &Source, frame: &super::Frame) -> Result<(), Error> {
+        for (fields, series) in &mut self.series {
+            series.push(&match fields {
+                Fields::Bodies => self.grid.at(frame),
+                Fields::Points => cloud(frame, Place::Gauss),
+                Fields::Contacts => cloud(frame, Place::Contact),
+                Fields::Tools => tools(source, frame),
+            })?;
+        }
+        Ok(())
+    }
+    fn write_summary(&mut self) -> Result<(), Error> {
+        self.summary.files = self.present_files();
+        self.summary.write(&self.directory.join(SUMMARY))
+    }
+    /// The result files that are there, without the frames that a `.pvd` lists.
+    fn present_files(&self) -> Vec<String> {
+        let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
+        let tables = ["history.csv", "increments.csv", "iterations.csv", CHECKPOINT].map(String::from);
+        let pictures = ["contact_stress", "von_mises", "forces", "convergence"];
+        let pictures = pictures.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
+        let all = frames.chain(tables).chain(pictures);
+        all.filter(|name| self.directory.join(name).exists()).collect()
+    }
+}
+
+/// The kinds of frames that a model has.
+fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
+    let tools = !parts.tools.is_empty();
+    Fields::ALL.into_iter().filter(move |fields| match fields {
+        Fields::Bodies | Fields::Points => true,
+        Fields::Contacts | Fields::Tools => tools,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::Fixture;
+    use super::super::summary::Status;
+    use super::super::vtk::{read_grid, read_series};
+    use super::*;
+    use crate::mesh::Space;
+    use crate::solid::{Formulation, Integration};
+
+    const OPTIONS: ResultOptions =
+        ResultOptions { every: 2, checkpoint_every: 3, encoding: Encoding { base64: false, compress: false } };
+
+    fn states(fixture: &Fixture) -> Vec<State> {
+        let step = |before: &State, i: i32| Some(fixture.after(before, 0.2 * f64::from(i)));
+        (1..=5).scan(fixture.start(), |state, i| step(state, i).inspect(|next| *state = next.clone())).collect()
+    }
+
+    fn fixture() -> Fixture {
+        Fixture::new(Space::Axisymmetric, Formulation::Standard, Integration::Reduced)
+    }
+
+    fn input() -> InputHash {
+        InputHash::of(&[b"deck"])
+    }
+
+    /// Writes the increments after the first `done`.
+    fn write(results: &mut Results, fixture: &Fixture, done: usize, until: usize) {
+        let parts = fixture.parts();
+        for state in &states(fixture)[done..until] {
+            let source = Source { parts: &parts, state, step: 0 };
+            results.accepted(&source, state.increment == 5).unwrap();
+        }
+    }
+
+    fn begin(directory: &Path, fixture: &Fixture) -> Results {
+        let (parts, state) = (fixture.parts(), fixture.start());
+        Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, OPTIONS, input()).unwrap()
+    }
+
+    #[test]
+    fn frames_come_as_often_as_asked_and_the_last_always() {
+        let directory = tempfile::tempdir().unwrap();
+        let fixture = fixture();
+        let mut results = begin(directory.path(), &fixture);
+        write(&mut results, &fixture, 0, 5);
+        results.finish(&Ok(())).unwrap();
+        let frames = read_series(&directory.path().join("bodies.pvd")).unwrap();
+        assert_eq!(frames.iter().map(|(time, _)| *time).collect::<Vec<_>>(), [0.0, 2.0, 4.0, 5.0]);
+        let summary = Summary::read(&directory.path().join(SUMMARY)).unwrap();
+        assert_eq!((summary.status, summary.increments, summary.bodies), (Status::Converged, 5, vec!["block".into()]));
+        assert_eq!(summary.files, ["bodies.pvd", "points.pvd", "history.csv", CHECKPOINT]);
+        assert!(summary.files.iter().all(|file| directory.path().join(file).exists()));
+    }
+
+    /// What the store holds is what the file says, to the bit.
+    #[test]
+    fn a_frame_is_in_the_file_as_in_the_store() {
+        let directory = tempfile::tempdir().unwrap();
+        let fixture = fixture();
+        write(&mut begin(directory.path(), &fixture), &fixture, 0, 5);
+        let (parts, states) = (fixture.parts(), states(&fixture));
+        let frame = Source { parts: &parts, state: &states[4], step: 0 }.gather().unwrap();
+        let last = |name: &str| {
+            let frames = read_series(&directory.path().join(format!("{name}.pvd"))).unwrap();
+            read_grid(&directory.path().join(&frames.last().unwrap().1)).unwrap()
+        };
+        let (bodies, points) = (last("bodies"), last("points"));
+        let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let mut compared = 0;
+        for (place, arrays) in
+            [(Place::Node, &bodies.point_data), (Place::Cell, &bodies.cell_data), (Place::Gauss, &points.point_data)]
+        {
+            for quantity in frame.at(place).filter(|q| q.name != "reference_position") {
+                let array = arrays.iter().find(|array| array.name == quantity.name).unwrap();
+                assert_eq!(bits(&array.values.to_real()), bits(&quantity.values), "{}", quantity.name);
+                compared += 1;
+            }
+        }
+        assert!(compared > 10);
+    }
+
+    #[test]
+    fn a_resumed_run_writes_the_same_files() {
+        let (whole, cut) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let fixture = fixture();
+        write(&mut begin(whole.path(), &fixture), &fixture, 0, 5);
+        write(&mut begin(cut.path(), &fixture), &fixture, 0, 4);
+        let (stamp, state) = checkpoint::load::<State>(&cut.path().join(CHECKPOINT), &input()).unwrap();
+        assert_eq!((stamp.increment, &state), (3, &states(&fixture)[2]));
+        let parts = fixture.parts();
+        let source = Source { parts: &parts, state: &state, step: 0 };
+        let mut results = Results::resume(cut.path(), &source, OPTIONS, input()).unwrap();
+        let balance = results.summary.certificate.energy_balance;
+        assert!(balance.is_some(), "the certificate covers the rows before the restart");
+        write(&mut results, &fixture, 3, 5);
+        let names = ["history.csv", "bodies.pvd", "bodies/bodies_000003.vtu", "points/points_000002.vtu"];
+        for name in names {
+            let read = |directory: &tempfile::TempDir| std::fs::read(directory.path().join(name)).unwrap();
+            assert_eq!(read(&whole), read(&cut), "{name}");
+        }
+    }
+}

@@ -6,6 +6,9 @@ use std::io::Write;
 use std::path::Path;
 use tempfile::NamedTempFile;
 
+/// How the names of temporary files begin.
+const TEMPORARY: &str = ".writing-";
+
 /// Whether a write must outlive a crash of the machine, or only of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Durability {
@@ -25,7 +28,7 @@ pub fn write_atomic(path: &Path, bytes: &[u8], durability: Durability) -> Result
         _ => Path::new("."),
     };
     let failed = |error: &dyn std::fmt::Display| Error::file(path, error);
-    let mut file = NamedTempFile::with_prefix_in(".writing-", directory).map_err(|e| failed(&e))?;
+    let mut file = NamedTempFile::with_prefix_in(TEMPORARY, directory).map_err(|e| failed(&e))?;
     file.write_all(bytes).map_err(|e| failed(&e))?;
     share_with_others(&file).map_err(|e| failed(&e))?;
     if durability == Durability::Machine {
@@ -34,6 +37,21 @@ pub fn write_atomic(path: &Path, bytes: &[u8], durability: Durability) -> Result
     file.persist(path).map_err(|e| failed(&e.error))?;
     if durability == Durability::Machine {
         sync_directory(directory).map_err(|e| failed(&e))?;
+    }
+    Ok(())
+}
+
+/// Removes the temporary files that a killed run left in a directory.
+///
+/// # Errors
+/// [`Error::File`] when the directory cannot be read or a file not removed.
+pub fn sweep(directory: &Path) -> Result<(), Error> {
+    for entry in std::fs::read_dir(directory).map_err(|error| Error::file(directory, error))? {
+        let path = entry.map_err(|error| Error::file(directory, error))?.path();
+        let name = path.file_name().map(|name| name.to_string_lossy());
+        if name.is_some_and(|name| name.starts_with(TEMPORARY)) {
+            std::fs::remove_file(&path).map_err(|error| Error::file(&path, error))?;
+        }
     }
     Ok(())
 }

@@ -8,7 +8,7 @@
 //! | `run.checkpoint` | the last checkpoint |
 
 use super::checkpoint::{self, Head, InputHash, Stamp};
-use super::file::make_directory;
+use super::file::{make_directory, sweep};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HistoryTable, global_columns};
 use super::quantities::{Parts, Source};
@@ -83,6 +83,7 @@ impl Results {
     /// [`Error::File`] when something cannot be written.
     pub fn create(directory: &Path, start: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
         make_directory(directory)?;
+        sweep(directory)?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
         let history = HistoryTable::create(directory, start.parts.is_plane());
@@ -98,6 +99,7 @@ impl Results {
     pub fn resume(directory: &Path, at: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
         let (parts, state) = (at.parts, at.state);
         make_directory(directory)?;
+        sweep(directory)?;
         let series = |fields: Fields| {
             let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
             Ok((fields, series))

@@ -49,6 +49,7 @@ impl Series {
     /// Removes frames that the list does not name, and nothing else.
     fn clear(&self) -> Result<(), Error> {
         let folder = self.directory.join(&self.name);
+        file::sweep(&folder)?;
         let failed = |error: std::io::Error| Error::file(&folder, error);
         for entry in std::fs::read_dir(&folder).map_err(failed)? {
             let entry = entry.map_err(failed)?;

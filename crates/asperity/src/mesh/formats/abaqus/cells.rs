@@ -103,7 +103,7 @@ pub(super) fn named(name: &str) -> Result<(&'static Type, String), String> {
     };
     TYPES.iter().find_map(|found| Some((found, variant(found)?))).ok_or_else(|| {
         format!(
-            "elements of type '{name}' are not read; those of bodies are {}, each with its variants",
+            "elements of type '{name}' are not read; the readable ones are {}, each with its variants",
             TYPES.iter().filter(|found| !found.skin).map(|found| found.name).collect::<Vec<_>>().join(", ")
         )
     })

@@ -75,7 +75,9 @@ impl Reader {
 
     /// A number of a node or an element.
     pub(super) fn number(&self, field: &str, of: &str, place: Place) -> Result<u64, Error> {
-        field.parse().map_err(|_| self.error(place, format!("'{}' is not the number of {of}", shorten(field))))
+        field.parse().map_err(|_| {
+            self.error(place, format!("'{}' is not the number of {of}; write a whole number", shorten(field)))
+        })
     }
 
     /// A coordinate, with the exponents of Fortran too; an empty field is zero.

@@ -28,18 +28,22 @@ impl<'a> Statements<'a> {
     fn continue_keyword(&mut self, keyword: &mut String) {
         while keyword.trim_end().ends_with(',') {
             let Some((_, line)) = self.lines.next_if(|(_, line)| continues(line)) else { return };
-            if !line.starts_with("**") {
+            if !is_comment(line) {
                 keyword.push_str(line.trim());
             }
         }
     }
 }
 
+fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with("**")
+}
+
 /// Whether a line can belong to the parameters of a keyword: data never holds an equals sign.
 fn continues(line: &str) -> bool {
     let flag = line.trim().trim_end_matches(',').to_ascii_uppercase();
-    let parameter = !line.starts_with('*') && (line.contains('=') || FLAGS.contains(&flag.as_str()));
-    parameter || line.starts_with("**")
+    let parameter = !line.trim_start().starts_with('*') && (line.contains('=') || FLAGS.contains(&flag.as_str()));
+    parameter || is_comment(line)
 }
 
 /// Parameters without a value that sets know.
@@ -49,7 +53,7 @@ impl<'a> Iterator for Statements<'a> {
     type Item = (usize, Statement<'a>);
 
     fn next(&mut self) -> Option<Self::Item> {
-        let skipped = |line: &str| line.starts_with("**") || line.trim().is_empty();
+        let skipped = |line: &str| is_comment(line) || line.trim().is_empty();
         let (place, line) = self.lines.by_ref().find(|(_, line)| !skipped(line))?;
         let statement = match line.trim_start().strip_prefix('*') {
             None => Statement::Data(line),

@@ -134,7 +134,7 @@ impl Index {
         let mut missing = 0;
         for entry in &set.entries {
             let found = self.choose(entry, &mut chosen);
-            let absent = (entry.last - entry.first) / entry.step + 1 - found;
+            let absent = ((entry.last - entry.first) / entry.step).saturating_add(1) - found;
             if absent > 0 && entry.first == entry.last {
                 return Err((entry.first, entry.place));
             }

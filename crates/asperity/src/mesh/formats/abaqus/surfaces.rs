@@ -81,7 +81,9 @@ impl Reader {
             };
             return Err(self.error(place, format!("there is no set of {noun}s '{what}'; {hint}")));
         };
-        let found = index.members(set).map_err(|(number, _)| self.error(place, format!("no {noun} {number}")))?;
+        let found = index
+            .members(set)
+            .map_err(|(number, _)| self.error(place, format!("there is no {noun} {number}; mend the set")))?;
         Ok(found.members)
     }
 

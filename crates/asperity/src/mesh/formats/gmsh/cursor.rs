@@ -9,6 +9,8 @@ pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
     line: usize,
+    /// The line where the section begins.
+    head: usize,
     /// Whether numbers are binary.
     pub binary: bool,
     /// Whether binary numbers begin with their most significant byte.
@@ -19,7 +21,7 @@ pub(super) struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     pub(super) fn new(file: String, bytes: &'a [u8]) -> Self {
-        Self { file, bytes, at: 0, line: 1, binary: false, big_endian: false, section: String::new() }
+        Self { file, bytes, at: 0, line: 1, head: 1, binary: false, big_endian: false, section: String::new() }
     }
 
     /// An error here: `file:line: what; what to do`, or with the byte in a binary file.
@@ -27,6 +29,14 @@ impl<'a> Cursor<'a> {
         match self.binary {
             true => Error::input(format!("{}: byte {} ({}): {what}", self.file, self.at, self.section)),
             false => Error::input(format!("{}:{}: {what}", self.file, self.line)),
+        }
+    }
+
+    /// An error at the head of the section.
+    pub(super) fn section_error(&self, what: impl std::fmt::Display) -> Error {
+        match self.binary {
+            true => self.error(what),
+            false => Error::input(format!("{}:{}: {what}", self.file, self.head)),
         }
     }
 
@@ -85,9 +95,12 @@ impl<'a> Cursor<'a> {
         let word = self.word()?;
         let Some(name) = word.strip_prefix('$') else {
             let word = shorten(word);
-            return Err(self.error(format!("a section such as '$Nodes' is expected here, not '{word}'")));
+            return Err(self.error(format!(
+                "a section such as '$Nodes' is expected here, not '{word}'; a count above it is wrong"
+            )));
         };
         self.section = name.to_string();
+        self.head = self.line;
         self.rest_of_line()?;
         Ok(Some(name.to_string()))
     }
@@ -171,7 +184,8 @@ impl<'a> Cursor<'a> {
     /// A count written as an integer: not negative and not more than the file can hold.
     pub(super) fn count(&mut self, numbers: usize, what: &str) -> Result<usize, Error> {
         let count = self.int(&format!("the number of {what}"))?;
-        let count = u64::try_from(count).map_err(|_| self.error(format!("the number of {what} is negative")))?;
+        let count =
+            u64::try_from(count).map_err(|_| self.error(format!("the number of {what} is negative; it is damaged")))?;
         self.fits(count, numbers, what)
     }
 }

@@ -61,7 +61,7 @@ impl Reader<'_> {
     fn header(&mut self) -> Result<Version, Error> {
         let cursor = &mut self.cursor;
         if cursor.next_section()?.as_deref() != Some("MeshFormat") {
-            return Err(cursor.error("a Gmsh file begins with '$MeshFormat'; this is none"));
+            return Err(cursor.section_error("the file does not begin with '$MeshFormat'; save it from Gmsh as .msh"));
         }
         let version = match cursor.word()? {
             "2.2" | "2.1" | "2" => Version::V2,
@@ -73,7 +73,8 @@ impl Reader<'_> {
         };
         let binary = cursor.int("the file type")?;
         if !(binary == 0 || binary == 1) {
-            return Err(cursor.error(format!("the file type is 0 for text or 1 for binary, not {binary}")));
+            return Err(cursor
+                .error(format!("the file type is 0 for text or 1 for binary, not {binary}; the header is damaged")));
         }
         if cursor.int("the size of a number")? != 8 {
             return Err(cursor.error("numbers must have 8 bytes; save the file on a machine of today"));
@@ -103,7 +104,7 @@ impl Reader<'_> {
         let twice = self.seen.iter().any(|seen| seen == section);
         match (section, version) {
             ("Nodes" | "Elements" | "Entities", _) if twice => {
-                return Err(self.cursor.error(format!("'${section}' is there twice; one file holds one mesh")));
+                return Err(self.cursor.section_error(format!("'${section}' is there twice; one file holds one mesh")));
             }
             ("PhysicalNames", _) => self.physical_names()?,
             ("Nodes", Version::V2) => self.nodes_v2()?,
@@ -112,10 +113,10 @@ impl Reader<'_> {
             ("Nodes", Version::V4) => self.nodes_v4()?,
             ("Elements", Version::V4) => self.elements_v4()?,
             ("PartitionedEntities", _) => {
-                return Err(self.cursor.error("the mesh is cut into partitions; save it without them"));
+                return Err(self.cursor.section_error("the mesh is cut into partitions; save it without them"));
             }
             ("ParametricNodes", _) => {
-                return Err(self.cursor.error("parametric nodes are not read; set Mesh.SaveParametric = 0"));
+                return Err(self.cursor.section_error("parametric nodes are not read; set Mesh.SaveParametric = 0"));
             }
             _ => return self.ignored(section),
         }
@@ -142,10 +143,18 @@ impl Reader<'_> {
             if name.is_empty() {
                 return Err(self.cursor.error(format!("physical group {number} has an empty name; name it")));
             }
-            self.names.insert((dimension, number), name);
+            self.name_group((dimension, number), name);
         }
         self.cursor.binary = binary;
         Ok(())
+    }
+
+    /// Notes a name that groups of several dimensions share: they become one group.
+    fn name_group(&mut self, group: (i64, i64), name: String) {
+        if self.names.iter().any(|(known, other)| *other == name && *known != group) {
+            self.draft.note(None, format!("several physical groups are called '{name}'; they become one"));
+        }
+        self.names.insert(group, name);
     }
 
     /// The name of a physical group; one without a name is noted once.

@@ -99,6 +99,7 @@ impl Reader<'_> {
     /// A number of a node or an element: positive.
     fn number(&mut self, what: &str) -> Result<u64, Error> {
         let number = self.cursor.int(what)?;
-        u64::try_from(number).map_err(|_| self.cursor.error(format!("{what} is {number}; it must be positive")))
+        u64::try_from(number)
+            .map_err(|_| self.cursor.error(format!("{what} is {number}; it must be positive; mend it")))
     }
 }

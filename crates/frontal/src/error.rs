@@ -43,8 +43,10 @@ pub enum Error {
     },
     /// The matrix has more entries than 32-bit indices can count, or a front would have.
     TooLarge,
-    /// METIS did not return an ordering.
+    /// The library that orders did not return an ordering.
     OrderingFailed,
+    /// The ordering asked for was not built in: see the features of this crate.
+    OrderingNotBuilt,
     /// The factorisation needs more memory than [`Options::memory_limit`](crate::Options::memory_limit) allows.
     MemoryLimit {
         /// Bytes that the factorisation needs.
@@ -91,7 +93,8 @@ impl fmt::Display for Error {
                 write!(f, "unknown {unknown} is repeated, missing or out of range in the given order")
             }
             Error::TooLarge => write!(f, "the matrix or one of its fronts has more than 2^32 entries"),
-            Error::OrderingFailed => write!(f, "METIS returned no ordering"),
+            Error::OrderingFailed => write!(f, "the ordering library returned no ordering"),
+            Error::OrderingNotBuilt => write!(f, "this ordering needs a feature that was not built in"),
             Error::MemoryLimit { needed, limit } => {
                 write!(f, "the factorisation needs {needed} bytes and may use {limit}")
             }

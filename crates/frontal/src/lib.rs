@@ -35,9 +35,12 @@ mod estimate;
 mod etree;
 mod extend_add;
 mod factor;
+#[cfg(feature = "feral")]
+mod feral;
 mod graph;
 mod krylov;
 pub mod market;
+#[cfg(feature = "metis")]
 mod metis;
 mod numeric;
 mod options;

@@ -4,9 +4,12 @@
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Ordering {
-    /// Nested dissection by METIS with a fixed seed, on the graph of the nodes.
+    /// Nested dissection with a fixed seed, on the graph of the nodes: by METIS with the feature `metis` (the default),
+    /// by a crate in pure Rust with the feature `feral` alone.
     #[default]
     NestedDissection,
+    /// Approximate minimum degree, on the graph of the nodes; with the feature `feral`. For small or thin bodies.
+    MinimumDegree,
     /// The unknowns in the order in which they are to be eliminated.
     Given(Vec<usize>),
 }

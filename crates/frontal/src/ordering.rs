@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use crate::graph::Graph;
-use crate::metis;
 use crate::options::{Options, Ordering};
 use crate::pattern::{Pattern, check_length};
 
@@ -13,7 +12,7 @@ use crate::pattern::{Pattern, check_length};
 pub(crate) fn order(pattern: &Pattern, options: &Options) -> Result<(Graph, Vec<u32>), Error> {
     check_distinct(&options.last, pattern.len())?;
     let graph = match &options.ordering {
-        Ordering::NestedDissection => Graph::of(pattern),
+        Ordering::NestedDissection | Ordering::MinimumDegree => Graph::of(pattern),
         // A given order need not keep the unknowns of a node together.
         Ordering::Given(_) => Graph::of_unknowns(pattern),
     };
@@ -24,14 +23,30 @@ pub(crate) fn order(pattern: &Pattern, options: &Options) -> Result<(Graph, Vec<
             check_distinct(order, pattern.len())?;
             order.iter().map(|&unknown| unknown as u32).filter(|&node| !is_last[node as usize]).collect()
         }
-        Ordering::NestedDissection if last.is_empty() => metis::nested_dissection(&graph)?,
-        Ordering::NestedDissection => {
+        by if last.is_empty() => reduce_fill(by, &graph)?,
+        by => {
             let (rest, kept) = graph.without(&is_last);
-            metis::nested_dissection(&rest)?.into_iter().map(|node| kept[node as usize]).collect::<Vec<_>>()
+            reduce_fill(by, &rest)?.into_iter().map(|node| kept[node as usize]).collect::<Vec<_>>()
         }
     };
     order.extend(last);
     Ok((graph, order))
+}
+
+/// The order of a library that was built in.
+fn reduce_fill(by: &Ordering, graph: &Graph) -> Result<Vec<u32>, Error> {
+    match by {
+        #[cfg(feature = "metis")]
+        Ordering::NestedDissection => crate::metis::nested_dissection(graph),
+        #[cfg(all(feature = "feral", not(feature = "metis")))]
+        Ordering::NestedDissection => crate::feral::nested_dissection(graph),
+        #[cfg(feature = "feral")]
+        Ordering::MinimumDegree => crate::feral::minimum_degree(graph),
+        _ => {
+            let _ = graph;
+            Err(Error::OrderingNotBuilt)
+        }
+    }
 }
 
 /// The nodes of some unknowns, each once, and a mark on each.

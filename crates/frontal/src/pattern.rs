@@ -1,15 +1,17 @@
 //! The places of a sparse matrix that may be nonzero.
 
 use crate::error::Error;
+use std::sync::Arc;
 
 /// A square, structurally symmetric pattern in compressed rows, with the columns of each row in ascending order.
 ///
-/// Values that go with it are given in the same order, row by row. The diagonal need not be stored.
+/// Values that go with it are given in the same order, row by row. The diagonal need not be stored. Clones share their
+/// memory.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pattern {
-    starts: Vec<usize>,
-    columns: Vec<usize>,
-    node_of: Option<Vec<usize>>,
+    starts: Arc<Vec<usize>>,
+    columns: Arc<Vec<usize>>,
+    node_of: Option<Arc<Vec<usize>>>,
 }
 
 impl Pattern {
@@ -21,7 +23,7 @@ impl Pattern {
         check_starts(&starts, columns.len())?;
         check_columns(&starts, &columns)?;
         check_symmetry(&starts, &columns)?;
-        Ok(Pattern { starts, columns, node_of: None })
+        Ok(Pattern { starts: Arc::new(starts), columns: Arc::new(columns), node_of: None })
     }
 
     /// Names the node of every unknown, so that the ordering works on the smaller graph of the nodes. Nodes may be
@@ -35,7 +37,7 @@ impl Pattern {
         if let Some(unknown) = node_of.iter().position(|&node| node >= self.len()) {
             return Err(Error::InvalidOrder { unknown });
         }
-        self.node_of = Some(node_of);
+        self.node_of = Some(Arc::new(node_of));
         Ok(self)
     }
 
@@ -106,7 +108,7 @@ impl Pattern {
 
     /// The node of each unknown, if it was given.
     pub(crate) fn node_of(&self) -> Option<&[usize]> {
-        self.node_of.as_deref()
+        self.node_of.as_ref().map(|nodes| &nodes[..])
     }
 }
 

@@ -37,6 +37,19 @@ fn a_random_order_and_late_unknowns_change_nothing_but_the_cost() {
 }
 
 #[test]
+fn minimum_degree_is_there_if_it_was_built() {
+    let matrix = grid([9, 9, 3], 2, 4);
+    let mut options = Options::default();
+    options.ordering = Ordering::MinimumDegree;
+    if cfg!(feature = "feral") {
+        assert_solves(&matrix, &options);
+    } else {
+        let analysis = Symbolic::analyse(&matrix.pattern, &options).map(|_| ());
+        assert_eq!(analysis, Err(Error::OrderingNotBuilt));
+    }
+}
+
+#[test]
 fn the_transposed_system_and_many_right_hand_sides() {
     let matrix = grid([6, 9, 1], 2, 11);
     let n = matrix.len();

@@ -6,12 +6,14 @@
 //!    [`amplitude`] values in time.
 //! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
 //! 3. [`system`] unknowns, state, terms, assembly.
-//! 4. [`solid`] bodies; [`load`] loads and springs.
+//! 4. [`solid`] bodies; [`contact`] contact with friction; [`load`] loads and springs.
+//! 5. [`solve`] increments, Newton's method.
 //! 6. The program: [`output`] files, tables, pictures; [`deck`] what a user writes.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod amplitude;
+pub mod contact;
 pub mod deck;
 pub mod declare;
 pub mod error;
@@ -21,6 +23,7 @@ pub mod material;
 pub mod mesh;
 pub mod output;
 pub mod solid;
+pub mod solve;
 pub mod system;
 pub mod tensor;
 pub mod tool;

@@ -203,7 +203,7 @@ impl Attempt for OpenBody<'_> {
         let dofs = &self.body.dofs;
         for &cell in &self.body.cells {
             let nodes = self.body.mesh.cell(cell).nodes;
-            out.push(nodes.iter().flat_map(|&n| dofs.node(n)..dofs.node(n) + dofs.per_node()), 0);
+            out.push(nodes.iter().flat_map(|&n| dofs.node(n)..dofs.node(n) + dofs.per_node()), 0, 0.0);
         }
         Ok(())
     }

@@ -30,7 +30,7 @@ pub struct Instant {
 pub type Branch = u8;
 
 /// One stencil of one iteration. Its number in the list is its history slot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Stencil {
     /// First of its unknowns in [`Stencils::dofs`].
     pub start: usize,
@@ -38,6 +38,8 @@ pub struct Stencil {
     pub len: usize,
     /// Discrete choice made by the search (hit segment); zero when there is none.
     pub choice: u32,
+    /// Where on it, roughly: which of several roots is meant.
+    pub near: f64,
 }
 
 /// The stencils of a term, owned by the assembly for one iteration.
@@ -56,10 +58,10 @@ impl Stencils {
         self.dofs.clear();
     }
     /// Adds a stencil.
-    pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32) {
+    pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32, near: f64) {
         let start = self.dofs.len();
         self.dofs.extend(dofs);
-        self.list.push(Stencil { start, len: self.dofs.len() - start, choice });
+        self.list.push(Stencil { start, len: self.dofs.len() - start, choice, near });
     }
     /// Unknowns of a stencil.
     pub fn dofs(&self, stencil: &Stencil) -> &[usize] {
@@ -121,6 +123,11 @@ pub trait Term: Send + Sync {
     ) -> Result<Box<dyn Attempt + 'a>, Failure>;
     /// Words for a stencil in messages: "cell 12 of body 'tube'".
     fn name_of(&self, stencil: usize) -> String;
+    /// Words for a motion of all unknowns that meets no stiffness, if it is a motion of this term as a whole: "body
+    /// 'billet' is free along y".
+    fn describe_motion(&self, _motion: &[f64]) -> Option<String> {
+        None
+    }
     /// Words for a branch in tables; empty when the term has only one.
     fn branches(&self) -> &'static [&'static str] {
         &[]

@@ -1,0 +1,90 @@
+//! One contact point in the plane: a pure function of where the point, its tangent and the target's material are.
+//!
+//! With `e_S` the unit tangent of the surface (the solid on its left) and `e_R` its left normal, which points into the
+//! solid: penetration `u = n_B.(x_B - x_A) / (n_B.e_R)`, where the target is replaced by its tangent plane at the hit,
+//! exact to first order; slip `e_S.(x_Bn - x_A)`, with `B_n` the target's material point touched at the last accepted
+//! state, which is objective under any common rigid motion. The traction on the solid is `p e_R + tau e_S`.
+
+use crate::Failure;
+use crate::interface::{Motion, Response};
+use crate::tensor::{Scalar, Vec3};
+
+/// What a contact point depends on.
+#[derive(Debug, Clone, Copy)]
+pub struct Place<T> {
+    /// Position of the point.
+    pub a: Vec3<T>,
+    /// Tangent `dx/dxi` of the surface there.
+    pub tangent: Vec3<T>,
+    /// Position of the target's material point at the hit.
+    pub b: Vec3<T>,
+    /// Present position of the material point touched at the last accepted state, if there was one.
+    pub touched: Option<Vec3<T>>,
+}
+
+/// What is constant while it is differentiated.
+#[derive(Debug, Clone, Copy)]
+pub struct Constants {
+    /// Outward normal of the target at the hit.
+    pub normal: Vec3,
+    /// Penetration at the last accepted state; negative for a gap.
+    pub before: f64,
+    /// Penetration from which the point counts as closed: touching to rounding is open.
+    pub least: f64,
+    /// Quadrature weight times thickness.
+    pub weight: f64,
+    /// Whether the weight is per radian and the circumference has to be added.
+    pub axisymmetric: bool,
+}
+
+/// The result at a closed point.
+#[derive(Debug, Clone, Copy)]
+pub struct Closed<T> {
+    /// Force on the solid.
+    pub force: Vec3<T>,
+    /// Where the target is touched.
+    pub hit: Vec3<T>,
+    /// Area the point stands for.
+    pub area: T,
+    /// Slip of the increment.
+    pub slip: T,
+    /// Answer of the law.
+    pub response: Response<T>,
+}
+
+/// Unit tangent, inward normal, and length of the tangent.
+pub fn triad<T: Scalar>(tangent: Vec3<T>) -> (Vec3<T>, Vec3<T>, T) {
+    let length = tangent.norm();
+    let along = tangent * length.recip();
+    (along, along.left(), length)
+}
+
+/// Penetration (negative: gap), and the result if the point is closed.
+pub fn evaluate<T: Scalar>(
+    place: &Place<T>,
+    constants: &Constants,
+    law: impl FnOnce(&Motion<T>) -> Result<Response<T>, Failure>,
+) -> Result<(T, Option<Closed<T>>), Failure> {
+    let (along, inward, length) = triad(place.tangent);
+    let normal = constants.normal.lift::<T>();
+    let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
+    if penetration.re() <= constants.least {
+        return Ok((penetration, None));
+    }
+    let slip = match place.touched {
+        None => T::zero(),
+        Some(touched) => along.dot(touched - place.a) * in_contact(penetration, constants.before),
+    };
+    let response = law(&Motion { penetration, slip: [slip, T::zero()] })?;
+    let mut area = length * constants.weight;
+    if constants.axisymmetric {
+        area = area * place.a[0] * std::f64::consts::TAU;
+    }
+    let force = (inward * response.pressure + along * response.shear[0]) * area;
+    Ok((penetration, Some(Closed { force, hit: place.a + inward * penetration, area, slip, response })))
+}
+
+/// The part of the increment during which a point that began open is in contact, at constant speed of approach.
+fn in_contact<T: Scalar>(penetration: T, before: f64) -> T {
+    if before < 0.0 { penetration / (penetration - before) } else { T::one() }
+}

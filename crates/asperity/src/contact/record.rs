@@ -1,0 +1,98 @@
+//! History of a contact point, and what outputs may ask of it.
+
+use crate::tensor::Vec3;
+
+/// Places of the values in a point's history; the law's own variables follow.
+pub mod entry {
+    /// Penetration, negative for a gap.
+    pub const PENETRATION: usize = 0;
+    /// Segment of the target that is hit; -1 without a hit.
+    pub const SEGMENT: usize = 1;
+    /// Coordinate on that segment.
+    pub const S: usize = 2;
+    /// Pressure.
+    pub const PRESSURE: usize = 3;
+    /// Shear stress along the tangent.
+    pub const SHEAR: usize = 4;
+    /// Slip along the tangent, accumulated with its sign since the start.
+    pub const SLIP: usize = 5;
+    /// Irreversible slip, accumulated without sign since the start.
+    pub const SLIPPED: usize = 6;
+    /// Energy dissipated per area since the start.
+    pub const DISSIPATED: usize = 7;
+    /// 0 open, 1 stick, 2 slip.
+    pub const STATUS: usize = 8;
+    /// Relative violation of the yield surface.
+    pub const VIOLATION: usize = 9;
+    /// Energy dissipated per area in the last increment.
+    pub const LAST_DISSIPATED: usize = 10;
+    /// Number of these values.
+    pub const COUNT: usize = 11;
+}
+
+/// Whether a contact point is open, sticks or slips.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PointStatus {
+    /// No contact.
+    Open = 0,
+    /// Contact without slip.
+    Stick = 1,
+    /// Contact with slip.
+    Slip = 2,
+}
+
+impl PointStatus {
+    pub(super) fn from_value(value: f64) -> Self {
+        match value as u8 {
+            1 => Self::Stick,
+            2 => Self::Slip,
+            _ => Self::Open,
+        }
+    }
+}
+
+/// One contact point in an accepted state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointRecord {
+    /// Present position.
+    pub position: Vec3,
+    /// Unit normal into the solid.
+    pub inward: Vec3,
+    /// Unit tangent, the solid on its left.
+    pub along: Vec3,
+    /// Area the point stands for; the full circumference when axisymmetric.
+    pub area: f64,
+    /// Status.
+    pub status: PointStatus,
+    /// Pressure, positive in compression.
+    pub pressure: f64,
+    /// Shear stress on the solid along the tangent.
+    pub shear: f64,
+    /// Penetration, negative for a gap; not a number without an admissible hit.
+    pub penetration: f64,
+    /// Slip accumulated with its sign.
+    pub slip: f64,
+    /// Irreversible slip accumulated without sign.
+    pub slipped: f64,
+    /// Energy dissipated per area since the start.
+    pub dissipated: f64,
+    /// Energy dissipated per area in the last increment.
+    pub last_dissipated: f64,
+    /// Relative violation of the yield surface.
+    pub violation: f64,
+    /// Segment of the target that is hit.
+    pub segment: Option<usize>,
+    /// Edge of the surface it lies on.
+    pub edge: usize,
+}
+
+impl PointRecord {
+    /// Stress vector on the solid.
+    pub fn traction(&self) -> Vec3 {
+        self.inward * self.pressure + self.along * self.shear
+    }
+    /// Force on the solid.
+    pub fn force(&self) -> Vec3 {
+        self.traction() * self.area
+    }
+}

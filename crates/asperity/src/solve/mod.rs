@@ -1,0 +1,16 @@
+//! The procedure: increments, attempts, Newton's iterations. It sees the discrete system and the linear solver only;
+//! it knows neither mechanics nor contact.
+
+mod convergence;
+mod linear;
+mod newton;
+mod observer;
+mod run;
+mod schedule;
+
+pub use convergence::{Norms, Worst};
+pub use linear::{Frontal, LinearError, LinearSolver};
+pub use newton::{NewtonOptions, Variant};
+pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
+pub use run::{Problem, Run, RunOptions, Stop};
+pub use schedule::{Course, Increments, Prescribed, Step};

@@ -1,0 +1,422 @@
+//! One attempt at an increment: predictor, Newton's iterations, line search.
+//!
+//! The predictor carries all unknowns on with the last accepted increment. What prescribed unknowns still miss enters
+//! the first solution as known motion (`K_ff dq = -(r + K_fc missing)`), so that a driven row takes the elements
+//! behind it along instead of turning them inside out.
+
+use super::convergence::{Norms, Yardstick};
+use super::linear::{LinearError, LinearSolver};
+use super::observer::{AttemptRecord, IterationRecord, Observer};
+use super::run::Problem;
+use super::schedule::Step;
+use crate::system::{Assembly, Evaluation, Instant, State, Tangent, Workspace};
+use crate::{Error, Failure};
+
+/// Which matrix the iterations use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variant {
+    /// A new one for every iteration.
+    Full,
+    /// That of the attempt's first iteration.
+    Modified,
+    /// The one of an earlier increment while it serves. Results then depend on what was computed before, to within the
+    /// tolerance: restart and repetition are no longer identical to the bit.
+    Kept,
+}
+
+/// Options of the iterations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NewtonOptions {
+    /// Which matrix is used.
+    pub variant: Variant,
+    /// Whether the tangent is exact or found by perturbation.
+    pub perturbation: bool,
+    /// Largest unbalanced force over the yardstick.
+    pub tolerance: f64,
+    /// Iterations after which an attempt is given up.
+    pub iterations: usize,
+    /// Whether steps are shortened that would make matters worse.
+    pub line_search: bool,
+    /// Every attempt is made twice and the second kept, which must not change a bit. A check of the program itself.
+    pub rehearse: bool,
+}
+
+impl Default for NewtonOptions {
+    fn default() -> Self {
+        Self {
+            variant: Variant::Full,
+            perturbation: false,
+            tolerance: 1e-8,
+            iterations: 25,
+            line_search: true,
+            rehearse: false,
+        }
+    }
+}
+
+/// Memory of the iterations that lives through the run.
+#[derive(Debug, Default)]
+pub struct Memory {
+    /// Pattern, places and buffers.
+    pub workspace: Workspace,
+    analysed: usize,
+    factorised: bool,
+    /// Analyses of the solver so far.
+    pub analyses: usize,
+    /// Factorisations so far.
+    pub factorisations: usize,
+}
+
+/// Why an attempt ended without a solution.
+#[derive(Debug)]
+pub enum Trouble {
+    /// A smaller increment may help.
+    Failure(Failure),
+    /// Nothing smaller helps.
+    Error(Error),
+}
+
+impl From<Failure> for Trouble {
+    fn from(failure: Failure) -> Self {
+        Self::Failure(failure)
+    }
+}
+
+/// A converged attempt.
+pub struct Converged {
+    /// All unknowns.
+    pub u: Vec<f64>,
+    /// Evaluation at these unknowns.
+    pub evaluation: Evaluation,
+    /// Yardsticks of force and moment.
+    pub reference: [f64; 2],
+}
+
+/// One attempt.
+pub struct Newton<'a> {
+    problem: &'a Problem,
+    state: &'a State,
+    step: &'a Step,
+    assembly: Assembly<'a>,
+    at: Instant,
+    memory: &'a mut Memory,
+    solver: &'a mut dyn LinearSolver,
+    evaluation: Evaluation,
+    residual: Vec<f64>,
+    stiffness: f64,
+}
+
+/// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
+const ROUNDING: f64 = 1e-12;
+/// The line search takes a step whose slope has fallen to this part of the initial one.
+const SLOPE: f64 = 0.8;
+/// Shortest step of the line search.
+const SHORTEST: f64 = 0.05;
+
+impl<'a> Newton<'a> {
+    /// Opens all terms at the accepted state.
+    pub fn open(
+        problem: &'a Problem,
+        state: &'a State,
+        dt: f64,
+        memory: &'a mut Memory,
+        solver: &'a mut dyn LinearSolver,
+    ) -> Result<Self, Failure> {
+        let step = &problem.steps[state.step];
+        let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
+        let opened = problem.terms.iter().zip(&state.histories).map(|(term, history)| term.attempt(state, history, at));
+        let attempts = opened.collect::<Result<Vec<_>, _>>()?;
+        let assembly =
+            Assembly { terms: &problem.terms, attempts, dofs: &problem.dofs, constraints: &step.constraints };
+        memory.workspace.prepare(&assembly, state)?;
+        let evaluation = Evaluation::new(&problem.terms, state);
+        let residual = vec![0.0; step.constraints.free_count()];
+        Ok(Self { problem, state, step, assembly, at, memory, solver, evaluation, residual, stiffness: 0.0 })
+    }
+
+    /// Iterates to the solution.
+    pub fn solve(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, Trouble> {
+        let options = self.problem.newton;
+        let (mut u, mut missing) = self.predict()?;
+        let (mut correction, mut taken, mut factorised) = (0.0, 0.0, false);
+        let mut before: Vec<Vec<(u8, u32)>> = Vec::new();
+        for iteration in 0..=options.iterations {
+            self.refresh_stiffness();
+            let norms = self.measure();
+            let mut line = self.describe(iteration, &norms, &before);
+            (line.correction, line.step, line.factorised) = (correction, taken, factorised);
+            observer.iteration(record, &line);
+            record.iterations.push(line);
+            if missing.is_none() && norms.converged() {
+                return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+            }
+            if !norms.ratio.is_finite() {
+                return Err(Failure::new("the forces are not finite").into());
+            }
+            if iteration == options.iterations {
+                break;
+            }
+            before.clone_from(&self.evaluation.branches);
+            factorised = self.factorise(iteration)?;
+            let (direction, slope) = self.direction(missing.as_deref())?;
+            taken = self.advance(&mut u, &direction, slope, missing.as_deref())?;
+            let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0_f64, |m, x| m.max(x.abs()));
+            let change = largest(&mut u.iter().zip(&self.state.u).map(|(a, b)| a - b));
+            correction = largest(&mut direction.iter().map(|d| d * taken)) / change.max(f64::MIN_POSITIVE);
+            missing = missing.filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
+        }
+        Err(Failure::new(self.why_not(record)).into())
+    }
+
+    fn tangent(&self) -> Tangent {
+        if self.problem.newton.perturbation {
+            Tangent::Perturbation(1e-6 * self.problem.cell_size)
+        } else {
+            Tangent::Exact
+        }
+    }
+
+    fn evaluate(&mut self, u: &[f64], missing: Option<&[f64]>, tangent: Tangent) -> Result<(), Failure> {
+        self.memory.workspace.evaluate(&self.assembly, u, missing, tangent, &mut self.evaluation)?;
+        let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
+        self.step.constraints.gather(&unbalanced, &mut self.residual);
+        Ok(())
+    }
+
+    /// First guess, evaluated, and what the prescribed unknowns still miss there.
+    fn predict(&mut self) -> Result<(Vec<f64>, Option<Vec<f64>>), Trouble> {
+        let tangent = self.tangent();
+        if self.state.last_dt > 0.0 {
+            let part = self.at.dt / self.state.last_dt;
+            let mut u: Vec<f64> = self.state.u.iter().zip(&self.state.last_change).map(|(u, d)| u + part * d).collect();
+            let missing = self.missing(&mut u);
+            if self.evaluate(&u, missing.as_deref(), tangent).is_ok() {
+                return Ok((u, missing));
+            }
+        }
+        let mut u = self.state.u.clone();
+        let missing = self.missing(&mut u);
+        self.evaluate(&u, missing.as_deref(), tangent)?;
+        Ok((u, missing))
+    }
+
+    /// What prescribed unknowns miss at `u`; where that is rounding, it is put right in `u` at once.
+    fn missing(&self, u: &mut [f64]) -> Option<Vec<f64>> {
+        let (mut missing, mut largest, mut motion) = (vec![0.0; u.len()], 0.0_f64, 0.0_f64);
+        for p in &self.step.prescribed {
+            let start = p.value(&self.state.step_start);
+            let target = p.course.at(start, self.at.step_time, self.step.duration);
+            missing[p.dof] = target - p.value(u);
+            largest = largest.max(missing[p.dof].abs());
+            motion = motion.max((target - p.value(&self.state.u)).abs()).max(target.abs());
+        }
+        if largest > ROUNDING * motion {
+            return Some(missing);
+        }
+        for p in &self.step.prescribed {
+            u[p.dof] += missing[p.dof];
+        }
+        None
+    }
+
+    fn measure(&self) -> Norms {
+        let yardstick = Yardstick {
+            past: self.state.reference,
+            stiffness: self.stiffness,
+            size: self.problem.size,
+            tolerance: self.problem.newton.tolerance,
+        };
+        let numbering = (&self.problem.dofs, &self.step.constraints);
+        Norms::measure(&self.evaluation, &self.residual, numbering, &yardstick)
+    }
+
+    /// Largest diagonal entry of a displacement.
+    fn refresh_stiffness(&mut self) {
+        let pattern = self.memory.workspace.pattern();
+        if self.evaluation.values.len() != pattern.columns.len() {
+            return;
+        }
+        let free = self.step.constraints.free().iter().enumerate();
+        let displacements = free.filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
+        let diagonal = displacements.filter_map(|(row, _)| pattern.position(row, row));
+        self.stiffness = diagonal.map(|place| self.evaluation.values[place].abs()).fold(0.0, f64::max);
+    }
+
+    fn describe(&self, iteration: usize, norms: &Norms, before: &[Vec<(u8, u32)>]) -> IterationRecord {
+        let mut line = IterationRecord {
+            iteration,
+            residual: norms.ratio,
+            tolerance: norms.allowed,
+            worst: norms.worst,
+            ..IterationRecord::default()
+        };
+        for (t, (term, branches)) in self.problem.terms.iter().zip(&self.evaluation.branches).enumerate() {
+            let mut counts = vec![0; term.branches().len()];
+            if !counts.is_empty() {
+                branches.iter().for_each(|(branch, _)| counts[usize::from(*branch)] += 1);
+            }
+            line.branches.push(counts);
+            if let Some(before) = before.get(t) {
+                let changed = branches.iter().zip(before).enumerate().filter(|(_, (now, then))| now != then);
+                for (stencil, _) in changed {
+                    line.changes += 1;
+                    line.changed = Some((t, stencil));
+                }
+            }
+        }
+        line
+    }
+
+    /// Factorises if this iteration asks for it, and says whether it did.
+    fn factorise(&mut self, iteration: usize) -> Result<bool, Trouble> {
+        let analysis = self.memory.workspace.analysis();
+        if self.memory.analysed != analysis {
+            let dofs = &self.problem.dofs;
+            let node = |&dof: &usize| match dof.checked_sub(dofs.node(dofs.nodes())) {
+                None => dof / dofs.per_node(),
+                Some(beyond) => dofs.nodes() + beyond / dofs.per_tool(),
+            };
+            let nodes = self.step.constraints.free().iter().map(node).collect();
+            let pattern = self.memory.workspace.pattern();
+            self.solver.analyse(pattern, nodes).map_err(|e| self.explain(e, iteration))?;
+            (self.memory.analysed, self.memory.factorised) = (analysis, false);
+            self.memory.analyses += 1;
+        }
+        let keep = match self.problem.newton.variant {
+            Variant::Full => false,
+            Variant::Modified => iteration > 0,
+            Variant::Kept => iteration != 4,
+        };
+        if keep && self.memory.factorised {
+            return Ok(false);
+        }
+        self.memory.factorisations += 1;
+        self.memory.factorised = false;
+        self.solver.factorise(&self.evaluation.values).map_err(|e| self.explain(e, iteration))?;
+        self.memory.factorised = true;
+        Ok(true)
+    }
+
+    /// Newton's direction on all unknowns, and the slope of the work of the unbalanced forces along it.
+    fn direction(&mut self, missing: Option<&[f64]>) -> Result<(Vec<f64>, f64), Trouble> {
+        let constraints = &self.step.constraints;
+        let mut rhs = vec![0.0; self.residual.len()];
+        let mut direction = vec![0.0; self.state.u.len()];
+        if let Some(missing) = missing {
+            constraints.gather(&self.evaluation.carried, &mut rhs);
+            direction.copy_from_slice(missing);
+        }
+        rhs.iter_mut().zip(&self.residual).for_each(|(rhs, r)| *rhs = -(*rhs + r));
+        self.solver.solve(&mut rhs).map_err(|e| self.explain(e, 1))?;
+        let slope = rhs.iter().zip(&self.residual).map(|(q, r)| q * r).sum();
+        constraints.expand(&rhs, &mut direction);
+        Ok((direction, slope))
+    }
+
+    /// Moves `u` along the direction, evaluates there, and returns the part that was taken.
+    fn advance(
+        &mut self,
+        u: &mut Vec<f64>,
+        direction: &[f64],
+        slope: f64,
+        missing: Option<&[f64]>,
+    ) -> Result<f64, Failure> {
+        let begin = u.clone();
+        let along = |part: f64| -> Vec<f64> { begin.iter().zip(direction).map(|(u, d)| u + part * d).collect() };
+        let rest = |part: f64| missing.filter(|_| part < 1.0).map(|m| m.iter().map(|m| m * (1.0 - part)).collect());
+        let mut part = 1.0;
+        loop {
+            *u = along(part);
+            let missing: Option<Vec<f64>> = rest(part);
+            match self.evaluate(u, missing.as_deref(), self.tangent()) {
+                Ok(()) => break,
+                Err(failure) if part <= SHORTEST => return Err(failure),
+                Err(_) => part *= 0.5,
+            }
+        }
+        if !self.problem.newton.line_search || missing.is_some() || part < 1.0 {
+            return Ok(part);
+        }
+        let end = self.slope(direction);
+        if end.abs() <= SLOPE * slope.abs() {
+            return Ok(part);
+        }
+        part = self.search(&along, direction, (slope, end))?;
+        *u = along(part);
+        self.evaluate(u, None, self.tangent())?;
+        Ok(part)
+    }
+
+    /// Work of the present unbalanced forces along a direction.
+    fn slope(&self, direction: &[f64]) -> f64 {
+        let free = self.step.constraints.free().iter();
+        free.zip(&self.residual).map(|(&dof, r)| direction[dof] * r).sum()
+    }
+
+    /// Looks for a part of the step where the slope is small: regula falsi (Illinois) where it changes sign, halving
+    /// where it only grows.
+    fn search(
+        &mut self,
+        along: &dyn Fn(f64) -> Vec<f64>,
+        direction: &[f64],
+        (begin, end): (f64, f64),
+    ) -> Result<f64, Failure> {
+        let (mut low, mut high) = ((0.0, begin), (1.0, end));
+        let mut best = (end.abs(), 1.0);
+        for _ in 0..6 {
+            let crosses = low.1 * high.1 < 0.0;
+            let part = if crosses { high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1) } else { 0.5 * high.0 };
+            let part = part.max(SHORTEST);
+            self.evaluate(&along(part), None, Tangent::None)?;
+            let slope = self.slope(direction);
+            if slope.abs() < best.0 {
+                best = (slope.abs(), part);
+            }
+            if slope.abs() <= SLOPE * begin.abs() || part <= SHORTEST {
+                break;
+            }
+            if slope * high.1 < 0.0 {
+                low = (part, slope);
+                high.1 *= 0.5;
+            } else {
+                high = (part, slope);
+            }
+        }
+        Ok(best.1)
+    }
+
+    /// What a linear system that cannot be solved means in the user's words.
+    fn explain(&self, error: LinearError, iteration: usize) -> Trouble {
+        let LinearError::Singular(motion) = &error else {
+            return Trouble::Error(Error::Internal(error.to_string()));
+        };
+        let mut full = vec![0.0; self.state.u.len()];
+        self.step.constraints.expand(motion, &mut full);
+        let named: Vec<String> = self.problem.terms.iter().filter_map(|term| term.describe_motion(&full)).collect();
+        let text = match named.as_slice() {
+            [] => self.problem.name_of_largest(&full),
+            some => some.join("; "),
+        };
+        if iteration == 0 {
+            Trouble::Error(Error::NotConverged(format!("{text}: nothing holds it; support it, or bring it into contact")))
+        } else {
+            Trouble::Failure(Failure::new(format!("{text} in iteration {iteration}")))
+        }
+    }
+
+    fn why_not(&self, record: &AttemptRecord) -> String {
+        let Some(last) = record.iterations.last() else { return "no iteration was made".into() };
+        let mut text = format!(
+            "the largest unbalanced force is {:.1e} of the forces in play after {} iterations (at most {:.0e}), at {}",
+            last.residual,
+            last.iteration,
+            last.tolerance,
+            self.problem.name_of(last.worst.dof)
+        );
+        if let Some((term, stencil)) = last.changed {
+            let name = self.problem.terms[term].name_of(stencil);
+            text += &format!("; {} contact states still changed, the last at {name}", last.changes);
+        }
+        text
+    }
+}

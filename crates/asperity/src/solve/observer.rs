@@ -1,0 +1,93 @@
+//! What a run tells while it goes: the library prints nothing.
+
+use super::Worst;
+use crate::system::State;
+
+/// One iteration.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct IterationRecord {
+    /// Number within the attempt, from zero: the state before the first solution.
+    pub iteration: usize,
+    /// Largest ratio of an unbalanced force to its yardstick.
+    pub residual: f64,
+    /// Ratio it must not exceed.
+    pub tolerance: f64,
+    /// Largest change of a displacement by the last solution over the largest change in the increment.
+    pub correction: f64,
+    /// Part of the last solution that the line search took.
+    pub step: f64,
+    /// Unknown with the largest ratio.
+    pub worst: Worst,
+    /// For each term, how many stencils are on each branch; empty for terms with one branch.
+    pub branches: Vec<Vec<usize>>,
+    /// Stencils whose branch or discrete choice changed since the iteration before.
+    pub changes: usize,
+    /// Whether a matrix was factorised for the last solution.
+    pub factorised: bool,
+    /// The stencil that changed, if few did: (term, stencil).
+    pub changed: Option<(usize, usize)>,
+}
+
+/// One attempt at an increment, finished.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct AttemptRecord {
+    /// Step, from zero.
+    pub step: usize,
+    /// The increment attempted, from one, over all steps.
+    pub increment: usize,
+    /// Number of the attempt at it, from one.
+    pub attempt: usize,
+    /// Time at its end, in the step.
+    pub step_time: f64,
+    /// Time at its end, since the start.
+    pub time: f64,
+    /// Its length.
+    pub dt: f64,
+    /// Its iterations, beginning with the state before the first solution.
+    pub iterations: Vec<IterationRecord>,
+    /// Why it was given up, if it was.
+    pub failure: Option<String>,
+}
+
+impl AttemptRecord {
+    /// Number of solutions that were computed.
+    pub fn solutions(&self) -> usize {
+        self.iterations.len().saturating_sub(1)
+    }
+
+    /// Order of convergence, fitted on the last three residuals above `1e-12` over which no branch and no discrete
+    /// choice changed: `ln(r3/r2) / ln(r2/r1)`. `None` where there are not three such.
+    pub fn order(&self) -> Option<f64> {
+        let steady = self.iterations.iter().rev().skip_while(|i| i.residual <= 1e-12).collect::<Vec<_>>();
+        let [third, second, first, ..] = steady.as_slice() else { return None };
+        let same = third.changes == 0 && second.changes == 0;
+        let falls = third.residual < second.residual && second.residual < first.residual;
+        let order = || (third.residual / second.residual).ln() / (second.residual / first.residual).ln();
+        (same && falls && first.iteration > 0).then(order)
+    }
+}
+
+/// Listens to a run, and may ask it to stop.
+pub trait Observer {
+    /// An iteration was evaluated.
+    fn iteration(&mut self, _attempt: &AttemptRecord, _iteration: &IterationRecord) {}
+    /// An attempt ended, well or not.
+    fn attempt(&mut self, _attempt: &AttemptRecord) {}
+    /// An increment was accepted.
+    ///
+    /// # Errors
+    /// An error of writing results stops the run.
+    fn accepted(&mut self, _state: &State, _attempt: &AttemptRecord) -> Result<(), crate::Error> {
+        Ok(())
+    }
+    /// Whether the run should stop at the accepted state.
+    fn wants_stop(&self) -> bool {
+        false
+    }
+}
+
+/// Listens to nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Silent;
+
+impl Observer for Silent {}

@@ -1,0 +1,221 @@
+//! Steps and increments: the loop around the attempts.
+
+use super::linear::LinearSolver;
+use super::newton::{Converged, Memory, Newton, NewtonOptions, Trouble};
+use super::observer::{AttemptRecord, Observer};
+use super::schedule::Step;
+use crate::Error;
+use crate::system::{Dofs, Energies, State, Term, Unknown};
+
+/// What is to be solved: terms, numbering, steps.
+pub struct Problem {
+    /// The terms of equilibrium.
+    pub terms: Vec<Box<dyn Term>>,
+    /// The numbering of the unknowns.
+    pub dofs: Dofs,
+    /// The steps.
+    pub steps: Vec<Step>,
+    /// Options of the iterations.
+    pub newton: NewtonOptions,
+    /// Size of the model, a length.
+    pub size: f64,
+    /// Size of its smallest cell, a length: the measure of perturbations.
+    pub cell_size: f64,
+    /// Names of the tools.
+    pub tools: Vec<String>,
+    /// A name for each node in messages: its group and number.
+    pub node_names: Vec<String>,
+}
+
+/// Options of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RunOptions {
+    /// Stop after this many accepted increments, if given.
+    pub increments: Option<usize>,
+}
+
+/// Why a run ended well.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// All steps are done.
+    Done,
+    /// The observer asked for it, or the given number of increments is reached.
+    Asked,
+}
+
+/// A run: the accepted state and the memory around it.
+pub struct Run<'a> {
+    /// The problem.
+    pub problem: &'a Problem,
+    /// The accepted state.
+    pub state: State,
+    /// Memory and counts of the solver.
+    pub memory: Memory,
+    solver: Box<dyn LinearSolver>,
+}
+
+/// Attempts at one increment before the run gives up.
+const ATTEMPTS: usize = 40;
+
+impl Problem {
+    /// The state before the first increment.
+    pub fn initial_state(&self) -> State {
+        let count = self.dofs.count();
+        let histories: Vec<_> = self.terms.iter().map(|term| term.initial()).collect();
+        State {
+            u: vec![0.0; count],
+            last_change: vec![0.0; count],
+            step_start: vec![0.0; count],
+            internal: vec![0.0; count],
+            load: vec![0.0; count],
+            energies: vec![Energies::default(); self.terms.len()],
+            next_dt: self.steps.first().map_or(0.0, |s| s.increments.first * s.duration),
+            histories,
+            ..State::default()
+        }
+    }
+
+    /// Words for an unknown: "node 12 of 'bore' along y".
+    pub fn name_of(&self, dof: usize) -> String {
+        let axis = |axis: usize| ["x", "y", "z"][axis];
+        let tool = |tool: usize| self.tools.get(tool).map_or("", String::as_str);
+        match self.dofs.describe(dof) {
+            Unknown::Node(node, a) => format!("{} along {}", self.node_names[node], axis(a)),
+            Unknown::ToolTranslation(t, a) => format!("tool '{}' along {}", tool(t), axis(a)),
+            Unknown::ToolRotation(t, a) => format!("tool '{}' about {}", tool(t), axis(a)),
+        }
+    }
+
+    pub(super) fn name_of_largest(&self, motion: &[f64]) -> String {
+        let largest = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
+        largest.map_or_else(|| "the model".into(), |dof| format!("{} is free", self.name_of(dof)))
+    }
+}
+
+impl<'a> Run<'a> {
+    /// A run from a given state: the initial one or that of a checkpoint.
+    pub fn new(problem: &'a Problem, state: State, solver: Box<dyn LinearSolver>) -> Self {
+        Self { problem, state, memory: Memory::default(), solver }
+    }
+
+    /// Runs to the end of the last step.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] when the increments shrink to nothing or a motion is held by nothing; an error of the
+    /// observer.
+    pub fn run(&mut self, options: &RunOptions, observer: &mut dyn Observer) -> Result<Stop, Error> {
+        let mut accepted = 0;
+        while let Some(step) = self.problem.steps.get(self.state.step) {
+            if observer.wants_stop() || options.increments.is_some_and(|most| accepted >= most) {
+                return Ok(Stop::Asked);
+            }
+            let record = self.increment(step, observer)?;
+            accepted += 1;
+            observer.accepted(&self.state, &record)?;
+        }
+        Ok(Stop::Done)
+    }
+
+    /// Solves one increment, cutting it as often as needed, and accepts it.
+    fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
+        let mut wanted = self.state.next_dt;
+        let smallest = step.increments.smallest * step.duration;
+        for attempt in 1..=ATTEMPTS {
+            let dt = step.next(wanted, self.state.step_time);
+            let mut record = self.begin(attempt, dt);
+            let result = self.attempt(dt, &mut record, observer);
+            self.state.attempts += 1;
+            self.state.iterations += record.solutions();
+            match result {
+                Ok(converged) => {
+                    observer.attempt(&record);
+                    self.accept(step, dt, wanted, record.solutions(), converged);
+                    return Ok(record);
+                }
+                Err(Trouble::Error(error)) => {
+                    record.failure = Some(error.to_string());
+                    observer.attempt(&record);
+                    return Err(error);
+                }
+                Err(Trouble::Failure(failure)) => {
+                    record.failure = Some(failure.reason.clone());
+                    observer.attempt(&record);
+                    wanted = 0.5 * dt;
+                    if wanted < smallest {
+                        return Err(self.give_up(step, dt, &failure.reason));
+                    }
+                }
+            }
+        }
+        Err(self.give_up(step, wanted, "too many attempts at one increment"))
+    }
+
+    fn begin(&self, attempt: usize, dt: f64) -> AttemptRecord {
+        AttemptRecord {
+            step: self.state.step,
+            increment: self.state.increment + 1,
+            attempt,
+            step_time: self.state.step_time + dt,
+            time: self.state.time + dt,
+            dt,
+            ..AttemptRecord::default()
+        }
+    }
+
+    fn give_up(&self, step: &Step, dt: f64, reason: &str) -> Error {
+        Error::NotConverged(format!(
+            "step '{}' stops at {:.4} of its duration: an increment of {:.1e} of it still fails: {reason}",
+            step.name,
+            self.state.step_time / step.duration,
+            dt / step.duration
+        ))
+    }
+
+    fn attempt(
+        &mut self,
+        dt: f64,
+        record: &mut AttemptRecord,
+        observer: &mut dyn Observer,
+    ) -> Result<Converged, Trouble> {
+        if self.problem.newton.rehearse {
+            let mut thrown_away = record.clone();
+            let rehearsal = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut())?;
+            let _ = rehearsal.solve(&mut thrown_away, &mut super::Silent);
+        }
+        let newton = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut())?;
+        newton.solve(record, observer)
+    }
+
+    fn accept(&mut self, step: &Step, dt: f64, wanted: f64, iterations: usize, converged: Converged) {
+        let (state, evaluation) = (&mut self.state, converged.evaluation);
+        for (i, (change, u)) in state.last_change.iter_mut().zip(&converged.u).enumerate() {
+            *change = u - state.u[i];
+            state.external_work += 0.5 * (state.internal[i] + evaluation.internal[i]) * *change;
+        }
+        for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
+            total.stored = new.stored;
+            total.dissipated += new.dissipated;
+        }
+        state.u = converged.u;
+        state.internal = evaluation.internal;
+        state.load = evaluation.load;
+        state.histories = evaluation.histories;
+        for (past, now) in state.reference.iter_mut().zip(converged.reference) {
+            *past = past.max(now);
+        }
+        state.last_dt = dt;
+        state.next_dt = step.after(dt, wanted, iterations);
+        state.increment += 1;
+        state.time += dt;
+        state.step_time += dt;
+        if state.step_time >= step.duration * (1.0 - 1e-9) {
+            state.step += 1;
+            state.step_time = 0.0;
+            state.last_dt = 0.0;
+            state.step_start.clone_from(&state.u);
+            if let Some(next) = self.problem.steps.get(state.step) {
+                state.next_dt = next.increments.first * next.duration;
+            }
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Steps, what is prescribed in them, and the size of increments.
+
+use crate::system::Constraints;
+
+/// How a prescribed value runs over a step.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Course {
+    /// It stays what it was when the step began.
+    Hold,
+    /// It goes in a straight line from what it was to this value at the step's end.
+    Ramp(f64),
+    /// Values at step times, joined by straight lines and constant outside.
+    Table(Vec<(f64, f64)>),
+}
+
+impl Course {
+    /// The value at a time of the step.
+    pub fn at(&self, start: f64, step_time: f64, duration: f64) -> f64 {
+        match self {
+            Self::Hold => start,
+            Self::Ramp(end) if step_time >= duration => *end,
+            Self::Ramp(end) => start + (end - start) * (step_time / duration),
+            Self::Table(points) => interpolate(points, step_time),
+        }
+    }
+}
+
+fn interpolate(points: &[(f64, f64)], t: f64) -> f64 {
+    let after = points.partition_point(|p| p.0 <= t);
+    match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
+        (Some((t0, v0)), Some(&(t1, v1))) => v0 + (v1 - v0) * ((t - t0) / (t1 - t0)),
+        (Some((_, v)), None) | (None, Some(&(_, v))) => v,
+        (None, None) => 0.0,
+    }
+}
+
+/// A prescribed unknown, or the prescribed part of a combined one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prescribed {
+    /// The unknown: its row of the [`Constraints`] is fixed or combined.
+    pub dof: usize,
+    /// The combination subtracted from it before comparison: `u_dof - sum c u_other` is what is prescribed. Empty for
+    /// a simple one.
+    pub others: Vec<(usize, f64)>,
+    /// How the value runs.
+    pub course: Course,
+}
+
+impl Prescribed {
+    /// The present value of what is prescribed.
+    pub fn value(&self, u: &[f64]) -> f64 {
+        u[self.dof] - self.others.iter().map(|&(other, c)| c * u[other]).sum::<f64>()
+    }
+}
+
+/// Sizes of increments, as parts of the step's duration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Increments {
+    /// The first.
+    pub first: f64,
+    /// The largest.
+    pub largest: f64,
+    /// The smallest; below it the run gives up.
+    pub smallest: f64,
+    /// The largest number of increments.
+    pub most: usize,
+}
+
+impl Default for Increments {
+    fn default() -> Self {
+        Self { first: 0.1, largest: 0.1, smallest: 1e-6, most: 10_000 }
+    }
+}
+
+/// One step of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// The user's name for it.
+    pub name: String,
+    /// Its length in time.
+    pub duration: f64,
+    /// Sizes of its increments.
+    pub increments: Increments,
+    /// Which unknowns are constrained.
+    pub constraints: Constraints,
+    /// What they are constrained to.
+    pub prescribed: Vec<Prescribed>,
+}
+
+/// Iterations up to which an increment counts as easy.
+const EASY: usize = 6;
+/// Growth after an easy increment.
+const GROWTH: f64 = 1.5;
+
+impl Step {
+    /// Size of the increment to try when the controller wants `wanted` and `done` of the step is behind: the rest of
+    /// the step when that is near, and halves of the rest rather than a sliver at the end.
+    pub fn next(&self, wanted: f64, done: f64) -> f64 {
+        let (rest, wanted) = (self.duration - done, wanted.min(self.increments.largest * self.duration));
+        if rest <= wanted * (1.0 + 1e-6) {
+            rest
+        } else if rest < 2.0 * wanted * (1.0 - 1e-6) {
+            0.5 * rest
+        } else {
+            wanted
+        }
+    }
+
+    /// What the controller wants after an increment of size `dt` that took `iterations`.
+    pub fn after(&self, dt: f64, wanted: f64, iterations: usize) -> f64 {
+        let largest = self.increments.largest * self.duration;
+        if iterations > EASY { dt.min(wanted) } else { (GROWTH * dt.max(wanted.min(dt * GROWTH))).min(largest) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn courses() {
+        assert_eq!(Course::Hold.at(3.0, 0.5, 1.0), 3.0);
+        assert_eq!(Course::Ramp(5.0).at(3.0, 0.5, 1.0), 4.0);
+        let table = Course::Table(vec![(0.0, 1.0), (2.0, 3.0)]);
+        assert_eq!([-1.0, 1.0, 5.0].map(|t| table.at(0.0, t, 1.0)), [1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn no_sliver_remains_at_the_end_of_a_step() {
+        let constraints = Constraints::new(0, &[], &[]);
+        let increments = Increments { first: 0.3, largest: 0.3, ..Increments::default() };
+        let step = Step { name: "s".into(), duration: 1.0, increments, constraints, prescribed: Vec::new() };
+        let (mut done, mut sizes) = (0.0, Vec::new());
+        while done < 1.0 {
+            sizes.push(step.next(0.3, done));
+            done += sizes[sizes.len() - 1];
+        }
+        assert_eq!(sizes.len(), 4);
+        assert!(sizes.iter().all(|&s| s > 0.19) && done == 1.0);
+    }
+}

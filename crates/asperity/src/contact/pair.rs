@@ -22,6 +22,8 @@ pub struct ContactOptions {
     pub tangential_penalty: f64,
     /// Thickness in the plane cases.
     pub thickness: f64,
+    /// Least confined modulus of the solids in contact: the measure of a pressure that no solution has.
+    pub modulus: f64,
 }
 
 /// Contact between a surface and a rigid tool.
@@ -42,6 +44,10 @@ pub struct Contact {
 const TOOL_DOFS: usize = 3;
 /// Most unknowns of a stencil.
 const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + TOOL_DOFS;
+/// Pressures up to this part of the confined modulus leave the tangent exact,
+const ORDINARY: f64 = 0.02;
+/// and so do those up to this multiple of the largest in the accepted state.
+const GROWTH: f64 = 4.0;
 /// A point counts as closed from this part of its edge's length on.
 const CLOSED: f64 = 1e-10;
 
@@ -156,6 +162,8 @@ struct OpenContact<'a> {
     contact: &'a Contact,
     history: &'a History,
     depths: Vec<f64>,
+    /// Pressure up to which the tangent is exact.
+    ordinary: f64,
     dt: f64,
 }
 
@@ -181,12 +189,18 @@ impl Term for Contact {
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &accepted.u);
-        Ok(Box::new(OpenContact { contact: self, history, depths, dt: at.dt }))
+        let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
+        let ordinary = (ORDINARY * self.options.modulus).max(GROWTH * pressures.fold(0.0, f64::max));
+        Ok(Box::new(OpenContact { contact: self, history, depths, ordinary, dt: at.dt }))
     }
 
     fn name_of(&self, stencil: usize) -> String {
         let nodes = self.surface.nodes(&self.surface.points[stencil]);
         format!("point {stencil} of contact '{}' (edge with nodes {nodes:?})", self.name)
+    }
+
+    fn softens(&self) -> bool {
+        true
     }
 
     fn branches(&self) -> &'static [&'static str] {
@@ -343,12 +357,13 @@ impl OpenContact<'_> {
             before: old[entry::PENETRATION],
             least: CLOSED * g.length,
             weight: point.weight * contact.thickness(),
+            turning: if g.hit.u > 0.0 { (self.ordinary / (contact.options.penalty * local.stiffness * g.hit.u)).min(1.0) } else { 1.0 },
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let options = &contact.options;
         let past = Past {
-            penalty: options.penalty,
-            tangential_penalty: options.tangential_penalty,
+            penalty: options.penalty * local.stiffness,
+            tangential_penalty: options.tangential_penalty * local.stiffness,
             shear: [old[entry::SHEAR], 0.0],
             vars: &old[entry::COUNT..],
             dt: self.dt,

@@ -33,6 +33,8 @@ pub struct Constants {
     pub least: f64,
     /// Quadrature weight times thickness.
     pub weight: f64,
+    /// Part of the triad's derivatives that is kept, from 0 to 1.
+    pub turning: f64,
     /// Whether the weight is per radian and the circumference has to be added.
     pub axisymmetric: bool,
 }
@@ -65,7 +67,7 @@ pub fn evaluate<T: Scalar>(
     constants: &Constants,
     law: impl FnOnce(&Motion<T>) -> Result<Response<T>, Failure>,
 ) -> Result<(T, Option<Closed<T>>), Failure> {
-    let (along, inward, length) = triad(place.tangent);
+    let (along, inward, length) = triad(soften(place.tangent, constants.turning));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
     if penetration.re() <= constants.least {
@@ -82,6 +84,11 @@ pub fn evaluate<T: Scalar>(
     }
     let force = (inward * response.pressure + along * response.shear[0]) * area;
     Ok((penetration, Some(Closed { force, hit: place.a + inward * penetration, area, slip, response })))
+}
+
+/// The same vector with its derivatives scaled by `part`.
+fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
+    Vec3(v.0.map(|x| x.chain(x.re(), part)))
 }
 
 /// The part of the increment during which a point that began open is in contact, at constant speed of approach.

@@ -41,13 +41,14 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The surface made of `sides`, with `gauss` points an edge (1, 2 or 3); by default 2 on first-degree and 3 on
-    /// second-degree edges.
+    /// The surface made of `sides`, with `gauss` points an edge (1, 2 or 3); by default as many as the degree of the
+    /// edge. More points than the edge adds nodes enforce more conditions than it can meet: on a curved target the
+    /// pressure then oscillates, and the force on a tool ripples as edges pass.
     pub fn new(mesh: &Mesh, sides: &[Side], gauss: Option<usize>) -> Self {
         let mut surface = Self { edges: Vec::new(), points: Vec::new() };
         for &side in sides {
             let (kind, nodes) = mesh.side(side);
-            let order = gauss.unwrap_or(kind.degree + 1).clamp(1, 3);
+            let order = gauss.unwrap_or(kind.degree).clamp(1, 3);
             let Some(rule) = kind.gauss[order - 1] else { continue };
             for (&xi, &weight) in rule.points.iter().zip(rule.weights) {
                 surface.points.push(point_at(kind, xi, weight, surface.edges.len()));

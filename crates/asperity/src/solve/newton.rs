@@ -35,6 +35,8 @@ pub struct NewtonOptions {
     pub tolerance: f64,
     /// Iterations after which an attempt is given up.
     pub iterations: usize,
+    /// Whether the first iterations are led by a softer penalty, with which the set of closed points settles sooner.
+    pub continuation: bool,
     /// Whether steps are shortened that would make matters worse.
     pub line_search: bool,
     /// Every attempt is made twice and the second kept, which must not change a bit. A check of the program itself.
@@ -46,8 +48,9 @@ impl Default for NewtonOptions {
         Self {
             variant: Variant::Full,
             perturbation: false,
-            tolerance: 1e-8,
+            tolerance: 1e-6,
             iterations: 25,
+            continuation: true,
             line_search: true,
             rehearse: false,
         }
@@ -108,10 +111,18 @@ pub struct Newton<'a> {
 
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
 const ROUNDING: f64 = 1e-12;
-/// The line search takes a step whose slope has fallen to this part of the initial one.
-const SLOPE: f64 = 0.8;
+/// The line search takes a step at whose end the slope is at most this multiple of the initial one: a point that
+/// closes over the step raises it a little and is dealt with by the next iteration; only what goes far astray is
+/// shortened.
+const SLOPE: f64 = 10.0;
+/// Slope, as a part of the initial one, at which the search for a shorter step ends.
+const GOOD: f64 = 0.8;
+/// Part of the penalties that leads the first iterations,
+const LEAD: f64 = 0.01;
+/// and the residual below which the full ones take over.
+const LED: f64 = 0.03;
 /// Shortest step of the line search.
-const SHORTEST: f64 = 0.05;
+const SHORTEST: f64 = 0.01;
 
 impl<'a> Newton<'a> {
     /// Opens all terms at the accepted state.
@@ -137,6 +148,8 @@ impl<'a> Newton<'a> {
     /// Iterates to the solution.
     pub fn solve(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, Trouble> {
         let options = self.problem.newton;
+        let mut led = options.continuation && self.problem.terms.iter().any(|term| term.softens());
+        self.memory.workspace.stiffness = if led { LEAD } else { 1.0 };
         let (mut u, mut missing) = self.predict()?;
         let (mut correction, mut taken, mut factorised) = (0.0, 0.0, false);
         let mut before: Vec<Vec<(u8, u32)>> = Vec::new();
@@ -147,7 +160,11 @@ impl<'a> Newton<'a> {
             (line.correction, line.step, line.factorised) = (correction, taken, factorised);
             observer.iteration(record, &line);
             record.iterations.push(line);
-            if missing.is_none() && norms.converged() {
+            if missing.is_none() && led && norms.ratio < LED {
+                led = false;
+                self.memory.workspace.stiffness = 1.0;
+                self.evaluate(&u, None, self.tangent())?;
+            } else if missing.is_none() && norms.converged() {
                 return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
             }
             if !norms.ratio.is_finite() {
@@ -372,7 +389,7 @@ impl<'a> Newton<'a> {
             if slope.abs() < best.0 {
                 best = (slope.abs(), part);
             }
-            if slope.abs() <= SLOPE * begin.abs() || part <= SHORTEST {
+            if slope.abs() <= GOOD * begin.abs() || part <= SHORTEST {
                 break;
             }
             if slope * high.1 < 0.0 {
@@ -420,3 +437,4 @@ impl<'a> Newton<'a> {
         text
     }
 }
+

@@ -56,7 +56,7 @@ pub struct Assembly<'a> {
 }
 
 /// Memory that lives through the run: pattern, places in it, chunk buffers.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Workspace {
     couplings: Couplings,
     constraints: Option<Constraints>,
@@ -66,6 +66,8 @@ pub struct Workspace {
     places: Vec<Vec<u32>>,
     chunks: Vec<Chunk>,
     enlarged: usize,
+    /// Part of their penalties that terms are asked to use, see [`Local::stiffness`].
+    pub stiffness: f64,
 }
 
 /// Stencils a chunk holds; fixed, so that results do not depend on the number of threads.
@@ -90,6 +92,22 @@ struct Chunk {
 
 /// The pattern lacks an entry that a stencil needs.
 struct Miss;
+
+impl Default for Workspace {
+    fn default() -> Self {
+        Self {
+            couplings: Couplings::default(),
+            constraints: None,
+            pattern: Csr::default(),
+            analysis: 0,
+            stencils: Vec::new(),
+            places: Vec::new(),
+            chunks: Vec::new(),
+            enlarged: 0,
+            stiffness: 1.0,
+        }
+    }
+}
 
 impl Workspace {
     /// The pattern of the matrix.
@@ -197,6 +215,7 @@ impl Workspace {
                 self.chunks.resize_with(chunks, Chunk::default);
             }
             let lanes = split(&mut history, round, end);
+            self.chunks[..chunks].iter_mut().for_each(|chunk| chunk.local.stiffness = self.stiffness);
             self.chunks[..chunks].par_iter_mut().zip(lanes).enumerate().for_each(|(k, (chunk, lane))| {
                 let first = round + k * CHUNK;
                 let range = first..(first + CHUNK).min(end);

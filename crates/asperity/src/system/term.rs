@@ -70,7 +70,7 @@ impl Stencils {
 }
 
 /// Where a stencil reads and writes: scratch of one thread, reused without allocation.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Local {
     /// Trial values of the stencil's unknowns.
     pub u: Vec<f64>,
@@ -80,10 +80,27 @@ pub struct Local {
     pub tangent: Vec<f64>,
     /// Whether the tangent is wanted.
     pub wants_tangent: bool,
+    /// Part of its penalty, in (0, 1], that a term which enforces something by a penalty is asked to use: early
+    /// iterations are led by a softer problem. A solution is accepted at 1 only.
+    pub stiffness: f64,
     /// Energy stored in the stencil at the trial state.
     pub stored: f64,
     /// Energy dissipated over the increment.
     pub dissipated: f64,
+}
+
+impl Default for Local {
+    fn default() -> Self {
+        Self {
+            u: Vec::new(),
+            force: Vec::new(),
+            tangent: Vec::new(),
+            wants_tangent: false,
+            stiffness: 1.0,
+            stored: 0.0,
+            dissipated: 0.0,
+        }
+    }
 }
 
 impl Local {
@@ -123,6 +140,10 @@ pub trait Term: Send + Sync {
     ) -> Result<Box<dyn Attempt + 'a>, Failure>;
     /// Words for a stencil in messages: "cell 12 of body 'tube'".
     fn name_of(&self, stencil: usize) -> String;
+    /// Whether it enforces something by a penalty and heeds [`Local::stiffness`].
+    fn softens(&self) -> bool {
+        false
+    }
     /// Words for a motion of all unknowns that meets no stiffness, if it is a motion of this term as a whole: "body
     /// 'billet' is free along y".
     fn describe_motion(&self, _motion: &[f64]) -> Option<String> {

@@ -246,7 +246,7 @@ impl Attempt for OpenContact<'_> {
                 let nodes = contact.surface.nodes(point).iter().flat_map(|&n| [0, 1].map(|c| contact.dofs.node(n) + c));
                 let tool = if hit.is_some() { tool..tool + TOOL_DOFS } else { tool..tool };
                 let (choice, near) = hit.map_or((0, 0.0), |hit| (hit.segment as u32 + 1, hit.s));
-                out.push(nodes.chain(tool), choice, near);
+                out.push_near(nodes.chain(tool), choice, near);
             }
         });
         Ok(())

@@ -192,6 +192,26 @@ impl Term for Body {
     fn name_of(&self, stencil: usize) -> String {
         format!("cell {} of body '{}'", self.cells[stencil], self.name)
     }
+
+    fn describe_motion(&self, motion: &[f64]) -> Option<String> {
+        let largest = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let mut nodes: Vec<usize> = self.cells.iter().flat_map(|&c| self.mesh.cell(c).nodes.iter().copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let (dim, count) = (self.dofs.per_node(), nodes.len() as f64);
+        let along = |axis: usize| nodes.iter().map(move |&n| motion[self.dofs.node(n) + axis]);
+        let size = (0..dim).flat_map(along).map(|x| x * x).sum::<f64>().sqrt() / count.sqrt();
+        // Another body moves, and this one only goes along a little.
+        if size < 0.05 * largest {
+            return None;
+        }
+        let mean = |axis: usize| along(axis).sum::<f64>().abs() / count;
+        let free: Vec<&str> = (0..dim).filter(|&a| mean(a) > 0.5 * size).map(|a| self.space.axes()[a]).collect();
+        Some(match free.as_slice() {
+            [] => format!("body '{}' is free to turn", self.name),
+            axes => format!("body '{}' is free along {}", self.name, axes.join(" and ")),
+        })
+    }
 }
 
 impl Attempt for OpenBody<'_> {
@@ -203,7 +223,7 @@ impl Attempt for OpenBody<'_> {
         let dofs = &self.body.dofs;
         for &cell in &self.body.cells {
             let nodes = self.body.mesh.cell(cell).nodes;
-            out.push(nodes.iter().flat_map(|&n| dofs.node(n)..dofs.node(n) + dofs.per_node()), 0, 0.0);
+            out.push(nodes.iter().flat_map(|&n| dofs.node(n)..dofs.node(n) + dofs.per_node()), 0);
         }
         Ok(())
     }

@@ -7,8 +7,8 @@ use std::fmt;
 /// Why a linear system was not solved.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinearError {
-    /// The matrix has no inverse; a motion that meets no stiffness, over the unknowns of the system.
-    Singular(Vec<f64>),
+    /// The matrix has no inverse; motions that meet no stiffness, each over the unknowns of the system.
+    Singular(Vec<Vec<f64>>),
     /// Anything else, in words.
     Other(String),
 }
@@ -48,12 +48,10 @@ pub struct Frontal {
     factor: Option<Factor>,
 }
 
-fn translate(error: frontal::Error, n: usize) -> LinearError {
+fn translate(error: frontal::Error) -> LinearError {
     match error {
         frontal::Error::Singular(singular) => {
-            let mut motion = vec![0.0; n];
-            motion.copy_from_slice(&singular.null_vector.entries);
-            LinearError::Singular(motion)
+            LinearError::Singular(singular.null_vectors.into_iter().map(|v| v.entries).collect())
         }
         other => LinearError::Other(other.to_string()),
     }
@@ -61,11 +59,10 @@ fn translate(error: frontal::Error, n: usize) -> LinearError {
 
 impl LinearSolver for Frontal {
     fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
-        let n = pattern.rows();
         let pattern = Pattern::new(pattern.starts.clone(), pattern.columns.clone())
             .and_then(|p| p.with_nodes(nodes))
-            .map_err(|e| translate(e, n))?;
-        let symbolic = Symbolic::analyse(&pattern, &Options::default()).map_err(|e| translate(e, n))?;
+            .map_err(translate)?;
+        let symbolic = Symbolic::analyse(&pattern, &Options::default()).map_err(translate)?;
         self.factor = Some(symbolic.new_factor());
         self.symbolic = Some(symbolic);
         Ok(())
@@ -75,15 +72,13 @@ impl LinearSolver for Frontal {
         let (Some(symbolic), Some(factor)) = (&self.symbolic, &mut self.factor) else {
             return Err(LinearError::Other("nothing is analysed".into()));
         };
-        let n = symbolic.pattern().len();
-        symbolic.factorise(values, factor).map(drop).map_err(|e| translate(e, n))
+        symbolic.factorise(values, factor).map(drop).map_err(translate)
     }
 
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         let Some(factor) = &mut self.factor else {
             return Err(LinearError::Other("nothing is factorised".into()));
         };
-        let n = rhs.len();
-        factor.solve(rhs).map(drop).map_err(|e| translate(e, n))
+        factor.solve(rhs).map(drop).map_err(translate)
     }
 }

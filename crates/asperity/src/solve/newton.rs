@@ -404,16 +404,19 @@ impl<'a> Newton<'a> {
 
     /// What a linear system that cannot be solved means in the user's words.
     fn explain(&self, error: LinearError, iteration: usize) -> Trouble {
-        let LinearError::Singular(motion) = &error else {
+        let LinearError::Singular(motions) = &error else {
             return Trouble::Error(Error::Internal(error.to_string()));
         };
-        let mut full = vec![0.0; self.state.u.len()];
-        self.step.constraints.expand(motion, &mut full);
-        let named: Vec<String> = self.problem.terms.iter().filter_map(|term| term.describe_motion(&full)).collect();
-        let text = match named.as_slice() {
-            [] => self.problem.name_of_largest(&full),
-            some => some.join("; "),
-        };
+        let mut named: Vec<String> = Vec::new();
+        for motion in motions {
+            let mut full = vec![0.0; self.state.u.len()];
+            self.step.constraints.expand(motion, &mut full);
+            let names = self.problem.terms.iter().filter_map(|term| term.describe_motion(&full)).collect::<Vec<_>>();
+            named.extend(if names.is_empty() { vec![self.problem.name_of_largest(&full)] } else { names });
+        }
+        named.sort();
+        named.dedup();
+        let text = named.join("; ");
         if iteration == 0 {
             Trouble::Error(Error::NotConverged(format!("{text}: nothing holds it; support it, or bring it into contact")))
         } else {

@@ -58,7 +58,11 @@ impl Stencils {
         self.dofs.clear();
     }
     /// Adds a stencil.
-    pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32, near: f64) {
+    pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32) {
+        self.push_near(dofs, choice, 0.0);
+    }
+    /// Adds a stencil that also says where on its choice it is.
+    pub fn push_near(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32, near: f64) {
         let start = self.dofs.len();
         self.dofs.extend(dofs);
         self.list.push(Stencil { start, len: self.dofs.len() - start, choice, near });

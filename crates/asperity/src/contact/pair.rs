@@ -252,13 +252,7 @@ impl Attempt for OpenContact<'_> {
         Ok(())
     }
 
-    fn evaluate(
-        &self,
-        index: usize,
-        stencil: &Stencil,
-        new: &mut [f64],
-        local: &mut Local,
-    ) -> Result<Branch, Failure> {
+    fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else {
             write_hit(None, new);
             return Ok(0);
@@ -357,7 +351,11 @@ impl OpenContact<'_> {
             before: old[entry::PENETRATION],
             least: CLOSED * g.length,
             weight: point.weight * contact.thickness(),
-            turning: if g.hit.u > 0.0 { (self.ordinary / (contact.options.penalty * local.stiffness * g.hit.u)).min(1.0) } else { 1.0 },
+            turning: if g.hit.u > 0.0 {
+                (self.ordinary / (contact.options.penalty * local.stiffness * g.hit.u)).min(1.0)
+            } else {
+                1.0
+            },
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let options = &contact.options;

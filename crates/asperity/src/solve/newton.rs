@@ -418,7 +418,9 @@ impl<'a> Newton<'a> {
         named.dedup();
         let text = named.join("; ");
         if iteration == 0 {
-            Trouble::Error(Error::NotConverged(format!("{text}: nothing holds it; support it, or bring it into contact")))
+            Trouble::Error(Error::NotConverged(format!(
+                "{text}: nothing holds it; support it, or bring it into contact"
+            )))
         } else {
             Trouble::Failure(Failure::new(format!("{text} in iteration {iteration}")))
         }
@@ -440,4 +442,3 @@ impl<'a> Newton<'a> {
         text
     }
 }
-

@@ -5,9 +5,9 @@ use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Space};
+use asperity::model::{Model, ModelParts};
 use asperity::solid::{Body, BodyOptions, Formulation, Integration};
 use asperity::solve::{Course, Increments, NewtonOptions, Prescribed, Silent, Step};
-use asperity::model::{Model, ModelParts};
 use asperity::system::{Constraints, Dofs, State};
 use asperity::tensor::{Tensor2, Vec3};
 use std::sync::Arc;
@@ -33,7 +33,8 @@ fn mesh(cell: &'static Cell, n: usize, bend: f64) -> Mesh {
 fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field]) -> Option<(Model, State)> {
     let dim = space.dimension();
     let dofs = Dofs::new(dim, mesh.points.len(), 0);
-    let mut boundary: Vec<usize> = mesh.groups.values().flat_map(|g| if g.cells.is_empty() { &g.nodes[..] } else { &[] }).copied().collect();
+    let mut boundary: Vec<usize> =
+        mesh.groups.values().flat_map(|g| if g.cells.is_empty() { &g.nodes[..] } else { &[] }).copied().collect();
     boundary.sort_unstable();
     boundary.dedup();
     let fixed: Vec<usize> = boundary.iter().flat_map(|&n| (0..dim).map(move |a| n * dim + a)).collect();
@@ -193,7 +194,8 @@ fn error(cell: &'static Cell, space: Space, options: BodyOptions, n: usize) -> f
 fn convergence() {
     walk(&|cell, space, options, name| {
         let coarsest = if cell.dimension == 3 { 2 } else { 4 };
-        let errors = [1, 2, 4].map(|k| error(cell, space, options, k * coarsest / if cell.dimension == 3 { 2 } else { 1 }));
+        let errors =
+            [1, 2, 4].map(|k| error(cell, space, options, k * coarsest / if cell.dimension == 3 { 2 } else { 1 }));
         let order = (errors[1] / errors[2]).log2();
         let expected = cell.degree as f64 + 1.0;
         // Coarse three-dimensional meshes are not yet on the asymptote.

@@ -11,13 +11,10 @@ fn folder() -> PathBuf {
 
 /// What a user reads, with paths as seen from the folder of the decks.
 fn message(path: &Path) -> String {
-    let text = match asperity::deck::load(path, &[]) {
-        Ok(_) => panic!("{} is taken for good", path.display()),
-        Err(diagnostics) => {
-            assert!(diagnostics.has_errors());
-            diagnostics.render(false)
-        }
-    };
+    let built = asperity::deck::load(path, &[]).and_then(asperity::deck::build);
+    let diagnostics = built.err().unwrap_or_else(|| panic!("{} is taken for good", path.display()));
+    assert!(diagnostics.has_errors());
+    let text = diagnostics.render(false);
     text.replace(&format!("{}/", folder().display()), "") + "\n"
 }
 

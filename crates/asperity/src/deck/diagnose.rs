@@ -92,6 +92,12 @@ impl Diagnostics {
         self.list.iter().any(|d| d.severity == Severity::Error)
     }
 
+    /// Only what must be put right or looked at: beside errors, notes are noise.
+    pub fn without_notes(mut self) -> Self {
+        self.list.retain(|d| d.severity != Severity::Note);
+        self
+    }
+
     /// Orders the messages as a reader of the deck meets them; those without a place come last.
     pub fn sort(&mut self) {
         self.list.sort_by_key(|d| d.place.map_or((usize::MAX, 0), |p| (p.source, p.start)));

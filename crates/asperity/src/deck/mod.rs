@@ -5,6 +5,7 @@
 //! in the deck and in the mesh ([`names`]). Every message goes through [`diagnose`]. What is not said has a default that
 //! is known and can be printed; what is said is used, or is an error.
 
+mod build;
 pub mod diagnose;
 pub mod form;
 pub mod keys;
@@ -16,6 +17,7 @@ pub mod schema;
 pub mod source;
 pub mod tree;
 
+pub use build::{Built, build};
 pub use diagnose::{Diagnostic, Diagnostics, Severity};
 pub use keys::Deck;
 pub use reader::{Name, Unsaid};
@@ -77,7 +79,7 @@ pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Lo
         Some((deck, mesh)) if !diagnostics.has_errors() => {
             Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics })
         }
-        _ => Err(diagnostics),
+        _ => Err(diagnostics.without_notes()),
     }
 }
 

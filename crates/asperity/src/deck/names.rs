@@ -4,7 +4,6 @@ use super::diagnose::Diagnostic;
 use super::reader::{Mention, Name, Reader};
 use super::schema::Names;
 use crate::mesh::{Group, Mesh};
-use std::collections::BTreeSet;
 
 /// Reports names of nothing, with the nearest name of something, and things that nobody names. Without a mesh, groups
 /// are not looked for: its own fault is reported already.
@@ -12,9 +11,6 @@ pub fn resolve(mesh: Option<&Mesh>, reader: &mut Reader) {
     let mentions = std::mem::take(&mut reader.mentions);
     for mention in mentions.iter().filter(|mention| !mention.defines) {
         reader.diagnostics.extend(dangling(mention, &mentions, mesh));
-    }
-    for mention in mentions.iter().filter(|mention| mention.defines) {
-        reader.diagnostics.extend(ambiguous(mention, mesh));
     }
     // While there are errors, what seems idle may just be misspelt where it is used.
     if reader.errors() == 0 {
@@ -32,11 +28,7 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
     let Mention { names, name, .. } = mention;
     match names {
         Names::Condition => None,
-        Names::Group | Names::Cells | Names::Sides => group(name, *names, mesh?, &[]),
-        Names::Target => {
-            let tools = defined(mentions, Names::Tool);
-            if tools.contains(&name.text.as_str()) { None } else { group(name, *names, mesh?, &tools) }
-        }
+        Names::Group | Names::Cells | Names::Sides => group(name, *names, mesh?),
         _ => {
             let valid = defined(mentions, *names);
             (!valid.contains(&name.text.as_str())).then(|| nothing(name, *names, &valid))
@@ -53,18 +45,18 @@ fn nothing(name: &Name, names: Names, valid: &[&str]) -> Diagnostic {
     }
 }
 
-/// What is wrong with the name of a group; `others` may stand in its place.
-fn group(name: &Name, names: Names, mesh: &Mesh, others: &[&str]) -> Option<Diagnostic> {
+/// What is wrong with the name of a group.
+fn group(name: &Name, names: Names, mesh: &Mesh) -> Option<Diagnostic> {
     let fits = |group: &Group| match names {
         Names::Cells => !group.cells.is_empty(),
-        Names::Sides | Names::Target => !group.sides.is_empty(),
+        Names::Sides => !group.sides.is_empty(),
         _ => !group.nodes.is_empty(),
     };
     let valid = || {
-        let groups = mesh.groups.iter().filter(|(_, group)| fits(group)).map(|(name, _)| name.as_str());
-        groups.chain(others.iter().copied()).collect::<Vec<_>>()
+        let groups = mesh.groups.iter().filter(|(_, group)| fits(group));
+        groups.map(|(name, _)| name.as_str()).collect::<Vec<_>>()
     };
-    let inside = |group: &Group| matches!(names, Names::Sides | Names::Target) && !group.inner.is_empty();
+    let inside = |group: &Group| matches!(names, Names::Sides) && !group.inner.is_empty();
     match mesh.groups.get(&name.text) {
         Some(group) if inside(group) => {
             mesh.surface(&name.text).err().map(|e| Diagnostic::error(e.to_string()).at(name.place))
@@ -82,21 +74,8 @@ fn group(name: &Name, names: Names, mesh: &Mesh, others: &[&str]) -> Option<Diag
 /// A material or a tool that nothing uses is most likely a slip.
 fn idle(mention: &Mention, mentions: &[Mention]) -> Option<Diagnostic> {
     let Mention { names, name, .. } = mention;
-    let uses = |other: &Mention| {
-        let kind = other.names == *names || (*names == Names::Tool && other.names == Names::Target);
-        kind && !other.defines && other.name.text == name.text
-    };
+    let uses = |other: &Mention| other.names == *names && !other.defines && other.name.text == name.text;
     let watched = matches!(names, Names::Material | Names::Tool);
     (watched && !mentions.iter().any(uses))
         .then(|| Diagnostic::warning(format!("nothing uses the {} `{name}`", names.noun())).at(name.place))
-}
-
-/// A target may be a tool or a group; one name cannot be both.
-fn ambiguous(mention: &Mention, mesh: Option<&Mesh>) -> Option<Diagnostic> {
-    let taken: BTreeSet<&str> = mesh?.groups.keys().map(String::as_str).collect();
-    let name = &mention.name;
-    (mention.names == Names::Tool && taken.contains(name.text.as_str())).then(|| {
-        let what = format!("the mesh has a group `{name}` too, so that a target `{name}` could be either");
-        Diagnostic::error(what).at(name.place).help("give the tool another name")
-    })
 }

@@ -1,5 +1,6 @@
 //! Steps, what is prescribed in them, and the size of increments.
 
+use crate::amplitude::Amplitude;
 use crate::system::Constraints;
 
 /// How a prescribed value runs over a step.
@@ -7,30 +8,26 @@ use crate::system::Constraints;
 pub enum Course {
     /// It stays what it was when the step began.
     Hold,
-    /// It goes in a straight line from what it was to this value at the step's end.
-    Ramp(f64),
-    /// Values at step times, joined by straight lines and constant outside.
-    Table(Vec<(f64, f64)>),
+    /// It goes from what it was to this value along an amplitude.
+    To(f64, Amplitude),
 }
 
 impl Course {
     /// The value at a time of the step.
     pub fn at(&self, start: f64, step_time: f64, duration: f64) -> f64 {
-        match self {
-            Self::Hold => start,
-            Self::Ramp(end) if step_time >= duration => *end,
-            Self::Ramp(end) => start + (end - start) * (step_time / duration),
-            Self::Table(points) => interpolate(points, step_time),
+        let Self::To(end, amplitude) = self else { return start };
+        match amplitude.value(step_time / duration) {
+            // The end itself, not the end up to rounding.
+            1.0 => *end,
+            part => start + (end - start) * part,
         }
     }
-}
-
-fn interpolate(points: &[(f64, f64)], t: f64) -> f64 {
-    let after = points.partition_point(|p| p.0 <= t);
-    match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
-        (Some((t0, v0)), Some(&(t1, v1))) => v0 + (v1 - v0) * ((t - t0) / (t1 - t0)),
-        (Some((_, v)), None) | (None, Some(&(_, v))) => v,
-        (None, None) => 0.0,
+    /// The course of a multiple of the value.
+    pub fn scaled(&self, factor: f64) -> Self {
+        match self {
+            Self::Hold => Self::Hold,
+            Self::To(end, amplitude) => Self::To(end * factor, amplitude.clone()),
+        }
     }
 }
 
@@ -120,9 +117,9 @@ mod tests {
     #[test]
     fn courses() {
         assert_eq!(Course::Hold.at(3.0, 0.5, 1.0), 3.0);
-        assert_eq!(Course::Ramp(5.0).at(3.0, 0.5, 1.0), 4.0);
-        let table = Course::Table(vec![(0.0, 1.0), (2.0, 3.0)]);
-        assert_eq!([-1.0, 1.0, 5.0].map(|t| table.at(0.0, t, 1.0)), [1.0, 2.0, 3.0]);
+        assert_eq!(Course::To(5.0, Amplitude::ramp()).at(3.0, 0.5, 1.0), 4.0);
+        assert_eq!(Course::To(0.3, Amplitude::ramp()).at(0.1, 2.0, 2.0), 0.3);
+        assert_eq!(Course::To(5.0, Amplitude::ramp()).scaled(-2.0).at(3.0, 1.0, 1.0), -10.0);
     }
 
     #[test]

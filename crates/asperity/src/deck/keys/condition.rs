@@ -81,6 +81,9 @@ macro_rules! vector_load {
             fn components(&self) -> [Option<f64>; 3] {
                 [self.x, self.y, self.z.map(|z| z.value)]
             }
+            fn z(&self) -> Option<Spot<f64>> {
+                self.z
+            }
             fn place(&self) -> Place {
                 self.place
             }
@@ -96,6 +99,8 @@ vector_load!(BodyForce, unit::BODY_FORCE, " A force per undeformed volume.");
 pub trait Components {
     /// The components that are given.
     fn components(&self) -> [Option<f64>; 3];
+    /// The component along z with its place.
+    fn z(&self) -> Option<Spot<f64>>;
     /// Where it stands.
     fn place(&self) -> Place;
 }
@@ -137,6 +142,9 @@ table! {
 impl Components for Spring {
     fn components(&self) -> [Option<f64>; 3] {
         [self.x, self.y, self.z.map(|z| z.value)]
+    }
+    fn z(&self) -> Option<Spot<f64>> {
+        self.z
     }
     fn place(&self) -> Place {
         self.place

@@ -12,8 +12,8 @@ table! {
     pub struct Contact {
         /// The group of sides that carries the contact points.
         surface: Name = refers(Names::Sides).required(),
-        /// What it may touch: a tool, or a group of sides of another body.
-        target: Name = refers(Names::Target).required(),
+        /// The rigid tool that it may touch.
+        target: Name = refers(Names::Tool).required(),
         /// The law of the interface. Without friction: law.coulomb = { friction = 0.0 }.
         law: Law<Box<dyn Interface>> = law(interface::laws::ALL).required(),
         /// Integration points along an edge.

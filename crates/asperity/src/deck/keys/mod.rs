@@ -9,11 +9,13 @@ mod solver;
 mod step;
 mod tool;
 
-pub use condition::{BodyForce, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction};
+pub use condition::{
+    BodyForce, Components, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction,
+};
 pub use contact::Contact;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;
-pub use solver::{Newton, Solver, Tangent};
+pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
 pub use tool::{Segment, ToolKeys};
 

@@ -1,34 +1,52 @@
 //! How the equations are solved.
 
-use crate::deck::form::{Form, flag, number, table, whole, word, words};
+use crate::deck::form::{Form, Words, flag, number, table, whole, word, words};
 use crate::declare::{Range, unit};
+use crate::solve::{NewtonOptions, Variant};
 
 table! {
     /// How the equations are solved.
     pub struct Solver {
-        /// When the matrix of Newton's method is renewed.
-        newton: Newton = word().or("\"full\""),
+        /// Which matrix Newton's method uses.
+        newton: Variant = word().or("\"full\""),
         /// Where the derivatives come from.
         tangent: Tangent = word().or("\"exact\""),
         /// Largest unbalanced force over the reference force of a converged increment.
-        tolerance: f64 = number(unit::NONE, Range::above_to(0.0, 0.1)).or("1e-8"),
+        tolerance: f64 = number(unit::NONE, Range::above_to(0.0, 0.1)).or("1e-6"),
         /// Most iterations of an attempt; then the increment is cut.
-        iterations: usize = whole(2..=1000).or("16"),
+        iterations: usize = whole(2..=1000).or("25"),
+        /// Whether the first iterations are led by a softer penalty, with which the set of closed points settles
+        /// sooner.
+        continuation: bool = flag().or("true"),
         /// Whether a correction that does not lower the residual is shortened.
         line_search: bool = flag().or("true"),
-        /// Whether the matrix is kept from increment to increment. A run is then no longer bit for bit the same after
-        /// a restart.
-        reuse: bool = flag().or("false"),
     }
 }
 
-words! {
-    /// When the matrix of Newton's method is renewed.
-    pub enum Newton {
-        /// At every iteration.
-        Full = "full",
-        /// At the first iteration of an attempt.
-        Modified = "modified",
+impl Words for Variant {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        let kept =
+            "that of an earlier increment while it serves; a restarted run is then no longer the same to the bit";
+        vec![
+            (Self::Full, "full", "a new matrix at every iteration"),
+            (Self::Modified, "modified", "that of the attempt's first iteration"),
+            (Self::Kept, "kept", kept),
+        ]
+    }
+}
+
+impl Solver {
+    /// The options of the iterations.
+    pub fn newton_options(&self) -> NewtonOptions {
+        NewtonOptions {
+            variant: self.newton,
+            perturbation: self.tangent == Tangent::Perturbation,
+            tolerance: self.tolerance,
+            iterations: self.iterations,
+            continuation: self.continuation,
+            line_search: self.line_search,
+            rehearse: false,
+        }
     }
 }
 
@@ -39,5 +57,20 @@ words! {
         Exact = "exact",
         /// Differences of perturbed forces, as an independent check.
         Perturbation = "perturbation",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deck::form::Table;
+    use crate::deck::reader::Reader;
+    use crate::deck::tree::Node;
+
+    /// The defaults of a deck and of the library are one.
+    #[test]
+    fn the_defaults_are_those_of_the_procedure() {
+        let solver = Solver::read(&Node::empty(Default::default()), &mut Reader::default()).unwrap();
+        assert_eq!(solver.newton_options(), NewtonOptions::default());
     }
 }

@@ -93,7 +93,8 @@ impl Increments {
 }
 
 impl Step {
-    /// All conditions of the step by the names under which a later step may release them.
+    /// All conditions of the step by the names under which a later step may release them. A motion cannot be released:
+    /// a tool that nothing moves is held.
     pub fn conditions(&self) -> Vec<(String, &Name)> {
         fn of<'a, T>(kind: &str, list: &'a [(Name, T)]) -> Vec<(String, &'a Name)> {
             list.iter().map(|(name, _)| (format!("{kind}.{name}"), name)).collect()
@@ -107,10 +108,19 @@ impl Step {
             of("traction", &self.traction),
             of("body_force", &self.body_force),
             of("spring", &self.spring),
-            of("motion", &self.motion),
             of("load", &self.load),
         ]
         .concat()
+    }
+
+    /// Whether the step ends a condition: the kind and the name that an earlier step gave.
+    pub fn releases(&self, kind: &str, name: &str) -> bool {
+        self.releases_path(&format!("{kind}.{name}"))
+    }
+
+    /// The same for `kind.name`.
+    pub fn releases_path(&self, path: &str) -> bool {
+        self.release.iter().any(|released| released.text == path)
     }
 }
 
@@ -169,6 +179,12 @@ fn persistence(steps: &[Step], reader: &mut Reader) {
         for released in &step.release {
             standing.remove(&released.text);
         }
-        standing.extend(step.conditions().into_iter().map(|(name, _)| name));
+        for (condition, name) in step.conditions() {
+            if step.releases_path(&condition) {
+                let what = format!("a step both says and releases `{condition}`");
+                reader.report(Diagnostic::error(what).at(name.place).help("what is said anew need not be released"));
+            }
+            standing.insert(condition);
+        }
     }
 }

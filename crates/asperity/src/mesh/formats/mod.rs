@@ -11,7 +11,6 @@ mod abaqus;
 mod draft;
 mod gmsh;
 mod note;
-mod numbering;
 
 pub use note::Note;
 

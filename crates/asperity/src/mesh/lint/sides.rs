@@ -125,11 +125,9 @@ fn nodes(mesh: &Mesh, side: Side) -> Vec<usize> {
     nodes
 }
 
-/// The sorted corners of a cell; unused places hold `usize::MAX`.
-fn corners(mesh: &Mesh, cell: usize) -> [usize; 8] {
+fn corners(mesh: &Mesh, cell: usize) -> Vec<usize> {
     let view = mesh.cell(cell);
-    let mut corners = [usize::MAX; 8];
-    corners.iter_mut().zip(&view.nodes[..view.kind.linear.nodes.len()]).for_each(|(place, &node)| *place = node);
+    let mut corners = view.nodes[..view.kind.linear.nodes.len()].to_vec();
     corners.sort_unstable();
     corners
 }

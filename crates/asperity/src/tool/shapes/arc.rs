@@ -18,6 +18,8 @@ pub(super) static KIND: Kind = Kind {
     build: |nodes| Box::new(Arc::new([nodes[0], nodes[1], nodes[2]])),
 };
 
+/// A middle node nearer to an end than this part of the chord says nothing of the circle.
+const SHORTEST: f64 = 1e-6;
 /// Above this turn the ends say too little of the circle.
 const LARGEST_TURN: f64 = 350.0 * PI / 180.0;
 
@@ -109,6 +111,10 @@ impl Shape for Arc {
         (0.5 * self.theta.abs() / half_step).ceil() as usize
     }
     fn flaw(&self) -> Option<String> {
+        let [from, middle, to] = self.nodes;
+        if (middle - from).norm().min((to - middle).norm()) <= SHORTEST * self.chord {
+            return Some("has its middle node at one of its ends, which says nothing of its circle".into());
+        }
         (self.theta.abs() > LARGEST_TURN).then(|| {
             let degrees = self.theta.abs().to_degrees();
             format!("turns by {degrees:.1} degrees; its middle node must lie between its ends, and an arc beyond 350 degrees must be split")

@@ -1,0 +1,72 @@
+//! Bodies: every cell in just one.
+
+use super::Builder;
+use crate::deck::diagnose::Diagnostic;
+use crate::material::Material;
+use crate::solid::{Body, BodyOptions};
+use std::sync::Arc;
+
+/// No body yet.
+const NONE: usize = usize::MAX;
+
+impl Builder<'_> {
+    /// The bodies, each with the number of its material.
+    pub(super) fn bodies(&mut self) -> Option<Vec<(Body, usize)>> {
+        let materials = self.materials()?;
+        let before = self.found.len();
+        self.check_cells();
+        let bodies: Vec<_> = self
+            .deck
+            .body
+            .iter()
+            .map(|(name, keys)| {
+                let number = self.deck.material.iter().position(|(material, _)| material.text == keys.material.text)?;
+                let cells = self.site.mesh.groups.get(&name.text)?.cells.clone();
+                let options = BodyOptions {
+                    formulation: *keys.formulation,
+                    integration: *keys.integration,
+                    thickness: self.site.thickness,
+                };
+                let site = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
+                let body = Body::new(&name.text, site, cells, materials[number].clone(), options);
+                Some((self.keep(body, name.place)?, number))
+            })
+            .collect();
+        bodies.into_iter().collect::<Option<Vec<_>>>().filter(|_| self.found.len() == before)
+    }
+
+    fn materials(&mut self) -> Option<Vec<Arc<dyn Material>>> {
+        let built = self.deck.material.iter().map(|(_, law)| (law.build(), law.place));
+        let mut materials = Vec::new();
+        for (law, place) in built {
+            materials.push(self.keep(law.map_err(crate::Error::input), place).map(Arc::from));
+        }
+        materials.into_iter().collect()
+    }
+
+    /// No cell may lie in two bodies, none in no body.
+    fn check_cells(&mut self) {
+        let mesh = self.site.mesh.clone();
+        let mut owner = vec![NONE; mesh.cell_count()];
+        for (number, (name, _)) in self.deck.body.iter().enumerate() {
+            let cells = mesh.groups.get(&name.text).map_or(&[][..], |group| &group.cells);
+            if let Some(&twice) = cells.iter().find(|&&cell| owner[cell] != NONE) {
+                let other = &self.deck.body[owner[twice]].0;
+                let what = format!("cell {} lies in the bodies `{other}` and `{name}`", mesh.cell_number(twice));
+                self.found.push(Diagnostic::error(what).at(name.place).help("a cell belongs to one body"));
+            }
+            cells.iter().for_each(|&cell| owner[cell] = number);
+        }
+        let lost: Vec<usize> = (0..owner.len()).filter(|&cell| owner[cell] == NONE).collect();
+        if let (Some(&first), Some((name, _))) = (lost.first(), self.deck.body.last()) {
+            let group = mesh.groups.iter().find(|(_, group)| group.cells.binary_search(&first).is_ok());
+            let of = group.map_or(String::new(), |(name, _)| format!(" of the group `{name}`"));
+            let cell = mesh.cell_number(first);
+            let others = if lost.len() > 1 { format!(", and {} more", lost.len() - 1) } else { String::new() };
+            let what = format!("cell {cell}{of} belongs to no body{others}");
+            self.found.push(
+                Diagnostic::error(what).at(name.place).help("make a body of them, or leave them out of the mesh"),
+            );
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Loads and springs: each group's conditions of one kind over all steps make one term with its timelines.
+
+use super::Builder;
+use crate::amplitude::{Amplitude, Change, Timeline};
+use crate::deck::keys::{Components, PressureKind, Step};
+use crate::deck::reader::Name;
+use crate::load::{FollowerPressure, Springs, body_force, dead_pressure, force_on_nodes, force_on_tool, traction};
+use crate::mesh::Side;
+use crate::system::Term;
+
+type Terms = Vec<Box<dyn Term>>;
+
+/// The conditions of one kind that a step says.
+type Said<T> = fn(&Step) -> &[(Name, T)];
+
+/// Names in the order in which the steps say them first.
+fn names<'d, T: 'd>(steps: &'d [Step], said: Said<T>) -> Vec<&'d Name> {
+    let mut names: Vec<&Name> = Vec::new();
+    for (name, _) in steps.iter().flat_map(said) {
+        if !names.iter().any(|known| known.text == name.text) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// The course of one value of a condition over the steps. `value` picks it from what a step says; nothing leaves it as
+/// it is.
+fn timeline<T>(
+    steps: &[Step],
+    (kind, name): (&str, &str),
+    said: Said<T>,
+    value: impl Fn(&T) -> Option<(f64, Amplitude)>,
+) -> Timeline {
+    let change = |step: &Step| {
+        let new = said(step).iter().find(|(other, _)| other.text == name).and_then(|(_, keys)| value(keys));
+        match new {
+            Some((value, amplitude)) => Change::To(value, amplitude),
+            None if step.releases(kind, name) => Change::Release,
+            None => Change::Keep,
+        }
+    };
+    Timeline::new(steps.iter().map(|step| (step.duration, change(step))))
+}
+
+impl Builder<'_> {
+    /// All springs.
+    pub(super) fn springs(&mut self) -> Option<Terms> {
+        let said: Said<_> = |step| &step.spring;
+        let mut terms = Terms::new();
+        for name in names(&self.deck.step, said) {
+            let stiffness = self.vector("spring", name, said, |_| Amplitude::at_once())?;
+            let nodes = self.nodes(&name.text).to_vec();
+            terms.push(Box::new(Springs::new(&format!("spring.{name}"), self.site.dofs.clone(), nodes, stiffness)));
+        }
+        Some(terms)
+    }
+
+    /// All loads.
+    pub(super) fn loads(&mut self) -> Option<Terms> {
+        let kinds = [self.forces(), self.pressures(), self.tractions(), self.body_forces(), self.tool_loads()];
+        kinds.into_iter().collect::<Option<Vec<Terms>>>().map(|terms| terms.into_iter().flatten().collect())
+    }
+
+    fn forces(&mut self) -> Option<Terms> {
+        let said: Said<_> = |step| &step.force;
+        let mut terms = Terms::new();
+        for name in names(&self.deck.step, said) {
+            let components = self.vector("force", name, said, |force| force.amplitude.clone())?;
+            let nodes = self.nodes(&name.text);
+            terms.push(Box::new(force_on_nodes(&format!("force.{name}"), &self.site.dofs, nodes, components)));
+        }
+        Some(terms)
+    }
+
+    fn tractions(&mut self) -> Option<Terms> {
+        let said: Said<_> = |step| &step.traction;
+        let mut terms = Terms::new();
+        for name in names(&self.deck.step, said) {
+            let components = self.vector("traction", name, said, |load| load.amplitude.clone())?;
+            let load = traction(&format!("traction.{name}"), &self.site, &self.sides(name), components);
+            terms.push(Box::new(self.keep(load, name.place)?));
+        }
+        Some(terms)
+    }
+
+    fn body_forces(&mut self) -> Option<Terms> {
+        let said: Said<_> = |step| &step.body_force;
+        let mut terms = Terms::new();
+        for name in names(&self.deck.step, said) {
+            let components = self.vector("body_force", name, said, |load| load.amplitude.clone())?;
+            let cells = self.site.mesh.groups.get(&name.text).map_or(&[][..], |group| &group.cells);
+            terms.push(Box::new(body_force(&format!("body_force.{name}"), &self.site, cells, components)));
+        }
+        Some(terms)
+    }
+
+    fn pressures(&mut self) -> Option<Terms> {
+        let said: Said<_> = |step| &step.pressure;
+        let mut terms = Terms::new();
+        for name in names(&self.deck.step, said) {
+            let kind = self.pressure_kind(name)?;
+            let value =
+                timeline(&self.deck.step, ("pressure", &name.text), said, |p| Some((p.value, p.amplitude.clone())));
+            let (title, sides) = (format!("pressure.{name}"), self.sides(name));
+            let term: Result<Box<dyn Term>, _> = match kind {
+                PressureKind::Follower => {
+                    FollowerPressure::new(&title, self.site.clone(), &sides, value).map(|load| Box::new(load) as _)
+                }
+                PressureKind::Dead => dead_pressure(&title, &self.site, &sides, value).map(|load| Box::new(load) as _),
+            };
+            terms.push(self.keep(term, name.place)?);
+        }
+        Some(terms)
+    }
+
+    /// The kind of a pressure, which all steps must say alike.
+    fn pressure_kind(&mut self, name: &Name) -> Option<PressureKind> {
+        let said = self.deck.step.iter().flat_map(|step| &step.pressure).filter(|(other, _)| other.text == name.text);
+        let said: Vec<_> = said.collect();
+        let (_, first) = said.first()?;
+        if let Some((other, _)) = said.iter().find(|(_, pressure)| pressure.kind != first.kind) {
+            let what = format!("the pressure on `{name}` cannot change between follower and dead");
+            self.refuse(what, other.place);
+            return None;
+        }
+        Some(first.kind)
+    }
+
+    fn tool_loads(&mut self) -> Option<Terms> {
+        let said: Said<_> = |step| &step.load;
+        let mut terms = Terms::new();
+        for name in names(&self.deck.step, said) {
+            let tool = self.deck.tool.iter().position(|(tool, _)| tool.text == name.text)?;
+            let values = (0..self.site.dofs.per_tool()).map(|i| {
+                timeline(&self.deck.step, ("load", &name.text), said, |load| {
+                    Some(([load.x, load.y, load.torque][i]?, load.amplitude.clone()))
+                })
+            });
+            let values = values.collect();
+            terms.push(Box::new(force_on_tool(&format!("load.{name}"), &self.site.dofs, tool, values)));
+        }
+        Some(terms)
+    }
+
+    fn sides(&self, name: &Name) -> Vec<Side> {
+        self.site.mesh.groups.get(&name.text).map_or_else(Vec::new, |group| group.sides.clone())
+    }
+
+    /// A timeline for each component along the axes; a z in the plane is refused.
+    fn vector<T: Components>(
+        &mut self,
+        kind: &str,
+        name: &Name,
+        said: Said<T>,
+        amplitude: fn(&T) -> Amplitude,
+    ) -> Option<Vec<Timeline>> {
+        let steps = &self.deck.step;
+        let flat = steps.iter().flat_map(said).find(|(other, keys)| other.text == name.text && keys.z().is_some());
+        if let Some(z) = flat.and_then(|(_, keys)| keys.z()).filter(|_| self.plane()) {
+            self.refuse(format!("`{kind}.{name}` has a component along z, but the model is plane"), z.place);
+            return None;
+        }
+        let component = |axis: usize| {
+            timeline(steps, (kind, &name.text), said, |keys| Some((keys.components()[axis]?, amplitude(keys))))
+        };
+        Some((0..self.site.space.dimension()).map(component).collect())
+    }
+}

@@ -1,0 +1,149 @@
+//! From a deck and its mesh to what is solved: names become indices, options meet the mesh, conditions of the steps
+//! become constraints and timelines. What the parts of a model say against the deck is shown at the deck's lines; all of
+//! it at once.
+
+mod bodies;
+mod contacts;
+mod loads;
+mod supports;
+mod tools;
+
+use super::diagnose::Diagnostic;
+use super::keys::Deck;
+use super::source::Place;
+use super::{Diagnostics, Loaded};
+use crate::Error;
+use crate::contact::Contact;
+use crate::load::Site;
+use crate::mesh::{Mesh, Space};
+use crate::solid::Body;
+use crate::solve::{Increments, NewtonOptions, Step};
+use crate::system::{Dofs, Term};
+use crate::tool::Tool;
+use std::sync::Arc;
+
+/// Everything that a deck says, made; the model is put together from it.
+pub struct Built {
+    /// What the coordinates mean.
+    pub space: Space,
+    /// Nominal thickness in the plane spaces.
+    pub thickness: f64,
+    /// The mesh.
+    pub mesh: Arc<Mesh>,
+    /// Numbering of the unknowns.
+    pub dofs: Dofs,
+    /// The bodies, each with the number of its material.
+    pub bodies: Vec<(Body, usize)>,
+    /// The names of the materials.
+    pub materials: Vec<String>,
+    /// The tools, in the order of their unknowns.
+    pub tools: Vec<Arc<Tool>>,
+    /// The contacts.
+    pub contacts: Vec<Contact>,
+    /// Springs.
+    pub springs: Vec<Box<dyn Term>>,
+    /// Loads.
+    pub loads: Vec<Box<dyn Term>>,
+    /// The steps.
+    pub steps: Vec<Step>,
+    /// Names and nodes of the groups that are held or moved in any step.
+    pub supports: Vec<(String, Vec<usize>)>,
+    /// Options of the iterations.
+    pub newton: NewtonOptions,
+}
+
+/// What the builders of the parts share: the deck, where things are, and what was found.
+struct Builder<'d> {
+    deck: &'d Deck,
+    site: Site,
+    found: Vec<Diagnostic>,
+}
+
+impl Builder<'_> {
+    fn refuse(&mut self, what: impl Into<String>, place: Place) {
+        self.found.push(Diagnostic::error(what).at(place));
+    }
+
+    /// The value, or its error reported at a place.
+    fn keep<T>(&mut self, result: Result<T, Error>, place: Place) -> Option<T> {
+        result.map_err(|error| self.refuse(error.to_string(), place)).ok()
+    }
+
+    /// Nodes of a group; empty for a name of nothing, which was reported when the deck was read.
+    fn nodes(&self, group: &str) -> &[usize] {
+        self.site.mesh.groups.get(group).map_or(&[], |group| &group.nodes)
+    }
+
+    fn plane(&self) -> bool {
+        self.site.space.dimension() == 2
+    }
+}
+
+/// Makes what a deck says; messages are added to those of the reading.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
+pub fn build(loaded: Loaded) -> Result<(Built, Diagnostics), Diagnostics> {
+    let Loaded { deck, mesh, mut diagnostics, .. } = loaded;
+    let space = *deck.space;
+    let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len());
+    let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
+    let site = Site { mesh: Arc::new(mesh), dofs, space, thickness };
+    let mut builder = Builder { deck: &deck, site, found: Vec::new() };
+    let built = builder.everything();
+    diagnostics.list.append(&mut builder.found);
+    diagnostics.sort();
+    match built {
+        Some(built) if !diagnostics.has_errors() => Ok((built, diagnostics)),
+        _ => Err(diagnostics.without_notes()),
+    }
+}
+
+impl Builder<'_> {
+    fn everything(&mut self) -> Option<Built> {
+        self.check_mesh();
+        let bodies = self.bodies();
+        let tools = self.tools();
+        let contacts = tools.as_ref().and_then(|tools| self.contacts(tools, bodies.as_deref()?));
+        let (springs, loads) = (self.springs(), self.loads());
+        let (constrained, supports) = self.supports();
+        let steps = self.deck.step.iter().enumerate().zip(constrained);
+        Some(Built {
+            space: self.site.space,
+            thickness: self.site.thickness,
+            mesh: self.site.mesh.clone(),
+            dofs: self.site.dofs.clone(),
+            bodies: bodies?,
+            materials: self.deck.material.iter().map(|(name, _)| name.text.clone()).collect(),
+            tools: tools?,
+            contacts: contacts?,
+            springs: springs?,
+            loads: loads?,
+            steps: steps
+                .map(|((i, step), (constraints, prescribed))| Step {
+                    name: step.name.as_ref().map_or_else(|| format!("step {}", i + 1), |name| name.value.clone()),
+                    duration: step.duration,
+                    increments: increments(&step.increments),
+                    constraints,
+                    prescribed,
+                })
+                .collect(),
+            supports,
+            newton: self.deck.solver.newton_options(),
+        })
+    }
+
+    /// The mesh must fill the space, and lie on the right side of an axis.
+    fn check_mesh(&mut self) {
+        let (mesh, space) = (self.site.mesh.clone(), self.deck.space);
+        if space.value == Space::Axisymmetric && mesh.bounds()[0][0] < -1e-9 * mesh.size() {
+            let what = format!("the mesh reaches the negative radius {}", mesh.bounds()[0][0]);
+            self.found.push(Diagnostic::error(what).at(space.place).help("x is the radius; y is the axis"));
+        }
+    }
+}
+
+fn increments(keys: &super::keys::Increments) -> Increments {
+    let (first, largest) = keys.sizes();
+    Increments { first, largest, smallest: keys.smallest.value, most: keys.most }
+}

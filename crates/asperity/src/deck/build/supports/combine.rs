@@ -1,0 +1,125 @@
+//! From claims to constraints: single unknowns first, then directions, each of which becomes a combination of what is
+//! left free at its node. Two claims on one unknown must agree.
+
+use super::Builder;
+use super::claim::{Claim, What};
+use super::flat::ROUNDING;
+use crate::deck::diagnose::Diagnostic;
+use crate::solve::{Course, Prescribed};
+use crate::system::Constraints;
+use std::collections::BTreeMap;
+
+/// Claims sorted by the unknown that each takes.
+#[derive(Default)]
+struct Sorted<'c> {
+    /// Single unknowns.
+    fixed: BTreeMap<usize, &'c Claim>,
+    /// Unknowns that follow from others at their node.
+    combined: BTreeMap<usize, (Combination, &'c Claim)>,
+    /// Pairs of claims that do not agree, and where.
+    quarrels: Vec<(usize, &'c Claim, &'c Claim)>,
+}
+
+/// A direction of a node: the component along `axis` follows from the others.
+struct Combination {
+    first: usize,
+    normal: [f64; 3],
+    axis: usize,
+    course: Course,
+}
+
+impl Builder<'_> {
+    /// Constraints and prescribed values from all claims of a step.
+    pub(super) fn constrain(&mut self, claims: &[&Claim]) -> (Constraints, Vec<Prescribed>) {
+        let mut sorted = Sorted::default();
+        for claim in claims {
+            if let Some(dof) = claim.single() {
+                sorted.fix(dof, claim);
+            }
+        }
+        for claim in claims {
+            if let (None, What::Direction(first, normal)) = (claim.single(), &claim.what) {
+                sorted.combine(*first, self.site.dofs.per_node(), normal, claim);
+            }
+        }
+        for (dof, one, other) in &sorted.quarrels {
+            self.quarrel(*dof, one, other);
+        }
+        sorted.constraints(self.site.dofs.count())
+    }
+
+    /// Reports two claims that do not agree; the same two once, at however many nodes.
+    fn quarrel(&mut self, dof: usize, one: &Claim, other: &Claim) {
+        let pair = format!("cannot follow both `{}` and `{}`", one.by, other.by);
+        if self.found.iter().any(|d| d.place == Some(other.place) && d.what.ends_with(&pair)) {
+            return;
+        }
+        let node = self.site.mesh.node_number(dof / self.site.dofs.per_node());
+        let help = "let the groups have no node in common, or release the older condition";
+        self.found.push(Diagnostic::error(format!("node {node} {pair}")).at(other.place).help(help));
+    }
+}
+
+impl<'c> Sorted<'c> {
+    fn fix(&mut self, dof: usize, claim: &'c Claim) {
+        match self.fixed.get(&dof) {
+            Some(other) if !other.is_weak() && other.course != claim.course => {
+                self.quarrels.push((dof, other, claim));
+            }
+            Some(other) if !other.is_weak() => {}
+            _ => {
+                self.fixed.insert(dof, claim);
+            }
+        }
+    }
+
+    /// Lets the free component with the largest share of a direction follow from the others.
+    fn combine(&mut self, first: usize, axes: usize, normal: &[f64; 3], claim: &'c Claim) {
+        let taken = (0..axes).find_map(|axis| self.combined.get(&(first + axis)));
+        if let Some((other, by)) = taken {
+            if other.normal != *normal || other.course != claim.course {
+                self.quarrels.push((first, by, claim));
+            }
+            return;
+        }
+        let free = |axis: &usize| !self.fixed.contains_key(&(first + axis)) && normal[*axis].abs() > ROUNDING;
+        let share = |a: &usize, b: &usize| normal[*a].abs().total_cmp(&normal[*b].abs()).then(b.cmp(a));
+        match (0..axes).filter(free).max_by(share) {
+            Some(axis) => {
+                let combination = Combination { first, normal: *normal, axis, course: claim.course.clone() };
+                self.combined.insert(first + axis, (combination, claim));
+            }
+            None => self.stand_still(first, axes, claim),
+        }
+    }
+
+    /// A direction of a node that other claims take whole: it agrees only if nothing moves.
+    fn stand_still(&mut self, first: usize, axes: usize, claim: &'c Claim) {
+        let mut others = (first..first + axes).filter_map(|dof| self.fixed.get(&dof));
+        let moves = |course: &Course| *course != Course::Hold;
+        let against = if moves(&claim.course) { others.next() } else { others.find(|other| moves(&other.course)) };
+        if let Some(other) = against {
+            self.quarrels.push((first, other, claim));
+        }
+    }
+
+    fn constraints(&self, count: usize) -> (Constraints, Vec<Prescribed>) {
+        let rows: Vec<_> = self.combined.iter().map(|(&dof, (c, _))| (dof, c.others())).collect();
+        let simple = self.fixed.iter().map(|(&dof, claim)| (dof, vec![], claim.course.clone()));
+        let inclined = self.combined.iter().map(|(&dof, (c, _))| (dof, c.others(), c.course.scaled(c.scale())));
+        let prescribed = simple.chain(inclined).map(|(dof, others, course)| Prescribed { dof, others, course });
+        let fixed: Vec<usize> = self.fixed.keys().copied().collect();
+        (Constraints::new(count, &fixed, &rows), prescribed.collect())
+    }
+}
+
+impl Combination {
+    fn scale(&self) -> f64 {
+        1.0 / self.normal[self.axis]
+    }
+    /// The other unknowns with their factors.
+    fn others(&self) -> Vec<(usize, f64)> {
+        let rest = (0..3).filter(|&axis| axis != self.axis && self.normal[axis].abs() > ROUNDING);
+        rest.map(|axis| (self.first + axis, -self.normal[axis] * self.scale())).collect()
+    }
+}

@@ -1,0 +1,187 @@
+//! Supports: what holds or moves unknowns in each step.
+//!
+//! Each step is a set of claims on unknowns: a component that follows a course, or a direction of a node. A claim of an
+//! earlier step stands, held where it came to, until it is said anew or released. Two claims on one unknown must agree.
+
+mod claim;
+mod combine;
+mod flat;
+
+use super::Builder;
+use crate::amplitude::Amplitude;
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::keys::{Displacement, Step};
+use crate::deck::reader::Name;
+use crate::mesh::{Mesh, Space};
+use crate::solve::{Course, Prescribed};
+use crate::system::Constraints;
+use claim::{Claim, Claims, Known, What, hold};
+use flat::{ROUNDING, flat_normal, unit};
+use std::collections::BTreeMap;
+
+/// Constraints and prescribed values of one step.
+pub(super) type Held = (Constraints, Vec<Prescribed>);
+/// A group and its nodes.
+pub(super) type Nodes = (String, Vec<usize>);
+
+impl Builder<'_> {
+    /// For each step its constraints and prescribed values; and the groups that are held or moved in any.
+    pub(super) fn supports(&mut self) -> (Vec<Held>, Vec<Nodes>) {
+        let mut claims = self.standing();
+        let (deck, mut known) = (self.deck, Known::new(self.site.dofs.count()));
+        let steps = deck.step.iter().map(|step| {
+            self.release(step, &mut claims);
+            hold(&mut claims);
+            self.claim(step, &mut claims);
+            claims.values_mut().flatten().for_each(|claim| known.settle(claim));
+            known.pass(claims.values().flatten());
+            self.constrain(&claims.values().flatten().collect::<Vec<_>>())
+        });
+        (steps.collect(), self.groups())
+    }
+
+    fn groups(&self) -> Vec<Nodes> {
+        let steps = self.deck.step.iter();
+        let names = steps.flat_map(|step| step.displacement.iter().map(|(name, _)| name).chain(&step.symmetry));
+        let groups: BTreeMap<&str, &[usize]> = names.map(|name| (name.text.as_str(), self.nodes(&name.text))).collect();
+        groups.into_iter().map(|(name, nodes)| (name.to_owned(), nodes.to_vec())).collect()
+    }
+
+    /// What holds from the start without a word in the deck: tools, nodes on the axis, nodes of no cell.
+    fn standing(&self) -> Claims {
+        let dofs = &self.site.dofs;
+        let mut claims = Claims::new();
+        let claim = |by: &str, dof| Claim {
+            by: by.to_owned(),
+            place: self.deck.space.place,
+            what: What::Unknown(dof),
+            course: Course::Hold,
+        };
+        for (tool, (name, _)) in self.deck.tool.iter().enumerate() {
+            for i in 0..dofs.per_tool() {
+                let dof = dofs.tool(tool) + i;
+                claims.insert((format!("motion.{name}"), i), vec![claim(&format!("motion.{name}"), dof)]);
+            }
+        }
+        let unknowns = |node| dofs.node(node)..dofs.node(node) + dofs.per_node();
+        let unused = unused(&self.site.mesh).into_iter().flat_map(unknowns);
+        claims.insert((String::new(), 0), unused.map(|dof| claim("", dof)).collect());
+        let axis = on_axis(&self.site.mesh, self.site.space).into_iter().map(|node| dofs.node(node));
+        claims.insert((String::new(), 1), axis.map(|dof| claim("the axis", dof)).collect());
+        claims
+    }
+
+    fn release(&self, step: &Step, claims: &mut Claims) {
+        claims.retain(|(by, _), _| by.is_empty() || by.starts_with("motion.") || !step.releases_path(by));
+        // A tool that is released from a load is held again.
+        for (tool, (name, _)) in self.deck.tool.iter().enumerate() {
+            if step.releases("load", &name.text) {
+                self.hold_tool(tool, name, claims);
+            }
+        }
+    }
+
+    fn hold_tool(&self, tool: usize, name: &Name, claims: &mut Claims) {
+        for i in 0..self.site.dofs.per_tool() {
+            let (by, dof) = (format!("motion.{name}"), self.site.dofs.tool(tool) + i);
+            let claim =
+                || vec![Claim { by: by.clone(), place: name.place, what: What::Unknown(dof), course: Course::Hold }];
+            claims.entry((by.clone(), i)).or_insert_with(claim);
+        }
+    }
+
+    /// What a step says.
+    fn claim(&mut self, step: &Step, claims: &mut Claims) {
+        let deck = self.deck;
+        for (name, keys) in &step.displacement {
+            self.displace(name, keys, claims);
+        }
+        for name in &step.symmetry {
+            self.mirror(name, claims);
+        }
+        for (name, keys) in &step.motion {
+            let rotation = keys.rotation.map(f64::to_radians);
+            self.move_tool(name, [keys.x, keys.y, rotation], &keys.amplitude, claims);
+        }
+        for (name, keys) in &step.load {
+            let tool = deck.tool.iter().position(|(tool, _)| tool.text == name.text);
+            let loaded = [keys.x, keys.y, keys.torque].map(|value| value.is_some());
+            for i in (0..3).filter(|&i| loaded[i] && tool.is_some()) {
+                claims.remove(&(format!("motion.{name}"), i));
+            }
+        }
+    }
+
+    fn displace(&mut self, name: &Name, keys: &Displacement, claims: &mut Claims) {
+        let by = format!("displacement.{name}");
+        let claim = |what, value| {
+            let course = Course::To(value, keys.amplitude.clone());
+            Claim { by: by.clone(), place: name.place, what, course }
+        };
+        let flat = self.plane().then_some(keys.z).flatten().map(|z| z.place);
+        let long = keys.along.as_ref().filter(|along| along.len() != self.site.space.dimension()).map(|a| a.place);
+        if let Some(place) = flat.or(long) {
+            let count = self.site.space.dimension();
+            return self.refuse(format!("`{by}` does not have the {count} components of this space"), place);
+        }
+        let dofs = &self.site.dofs;
+        let components = [keys.x, keys.y, keys.z.map(|z| z.value)];
+        for (axis, value) in components.iter().enumerate().filter_map(|(axis, value)| Some((axis, (*value)?))) {
+            let nodes = self.nodes(&name.text).iter();
+            let made = nodes.map(|&node| claim(What::Unknown(dofs.node(node) + axis), value)).collect();
+            claims.insert((by.clone(), axis), made);
+        }
+        if let (Some(along), Some(value)) = (&keys.along, keys.value) {
+            let direction = unit(std::array::from_fn(|i| along.get(i).copied().unwrap_or(0.0)));
+            let nodes = self.nodes(&name.text).iter();
+            let made = nodes.map(|&node| claim(What::Direction(dofs.node(node), direction), value)).collect();
+            claims.insert((by.clone(), 3), made);
+        }
+    }
+
+    /// A plane of symmetry: its nodes keep their place along its normal.
+    fn mirror(&mut self, name: &Name, claims: &mut Claims) {
+        let Some(group) = self.site.mesh.groups.get(&name.text) else { return };
+        let Some(normal) = flat_normal(&self.site.mesh, &group.sides) else {
+            let what = format!("the group `{name}` is not flat, so that it is no plane of symmetry");
+            return self.refuse(what, name.place);
+        };
+        let by = format!("symmetry.{name}");
+        let claim = |&node: &usize| Claim {
+            by: by.clone(),
+            place: name.place,
+            what: What::Direction(self.site.dofs.node(node), normal),
+            course: Course::Hold,
+        };
+        let made = group.nodes.iter().map(claim).collect();
+        claims.insert((by.clone(), 3), made);
+    }
+
+    fn move_tool(&mut self, name: &Name, to: [Option<f64>; 3], amplitude: &Amplitude, claims: &mut Claims) {
+        let Some(tool) = self.deck.tool.iter().position(|(tool, _)| tool.text == name.text) else { return };
+        let by = format!("motion.{name}");
+        for (i, value) in to.into_iter().enumerate().filter_map(|(i, value)| Some((i, value?))) {
+            let what = What::Unknown(self.site.dofs.tool(tool) + i);
+            let course = Course::To(value, amplitude.clone());
+            let claim = Claim { by: by.clone(), place: name.place, what, course };
+            if claims.insert((by.clone(), i), vec![claim]).is_none() {
+                let what = format!("tool `{name}` is moved along what an earlier step loads");
+                self.found.push(Diagnostic::error(what).at(name.place).help(format!("release = [\"load.{name}\"]")));
+            }
+        }
+    }
+}
+
+/// Nodes that no cell uses.
+fn unused(mesh: &Mesh) -> Vec<usize> {
+    let mut used = vec![false; mesh.points.len()];
+    mesh.nodes.iter().for_each(|&node| used[node] = true);
+    (0..used.len()).filter(|&node| !used[node]).collect()
+}
+
+/// Nodes that the axis of revolution keeps from moving along the radius.
+fn on_axis(mesh: &Mesh, space: Space) -> Vec<usize> {
+    let near = ROUNDING * mesh.size();
+    let on = |&node: &usize| space == Space::Axisymmetric && mesh.points[node][0].abs() <= near;
+    (0..mesh.points.len()).filter(on).collect()
+}

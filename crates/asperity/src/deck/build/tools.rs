@@ -1,0 +1,50 @@
+//! Rigid tools, with what their check finds shown at the segments concerned.
+
+use super::Builder;
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::keys::ToolKeys;
+use crate::deck::reader::Name;
+use crate::deck::source::Place;
+use crate::mesh::Space;
+use crate::tensor::Vec3;
+use crate::tool::{Severity, Tool};
+use std::sync::Arc;
+
+impl Builder<'_> {
+    /// The tools.
+    pub(super) fn tools(&mut self) -> Option<Vec<Arc<Tool>>> {
+        let tools: Vec<_> = self.deck.tool.iter().map(|(name, keys)| self.tool(name, keys)).collect();
+        tools.into_iter().collect()
+    }
+
+    fn tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<Tool>> {
+        if !self.plane() {
+            self.refuse(format!("the tool `{name}` is drawn in the plane, but space = \"solid\""), name.place);
+            return None;
+        }
+        let mut segments = Vec::new();
+        for segment in &keys.profile.value {
+            let built = segment.kind.build(&segment.nodes).map_err(crate::Error::input);
+            segments.push(self.keep(built, segment.place));
+        }
+        let reference = Vec3::new(keys.reference[0], keys.reference[1], 0.0);
+        let tool = Tool::new(&name.text, vec![segments.into_iter().collect::<Option<_>>()?], reference);
+        self.judge(&tool, keys).then(|| Arc::new(tool))
+    }
+
+    /// Whether a tool can be used; what is found is shown at its segments.
+    fn judge(&mut self, tool: &Tool, keys: &ToolKeys) -> bool {
+        let mut sound = true;
+        for finding in tool.check(self.site.space == Space::Axisymmetric) {
+            let segments = &keys.profile.value;
+            let first = finding.segments().first().and_then(|&i| segments.get(i)).map(|segment| segment.place);
+            let place: Place = first.unwrap_or(keys.profile.place);
+            let what = format!("tool `{}`: {finding}", tool.name());
+            let grave = finding.severity() == Severity::Error;
+            sound &= !grave;
+            let diagnostic = if grave { Diagnostic::error(what) } else { Diagnostic::note(what) };
+            self.found.push(diagnostic.at(place));
+        }
+        sound
+    }
+}

@@ -1,0 +1,217 @@
+//! What the conditions of a deck become: constraints and courses of each step.
+
+use asperity::amplitude::Amplitude;
+use asperity::deck::{Built, build, read};
+use asperity::solve::{Course, Prescribed};
+use asperity::system::Row;
+use std::path::Path;
+
+const HEAD: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [2, 1], cell = "quad4" }
+material.steel.elastic = { young = 210e3, poisson = 0.3 }
+body.block.material = "steel"
+"#;
+
+const TOOL: &str = "tool.plate.profile = [{ line = [[5.0, -1.0], [-5.0, -1.0]] }]\n";
+
+fn made(deck: &str) -> Built {
+    let loaded = read(deck, "test.toml", Path::new(""), &[]);
+    loaded.and_then(build).map(|(built, _)| built).unwrap_or_else(|d| panic!("{}", d.render(false)))
+}
+
+fn refused(deck: &str) -> String {
+    let loaded = read(deck, "test.toml", Path::new(""), &[]);
+    loaded.and_then(build).err().expect("the deck is wrong").render(false)
+}
+
+/// What a step prescribes for an unknown.
+fn prescribed(built: &Built, step: usize, dof: usize) -> Option<&Prescribed> {
+    let mut found = built.steps[step].prescribed.iter().filter(|p| p.dof == dof);
+    let first = found.next();
+    assert!(found.next().is_none(), "unknown {dof} is prescribed twice");
+    assert_eq!(first.is_some(), !matches!(built.steps[step].constraints.row(dof), Row::Free(_)));
+    first
+}
+
+fn course(built: &Built, step: usize, dof: usize) -> Option<&Course> {
+    prescribed(built, step, dof).map(|p| &p.course)
+}
+
+fn node(built: &Built, group: &str) -> usize {
+    let nodes = &built.mesh.groups[group].nodes;
+    assert_eq!(nodes.len(), 1);
+    nodes[0]
+}
+
+fn to(value: f64) -> Course {
+    Course::To(value, Amplitude::ramp())
+}
+
+#[test]
+fn a_displacement_stands_until_it_is_said_anew_or_released() {
+    let built = made(&format!(
+        "{HEAD}
+        [[step]]
+        displacement.'block.bottom' = {{ x = 0.0, y = 0.0 }}
+        displacement.'block.top' = {{ y = -1.0 }}
+        [[step]]
+        displacement.'block.top' = {{ y = -3.0, amplitude = [[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]] }}
+        [[step]]
+        [[step]]
+        release = ['displacement.block.top']"
+    ));
+    let (top, bottom) = (2 * node(&built, "block.top_left"), 2 * node(&built, "block.bottom_left"));
+    let there_and_back = Amplitude::new(vec![[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]]).unwrap();
+    let wanted = [Some(to(-1.0)), Some(Course::To(-3.0, there_and_back)), Some(Course::Hold), None];
+    for (step, wanted) in wanted.iter().enumerate() {
+        assert_eq!(course(&built, step, top + 1), wanted.as_ref(), "step {step}");
+        assert_eq!(course(&built, step, top), None);
+        assert_eq!(course(&built, step, bottom), Some(&Course::Hold));
+    }
+}
+
+#[test]
+fn groups_that_share_a_node_must_agree_on_it() {
+    let agree = format!(
+        "{HEAD}
+        [[step]]
+        symmetry = ['block.left', 'block.bottom']
+        displacement.'block.bottom' = {{ x = 0.0 }}
+        [[step]]
+        displacement.'block.left' = {{ x = 0.0 }}"
+    );
+    let built = made(&agree);
+    let corner = 2 * node(&built, "block.bottom_left");
+    assert_eq!(course(&built, 1, corner), Some(&Course::Hold));
+    let text =
+        refused(&agree.replace("displacement.'block.left' = { x = 0.0 }", "displacement.'block.left' = { x = 0.1 }"));
+    assert!(text.contains("cannot follow both") && text.contains("`displacement.block.left`"), "{text}");
+    // A claim that comes to rest where another holds agrees with it from then on.
+    let later = "{HEAD}
+        [[step]]
+        displacement.'block.left' = { x = 0.1 }
+        [[step]]
+        displacement.'block.bottom_left' = { x = 0.1 }";
+    made(&later.replace("{HEAD}", HEAD));
+}
+
+#[test]
+fn an_inclined_support_couples_the_components() {
+    let built = made(&format!(
+        "{HEAD}
+        [[step]]
+        displacement.'block.left' = {{ x = 0.0, y = 0.0 }}
+        displacement.'block.bottom_right' = {{ along = [3.0, -4.0], value = 0.5 }}"
+    ));
+    let corner = 2 * node(&built, "block.bottom_right");
+    assert!(matches!(built.steps[0].constraints.row(corner), Row::Free(_)));
+    let along = prescribed(&built, 0, corner + 1).unwrap();
+    // u . (3, -4) / 5 = 0.5, so u_y = -0.625 + 0.75 u_x.
+    let [(other, factor)] = along.others[..] else { panic!("{along:?}") };
+    assert!(other == corner && (factor - 0.75).abs() < 1e-15, "{along:?}");
+    let Course::To(value, _) = along.course else { panic!("{along:?}") };
+    assert!((value + 0.625).abs() < 1e-15);
+}
+
+#[test]
+fn an_inclined_support_gives_way_to_a_held_component() {
+    let built = made(&format!(
+        "{HEAD}
+        [[step]]
+        displacement.'block.left' = {{ x = 0.0 }}
+        displacement.'block.bottom_left' = {{ along = [2.0, 1.0], value = 0.0 }}"
+    ));
+    let corner = 2 * node(&built, "block.bottom_left");
+    assert_eq!(course(&built, 0, corner), Some(&Course::Hold));
+    let along = prescribed(&built, 0, corner + 1).unwrap();
+    assert!(along.others[0].0 == corner && (along.others[0].1 + 2.0).abs() < 1e-14);
+}
+
+#[test]
+fn a_plane_of_symmetry_may_be_inclined_but_not_bent() {
+    let ring = HEAD.replace(
+        "block.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [2, 1], cell = \"quad4\" }",
+        "block.annulus = { from = [1.0, 0.0], to = [2.0, 30.0], cells = [1, 3], cell = \"quad8\" }",
+    );
+    let built = made(&format!("{ring}\n[[step]]\nsymmetry = ['block.start', 'block.end']"));
+    let (start, end) = (2 * node(&built, "block.start_inner"), 2 * node(&built, "block.end_inner"));
+    assert_eq!((course(&built, 0, start), course(&built, 0, start + 1)), (None, Some(&Course::Hold)));
+    // The normal (-sin 30, cos 30): u_y = tan 30 u_x.
+    let along = prescribed(&built, 0, end + 1).unwrap();
+    assert!((along.others[0].1 - 30f64.to_radians().tan()).abs() < 1e-12);
+    assert_eq!(along.course, Course::Hold);
+    let text = refused(&format!("{ring}\n[[step]]\nsymmetry = ['block.outer']"));
+    assert!(text.contains("not flat"), "{text}");
+}
+
+#[test]
+fn a_tool_is_held_moved_or_loaded() {
+    let built = made(&format!(
+        "{HEAD}{TOOL}
+        [contact.base]
+        surface = 'block.bottom'
+        target = 'plate'
+        law.coulomb = {{ friction = 0.0 }}
+        [[step]]
+        symmetry = ['block.left']
+        motion.plate = {{ y = 1.0, rotation = 90.0 }}
+        [[step]]
+        load.plate = {{ y = 5.0 }}
+        [[step]]
+        [[step]]
+        release = ['load.plate']"
+    ));
+    let tool = built.dofs.tool(0);
+    let y = [Some(to(1.0)), None, None, Some(Course::Hold)];
+    for (step, wanted) in y.iter().enumerate() {
+        assert_eq!(course(&built, step, tool), Some(&Course::Hold), "x in step {step}");
+        assert_eq!(course(&built, step, tool + 1), wanted.as_ref(), "y in step {step}");
+    }
+    assert_eq!(course(&built, 0, tool + 2), Some(&to(std::f64::consts::FRAC_PI_2)));
+    assert_eq!(course(&built, 1, tool + 2), Some(&Course::Hold));
+    assert_eq!(built.loads.len(), 1);
+    assert_eq!(built.loads[0].name(), "load.plate");
+}
+
+#[test]
+fn nodes_on_the_axis_of_revolution_stay_on_it() {
+    let deck = format!("{HEAD}\n[[step]]\nsymmetry = ['block.bottom']").replace("plane-strain", "axisymmetric");
+    let built = made(&deck);
+    assert_eq!(course(&built, 0, 2 * node(&built, "block.top_left")), Some(&Course::Hold));
+    assert_eq!(course(&built, 0, 2 * node(&built, "block.top_left") + 1), None);
+}
+
+#[test]
+fn penalties_and_thickness_have_their_printed_defaults() {
+    let deck = format!(
+        "{HEAD}{TOOL}
+        [contact.base]
+        surface = 'block.bottom'
+        target = 'plate'
+        law.coulomb = {{ friction = 0.3 }}
+        [[step]]
+        symmetry = ['block.left']"
+    );
+    let built = made(&deck);
+    let modulus = 210e3 * 0.7 / (1.3 * 0.4);
+    let options = built.contacts[0].options();
+    // One cell deep: h = 1.
+    assert!((options.penalty / (50.0 * modulus) - 1.0).abs() < 1e-12);
+    assert_eq!((options.tangential_penalty, options.thickness), (options.penalty, 1.0));
+    let given = deck
+        .replace("law.coulomb", "penalty = 7.0\nlaw.coulomb")
+        .replace("version = 1", "version = 1\nthickness = 3.0");
+    let options = *made(&given).contacts[0].options();
+    assert_eq!((options.penalty, options.tangential_penalty, options.thickness), (7.0, 7.0, 3.0));
+}
+
+#[test]
+fn increments_are_fractions_of_their_step() {
+    let deck = format!("{HEAD}\n[[step]]\nsymmetry = ['block.left']\nduration = 4.0\nincrements = {{ count = 8 }}");
+    let step = &made(&deck).steps[0];
+    assert_eq!((step.duration, step.increments.first, step.increments.largest), (4.0, 0.125, 0.125));
+    let step = &made(&deck.replace("count = 8", "first = 0.2")).steps[0];
+    assert_eq!((step.increments.first, step.increments.largest, step.increments.smallest), (0.2, 0.2, 1e-6));
+}

@@ -6,8 +6,8 @@ use crate::solve::Workspace;
 use crate::vector::{dot, norm, subtract};
 use std::fmt;
 
-/// A matrix is called singular if it sends some vector of largest entry one to entries below this, in the equilibrated
-/// matrix whose largest entries are near one.
+/// A matrix is called singular if it shrinks some vector by this factor, in the Euclidean norm and in the equilibrated
+/// scale, where its largest entries are near one.
 const SINGULAR: f64 = 1e-12;
 /// Steps towards the null space; see `check_regular`.
 const STEPS: usize = 3;
@@ -35,7 +35,7 @@ pub struct NullVector {
     pub entries: Vec<f64>,
     /// The unknowns with the largest entries, largest first.
     pub largest: Vec<usize>,
-    /// Largest entry of its image under the equilibrated matrix.
+    /// Length of its image over its own length, Euclidean, in the equilibrated scale.
     pub residual: f64,
 }
 
@@ -79,9 +79,9 @@ pub(crate) fn check_regular(factor: &Factor) -> Result<(), Error> {
 
 /// A vector, in the equilibrated scale, as the caller sees it; `None` if the matrix does not send it to zero.
 fn null_vector(factor: &Factor, mut x: Vec<f64>) -> Option<NullVector> {
-    normalise(&mut x);
-    let residual = factor.times(&x).iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    let is_null = residual <= SINGULAR && x.iter().any(|&x| x != 0.0);
+    let length = norm(&x);
+    let residual = norm(&factor.times(&x)) / length;
+    let is_null = length > 0.0 && residual <= SINGULAR;
     x.iter_mut().zip(&factor.scaling.columns).for_each(|(x, scale)| *x *= scale);
     normalise(&mut x);
     is_null.then(|| NullVector { largest: largest(&x), entries: x, residual })

@@ -50,7 +50,9 @@ pub struct Options {
     pub symmetric: bool,
     /// Bytes that analysis, factor and working memory may take together; refused before any number is touched.
     pub memory_limit: Option<usize>,
-    /// Pivots smaller than this times the largest value of the equilibrated matrix are perturbed and reported.
+    /// Pivots smaller than this times the largest value of the equilibrated matrix are perturbed and reported. The last
+    /// pivots of a free body of n unknowns are of the order of n times the unit round-off, those of a held one are
+    /// larger by many powers of ten: the default lies between.
     pub pivot_threshold: f64,
     /// Whether rows and columns are scaled to largest values near one before the factorisation.
     pub equilibrate: bool,
@@ -68,7 +70,7 @@ impl Default for Options {
             symmetric: false,
             amalgamation: Amalgamation::default(),
             memory_limit: None,
-            pivot_threshold: 1e-13,
+            pivot_threshold: 1e-9,
             equilibrate: true,
             backward_error: 1e-14,
             refinements: 3,

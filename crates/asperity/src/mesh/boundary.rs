@@ -7,7 +7,6 @@
 use super::{Group, Mesh, Side};
 use crate::declare::nearest;
 use crate::error::Error;
-use rayon::prelude::*;
 
 /// The sorted corners of an edge or face; unused places hold `usize::MAX`.
 type Key = [usize; 4];
@@ -38,6 +37,21 @@ fn key(corners: impl Iterator<Item = usize>) -> Key {
     key
 }
 
+/// Sorts faces: first into one bucket for each least corner, then inside the buckets, which are small.
+fn sorted_by_bucket(listed: Vec<(Key, Side)>, nodes: usize) -> Vec<(Key, Side)> {
+    let mut starts = vec![0; nodes + 1];
+    listed.iter().for_each(|(key, _)| starts[key[0] + 1] += 1);
+    (1..starts.len()).for_each(|node| starts[node] += starts[node - 1]);
+    let mut sorted = listed.clone();
+    for entry in listed {
+        let place = &mut starts[entry.0[0]];
+        sorted[*place] = entry;
+        *place += 1;
+    }
+    sorted.chunk_by_mut(|one, other| one.0[0] == other.0[0]).for_each(<[_]>::sort_unstable);
+    sorted
+}
+
 impl Faces {
     /// The edges or faces of some cells of a mesh.
     pub fn of(mesh: &Mesh, cells: impl IntoIterator<Item = usize>) -> Self {
@@ -50,16 +64,15 @@ impl Faces {
         cells: impl IntoIterator<Item = usize>,
         rename: impl Fn(usize) -> usize,
     ) -> Self {
-        let mut sorted = Vec::new();
+        let mut listed = Vec::new();
         for cell in cells {
             for (face, reference) in mesh.kinds[cell].faces.iter().enumerate() {
                 let side = Side { cell, face };
                 let corners = mesh.side(side).1.take(reference.cell.linear.nodes.len());
-                sorted.push((key(corners.map(&rename)), side));
+                listed.push((key(corners.map(&rename)), side));
             }
         }
-        sorted.par_sort_unstable();
-        Self { sorted }
+        Self { sorted: sorted_by_bucket(listed, mesh.points.len()) }
     }
 
     /// Sides with one cell behind them, in the order of cells and faces.
@@ -92,6 +105,15 @@ impl Mesh {
     /// The outer sides of a set of cells: those that no other cell of the set shares.
     pub fn boundary(&self, cells: &[usize]) -> Vec<Side> {
         Faces::of(self, cells.iter().copied()).outer()
+    }
+
+    /// The outer sides all of whose nodes are among these: the surface that a set of nodes means.
+    pub fn sides_among(&self, nodes: &[usize]) -> Vec<Side> {
+        let mut chosen = vec![false; self.points.len()];
+        nodes.iter().for_each(|&node| chosen[node] = true);
+        let mut sides = Faces::of(self, 0..self.cell_count()).outer();
+        sides.retain(|&side| self.side(side).1.all(|node| chosen[node]));
+        sides
     }
 
     /// A group by its name.
@@ -149,6 +171,9 @@ mod tests {
             let mut sides: Vec<Side> = mesh.groups.values().flat_map(|group| group.sides.clone()).collect();
             sides.sort_unstable();
             assert_eq!(mesh.boundary(&mesh.groups["p"].cells), sides, "{cell:?}");
+            for group in mesh.groups.values().filter(|group| !group.sides.is_empty()) {
+                assert_eq!(mesh.sides_among(&group.nodes), group.sides, "{cell:?}");
+            }
         }
     }
 

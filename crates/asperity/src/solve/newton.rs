@@ -9,7 +9,7 @@ use super::linear::{LinearError, LinearSolver};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::run::Problem;
 use super::schedule::Step;
-use crate::system::{Assembly, Evaluation, Instant, State, Tangent, Workspace};
+use crate::system::{Assembly, Dofs, Evaluation, Instant, State, Tangent, Workspace};
 use crate::{Error, Failure};
 
 /// Which matrix the iterations use.
@@ -288,12 +288,7 @@ impl<'a> Newton<'a> {
     fn factorise(&mut self, iteration: usize) -> Result<bool, Trouble> {
         let analysis = self.memory.workspace.analysis();
         if self.memory.analysed != analysis {
-            let dofs = &self.problem.dofs;
-            let node = |&dof: &usize| match dof.checked_sub(dofs.node(dofs.nodes())) {
-                None => dof / dofs.per_node(),
-                Some(beyond) => dofs.nodes() + beyond / dofs.per_tool(),
-            };
-            let nodes = self.step.constraints.free().iter().map(node).collect();
+            let nodes = owners(&self.problem.dofs, self.step.constraints.free());
             let pattern = self.memory.workspace.pattern();
             self.solver.analyse(pattern, nodes).map_err(|e| self.explain(e, iteration))?;
             (self.memory.analysed, self.memory.factorised) = (analysis, false);
@@ -441,4 +436,19 @@ impl<'a> Newton<'a> {
         }
         text
     }
+}
+
+/// For each free unknown, its node or tool, numbered as they come.
+fn owners(dofs: &Dofs, free: &[usize]) -> Vec<usize> {
+    let owner = |dof: usize| match dof.checked_sub(dofs.node(dofs.nodes())) {
+        None => dof / dofs.per_node(),
+        Some(beyond) => dofs.nodes() + beyond / dofs.per_tool(),
+    };
+    let (mut number, mut last) = (0, None);
+    let number = |&dof: &usize| {
+        number += usize::from(last.is_some_and(|last| last != owner(dof)));
+        last = Some(owner(dof));
+        number
+    };
+    free.iter().map(number).collect()
 }

@@ -6,11 +6,12 @@ use super::observer::{AttemptRecord, Observer};
 use super::schedule::Step;
 use crate::Error;
 use crate::system::{Dofs, Energies, State, Term, Unknown};
+use std::sync::Arc;
 
 /// What is to be solved: terms, numbering, steps.
 pub struct Problem {
     /// The terms of equilibrium.
-    pub terms: Vec<Box<dyn Term>>,
+    pub terms: Vec<Arc<dyn Term>>,
     /// The numbering of the unknowns.
     pub dofs: Dofs,
     /// The steps.
@@ -23,8 +24,8 @@ pub struct Problem {
     pub cell_size: f64,
     /// Names of the tools.
     pub tools: Vec<String>,
-    /// A name for each node in messages: its group and number.
-    pub node_names: Vec<String>,
+    /// Names a node in messages: its number and group.
+    pub node_name: Box<dyn Fn(usize) -> String + Send + Sync>,
 }
 
 /// Options of a run.
@@ -80,7 +81,7 @@ impl Problem {
         let axis = |axis: usize| ["x", "y", "z"][axis];
         let tool = |tool: usize| self.tools.get(tool).map_or("", String::as_str);
         match self.dofs.describe(dof) {
-            Unknown::Node(node, a) => format!("{} along {}", self.node_names[node], axis(a)),
+            Unknown::Node(node, a) => format!("{} along {}", (self.node_name)(node), axis(a)),
             Unknown::ToolTranslation(t, a) => format!("tool '{}' along {}", tool(t), axis(a)),
             Unknown::ToolRotation(t, a) => format!("tool '{}' about {}", tool(t), axis(a)),
         }

@@ -9,6 +9,7 @@ use super::{
 };
 use crate::Failure;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// How the matrix is to be found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +47,7 @@ pub struct Evaluation {
 /// The system of one attempt: the opened terms, the accepted state they start from, and the constraints.
 pub struct Assembly<'a> {
     /// Terms of the model.
-    pub terms: &'a [Box<dyn Term>],
+    pub terms: &'a [Arc<dyn Term>],
     /// The same, opened for this attempt.
     pub attempts: Vec<Box<dyn Attempt + 'a>>,
     /// Numbering.
@@ -246,7 +247,7 @@ impl Workspace {
 
 impl Evaluation {
     /// Room for the results of the given terms.
-    pub fn new(terms: &[Box<dyn Term>], accepted: &State) -> Self {
+    pub fn new(terms: &[Arc<dyn Term>], accepted: &State) -> Self {
         Self {
             histories: accepted.histories.clone(),
             energies: vec![Energies::default(); terms.len()],

@@ -13,6 +13,15 @@ pub struct Model {
 }
 
 impl Model {
+    /// Lets the clamped unknowns of a block go; together with [`Model::symmetrise`] this leaves a free elastic body.
+    pub fn release(&mut self, clamped_nodes: usize) {
+        let (starts, columns) = (self.pattern.starts(), self.pattern.columns());
+        for unknown in 0..3 * clamped_nodes {
+            let at = columns[starts[unknown]..starts[unknown + 1]].partition_point(|&column| column < unknown);
+            self.values[starts[unknown] + at] -= YOUNG;
+        }
+    }
+
     /// Takes the skew part away.
     pub fn symmetrise(&mut self) {
         let (starts, columns) = (self.pattern.starts(), self.pattern.columns());

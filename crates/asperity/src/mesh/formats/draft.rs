@@ -2,17 +2,18 @@
 //! groups. [`Draft::finish`] makes the mesh of it.
 
 use super::Note;
+use super::numbering::Numbering;
 use crate::error::Error;
 use crate::mesh::{Behind, Cell, Faces, Group, Mesh, Numbers, Side};
 use crate::tensor::Vec3;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// Nodes, elements and groups of a file.
 pub(super) struct Draft {
     file: String,
     points: Vec<Vec3>,
     numbers: Vec<u64>,
-    index: HashMap<u64, usize>,
+    index: Numbering,
     elements: Vec<Element>,
     nodes: Vec<usize>,
     groups: BTreeMap<String, Members>,
@@ -42,7 +43,7 @@ pub(super) struct Members {
 impl Draft {
     pub(super) fn new(file: String) -> Self {
         let (points, numbers, elements, nodes, notes) = (vec![], vec![], vec![], vec![], vec![]);
-        Self { file, points, numbers, index: HashMap::new(), elements, nodes, groups: BTreeMap::new(), notes }
+        Self { file, points, numbers, index: Numbering::default(), elements, nodes, groups: BTreeMap::new(), notes }
     }
 
     /// A remark about the file, at a line where there is one.
@@ -58,7 +59,7 @@ impl Draft {
         if !point.is_finite() {
             return Err(format!("node {number} has a coordinate that is not a finite number; mend the mesh there"));
         }
-        if self.index.insert(number, self.points.len()).is_some() {
+        if !self.index.insert(number, self.points.len()) {
             return Err(format!("node {number} is there twice; give every node a number of its own"));
         }
         self.points.push(point);
@@ -72,7 +73,7 @@ impl Draft {
     /// A sentence without its place if there is none.
     pub(super) fn node(&self, number: u64) -> Result<usize, String> {
         let missing = || format!("there is no node {number}; add it or correct the number");
-        self.index.get(&number).copied().ok_or_else(missing)
+        self.index.get(number).ok_or_else(missing)
     }
 
     /// The numbers of all nodes, in the order in which they came.
@@ -149,7 +150,7 @@ impl Draft {
     }
 
     fn fill_groups(&mut self, mesh: &mut Mesh, cells: &[Option<usize>]) {
-        let faces = Faces::of(mesh, 0..mesh.cell_count());
+        let (faces, dimension) = (Faces::of(mesh, 0..mesh.cell_count()), mesh.dimension());
         let mut grouped = vec![false; self.elements.len()];
         for (name, members) in std::mem::take(&mut self.groups) {
             members
@@ -160,7 +161,7 @@ impl Draft {
                 .for_each(|&element| {
                     grouped[element] = true;
                 });
-            let group = Sorter { draft: self, mesh, faces: &faces, cells }.sort(&name, members);
+            let group = Sorter { draft: self, mesh, faces: &faces, cells, dimension }.sort(&name, members);
             mesh.groups.insert(name, group);
         }
         let loose = (0..cells.len()).filter(|&element| cells[element].is_none() && !grouped[element]).count();
@@ -181,6 +182,8 @@ struct Sorter<'a> {
     faces: &'a Faces,
     /// The cell of each element that is one.
     cells: &'a [Option<usize>],
+    /// Dimension of the cells.
+    dimension: usize,
 }
 
 impl Sorter<'_> {
@@ -193,7 +196,7 @@ impl Sorter<'_> {
             group.nodes.extend_from_slice(nodes);
             match self.cells[element] {
                 Some(cell) => group.cells.push(cell),
-                None if kind.dimension + 1 < self.mesh.dimension() => {}
+                None if kind.dimension + 1 < self.dimension => {}
                 None => loose += usize::from(!put(&mut group, self.faces.behind(&nodes[..kind.linear.nodes.len()]))),
             }
         }

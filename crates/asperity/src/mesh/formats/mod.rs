@@ -11,6 +11,7 @@ mod abaqus;
 mod draft;
 mod gmsh;
 mod note;
+mod numbering;
 
 pub use note::Note;
 

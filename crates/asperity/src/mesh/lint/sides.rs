@@ -125,9 +125,11 @@ fn nodes(mesh: &Mesh, side: Side) -> Vec<usize> {
     nodes
 }
 
-fn corners(mesh: &Mesh, cell: usize) -> Vec<usize> {
+/// The sorted corners of a cell; unused places hold `usize::MAX`.
+fn corners(mesh: &Mesh, cell: usize) -> [usize; 8] {
     let view = mesh.cell(cell);
-    let mut corners = view.nodes[..view.kind.linear.nodes.len()].to_vec();
+    let mut corners = [usize::MAX; 8];
+    corners.iter_mut().zip(&view.nodes[..view.kind.linear.nodes.len()]).for_each(|(place, &node)| *place = node);
     corners.sort_unstable();
     corners
 }

@@ -1,0 +1,121 @@
+//! A model owns its mesh, bodies, tools, contacts, springs, loads and steps; a run only reads it.
+
+use crate::contact::Contact;
+use crate::mesh::{Mesh, Space};
+use crate::solid::Body;
+use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
+use crate::system::{Dofs, State, Term};
+use crate::tool::Tool;
+use std::sync::Arc;
+
+/// What a model is put together from.
+pub struct ModelParts {
+    /// The user's words for it; may be empty.
+    pub title: String,
+    /// What the coordinates mean.
+    pub space: Space,
+    /// Nominal thickness in the plane spaces.
+    pub thickness: f64,
+    /// The mesh.
+    pub mesh: Arc<Mesh>,
+    /// The numbering of the unknowns.
+    pub dofs: Dofs,
+    /// The bodies, each with the number of its material.
+    pub bodies: Vec<(Body, usize)>,
+    /// The names of the materials.
+    pub materials: Vec<String>,
+    /// The tools, in the order of their unknowns.
+    pub tools: Vec<Arc<Tool>>,
+    /// The contacts.
+    pub contacts: Vec<Contact>,
+    /// Springs.
+    pub springs: Vec<Box<dyn Term>>,
+    /// Loads.
+    pub loads: Vec<Box<dyn Term>>,
+    /// The steps.
+    pub steps: Vec<Step>,
+    /// Names and nodes of the groups that are held or moved in any step.
+    pub supports: Vec<(String, Vec<usize>)>,
+    /// Options of the iterations.
+    pub newton: NewtonOptions,
+}
+
+/// What is to be solved. Terms are numbered bodies first, then contacts, springs and loads.
+pub struct Model {
+    /// The user's words for it.
+    pub title: String,
+    /// What the coordinates mean.
+    pub space: Space,
+    /// Nominal thickness in the plane spaces.
+    pub thickness: f64,
+    /// The mesh.
+    pub mesh: Arc<Mesh>,
+    /// The bodies, each with the number of its material.
+    pub bodies: Vec<(Arc<Body>, usize)>,
+    /// The names of the materials.
+    pub materials: Vec<String>,
+    /// The tools, in the order of their unknowns.
+    pub tools: Vec<Arc<Tool>>,
+    /// The contacts.
+    pub contacts: Vec<Arc<Contact>>,
+    /// Number of springs.
+    pub springs: usize,
+    /// Names and nodes of the groups that are held or moved in any step.
+    pub supports: Vec<(String, Vec<usize>)>,
+    /// The terms, steps and options that are solved.
+    pub problem: Problem,
+}
+
+impl Model {
+    /// Puts the parts together.
+    pub fn new(parts: ModelParts) -> Self {
+        let ModelParts { title, space, thickness, mesh, dofs, materials, tools, supports, steps, newton, .. } = parts;
+        let bodies: Vec<_> = parts.bodies.into_iter().map(|(body, material)| (Arc::new(body), material)).collect();
+        let contacts: Vec<_> = parts.contacts.into_iter().map(Arc::new).collect();
+        let springs = parts.springs.len();
+        let mut terms: Vec<Arc<dyn Term>> = bodies.iter().map(|(body, _)| body.clone() as Arc<dyn Term>).collect();
+        terms.extend(contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
+        terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
+        let problem = Problem {
+            terms,
+            dofs,
+            steps,
+            newton,
+            size: mesh.size(),
+            cell_size: smallest_cell(&mesh),
+            tools: tools.iter().map(|tool| tool.name().to_string()).collect(),
+            node_name: node_namer(mesh.clone()),
+        };
+        Self { title, space, thickness, mesh, bodies, materials, tools, contacts, springs, supports, problem }
+    }
+
+    /// Number of the first contact among the terms.
+    pub fn first_contact(&self) -> usize {
+        self.bodies.len()
+    }
+    /// Number of the first spring among the terms.
+    pub fn first_spring(&self) -> usize {
+        self.bodies.len() + self.contacts.len()
+    }
+
+    /// A run from a given state: the initial one ([`Problem::initial_state`]) or that of a checkpoint.
+    pub fn run(&self, state: State) -> Run<'_> {
+        Run::new(&self.problem, state, Box::new(Frontal::default()))
+    }
+}
+
+fn smallest_cell(mesh: &Mesh) -> f64 {
+    let size = |cell: usize| mesh.measure(cell).abs().powf(1.0 / mesh.kinds[cell].dimension as f64);
+    (0..mesh.cell_count()).map(size).fold(f64::INFINITY, f64::min)
+}
+
+/// Names a node by its number and the smallest group that holds it.
+fn node_namer(mesh: Arc<Mesh>) -> Box<dyn Fn(usize) -> String + Send + Sync> {
+    Box::new(move |node| {
+        let holds = mesh.groups.iter().filter(|(_, group)| group.nodes.binary_search(&node).is_ok());
+        match holds.min_by_key(|(_, group)| group.nodes.len()) {
+            Some((name, _)) => format!("node {node} of '{name}'"),
+            None => format!("node {node}"),
+        }
+    })
+}

@@ -1,13 +1,13 @@
 //! Every registered cell with every integration and formulation in every space it fills: patch test, rigid rotation of
 //! a stressed body, and order of convergence on a field that is in equilibrium without body force.
 
+use asperity::amplitude::Amplitude;
 use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Space};
 use asperity::model::{Model, ModelParts};
 use asperity::solid::{Body, BodyOptions, Formulation, Integration};
-use asperity::amplitude::Amplitude;
 use asperity::solve::{Course, Increments, NewtonOptions, Prescribed, Silent, Step};
 use asperity::system::{Constraints, Dofs, State};
 use asperity::tensor::{Tensor2, Vec3};
@@ -49,7 +49,11 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
             .iter()
             .flat_map(|&n| {
                 let u = field(mesh.points[n]);
-                (0..dim).map(move |a| Prescribed { dof: n * dim + a, others: vec![], course: Course::To(u[a], Amplitude::ramp()) })
+                (0..dim).map(move |a| Prescribed {
+                    dof: n * dim + a,
+                    others: vec![],
+                    course: Course::To(u[a], Amplitude::ramp()),
+                })
             })
             .collect(),
     };

@@ -1,6 +1,7 @@
 //! Forward-mode dual numbers: a value and its derivatives along `N` directions.
 
 use super::Scalar;
+use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// `re + sum_i du[i] e_i` with `e_i e_j = 0`: arithmetic on it is differentiation.
@@ -73,10 +74,7 @@ impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let mut du = [0.0; N];
-        for i in 0..N {
-            du[i] = self.du[i] * other.re + self.re * other.du[i];
-        }
+        let du = from_fn(|i| self.du[i] * other.re + self.re * other.du[i]);
         Self { re: self.re * other.re, du }
     }
 }
@@ -86,11 +84,7 @@ impl<const N: usize> Div for Dual<N> {
     #[inline]
     fn div(self, other: Self) -> Self {
         let (inverse, re) = (1.0 / other.re, self.re / other.re);
-        let mut du = [0.0; N];
-        for i in 0..N {
-            du[i] = (self.du[i] - re * other.du[i]) * inverse;
-        }
-        Self { re, du }
+        Self { re, du: from_fn(|i| (self.du[i] - re * other.du[i]) * inverse) }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Decks: what a user writes, read with all its faults at once, and made into a model.
 //!
-//! The text becomes a tree of values that know their places ([`tree`]); `--set` changes the tree ([`overrides`]); the
-//! declared tables of [`keys`] read it into a [`Deck`](keys::Deck) and describe it ([`schema`]); names are looked for
-//! in the deck and in the mesh ([`names`]). Every message goes through [`diagnose`]. What is not said has a default that
+//! The text becomes a tree of values that know their places ([`tree`]); `--set` changes the tree (`overrides`); the
+//! declared tables of [`keys`] read it into a [`Deck`] and describe it ([`schema`]); names are looked for
+//! in the deck and in the mesh (`names`). Every message goes through [`diagnose`]. What is not said has a default that
 //! is known and can be printed; what is said is used, or is an error.
 
 mod build;

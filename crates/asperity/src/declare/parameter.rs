@@ -9,7 +9,7 @@ pub struct Parameter {
     pub key: &'static str,
     /// What it is, as the manual and the schema say it: `Young's modulus`.
     pub meaning: &'static str,
-    /// Its dimension in the program's words, see [`unit`].
+    /// Its dimension in the program's words, see [`unit`](mod@unit).
     pub unit: &'static str,
     /// What it may be.
     pub range: Range,

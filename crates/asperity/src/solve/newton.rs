@@ -227,6 +227,10 @@ impl<'a> Newton<'a> {
             largest = largest.max(missing[p.dof].abs());
             motion = motion.max((target - p.value(&self.state.u)).abs()).max(target.abs());
         }
+        // A combination also misses what its prescribed partners do; those are simple and already known.
+        for p in self.step.prescribed.iter().filter(|p| !p.others.is_empty()) {
+            missing[p.dof] += p.others.iter().map(|&(other, c)| c * missing[other]).sum::<f64>();
+        }
         if largest > ROUNDING * motion {
             return Some(missing);
         }

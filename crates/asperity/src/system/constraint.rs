@@ -23,8 +23,7 @@ pub struct Constraints {
 
 impl Constraints {
     /// From what is prescribed: `fixed` unknowns, and combinations `(unknown, [(other unknown, coefficient)])`. A
-    /// combination's fixed partners move into the prescribed part, which
-    /// [`prescribed_part`](Self::prescribed_part) accounts for.
+    /// combination's fixed partners belong to its prescribed part.
     pub fn new(count: usize, fixed: &[usize], combined: &[(usize, Vec<(usize, f64)>)]) -> Self {
         let mut rows = vec![Row::Free(0); count];
         for &dof in fixed {

@@ -22,6 +22,12 @@ impl<const N: usize> Dual<N> {
     }
 }
 
+/// `a x + b y`.
+#[inline]
+fn combine<const N: usize>((a, x): (&[f64; N], f64), (b, y): (&[f64; N], f64)) -> [f64; N] {
+    from_fn(|i| a[i] * x + b[i] * y)
+}
+
 impl<const N: usize> Default for Dual<N> {
     fn default() -> Self {
         Self { re: 0.0, du: [0.0; N] }
@@ -74,8 +80,7 @@ impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let du = from_fn(|i| self.du[i] * other.re + self.re * other.du[i]);
-        Self { re: self.re * other.re, du }
+        Self { re: self.re * other.re, du: combine((&self.du, other.re), (&other.du, self.re)) }
     }
 }
 
@@ -84,7 +89,7 @@ impl<const N: usize> Div for Dual<N> {
     #[inline]
     fn div(self, other: Self) -> Self {
         let (inverse, re) = (1.0 / other.re, self.re / other.re);
-        Self { re, du: from_fn(|i| (self.du[i] - re * other.du[i]) * inverse) }
+        Self { re, du: combine((&self.du, inverse), (&other.du, -re * inverse)) }
     }
 }
 

@@ -20,7 +20,14 @@ impl<T: Scalar> Tensor2<T> {
     /// From a function of row and column.
     #[inline]
     pub fn from_fn(mut f: impl FnMut(usize, usize) -> T) -> Self {
-        Self(from_fn(|i| from_fn(|j| f(i, j))))
+        // Written in place: arrays made by `std::array::from_fn` are copied row by row, which dominates for duals.
+        let mut out = Self::zero();
+        for i in 0..3 {
+            for j in 0..3 {
+                out.0[i][j] = f(i, j);
+            }
+        }
+        out
     }
     /// A symmetric tensor from XX YY ZZ XY YZ XZ, the order of every file and history.
     #[inline]

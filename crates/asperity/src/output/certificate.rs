@@ -12,7 +12,7 @@ pub struct Certificate {
     pub max_penetration_relative: Option<f64>,
     /// Largest unbalanced force over all reactions, contacts and loads, relative to the largest of them.
     pub equilibrium_error: Option<f64>,
-    /// External work less stored and dissipated energy, relative to the largest energy so far; the largest magnitude.
+    /// Largest magnitude of external work less stored and dissipated energy, over the largest energy of the run.
     pub energy_balance: Option<f64>,
     /// Largest excess of the shear stress over the friction limit, relative to that limit.
     pub coulomb_violation: Option<f64>,
@@ -20,13 +20,15 @@ pub struct Certificate {
     pub least_dissipation: Option<f64>,
     /// Hits of a ray that the rules against false contact turned away, summed over the increments.
     pub rejected_false_contacts: Option<f64>,
+    /// The largest energy of the run and the largest that was missing.
+    #[serde(skip)]
+    energies: [f64; 2],
 }
 
 /// How the figures of several frames become one.
 #[derive(Clone, Copy)]
 enum Worst {
     Largest,
-    LargestMagnitude,
     Least,
     Sum,
 }
@@ -35,10 +37,21 @@ impl Certificate {
     /// Takes in one frame, given as columns of the history.
     pub fn observe<'a>(&mut self, columns: impl IntoIterator<Item = (&'a str, f64)>) {
         for (name, value) in columns {
+            self.observe_energy(name, value);
             if let Some((figure, worst)) = self.figure(name) {
                 *figure = Some(figure.map_or(value, |old| worst.of(old, value)));
             }
         }
+    }
+    fn observe_energy(&mut self, name: &str, value: f64) {
+        let place = match name {
+            "energy.missing" => 1,
+            _ if name.starts_with("energy.") => 0,
+            _ => return,
+        };
+        self.energies[place] = self.energies[place].max(value.abs());
+        let [largest, missing] = self.energies;
+        self.energy_balance = Some(if largest > 0.0 { missing / largest } else { 0.0 });
     }
     /// The figure that a column of the history belongs to.
     fn figure(&mut self, column: &str) -> Option<(&mut Option<f64>, Worst)> {
@@ -53,7 +66,6 @@ impl Certificate {
             ("contact", "least_dissipation") => (&mut self.least_dissipation, Worst::Least),
             ("contact", "false_contacts") => (&mut self.rejected_false_contacts, Worst::Sum),
             ("equilibrium", "error") => (&mut self.equilibrium_error, Worst::Largest),
-            ("energy", "balance") => (&mut self.energy_balance, Worst::LargestMagnitude),
             _ => return None,
         })
     }
@@ -63,7 +75,6 @@ impl Worst {
     fn of(self, old: f64, new: f64) -> f64 {
         match self {
             Self::Largest => old.max(new),
-            Self::LargestMagnitude => old.abs().max(new.abs()),
             Self::Least => old.min(new),
             Self::Sum => old + new,
         }
@@ -80,7 +91,8 @@ mod tests {
         certificate.observe([
             ("contact.bore.max_penetration", 1e-3),
             ("contact.a.b.max_penetration", 2e-3),
-            ("energy.balance", -0.2),
+            ("energy.external", 10.0),
+            ("energy.missing", -2.0),
         ]);
         certificate.observe([
             ("contact.bore.max_penetration", 5e-4),
@@ -88,14 +100,16 @@ mod tests {
             ("contact.bore.least_dissipation", 0.0),
             ("contact.bore.false_contacts", 2.0),
             ("contact.bore.false_contacts", 3.0),
-            ("energy.balance", 0.1),
+            ("energy.external", 40.0),
+            ("energy.missing", 1.0),
             ("time", 9.0),
         ]);
         let expected = Certificate {
             max_penetration: Some(2e-3),
-            energy_balance: Some(0.2),
+            energy_balance: Some(0.05),
             least_dissipation: Some(-1e-18),
             rejected_false_contacts: Some(5.0),
+            energies: [40.0, 2.0],
             ..Certificate::default()
         };
         assert_eq!(certificate, expected);

@@ -37,6 +37,8 @@ impl Fixture {
             dofs: &self.dofs,
             bodies: vec![(0, &self.body)],
             materials: vec![0],
+            material_names: vec!["rubber".into()],
+            contacts: vec![],
             springs: vec![],
             tools: vec![],
             supports: vec![("all".into(), (0..self.mesh.points.len()).collect())],

@@ -8,6 +8,7 @@
 //! | `run.checkpoint` | the last checkpoint |
 
 use super::checkpoint::{self, Head, InputHash, Stamp};
+use super::figure::{FigureOptions, draw_standard};
 use super::file::{make_directory, sweep};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HistoryTable, global_columns};
@@ -123,6 +124,8 @@ impl Results {
         summary.input_hash = Some(input.to_string());
         summary.unknowns = parts.dofs.count();
         summary.bodies = parts.bodies.iter().map(|(_, body)| body.name().to_string()).collect();
+        summary.materials.clone_from(&parts.material_names);
+        summary.contact_order = parts.contacts.iter().map(|(_, name, _)| name.clone()).collect();
         summary.tools = parts.tools.iter().map(|tool| tool.name().to_string()).collect();
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
@@ -160,13 +163,20 @@ impl Results {
         let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
         checkpoint::save(&self.directory.join(CHECKPOINT), &Head { input: self.input, stamp }, state)
     }
-    /// Says in the summary how the run ended.
+    /// Says in the summary how the run ended, and draws the standard pictures. A picture that cannot be drawn is a note
+    /// in the summary and no failure of the run.
     ///
     /// # Errors
-    /// [`Error::File`] when it cannot be written.
+    /// [`Error::File`] when the summary cannot be written.
     pub fn finish(&mut self, outcome: &Result<(), Error>) -> Result<(), Error> {
         self.summary.end(outcome);
         self.summary.timings.insert("output".into(), self.spent.as_secs_f64());
+        self.write_summary()?;
+        let start = Instant::now();
+        if let Err(error) = draw_standard(&self.directory, &FigureOptions::default()) {
+            self.summary.notes.push(format!("a picture is missing: {error}"));
+        }
+        self.summary.timings.insert("pictures".into(), start.elapsed().as_secs_f64());
         self.write_summary()
     }
     /// The result directory.
@@ -205,10 +215,11 @@ impl Results {
 
 /// The kinds of frames that a model has.
 fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
-    let tools = !parts.tools.is_empty();
+    let (contacts, tools) = (!parts.contacts.is_empty(), !parts.tools.is_empty());
     Fields::ALL.into_iter().filter(move |fields| match fields {
         Fields::Bodies | Fields::Points => true,
-        Fields::Contacts | Fields::Tools => tools,
+        Fields::Contacts => contacts,
+        Fields::Tools => tools,
     })
 }
 
@@ -261,8 +272,10 @@ mod tests {
         let frames = read_series(&directory.path().join("bodies.pvd")).unwrap();
         assert_eq!(frames.iter().map(|(time, _)| *time).collect::<Vec<_>>(), [0.0, 2.0, 4.0, 5.0]);
         let summary = Summary::read(&directory.path().join(SUMMARY)).unwrap();
-        assert_eq!((summary.status, summary.increments, summary.bodies), (Status::Converged, 5, vec!["block".into()]));
-        assert_eq!(summary.files, ["bodies.pvd", "points.pvd", "history.csv", CHECKPOINT]);
+        assert_eq!((summary.status, summary.increments), (Status::Converged, 5));
+        assert_eq!(summary.bodies, ["block"]);
+        assert_eq!(summary.files[..4], ["bodies.pvd", "points.pvd", "history.csv", CHECKPOINT]);
+        assert!(summary.files.contains(&"von_mises.png".into()) && summary.notes.is_empty(), "{summary:?}");
         assert!(summary.files.iter().all(|file| directory.path().join(file).exists()));
     }
 

@@ -33,7 +33,7 @@ impl Arrow {
 /// Draws arrows with `scale` lengths of space a unit of the vector.
 pub fn draw_arrows(drawing: &mut Drawing, view: &View, arrows: &[Arrow], scale: f64) {
     let shafts: Vec<(Point, Point)> = arrows.iter().map(|a| (view.map(a.tail(scale)), view.map(a.at))).collect();
-    for run in runs(arrows, &shafts) {
+    for run in runs(arrows, &shafts).into_iter().filter(|run| run.len() > 1) {
         let tails: Vec<Point> = run.iter().map(|&i| shafts[i].0).collect();
         drawing.stroke(polyline(&tails), Stroke::full(Color::ARROW, 0.7));
     }
@@ -71,14 +71,16 @@ fn spacing(shafts: &[(Point, Point)]) -> Option<f64> {
     distances.get(distances.len() / 2).copied()
 }
 
-/// Runs of consecutive arrows of one group that stand as close as neighbours do.
+/// Runs of consecutive arrows of one group that stand as close as neighbours do. Where there is no stress a run ends,
+/// with one such point on either side, so that the line of tails comes down to the boundary.
 fn runs(arrows: &[Arrow], shafts: &[(Point, Point)]) -> Vec<Vec<usize>> {
     let reach = 4.0 * spacing(shafts).unwrap_or(0.0);
     let mut runs: Vec<Vec<usize>> = Vec::new();
     for i in 0..arrows.len() {
         let near = |&j: &usize| {
             let (a, b) = (shafts[i].1, shafts[j].1);
-            arrows[i].group == arrows[j].group && (a[0] - b[0]).hypot(a[1] - b[1]) <= reach
+            let close = (a[0] - b[0]).hypot(a[1] - b[1]) <= reach;
+            close && arrows[i].group == arrows[j].group && arrows[i].size() + arrows[j].size() > 0.0
         };
         match runs.last_mut() {
             Some(run) if run.last().is_some_and(near) => run.push(i),
@@ -108,6 +110,14 @@ mod tests {
             [(0.0, 0), (1.0, 0), (2.0, 0), (9.0, 0), (10.0, 0), (11.0, 1)].map(|(x, g)| arrow(x, g)).to_vec();
         let shafts: Vec<_> = arrows.iter().map(|a| ([a.at[0], 5.0], [a.at[0], 0.0])).collect();
         assert_eq!(runs(&arrows, &shafts), [vec![0, 1, 2], vec![3, 4], vec![5]]);
+    }
+
+    #[test]
+    fn runs_come_down_to_the_boundary_where_stress_ends() {
+        let mut arrows: Vec<Arrow> = (0..8).map(|i| arrow(f64::from(i), 0)).collect();
+        [0, 1, 4, 5, 6].into_iter().for_each(|i| arrows[i].vector = [0.0; 3]);
+        let shafts: Vec<_> = arrows.iter().map(|a| ([a.at[0], 5.0], [a.at[0], 0.0])).collect();
+        assert_eq!(runs(&arrows, &shafts), [vec![0], vec![1, 2, 3, 4], vec![5], vec![6, 7]]);
     }
 
     #[test]

@@ -32,6 +32,8 @@ pub struct Series {
     pub marks: bool,
     /// Its colour and dashes, by number.
     pub style: usize,
+    /// Width of its line.
+    pub width: f64,
 }
 
 impl Chart {
@@ -53,7 +55,7 @@ impl Chart {
     /// Adds a line.
     pub fn line(&mut self, name: impl Into<String>, points: Vec<[f64; 2]>) -> &mut Series {
         let style = self.series.len();
-        self.series.push(Series { name: name.into(), points, marks: false, style });
+        self.series.push(Series { name: name.into(), points, marks: false, style, width: 1.8 });
         let last = self.series.len() - 1;
         &mut self.series[last]
     }
@@ -77,7 +79,8 @@ impl Chart {
         let usable = |x: &f64| x.is_finite() && (scale == Scale::Linear || *x > 0.0);
         let (low, high) =
             values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        // Time and travel fill the axis to its end; the other axis ends at round numbers.
+        // An axis that nearly begins at zero does; time and travel fill theirs to the end, the other ends at round numbers.
+        let low = if scale == Scale::Linear && low > 0.0 && low < 0.25 * high { 0.0 } else { low };
         let widen = which == 1;
         Axis { title: self.axes[which].clone(), scale, ticks: ticks(scale, [low, high], count, widen) }
     }
@@ -133,6 +136,11 @@ impl Series {
         self.style = style;
         self
     }
+    /// Draws it thin, as one of many.
+    pub fn thin(&mut self) -> &mut Self {
+        self.width = 0.7;
+        self
+    }
     fn on_page(&self, axes: &Axes) -> Vec<Point> {
         self.points.iter().map(|&p| axes.map(p)).filter(|p| p.iter().all(|x| x.is_finite())).collect()
     }
@@ -144,7 +152,7 @@ impl Series {
     }
     fn draw_line(&self, drawing: &mut Drawing, points: &[Point]) {
         let color = palette::line(self.style);
-        drawing.stroke(polyline(points), Stroke { color, width: 1.8, dash: palette::dash(self.style) });
+        drawing.stroke(polyline(points), Stroke { color, width: self.width, dash: palette::dash(self.style) });
     }
     fn draw_marks(&self, drawing: &mut Drawing, points: &[Point]) {
         let marked = if self.marks { points } else { &[] };

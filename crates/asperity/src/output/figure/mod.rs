@@ -4,6 +4,7 @@
 mod arrows;
 mod axes;
 mod chart;
+mod curves;
 mod drawing;
 mod facets;
 mod legend;

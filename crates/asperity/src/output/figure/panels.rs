@@ -1,7 +1,7 @@
 //! Pictures of meshes: one or more panels side by side, all in one scale, with tools, a colour field, stress vectors
 //! and their legends.
 
-use super::arrows::draw_arrows;
+use super::arrows::{Arrow, draw_arrows};
 use super::axes::{Axes, Axis, LARGE, MEDIUM};
 use super::drawing::{Anchor, Drawing, Label, Rect};
 use super::outline::draw_outline;
@@ -36,8 +36,10 @@ const LEFT: f64 = 62.0;
 const RIGHT: f64 = 14.0;
 const TOP: f64 = 26.0;
 const BOTTOM: f64 = 44.0;
-/// The longest arrow over the larger side of the window.
-const LONGEST: f64 = 0.10;
+/// The longest arrow over the larger side of the bodies, at most,
+const LONGEST: f64 = 0.22;
+/// and the median one.
+const TYPICAL: f64 = 0.07;
 /// Space around the bodies over the larger side of the window.
 const MARGIN: f64 = 0.03;
 
@@ -89,15 +91,25 @@ impl Panels<'_> {
         let bodies: Vec<Window> =
             self.scenes.iter().map(|s| Window::around(s.points.iter().map(|&p| flat(p)))).collect();
         let largest = bodies.iter().flat_map(|w| w.size()).fold(0.0, f64::max);
-        let strongest = self.strongest();
         let extent = self.window.map_or(largest, |w| w.size()[0].max(w.size()[1]));
-        let arrow_scale = if strongest > 0.0 { LONGEST * extent / strongest } else { 0.0 };
+        let arrow_scale = extent * self.arrow_scale();
         let windows = self.windows(arrow_scale, MARGIN * extent);
         let size = windows.first().map_or([1.0, 1.0], Window::size);
         let (columns, scale) = best_columns(self.scenes.len(), size, self.room);
         let frame = size.map(|s| s * scale);
         let rows = self.scenes.len().div_ceil(columns);
         Layout { columns, rows, frame, windows, scale, arrow_scale, range: self.field_range() }
+    }
+    /// Lengths of arrows a unit of stress, over the extent of the bodies. A few peaks do not shrink all the rest to
+    /// nothing, nor do they fill the picture.
+    fn arrow_scale(&self) -> f64 {
+        let sizes = self.scenes.iter().flat_map(|s| &s.arrows).map(Arrow::size);
+        let mut sizes: Vec<f64> = sizes.filter(|&size| size > 0.0).collect();
+        sizes.sort_by(f64::total_cmp);
+        match (sizes.last(), sizes.get(sizes.len() / 2)) {
+            (Some(strongest), Some(median)) => (LONGEST / strongest).min(TYPICAL / median),
+            _ => 0.0,
+        }
     }
     /// Equal windows about each scene's bodies and arrows.
     fn windows(&self, arrow_scale: f64, margin: f64) -> Vec<Window> {
@@ -157,7 +169,6 @@ fn best_columns(count: usize, size: [f64; 2], room: [f64; 2]) -> (usize, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::arrows::Arrow;
     use super::super::drawing::{Item, Segment};
     use super::super::palette::Color;
     use super::*;

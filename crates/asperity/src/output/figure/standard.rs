@@ -2,7 +2,7 @@
 //! stress, forces over travel, convergence.
 
 use super::arrows::Arrow;
-use super::chart::Chart;
+use super::curves;
 use super::drawing::Drawing;
 use super::panels::Panels;
 use super::scene::Scene;
@@ -34,8 +34,6 @@ impl Default for FigureOptions {
 
 /// Frames shown side by side where no times are given.
 const PANELS: usize = 4;
-/// Forces and motions smaller than this part of the largest are not drawn.
-const SMALL: f64 = 1e-9;
 
 /// Draws the standard pictures into the directory of the results and returns their files.
 ///
@@ -56,10 +54,15 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
         save("contact_stress", run.panels("Contact stress", "", &shots).draw())?;
         save("von_mises", run.panels("Equivalent stress", "von_mises_averaged", &shots).draw())?;
     }
-    if let Some(chart) = run.forces()? {
+    let table = |name: &str| {
+        let path = directory.join(name);
+        if path.exists() { Columns::read(&path) } else { Ok(Columns::default()) }
+    };
+    let axisymmetric = run.summary.space == "axisymmetric";
+    if let Some(chart) = curves::forces(&table("history.csv")?, &run.summary.title, axisymmetric) {
         save("forces", chart.draw())?;
     }
-    if let Some(chart) = run.convergence()? {
+    if let Some(chart) = curves::convergence(&table("iterations.csv")?) {
         save("convergence", chart.draw())?;
     }
     Ok(written)
@@ -116,49 +119,6 @@ impl Run<'_> {
             room: [900.0, 760.0],
         }
     }
-
-    /// Contact forces over the largest prescribed motion; reactions where there is no contact.
-    fn forces(&self) -> Result<Option<Chart>, Error> {
-        let path = self.directory.join("history.csv");
-        if !path.exists() {
-            return Ok(None);
-        }
-        let history = Columns::read(&path)?;
-        let of = |column: &String| Some((column.clone(), history.numbers(column)?));
-        let columns: Vec<(String, Vec<f64>)> = history.header.iter().filter_map(of).collect();
-        let Some((name, travel)) = travel(&columns) else { return Ok(None) };
-        let contact = drawn(&columns, "contact.", ".force.");
-        let lines = if contact.is_empty() { drawn(&columns, "reaction.", ".") } else { contact };
-        let mut chart = Chart::new(self.summary.title.clone(), name, "force");
-        for (name, values) in lines {
-            let points = travel.iter().zip(values).map(|(&x, &y)| [x, y]).collect();
-            chart.line(name.trim_start_matches("contact.").to_string(), points);
-        }
-        Ok((!chart.series.is_empty() && travel.len() > 1).then_some(chart))
-    }
-
-    /// The residual of every iteration of every attempt, one after another.
-    fn convergence(&self) -> Result<Option<Chart>, Error> {
-        let path = self.directory.join("iterations.csv");
-        if !path.exists() {
-            return Ok(None);
-        }
-        let table = Columns::read(&path)?;
-        let (Some(iteration), Some(residual)) = (table.numbers("iteration"), table.numbers("residual")) else {
-            return Ok(None);
-        };
-        let mut chart = Chart::new("Convergence", "iterations", "largest unbalanced force, relative").log_y();
-        chart.size[0] = 760.0;
-        let mut attempt = Vec::new();
-        for (count, (&iteration, &residual)) in iteration.iter().zip(&residual).enumerate() {
-            if iteration == 0.0 {
-                chart.line("", std::mem::take(&mut attempt)).styled(0);
-            }
-            attempt.push([count as f64, residual]);
-        }
-        chart.line("", attempt).styled(0);
-        Ok(Some(chart))
-    }
 }
 
 impl Shot {
@@ -201,14 +161,13 @@ fn vectors(array: Option<&DataArray>) -> Vec<[f64; 3]> {
     array.filter(|a| a.components == 3).map_or(Vec::new(), |a| a.values.to_real().as_chunks().0.to_vec())
 }
 
-/// The stress vectors of closed contact points.
+/// The stress vectors of all contact points; those of open ones are zero.
 fn arrows(contacts: &Grid) -> Vec<Arrow> {
     let traction = vectors(contacts.point_array("contact_traction"));
     let number = contacts.point_array("contact").map_or(Vec::new(), |a| a.values.to_real());
     let group = |i: usize| number.get(i).map_or(0, |&n| n as usize);
     let all = moved(contacts).into_iter().zip(traction).enumerate();
-    let all = all.map(|(i, (at, vector))| Arrow { at, vector, group: group(i) });
-    all.filter(|arrow| arrow.size() > 0.0).collect()
+    all.map(|(i, (at, vector))| Arrow { at, vector, group: group(i) }).collect()
 }
 
 /// Lines that follow each other, joined.
@@ -229,36 +188,6 @@ fn profiles(tools: &Grid) -> Vec<Vec<[f64; 3]>> {
     profiles
 }
 
-fn span(values: &[f64]) -> f64 {
-    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-    high - low
-}
-
-/// The prescribed motion that goes farthest, with a title; time where nothing moves.
-fn travel(columns: &[(String, Vec<f64>)]) -> Option<(String, Vec<f64>)> {
-    let time = &columns.iter().find(|(name, _)| name == "time")?.1;
-    let moves = |name: &str| name.starts_with("displacement.") || name.contains(".translation.");
-    let candidates = columns.iter().filter(|(name, values)| moves(name) && span(values) > 0.0);
-    let farthest = candidates.max_by(|a, b| span(&a.1).total_cmp(&span(&b.1)));
-    Some(match farthest {
-        Some((name, values)) => {
-            let axis = name.rsplit('.').next().unwrap_or("");
-            let what = name.trim_start_matches("displacement.").trim_start_matches("tool.");
-            let what = what.trim_end_matches(axis).trim_end_matches('.').trim_end_matches(".translation");
-            (format!("travel of {what} along {axis}"), values.iter().map(|x| x.abs()).collect())
-        }
-        None => ("time".into(), time.clone()),
-    })
-}
-
-/// Columns of one kind, without those that stay small.
-fn drawn<'a>(columns: &'a [(String, Vec<f64>)], start: &str, middle: &str) -> Vec<(&'a str, &'a [f64])> {
-    let kind = columns.iter().filter(|(name, _)| name.starts_with(start) && name.contains(middle));
-    let size = |values: &[f64]| values.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-    let largest = kind.clone().map(|(_, values)| size(values)).fold(0.0, f64::max);
-    kind.filter(|(_, v)| size(v) > SMALL * largest).map(|(name, v)| (name.as_str(), v.as_slice())).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -269,27 +198,6 @@ mod tests {
         assert_eq!(chosen(&times, &[]), [times[2], times[5], times[7], times[10]]);
         assert_eq!(chosen(&times, &[0.29, 0.31, 0.9]), [times[3], times[9]]);
         assert!(chosen(&[], &[0.5]).is_empty());
-    }
-
-    #[test]
-    fn the_travel_is_the_motion_that_goes_farthest() {
-        let column = |name: &str, values: &[f64]| (name.to_string(), values.to_vec());
-        let mut columns = vec![column("time", &[0.0, 1.0]), column("displacement.far.end.x", &[0.0, 0.0])];
-        assert_eq!(travel(&columns).unwrap().0, "time");
-        columns.push(column("displacement.far.end.y", &[0.0, -3.0]));
-        columns.push(column("tool.die.translation.x", &[0.0, 2.0]));
-        assert_eq!(travel(&columns).unwrap(), ("travel of far.end along y".into(), vec![0.0, 3.0]));
-        columns.push(column("tool.die.translation.y", &[0.0, 9.0]));
-        assert_eq!(travel(&columns).unwrap().0, "travel of die along y");
-    }
-
-    #[test]
-    fn forces_that_stay_small_are_not_drawn() {
-        let column = |name: &str, value: f64| (name.to_string(), vec![0.0, value]);
-        let columns =
-            [column("contact.a.force.x", 5.0), column("contact.a.force.y", 1e-12), column("contact.a.area", 9.0)];
-        let names: Vec<&str> = drawn(&columns, "contact.", ".force.").iter().map(|(name, _)| *name).collect();
-        assert_eq!(names, ["contact.a.force.x"]);
     }
 
     #[test]

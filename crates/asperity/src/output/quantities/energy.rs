@@ -1,4 +1,4 @@
-//! Energies: what is stored, what has been dissipated, what came from outside, and how far they are from balance.
+//! Energies: what is stored, what has been dissipated, what came from outside, and what is missing between them.
 
 use super::Source;
 use crate::Error;
@@ -27,11 +27,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         ("energy.friction", contact(all.dissipated, bodies.dissipated, springs.dissipated)),
         ("energy.spring", springs.stored),
     ];
-    let largest = entries.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
     for (name, value) in entries {
         frame.push(Quantity::scalar(name, Unit::Energy, value))?;
     }
-    let missing = external - all.stored - all.dissipated;
-    let balance = if largest > 0.0 { missing / largest } else { 0.0 };
-    frame.push(Quantity::scalar("energy.balance", Unit::One, balance))
+    frame.push(Quantity::scalar("energy.missing", Unit::Energy, external - all.stored - all.dissipated))
 }

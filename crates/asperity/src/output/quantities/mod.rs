@@ -1,6 +1,7 @@
 //! What is reported of an accepted state: each file computes a few quantities from the parts of a model and its state
 //! and puts them into the frame. To add one: its file here and its line in [`ALL`].
 
+mod contact;
 mod energy;
 mod equilibrium;
 mod nodes;
@@ -12,6 +13,7 @@ mod tools;
 
 use super::Frame;
 use crate::Error;
+use crate::contact::Contact;
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
 use crate::system::{Dofs, History, State};
@@ -29,6 +31,10 @@ pub struct Parts<'a> {
     pub bodies: Vec<(usize, &'a Body)>,
     /// For each body the number of its material.
     pub materials: Vec<usize>,
+    /// Names of the materials.
+    pub material_names: Vec<String>,
+    /// The contacts with their numbers of terms and names.
+    pub contacts: Vec<(usize, String, &'a Contact)>,
     /// Terms that store energy and are neither bodies nor contacts.
     pub springs: Vec<usize>,
     /// The rigid tools.
@@ -53,8 +59,15 @@ pub struct Source<'a> {
 type Report = fn(&Source, &mut Frame) -> Result<(), Error>;
 
 /// Everything that is reported, in the order of the columns and arrays.
-static ALL: &[Report] =
-    &[nodes::report, stress::report, reactions::report, tools::report, energy::report, equilibrium::report];
+static ALL: &[Report] = &[
+    nodes::report,
+    stress::report,
+    reactions::report,
+    contact::report,
+    tools::report,
+    energy::report,
+    equilibrium::report,
+];
 
 impl Source<'_> {
     /// Everything that is reported of the state.

@@ -66,8 +66,8 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
 fn array(tag: &str, blob: &[u8], encoding: Encoding) -> Result<DataArray, Reason> {
     let get = |name| attribute(tag, name).ok_or_else(|| format!("an array without {name}"));
     let name = unescape(get("Name")?);
-    let number = |name| get(name)?.parse::<usize>().map_err(|_| format!("{name} is not a number"));
-    let (offset, components) = (number("offset")?, number("NumberOfComponents")?);
+    let number = |text: &str| text.parse::<usize>().map_err(|_| format!("'{text}' is not a number"));
+    let (offset, components) = (number(get("offset")?)?, number(get("NumberOfComponents").unwrap_or("1"))?);
     let bytes = blob.get(offset..).and_then(|rest| data(rest, encoding));
     let values = bytes.and_then(|bytes| Values::from_bytes(get("type").ok()?, &bytes));
     let values = values.ok_or_else(|| format!("the array '{name}' is damaged"))?;

@@ -93,7 +93,11 @@ fn section(
 
 fn tag(array: &DataArray, offset: usize) -> String {
     let (kind, name, width) = (array.values.type_name(), escape(&array.name), array.components);
-    let mut text = format!("<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{width}\"");
+    let mut text = format!("<DataArray type=\"{kind}\" Name=\"{name}\"");
+    // Without a number of components readers make a plain column of it; with "1", some make a matrix.
+    if width > 1 {
+        let _ = write!(text, " NumberOfComponents=\"{width}\"");
+    }
     for (i, component) in array.component_names().iter().enumerate() {
         let _ = write!(text, " ComponentName{i}=\"{component}\"");
     }

@@ -1,0 +1,111 @@
+//! Contact: everything at the integration points of the surfaces, and the resultants of each contact. Forces and
+//! stress vectors are those that the target exerts on the surface.
+
+use super::Source;
+use crate::Error;
+use crate::contact::{Contact, PointRecord, PointStatus};
+use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::tensor::Vec3;
+
+/// A contact in an accepted state.
+struct Seen<'a> {
+    contact: &'a Contact,
+    name: &'a str,
+    reference: Vec<Vec3>,
+    records: Vec<PointRecord>,
+}
+
+pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
+    let zero = vec![0.0; source.state.u.len()];
+    let mut all = Vec::new();
+    for (term, name, contact) in &source.parts.contacts {
+        let history = source.history(*term)?;
+        let reference = contact.records(&zero, history).map(|record| record.position).collect();
+        let records = contact.records(&source.state.u, history).collect();
+        all.push(Seen { contact, name, reference, records });
+    }
+    if !all.is_empty() {
+        report_points(&all, frame)?;
+    }
+    all.iter().try_for_each(|seen| report_contact(source, seen, frame))
+}
+
+fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
+    let records = || all.iter().flat_map(|seen| &seen.records);
+    let vector = |name: &str, unit, of: &dyn Fn(&PointRecord) -> Vec3| {
+        let values = records().flat_map(|record| of(record).0).collect();
+        Quantity::new(name, unit, Place::Contact, Width::Vector, values)
+    };
+    let scalar = |name: &str, unit, of: &dyn Fn(&PointRecord) -> f64| {
+        Quantity::new(name, unit, Place::Contact, Width::Scalar, records().map(of).collect())
+    };
+    let reference = || all.iter().flat_map(|seen| &seen.reference);
+    let moved = records().zip(reference()).flat_map(|(record, before)| (record.position - *before).0).collect();
+    let before = reference().flat_map(|x| x.0).collect();
+    let number = all.iter().enumerate().flat_map(|(i, seen)| seen.records.iter().map(move |_| i as f64)).collect();
+    let length = |name: &str, values| Quantity::new(name, Unit::Length, Place::Contact, Width::Vector, values);
+    frame.push(length("reference_position", before))?;
+    frame.push(length("displacement", moved))?;
+    frame.push(Quantity::integer("contact", Place::Contact, number))?;
+    let status = records().map(|record| f64::from(record.status as u8)).collect();
+    frame.push(Quantity::byte("contact_status", Place::Contact, status))?;
+    frame.push(scalar("contact_pressure", Unit::Stress, &|r| r.pressure))?;
+    frame.push(vector("contact_traction", Unit::Stress, &PointRecord::traction))?;
+    frame.push(scalar("contact_gap", Unit::Length, &|r| -r.penetration))?;
+    frame.push(scalar("contact_slip", Unit::Length, &|r| r.slip))?;
+    frame.push(scalar("contact_slip_path", Unit::Length, &|r| r.slipped))?;
+    frame.push(scalar("contact_area", Unit::Area, &|r| r.area))?;
+    frame.push(vector("contact_normal", Unit::One, &|r| r.inward))?;
+    frame.push(vector("contact_force", Unit::Force, &PointRecord::force))
+}
+
+fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(), Error> {
+    let closed = || seen.records.iter().filter(|record| record.status != PointStatus::Open);
+    let sum = |of: &dyn Fn(&PointRecord) -> Vec3| closed().fold(Vec3::zero(), |sum, record| sum + of(record));
+    let total = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).sum::<f64>();
+    let most = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).fold(0.0, f64::max);
+    let count = |status| closed().filter(|record| record.status == status).count() as f64;
+    let pole = pole(source, seen.contact);
+    let thrust = total(&|r| r.pressure * r.area);
+    // The centre of a contact without pressure is nowhere.
+    let center = sum(&|r| r.position * (r.pressure * r.area)) * thrust.recip();
+    let vectors = [
+        ("force", Unit::Force, Width::Vector, sum(&PointRecord::force)),
+        ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.position - pole).cross(r.force()))),
+        ("center", Unit::Length, Width::Vector, center),
+    ];
+    let least = closed().map(|r| r.last_dissipated * r.area).reduce(f64::min).unwrap_or(0.0);
+    let scalars = [
+        ("area", Unit::Area, total(&|r| r.area)),
+        ("thrust", Unit::Force, thrust),
+        ("max_pressure", Unit::Stress, most(&|r| r.pressure)),
+        ("max_penetration", Unit::Length, most(&|r| r.penetration)),
+        ("max_penetration_relative", Unit::One, most(&|r| r.penetration / edge_length(source, seen.contact, r.edge))),
+        ("stick", Unit::One, count(PointStatus::Stick)),
+        ("slip", Unit::One, count(PointStatus::Slip)),
+        ("dissipation", Unit::Energy, seen.records.iter().map(|r| r.dissipated * r.area).sum()),
+        ("least_dissipation", Unit::Energy, least),
+        ("coulomb_violation", Unit::One, most(&|r| r.violation)),
+        ("false_contacts", Unit::One, seen.contact.search(&source.state.u).1.total() as f64),
+    ];
+    let name = |what: &str| format!("contact.{}.{what}", seen.name);
+    for (what, unit, width, value) in vectors {
+        frame.push(Quantity::new(name(what), unit, Place::Global, width, value.0.to_vec()))?;
+    }
+    scalars.into_iter().try_for_each(|(what, unit, value)| frame.push(Quantity::scalar(name(what), unit, value)))
+}
+
+/// Where moments are taken about: the present place of the tool's reference point.
+fn pole(source: &Source, contact: &Contact) -> Vec3 {
+    let tool = contact.tool();
+    contact.pose(&source.state.u).place(tool.reference(), tool.reference())
+}
+
+/// Present distance between the ends of an edge of the surface.
+fn edge_length(source: &Source, contact: &Contact, edge: usize) -> f64 {
+    let place = |node: usize| source.parts.mesh.points[node] + Vec3(source.displacement(node));
+    match contact.surface().edges[edge].nodes[..] {
+        [start, end, ..] => (place(end) - place(start)).norm(),
+        _ => f64::NAN,
+    }
+}

@@ -1,0 +1,59 @@
+//! The observer that writes the results of a run, and passes everything on to another that may show it.
+
+use super::log::RunLog;
+use super::quantities::{Parts, Source};
+use super::results::Results;
+use crate::Error;
+use crate::solve::{AttemptRecord, IterationRecord, Observer, Problem};
+use crate::system::State;
+
+/// Writes tables and frames while a run goes.
+pub struct Recorder<'a> {
+    /// The parts of the model that are reported.
+    pub parts: &'a Parts<'a>,
+    /// What is solved.
+    pub problem: &'a Problem,
+    /// The result directory.
+    pub results: Results,
+    /// The tables of attempts and iterations.
+    pub log: RunLog,
+    /// Who is told too, and may ask to stop.
+    pub audience: &'a mut dyn Observer,
+    /// A table that could not be written: the run stops at its next accepted increment.
+    pub trouble: Option<Error>,
+}
+
+impl<'a> Recorder<'a> {
+    /// A recorder of a run that begins or goes on.
+    pub fn new(
+        (parts, problem): (&'a Parts<'a>, &'a Problem),
+        results: Results,
+        log: RunLog,
+        audience: &'a mut dyn Observer,
+    ) -> Self {
+        Self { parts, problem, results, log, audience, trouble: None }
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn iteration(&mut self, attempt: &AttemptRecord, iteration: &IterationRecord) {
+        self.audience.iteration(attempt, iteration);
+    }
+    fn attempt(&mut self, attempt: &AttemptRecord) {
+        if let Err(error) = self.log.attempt(self.problem, attempt) {
+            self.trouble.get_or_insert(error);
+        }
+        self.audience.attempt(attempt);
+    }
+    fn accepted(&mut self, state: &State, attempt: &AttemptRecord) -> Result<(), Error> {
+        if let Some(error) = self.trouble.take() {
+            return Err(error);
+        }
+        let last = state.step > attempt.step;
+        self.results.accepted(&Source { parts: self.parts, state, step: attempt.step }, last)?;
+        self.audience.accepted(state, attempt)
+    }
+    fn wants_stop(&self) -> bool {
+        self.audience.wants_stop()
+    }
+}

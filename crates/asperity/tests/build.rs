@@ -1,7 +1,8 @@
 //! What the conditions of a deck become: constraints and courses of each step.
 
 use asperity::amplitude::Amplitude;
-use asperity::deck::{Built, build, read};
+use asperity::deck::{build, read};
+use asperity::model::Model;
 use asperity::solve::{Course, Prescribed};
 use asperity::system::Row;
 use std::path::Path;
@@ -16,7 +17,7 @@ body.block.material = "steel"
 
 const TOOL: &str = "tool.plate.profile = [{ line = [[5.0, -1.0], [-5.0, -1.0]] }]\n";
 
-fn made(deck: &str) -> Built {
+fn made(deck: &str) -> Model {
     let loaded = read(deck, "test.toml", Path::new(""), &[]);
     loaded.and_then(build).map(|(built, _)| built).unwrap_or_else(|d| panic!("{}", d.render(false)))
 }
@@ -27,19 +28,19 @@ fn refused(deck: &str) -> String {
 }
 
 /// What a step prescribes for an unknown.
-fn prescribed(built: &Built, step: usize, dof: usize) -> Option<&Prescribed> {
-    let mut found = built.steps[step].prescribed.iter().filter(|p| p.dof == dof);
+fn prescribed(built: &Model, step: usize, dof: usize) -> Option<&Prescribed> {
+    let mut found = built.problem.steps[step].prescribed.iter().filter(|p| p.dof == dof);
     let first = found.next();
     assert!(found.next().is_none(), "unknown {dof} is prescribed twice");
-    assert_eq!(first.is_some(), !matches!(built.steps[step].constraints.row(dof), Row::Free(_)));
+    assert_eq!(first.is_some(), !matches!(built.problem.steps[step].constraints.row(dof), Row::Free(_)));
     first
 }
 
-fn course(built: &Built, step: usize, dof: usize) -> Option<&Course> {
+fn course(built: &Model, step: usize, dof: usize) -> Option<&Course> {
     prescribed(built, step, dof).map(|p| &p.course)
 }
 
-fn node(built: &Built, group: &str) -> usize {
+fn node(built: &Model, group: &str) -> usize {
     let nodes = &built.mesh.groups[group].nodes;
     assert_eq!(nodes.len(), 1);
     nodes[0]
@@ -106,7 +107,7 @@ fn an_inclined_support_couples_the_components() {
         displacement.'block.bottom_right' = {{ along = [3.0, -4.0], value = 0.5 }}"
     ));
     let corner = 2 * node(&built, "block.bottom_right");
-    assert!(matches!(built.steps[0].constraints.row(corner), Row::Free(_)));
+    assert!(matches!(built.problem.steps[0].constraints.row(corner), Row::Free(_)));
     let along = prescribed(&built, 0, corner + 1).unwrap();
     // u . (3, -4) / 5 = 0.5, so u_y = -0.625 + 0.75 u_x.
     let [(other, factor)] = along.others[..] else { panic!("{along:?}") };
@@ -163,7 +164,7 @@ fn a_tool_is_held_moved_or_loaded() {
         [[step]]
         release = ['load.plate']"
     ));
-    let tool = built.dofs.tool(0);
+    let tool = built.problem.dofs.tool(0);
     let y = [Some(to(1.0)), None, None, Some(Course::Hold)];
     for (step, wanted) in y.iter().enumerate() {
         assert_eq!(course(&built, step, tool), Some(&Course::Hold), "x in step {step}");
@@ -171,8 +172,8 @@ fn a_tool_is_held_moved_or_loaded() {
     }
     assert_eq!(course(&built, 0, tool + 2), Some(&to(std::f64::consts::FRAC_PI_2)));
     assert_eq!(course(&built, 1, tool + 2), Some(&Course::Hold));
-    assert_eq!(built.loads.len(), 1);
-    assert_eq!(built.loads[0].name(), "load.plate");
+    let names: Vec<&str> = built.problem.terms.iter().map(|term| term.name()).collect();
+    assert_eq!(names, ["block", "base", "load.plate"]);
 }
 
 #[test]
@@ -210,8 +211,8 @@ fn penalties_and_thickness_have_their_printed_defaults() {
 #[test]
 fn increments_are_fractions_of_their_step() {
     let deck = format!("{HEAD}\n[[step]]\nsymmetry = ['block.left']\nduration = 4.0\nincrements = {{ count = 8 }}");
-    let step = &made(&deck).steps[0];
+    let step = &made(&deck).problem.steps[0];
     assert_eq!((step.duration, step.increments.first, step.increments.largest), (4.0, 0.125, 0.125));
-    let step = &made(&deck.replace("count = 8", "first = 0.2")).steps[0];
+    let step = &made(&deck.replace("count = 8", "first = 0.2")).problem.steps[0];
     assert_eq!((step.increments.first, step.increments.largest, step.increments.smallest), (0.2, 0.2, 1e-6));
 }

@@ -17,7 +17,7 @@ pub mod schema;
 pub mod source;
 pub mod tree;
 
-pub use build::{Built, build};
+pub use build::build;
 pub use diagnose::{Diagnostic, Diagnostics, Severity};
 pub use keys::Deck;
 pub use reader::{Name, Unsaid};

@@ -13,44 +13,12 @@ use super::keys::Deck;
 use super::source::Place;
 use super::{Diagnostics, Loaded};
 use crate::Error;
-use crate::contact::Contact;
 use crate::load::Site;
-use crate::mesh::{Mesh, Space};
-use crate::solid::Body;
-use crate::solve::{Increments, NewtonOptions, Step};
-use crate::system::{Dofs, Term};
-use crate::tool::Tool;
+use crate::mesh::Space;
+use crate::model::{Model, ModelParts};
+use crate::solve::{Increments, Step};
+use crate::system::Dofs;
 use std::sync::Arc;
-
-/// Everything that a deck says, made; the model is put together from it.
-pub struct Built {
-    /// What the coordinates mean.
-    pub space: Space,
-    /// Nominal thickness in the plane spaces.
-    pub thickness: f64,
-    /// The mesh.
-    pub mesh: Arc<Mesh>,
-    /// Numbering of the unknowns.
-    pub dofs: Dofs,
-    /// The bodies, each with the number of its material.
-    pub bodies: Vec<(Body, usize)>,
-    /// The names of the materials.
-    pub materials: Vec<String>,
-    /// The tools, in the order of their unknowns.
-    pub tools: Vec<Arc<Tool>>,
-    /// The contacts.
-    pub contacts: Vec<Contact>,
-    /// Springs.
-    pub springs: Vec<Box<dyn Term>>,
-    /// Loads.
-    pub loads: Vec<Box<dyn Term>>,
-    /// The steps.
-    pub steps: Vec<Step>,
-    /// Names and nodes of the groups that are held or moved in any step.
-    pub supports: Vec<(String, Vec<usize>)>,
-    /// Options of the iterations.
-    pub newton: NewtonOptions,
-}
 
 /// What the builders of the parts share: the deck, where things are, and what was found.
 struct Builder<'d> {
@@ -83,7 +51,7 @@ impl Builder<'_> {
 ///
 /// # Errors
 /// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
-pub fn build(loaded: Loaded) -> Result<(Built, Diagnostics), Diagnostics> {
+pub fn build(loaded: Loaded) -> Result<(Model, Diagnostics), Diagnostics> {
     let Loaded { deck, mesh, mut diagnostics, .. } = loaded;
     let space = *deck.space;
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len());
@@ -94,13 +62,13 @@ pub fn build(loaded: Loaded) -> Result<(Built, Diagnostics), Diagnostics> {
     diagnostics.list.append(&mut builder.found);
     diagnostics.sort();
     match built {
-        Some(built) if !diagnostics.has_errors() => Ok((built, diagnostics)),
+        Some(parts) if !diagnostics.has_errors() => Ok((Model::new(parts), diagnostics)),
         _ => Err(diagnostics.without_notes()),
     }
 }
 
 impl Builder<'_> {
-    fn everything(&mut self) -> Option<Built> {
+    fn everything(&mut self) -> Option<ModelParts> {
         self.check_mesh();
         let bodies = self.bodies();
         let tools = self.tools();
@@ -108,7 +76,8 @@ impl Builder<'_> {
         let (springs, loads) = (self.springs(), self.loads());
         let (constrained, supports) = self.supports();
         let steps = self.deck.step.iter().enumerate().zip(constrained);
-        Some(Built {
+        Some(ModelParts {
+            title: self.deck.title.clone(),
             space: self.site.space,
             thickness: self.site.thickness,
             mesh: self.site.mesh.clone(),

@@ -19,7 +19,7 @@ const TOOL: &str = "tool.plate.profile = [{ line = [[5.0, -1.0], [-5.0, -1.0]] }
 
 fn made(deck: &str) -> Model {
     let loaded = read(deck, "test.toml", Path::new(""), &[]);
-    loaded.and_then(build).map(|(built, _)| built).unwrap_or_else(|d| panic!("{}", d.render(false)))
+    loaded.and_then(build).map(|made| made.model).unwrap_or_else(|d| panic!("{}", d.render(false)))
 }
 
 fn refused(deck: &str) -> String {

@@ -13,14 +13,16 @@ mod names;
 mod overrides;
 mod parts;
 mod reader;
+mod review;
 pub mod schema;
 pub mod source;
 pub mod tree;
 
-pub use build::build;
+pub use build::{Made, build};
 pub use diagnose::{Diagnostic, Diagnostics, Severity};
 pub use keys::Deck;
 pub use reader::{Name, Unsaid};
+pub use review::{Review, review};
 
 use crate::error::Error;
 use crate::mesh::Mesh;

@@ -406,6 +406,17 @@ impl<'a> Newton<'a> {
         let LinearError::Singular(motions) = &error else {
             return Trouble::Error(Error::Internal(error.to_string()));
         };
+        let text = self.name_motions(motions).join("; ");
+        if iteration == 0 {
+            Trouble::Error(Error::NotConverged(format!(
+                "{text}: nothing holds it; support it, or bring it into contact"
+            )))
+        } else {
+            Trouble::Failure(Failure::new(format!("{text} in iteration {iteration}")))
+        }
+    }
+
+    fn name_motions(&self, motions: &[Vec<f64>]) -> Vec<String> {
         let mut named: Vec<String> = Vec::new();
         for motion in motions {
             let mut full = vec![0.0; self.state.u.len()];
@@ -415,13 +426,20 @@ impl<'a> Newton<'a> {
         }
         named.sort();
         named.dedup();
-        let text = named.join("; ");
-        if iteration == 0 {
-            Trouble::Error(Error::NotConverged(format!(
-                "{text}: nothing holds it; support it, or bring it into contact"
-            )))
-        } else {
-            Trouble::Failure(Failure::new(format!("{text} in iteration {iteration}")))
+        named
+    }
+
+    /// Motions that meet no stiffness at the accepted state, in words: what would stop the first iteration.
+    pub fn free_motions(mut self) -> Result<Vec<String>, Trouble> {
+        let u = self.state.u.clone();
+        self.evaluate(&u, None, Tangent::Exact)?;
+        let nodes = owners(&self.problem.dofs, self.step.constraints.free());
+        let pattern = self.memory.workspace.pattern();
+        let solved = self.solver.analyse(pattern, nodes).and_then(|()| self.solver.factorise(&self.evaluation.values));
+        match solved {
+            Ok(()) => Ok(Vec::new()),
+            Err(LinearError::Singular(motions)) => Ok(self.name_motions(&motions)),
+            Err(other) => Err(Trouble::Error(Error::Internal(other.to_string()))),
         }
     }
 

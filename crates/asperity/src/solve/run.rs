@@ -117,6 +117,21 @@ impl<'a> Run<'a> {
         Ok(Stop::Done)
     }
 
+    /// Motions that meet no stiffness at the accepted state, in words: "body 'billet' is free along y". Contact that has
+    /// not closed yet holds nothing.
+    ///
+    /// # Errors
+    /// An error when the state cannot be evaluated, or there is no step left.
+    pub fn free_motions(&mut self) -> Result<Vec<String>, Error> {
+        let Some(step) = self.problem.steps.get(self.state.step) else { return Ok(Vec::new()) };
+        let dt = step.next(self.state.next_dt, self.state.step_time);
+        let newton = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut());
+        newton.map_err(Trouble::from).and_then(Newton::free_motions).map_err(|trouble| match trouble {
+            Trouble::Failure(failure) => Error::NotConverged(failure.reason),
+            Trouble::Error(error) => error,
+        })
+    }
+
     /// Solves one increment, cutting it as often as needed, and accepts it.
     fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
         let mut wanted = self.state.next_dt;

@@ -11,7 +11,7 @@ mod tools;
 use super::diagnose::Diagnostic;
 use super::keys::Deck;
 use super::source::Place;
-use super::{Diagnostics, Loaded};
+use super::{Diagnostics, Loaded, Unsaid};
 use crate::Error;
 use crate::load::Site;
 use crate::mesh::Space;
@@ -19,6 +19,18 @@ use crate::model::{Model, ModelParts};
 use crate::solve::{Increments, Step};
 use crate::system::Dofs;
 use std::sync::Arc;
+
+/// A deck and the model that it makes.
+pub struct Made {
+    /// The deck.
+    pub deck: Deck,
+    /// The model.
+    pub model: Model,
+    /// What was not said, and what holds instead.
+    pub unsaid: Vec<Unsaid>,
+    /// Warnings and notes, and the texts that later messages point into.
+    pub diagnostics: Diagnostics,
+}
 
 /// What the builders of the parts share: the deck, where things are, and what was found.
 struct Builder<'d> {
@@ -51,8 +63,8 @@ impl Builder<'_> {
 ///
 /// # Errors
 /// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
-pub fn build(loaded: Loaded) -> Result<(Model, Diagnostics), Diagnostics> {
-    let Loaded { deck, mesh, mut diagnostics, .. } = loaded;
+pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
+    let Loaded { deck, mesh, unsaid, mut diagnostics } = loaded;
     let space = *deck.space;
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len());
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
@@ -62,7 +74,10 @@ pub fn build(loaded: Loaded) -> Result<(Model, Diagnostics), Diagnostics> {
     diagnostics.list.append(&mut builder.found);
     diagnostics.sort();
     match built {
-        Some(parts) if !diagnostics.has_errors() => Ok((Model::new(parts), diagnostics)),
+        Some(parts) if !diagnostics.has_errors() => {
+            let model = Model::new(parts);
+            Ok(Made { deck, model, unsaid, diagnostics })
+        }
         _ => Err(diagnostics.without_notes()),
     }
 }

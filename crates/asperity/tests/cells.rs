@@ -24,7 +24,7 @@ fn mesh(cell: &'static Cell, n: usize, bend: f64) -> Mesh {
     };
     for x in &mut mesh.points {
         let [a, b, c] = x.0;
-        *x = *x + Vec3::new(bend * a * b, bend * (1.0 - a) * b, if cell.dimension == 3 { bend * a * c } else { 0.0 });
+        *x += Vec3::new(bend * a * b, bend * (1.0 - a) * b, if cell.dimension == 3 { bend * a * c } else { 0.0 });
         x.0[0] += 1.0;
     }
     mesh

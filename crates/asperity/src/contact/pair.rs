@@ -99,6 +99,13 @@ impl Contact {
         point.place(&x[..nodes.len()])
     }
 
+    /// Length of the undeformed edge of a point, as its tangent there measures it.
+    pub fn edge_length(&self, point: usize) -> f64 {
+        let point = &self.surface.points[point];
+        let x: Vec<Vec3> = self.surface.nodes(point).iter().map(|&node| self.mesh.points[node]).collect();
+        2.0 * point.place(&x).1.norm()
+    }
+
     /// Area a point stands for.
     fn area(&self, point: &SurfacePoint, a: Vec3, tangent: Vec3) -> f64 {
         let around = if self.space == Space::Axisymmetric { std::f64::consts::TAU * a[0] } else { 1.0 };

@@ -8,6 +8,7 @@ use super::reader::Name;
 use crate::Error;
 use crate::contact::Contact;
 use crate::solve::Step;
+use crate::system::Term;
 use crate::tool::Tool;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -107,7 +108,10 @@ impl Page {
         }
         let options = contact.options();
         let origin = if keys.penalty.is_some() { "given" } else { "computed" };
-        self.line(format!("  penalty {:.4e} ({origin}), tangential {:.4e}", options.penalty, options.tangential_penalty));
+        self.line(format!(
+            "  penalty {:.4e} ({origin}), tangential {:.4e}",
+            options.penalty, options.tangential_penalty
+        ));
         self.overlaps(name, contact, &hits)
     }
 

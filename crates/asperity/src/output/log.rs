@@ -124,7 +124,7 @@ fn iteration_row(problem: &Problem, record: &AttemptRecord, iteration: &Iteratio
 /// How many contact points are open, stick and slip, over all terms that know these words.
 fn branches(problem: &Problem, iteration: &IterationRecord) -> [usize; 3] {
     ["open", "stick", "slip"].map(|word| {
-        let of_term = |(term, counts): (&Box<dyn crate::system::Term>, &Vec<usize>)| {
+        let of_term = |(term, counts): (&std::sync::Arc<dyn crate::system::Term>, &Vec<usize>)| {
             let place = term.branches().iter().position(|name| *name == word)?;
             counts.get(place).copied()
         };

@@ -1,7 +1,9 @@
 //! What may stand on the command line.
 
+use asperity::output::figure::FigureOptions;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Implicit finite elements for contact with friction under large displacements and strains.
@@ -19,6 +21,12 @@ const EXITS: &str = "Exit codes: 0 done, 1 fault of the program, 2 wrong input, 
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Solve a deck and write its results.
+    Run(Run),
+    /// Go on from the checkpoint in a deck's result directory.
+    Restart(Run),
+    /// Draw the pictures of a finished run anew.
+    Figure(Figure),
     /// Say everything that can be said about a deck before it is solved.
     Check(Check),
     /// Say what a mesh file holds, and what is wrong with it.
@@ -38,6 +46,37 @@ pub struct Deck {
     /// Change one value of the deck: --set step.push.duration=2. May be given many times.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
+}
+
+/// Arguments of `run` and `restart`.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// The deck.
+    #[command(flatten)]
+    pub deck: Deck,
+    /// The result directory; by default NAME.results here for a deck NAME.toml.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads to use; by default all. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+}
+
+/// Arguments of `figure`.
+#[derive(Debug, Args)]
+pub struct Figure {
+    /// The result directory.
+    #[arg(value_name = "DIR")]
+    pub directory: PathBuf,
+    /// Times of the frames to show side by side; by default four, evenly over the run.
+    #[arg(long, value_name = "TIME,..", value_delimiter = ',')]
+    pub at: Vec<f64>,
+    /// What of the plane is shown; by default everything.
+    #[arg(long, value_name = "X0,X1,Y0,Y1", value_delimiter = ',', num_args = 4, allow_hyphen_values = true)]
+    pub window: Option<Vec<f64>>,
+    /// Pixels of the PNG a point of the page.
+    #[arg(long, value_name = "NUMBER", default_value_t = FigureOptions::default().resolution)]
+    pub resolution: f64,
 }
 
 /// Arguments of `check`.

@@ -5,6 +5,8 @@
 
 mod arguments;
 mod exit;
+mod screen;
+mod signals;
 mod verbs;
 
 use arguments::{Command, Line};
@@ -15,6 +17,9 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let line = Line::parse();
     let exit = match line.command {
+        Command::Run(run) => verbs::run(&run),
+        Command::Restart(run) => verbs::restart(&run),
+        Command::Figure(figure) => verbs::figure(&figure),
         Command::Check(check) => verbs::check(&check),
         Command::Info(info) => verbs::info(&info),
         Command::Schema(schema) => verbs::schema(&schema),

@@ -3,17 +3,14 @@
 use super::{Outcome, print};
 use crate::arguments::Check;
 use crate::exit::{Exit, tell};
-use std::fmt::Write;
+use asperity::deck::{self, Diagnostics};
 
-/// Reads the deck, prints what it makes, and what was not said.
+/// Makes the model, prints what it is and what wants attention. Exit code 5 when something does.
 pub fn check(arguments: &Check) -> Outcome {
-    let loaded = asperity::deck::load(&arguments.deck.path, &arguments.deck.sets)?;
-    tell(&loaded.diagnostics);
-    let mut text = String::from("not said in the deck, and what holds instead:\n");
-    for unsaid in &loaded.unsaid {
-        // Writing into a String cannot fail.
-        let _ = writeln!(text, "  {} = {}", unsaid.path, unsaid.instead);
-    }
-    print(&text)?;
-    Ok(if loaded.diagnostics.list.is_empty() { Exit::Done } else { Exit::Problems })
+    let made = deck::build(deck::load(&arguments.deck.path, &arguments.deck.sets)?)?;
+    let review = deck::review(&made)?;
+    print(&review.text)?;
+    let exit = if review.problems.is_empty() { Exit::Done } else { Exit::Problems };
+    tell(&Diagnostics { list: review.problems, ..made.diagnostics });
+    Ok(exit)
 }

@@ -2,15 +2,21 @@
 
 mod check;
 mod completions;
+mod figure;
 mod info;
+mod run;
 mod schema;
 
 pub use check::check;
 pub use completions::completions;
+pub use figure::figure;
 pub use info::info;
+pub use run::{restart, run};
 pub use schema::schema;
 
-use crate::exit::{Exit, Trouble};
+use crate::arguments;
+use crate::exit::{Exit, Trouble, tell};
+use asperity::deck::{self, Made};
 use std::io::{ErrorKind, Write};
 
 /// How a verb ends.
@@ -24,4 +30,12 @@ fn print(text: &str) -> Outcome {
         }
         _ => Ok(Exit::Done),
     }
+}
+
+/// Reads a deck and makes its model; warnings are told, notes are for `check`.
+fn made(arguments: &arguments::Deck) -> Result<Made, Trouble> {
+    let mut made = deck::build(deck::load(&arguments.path, &arguments.sets)?)?;
+    made.diagnostics = made.diagnostics.without_notes();
+    tell(&made.diagnostics);
+    Ok(made)
 }

@@ -6,7 +6,7 @@ use crate::material::laws::Elastic;
 use crate::mesh::generate::{Block, Rectangle};
 use crate::mesh::{Cell, Mesh, Space};
 use crate::solid::{Body, BodyOptions, Formulation, Integration};
-use crate::system::{Dofs, Energies, Instant, Local, State, Stencils, Term};
+use crate::system::{Constraints, Dofs, Energies, Instant, Local, State, Stencils, Term};
 use std::sync::Arc;
 
 /// Thickness in the plane.
@@ -18,6 +18,8 @@ pub struct Fixture {
     pub mesh: Arc<Mesh>,
     pub dofs: Dofs,
     pub body: Body,
+    /// Everything is prescribed.
+    pub held: Constraints,
 }
 
 impl Fixture {
@@ -28,7 +30,8 @@ impl Fixture {
         let all = (0..mesh.cell_count()).collect();
         let law = Arc::new(Rate(Elastic::new(200.0, 0.3)));
         let body = Body::new("block", (mesh.clone(), dofs.clone(), space), all, law, options).unwrap();
-        Self { space, mesh, dofs, body }
+        let held = Constraints::new(dofs.count(), &(0..dofs.count()).collect::<Vec<_>>(), &[]);
+        Self { space, mesh, dofs, body, held }
     }
     pub fn parts(&self) -> Parts<'_> {
         Parts {
@@ -42,7 +45,7 @@ impl Fixture {
             springs: vec![],
             tools: vec![],
             supports: vec![("all".into(), (0..self.mesh.points.len()).collect())],
-            held: vec![(0..self.dofs.count()).collect()],
+            constraints: vec![&self.held],
         }
     }
     /// The state before any motion.

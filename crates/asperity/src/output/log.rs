@@ -97,7 +97,7 @@ fn attempt_row(problem: &Problem, record: &AttemptRecord) -> Vec<Field> {
     let times = [record.time.into(), record.step_time.into(), record.dt.into()];
     let solution = [record.solutions().into(), last.map(|i| i.residual).into(), changes.into()];
     let end = [record.order().into(), usize::from(record.failure.is_none()).into(), record.failure.as_deref().into()];
-    let branches = last.map_or([0; 3], |last| branches(problem, last)).map(Field::from);
+    let branches = last.map_or([0; 3], |last| problem.points_by_status(last)).map(Field::from);
     leading(record).into_iter().chain(times).chain(solution).chain(branches).chain(end).collect()
 }
 
@@ -117,17 +117,6 @@ fn iteration_row(problem: &Problem, record: &AttemptRecord, iteration: &Iteratio
         problem.name_of(iteration.worst.dof).as_str().into(),
         iteration.worst.force.into(),
     ];
-    let branches = branches(problem, iteration).map(Field::from);
+    let branches = problem.points_by_status(iteration).map(Field::from);
     leading(record).into_iter().chain(numbers).chain(branches).chain(end).collect()
-}
-
-/// How many contact points are open, stick and slip, over all terms that know these words.
-fn branches(problem: &Problem, iteration: &IterationRecord) -> [usize; 3] {
-    ["open", "stick", "slip"].map(|word| {
-        let of_term = |(term, counts): (&std::sync::Arc<dyn crate::system::Term>, &Vec<usize>)| {
-            let place = term.branches().iter().position(|name| *name == word)?;
-            counts.get(place).copied()
-        };
-        problem.terms.iter().zip(&iteration.branches).filter_map(of_term).sum()
-    })
 }

@@ -57,6 +57,17 @@ impl Default for NewtonOptions {
     }
 }
 
+impl NewtonOptions {
+    /// What a user must know of these options when reading the results.
+    pub fn notes(&self) -> Option<String> {
+        (self.variant == Variant::Kept).then(|| {
+            "newton = \"kept\": matrices are kept across increments; results agree with those of a restarted run to the \
+             tolerance only, not to the bit"
+                .into()
+        })
+    }
+}
+
 /// Memory of the iterations that lives through the run.
 #[derive(Debug, Default)]
 pub struct Memory {

@@ -2,10 +2,10 @@
 
 use super::linear::LinearSolver;
 use super::newton::{Converged, Memory, Newton, NewtonOptions, Trouble};
-use super::observer::{AttemptRecord, Observer};
+use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::schedule::Step;
 use crate::Error;
-use crate::system::{Dofs, Energies, State, Term, Unknown};
+use crate::system::{Dofs, Energies, History, State, Term, Unknown};
 use std::sync::Arc;
 
 /// What is to be solved: terms, numbering, steps.
@@ -76,6 +76,25 @@ impl Problem {
         }
     }
 
+    /// Whether a state read from elsewhere is one of this problem.
+    ///
+    /// # Errors
+    /// What does not fit, in words.
+    pub fn fits(&self, state: &State) -> Result<(), String> {
+        let own = self.initial_state();
+        let lengths = |s: &State| [&s.u, &s.last_change, &s.step_start, &s.internal, &s.load].map(Vec::len);
+        let same_slots = |(a, b): (&History, &History)| a.starts == b.starts && a.data.len() == b.data.len();
+        let same_histories =
+            own.histories.len() == state.histories.len() && own.histories.iter().zip(&state.histories).all(same_slots);
+        if lengths(&own) != lengths(state) || !same_histories || own.energies.len() != state.energies.len() {
+            return Err("this state belongs to another model".into());
+        }
+        if state.step > self.steps.len() || !state.next_dt.is_finite() {
+            return Err("this state stands outside the steps of the model".into());
+        }
+        Ok(())
+    }
+
     /// Words for an unknown: "node 12 of 'bore' along y".
     pub fn name_of(&self, dof: usize) -> String {
         let axis = |axis: usize| ["x", "y", "z"][axis];
@@ -85,6 +104,15 @@ impl Problem {
             Unknown::ToolTranslation(t, a) => format!("tool '{}' along {}", tool(t), axis(a)),
             Unknown::ToolRotation(t, a) => format!("tool '{}' about {}", tool(t), axis(a)),
         }
+    }
+
+    /// How many contact points were open, stuck and slipping in an iteration, over all terms that know these words.
+    pub fn points_by_status(&self, iteration: &IterationRecord) -> [usize; 3] {
+        let terms = || self.terms.iter().zip(&iteration.branches);
+        ["open", "stick", "slip"].map(|word| {
+            let place = |term: &Arc<dyn Term>| term.branches().iter().position(|name| *name == word);
+            terms().filter_map(|(term, counts)| counts.get(place(term)?).copied()).sum()
+        })
     }
 
     pub(super) fn name_of_largest(&self, motion: &[f64]) -> String {

@@ -68,8 +68,6 @@ pub struct State {
     pub last_dt: f64,
     /// Size the controller wants for the next increment.
     pub next_dt: f64,
-    /// Accepted increments in a row that converged easily.
-    pub easy: usize,
     /// Unknowns at the beginning of the step, from which prescribed values ramp.
     pub step_start: Vec<f64>,
     /// Forces of all internal terms on all unknowns: reactions and applied loads together.
@@ -88,6 +86,4 @@ pub struct State {
     pub attempts: usize,
     /// Iterations spent so far.
     pub iterations: usize,
-    /// Result frames written so far.
-    pub frames: usize,
 }

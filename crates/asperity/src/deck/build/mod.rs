@@ -16,6 +16,7 @@ use crate::Error;
 use crate::load::Site;
 use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
+use crate::output::checkpoint::InputHash;
 use crate::solve::{Increments, Step};
 use crate::system::Dofs;
 use std::sync::Arc;
@@ -28,6 +29,8 @@ pub struct Made {
     pub model: Model,
     /// What was not said, and what holds instead.
     pub unsaid: Vec<Unsaid>,
+    /// Fingerprint of the deck's text, what was set over it, and the mesh.
+    pub input: InputHash,
     /// Warnings and notes, and the texts that later messages point into.
     pub diagnostics: Diagnostics,
 }
@@ -64,6 +67,7 @@ impl Builder<'_> {
 /// # Errors
 /// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
 pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
+    let input = fingerprint(&loaded);
     let Loaded { deck, mesh, unsaid, mut diagnostics } = loaded;
     let space = *deck.space;
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len());
@@ -76,10 +80,21 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     match built {
         Some(parts) if !diagnostics.has_errors() => {
             let model = Model::new(parts);
-            Ok(Made { deck, model, unsaid, diagnostics })
+            Ok(Made { deck, model, unsaid, input, diagnostics })
         }
         _ => Err(diagnostics.without_notes()),
     }
+}
+
+/// The deck's text, what was set over it, and the mesh it led to.
+fn fingerprint(loaded: &Loaded) -> InputHash {
+    let mesh = &loaded.mesh;
+    let points = mesh.points.iter().flat_map(|point| point.0).flat_map(f64::to_le_bytes).collect::<Vec<_>>();
+    let cells = mesh.starts.iter().chain(&mesh.nodes).flat_map(|&i| (i as u64).to_le_bytes()).collect::<Vec<_>>();
+    let kinds: String = mesh.kinds.iter().flat_map(|kind| [kind.name, " "]).collect();
+    let groups = format!("{:?}", mesh.groups);
+    let texts = loaded.diagnostics.sources.iter().map(|source| source.text.as_bytes());
+    InputHash::of(&texts.chain([points.as_slice(), &cells, kinds.as_bytes(), groups.as_bytes()]).collect::<Vec<_>>())
 }
 
 impl Builder<'_> {

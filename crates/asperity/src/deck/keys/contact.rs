@@ -18,7 +18,7 @@ table! {
         law: Law<Box<dyn Interface>> = law(interface::laws::ALL).required(),
         /// Integration points along an edge.
         gauss: Option<Spot<usize>> =
-            whole(1..=3).spot().computed("2 on edges of first degree, 3 on edges of second degree"),
+            whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
             .computed("50 times the confined modulus over the depth of the cells behind the surface"),

@@ -8,9 +8,8 @@ use crate::output::{Frame, Quantity, Unit};
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let dofs = source.parts.dofs;
-    let held = source.parts.held.get(source.step).map_or(&[][..], Vec::as_slice);
-    let mut free = vec![true; dofs.count()];
-    held.iter().for_each(|&dof| free[dof] = false);
+    let reactions: Vec<f64> = (0..dofs.count()).map(|dof| source.reaction(dof)).collect();
+    let unbalanced = unbalanced(source, &reactions);
     // Radial forces of a full circumference have no sum.
     let axes = if source.parts.space == Space::Axisymmetric { 1..2 } else { 0..dofs.per_node() };
     let along = |axis: usize| {
@@ -19,11 +18,21 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     };
     let (mut left, mut largest) = (0.0f64, 0.0f64);
     for axis in axes {
-        let unbalanced: f64 = along(axis).filter(|&dof| free[dof]).map(|dof| source.reaction(dof)).sum();
-        left = left.max(unbalanced.abs());
-        let forces = |dof: usize| source.reaction(dof).abs().max(source.state.load[dof].abs());
+        left = left.max(along(axis).map(|dof| unbalanced[dof]).sum::<f64>().abs());
+        let forces = |dof: usize| reactions[dof].abs().max(source.state.load[dof].abs());
         largest = largest.max(along(axis).map(forces).sum());
     }
     let error = if largest > 0.0 { left / largest } else { 0.0 };
     frame.push(Quantity::scalar("equilibrium.error", Unit::One, error))
+}
+
+/// What is left over on the free unknowns, on those that follow others included; zero elsewhere.
+fn unbalanced(source: &Source, reactions: &[f64]) -> Vec<f64> {
+    let mut full = vec![0.0; reactions.len()];
+    if let Some(constraints) = source.parts.constraints.get(source.step) {
+        let mut reduced = vec![0.0; constraints.free_count()];
+        constraints.gather(reactions, &mut reduced);
+        constraints.free().iter().zip(reduced).for_each(|(&dof, force)| full[dof] = force);
+    }
+    full
 }

@@ -15,9 +15,11 @@ use super::Frame;
 use crate::Error;
 use crate::contact::Contact;
 use crate::mesh::{Mesh, Space};
+use crate::model::Model;
 use crate::solid::Body;
-use crate::system::{Dofs, History, State};
+use crate::system::{Constraints, Dofs, History, State, Term};
 use crate::tool::{Pose, Tool};
+use std::sync::Arc;
 
 /// The parts of a model that outputs read. Numbers of terms are places in the list of terms and in the state.
 pub struct Parts<'a> {
@@ -41,8 +43,8 @@ pub struct Parts<'a> {
     pub tools: Vec<&'a Tool>,
     /// Names and nodes of the groups that anything holds or moves in any step.
     pub supports: Vec<(String, Vec<usize>)>,
-    /// For each step the unknowns that it prescribes.
-    pub held: Vec<Vec<usize>>,
+    /// For each step what it does with each unknown.
+    pub constraints: Vec<&'a Constraints>,
 }
 
 /// An accepted state of a model.
@@ -107,6 +109,28 @@ impl Source<'_> {
     /// Whether forces and moments out of the plane have no meaning.
     pub fn is_plane(&self) -> bool {
         self.parts.space != Space::Solid
+    }
+}
+
+impl<'a> Parts<'a> {
+    /// The parts of a model.
+    pub fn of(model: &'a Model) -> Self {
+        let contact = |(i, contact): (usize, &'a Arc<Contact>)| {
+            (model.first_contact() + i, contact.name().to_string(), contact.as_ref())
+        };
+        Self {
+            space: model.space,
+            mesh: &model.mesh,
+            dofs: &model.problem.dofs,
+            bodies: model.bodies.iter().enumerate().map(|(i, (body, _))| (i, body.as_ref())).collect(),
+            materials: model.bodies.iter().map(|(_, material)| *material).collect(),
+            material_names: model.materials.clone(),
+            contacts: model.contacts.iter().enumerate().map(contact).collect(),
+            springs: (model.first_spring()..).take(model.springs).collect(),
+            tools: model.tools.iter().map(AsRef::as_ref).collect(),
+            supports: model.supports.clone(),
+            constraints: model.problem.steps.iter().map(|step| &step.constraints).collect(),
+        }
     }
 }
 

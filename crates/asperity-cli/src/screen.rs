@@ -1,0 +1,132 @@
+//! What a run shows while it goes, and the page at its end.
+
+use asperity::Error;
+use asperity::output::{Status, Summary};
+use asperity::solve::{AttemptRecord, Observer, Problem};
+use asperity::system::State;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write as _};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A line an increment, below it a bar when a person watches; asks the run to stop when a signal came.
+pub struct Screen<'a> {
+    problem: &'a Problem,
+    stop: Arc<AtomicBool>,
+    bar: Option<ProgressBar>,
+    begun: bool,
+}
+
+const HEADER: &str = "increment  step              time  iterations  residual  order    open   stick    slip";
+const TICKS: u64 = 10_000;
+
+impl<'a> Screen<'a> {
+    /// A screen for a run that begins.
+    pub fn new(problem: &'a Problem, stop: Arc<AtomicBool>) -> Self {
+        let watched = std::io::stdout().is_terminal() && std::io::stderr().is_terminal();
+        Self { problem, stop, bar: watched.then(bar), begun: false }
+    }
+
+    /// Removes the bar.
+    pub fn close(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn line(&self, line: &str) {
+        match &self.bar {
+            Some(bar) => bar.println(line),
+            // A reader that has gone is no reason to end a run.
+            None => drop(writeln!(std::io::stdout(), "{line}")),
+        }
+    }
+
+    fn row(&self, record: &AttemptRecord) -> String {
+        let step = self.problem.steps.get(record.step).map_or("", |step| step.name.as_str());
+        let last = record.iterations.last();
+        let residual = last.map_or(f64::NAN, |last| last.residual);
+        let order = record.order().map_or("-".into(), |order| format!("{order:.1}"));
+        let [open, stick, slip] = last.map_or([0; 3], |last| self.problem.points_by_status(last));
+        format!(
+            "{:>9}  {step:<12} {:>9.5}  {:>10}  {residual:>8.1e}  {order:>5}  {open:>6}  {stick:>6}  {slip:>6}",
+            record.increment,
+            record.time,
+            record.solutions(),
+        )
+    }
+}
+
+impl Observer for Screen<'_> {
+    fn attempt(&mut self, record: &AttemptRecord) {
+        if !self.begun {
+            self.begun = true;
+            self.line(HEADER);
+        }
+        match &record.failure {
+            None => self.line(&self.row(record)),
+            Some(why) => self.line(&format!("{:>9}  increment of {:.3e} cut: {why}", record.increment, record.dt)),
+        }
+    }
+
+    fn accepted(&mut self, state: &State, _: &AttemptRecord) -> Result<(), Error> {
+        let total: f64 = self.problem.steps.iter().map(|step| step.duration).sum();
+        if let Some(bar) = &self.bar {
+            bar.set_position((TICKS as f64 * state.time / total) as u64);
+        }
+        Ok(())
+    }
+
+    fn wants_stop(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+fn bar() -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed} of about {duration}");
+    ProgressBar::new(TICKS).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// How a run ended, how far its answer can be trusted, and where its files are.
+pub fn farewell(summary: &Summary, directory: &Path) -> String {
+    let mut text = String::from("\n");
+    let word = match summary.status {
+        Status::Converged => "converged",
+        Status::Stopped => "stopped on request",
+        _ => "not converged",
+    };
+    let (increments, attempts, iterations) = (summary.increments, summary.attempts, summary.iterations);
+    let cut = attempts.saturating_sub(increments);
+    let seconds = summary.timings.get("run").copied().unwrap_or(0.0);
+    // Writing into a String cannot fail.
+    let _ = writeln!(
+        text,
+        "{word}: {increments} increments, {cut} cut, {iterations} iterations, {} unknowns, {seconds:.2} s",
+        summary.unknowns
+    );
+    for note in &summary.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    let _ = writeln!(text, "certificate, the worst of all increments:");
+    for (name, value) in figures(summary) {
+        let _ = writeln!(text, "  {name:<28}{value:>11.3e}");
+    }
+    let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));
+    text
+}
+
+fn figures(summary: &Summary) -> impl Iterator<Item = (&'static str, f64)> {
+    let c = &summary.certificate;
+    let all = [
+        ("largest penetration", c.max_penetration),
+        ("  over the cell's size", c.max_penetration_relative),
+        ("equilibrium error", c.equilibrium_error),
+        ("missing energy", c.energy_balance),
+        ("excess over friction limit", c.coulomb_violation),
+        ("least dissipation", c.least_dissipation),
+        ("false contacts refused", c.rejected_false_contacts),
+    ];
+    all.into_iter().filter_map(|(name, value)| Some((name, value?)))
+}

@@ -1,0 +1,45 @@
+//! `asperity run` and `asperity restart`: solve a deck and write its results.
+
+use super::{Outcome, made, print};
+use crate::arguments;
+use crate::exit::{Exit, Trouble};
+use crate::screen::{Screen, farewell};
+use crate::signals;
+use asperity::output::{Job, Start, simulate};
+use std::path::PathBuf;
+
+/// Runs a deck from its beginning.
+pub fn run(arguments: &arguments::Run) -> Outcome {
+    solve(arguments, Start::Beginning)
+}
+
+/// Goes on from the checkpoint in the result directory.
+pub fn restart(arguments: &arguments::Run) -> Outcome {
+    solve(arguments, Start::Checkpoint)
+}
+
+fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
+    // Before anything else: what comes first in need of threads decides their number.
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
+        pool.map_err(|error| asperity::Error::Internal(error.to_string()))?;
+    }
+    let made = made(&arguments.deck)?;
+    let stop = signals::listen()?;
+    let directory = arguments.out.clone().unwrap_or_else(|| default_directory(arguments));
+    let job = Job { directory: &directory, options: made.deck.output.options(), input: made.input, start };
+    let mut screen = Screen::new(&made.model.problem, stop);
+    let simulated = simulate(&made.model, &job, &mut screen);
+    screen.close();
+    let (summary, ended) = simulated?;
+    print(&farewell(&summary, &directory))?;
+    ended.map(|()| Exit::Done).map_err(Trouble::from)
+}
+
+/// `tube.results` beside the user, for a deck `anywhere/tube.toml`.
+fn default_directory(arguments: &arguments::Run) -> PathBuf {
+    let stem = arguments.deck.path.file_stem().unwrap_or_default();
+    let mut name = stem.to_os_string();
+    name.push(".results");
+    PathBuf::from(name)
+}

@@ -1,0 +1,93 @@
+//! A run with everything that is written of it, from its start or from the checkpoint in its result directory.
+
+use super::checkpoint::{self, InputHash};
+use super::log::RunLog;
+use super::quantities::{Parts, Source};
+use super::recorder::Recorder;
+use super::results::{CHECKPOINT, ResultOptions, Results};
+use super::summary::Summary;
+use crate::Error;
+use crate::model::Model;
+use crate::solve::{Observer, Run, RunOptions, Stop};
+use crate::system::State;
+use std::path::Path;
+use std::time::Instant;
+
+/// Where and how the results of a run are written.
+#[derive(Debug, Clone, Copy)]
+pub struct Job<'a> {
+    /// The result directory.
+    pub directory: &'a Path,
+    /// What is written, and how often.
+    pub options: ResultOptions,
+    /// Fingerprint of deck and mesh.
+    pub input: InputHash,
+    /// Where the run begins.
+    pub start: Start,
+}
+
+/// Where a run begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// At the first increment.
+    Beginning,
+    /// At the checkpoint in the result directory.
+    Checkpoint,
+}
+
+/// Runs a model and writes its results; `summary.json` says how it ended, however it ended.
+///
+/// # Errors
+/// An error when the results cannot be written or the checkpoint not be read; nothing was run then. What the run itself
+/// ends with is the second part of the result: [`Error::Stopped`] when the audience asked for it.
+pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result<(Summary, Result<(), Error>), Error> {
+    let parts = Parts::of(model);
+    let state = job.state(model)?;
+    let (results, log) = job.open(model, &Source { parts: &parts, state: &state, step: state.step })?;
+    let mut recorder = Recorder::new((&parts, &model.problem), results, log, audience);
+    let mut run = model.run(state);
+    let begun = Instant::now();
+    let ended = run.run(&RunOptions::default(), &mut recorder);
+    let seconds = begun.elapsed().as_secs_f64();
+    let mut results = recorder.results;
+    if !matches!(ended, Ok(Stop::Done)) {
+        results.checkpoint(&run.state)?;
+    }
+    let ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
+    account(&mut results.summary, &run, seconds);
+    results.finish(&ended)?;
+    Ok((results.summary, ended))
+}
+
+impl Job<'_> {
+    fn state(&self, model: &Model) -> Result<State, Error> {
+        if self.start == Start::Beginning {
+            return Ok(model.problem.initial_state());
+        }
+        let path = self.directory.join(CHECKPOINT);
+        let (_, state) = checkpoint::load::<State>(&path, &self.input)?;
+        model.problem.fits(&state).map_err(|reason| Error::file(&path, reason))?;
+        Ok(state)
+    }
+
+    fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {
+        let mut results = match self.start {
+            Start::Beginning => Results::create(self.directory, start, self.options, self.input)?,
+            Start::Checkpoint => Results::resume(self.directory, start, self.options, self.input)?,
+        };
+        results.summary.title.clone_from(&model.title);
+        results.summary.threads = rayon::current_num_threads();
+        let log = match self.start {
+            Start::Beginning => RunLog::create(self.directory)?,
+            Start::Checkpoint => RunLog::resume(self.directory, start.state.increment)?,
+        };
+        Ok((results, log))
+    }
+}
+
+/// What the run knows of its cost, and of promises that it bends.
+fn account(summary: &mut Summary, run: &Run, seconds: f64) {
+    (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
+    summary.timings.insert("run".into(), seconds);
+    summary.notes.extend(run.problem.newton.notes());
+}

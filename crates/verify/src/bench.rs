@@ -1,0 +1,161 @@
+//! Where a case is run: its folder, its size, its decks solved.
+
+use crate::Size;
+use asperity::contact::PointRecord;
+use asperity::deck::{self, Built};
+use asperity::model::{Model, ModelParts};
+use asperity::solve::{AttemptRecord, Observer, RunOptions};
+use asperity::system::State;
+use asperity::{Error, deck::Loaded};
+use std::path::{Path, PathBuf};
+
+/// The folder and the size of a case.
+pub struct Bench {
+    folder: PathBuf,
+    /// The size to run.
+    pub size: Size,
+}
+
+/// A model and its last state.
+pub struct Solved {
+    /// The model.
+    pub model: Model,
+    /// The state at the end of the last step.
+    pub state: State,
+    /// All attempts, with their iterations.
+    pub attempts: Vec<AttemptRecord>,
+}
+
+impl Bench {
+    /// The bench of the case in `cases/NAME`.
+    pub fn new(name: &str, size: Size) -> Self {
+        Self { folder: Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name), size }
+    }
+
+    /// The folder of the case.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// One value for each size.
+    pub fn pick<T>(&self, quick: T, full: T) -> T {
+        match self.size {
+            Size::Quick => quick,
+            Size::Full => full,
+        }
+    }
+
+    /// The first line of the README, without its mark.
+    ///
+    /// # Errors
+    /// [`Error::File`] without a README.
+    pub fn title(&self) -> Result<String, Error> {
+        let text = read(&self.folder.join("README.md"))?;
+        Ok(text.lines().next().unwrap_or_default().trim_start_matches(['#', ' ']).to_owned())
+    }
+
+    /// The model of a deck with some of its values set.
+    ///
+    /// # Errors
+    /// What the deck says.
+    pub fn model(&self, deck: &str, sets: &[String]) -> Result<Model, Error> {
+        let loaded = deck::load(&self.folder.join(deck), sets)?;
+        let title = loaded.deck.title.clone();
+        let (built, _) = deck::build(loaded as Loaded)?;
+        Ok(assembled(title, built))
+    }
+
+    /// Solves a deck with some of its values set.
+    ///
+    /// # Errors
+    /// What the deck says, or why the run stopped.
+    pub fn solve(&self, deck: &str, sets: &[String]) -> Result<Solved, Error> {
+        self.follow(deck, sets, |_, _| {})
+    }
+
+    /// The same, with a look at every accepted state.
+    ///
+    /// # Errors
+    /// What the deck says, or why the run stopped.
+    pub fn follow(&self, deck: &str, sets: &[String], look: impl FnMut(&Model, &State)) -> Result<Solved, Error> {
+        let model = self.model(deck, sets)?;
+        let mut follower = Follower { model: &model, look, attempts: Vec::new() };
+        let mut run = model.run(model.problem.initial_state());
+        run.run(&RunOptions::default(), &mut follower)?;
+        let (state, attempts) = (run.state, follower.attempts);
+        Ok(Solved { model, state, attempts })
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`Error::File`] with its path.
+pub fn read(path: &Path) -> Result<String, Error> {
+    std::fs::read_to_string(path).map_err(|error| Error::file(path, error))
+}
+
+fn assembled(title: String, built: Built) -> Model {
+    Model::new(ModelParts {
+        title,
+        space: built.space,
+        thickness: built.thickness,
+        mesh: built.mesh,
+        dofs: built.dofs,
+        bodies: built.bodies,
+        materials: built.materials,
+        tools: built.tools,
+        contacts: built.contacts,
+        springs: built.springs,
+        loads: built.loads,
+        steps: built.steps,
+        supports: built.supports,
+        newton: built.newton,
+    })
+}
+
+struct Follower<'a, F> {
+    model: &'a Model,
+    look: F,
+    attempts: Vec<AttemptRecord>,
+}
+
+impl<F: FnMut(&Model, &State)> Observer for Follower<'_, F> {
+    fn attempt(&mut self, attempt: &AttemptRecord) {
+        self.attempts.push(attempt.clone());
+    }
+    fn accepted(&mut self, state: &State, _: &AttemptRecord) -> Result<(), Error> {
+        (self.look)(self.model, state);
+        Ok(())
+    }
+}
+
+/// The points of a contact in a state.
+pub fn points(model: &Model, state: &State, contact: usize) -> Vec<PointRecord> {
+    model.contacts[contact].records(&state.u, &state.histories[model.first_contact() + contact]).collect()
+}
+
+/// Force of the supports on the nodes of a group: what the terms exert there beyond the loads.
+pub fn reaction(model: &Model, state: &State, group: &str) -> [f64; 2] {
+    let nodes = model.mesh.groups.get(group).map_or(&[][..], |group| &group.nodes);
+    let at = |axis: usize| {
+        let dofs = nodes.iter().map(|&node| model.problem.dofs.node(node) + axis);
+        dofs.map(|dof| state.internal[dof] - state.load[dof]).sum()
+    };
+    [at(0), at(1)]
+}
+
+impl Solved {
+    /// The points of a contact at the end.
+    pub fn points(&self, contact: usize) -> Vec<PointRecord> {
+        points(&self.model, &self.state, contact)
+    }
+    /// Force of the supports on the nodes of a group at the end.
+    pub fn reaction(&self, group: &str) -> [f64; 2] {
+        reaction(&self.model, &self.state, group)
+    }
+    /// Increments that were cut.
+    pub fn cuts(&self) -> usize {
+        self.attempts.iter().filter(|attempt| attempt.failure.is_some()).count()
+    }
+}

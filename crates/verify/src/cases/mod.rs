@@ -1,0 +1,8 @@
+//! The cases, in the order of the report.
+
+mod hertz_cylinder;
+
+use crate::Case;
+
+/// All cases.
+pub const ALL: &[&Case] = &[&hertz_cylinder::CASE];

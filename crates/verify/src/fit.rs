@@ -1,0 +1,40 @@
+//! Small fits that the measurements share.
+
+/// Intercept and slope of the straight line through points, by least squares.
+pub fn line(points: &[(f64, f64)]) -> (f64, f64) {
+    let n = points.len() as f64;
+    let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let (mut xx, mut xy) = (0.0, 0.0);
+    for p in points {
+        xx += (p.0 - x) * (p.0 - x);
+        xy += (p.0 - x) * (p.1 - y);
+    }
+    (y - xy / xx * x, xy / xx)
+}
+
+/// Half width `a` and largest pressure of a Hertzian contact: `p^2 = p0^2 (1 - x^2/a^2)` by least squares over the
+/// points `(x, p)` with a pressure above a fifth of the largest, as status of points at the edge must not decide.
+pub fn hertz(points: &[(f64, f64)]) -> (f64, f64) {
+    // The largest pressure of the fit itself, so that one point that stands out does not choose the others.
+    let mut largest = points.iter().map(|point| point.1).fold(0.0, f64::max);
+    let mut width = f64::NAN;
+    for _ in 0..3 {
+        let fitted = points.iter().filter(|point| point.1 > 0.2 * largest).map(|&(x, p)| (x * x, p * p));
+        let (square, slope) = line(&fitted.collect::<Vec<_>>());
+        (width, largest) = ((-square / slope).sqrt(), square.sqrt());
+    }
+    (width, largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hertzian_pressure_is_found_again() {
+        let p = |x: f64| 7.0 * (1.0 - x * x / 9.0).max(0.0).sqrt();
+        let (a, p0) = hertz(&(0..40).map(|i| (0.1 * i as f64, p(0.1 * i as f64))).collect::<Vec<_>>());
+        assert!((a - 3.0).abs() < 1e-12 && (p0 - 7.0).abs() < 1e-12);
+    }
+}

@@ -2,11 +2,10 @@
 
 use crate::Size;
 use asperity::contact::PointRecord;
-use asperity::deck::{self, Built};
-use asperity::model::{Model, ModelParts};
+use asperity::model::Model;
 use asperity::solve::{AttemptRecord, Observer, RunOptions};
 use asperity::system::State;
-use asperity::{Error, deck::Loaded};
+use asperity::{Error, deck};
 use std::path::{Path, PathBuf};
 
 /// The folder and the size of a case.
@@ -59,10 +58,7 @@ impl Bench {
     /// # Errors
     /// What the deck says.
     pub fn model(&self, deck: &str, sets: &[String]) -> Result<Model, Error> {
-        let loaded = deck::load(&self.folder.join(deck), sets)?;
-        let title = loaded.deck.title.clone();
-        let (built, _) = deck::build(loaded as Loaded)?;
-        Ok(assembled(title, built))
+        Ok(deck::build(deck::load(&self.folder.join(deck), sets)?)?.model)
     }
 
     /// Solves a deck with some of its values set.
@@ -93,25 +89,6 @@ impl Bench {
 /// [`Error::File`] with its path.
 pub fn read(path: &Path) -> Result<String, Error> {
     std::fs::read_to_string(path).map_err(|error| Error::file(path, error))
-}
-
-fn assembled(title: String, built: Built) -> Model {
-    Model::new(ModelParts {
-        title,
-        space: built.space,
-        thickness: built.thickness,
-        mesh: built.mesh,
-        dofs: built.dofs,
-        bodies: built.bodies,
-        materials: built.materials,
-        tools: built.tools,
-        contacts: built.contacts,
-        springs: built.springs,
-        loads: built.loads,
-        steps: built.steps,
-        supports: built.supports,
-        newton: built.newton,
-    })
 }
 
 struct Follower<'a, F> {

@@ -101,9 +101,11 @@ impl Expectations {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let table: toml::Table = bench::read(path)?.parse().map_err(|error| Error::file(path, error))?;
         let entry = |(key, value): (String, toml::Value)| {
-            Ok((key, value.try_into().map_err(|error| Error::file(path, error))?))
+            let expectation: Expectation = value.try_into().map_err(|error| Error::file(path, error))?;
+            Ok((key, expectation))
         };
-        Ok(Self { path: path.into(), all: table.into_iter().map(entry).collect::<Result<_, _>>()? })
+        let all = table.into_iter().map(entry).collect::<Result<_, Error>>()?;
+        Ok(Self { path: path.into(), all })
     }
 
     /// The lines of the figures measured. What is expected and not measured, or measured and not expected, is an error.

@@ -23,9 +23,13 @@ fn main() -> ExitCode {
     }
 }
 
+/// The cases of the names given; all without a name.
 fn chosen(names: &[String]) -> Result<Vec<&'static Case>, &String> {
-    let find = |name| cases::ALL.iter().find(|case| case.name == *name).ok_or(name);
-    if names.is_empty() { Ok(cases::ALL.iter().collect()) } else { names.iter().map(find).collect() }
+    if names.is_empty() {
+        return Ok(cases::ALL.to_vec());
+    }
+    let find = |name| cases::ALL.iter().copied().find(|case| case.name == name).ok_or(name);
+    names.iter().map(find).collect()
 }
 
 fn run(chosen: &[&Case], size: Size) -> ExitCode {

@@ -15,24 +15,26 @@ pub fn printed(line: &Line) -> String {
     let mark = if line.holds { "ok  " } else { "FAIL" };
     let allowed = line.allowed.map_or(String::new(), |allowed| format!(" (allowed {})", amount(allowed, line.relative)));
     let error = line.error.map_or(String::new(), |error| format!("  error {}{allowed}", amount(error, line.relative)));
-    format!("  {mark} {:<52} {:>14}  reference {}{error}", line.what, significant(line.value), line.reference)
+    format!("  {mark} {:<52} {:>14}  reference {}{error}", line.what, rounded(line.value, 7), line.reference)
 }
 
 /// An error, in per cent where it is relative.
 fn amount(error: f64, relative: bool) -> String {
-    if relative { format!("{} %", significant(100.0 * error)) } else { significant(error) }
+    if relative { format!("{} %", rounded(100.0 * error, 3)) } else { rounded(error, 3) }
 }
 
-/// Seven digits for what has the size of a measured value, two powers of ten and a mantissa for the rest.
-fn significant(value: f64) -> String {
-    match value.abs() {
-        0.0 => "0".into(),
-        size if (1e-3..1e7).contains(&size) => {
-            let digits = (6 - size.log10().floor() as i32).clamp(0, 6) as usize;
-            format!("{value:.digits$}")
-        }
-        _ => format!("{value:.2e}"),
+/// So many digits, without zeros at the end; a power of ten where the number is far from one.
+fn rounded(value: f64, digits: usize) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        return "0".into();
     }
+    if !(1e-3..1e7).contains(&size) {
+        return format!("{value:.*e}", digits.min(3) - 1);
+    }
+    let places = (digits as i32 - 1 - size.log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.places$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
 }
 
 /// The section of a case.
@@ -42,7 +44,7 @@ fn section(report: &Report) -> String {
         let error = line.error.map_or("-".into(), |error| amount(error, line.relative));
         let allowed = line.allowed.map_or("-".into(), |allowed| amount(allowed, line.relative));
         let mark = if line.holds { "" } else { " **missed**" };
-        let value = significant(line.value);
+        let value = rounded(line.value, 7);
         let _ = writeln!(text, "| {} | {value}{mark} | {} | {error} | {allowed} |", line.what, line.reference);
     }
     text
@@ -67,4 +69,19 @@ pub fn write(path: &Path, order: &[&str], reports: &[Report]) -> Result<(), Erro
         }
     }
     std::fs::write(path, text).map_err(|error| Error::file(path, error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_rounded() {
+        assert_eq!(rounded(0.525_232_12, 7), "0.5252321");
+        assert_eq!(rounded(-1000.0, 7), "-1000");
+        assert_eq!(rounded(46_153.846_2, 7), "46153.85");
+        assert_eq!(rounded(3.14e-15, 3), "3.14e-15");
+        assert_eq!(amount(0.01, true), "1 %");
+        assert_eq!(amount(0.0, true), "0 %");
+    }
 }

@@ -13,7 +13,8 @@ const COLUMNS: &str = "| figure | value | reference | error | allowed |\n|---|--
 /// One line for a terminal.
 pub fn printed(line: &Line) -> String {
     let mark = if line.holds { "ok  " } else { "FAIL" };
-    let allowed = line.allowed.map_or(String::new(), |allowed| format!(" (allowed {})", amount(allowed, line.relative)));
+    let allowed =
+        line.allowed.map_or(String::new(), |allowed| format!(" (allowed {})", amount(allowed, line.relative)));
     let error = line.error.map_or(String::new(), |error| format!("  error {}{allowed}", amount(error, line.relative)));
     format!("  {mark} {:<52} {:>14}  reference {}{error}", line.what, rounded(line.value, 7), line.reference)
 }

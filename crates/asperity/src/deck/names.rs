@@ -33,7 +33,8 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
         }
         _ => {
             let valid = defined(mentions, *names);
-            (!valid.contains(&name.text.as_str())).then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
+            (!valid.contains(&name.text.as_str()))
+                .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
     }
 }

@@ -213,7 +213,8 @@ fn run(run: &Run, reader: &mut Reader) {
 fn selection(selection: &Selection, reader: &mut Reader) {
     for (axis, range) in [("x", &selection.x), ("y", &selection.y), ("z", &selection.z)] {
         if let Some(range) = range.as_ref().filter(|range| range[0] > range[1]) {
-            let what = format!("`{}.{axis}`: the least, {}, lies above the largest, {}", reader.path(), range[0], range[1]);
+            let what =
+                format!("`{}.{axis}`: the least, {}, lies above the largest, {}", reader.path(), range[0], range[1]);
             reader.report(Diagnostic::error(what).at(range.place).help("exchange the two"));
         }
     }

@@ -211,7 +211,8 @@ fn persistence(steps: &[Step], reader: &mut Reader) {
     for step in steps {
         if let Some(name) = step.name.as_ref().filter(|name| name.value.is_empty()) {
             let what = "a step needs a name that is not empty, or none";
-            reader.report(Diagnostic::error(what).at(name.place).help("remove `name`; the step then goes by its number"));
+            reader
+                .report(Diagnostic::error(what).at(name.place).help("remove `name`; the step then goes by its number"));
         }
         if let Some(name) = step.name.as_ref().filter(|name| !names.insert(name.value.clone())) {
             let what = format!("two steps are called `{}`", name.value);

@@ -164,7 +164,8 @@ impl Builder<'_> {
         let Some(group) = self.site.mesh.groups.get(&name.text) else { return };
         let Some(normal) = flat_normal(&self.site.mesh, &group.sides) else {
             let what = format!("the group `{name}` is not flat, so that it is no plane of symmetry");
-            self.found.push(Diagnostic::error(what).at(name.place).help("choose a flat side, or part of it by [group]"));
+            self.found
+                .push(Diagnostic::error(what).at(name.place).help("choose a flat side, or part of it by [group]"));
             return;
         };
         let by = format!("symmetry.{name}");
@@ -187,7 +188,11 @@ impl Builder<'_> {
             let claim = Claim { by: by.clone(), place: name.place, what, course };
             if claims.insert((by.clone(), i), vec![claim]).is_none() {
                 let what = format!("tool `{name}` is moved along what an earlier step loads");
-                self.found.push(Diagnostic::error(what).at(name.place).help(format!("release it in this step: release = [\"load.{name}\"]")));
+                self.found.push(
+                    Diagnostic::error(what)
+                        .at(name.place)
+                        .help(format!("release it in this step: release = [\"load.{name}\"]")),
+                );
             }
         }
     }

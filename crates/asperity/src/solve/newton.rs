@@ -118,6 +118,8 @@ pub struct Newton<'a> {
     evaluation: Evaluation,
     residual: Vec<f64>,
     stiffness: f64,
+    /// Multiple of the initial slope that the line search allows at the end of a step.
+    bound: f64,
 }
 
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
@@ -128,6 +130,10 @@ const ROUNDING: f64 = 1e-12;
 const SLOPE: f64 = 10.0;
 /// Slope, as a part of the initial one, at which the search for a shorter step ends.
 const GOOD: f64 = 0.8;
+/// Iterations after which the line search turns strict: a step must then lower the slope,
+const PATIENCE: usize = 8;
+/// to this part of the initial one. Points that slip to and fro in turn are held by it.
+const STRICT: f64 = 0.5;
 /// Part of the penalties that leads the first iterations,
 const LEAD: f64 = 0.01;
 /// and the residual below which the full ones take over.
@@ -153,7 +159,7 @@ impl<'a> Newton<'a> {
         memory.workspace.prepare(&assembly, state)?;
         let evaluation = Evaluation::new(&problem.terms, state);
         let residual = vec![0.0; step.constraints.free_count()];
-        Ok(Self { problem, state, step, assembly, at, memory, solver, evaluation, residual, stiffness: 0.0 })
+        Ok(Self { problem, state, step, assembly, at, memory, solver, evaluation, residual, stiffness: 0.0, bound: SLOPE })
     }
 
     /// Iterates to the solution.
@@ -183,6 +189,9 @@ impl<'a> Newton<'a> {
             }
             if iteration == options.iterations {
                 break;
+            }
+            if iteration >= PATIENCE {
+                self.bound = STRICT;
             }
             before.clone_from(&self.evaluation.branches);
             factorised = self.factorise(iteration)?;
@@ -365,7 +374,7 @@ impl<'a> Newton<'a> {
             return Ok(part);
         }
         let end = self.slope(direction);
-        if end.abs() <= SLOPE * slope.abs() {
+        if end.abs() <= self.bound * slope.abs() {
             return Ok(part);
         }
         part = self.search(&along, direction, (slope, end))?;

@@ -159,7 +159,19 @@ impl<'a> Newton<'a> {
         memory.workspace.prepare(&assembly, state)?;
         let evaluation = Evaluation::new(&problem.terms, state);
         let residual = vec![0.0; step.constraints.free_count()];
-        Ok(Self { problem, state, step, assembly, at, memory, solver, evaluation, residual, stiffness: 0.0, bound: SLOPE })
+        Ok(Self {
+            problem,
+            state,
+            step,
+            assembly,
+            at,
+            memory,
+            solver,
+            evaluation,
+            residual,
+            stiffness: 0.0,
+            bound: SLOPE,
+        })
     }
 
     /// Iterates to the solution.

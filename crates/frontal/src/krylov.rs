@@ -11,7 +11,8 @@ use crate::vector::{norm, subtract};
 /// When an iterative solution ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Krylov {
-    /// Residual to reach, relative to the right-hand side, in the Euclidean norm.
+    /// Residual to reach, relative to the right-hand side, in the Euclidean norm of the equilibrated system: rows in
+    /// different units then weigh alike.
     pub tolerance: f64,
     /// Iterations at the most; each is one substitution with the factor and one product with the matrix.
     pub iterations: usize,
@@ -30,7 +31,8 @@ impl Default for Krylov {
 pub struct Convergence {
     /// Iterations made.
     pub iterations: usize,
-    /// Euclidean norm of the residual over that of the right-hand side, computed from the solution itself.
+    /// Norm of the residual over that of the right-hand side, as in [`Krylov::tolerance`], computed from the solution
+    /// itself.
     pub relative_residual: f64,
     /// Whether the tolerance was reached.
     pub converged: bool,
@@ -64,9 +66,11 @@ impl Factor {
         }
         pattern.check_finite(values)?;
         check_finite(rhs, pattern.len())?;
-        let mut system = OtherValues { factor: self, values, work: Workspace::new(self) };
+        let mut system = OtherValues { factor: self, values, work: Workspace::new(self), scaled: rhs.to_vec() };
         let mut x = vec![0.0; rhs.len()];
+        scale(rhs, &self.scaling.rows);
         let convergence = fgmres(&mut system, rhs, &mut x, krylov, recycled);
+        scale(&mut x, &self.scaling.columns);
         rhs.copy_from_slice(&x);
         Ok(convergence)
     }
@@ -80,24 +84,29 @@ pub(crate) trait System {
     fn precondition(&mut self, x: &mut [f64]);
 }
 
-/// Other values than those factorised, in the caller's scale.
+/// Other values than those factorised, in the scale of the factor.
 struct OtherValues<'a> {
     factor: &'a Factor,
     values: &'a [f64],
     work: Workspace,
+    scaled: Vec<f64>,
 }
 
 impl System for OtherValues<'_> {
     fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
-        multiply(&self.factor.symbolic.pattern, self.values, x, y);
+        self.scaled.copy_from_slice(x);
+        scale(&mut self.scaled, &self.factor.scaling.columns);
+        multiply(&self.factor.symbolic.pattern, self.values, &self.scaled, y);
+        scale(y, &self.factor.scaling.rows);
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
-        let scaling = &self.factor.scaling;
-        x.iter_mut().zip(&scaling.rows).for_each(|(x, scale)| *x *= scale);
         self.factor.substitute(x, &mut self.work);
-        x.iter_mut().zip(&scaling.columns).for_each(|(x, scale)| *x *= scale);
     }
+}
+
+fn scale(x: &mut [f64], factors: &[f64]) {
+    x.iter_mut().zip(factors).for_each(|(x, factor)| *x *= factor);
 }
 
 /// `y <- A x`.

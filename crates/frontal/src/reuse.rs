@@ -116,7 +116,7 @@ impl Solver {
     }
 
     /// Solves `A x = b` in place. With an old factor the residual is brought below `tolerance` times the right-hand
-    /// side (Euclidean norms); with a fresh one the solution is as good as [`Factor::solve`] makes it.
+    /// side, as in [`Krylov::tolerance`]; with a fresh one the solution is as good as [`Factor::solve`] makes it.
     ///
     /// # Errors
     /// Those of [`Symbolic::factorise`] and [`Factor::solve`].

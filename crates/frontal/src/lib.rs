@@ -47,7 +47,6 @@ mod options;
 mod ordering;
 mod pattern;
 mod plan;
-mod recycle;
 mod refine;
 mod reuse;
 mod scaling;

@@ -383,6 +383,7 @@ impl OpenContact<'_> {
             return Ok(0);
         };
         self.refuse_jump(index, g)?;
+        new[entry::PENETRATION] -= constants.least;
         self.write(&closed, old, new);
         self.add(index, g, &closed, local);
         let (area, response) = (closed.area.re(), &closed.response);

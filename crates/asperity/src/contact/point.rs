@@ -73,6 +73,8 @@ pub fn evaluate<T: Scalar>(
     if penetration.re() <= constants.least {
         return Ok((penetration, None));
     }
+    // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.
+    let penetration = penetration - constants.least;
     let slip = match place.touched {
         None => T::zero(),
         Some(touched) => along.dot(touched - place.a) * in_contact(penetration, constants.before),

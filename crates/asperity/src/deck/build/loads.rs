@@ -2,7 +2,6 @@
 
 use super::Builder;
 use crate::amplitude::{Amplitude, Change, Timeline};
-use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{Components, PressureKind, Step};
 use crate::deck::reader::Name;
 use crate::load::{FollowerPressure, Springs, body_force, dead_pressure, force_on_nodes, force_on_tool, traction};
@@ -122,8 +121,7 @@ impl Builder<'_> {
         let (_, first) = said.first()?;
         if let Some((other, _)) = said.iter().find(|(_, pressure)| pressure.kind != first.kind) {
             let what = format!("the pressure on `{name}` cannot change between follower and dead");
-            let help = "say one kind in all steps, or lay the other on a group of its own";
-            self.found.push(Diagnostic::error(what).at(other.place).help(help));
+            self.refuse(what, other.place);
             return None;
         }
         Some(first.kind)
@@ -160,8 +158,7 @@ impl Builder<'_> {
         let steps = &self.deck.step;
         let flat = steps.iter().flat_map(said).find(|(other, keys)| other.text == name.text && keys.z().is_some());
         if let Some(z) = flat.and_then(|(_, keys)| keys.z()).filter(|_| self.plane()) {
-            let what = format!("`{kind}.{name}` has a component along z, but the model is plane");
-            self.found.push(Diagnostic::error(what).at(z.place).help("remove `z`"));
+            self.refuse(format!("`{kind}.{name}` has a component along z, but the model is plane"), z.place);
             return None;
         }
         let component = |axis: usize| {

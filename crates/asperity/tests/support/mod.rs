@@ -1,0 +1,75 @@
+//! What tests of whole runs share: a model from a deck, and an observer that keeps what a run tells.
+#![allow(dead_code)] // each test binary uses a part of it
+
+use asperity::deck::{Made, build, read};
+use asperity::model::Model;
+use asperity::output::{Certificate, Parts, Source, global_columns};
+use asperity::solve::{AttemptRecord, Observer, RunOptions};
+use asperity::system::State;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The model of a deck.
+pub fn model(deck: &str, sets: &[&str]) -> Model {
+    made(deck, sets).model
+}
+
+/// A deck and its model.
+pub fn made(deck: &str, sets: &[&str]) -> Made {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
+    let made = read(deck, "test.toml", Path::new(""), &sets).and_then(build);
+    made.unwrap_or_else(|found| panic!("{}", found.render(false)))
+}
+
+/// Keeps every attempt and every accepted state.
+#[derive(Default)]
+pub struct Keep {
+    pub attempts: Vec<AttemptRecord>,
+    pub states: Vec<State>,
+}
+
+impl Observer for Keep {
+    fn attempt(&mut self, attempt: &AttemptRecord) {
+        self.attempts.push(attempt.clone());
+    }
+    fn accepted(&mut self, state: &State, _: &AttemptRecord) -> Result<(), asperity::Error> {
+        self.states.push(state.clone());
+        Ok(())
+    }
+}
+
+/// Runs from the start to the end.
+pub fn run(model: &Model) -> Keep {
+    go_on(model, model.problem.initial_state(), None)
+}
+
+/// Runs from a state to the end, or over some increments.
+pub fn go_on(model: &Model, from: State, increments: Option<usize>) -> Keep {
+    let mut keep = Keep::default();
+    let mut run = model.run(from);
+    run.run(&RunOptions { increments }, &mut keep).unwrap_or_else(|error| panic!("{error}"));
+    keep
+}
+
+/// The columns of the history of a run, by name, each with a value an increment.
+pub fn columns(model: &Model, keep: &Keep) -> BTreeMap<String, Vec<f64>> {
+    let mut columns = BTreeMap::<String, Vec<f64>>::new();
+    let accepted = keep.attempts.iter().filter(|attempt| attempt.failure.is_none());
+    let parts = Parts::of(model);
+    for (state, attempt) in keep.states.iter().zip(accepted) {
+        let frame = Source { parts: &parts, state, step: attempt.step }.gather().unwrap();
+        for (name, value) in global_columns(&frame, parts.is_plane()) {
+            columns.entry(name).or_default().push(value);
+        }
+    }
+    columns
+}
+
+/// The certificate of a run.
+pub fn certificate(columns: &BTreeMap<String, Vec<f64>>) -> Certificate {
+    let mut certificate = Certificate::default();
+    for increment in 0..columns.values().map(Vec::len).max().unwrap_or(0) {
+        certificate.observe(columns.iter().map(|(name, values)| (name.as_str(), values[increment])));
+    }
+    certificate
+}

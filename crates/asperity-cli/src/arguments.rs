@@ -1,6 +1,6 @@
 //! What may stand on the command line.
 
-use asperity::output::figure::FigureOptions;
+use asperity::output::figure::{FigureOptions, Window};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use std::num::NonZeroUsize;
@@ -72,8 +72,8 @@ pub struct Figure {
     #[arg(long, value_name = "TIME,..", value_delimiter = ',')]
     pub at: Vec<f64>,
     /// What of the plane is shown; by default everything.
-    #[arg(long, value_name = "X0,X1,Y0,Y1", value_delimiter = ',', num_args = 4, allow_hyphen_values = true)]
-    pub window: Option<Vec<f64>>,
+    #[arg(long, value_name = "X0,X1,Y0,Y1", value_parser = window, allow_hyphen_values = true)]
+    pub window: Option<Window>,
     /// Pixels of the PNG a point of the page.
     #[arg(long, value_name = "NUMBER", default_value_t = FigureOptions::default().resolution)]
     pub resolution: f64,
@@ -108,6 +108,15 @@ pub struct Schema {
 pub struct Completions {
     /// The shell.
     pub shell: Shell,
+}
+
+fn window(text: &str) -> Result<Window, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse::<f64>()).collect();
+    match numbers.map_err(|error| error.to_string())?.as_slice() {
+        &[x0, x1, y0, y1] if x0 < x1 && y0 < y1 => Ok(Window { low: [x0, y0], high: [x1, y1] }),
+        [_, _, _, _] => Err("the first of each pair must be the smaller one".into()),
+        _ => Err("four numbers are needed, with commas between them".into()),
+    }
 }
 
 #[cfg(test)]

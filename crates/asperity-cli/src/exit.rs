@@ -57,6 +57,8 @@ impl Exit {
                 tell(&diagnostics);
                 Self::Input
             }
+            // The page at the end of the run has said so.
+            Trouble::Other(Error::Stopped) => Self::Stopped,
             Trouble::Other(error) => {
                 eprintln!("error: {error}");
                 Self::of(&error)

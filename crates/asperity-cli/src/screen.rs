@@ -113,6 +113,9 @@ pub fn farewell(summary: &Summary, directory: &Path) -> String {
     for (name, value) in figures(summary) {
         let _ = writeln!(text, "  {name:<28}{value:>11.3e}");
     }
+    if summary.status != Status::Converged {
+        let _ = writeln!(text, "the last accepted increment is kept: `asperity restart` goes on from there");
+    }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));
     text
 }

@@ -1,7 +1,7 @@
 //! What the conditions of a deck become: constraints and courses of each step.
 
 use asperity::amplitude::Amplitude;
-use asperity::deck::{build, read};
+use asperity::deck::{build, read, review};
 use asperity::model::Model;
 use asperity::solve::{Course, Prescribed};
 use asperity::system::Row;
@@ -174,6 +174,23 @@ fn a_tool_is_held_moved_or_loaded() {
     assert_eq!(course(&built, 1, tool + 2), Some(&Course::Hold));
     let names: Vec<&str> = built.problem.terms.iter().map(|term| term.name()).collect();
     assert_eq!(names, ["block", "base", "load.plate"]);
+}
+
+#[test]
+fn a_force_on_nodes_that_are_led_is_reported() {
+    let deck = format!(
+        "{HEAD}
+        [[step]]
+        symmetry = ['block.left']
+        displacement.'block.bottom' = {{ y = 0.0 }}
+        force.'block.bottom' = {{ x = 1.0, y = 2.0 }}
+        force.'block.top' = {{ x = 1.0 }}"
+    );
+    let made = read(&deck, "test.toml", Path::new(""), &[]).and_then(build).unwrap_or_else(|d| panic!("{d:?}"));
+    let told: Vec<&str> = made.diagnostics.list.iter().map(|d| d.what.as_str()).collect();
+    assert_eq!(told, ["`force.block.bottom` moves nothing along y"]);
+    let [problem] = &review(&made).unwrap().problems[..] else { panic!("one problem is there") };
+    assert_eq!(problem.label, "all its nodes are held there");
 }
 
 #[test]

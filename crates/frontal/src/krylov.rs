@@ -1,16 +1,18 @@
-//! FGMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by a factor.
+//! FGMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by a factor, within a recycled outer space.
 
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
+use crate::recycle::{Outer, Recycled, orthogonalise};
 use crate::refine::check_finite;
 use crate::solve::Workspace;
-use crate::vector::{dot, norm, subtract};
+use crate::vector::{norm, subtract};
 
 /// When an iterative solution ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Krylov {
-    /// Residual to reach, relative to the right-hand side, in the Euclidean norm.
+    /// Residual to reach, relative to the right-hand side, in the Euclidean norm of the equilibrated system: rows in
+    /// different units then weigh alike.
     pub tolerance: f64,
     /// Iterations at the most; each is one substitution with the factor and one product with the matrix.
     pub iterations: usize,
@@ -29,7 +31,8 @@ impl Default for Krylov {
 pub struct Convergence {
     /// Iterations made.
     pub iterations: usize,
-    /// Euclidean norm of the residual over that of the right-hand side, computed from the solution itself.
+    /// Norm of the residual over that of the right-hand side, as in [`Krylov::tolerance`], computed from the solution
+    /// itself.
     pub relative_residual: f64,
     /// Whether the tolerance was reached.
     pub converged: bool,
@@ -43,6 +46,17 @@ impl Factor {
     /// # Errors
     /// [`Error::NotFactorised`], [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, Error> {
+        self.solve_recycling(values, rhs, krylov, &mut Recycled::default())
+    }
+
+    /// The same, beginning in the space of the directions of earlier solutions, to which its own are added.
+    pub(crate) fn solve_recycling(
+        &self,
+        values: &[f64],
+        rhs: &mut [f64],
+        krylov: &Krylov,
+        recycled: &mut Recycled,
+    ) -> Result<Convergence, Error> {
         self.check_ready()?;
         let pattern = &self.symbolic.pattern;
         check_length("values", pattern.nonzeros(), values.len())?;
@@ -52,9 +66,11 @@ impl Factor {
         }
         pattern.check_finite(values)?;
         check_finite(rhs, pattern.len())?;
-        let mut system = OtherValues { factor: self, values, work: Workspace::new(self) };
+        let mut system = OtherValues { factor: self, values, work: Workspace::new(self), scaled: rhs.to_vec() };
         let mut x = vec![0.0; rhs.len()];
-        let convergence = fgmres(&mut system, rhs, &mut x, krylov);
+        scale(rhs, &self.scaling.rows);
+        let convergence = fgmres(&mut system, rhs, &mut x, krylov, recycled);
+        scale(&mut x, &self.scaling.columns);
         rhs.copy_from_slice(&x);
         Ok(convergence)
     }
@@ -68,31 +84,49 @@ pub(crate) trait System {
     fn precondition(&mut self, x: &mut [f64]);
 }
 
-/// Other values than those factorised, in the caller's scale.
+/// Other values than those factorised, in the scale of the factor.
 struct OtherValues<'a> {
     factor: &'a Factor,
     values: &'a [f64],
     work: Workspace,
+    scaled: Vec<f64>,
 }
 
 impl System for OtherValues<'_> {
     fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
-        multiply(&self.factor.symbolic.pattern, self.values, x, y);
+        self.scaled.copy_from_slice(x);
+        scale(&mut self.scaled, &self.factor.scaling.columns);
+        multiply(&self.factor.symbolic.pattern, self.values, &self.scaled, y);
+        scale(y, &self.factor.scaling.rows);
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
-        let scaling = &self.factor.scaling;
-        x.iter_mut().zip(&scaling.rows).for_each(|(x, scale)| *x *= scale);
         self.factor.substitute(x, &mut self.work);
-        x.iter_mut().zip(&scaling.columns).for_each(|(x, scale)| *x *= scale);
     }
+}
+
+fn scale(x: &mut [f64], factors: &[f64]) {
+    x.iter_mut().zip(factors).for_each(|(x, factor)| *x *= factor);
 }
 
 /// `y <- A x`.
 pub(crate) fn multiply(pattern: &Pattern, values: &[f64], x: &[f64], y: &mut [f64]) {
     for (row, y) in y.iter_mut().enumerate() {
-        *y = pattern.entries(row).map(|(at, column)| values[at] * x[column]).sum();
+        let range = pattern.starts()[row]..pattern.starts()[row + 1];
+        *y = gather_dot(&values[range.clone()], &pattern.columns()[range], x);
     }
+}
+
+/// Product of a row with a vector, in four interleaved sums.
+fn gather_dot(values: &[f64], columns: &[usize], x: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (value_parts, column_parts) = (values.chunks_exact(4), columns.chunks_exact(4));
+    let rest = value_parts.remainder().iter().zip(column_parts.remainder());
+    let tail = rest.map(|(value, &column)| value * x[column]).sum::<f64>();
+    for (values, columns) in value_parts.zip(column_parts) {
+        (0..4).for_each(|k| sums[k] += values[k] * x[columns[k]]);
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3]) + tail
 }
 
 /// `y <- A^T x`.
@@ -103,15 +137,23 @@ pub(crate) fn multiply_transposed(pattern: &Pattern, values: &[f64], x: &[f64], 
     }
 }
 
-/// Improves `x` until `A x = b` to the tolerance, by cycles of at most `restart` iterations.
-pub(crate) fn fgmres(system: &mut impl System, b: &[f64], x: &mut [f64], krylov: &Krylov) -> Convergence {
+/// Improves `x` until `A x = b` to the tolerance, by cycles of at most `restart` iterations. Begins in the space of the
+/// recycled directions, and adds its own to them.
+pub(crate) fn fgmres(
+    system: &mut impl System,
+    b: &[f64],
+    x: &mut [f64],
+    krylov: &Krylov,
+    recycled: &mut Recycled,
+) -> Convergence {
     let goal = krylov.tolerance * norm(b);
-    let mut basis = Basis::default();
+    let mut basis = Basis { outer: Outer::new(system, recycled), ..Basis::default() };
     let mut residual = vec![0.0; b.len()];
+    subtract_from(system, b, x, &mut residual);
+    basis.outer.correct(&residual, x);
     let mut iterations = 0;
     loop {
-        system.multiply(x, &mut residual);
-        residual.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
+        subtract_from(system, b, x, &mut residual);
         let size = norm(&residual);
         let relative_residual = if size == 0.0 { 0.0 } else { size / norm(b) };
         let done = Convergence { iterations, relative_residual, converged: size <= goal };
@@ -122,6 +164,7 @@ pub(crate) fn fgmres(system: &mut impl System, b: &[f64], x: &mut [f64], krylov:
         iterations += basis.cycle(system, &residual, size, goal, length);
         let before = size;
         let predicted = basis.add_correction(x);
+        recycled.keep(std::mem::take(&mut basis.z));
         // A cycle that gains nothing will gain nothing when repeated.
         if predicted > 0.99 * before {
             return Convergence { iterations, ..done };
@@ -129,26 +172,41 @@ pub(crate) fn fgmres(system: &mut impl System, b: &[f64], x: &mut [f64], krylov:
     }
 }
 
+/// `residual <- b - A x`.
+fn subtract_from(system: &mut impl System, b: &[f64], x: &[f64], residual: &mut [f64]) {
+    system.multiply(x, residual);
+    residual.iter_mut().zip(b).for_each(|(r, b)| *r = b - *r);
+}
+
 /// The Arnoldi basis `v`, the preconditioned directions `z`, and the triangular factor `r` of the Hessenberg matrix
-/// with the rotated right-hand side `g`.
+/// with the rotated right-hand side `g`; `parts` holds what was taken out of every image along the outer space.
 #[derive(Default)]
 struct Basis {
+    outer: Outer,
     v: Vec<Vec<f64>>,
     z: Vec<Vec<f64>>,
     r: Vec<Vec<f64>>,
+    parts: Vec<Vec<f64>>,
     rotations: Vec<(f64, f64)>,
     g: Vec<f64>,
 }
 
 impl Basis {
+    fn restart(&mut self, residual: &[f64], size: f64) {
+        let outer = std::mem::take(&mut self.outer);
+        let v = vec![residual.iter().map(|r| r / size).collect()];
+        *self = Basis { outer, g: vec![size], v, ..Default::default() };
+    }
+
     /// Iterates from a residual of this `size` until its estimate is below the goal; returns the iterations made.
     fn cycle(&mut self, system: &mut impl System, residual: &[f64], size: f64, goal: f64, length: usize) -> usize {
-        *self = Basis { g: vec![size], v: vec![residual.iter().map(|r| r / size).collect()], ..Default::default() };
+        self.restart(residual, size);
         for k in 0..length {
             let mut z = self.v[k].clone();
             system.precondition(&mut z);
             let mut w = vec![0.0; z.len()];
             system.multiply(&z, &mut w);
+            self.parts.push(self.outer.take_out(&mut w));
             let mut column = self.v.iter().map(|v| orthogonalise(&mut w, v)).collect::<Vec<_>>();
             let remainder = norm(&w);
             self.z.push(z);
@@ -185,14 +243,8 @@ impl Basis {
             let y = if pivot == 0.0 { 0.0 } else { self.g[k] / pivot };
             subtract(&mut self.g[..k], y, &column[..k]);
             subtract(x, -y, &self.z[k]);
+            self.outer.put_back(&self.parts[k], y, x);
         }
         predicted
     }
-}
-
-/// Takes the part along `v` out of `w`, and returns it.
-fn orthogonalise(w: &mut [f64], v: &[f64]) -> f64 {
-    let part = dot(w, v);
-    subtract(w, part, v);
-    part
 }

@@ -47,6 +47,7 @@ mod options;
 mod ordering;
 mod pattern;
 mod plan;
+mod recycle;
 mod refine;
 mod reuse;
 mod scaling;

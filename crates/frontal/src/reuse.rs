@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::factor::{Factor, Report};
 use crate::krylov::{Convergence, Krylov};
+use crate::recycle::Recycled;
 use crate::refine::Accuracy;
 use crate::symbolic::{Prediction, Symbolic};
 
@@ -80,6 +81,8 @@ pub struct Solver {
     policy: Policy,
     /// Whether the factor may be used for the next matrix.
     usable: bool,
+    /// Directions of the solutions since the factorisation.
+    recycled: Recycled,
     counts: Counts,
 }
 
@@ -87,7 +90,8 @@ impl Solver {
     /// Takes an analysis and makes room for one factor.
     pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
         let factor = symbolic.new_factor();
-        Solver { symbolic, factor, policy, usable: false, counts: Counts::default() }
+        let (recycled, counts) = (Recycled::default(), Counts::default());
+        Solver { symbolic, factor, policy, usable: false, recycled, counts }
     }
 
     /// The analysis.
@@ -112,30 +116,62 @@ impl Solver {
     }
 
     /// Solves `A x = b` in place. With an old factor the residual is brought below `tolerance` times the right-hand
-    /// side (Euclidean norms); with a fresh one the solution is as good as [`Factor::solve`] makes it.
+    /// side, as in [`Krylov::tolerance`]; with a fresh one the solution is as good as [`Factor::solve`] makes it.
     ///
     /// # Errors
     /// Those of [`Symbolic::factorise`] and [`Factor::solve`].
     pub fn solve(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Outcome, Error> {
-        self.counts.solutions += 1;
-        let mut wasted = 0;
-        let iterations = self.policy.affordable_iterations(&self.symbolic.prediction());
-        if self.usable && iterations > 0 {
-            let mut x = rhs.to_vec();
-            let krylov = Krylov { tolerance, iterations, restart: iterations };
-            let convergence = self.factor.solve_with(values, &mut x, &krylov)?;
-            self.counts.iterations += convergence.iterations;
-            if convergence.converged {
-                rhs.copy_from_slice(&x);
-                return Ok(Outcome::Iterative(convergence));
-            }
-            wasted = convergence.iterations;
+        let before = self.counts.iterations;
+        if let Some(convergence) = self.iterate(values, rhs, tolerance)? {
+            return Ok(Outcome::Iterative(convergence));
         }
+        let wasted = self.counts.iterations - before;
+        let report = self.factorise(values)?;
+        let accuracy = self.solve_directly(rhs)?;
+        Ok(Outcome::Direct { report, accuracy, wasted })
+    }
+
+    /// Solves like [`Solver::solve`] if the policy has an old factor do; `None`, with `rhs` as it was, if not, or if
+    /// that took too many iterations. [`Solver::factorise`] comes next then.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`], [`Error::NotFinite`].
+    pub fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Option<Convergence>, Error> {
+        let iterations = self.policy.affordable_iterations(&self.symbolic.prediction());
+        if !self.usable || iterations == 0 {
+            return Ok(None);
+        }
+        let mut x = rhs.to_vec();
+        let krylov = Krylov { tolerance, iterations, restart: iterations };
+        let convergence = self.factor.solve_recycling(values, &mut x, &krylov, &mut self.recycled)?;
+        self.counts.iterations += convergence.iterations;
+        if !convergence.converged {
+            return Ok(None);
+        }
+        self.counts.solutions += 1;
+        rhs.copy_from_slice(&x);
+        Ok(Some(convergence))
+    }
+
+    /// Factorises.
+    ///
+    /// # Errors
+    /// Those of [`Symbolic::factorise`].
+    pub fn factorise(&mut self, values: &[f64]) -> Result<Report, Error> {
         self.usable = false;
+        self.recycled.clear();
         self.counts.factorisations += 1;
         let report = self.symbolic.factorise(values, &mut self.factor)?;
-        let accuracy = self.factor.solve(rhs)?;
         self.usable = true;
-        Ok(Outcome::Direct { report, accuracy, wasted })
+        Ok(report)
+    }
+
+    /// Solves with the matrix that was factorised last, whatever the policy.
+    ///
+    /// # Errors
+    /// Those of [`Factor::solve`].
+    pub fn solve_directly(&mut self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
+        self.counts.solutions += 1;
+        self.factor.solve(rhs)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::assembly_tree::Front;
 use crate::factor::Factor;
-use crate::vector::{dot, subtract};
+use crate::vector::{dot, dot_four, subtract, subtract_four};
 use pulp::Arch;
 
 /// Working memory of a solve, in elimination order.
@@ -102,15 +102,23 @@ impl Panels<'_> {
     }
 }
 
+/// Columns taken together: the vectors they are combined with are then loaded and stored less often than they are.
+const WIDTH: usize = 4;
+
 /// `[L11; L21]` downwards.
 #[inline(always)]
 fn forward(panels: &Panels, x: &mut [f64]) {
     for (k, pivot) in panels.pivots.iter().enumerate() {
         x.swap(k, pivot.row as usize);
     }
-    for k in 0..panels.p {
-        let (done, rest) = x.split_at_mut(k + 1);
-        subtract(rest, done[k], &panels.left(k)[k + 1..]);
+    for start in (0..panels.p).step_by(WIDTH) {
+        let end = (start + WIDTH).min(panels.p);
+        let (done, rest) = x.split_at_mut(end);
+        for k in start..end {
+            let value = done[k];
+            subtract(&mut done[k + 1..], value, &panels.left(k)[k + 1..end]);
+        }
+        subtract_columns(rest, &done[start..], |k| &panels.left(start + k)[end..]);
     }
 }
 
@@ -118,12 +126,21 @@ fn forward(panels: &Panels, x: &mut [f64]) {
 #[inline(always)]
 fn backward(panels: &Panels, x: &mut [f64]) {
     let (x, border) = x.split_at_mut(panels.p);
-    for k in (0..panels.p).rev() {
-        let column = panels.left(k);
-        let (scale, right) = panels.right(k);
-        let value = (x[k] - scale * dot(right, border)) / column[k];
-        x[k] = value;
-        subtract(&mut x[..k], value, &column[..k]);
+    for start in (0..panels.p).step_by(WIDTH) {
+        let end = (start + WIDTH).min(panels.p);
+        let sums = dot_columns(border, end - start, |k| panels.right(start + k).1);
+        (start..end).for_each(|k| x[k] -= panels.right(k).0 * sums[k - start]);
+    }
+    for start in (0..panels.p).step_by(WIDTH).rev() {
+        let end = (start + WIDTH).min(panels.p);
+        for k in (start..end).rev() {
+            let column = panels.left(k);
+            x[k] /= column[k];
+            let value = x[k];
+            subtract(&mut x[start..k], value, &column[start..k]);
+        }
+        let (rest, done) = x.split_at_mut(start);
+        subtract_columns(rest, &done[..end - start], |k| &panels.left(start + k)[..start]);
     }
 }
 
@@ -131,22 +148,50 @@ fn backward(panels: &Panels, x: &mut [f64]) {
 #[inline(always)]
 fn forward_transposed(panels: &Panels, x: &mut [f64]) {
     let (x, border) = x.split_at_mut(panels.p);
-    for k in 0..panels.p {
-        let column = panels.left(k);
-        let value = (x[k] - dot(&column[..k], &x[..k])) / column[k];
-        x[k] = value;
-        let (scale, right) = panels.right(k);
-        subtract(border, scale * value, right);
+    for start in (0..panels.p).step_by(WIDTH) {
+        let end = (start + WIDTH).min(panels.p);
+        let sums = dot_columns(&x[..start], end - start, |k| &panels.left(start + k)[..start]);
+        for k in start..end {
+            let column = panels.left(k);
+            x[k] = (x[k] - sums[k - start] - dot(&column[start..k], &x[start..k])) / column[k];
+        }
+        let mut scaled = [0.0; WIDTH];
+        (start..end).for_each(|k| scaled[k - start] = panels.right(k).0 * x[k]);
+        subtract_columns(border, &scaled[..end - start], |k| panels.right(start + k).1);
     }
 }
 
 /// `[L11; L21]^T` upwards.
 #[inline(always)]
 fn backward_transposed(panels: &Panels, x: &mut [f64]) {
-    for k in (0..panels.p).rev() {
-        x[k] -= dot(&panels.left(k)[k + 1..], &x[k + 1..]);
+    for start in (0..panels.p).step_by(WIDTH).rev() {
+        let end = (start + WIDTH).min(panels.p);
+        let sums = dot_columns(&x[end..], end - start, |k| &panels.left(start + k)[end..]);
+        for k in (start..end).rev() {
+            x[k] -= sums[k - start] + dot(&panels.left(k)[k + 1..end], &x[k + 1..end]);
+        }
     }
     for (k, pivot) in panels.pivots.iter().enumerate().rev() {
         x.swap(k, pivot.row as usize);
     }
+}
+
+/// `y <- y - sum of factor times column`.
+#[inline(always)]
+fn subtract_columns<'a>(y: &mut [f64], factors: &[f64], column: impl Fn(usize) -> &'a [f64]) {
+    match *factors {
+        [a, b, c, d] => subtract_four(y, [a, b, c, d], [column(0), column(1), column(2), column(3)]),
+        _ => factors.iter().enumerate().for_each(|(k, &factor)| subtract(y, factor, column(k))),
+    }
+}
+
+/// Products of `count` columns with `y`.
+#[inline(always)]
+fn dot_columns<'a>(y: &[f64], count: usize, column: impl Fn(usize) -> &'a [f64]) -> [f64; WIDTH] {
+    if count == WIDTH {
+        return dot_four(y, [column(0), column(1), column(2), column(3)]);
+    }
+    let mut sums = [0.0; WIDTH];
+    (0..count).for_each(|k| sums[k] = dot(column(k), y));
+    sums
 }

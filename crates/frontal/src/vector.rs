@@ -8,6 +8,37 @@ pub(crate) fn subtract(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// `y <- y - sum of factor times x`, with one load and one store of `y`.
+#[inline(always)]
+pub(crate) fn subtract_four(y: &mut [f64], factors: [f64; 4], columns: [&[f64]; 4]) {
+    let [a, b, c, d] = columns.map(|column| &column[..y.len()]);
+    for (i, y) in y.iter_mut().enumerate() {
+        *y -= (factors[0] * a[i] + factors[1] * b[i]) + (factors[2] * c[i] + factors[3] * d[i]);
+    }
+}
+
+/// Sums of products with four vectors.
+#[inline(always)]
+pub(crate) fn dot_four(y: &[f64], columns: [&[f64]; 4]) -> [f64; 4] {
+    const LANES: usize = 8;
+    let columns = columns.map(|column| &column[..y.len()]);
+    let mut sums = [[0.0; LANES]; 4];
+    let whole = y.len() / LANES * LANES;
+    for start in (0..whole).step_by(LANES) {
+        let y = &y[start..start + LANES];
+        for (sums, column) in sums.iter_mut().zip(columns) {
+            let column = &column[start..start + LANES];
+            (0..LANES).for_each(|lane| sums[lane] += column[lane] * y[lane]);
+        }
+    }
+    let mut totals = [0.0; 4];
+    for ((total, sums), column) in totals.iter_mut().zip(&sums).zip(columns) {
+        let tail = column[whole..].iter().zip(&y[whole..]).map(|(x, y)| x * y).sum::<f64>();
+        *total = add_lanes(sums) + tail;
+    }
+    totals
+}
+
 /// Sum of products, in eight interleaved parts so that it vectorises.
 #[inline(always)]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
@@ -19,8 +50,13 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
             sums[lane] += x[lane] * y[lane];
         }
     }
+    add_lanes(&sums) + tail
+}
+
+#[inline(always)]
+fn add_lanes(sums: &[f64; 8]) -> f64 {
     let half = [sums[0] + sums[4], sums[1] + sums[5], sums[2] + sums[6], sums[3] + sums[7]];
-    (half[0] + half[2]) + (half[1] + half[3]) + tail
+    (half[0] + half[2]) + (half[1] + half[3])
 }
 
 pub(crate) fn norm(x: &[f64]) -> f64 {

@@ -17,6 +17,9 @@ fn with_patch(model: &models::Model, first_node: usize) -> Vec<f64> {
     values
 }
 
+/// The tolerance holds in the equilibrated scale, whose norms are within this factor of the plain ones for these models.
+const SCALES: f64 = 4.0;
+
 fn residual(model: &models::Model, values: &[f64], x: &[f64], b: &[f64]) -> f64 {
     let (starts, columns) = (model.pattern.starts(), model.pattern.columns());
     let row = |i: usize| b[i] - (starts[i]..starts[i + 1]).map(|at| values[at] * x[columns[at]]).sum::<f64>();
@@ -35,13 +38,13 @@ fn an_old_factor_solves_a_matrix_that_changed_in_a_patch() {
     let mut x = b.clone();
     let convergence = factor.solve_with(&values, &mut x, &Krylov::default()).expect("good input");
     assert!(convergence.converged && convergence.iterations < 15, "{convergence:?}");
-    assert!(residual(&model, &values, &x, &b) < 1.01e-10);
+    assert!(residual(&model, &values, &x, &b) < SCALES * 1e-10);
 
     let krylov = Krylov { restart: 8, iterations: 300, ..Krylov::default() };
     let mut x = b.clone();
     let restarted = factor.solve_with(&values, &mut x, &krylov).expect("good input");
     assert!(restarted.converged && restarted.iterations >= convergence.iterations, "{restarted:?}");
-    assert!(residual(&model, &values, &x, &b) < 1.01e-10);
+    assert!(residual(&model, &values, &x, &b) < SCALES * 1e-10);
 }
 
 #[test]
@@ -58,7 +61,7 @@ fn a_sequence_begins_with_a_fresh_factor() {
             }
             let (values, mut x) = (with_patch(&model, node), b.clone());
             let outcome = solver.solve(&values, &mut x, 1e-9).expect("a regular matrix");
-            assert!(residual(&model, &values, &x, &b) < 1.01e-9);
+            assert!(residual(&model, &values, &x, &b) < SCALES * 1e-9);
             direct.push(matches!(outcome, Outcome::Direct { .. }));
         }
         direct
@@ -75,4 +78,24 @@ fn small_matrices_are_always_factorised() {
     let model = models::quad4([8, 30]);
     let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
     assert_eq!(Policy::default().affordable_iterations(&symbolic.prediction()), 0);
+}
+
+#[test]
+fn directions_of_earlier_solutions_save_iterations() {
+    let model = models::hex8([10, 10, 10]);
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    let mut solver = Solver::new(symbolic.clone(), Policy { share: 10.0, ..Policy::default() });
+    let vector = |seed: f64| (0..model.pattern.len()).map(|k| (seed + k as f64).cos()).collect::<Vec<_>>();
+    solver.solve(&with_patch(&model, 0), &mut vector(0.0), 1e-9).expect("a regular matrix");
+    solver.solve(&with_patch(&model, 6), &mut vector(1.0), 1e-9).expect("a regular matrix");
+    let (values, b) = (with_patch(&model, 7), vector(2.0));
+    let mut x = b.clone();
+    let alone = solver.factor().solve_with(&values, &mut x, &Krylov { tolerance: 1e-9, ..Krylov::default() });
+    let alone = alone.expect("good input").iterations;
+    let mut x = b.clone();
+    let Ok(Outcome::Iterative(recycling)) = solver.solve(&values, &mut x, 1e-9) else {
+        panic!("an old factor would do")
+    };
+    assert!(recycling.iterations + 2 < alone, "{} against {alone}", recycling.iterations);
+    assert!(residual(&model, &values, &x, &b) < SCALES * 1e-9);
 }

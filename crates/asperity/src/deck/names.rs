@@ -28,10 +28,13 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
     let Mention { names, name, .. } = mention;
     match names {
         Names::Condition => None,
-        Names::Group | Names::Cells | Names::Sides => group(name, *names, mesh?),
+        Names::Group | Names::Cells | Names::Sides => {
+            group(name, *names, mesh?).map(|diagnostic| otherwise(diagnostic, name, mentions, mesh))
+        }
         _ => {
             let valid = defined(mentions, *names);
-            (!valid.contains(&name.text.as_str())).then(|| nothing(name, *names, &valid))
+            (!valid.contains(&name.text.as_str()))
+                .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
     }
 }
@@ -42,6 +45,17 @@ fn nothing(name: &Name, names: Names, valid: &[&str]) -> Diagnostic {
     match valid {
         [] => diagnostic.help(format!("there is no {noun} at all")),
         _ => diagnostic.suggest(&name.text, valid.iter().copied()),
+    }
+}
+
+/// Says what a name means instead, where it names something of another kind.
+fn otherwise(diagnostic: Diagnostic, name: &Name, mentions: &[Mention], mesh: Option<&Mesh>) -> Diagnostic {
+    let kinds = [Names::Tool, Names::Material, Names::Contact];
+    let other = kinds.into_iter().find(|&kind| defined(mentions, kind).contains(&name.text.as_str()));
+    let group = mesh.is_some_and(|mesh| mesh.groups.contains_key(&name.text)).then_some(Names::Group);
+    match other.map(Names::noun).or(group.filter(|_| diagnostic.what.starts_with("there is no")).map(Names::noun)) {
+        Some(noun) if diagnostic.label.is_empty() => diagnostic.label(format!("this is the name of a {noun}")),
+        _ => diagnostic,
     }
 }
 

@@ -73,7 +73,9 @@ fn refuse_file(path: &Path, error: &str, key: Place, reader: &mut Reader) {
     let at_line = error.strip_prefix(&format!("{name}:")).and_then(|rest| rest.split_once(": "));
     let numbered = at_line.and_then(|(line, what)| Some((line.parse::<usize>().ok().filter(|&n| n > 0)?, what)));
     let Some((line, what)) = numbered else {
-        return reader.report(Diagnostic::error(error).at(key));
+        let diagnostic = Diagnostic::error(error).at(key);
+        let lost = || diagnostic.clone().help("a mesh file is looked for from the folder of the deck");
+        return reader.report(if path.is_file() { diagnostic } else { lost() });
     };
     let bytes = std::fs::read(path).unwrap_or_default();
     let text = bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default();
@@ -121,13 +123,16 @@ fn generated(name: &str, part: &Generator) -> Result<Mesh, Error> {
 /// Stations along each direction: graded between two ends, or by runs.
 fn spacings<const N: usize>(
     from: &[f64],
-    (to, cells, ratio): (&Option<Vec<f64>>, &Option<Vec<usize>>, &[f64]),
+    (to, cells, ratio): (&Option<Vec<f64>>, &Option<Vec<usize>>, &Option<Spot<Vec<f64>>>),
     runs: [&Vec<Run>; N],
 ) -> [Spacing; N] {
     std::array::from_fn(|a| match (to, cells) {
-        (Some(to), Some(cells)) => Spacing::graded(from[a], to[a], cells[a], ratio[a]),
+        (Some(to), Some(cells)) => {
+            Spacing::graded(from[a], to[a], cells[a], ratio.as_ref().map_or(1.0, |ratio| ratio[a]))
+        }
         _ => runs[a].iter().fold(Spacing::from(from[a]), |spacing, run| {
-            let grade = if run.smooth { Grade::Smooth } else { Grade::Ratio(run.ratio) };
+            let ratio = run.ratio.map_or(1.0, |ratio| ratio.value);
+            let grade = if run.smooth { Grade::Smooth } else { Grade::Ratio(ratio) };
             spacing.run(run.to, run.cells, grade)
         }),
     })
@@ -144,7 +149,8 @@ fn choose(name: &Name, selection: &Selection, mesh: &mut Mesh, reader: &mut Read
     let group = within(of, selection, mesh);
     if group.nodes.is_empty() {
         let what = format!("no node of `{}` lies within the ranges of `{name}`", selection.of);
-        return reader.report(Diagnostic::error(what).at(selection.place));
+        let help = format!("widen the ranges; the nodes of `{}` lie {}", selection.of, extent(of, mesh));
+        return reader.report(Diagnostic::error(what).at(selection.place).help(help));
     }
     mesh.groups.insert(name.text.clone(), group);
 }
@@ -162,6 +168,17 @@ fn within(of: &Group, selection: &Selection, mesh: &Mesh) -> Group {
     let sides = of.sides.iter().copied().filter(|&side: &Side| mesh.side(side).1.into_iter().all(inside));
     let nodes = of.nodes.iter().copied().filter(|&node| inside(node));
     Group::new(mesh, cells.collect(), sides.collect(), nodes.collect())
+}
+
+/// Where the nodes of a group lie: `in x from 0 to 1, in y from 0 to 0`.
+fn extent(group: &Group, mesh: &Mesh) -> String {
+    let range = |axis: usize| {
+        let x = group.nodes.iter().map(|&node| mesh.points[node][axis]);
+        let (least, most) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        format!("in {} from {least} to {most}", ["x", "y", "z"][axis])
+    };
+    let axes = if mesh.points.iter().all(|point| point[2] == 0.0) { 2 } else { 3 };
+    (0..axes).map(range).collect::<Vec<_>>().join(", ")
 }
 
 /// Largest extent of the mesh.

@@ -112,6 +112,11 @@ impl Reader {
     pub fn table<'n>(&mut self, node: &'n Node) -> Option<&'n [Entry]> {
         match &node.value {
             Value::Table(entries) => Some(entries),
+            Value::List(items) if items.iter().any(|item| matches!(item.value, Value::Table(_))) => {
+                let what = format!("`{}` must be one table, not a list of tables", self.path());
+                self.report(Diagnostic::error(what).at(node.place).help(format!("write [{}]", self.path())));
+                None
+            }
             other => self.refuse(node.place, "a table", other.kind()),
         }
     }

@@ -123,9 +123,14 @@ fn fault(error: &toml::de::Error, text: &str, source: usize) -> Diagnostic {
         Some(key) if duplicate => format!("`{key}` is given twice"),
         _ => format!("not valid TOML: {}", error.message()),
     };
+    let unquoted = error.message().contains("string values must be quoted");
     let help = match duplicate {
         true => "keep one of the two",
         false if open_bracket(error) => "a bracket may have been left open before this",
+        false if text.get(span.start..).is_some_and(|rest| rest.starts_with(',')) => {
+            "a number has a point, not a comma: 0.5"
+        }
+        false if unquoted => "text stands in quotes: \"steel\"; a number stands alone, without a unit: 210e3",
         false => "see toml.io for the format",
     };
     Diagnostic::error(what).at(Place::new(source, span)).help(help)

@@ -100,7 +100,7 @@ impl Model {
 
     /// A run from a given state: the initial one ([`Problem::initial_state`]) or that of a checkpoint.
     pub fn run(&self, state: State) -> Run<'_> {
-        Run::new(&self.problem, state, Box::new(Frontal::default()))
+        Run::new(&self.problem, state, Box::new(Frontal::new(self.problem.newton.factors)))
     }
 }
 

@@ -65,6 +65,10 @@ impl Job<'_> {
             return Ok(model.problem.initial_state());
         }
         let path = self.directory.join(CHECKPOINT);
+        if !path.exists() {
+            let reason = "there is no checkpoint to go on from; `asperity run` begins at the first increment";
+            return Err(Error::file(&path, reason));
+        }
         let (_, state) = checkpoint::load::<State>(&path, &self.input)?;
         model.problem.fits(&state).map_err(|reason| Error::file(&path, reason))?;
         Ok(state)

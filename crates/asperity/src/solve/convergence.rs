@@ -60,7 +60,7 @@ impl Norms {
         let rounding = 16.0 * f64::EPSILON * yardstick.stiffness * yardstick.size;
         let floor = [rounding, rounding * yardstick.size].map(|f| f / yardstick.tolerance);
         let scale = [0, 1].map(|k| largest[k].max(MEMORY * yardstick.past[k]).max(floor[k]));
-        let mut norms = Self { reference: largest, allowed: yardstick.tolerance, ..Self::default() };
+        let mut norms = Self { reference: scale, allowed: yardstick.tolerance, ..Self::default() };
         for (&dof, &force) in constraints.free().iter().zip(residual) {
             let scale = scale[usize::from(dofs.is_rotation(dof))];
             let ratio = if force == 0.0 { 0.0 } else { force.abs() / scale };

@@ -1,7 +1,7 @@
 //! Solving the linear system of an iteration: the trait, and the multifrontal solver behind it.
 
 use crate::system::Csr;
-use frontal::{Factor, Options, Pattern, Symbolic};
+use frontal::{Options, Pattern, Policy, Reuse, Solver, Symbolic};
 use std::fmt;
 
 /// Why a linear system was not solved.
@@ -22,7 +22,35 @@ impl fmt::Display for LinearError {
     }
 }
 
-/// A direct solver in three phases.
+/// What is factorised when every iteration has a matrix of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Factors {
+    /// The matrix of an attempt's first iteration, which then preconditions the iterative solution of the others; every
+    /// matrix where that is predicted to be cheaper, as in the plane.
+    #[default]
+    Auto,
+    /// Every matrix.
+    Fresh,
+    /// The matrix of an attempt's first iteration, whatever the prediction.
+    Attempt,
+    /// As few as possible: a factor serves later increments too. Results then depend on what was computed before, to
+    /// within the tolerance: restart and repetition are no longer identical to the bit.
+    Kept,
+}
+
+impl Factors {
+    fn policy(self) -> Policy {
+        let forced = Policy { share: f64::INFINITY, ..Policy::default() };
+        match self {
+            Self::Auto => Policy::default(),
+            Self::Fresh => Policy { reuse: Reuse::Never, ..Policy::default() },
+            Self::Attempt => forced,
+            Self::Kept => Policy { reuse: Reuse::AcrossSequences, ..forced },
+        }
+    }
+}
+
+/// A direct solver in three phases, which may also solve by iterations with the factor of an earlier matrix.
 pub trait LinearSolver: Send {
     /// Prepares for a pattern; `nodes[i]` is the node that unknown `i` belongs to.
     ///
@@ -34,18 +62,44 @@ pub trait LinearSolver: Send {
     /// # Errors
     /// [`LinearError::Singular`] with the motion that meets no stiffness.
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError>;
-    /// Replaces the right-hand side by the solution.
+    /// Replaces the right-hand side by the solution with the matrix that was factorised last.
     ///
     /// # Errors
     /// When nothing is factorised or the solution cannot be trusted.
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
+    /// Begins a sequence of related matrices, such as those of an attempt: what was factorised before is not to show in
+    /// its solutions.
+    fn begin(&mut self) {}
+    /// Replaces the right-hand side by the solution with the matrix of these values, to a residual of `tolerance` times
+    /// the right-hand side, without factorising it; `false`, with the right-hand side as it was, where that does not
+    /// pay.
+    ///
+    /// # Errors
+    /// When values or right-hand side are not finite.
+    fn iterate(&mut self, _values: &[f64], _rhs: &mut [f64], _tolerance: f64) -> Result<bool, LinearError> {
+        Ok(false)
+    }
 }
 
 /// The multifrontal solver of the crate `frontal`.
 #[derive(Debug, Default)]
 pub struct Frontal {
-    symbolic: Option<Symbolic>,
-    factor: Option<Factor>,
+    factors: Factors,
+    solver: Option<Solver>,
+}
+
+impl Frontal {
+    /// A solver that factorises when it is told to.
+    pub fn new(factors: Factors) -> Self {
+        Self { factors, solver: None }
+    }
+    /// What was done since the last analysis.
+    pub fn counts(&self) -> frontal::Counts {
+        self.solver.as_ref().map_or_else(Default::default, Solver::counts)
+    }
+    fn solver(&mut self) -> Result<&mut Solver, LinearError> {
+        self.solver.as_mut().ok_or_else(|| LinearError::Other("nothing is analysed".into()))
+    }
 }
 
 fn translate(error: frontal::Error) -> LinearError {
@@ -57,28 +111,45 @@ fn translate(error: frontal::Error) -> LinearError {
     }
 }
 
+/// Unknowns that couple to very many others, such as those of a tool's reference node: the rule by which minimum degree
+/// orderings put dense rows last (Amestoy, Davis & Duff, ACM TOMS 30, 2004).
+fn dense_rows(pattern: &Csr) -> Vec<usize> {
+    let many = 16.0_f64.max(10.0 * (pattern.rows() as f64).sqrt());
+    let length = |row: &usize| pattern.starts[row + 1] - pattern.starts[*row];
+    (0..pattern.rows()).filter(|row| length(row) as f64 > many).collect()
+}
+
 impl LinearSolver for Frontal {
     fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
+        let mut options = Options::default();
+        options.last = dense_rows(pattern);
         let pattern = Pattern::new(pattern.starts.clone(), pattern.columns.clone())
             .and_then(|p| p.with_nodes(nodes))
             .map_err(translate)?;
-        let symbolic = Symbolic::analyse(&pattern, &Options::default()).map_err(translate)?;
-        self.factor = Some(symbolic.new_factor());
-        self.symbolic = Some(symbolic);
+        if self.solver.as_ref().is_some_and(|solver| *solver.symbolic().pattern() == pattern) {
+            self.begin();
+            return Ok(());
+        }
+        // The memory of the old factor is given back before the new one takes its own.
+        self.solver = None;
+        let symbolic = Symbolic::analyse(&pattern, &options).map_err(translate)?;
+        self.solver = Some(Solver::new(symbolic, self.factors.policy()));
         Ok(())
     }
 
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
-        let (Some(symbolic), Some(factor)) = (&self.symbolic, &mut self.factor) else {
-            return Err(LinearError::Other("nothing is analysed".into()));
-        };
-        symbolic.factorise(values, factor).map(drop).map_err(translate)
+        self.solver()?.factorise(values).map(drop).map_err(translate)
     }
 
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
-        let Some(factor) = &mut self.factor else {
-            return Err(LinearError::Other("nothing is factorised".into()));
-        };
-        factor.solve(rhs).map(drop).map_err(translate)
+        self.solver()?.solve_directly(rhs).map(drop).map_err(translate)
+    }
+
+    fn begin(&mut self) {
+        self.solver.iter_mut().for_each(Solver::begin);
+    }
+
+    fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
+        self.solver()?.iterate(values, rhs, tolerance).map(|found| found.is_some()).map_err(translate)
     }
 }

@@ -9,7 +9,7 @@ mod run;
 mod schedule;
 
 pub use convergence::{Norms, Worst};
-pub use linear::{Frontal, LinearError, LinearSolver};
+pub use linear::{Factors, Frontal, LinearError, LinearSolver};
 pub use newton::{NewtonOptions, Variant};
 pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
 pub use run::{Problem, Run, RunOptions, Stop};

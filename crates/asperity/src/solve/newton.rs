@@ -5,7 +5,7 @@
 //! behind it along instead of turning them inside out.
 
 use super::convergence::{Norms, Yardstick};
-use super::linear::{LinearError, LinearSolver};
+use super::linear::{Factors, LinearError, LinearSolver};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::run::Problem;
 use super::schedule::Step;
@@ -29,6 +29,8 @@ pub enum Variant {
 pub struct NewtonOptions {
     /// Which matrix is used.
     pub variant: Variant,
+    /// What is factorised with [`Variant::Full`].
+    pub factors: Factors,
     /// Whether the tangent is exact or found by perturbation.
     pub perturbation: bool,
     /// Largest unbalanced force over the yardstick.
@@ -47,6 +49,7 @@ impl Default for NewtonOptions {
     fn default() -> Self {
         Self {
             variant: Variant::Full,
+            factors: Factors::Auto,
             perturbation: false,
             tolerance: 1e-6,
             iterations: 25,
@@ -118,6 +121,8 @@ pub struct Newton<'a> {
     evaluation: Evaluation,
     residual: Vec<f64>,
     stiffness: f64,
+    /// Multiple of the initial slope that the line search allows at the end of a step.
+    bound: f64,
 }
 
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
@@ -128,10 +133,17 @@ const ROUNDING: f64 = 1e-12;
 const SLOPE: f64 = 10.0;
 /// Slope, as a part of the initial one, at which the search for a shorter step ends.
 const GOOD: f64 = 0.8;
+/// Iterations after which the line search turns strict: a step must then lower the slope,
+const PATIENCE: usize = 8;
+/// to this part of the initial one. Points that slip to and fro in turn are held by it.
+const STRICT: f64 = 0.5;
 /// Part of the penalties that leads the first iterations,
 const LEAD: f64 = 0.01;
 /// and the residual below which the full ones take over.
 const LED: f64 = 0.03;
+/// Bounds of what an iterative solution may leave of its right-hand side.
+const LOOSEST: f64 = 1e-4;
+const TIGHTEST: f64 = 1e-8;
 /// Shortest step of the line search.
 const SHORTEST: f64 = 0.01;
 
@@ -153,7 +165,19 @@ impl<'a> Newton<'a> {
         memory.workspace.prepare(&assembly, state)?;
         let evaluation = Evaluation::new(&problem.terms, state);
         let residual = vec![0.0; step.constraints.free_count()];
-        Ok(Self { problem, state, step, assembly, at, memory, solver, evaluation, residual, stiffness: 0.0 })
+        Ok(Self {
+            problem,
+            state,
+            step,
+            assembly,
+            at,
+            memory,
+            solver,
+            evaluation,
+            residual,
+            stiffness: 0.0,
+            bound: SLOPE,
+        })
     }
 
     /// Iterates to the solution.
@@ -162,7 +186,8 @@ impl<'a> Newton<'a> {
         let mut led = options.continuation && self.problem.terms.iter().any(|term| term.softens());
         self.memory.workspace.stiffness = if led { LEAD } else { 1.0 };
         let (mut u, mut missing) = self.predict()?;
-        let (mut correction, mut taken, mut factorised) = (0.0, 0.0, false);
+        let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
+        self.solver.begin();
         let mut before: Vec<Vec<(u8, u32)>> = Vec::new();
         for iteration in 0..=options.iterations {
             self.refresh_stiffness();
@@ -175,6 +200,8 @@ impl<'a> Newton<'a> {
                 led = false;
                 self.memory.workspace.stiffness = 1.0;
                 self.evaluate(&u, None, self.tangent())?;
+                // The factor of the softer problem is no good any more.
+                self.solver.begin();
             } else if missing.is_none() && norms.converged() {
                 return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
             }
@@ -184,9 +211,13 @@ impl<'a> Newton<'a> {
             if iteration == options.iterations {
                 break;
             }
+            if iteration >= PATIENCE {
+                self.bound = STRICT;
+            }
             before.clone_from(&self.evaluation.branches);
-            factorised = self.factorise(iteration)?;
-            let (direction, slope) = self.direction(missing.as_deref())?;
+            let (direction, slope, fresh) =
+                self.direction(iteration, missing.as_deref(), forcing(norms.ratio, ratio))?;
+            (factorised, ratio) = (fresh, norms.ratio);
             taken = self.advance(&mut u, &direction, slope, missing.as_deref())?;
             let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0_f64, |m, x| m.max(x.abs()));
             let change = largest(&mut u.iter().zip(&self.state.u).map(|(a, b)| a - b));
@@ -299,8 +330,8 @@ impl<'a> Newton<'a> {
         line
     }
 
-    /// Factorises if this iteration asks for it, and says whether it did.
-    fn factorise(&mut self, iteration: usize) -> Result<bool, Trouble> {
+    /// Analyses the pattern if it is new.
+    fn analyse(&mut self, iteration: usize) -> Result<(), Trouble> {
         let analysis = self.memory.workspace.analysis();
         if self.memory.analysed != analysis {
             let nodes = owners(&self.problem.dofs, self.step.constraints.free());
@@ -309,6 +340,11 @@ impl<'a> Newton<'a> {
             (self.memory.analysed, self.memory.factorised) = (analysis, false);
             self.memory.analyses += 1;
         }
+        Ok(())
+    }
+
+    /// Factorises if this iteration asks for it, and says whether it did.
+    fn factorise(&mut self, iteration: usize) -> Result<bool, Trouble> {
         let keep = match self.problem.newton.variant {
             Variant::Full => false,
             Variant::Modified => iteration > 0,
@@ -324,8 +360,14 @@ impl<'a> Newton<'a> {
         Ok(true)
     }
 
-    /// Newton's direction on all unknowns, and the slope of the work of the unbalanced forces along it.
-    fn direction(&mut self, missing: Option<&[f64]>) -> Result<(Vec<f64>, f64), Trouble> {
+    /// Newton's direction on all unknowns, the slope of the work of the unbalanced forces along it, and whether a matrix
+    /// was factorised for it; if not, the direction satisfies its equations to within `forcing`.
+    fn direction(
+        &mut self,
+        iteration: usize,
+        missing: Option<&[f64]>,
+        forcing: f64,
+    ) -> Result<(Vec<f64>, f64, bool), Trouble> {
         let constraints = &self.step.constraints;
         let mut rhs = vec![0.0; self.residual.len()];
         let mut direction = vec![0.0; self.state.u.len()];
@@ -334,10 +376,24 @@ impl<'a> Newton<'a> {
             direction.copy_from_slice(missing);
         }
         rhs.iter_mut().zip(&self.residual).for_each(|(rhs, r)| *rhs = -(*rhs + r));
-        self.solver.solve(&mut rhs).map_err(|e| self.explain(e, 1))?;
+        let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
         let slope = rhs.iter().zip(&self.residual).map(|(q, r)| q * r).sum();
         constraints.expand(&rhs, &mut direction);
-        Ok((direction, slope))
+        Ok((direction, slope, factorised))
+    }
+
+    /// Solves with the present matrix or that of the variant, and says whether a matrix was factorised.
+    fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, Trouble> {
+        self.analyse(iteration)?;
+        if self.problem.newton.variant == Variant::Full {
+            let solved = self.solver.iterate(&self.evaluation.values, rhs, forcing);
+            if solved.map_err(|e| self.explain(e, 1))? {
+                return Ok(false);
+            }
+        }
+        let factorised = self.factorise(iteration)?;
+        self.solver.solve(rhs).map_err(|e| self.explain(e, 1))?;
+        Ok(factorised)
     }
 
     /// Moves `u` along the direction, evaluates there, and returns the part that was taken.
@@ -365,7 +421,7 @@ impl<'a> Newton<'a> {
             return Ok(part);
         }
         let end = self.slope(direction);
-        if end.abs() <= SLOPE * slope.abs() {
+        if end.abs() <= self.bound * slope.abs() {
             return Ok(part);
         }
         part = self.search(&along, direction, (slope, end))?;
@@ -469,6 +525,13 @@ impl<'a> Newton<'a> {
         }
         text
     }
+}
+
+/// Residual of an iterative solution over its right-hand side, from the unbalanced forces now and an iteration before:
+/// what the linear system leaves is no more than what the next iteration finds anyway, so that the order stays
+/// quadratic (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996, their second choice).
+fn forcing(now: f64, before: f64) -> f64 {
+    (now / before.max(f64::MIN_POSITIVE)).powi(2).clamp(TIGHTEST, LOOSEST)
 }
 
 /// For each free unknown, its node or tool, numbered as they come.

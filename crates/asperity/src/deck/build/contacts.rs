@@ -2,6 +2,7 @@
 
 use super::Builder;
 use crate::contact::{Contact, ContactOptions, Surface, default_penalty};
+use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys;
 use crate::deck::reader::Name;
 use crate::interface::Interface;
@@ -15,9 +16,26 @@ impl Builder<'_> {
     pub(super) fn contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
         let moduli = moduli(&self.site.mesh, bodies);
         let deck = self.deck;
+        self.check_doubles();
         let contacts: Vec<_> =
             deck.contact.iter().map(|(name, keys)| self.contact(name, keys, tools, &moduli)).collect();
         contacts.into_iter().collect()
+    }
+
+    /// No side may touch the same tool by two contacts: it would do so twice as hard.
+    fn check_doubles(&mut self) {
+        let mesh = self.site.mesh.clone();
+        let sides = |keys: &keys::Contact| mesh.groups.get(&keys.surface.text).map_or(&[][..], |group| &group.sides);
+        let mut found = Vec::new();
+        for (i, (name, keys)) in self.deck.contact.iter().enumerate() {
+            let earlier = self.deck.contact[..i].iter().filter(|(_, other)| other.target.text == keys.target.text);
+            let shares = |other: &keys::Contact| sides(keys).iter().any(|side| sides(other).contains(side));
+            for (other, _) in earlier.filter(|(_, other)| shares(other)) {
+                let what = format!("the contacts `{other}` and `{name}` let the same sides touch `{}`", keys.target);
+                found.push(Diagnostic::error(what).at(keys.surface.place).help("keep one of the two"));
+            }
+        }
+        self.found.append(&mut found);
     }
 
     fn contact(&mut self, name: &Name, keys: &keys::Contact, tools: &[Arc<Tool>], moduli: &[f64]) -> Option<Contact> {

@@ -2,6 +2,7 @@
 
 use super::Builder;
 use crate::amplitude::{Amplitude, Change, Timeline};
+use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{Components, PressureKind, Step};
 use crate::deck::reader::Name;
 use crate::load::{FollowerPressure, Springs, body_force, dead_pressure, force_on_nodes, force_on_tool, traction};
@@ -121,7 +122,8 @@ impl Builder<'_> {
         let (_, first) = said.first()?;
         if let Some((other, _)) = said.iter().find(|(_, pressure)| pressure.kind != first.kind) {
             let what = format!("the pressure on `{name}` cannot change between follower and dead");
-            self.refuse(what, other.place);
+            let help = "say one kind in all steps, or lay the other on a group of its own";
+            self.found.push(Diagnostic::error(what).at(other.place).help(help));
             return None;
         }
         Some(first.kind)
@@ -158,7 +160,8 @@ impl Builder<'_> {
         let steps = &self.deck.step;
         let flat = steps.iter().flat_map(said).find(|(other, keys)| other.text == name.text && keys.z().is_some());
         if let Some(z) = flat.and_then(|(_, keys)| keys.z()).filter(|_| self.plane()) {
-            self.refuse(format!("`{kind}.{name}` has a component along z, but the model is plane"), z.place);
+            let what = format!("`{kind}.{name}` has a component along z, but the model is plane");
+            self.found.push(Diagnostic::error(what).at(z.place).help("remove `z`"));
             return None;
         }
         let component = |axis: usize| {

@@ -137,7 +137,11 @@ impl Builder<'_> {
         let (mesh, space) = (self.site.mesh.clone(), self.deck.space);
         if space.value == Space::Axisymmetric && mesh.bounds()[0][0] < -1e-9 * mesh.size() {
             let what = format!("the mesh reaches the negative radius {}", mesh.bounds()[0][0]);
-            self.found.push(Diagnostic::error(what).at(space.place).help("x is the radius; y is the axis"));
+            self.found.push(
+                Diagnostic::error(what)
+                    .at(space.place)
+                    .help("x is the radius, y the axis: draw the part where x is positive"),
+            );
         }
     }
 }

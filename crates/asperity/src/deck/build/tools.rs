@@ -7,7 +7,7 @@ use crate::deck::reader::Name;
 use crate::deck::source::Place;
 use crate::mesh::Space;
 use crate::tensor::Vec3;
-use crate::tool::{Severity, Tool};
+use crate::tool::{Finding, Severity, Tool};
 use std::sync::Arc;
 
 impl Builder<'_> {
@@ -19,7 +19,9 @@ impl Builder<'_> {
 
     fn tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<Tool>> {
         if !self.plane() {
-            self.refuse(format!("the tool `{name}` is drawn in the plane, but space = \"solid\""), name.place);
+            let what = format!("the tool `{name}` is drawn in the plane, but space = \"solid\"");
+            let help = "tools are for the plane spaces and the axisymmetric one";
+            self.found.push(Diagnostic::error(what).at(name.place).help(help));
             return None;
         }
         let mut segments = Vec::new();
@@ -42,9 +44,24 @@ impl Builder<'_> {
             let what = format!("tool `{}`: {finding}", tool.name());
             let grave = finding.severity() == Severity::Error;
             sound &= !grave;
-            let diagnostic = if grave { Diagnostic::error(what) } else { Diagnostic::note(what) };
-            self.found.push(diagnostic.at(place));
+            let diagnostic = if grave { Diagnostic::error(what) } else { Diagnostic::note(what) }.at(place);
+            self.found.push(match remedy(&finding) {
+                "" => diagnostic,
+                help => diagnostic.help(help),
+            });
         }
         sound
+    }
+}
+
+/// What to do about a finding whose sentence does not say it.
+fn remedy(finding: &Finding) -> &'static str {
+    match finding {
+        Finding::Gap(..) => "begin each segment in the very point in which the one before ends",
+        Finding::NoLength(_) => "remove the segment, or move one of its ends",
+        Finding::NegativeRadius(..) => "x is the radius, y the axis: draw the tool where x is positive",
+        Finding::Crossing(..) => "a profile goes around the tool's material once and never meets itself",
+        Finding::Kink(..) if finding.severity() == Severity::Error => "the profile may not run back along itself",
+        _ => "",
     }
 }

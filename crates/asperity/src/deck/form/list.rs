@@ -24,6 +24,7 @@ impl<F> List<F> {
     fn count(&self) -> String {
         let items = |n: &usize| if *n == 1 { "1 item".to_owned() } else { format!("{n} items") };
         match (self.lengths.start(), self.lengths.end()) {
+            (0, &usize::MAX) => "any number of items".to_owned(),
             (least, &usize::MAX) => format!("at least {}", items(least)),
             (least, most) if least == most => items(least),
             (least, most) => format!("{least} to {}", items(most)),
@@ -87,6 +88,10 @@ impl<F: Form> Form for Map<F> {
         let mut values = Vec::new();
         for entry in reader.table(node)? {
             let name = Name { text: entry.key.clone(), place: entry.place };
+            if name.text.is_empty() && self.names.defines {
+                let what = format!("a {} needs a name that is not empty", self.names.names.noun());
+                reader.report(Diagnostic::error(what).at(name.place));
+            }
             reader.mention(self.names.names, name.clone(), self.names.defines);
             let value = reader.under(entry.key.clone(), |reader| self.item.read(&entry.node, reader));
             values.push(value.map(|value| (name, value)));

@@ -2,19 +2,21 @@
 
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::reader::Reader;
-use crate::deck::tree::{Entry, Node};
+use crate::deck::tree::{Entry, Node, Value};
 
 /// The only key of a table, if it is one of `valid`; else messages.
 pub fn tag<'n>(node: &'n Node, valid: &[&'static str], reader: &mut Reader) -> Option<&'n Entry> {
-    let entries = reader.table(node)?;
+    let words = valid.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+    let Value::Table(entries) = &node.value else {
+        return reader.refuse(node.place, &format!("a table with one of {words}"), node.value.kind());
+    };
     let path = reader.path();
     let before = reader.diagnostics.len();
     for entry in entries.iter().filter(|entry| !valid.contains(&entry.key.as_str())) {
         let what = format!("`{path}` cannot be `{}`", entry.key);
         reader.report(Diagnostic::error(what).at(entry.place).suggest(&entry.key, valid.iter().copied()));
     }
-    let words = valid.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
-    match entries {
+    match entries.as_slice() {
         _ if reader.diagnostics.len() > before => None,
         [entry] => Some(entry),
         [] => reader.refuse(node.place, &format!("one of {words}"), "nothing"),

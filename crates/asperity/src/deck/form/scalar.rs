@@ -24,7 +24,11 @@ pub struct Number {
 
 impl Number {
     fn refuse(&self, x: f64, place: Place, reader: &mut Reader) {
-        let what = format!("`{}` must be {}, not {x}", reader.path(), self.range);
+        let path = reader.path();
+        let what = match x.is_infinite() {
+            true => format!("`{path}` is infinite, or too large for a number; it must be {}", self.range),
+            false => format!("`{path}` must be {}, not {x}", self.range),
+        };
         let words = [self.meaning, self.unit].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>();
         let diagnostic = Diagnostic::error(what).at(place);
         reader.report(if words.is_empty() { diagnostic } else { diagnostic.label(words.join(", ")) });
@@ -117,7 +121,7 @@ impl Form for Text {
     fn read(&self, node: &Node, reader: &mut Reader) -> Option<String> {
         match &node.value {
             Value::Text(text) => Some(text.clone()),
-            other => reader.refuse(node.place, &format!("{}, a string", self.0), other.kind()),
+            other => reader.refuse(node.place, &format!("{}, a string in quotes", self.0), other.kind()),
         }
     }
 }

@@ -133,7 +133,10 @@ macro_rules! table {
                 let complete = fields.close(reader);
                 let table = Self { $($field: $field?,)+ place: node.place };
                 let before = reader.errors();
-                $($check(&table, reader);)?
+                // What several keys say together is judged when each of them is right.
+                $(if complete {
+                    $check(&table, reader);
+                })?
                 (complete && reader.errors() == before).then_some(table)
             }
         }

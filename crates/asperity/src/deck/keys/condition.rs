@@ -33,10 +33,15 @@ impl Form for AmplitudeForm {
         if pairs[0][0] != 0.0 || pairs[pairs.len() - 1][0] != 1.0 {
             let what = format!("`{}` must go from fraction 0 of the step to fraction 1", reader.path());
             let label = "pairs [fraction of the step, factor]";
-            reader.report(Diagnostic::error(what).at(node.place).label(label));
+            let help = "begin with [0.0, ...] and end with [1.0, ...]";
+            reader.report(Diagnostic::error(what).at(node.place).label(label).help(help));
             return None;
         }
-        let refuse = |why| reader.report(Diagnostic::error(format!("`{}`: {why}", reader.path())).at(node.place));
+        let label = "pairs [fraction of the step, factor]";
+        let refuse = |why| {
+            let what = format!("`{}`: {why}", reader.path());
+            reader.report(Diagnostic::error(what).at(node.place).label(label));
+        };
         Amplitude::new(pairs).map_err(refuse).ok()
     }
 }
@@ -215,7 +220,7 @@ fn displacement(given: &Displacement, reader: &mut Reader) {
         }
         if along.iter().all(|&x| x == 0.0) {
             let what = format!("`{}.along` has no direction", reader.path());
-            reader.report(Diagnostic::error(what).at(along.place));
+            reader.report(Diagnostic::error(what).at(along.place).label("all its components are zero"));
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::deck::form::{
 };
 use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::{Names, Schema};
-use crate::deck::source::Spot;
+use crate::deck::source::{Place, Spot};
 use crate::deck::tree::Node;
 use crate::declare::{Range, unit};
 use crate::mesh::{Cell, cells};
@@ -44,7 +44,7 @@ table! {
         /// Number of cells along `[x, y]`.
         cells: Option<Vec<usize>> = counts(2).unless_given("those of along_x and along_y"),
         /// Size of the last cell over the size of the first along `[x, y]`.
-        ratio: Vec<f64> = ratios(2).or("[1.0, 1.0]"),
+        ratio: Option<Spot<Vec<f64>>> = ratios(2).spot().unless_given("1 in each direction"),
         /// Runs of cells along x, in place of `to` and `cells`.
         along_x: Vec<Run> = runs().or("[]"),
         /// Runs of cells along y.
@@ -66,7 +66,7 @@ table! {
         /// Number of cells along `[radius, angle]`.
         cells: Option<Vec<usize>> = counts(2).unless_given("those of along_radius and along_angle"),
         /// Size of the last cell over the size of the first along `[radius, angle]`.
-        ratio: Vec<f64> = ratios(2).or("[1.0, 1.0]"),
+        ratio: Option<Spot<Vec<f64>>> = ratios(2).spot().unless_given("1 in each direction"),
         /// Runs of cells along the radius, in place of `to` and `cells`.
         along_radius: Vec<Run> = runs().or("[]"),
         /// Runs of cells along the angle.
@@ -86,7 +86,7 @@ table! {
         /// Number of cells along `[x, y, z]`.
         cells: Option<Vec<usize>> = counts(3).unless_given("those of along_x, along_y and along_z"),
         /// Size of the last cell over the size of the first along `[x, y, z]`.
-        ratio: Vec<f64> = ratios(3).or("[1.0, 1.0, 1.0]"),
+        ratio: Option<Spot<Vec<f64>>> = ratios(3).spot().unless_given("1 in each direction"),
         /// Runs of cells along x, in place of `to` and `cells`.
         along_x: Vec<Run> = runs().or("[]"),
         /// Runs of cells along y.
@@ -100,14 +100,14 @@ table! {
 
 table! {
     /// Cells in a row, up to a breakpoint.
-    pub struct Run {
+    pub struct Run check run {
         /// The breakpoint.
         to: f64 = number(unit::LENGTH, Range::ANY).required(),
         /// Number of cells.
         cells: usize = whole(1..=10_000_000).required(),
         /// Size of the last cell over the size of the first.
-        ratio: f64 = number(unit::NONE, Range::POSITIVE).or("1.0"),
-        /// Whether sizes continue those of the run before, without a jump; `ratio` then has no say.
+        ratio: Option<Spot<f64>> = number(unit::NONE, Range::POSITIVE).spot().unless_given("1"),
+        /// Whether sizes continue those of the run before without a jump, in place of `ratio`.
         smooth: bool = flag().or("false"),
     }
 }
@@ -115,15 +115,15 @@ table! {
 table! {
     /// A part of a group: its nodes within the ranges, and its cells and sides whose nodes all are. Bounds are
     /// included; a direction without a range is not looked at.
-    pub struct Selection {
+    pub struct Selection check selection {
         /// The group to choose from.
         of: Name = refers(Names::Group).required(),
         /// Least and largest x.
-        x: Option<Vec<f64>> = point(2).unless_given("any"),
+        x: Option<Spot<Vec<f64>>> = point(2).spot().unless_given("any"),
         /// Least and largest y.
-        y: Option<Vec<f64>> = point(2).unless_given("any"),
+        y: Option<Spot<Vec<f64>>> = point(2).spot().unless_given("any"),
         /// Least and largest z.
-        z: Option<Vec<f64>> = point(2).unless_given("any"),
+        z: Option<Spot<Vec<f64>>> = point(2).spot().unless_given("any"),
     }
 }
 
@@ -150,31 +150,74 @@ fn given(mesh: &MeshKeys, reader: &mut Reader) {
     }
 }
 
-/// `to` and `cells` for all directions, or runs for all: never a mixture that one has to guess.
-fn one_way(table: (&str, crate::deck::source::Place), simple: [bool; 2], along: &[(&str, bool)], reader: &mut Reader) {
-    let runs = along.iter().filter(|(_, given)| *given).count();
-    if (simple == [true; 2] && runs == 0) || (simple == [false; 2] && runs == along.len()) {
-        return;
+/// How a part says where its cells end: `to` and `cells` for all directions, or runs for all; never a mixture that one
+/// has to guess.
+struct Extent<'k> {
+    /// What the part is called.
+    what: &'static str,
+    place: Place,
+    /// Whether `to` and `cells` are given.
+    simple: [bool; 2],
+    ratio: Option<Place>,
+    along: &'k [(&'static str, &'k [Run])],
+}
+
+impl Extent<'_> {
+    fn judge(&self, reader: &mut Reader) {
+        let runs = self.along.iter().filter(|(_, runs)| !runs.is_empty()).count();
+        let names = self.along.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(" and ");
+        match (self.simple, runs) {
+            ([true, true], 0) => {}
+            ([false, false], runs) if runs == self.along.len() => self.judge_ratio(reader),
+            _ => {
+                let what = format!("`{}` must say either `to` and `cells`, or {names}", reader.path());
+                let label = format!("size of this {}", self.what);
+                reader.report(Diagnostic::error(what).at(self.place).label(label));
+            }
+        }
     }
-    let names = along.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(" and ");
-    let what = format!("`{}` must say either `to` and `cells`, or {names}", reader.path());
-    reader.report(Diagnostic::error(what).at(table.1).label(format!("size of this {}", table.0)));
+
+    fn judge_ratio(&self, reader: &mut Reader) {
+        if let Some(place) = self.ratio {
+            let what = format!("`{}.ratio` has no meaning beside runs of cells", reader.path());
+            reader.report(Diagnostic::error(what).at(place).help("each run has a `ratio` of its own"));
+        }
+    }
 }
 
 fn rectangle(part: &Rectangle, reader: &mut Reader) {
-    let along = [("along_x", !part.along_x.is_empty()), ("along_y", !part.along_y.is_empty())];
-    one_way(("rectangle", part.place), [part.to.is_some(), part.cells.is_some()], &along, reader);
+    let along = &[("along_x", &part.along_x[..]), ("along_y", &part.along_y)];
+    let (simple, ratio) = ([part.to.is_some(), part.cells.is_some()], part.ratio.as_ref().map(|ratio| ratio.place));
+    Extent { what: "rectangle", place: part.place, simple, ratio, along }.judge(reader);
 }
 
 fn annulus(part: &Annulus, reader: &mut Reader) {
-    let along = [("along_radius", !part.along_radius.is_empty()), ("along_angle", !part.along_angle.is_empty())];
-    one_way(("annulus", part.place), [part.to.is_some(), part.cells.is_some()], &along, reader);
+    let along = &[("along_radius", &part.along_radius[..]), ("along_angle", &part.along_angle)];
+    let (simple, ratio) = ([part.to.is_some(), part.cells.is_some()], part.ratio.as_ref().map(|ratio| ratio.place));
+    Extent { what: "annulus", place: part.place, simple, ratio, along }.judge(reader);
 }
 
 fn block(part: &Block, reader: &mut Reader) {
-    let given = [&part.along_x, &part.along_y, &part.along_z].map(|runs| !runs.is_empty());
-    let along = [("along_x", given[0]), ("along_y", given[1]), ("along_z", given[2])];
-    one_way(("box", part.place), [part.to.is_some(), part.cells.is_some()], &along, reader);
+    let along = &[("along_x", &part.along_x[..]), ("along_y", &part.along_y), ("along_z", &part.along_z)];
+    let (simple, ratio) = ([part.to.is_some(), part.cells.is_some()], part.ratio.as_ref().map(|ratio| ratio.place));
+    Extent { what: "box", place: part.place, simple, ratio, along }.judge(reader);
+}
+
+fn run(run: &Run, reader: &mut Reader) {
+    if let Some(ratio) = run.ratio.filter(|_| run.smooth) {
+        let what = format!("`{}` says both `smooth` and `ratio`", reader.path());
+        reader.report(Diagnostic::error(what).at(ratio.place).help("a smooth run finds its ratio itself; keep one"));
+    }
+}
+
+fn selection(selection: &Selection, reader: &mut Reader) {
+    for (axis, range) in [("x", &selection.x), ("y", &selection.y), ("z", &selection.z)] {
+        if let Some(range) = range.as_ref().filter(|range| range[0] > range[1]) {
+            let what =
+                format!("`{}.{axis}`: the least, {}, lies above the largest, {}", reader.path(), range[0], range[1]);
+            reader.report(Diagnostic::error(what).at(range.place).help("exchange the two"));
+        }
+    }
 }
 
 /// A cell of two dimensions, by its registered name.

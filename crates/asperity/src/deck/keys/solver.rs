@@ -2,13 +2,15 @@
 
 use crate::deck::form::{Form, Words, flag, number, table, whole, word, words};
 use crate::declare::{Range, unit};
-use crate::solve::{NewtonOptions, Variant};
+use crate::solve::{Factors, NewtonOptions, Variant};
 
 table! {
     /// How the equations are solved.
     pub struct Solver {
         /// Which matrix Newton's method uses.
         newton: Variant = word().or("\"full\""),
+        /// What is factorised when every iteration has a new matrix.
+        factors: Factors = word().or("\"auto\""),
         /// Where the derivatives come from.
         tangent: Tangent = word().or("\"exact\""),
         /// Largest unbalanced force over the reference force of a converged increment.
@@ -35,11 +37,29 @@ impl Words for Variant {
     }
 }
 
+impl Words for Factors {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        let kept = "as few matrices as possible, over all increments; \
+            a restarted run is then no longer the same to the bit";
+        vec![
+            (Self::Auto, "auto", "as `attempt` where that is predicted to be cheaper, as in space; else as `fresh`"),
+            (Self::Fresh, "fresh", "every matrix"),
+            (
+                Self::Attempt,
+                "attempt",
+                "the matrix of an attempt's first iteration, with which the others are solved by FGMRES",
+            ),
+            (Self::Kept, "kept", kept),
+        ]
+    }
+}
+
 impl Solver {
     /// The options of the iterations.
     pub fn newton_options(&self) -> NewtonOptions {
         NewtonOptions {
             variant: self.newton,
+            factors: self.factors,
             perturbation: self.tangent == Tangent::Perturbation,
             tolerance: self.tolerance,
             iterations: self.iterations,

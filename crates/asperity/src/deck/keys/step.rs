@@ -66,17 +66,45 @@ fn fraction() -> impl Form<Value = f64> {
 }
 
 fn increments(increments: &Increments, reader: &mut Reader) {
-    if increments.count.is_some() {
-        for (key, given) in [("first", increments.first), ("largest", increments.largest)] {
-            if let Some(given) = given {
-                let what = format!("`{}` says both `count` and `{key}`", reader.path());
-                reader.report(Diagnostic::error(what).at(given.place).help("equal increments have no other size"));
-            }
+    match increments.count {
+        Some(count) => equal_increments(increments, count, reader),
+        None => chosen_increments(increments, reader),
+    }
+}
+
+/// A count leaves no other size to say, and must itself be allowed.
+fn equal_increments(keys: &Increments, count: Spot<usize>, reader: &mut Reader) {
+    for (key, given) in [("first", keys.first), ("largest", keys.largest)] {
+        if let Some(given) = given {
+            let what = format!("`{}` says both `count` and `{key}`", reader.path());
+            reader.report(Diagnostic::error(what).at(given.place).help("equal increments have no other size"));
         }
     }
-    if let Some(largest) = increments.largest.filter(|largest| **largest < *increments.smallest) {
-        let what = format!("`{}.largest` lies below `smallest`, {}", reader.path(), *increments.smallest);
-        reader.report(Diagnostic::error(what).at(largest.place));
+    if count.value > keys.most {
+        let what = format!("`{}.count` exceeds `most`, {}", reader.path(), keys.most);
+        reader.report(Diagnostic::error(what).at(count.place).help("raise `most`, or ask for fewer increments"));
+    }
+    let size = 1.0 / count.value as f64;
+    if size < *keys.smallest {
+        let what = format!("`{}.count`: increments of {size} lie below `smallest`, {}", reader.path(), *keys.smallest);
+        reader.report(Diagnostic::error(what).at(count.place).help("lower `smallest`, or ask for fewer increments"));
+    }
+}
+
+/// smallest <= first <= largest, wherever they are given.
+fn chosen_increments(keys: &Increments, reader: &mut Reader) {
+    let smallest = *keys.smallest;
+    for (key, given) in [("first", keys.first), ("largest", keys.largest)] {
+        if let Some(given) = given.filter(|given| **given < smallest) {
+            let what = format!("`{}.{key}` lies below `smallest`, {smallest}", reader.path());
+            reader.report(Diagnostic::error(what).at(given.place).help(format!("raise `{key}`, or lower `smallest`")));
+        }
+    }
+    if let (Some(first), Some(largest)) = (keys.first, keys.largest)
+        && *first > *largest
+    {
+        let what = format!("`{}.first` lies above `largest`, {}", reader.path(), *largest);
+        reader.report(Diagnostic::error(what).at(first.place).help("lower `first`, or raise `largest`"));
     }
 }
 
@@ -124,6 +152,20 @@ impl Step {
     }
 }
 
+/// Words on a release of nothing: the kind may be missing, and a motion ends by itself.
+fn unknown_release(released: &Name, standing: &BTreeSet<String>, what: String) -> Diagnostic {
+    let diagnostic = Diagnostic::error(what).at(released.place);
+    if let Some(tool) = released.text.strip_prefix("motion.") {
+        return diagnostic.help(format!("a tool that no step moves stands still: say nothing of `{tool}`, or load it"));
+    }
+    let meant = standing.iter().find(|c| c.split_once('.').is_some_and(|(_, name)| name == released.text));
+    match meant {
+        Some(meant) => diagnostic.label(format!("did you mean `{meant}`?")),
+        None if standing.is_empty() => diagnostic.help("no step before this one says anything that lasts"),
+        None => diagnostic.suggest(&released.text, standing.iter().map(String::as_str)),
+    }
+}
+
 /// A tool cannot be moved and loaded along the same direction.
 fn conflicts(step: &Step, reader: &mut Reader) {
     for (tool, load) in &step.load {
@@ -167,14 +209,18 @@ fn persistence(steps: &[Step], reader: &mut Reader) {
     let mut names = BTreeSet::new();
     let mut standing: BTreeSet<String> = BTreeSet::new();
     for step in steps {
+        if let Some(name) = step.name.as_ref().filter(|name| name.value.is_empty()) {
+            let what = "a step needs a name that is not empty, or none";
+            reader
+                .report(Diagnostic::error(what).at(name.place).help("remove `name`; the step then goes by its number"));
+        }
         if let Some(name) = step.name.as_ref().filter(|name| !names.insert(name.value.clone())) {
             let what = format!("two steps are called `{}`", name.value);
             reader.report(Diagnostic::error(what).at(name.place).help("give each its own name"));
         }
         for released in step.release.iter().filter(|released| !standing.contains(&released.text)) {
             let what = format!("no earlier step has a condition `{released}` to release");
-            let valid = standing.iter().map(String::as_str);
-            reader.report(Diagnostic::error(what).at(released.place).suggest(&released.text, valid));
+            reader.report(unknown_release(released, &standing, what));
         }
         for released in &step.release {
             standing.remove(&released.text);

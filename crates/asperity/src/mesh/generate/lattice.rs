@@ -5,8 +5,9 @@ use crate::error::Error;
 use crate::mesh::{Cell, Group, Mesh, Side};
 use crate::tensor::Vec3;
 
-/// More lattice points than this are taken for a slip of the pen; they would not fit into the memory either.
-const MOST_POINTS: usize = 200_000_000;
+/// More nodes of cells than this, each counted in every cell, are taken for a slip of the pen; the memory of a common
+/// machine would not hold them either.
+const MOST_NODES: usize = 50_000_000;
 
 /// A lattice of bricks: stations along each direction, one station along the third of a plane part.
 pub(super) struct Lattice<'a> {
@@ -34,9 +35,12 @@ pub(super) fn check_cell(name: &str, part: &str, cell: &Cell, dimension: usize) 
 impl Lattice<'_> {
     /// The mesh with its groups, all names beginning with `name`.
     pub(super) fn mesh(&self, name: &str) -> Result<Mesh, Error> {
-        let points = (0..3).try_fold(1usize, |product, a| product.checked_mul(self.size(a)));
-        if points.is_none_or(|points| points > MOST_POINTS) {
-            return Err(Error::input(format!("{name}: too many cells for one mesh; use fewer along each direction")));
+        let of_brick = tiling(self.cell).iter().map(|tile| tile.len()).sum();
+        let nodes = (0..3).try_fold(of_brick, |product: usize, a| product.checked_mul(self.bricks(a)));
+        if nodes.is_none_or(|nodes| nodes > MOST_NODES) {
+            let bricks: Vec<String> = (0..self.stations.len()).map(|axis| self.bricks(axis).to_string()).collect();
+            let what = format!("{name}: {} cells are too many for one mesh", bricks.join(" times "));
+            return Err(Error::input(format!("{what}; use fewer along each direction")));
         }
         let (mesh, corners) = self.cells();
         Ok(self.grouped(mesh, &corners, name))

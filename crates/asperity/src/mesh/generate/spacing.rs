@@ -107,7 +107,7 @@ impl Spacing {
             return refuse("the number of cells is zero; give at least one".into());
         }
         if self.cells() > MOST_CELLS {
-            return refuse("too many cells along one direction".into());
+            return refuse(format!("{} cells along one direction are too many; use fewer", self.cells()));
         }
         if !self.from.is_finite() || self.runs.iter().any(|run| !run.to.is_finite()) {
             return refuse("a coordinate is not a finite number".into());
@@ -197,7 +197,7 @@ mod tests {
             (Spacing::uniform(0.0, f64::NAN, 2), "finite"),
             (Spacing::graded(0.0, 1.0, 2, -1.0), "positive"),
             (Spacing::graded(1.0, 2.0, 3, 1e300), "vanish"),
-            (Spacing::uniform(0.0, 1.0, usize::MAX), "too many"),
+            (Spacing::uniform(0.0, 1.0, usize::MAX), "are too many"),
             (Spacing::from(0.0).run(1.0, 4, Grade::Smooth), "before it"),
             (Spacing::uniform(0.0, 1.0, 1).run(1.001, 4, Grade::Smooth), "change their number"),
         ] {

@@ -16,7 +16,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         let nodes = (0..dofs.nodes()).map(move |node| dofs.node(node) + axis);
         nodes.chain((0..dofs.tools()).map(move |tool| dofs.tool(tool) + axis))
     };
-    let (mut left, mut largest) = (0.0f64, 0.0f64);
+    // Where nothing is loaded yet, the yardstick of the iterations stands for the forces.
+    let (mut left, mut largest) = (0.0f64, source.state.reference[0]);
     for axis in axes {
         left = left.max(along(axis).map(|dof| unbalanced[dof]).sum::<f64>().abs());
         let forces = |dof: usize| reactions[dof].abs().max(source.state.load[dof].abs());

@@ -10,11 +10,11 @@ mod flat;
 use super::Builder;
 use crate::amplitude::Amplitude;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::{Displacement, Step};
+use crate::deck::keys::{Components, Displacement, Step};
 use crate::deck::reader::Name;
 use crate::mesh::{Mesh, Space};
 use crate::solve::{Course, Prescribed};
-use crate::system::Constraints;
+use crate::system::{Constraints, Row};
 use claim::{Claim, Claims, Known, What, hold};
 use flat::{ROUNDING, flat_normal, unit};
 use std::collections::BTreeMap;
@@ -35,9 +35,25 @@ impl Builder<'_> {
             self.claim(step, &mut claims);
             claims.values_mut().flatten().for_each(|claim| known.settle(claim));
             known.pass(claims.values().flatten());
-            self.constrain(&claims.values().flatten().collect::<Vec<_>>())
+            let held = self.constrain(&claims.values().flatten().collect::<Vec<_>>());
+            self.look_for_idle_forces(step, &held.0);
+            held
         });
         (steps.collect(), self.groups())
+    }
+
+    /// A force along which all its nodes are held or led moves nothing; most likely one of the two is a slip.
+    fn look_for_idle_forces(&mut self, step: &Step, constraints: &Constraints) {
+        for (name, force) in &step.force {
+            for (axis, value) in force.components().iter().enumerate().take(self.site.space.dimension()) {
+                let led = |&node: &usize| !matches!(constraints.row(self.site.dofs.node(node) + axis), Row::Free(_));
+                if value.is_some_and(|value| value != 0.0) && self.nodes(&name.text).iter().all(led) {
+                    let what = format!("`force.{name}` moves nothing along {}", ["x", "y", "z"][axis]);
+                    let warning = Diagnostic::warning(what).at(name.place).label("all its nodes are held there");
+                    self.found.push(warning.help("remove the force, or release the nodes"));
+                }
+            }
+        }
     }
 
     fn groups(&self) -> Vec<Nodes> {
@@ -118,11 +134,15 @@ impl Builder<'_> {
             let course = Course::To(value, keys.amplitude.clone());
             Claim { by: by.clone(), place: name.place, what, course }
         };
-        let flat = self.plane().then_some(keys.z).flatten().map(|z| z.place);
-        let long = keys.along.as_ref().filter(|along| along.len() != self.site.space.dimension()).map(|a| a.place);
-        if let Some(place) = flat.or(long) {
-            let count = self.site.space.dimension();
-            return self.refuse(format!("`{by}` does not have the {count} components of this space"), place);
+        if let Some(z) = keys.z.filter(|_| self.plane()) {
+            let what = format!("`{by}` has a component along z, but the model is plane");
+            self.found.push(Diagnostic::error(what).at(z.place).help("remove `z`"));
+            return;
+        }
+        let dimension = self.site.space.dimension();
+        if let Some(along) = keys.along.as_ref().filter(|along| along.len() != dimension) {
+            let what = format!("`{by}.along` must have {dimension} components in this space; it has {}", along.len());
+            return self.refuse(what, along.place);
         }
         let dofs = &self.site.dofs;
         let components = [keys.x, keys.y, keys.z.map(|z| z.value)];
@@ -144,7 +164,9 @@ impl Builder<'_> {
         let Some(group) = self.site.mesh.groups.get(&name.text) else { return };
         let Some(normal) = flat_normal(&self.site.mesh, &group.sides) else {
             let what = format!("the group `{name}` is not flat, so that it is no plane of symmetry");
-            return self.refuse(what, name.place);
+            self.found
+                .push(Diagnostic::error(what).at(name.place).help("choose a flat side, or part of it by [group]"));
+            return;
         };
         let by = format!("symmetry.{name}");
         let claim = |&node: &usize| Claim {
@@ -166,7 +188,11 @@ impl Builder<'_> {
             let claim = Claim { by: by.clone(), place: name.place, what, course };
             if claims.insert((by.clone(), i), vec![claim]).is_none() {
                 let what = format!("tool `{name}` is moved along what an earlier step loads");
-                self.found.push(Diagnostic::error(what).at(name.place).help(format!("release = [\"load.{name}\"]")));
+                self.found.push(
+                    Diagnostic::error(what)
+                        .at(name.place)
+                        .help(format!("release it in this step: release = [\"load.{name}\"]")),
+                );
             }
         }
     }

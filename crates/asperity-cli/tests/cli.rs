@@ -1,0 +1,150 @@
+//! The command as scripts and shells meet it: exit codes, files, interrupts.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A block pressed on a plate and pushed along it.
+const DECK: &str = r#"
+version = 1
+title = "Block on a plate"
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.0, 0.0], to = [4.0, 2.0], cells = [4, 2], cell = "quad4" }
+material.steel.elastic = { young = 210e3, poisson = 0.3 }
+body.block = { material = "steel", formulation = "f-bar" }
+tool.plate.profile = [{ line = [[20.0, 0.0], [-20.0, 0.0]] }]
+contact.sole = { surface = "block.bottom", target = "plate", law.coulomb = { friction = 0.2 } }
+
+[[step]]
+name = "press"
+increments = { count = 2 }
+displacement."block.top" = { x = 0.0, y = -0.01 }
+
+[[step]]
+name = "push"
+increments = { count = 200 }
+displacement."block.top" = { x = 1.0 }
+"#;
+
+fn asperity(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asperity")).args(arguments).current_dir(directory).output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn error(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn folder(deck: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("block.toml"), deck).unwrap();
+    folder
+}
+
+fn summary(directory: &Path) -> serde_json::Value {
+    serde_json::from_slice(&std::fs::read(directory.join("summary.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn a_run_converges_and_leaves_its_files() {
+    let folder = folder(DECK);
+    let run = asperity(folder.path(), &["run", "block.toml", "--set", "step.push.increments={count=4}"]);
+    assert_eq!(code(&run), 0, "{}", error(&run));
+    let results = folder.path().join("block.results");
+    let summary = summary(&results);
+    assert_eq!(summary["status"], "converged");
+    assert_eq!(summary["increments"], 6);
+    for file in summary["files"].as_array().unwrap() {
+        assert!(results.join(file.as_str().unwrap()).exists(), "{file}");
+    }
+    let text = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(text.contains("converged: 6 increments, 0 cut") && text.contains("certificate"), "{text}");
+
+    let drawn = asperity(folder.path(), &["figure", "block.results", "--at", "1,2", "--window", "-1,5,-1,3"]);
+    assert_eq!(code(&drawn), 0, "{}", error(&drawn));
+    assert!(String::from_utf8_lossy(&drawn.stdout).contains("contact_stress.svg"));
+}
+
+#[test]
+fn wrong_input_ends_with_2_and_a_caret() {
+    let folder = folder(&DECK.replace("friction", "fricton"));
+    let run = asperity(folder.path(), &["run", "block.toml"]);
+    assert_eq!(code(&run), 2);
+    assert!(error(&run).contains("did you mean `friction`?"), "{}", error(&run));
+    assert!(!folder.path().join("block.results").exists());
+    let lost = asperity(folder.path(), &["run", "lost.toml"]);
+    assert_eq!(code(&lost), 2);
+    let early = asperity(folder.path(), &["restart", "block.toml", "--set", "contact.sole.law={coulomb={friction=0}}"]);
+    assert_eq!(code(&early), 2);
+}
+
+#[test]
+fn what_does_not_converge_ends_with_3_and_a_summary() {
+    // Nothing holds the block along x before it touches.
+    let free = DECK.replace("x = 0.0, y = -0.01", "y = -0.01").replace("to = [4.0, 2.0]", "to = [4.0, 3.0]");
+    let folder = folder(&free.replace("from = [0.0, 0.0]", "from = [0.0, 1.0]"));
+    let run = asperity(folder.path(), &["run", "block.toml", "--out", "here"]);
+    assert_eq!(code(&run), 3, "{}", error(&run));
+    assert!(error(&run).contains("'block' is free along x"), "{}", error(&run));
+    let summary = summary(&folder.path().join("here"));
+    assert_eq!(summary["status"], "not-converged");
+    assert!(summary["reason"].as_str().unwrap().contains("free along x"));
+    let check = asperity(folder.path(), &["check", "block.toml"]);
+    assert_eq!(code(&check), 5);
+    assert!(error(&check).contains("free along x"), "{}", error(&check));
+}
+
+/// A run that is interrupted ends with 4, goes on from its checkpoint, and arrives where an undisturbed one does.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_goes_on() {
+    let folder = folder(DECK);
+    let results = folder.path().join("block.results");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+        .args(["run", "block.toml"])
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let begun = std::time::Instant::now();
+    while std::fs::read_to_string(results.join("increments.csv")).map_or(0, |text| text.lines().count()) < 4 {
+        assert!(begun.elapsed().as_secs() < 60, "the run does not get on");
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(kill.success());
+    assert_eq!(child.wait().unwrap().code(), Some(4));
+    let stopped = summary(&results);
+    assert_eq!(stopped["status"], "stopped");
+    assert!(stopped["increments"].as_u64().unwrap() < 202);
+
+    let other = asperity(folder.path(), &["restart", "block.toml", "--set", "title=\"Another\""]);
+    assert_eq!(code(&other), 2);
+    assert!(error(&other).contains("another deck"), "{}", error(&other));
+
+    assert_eq!(code(&asperity(folder.path(), &["restart", "block.toml", "--threads", "1"])), 0);
+    assert_eq!(code(&asperity(folder.path(), &["run", "block.toml", "--out", "whole", "--threads", "2"])), 0);
+    for file in ["history.csv", "iterations.csv", "increments.csv"] {
+        let read = |directory: &Path| std::fs::read(directory.join(file)).unwrap();
+        assert_eq!(read(&results), read(&folder.path().join("whole")), "{file}");
+    }
+}
+
+#[test]
+fn the_smaller_verbs_speak() {
+    let folder = folder(DECK);
+    let says = |arguments: &[&str], words: &str| {
+        let output = asperity(folder.path(), arguments);
+        assert_eq!(code(&output), 0, "{arguments:?}: {}", error(&output));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(text.contains(words), "{arguments:?}: {text}");
+    };
+    says(&["schema"], "\"$schema\"");
+    says(&["schema", "--manual"], "friction");
+    says(&["completions", "bash"], "asperity");
+    says(&["--help"], "Exit codes");
+    let empty = asperity(folder.path(), &["info", "block.toml"]);
+    assert_eq!(code(&empty), 2);
+}

@@ -9,7 +9,7 @@ use crate::tensor::Vec3;
 
 /// Chords of the body's boundary in the accepted state.
 pub struct Boundary {
-    chords: Vec<[Vec3; 2]>,
+    chords: Vec<(Side, [Vec3; 2])>,
 }
 
 /// Present positions of nodes.
@@ -34,23 +34,24 @@ impl Boundary {
             let nodes: Vec<usize> = mesh.side(side).1.collect();
             let x: Vec<Vec3> = positions(mesh, dofs, &nodes, u).collect();
             match x.as_slice() {
-                [a, b] => chords.push([*a, *b]),
-                [a, b, middle] => chords.extend([[*a, *middle], [*middle, *b]]),
+                [a, b] => chords.push((side, [*a, *b])),
+                [a, b, middle] => chords.extend([(side, [*a, *middle]), (side, [*middle, *b])]),
                 _ => {}
             }
         }
         Self { chords }
     }
 
-    /// Distance along `direction` from `origin`, which lies on the boundary, to the next crossing.
-    fn depth(&self, origin: Vec3, direction: Vec3, own: f64) -> f64 {
+    /// Distance along `direction` from `origin`, which lies on the side `own`, to the next crossing. A point of a
+    /// curved side lies off its chords, so that these are left out; `least` is a distance within rounding of a corner.
+    fn depth(&self, origin: Vec3, direction: Vec3, own: Side, least: f64) -> f64 {
         let mut depth = f64::INFINITY;
-        for [a, b] in &self.chords {
+        for (_, [a, b]) in self.chords.iter().filter(|(side, _)| *side != own) {
             let (d, to) = (*b - *a, *a - origin);
             let cross = |v: Vec3, w: Vec3| v[0] * w[1] - v[1] * w[0];
             let span = cross(direction, d);
             let (u, s) = (cross(to, d) / span, cross(to, direction) / span);
-            if u > own && u < depth && (-1e-9..=1.0 + 1e-9).contains(&s) {
+            if u > least && u < depth && (-1e-9..=1.0 + 1e-9).contains(&s) {
                 depth = u;
             }
         }
@@ -65,7 +66,26 @@ pub fn depths(surface: &Surface, mesh: &Mesh, dofs: &Dofs, boundary: &[Side], u:
         let x: Vec<Vec3> = positions(mesh, dofs, surface.nodes(point), u).collect();
         let (a, tangent) = point.place(&x);
         let (_, inward, length) = triad(tangent);
-        0.5 * boundary.depth(a, inward, 1e-3 * length)
+        0.5 * boundary.depth(a, inward, surface.edges[point.edge].side, 1e-3 * length)
     };
     surface.points.iter().map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Cell, generate::Annulus};
+
+    /// A point of a coarse curved edge lies well outside its chords: they are not what is behind it.
+    #[test]
+    fn the_body_behind_a_curved_edge_is_not_the_edge_itself() {
+        let ring = Annulus::new([0.0, 0.0], [2.0, 10.0], [0.0, 360.0], [4, 16], Cell::named("quad8").unwrap());
+        let mesh = ring.mesh("ring").unwrap();
+        let dofs = Dofs::new(2, mesh.points.len(), 0);
+        let surface = Surface::new(&mesh, &mesh.groups["ring.outer"].sides, None);
+        let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
+        let depths = depths(&surface, &mesh, &dofs, &boundary, &vec![0.0; dofs.count()]);
+        assert_eq!(depths.len(), 32);
+        assert!(depths.iter().all(|depth| (depth - 4.0).abs() < 0.05), "{depths:?}");
+    }
 }

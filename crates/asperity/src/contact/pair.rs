@@ -159,7 +159,8 @@ impl Contact {
     }
 
     fn cast(&self, pose: &Pose, ray: Ray, depth: f64, out: (&mut Vec<Hit>, &mut Rejected)) -> Option<Hit> {
-        self.tool.cast(pose, &ray, [f64::NEG_INFINITY, depth], out.0);
+        // To the far side of the body: what lies beyond its middle is refused, and counted.
+        self.tool.cast(pose, &ray, [f64::NEG_INFINITY, 2.0 * depth], out.0);
         select(ray.direction, out.0, &Rules::new(depth, self.tool.size()), out.1)
     }
 }

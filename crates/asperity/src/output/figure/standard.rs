@@ -51,7 +51,9 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
     };
     let shots = run.shots()?;
     if !shots.is_empty() {
-        save("contact_stress", run.panels("Contact stress", "", &shots).draw())?;
+        if !run.summary.contact_order.is_empty() {
+            save("contact_stress", run.panels("Contact stress", "", &shots).draw())?;
+        }
         save("von_mises", run.panels("Equivalent stress", "von_mises_averaged", &shots).draw())?;
     }
     let table = |name: &str| {

@@ -2,95 +2,14 @@
 //! naming nothing. Each broken deck must be refused with a message that points at the break. The good decks of
 //! `tests/decks` together must say every key that the schema has.
 
-use asperity::deck::schema::{Key, Names, Presence, Schema, root};
+mod schema_sites;
+
+use asperity::deck::schema::{Names, Presence, Schema, root};
 use asperity::deck::source::Place;
 use asperity::deck::{Diagnostic, Severity, read};
+use schema_sites::{Step, at, decks, everywhere, folder, last_key, parent, sites};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 use toml::{Table, Value};
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks")
-}
-
-fn decks() -> Vec<(String, Table)> {
-    let mut paths: Vec<_> = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|e| e == "toml"));
-    paths.sort();
-    let parse = |path: &PathBuf| {
-        let text = std::fs::read_to_string(path).unwrap();
-        (path.display().to_string(), text.parse::<Table>().unwrap())
-    };
-    paths.iter().map(parse).collect()
-}
-
-/// Where a deck says something, and what the schema says of it.
-struct Site {
-    /// Keys and positions down to the value.
-    path: Vec<Step>,
-    /// The schema of the value.
-    schema: Schema,
-    /// The key, if the value stands behind one that the schema names.
-    key: Option<Key>,
-    /// Whether the value's key is one of several of which exactly one must stand.
-    tagged: bool,
-    /// If the value's key is a name: what it names, and whether it gives the name.
-    name: Option<(Names, bool)>,
-}
-
-#[derive(Clone, PartialEq)]
-enum Step {
-    Key(String),
-    Item(usize),
-}
-
-/// All sites of a deck.
-fn sites(value: &Value, schema: &Schema, path: &[Step], found: &mut Vec<Site>) {
-    let mut visit = |step: Step, value: &Value, site: Site| {
-        let path = [path, &[step]].concat();
-        sites(value, &site.schema.clone(), &path, found);
-        found.push(Site { path, ..site });
-    };
-    let plain = |schema: &Schema| Site { path: vec![], schema: schema.clone(), key: None, tagged: false, name: None };
-    match (schema, value) {
-        (Schema::Table(keys) | Schema::OneOf(keys), Value::Table(table)) => {
-            for key in keys {
-                if let Some(value) = table.get(key.name) {
-                    let tagged = matches!(schema, Schema::OneOf(_));
-                    let site = Site { key: Some(key.clone()), tagged, ..plain(&key.schema) };
-                    visit(Step::Key(key.name.into()), value, site);
-                }
-            }
-        }
-        (Schema::Map { names, defines, item }, Value::Table(table)) => {
-            for (name, value) in table {
-                visit(Step::Key(name.clone()), value, Site { name: Some((*names, *defines)), ..plain(item) });
-            }
-        }
-        (Schema::List { item, .. }, Value::Array(items)) => {
-            for (i, value) in items.iter().enumerate() {
-                visit(Step::Item(i), value, plain(item));
-            }
-        }
-        _ => {}
-    }
-}
-
-fn at<'a>(value: &'a mut Value, path: &[Step]) -> &'a mut Value {
-    path.iter().fold(value, |value, step| match step {
-        Step::Key(key) => &mut value[key.as_str()],
-        Step::Item(i) => &mut value[*i],
-    })
-}
-
-fn parent<'a>(value: &'a mut Value, path: &[Step]) -> &'a mut Table {
-    at(value, &path[..path.len() - 1]).as_table_mut().unwrap()
-}
-
-fn last_key(path: &[Step]) -> String {
-    let keys = path.iter().rev().filter_map(|step| if let Step::Key(key) = step { Some(key.clone()) } else { None });
-    keys.into_iter().next().unwrap()
-}
 
 /// The path as messages write it.
 fn spoken(path: &[Step]) -> String {
@@ -118,16 +37,6 @@ fn must_fail(deck: &Value, what: &str, wanted: impl Fn(&Diagnostic, &str) -> boo
     let (errors, text) = errors(deck);
     let found = errors.iter().any(|error| wanted(error, pointed(&text, error.place)));
     assert!(found, "{what}\n{errors:#?}\n{text}");
-}
-
-/// Calls `check` with every site of every deck and a fresh copy of the deck.
-fn everywhere(check: impl Fn(&Site, &Value)) {
-    for (_, table) in decks() {
-        let deck = Value::Table(table);
-        let mut found = Vec::new();
-        sites(&deck, &root(), &[], &mut found);
-        found.iter().for_each(|site| check(site, &deck));
-    }
 }
 
 #[test]

@@ -20,7 +20,7 @@ use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ASPERITY";
 /// Raised whenever the head or what the state holds changes.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEAD: usize = 8 + 4 + 32 + 8 + 8 + 8 + 8;
 const SUM: usize = 32;
 
@@ -203,12 +203,12 @@ mod tests {
         };
         let input = head().input;
         let mut other_version = good.clone();
-        other_version[8] = 2;
+        other_version[8] = 1;
         let mut flipped = good.clone();
         flipped[HEAD + 5] ^= 1;
         assert!(told(b"", &input).contains("not a checkpoint"));
         assert!(told(b"# vtk DataFile", &input).contains("not a checkpoint"));
-        assert!(told(&other_version, &input).contains("format 2"));
+        assert!(told(&other_version, &input).contains("is of format 1;"));
         assert!(told(&flipped, &input).contains("damaged"));
         assert!(told(&good[..good.len() - 1], &input).contains("damaged"));
         assert!(told(&good, &InputHash::of(&[b"another deck"])).contains("another deck or mesh"));

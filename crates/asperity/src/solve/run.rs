@@ -138,6 +138,9 @@ impl<'a> Run<'a> {
             if observer.wants_stop() || options.increments.is_some_and(|most| accepted >= most) {
                 return Ok(Stop::Asked);
             }
+            if self.state.step_increment >= step.increments.most {
+                return Err(self.too_many(step));
+            }
             let record = self.increment(step, observer)?;
             accepted += 1;
             observer.accepted(&self.state, &record)?;
@@ -206,6 +209,15 @@ impl<'a> Run<'a> {
         }
     }
 
+    fn too_many(&self, step: &Step) -> Error {
+        Error::NotConverged(format!(
+            "step '{}' stops at {:.4} of its duration: it has used the most increments allowed, {}",
+            step.name,
+            self.state.step_time / step.duration,
+            step.increments.most
+        ))
+    }
+
     fn give_up(&self, step: &Step, dt: f64, reason: &str) -> Error {
         Error::NotConverged(format!(
             "step '{}' stops at {:.4} of its duration: an increment of {:.1e} of it still fails: {reason}",
@@ -250,11 +262,12 @@ impl<'a> Run<'a> {
         state.last_dt = dt;
         state.next_dt = step.after(dt, wanted, iterations);
         state.increment += 1;
+        state.step_increment += 1;
         state.time += dt;
         state.step_time += dt;
         if state.step_time >= step.duration * (1.0 - 1e-9) {
             state.step += 1;
-            state.step_time = 0.0;
+            (state.step_increment, state.step_time) = (0, 0.0);
             state.last_dt = 0.0;
             state.step_start.clone_from(&state.u);
             if let Some(next) = self.problem.steps.get(state.step) {

@@ -56,6 +56,8 @@ pub struct State {
     pub step: usize,
     /// Accepted increments so far in all steps.
     pub increment: usize,
+    /// Accepted increments of the present step.
+    pub step_increment: usize,
     /// Time since the start.
     pub time: f64,
     /// Time since the start of the step.

@@ -154,15 +154,26 @@ displacement."block.top" = { x = 0.5, y = -0.4 }
 fn keys_of_solver_and_output_change_the_run() {
     let run = |sets: &[&str]| {
         let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-        let made = read(RUN, "run.toml", &folder(), &sets).and_then(build).unwrap_or_else(|d| panic!("{}", d.render(false)));
+        let made =
+            read(RUN, "run.toml", &folder(), &sets).and_then(build).unwrap_or_else(|d| panic!("{}", d.render(false)));
         run_print(&made)
     };
     let plain = run(&[]);
     assert!(plain.0, "the run does not converge");
     assert_eq!(plain, run(&[]));
     let mut changes: Vec<&str> = vec!["solver.newton=modified", "solver.newton=kept", "solver.tangent=perturbation"];
-    changes.extend(["solver.tolerance=1e-3", "solver.iterations=2", "solver.continuation=false", "solver.line_search=false"]);
-    changes.extend(["output.every=3", "output.checkpoint_every=4", "step.1.increments.most=2", "solver.factors=attempt"]);
+    changes.extend([
+        "solver.tolerance=1e-3",
+        "solver.iterations=2",
+        "solver.continuation=false",
+        "solver.line_search=false",
+    ]);
+    changes.extend([
+        "output.every=3",
+        "output.checkpoint_every=4",
+        "step.1.increments.most=2",
+        "solver.factors=attempt",
+    ]);
     changes.extend(["step.1.increments.first=0.1", "step.1.increments.largest=0.3", "step.2.duration=2"]);
     for change in changes {
         assert_ne!(plain, run(&[change]), "{change}");

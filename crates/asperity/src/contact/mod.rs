@@ -5,6 +5,8 @@
 //! Bodies, laws and tools are known here; other terms of equilibrium are strangers.
 
 mod capture;
+mod landmarks;
+mod open;
 mod pair;
 mod penalty;
 mod point;

@@ -1,16 +1,17 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
 use super::capture::{depths, positions};
-use super::point::{self, Constants, Place, triad};
+use super::landmarks::{Landmark, Landmarks};
+use super::open::{OpenContact, write_hit};
+use super::point::triad;
 use super::record::{PointRecord, PointStatus, entry};
 use super::surface::{MAX_EDGE_NODES, Surface, SurfacePoint};
 use crate::Failure;
-use crate::interface::{Interface, Past};
+use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
-use crate::system::{Attempt, Branch, Dofs, History, Instant, Local, State, Stencil, Stencils, Term};
-use crate::tensor::{Dual, Scalar, Vec3};
+use crate::system::{Attempt, Dofs, History, Instant, State, Term};
+use crate::tensor::Vec3;
 use crate::tool::{Hit, Pose, Ray, Rejected, Rules, Tool, select};
-use std::cell::RefCell;
 use std::sync::Arc;
 
 /// How a contact is computed.
@@ -26,32 +27,24 @@ pub struct ContactOptions {
     pub modulus: f64,
 }
 
-/// Contact between a surface and a rigid tool.
-pub struct Contact {
-    name: String,
-    mesh: Arc<Mesh>,
-    dofs: Dofs,
-    space: Space,
-    surface: Surface,
-    boundary: Vec<Side>,
-    tool: Arc<Tool>,
-    tool_number: usize,
-    law: Arc<dyn Interface>,
-    options: ContactOptions,
-}
-
-/// Unknowns of a tool in the plane.
-const TOOL_DOFS: usize = 3;
-/// Most unknowns of a stencil.
-const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + TOOL_DOFS;
 /// Pressures up to this part of the confined modulus leave the tangent exact,
 const ORDINARY: f64 = 0.02;
 /// and so do those up to this multiple of the largest in the accepted state.
 const GROWTH: f64 = 4.0;
-/// A point counts as closed from this part of its edge's length on.
-const CLOSED: f64 = 1e-10;
 
-type D = Dual<8>;
+/// Contact between a surface and a rigid tool.
+pub struct Contact {
+    name: String,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) dofs: Dofs,
+    pub(super) space: Space,
+    pub(super) surface: Surface,
+    boundary: Vec<Side>,
+    pub(super) tool: Arc<Tool>,
+    pub(super) tool_number: usize,
+    pub(super) law: Arc<dyn Interface>,
+    pub(super) options: ContactOptions,
+}
 
 impl Contact {
     /// A contact of `surface` with tool number `tool_number`. `boundary` is the whole outer boundary of the bodies
@@ -90,7 +83,7 @@ impl Contact {
     }
 
     /// Position, tangent and present nodes of a point.
-    fn locate(&self, point: &SurfacePoint, u: &[f64]) -> (Vec3, Vec3) {
+    pub(super) fn locate(&self, point: &SurfacePoint, u: &[f64]) -> (Vec3, Vec3) {
         let mut x = [Vec3::zero(); MAX_EDGE_NODES];
         let nodes = self.surface.nodes(point);
         for (x, here) in x.iter_mut().zip(positions(&self.mesh, &self.dofs, nodes, u)) {
@@ -112,7 +105,7 @@ impl Contact {
         self.thickness() * point.weight * tangent.norm() * around
     }
 
-    fn thickness(&self) -> f64 {
+    pub(super) fn thickness(&self) -> f64 {
         match self.space {
             Space::PlaneStrain | Space::PlaneStress => self.options.thickness,
             Space::Axisymmetric | Space::Solid => 1.0,
@@ -158,21 +151,21 @@ impl Contact {
         (hits.collect(), rejected)
     }
 
-    fn cast(&self, pose: &Pose, ray: Ray, depth: f64, out: (&mut Vec<Hit>, &mut Rejected)) -> Option<Hit> {
+    /// The pattern in which the target is touched in an accepted state.
+    fn landmarks(&self, history: &History) -> Landmarks {
+        let landmark = |values: &[f64]| {
+            let (segment, s) = (values[entry::SEGMENT], values[entry::S]);
+            let place = (segment >= 0.0).then(|| self.tool.point(&Pose::default(), segment as usize, s))?;
+            Some(Landmark { place, closed: values[entry::STATUS] > 0.0 })
+        };
+        Landmarks((0..history.slots()).map(|i| landmark(history.slot(i))).collect())
+    }
+
+    pub(super) fn cast(&self, pose: &Pose, ray: Ray, depth: f64, out: (&mut Vec<Hit>, &mut Rejected)) -> Option<Hit> {
         // To the far side of the body: what lies beyond its middle is refused, and counted.
         self.tool.cast(pose, &ray, [f64::NEG_INFINITY, 2.0 * depth], out.0);
         select(ray.direction, out.0, &Rules::new(depth, self.tool.size()), out.1)
     }
-}
-
-/// A contact during one attempt.
-struct OpenContact<'a> {
-    contact: &'a Contact,
-    history: &'a History,
-    depths: Vec<f64>,
-    /// Pressure up to which the tangent is exact.
-    ordinary: f64,
-    dt: f64,
 }
 
 impl Term for Contact {
@@ -199,7 +192,8 @@ impl Term for Contact {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &accepted.u);
         let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
         let ordinary = (ORDINARY * self.options.modulus).max(GROWTH * pressures.fold(0.0, f64::max));
-        Ok(Box::new(OpenContact { contact: self, history, depths, ordinary, dt: at.dt }))
+        let landmarks = self.landmarks(history);
+        Ok(Box::new(OpenContact { contact: self, history, depths, landmarks, ordinary, dt: at.dt }))
     }
 
     fn name_of(&self, stencil: usize) -> String {
@@ -216,263 +210,3 @@ impl Term for Contact {
     }
 }
 
-fn write_hit(hit: Option<Hit>, values: &mut [f64]) {
-    values.fill(0.0);
-    match hit {
-        Some(hit) => {
-            values[entry::PENETRATION] = hit.u;
-            values[entry::SEGMENT] = hit.segment as f64;
-            values[entry::S] = hit.s;
-        }
-        None => values[entry::SEGMENT] = -1.0,
-    }
-}
-
-thread_local! {
-    /// Memory of the search, so that casting a ray allocates nothing.
-    static HITS: RefCell<Vec<Hit>> = const { RefCell::new(Vec::new()) };
-}
-
-impl Attempt for OpenContact<'_> {
-    fn is_fixed(&self) -> bool {
-        false
-    }
-
-    fn scratch(&self, index: usize) -> Vec<f64> {
-        vec![0.0; self.history.slot(index).len()]
-    }
-
-    fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
-        let contact = self.contact;
-        let (pose, mut rejected) = (contact.pose(u), Rejected::default());
-        let tool = contact.dofs.tool(contact.tool_number);
-        HITS.with_borrow_mut(|hits| {
-            for (point, &depth) in contact.surface.points.iter().zip(&self.depths) {
-                let (a, tangent) = contact.locate(point, u);
-                let (_, inward, _) = triad(tangent);
-                let hit = contact.cast(&pose, Ray { origin: a, direction: inward }, depth, (hits, &mut rejected));
-                let nodes = contact.surface.nodes(point).iter().flat_map(|&n| [0, 1].map(|c| contact.dofs.node(n) + c));
-                let tool = if hit.is_some() { tool..tool + TOOL_DOFS } else { tool..tool };
-                let (choice, near) = hit.map_or((0, 0.0), |hit| (hit.segment as u32 + 1, hit.s));
-                out.push_near(nodes.chain(tool), choice, near);
-            }
-        });
-        Ok(())
-    }
-
-    fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
-        let Some(segment) = (stencil.choice as usize).checked_sub(1) else {
-            write_hit(None, new);
-            return Ok(0);
-        };
-        let geometry = self.geometry(index, &local.u, segment, stencil.near)?;
-        if local.wants_tangent {
-            self.evaluate_over::<D>(index, &geometry, new, local, |place, constants, past, vars| {
-                point::evaluate(place, constants, |m| self.contact.law.respond_plane(m, past, vars))
-            })
-        } else {
-            self.evaluate_over::<f64>(index, &geometry, new, local, |place, constants, past, vars| {
-                point::evaluate(place, constants, |m| self.contact.law.respond(m, past, vars))
-            })
-        }
-    }
-}
-
-/// Where everything is at one point, in plain numbers.
-struct Geometry {
-    place: Place<f64>,
-    pose: Pose,
-    hit: Hit,
-    length: f64,
-}
-
-/// Numbers that can be seeded as independent variables: [`D`] and, trivially, `f64`.
-trait Seed: Scalar {
-    fn seed(value: f64, direction: usize) -> Self;
-    fn slopes(&self) -> [f64; 8];
-}
-
-impl Seed for f64 {
-    fn seed(value: f64, _: usize) -> f64 {
-        value
-    }
-    fn slopes(&self) -> [f64; 8] {
-        [0.0; 8]
-    }
-}
-
-impl Seed for D {
-    fn seed(value: f64, direction: usize) -> D {
-        D::variable(value, direction)
-    }
-    fn slopes(&self) -> [f64; 8] {
-        self.du
-    }
-}
-
-fn seed<T: Seed>(v: Vec3, direction: usize) -> Vec3<T> {
-    Vec3([T::seed(v[0], direction), T::seed(v[1], direction + 1), T::zero()])
-}
-
-type Evaluated<T> = Result<(T, Option<point::Closed<T>>), Failure>;
-
-impl OpenContact<'_> {
-    fn geometry(&self, index: usize, u: &[f64], segment: usize, near: f64) -> Result<Geometry, Failure> {
-        let contact = self.contact;
-        let point = &contact.surface.points[index];
-        let nodes = contact.surface.nodes(point);
-        let mut x = [Vec3::zero(); MAX_EDGE_NODES];
-        for ((x, u), &node) in x.iter_mut().zip(u.chunks_exact(2)).zip(nodes) {
-            *x = contact.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
-        }
-        let (a, tangent) = point.place(&x[..nodes.len()]);
-        let (_, inward, length) = triad(tangent);
-        let motion = &u[2 * nodes.len()..];
-        let pose = Pose::new(motion[0], motion[1], motion[2]);
-        let lost = || Failure::new(format!("{}: its ray runs along the target", contact.name_of(index)));
-        let ray = Ray { origin: a, direction: inward };
-        let hit = contact.tool.cast_segment(&pose, segment, &ray, near).ok_or_else(lost)?;
-        let old = self.history.slot(index);
-        let touched = (old[entry::SEGMENT] >= 0.0)
-            .then(|| contact.tool.point(&pose, old[entry::SEGMENT] as usize, old[entry::S]));
-        Ok(Geometry { place: Place { a, tangent, b: a + inward * hit.u, touched }, pose, hit, length })
-    }
-
-    fn evaluate_over<T: Seed>(
-        &self,
-        index: usize,
-        geometry: &Geometry,
-        new: &mut [f64],
-        local: &mut Local,
-        evaluate: impl FnOnce(&Place<T>, &Constants, &Past, &mut [f64]) -> Evaluated<T>,
-    ) -> Result<Branch, Failure> {
-        let (contact, old, g) = (self.contact, self.history.slot(index), geometry);
-        let point = &contact.surface.points[index];
-        let place = Place {
-            a: seed(g.place.a, 0),
-            tangent: seed(g.place.tangent, 2),
-            b: seed(g.place.b, 4),
-            touched: g.place.touched.map(|x| seed(x, 6)),
-        };
-        let constants = Constants {
-            normal: g.hit.normal,
-            before: old[entry::PENETRATION],
-            least: CLOSED * g.length,
-            weight: point.weight * contact.thickness(),
-            turning: if g.hit.u > 0.0 {
-                (self.ordinary / (contact.options.penalty * local.stiffness * g.hit.u)).min(1.0)
-            } else {
-                1.0
-            },
-            axisymmetric: contact.space == Space::Axisymmetric,
-        };
-        let options = &contact.options;
-        let past = Past {
-            penalty: options.penalty * local.stiffness,
-            tangential_penalty: options.tangential_penalty * local.stiffness,
-            shear: [old[entry::SHEAR], 0.0],
-            vars: &old[entry::COUNT..],
-            dt: self.dt,
-        };
-        write_hit(Some(g.hit), new);
-        let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
-        let Some(closed) = closed else {
-            // What has been is kept while the point is open; the law's own state starts afresh.
-            for kept in [entry::SLIP, entry::SLIPPED, entry::DISSIPATED] {
-                new[kept] = old[kept];
-            }
-            return Ok(0);
-        };
-        self.refuse_jump(index, g)?;
-        new[entry::PENETRATION] -= constants.least;
-        self.write(&closed, old, new);
-        self.add(index, g, &closed, local);
-        let (area, response) = (closed.area.re(), &closed.response);
-        let elastic = |stress: f64, penalty: f64| 0.5 * stress * stress / penalty;
-        local.stored = area
-            * (elastic(response.pressure.re(), options.penalty)
-                + elastic(response.shear[0].re(), options.tangential_penalty));
-        local.dissipated = area * response.dissipated;
-        Ok(response.status as Branch)
-    }
-
-    /// A point that had nothing before it and now lies deep has jumped over the target's face.
-    fn refuse_jump(&self, index: usize, g: &Geometry) -> Result<(), Failure> {
-        let depth = 0.25 * self.depths[index];
-        if g.place.touched.is_none() && g.hit.u > depth {
-            let name = self.contact.name_of(index);
-            return Err(Failure::new(format!("{name} came to lie {:.3e} deep in one increment", g.hit.u)));
-        }
-        Ok(())
-    }
-
-    fn write<T: Seed>(&self, closed: &point::Closed<T>, old: &[f64], new: &mut [f64]) {
-        let response = &closed.response;
-        new[entry::PRESSURE] = response.pressure.re();
-        new[entry::SHEAR] = response.shear[0].re();
-        new[entry::SLIP] = old[entry::SLIP] + closed.slip.re();
-        new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
-        new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
-        new[entry::STATUS] = f64::from(response.status as u8);
-        new[entry::VIOLATION] = response.violation;
-        new[entry::LAST_DISSIPATED] = response.dissipated;
-    }
-
-    /// Forces on the nodes (`-N_L f`) and on the tool (`+f` and its moment about the reference point), and their
-    /// derivatives by the chain rule through the eight directions.
-    fn add<T: Seed>(&self, index: usize, g: &Geometry, closed: &point::Closed<T>, local: &mut Local) {
-        let contact = self.contact;
-        let point = &contact.surface.points[index];
-        let nodes = contact.surface.nodes(point).len();
-        let (n, force) = (local.force.len(), closed.force);
-        let reference = contact.tool.reference() + g.pose.translation;
-        let arm = closed.hit - reference.lift();
-        let moment = arm[0] * force[1] - arm[1] * force[0];
-        let rows = |k: usize| match k.checked_sub(2 * nodes) {
-            None => (force[k % 2], -point.n[k / 2]),
-            Some(2) => (moment, 1.0),
-            Some(axis) => (force[axis], 1.0),
-        };
-        for k in 0..n {
-            let (value, factor) = rows(k);
-            local.force[k] += factor * value.re();
-        }
-        if !local.wants_tangent {
-            return;
-        }
-        let columns = self.columns(index, g, nodes);
-        for k in 0..n {
-            let (value, factor) = rows(k);
-            let slopes = value.slopes();
-            for (j, column) in columns[..n].iter().enumerate() {
-                let along: f64 = slopes.iter().zip(column).map(|(s, c)| s * c).sum();
-                local.tangent[k * n + j] += factor * along;
-            }
-        }
-        // The arm also shortens as the reference point itself moves.
-        let last = (n - 1) * n + 2 * nodes;
-        local.tangent[last] -= force[1].re();
-        local.tangent[last + 1] += force[0].re();
-    }
-
-    /// Derivatives of the eight directions along each unknown of the stencil.
-    fn columns(&self, index: usize, g: &Geometry, nodes: usize) -> [[f64; 8]; MAX_DOFS] {
-        let (contact, point) = (self.contact, &self.contact.surface.points[index]);
-        let mut columns = [[0.0; 8]; MAX_DOFS];
-        for (k, column) in columns[..2 * nodes].iter_mut().enumerate() {
-            column[k % 2] = point.n[k / 2];
-            column[2 + k % 2] = point.dn[k / 2];
-        }
-        let reference = contact.tool.reference();
-        let at_hit = g.pose.rates(reference, g.place.b);
-        let at_touched = g.place.touched.map(|x| g.pose.rates(reference, x));
-        for k in 0..TOOL_DOFS {
-            let column = &mut columns[2 * nodes + k];
-            (column[4], column[5]) = (at_hit[k][0], at_hit[k][1]);
-            if let Some(rates) = &at_touched {
-                (column[6], column[7]) = (rates[k][0], rates[k][1]);
-            }
-        }
-        columns
-    }
-}

@@ -31,6 +31,8 @@ pub struct Constants {
     pub before: f64,
     /// Penetration from which the point counts as closed: touching to rounding is open.
     pub least: f64,
+    /// Whether the point is closed, where that is not for its penetration to say.
+    pub expected: Option<bool>,
     /// Quadrature weight times thickness.
     pub weight: f64,
     /// Part of the triad's derivatives that is kept, from 0 to 1.
@@ -70,7 +72,7 @@ pub fn evaluate<T: Scalar>(
     let (along, inward, length) = triad(soften(place.tangent, constants.turning));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
-    if penetration.re() <= constants.least {
+    if !constants.expected.unwrap_or(penetration.re() > constants.least) {
         return Ok((penetration, None));
     }
     // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.
@@ -93,7 +95,8 @@ fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
     Vec3(v.0.map(|x| x.chain(x.re(), part)))
 }
 
-/// The part of the increment during which a point that began open is in contact, at constant speed of approach.
+/// The part of the increment during which a point that began open is in contact, at constant speed of approach. One
+/// that is only expected to close has not yet: all of the slip counts.
 fn in_contact<T: Scalar>(penetration: T, before: f64) -> T {
-    if before < 0.0 { penetration / (penetration - before) } else { T::one() }
+    if before < 0.0 && penetration.re() > 0.0 { penetration / (penetration - before) } else { T::one() }
 }

@@ -5,6 +5,7 @@ mod convergence;
 mod linear;
 mod newton;
 mod observer;
+mod path;
 mod run;
 mod schedule;
 

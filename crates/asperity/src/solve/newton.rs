@@ -7,9 +7,10 @@
 use super::convergence::{Norms, Yardstick};
 use super::linear::{Factors, LinearError, LinearSolver};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
+use super::path::{Path, Progress};
 use super::run::Problem;
 use super::schedule::Step;
-use crate::system::{Assembly, Dofs, Evaluation, Instant, State, Tangent, Workspace};
+use crate::system::{Aid, Assembly, Dofs, Evaluation, Instant, State, Tangent, Workspace};
 use crate::{Error, Failure};
 
 /// Which matrix the iterations use.
@@ -37,7 +38,8 @@ pub struct NewtonOptions {
     pub tolerance: f64,
     /// Iterations after which an attempt is given up.
     pub iterations: usize,
-    /// Whether the first iterations are led by a softer penalty, with which the set of closed points settles sooner.
+    /// Whether the first iterations are helped: by the pattern of contact of the accepted state, and by softer penalties
+    /// where that does not serve. The set of closed points settles sooner.
     pub continuation: bool,
     /// Whether steps are shortened that would make matters worse.
     pub line_search: bool,
@@ -137,10 +139,6 @@ const GOOD: f64 = 0.8;
 const PATIENCE: usize = 8;
 /// to this part of the initial one. Points that slip to and fro in turn are held by it.
 const STRICT: f64 = 0.5;
-/// Part of the penalties that leads the first iterations,
-const LEAD: f64 = 0.01;
-/// and the residual below which the full ones take over.
-const LED: f64 = 0.03;
 /// Bounds of what an iterative solution may leave of its right-hand side.
 const LOOSEST: f64 = 1e-4;
 const TIGHTEST: f64 = 1e-8;
@@ -183,26 +181,25 @@ impl<'a> Newton<'a> {
     /// Iterates to the solution.
     pub fn solve(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, Trouble> {
         let options = self.problem.newton;
-        let mut led = options.continuation && self.problem.terms.iter().any(|term| term.softens());
-        self.memory.workspace.stiffness = if led { LEAD } else { 1.0 };
+        let helped = options.continuation && self.problem.terms.iter().any(|term| term.softens());
+        let mut path = Path::begin(helped, self.state.last_dt > 0.0);
+        self.memory.workspace.aid = path.aid();
         let (mut u, mut missing) = self.predict()?;
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.solver.begin();
         let mut before: Vec<Vec<(u8, u32)>> = Vec::new();
         for iteration in 0..=options.iterations {
             self.refresh_stiffness();
-            let norms = self.measure();
+            let mut norms = self.measure();
+            if missing.is_none() {
+                norms = self.follow(&mut path, (iteration, taken), norms, &u)?;
+            }
             let mut line = self.describe(iteration, &norms, &before);
             (line.correction, line.step, line.factorised) = (correction, taken, factorised);
+            line.helped = !path.is_free();
             observer.iteration(record, &line);
             record.iterations.push(line);
-            if missing.is_none() && led && norms.ratio < LED {
-                led = false;
-                self.memory.workspace.stiffness = 1.0;
-                self.evaluate(&u, None, self.tangent())?;
-                // The factor of the softer problem is no good any more.
-                self.solver.begin();
-            } else if missing.is_none() && norms.converged() {
+            if missing.is_none() && path.is_free() && norms.converged() {
                 return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
             }
             if !norms.ratio.is_finite() {
@@ -225,6 +222,24 @@ impl<'a> Newton<'a> {
             missing = missing.filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
         }
         Err(Failure::new(self.why_not(record)).into())
+    }
+
+    /// Goes along the path, evaluating anew where it turns.
+    fn follow(
+        &mut self,
+        path: &mut Path,
+        (iteration, taken): (usize, f64),
+        norms: Norms,
+        u: &[f64],
+    ) -> Result<Norms, Failure> {
+        let at = Progress { iteration, residual: norms.ratio, taken, converged: norms.converged() };
+        let Some(aid) = path.advance(&at) else { return Ok(norms) };
+        self.memory.workspace.aid = aid;
+        self.evaluate(u, None, self.tangent())?;
+        self.memory.workspace.aid = path.aid();
+        // The factor of the helped problem is no good any more.
+        self.solver.begin();
+        Ok(self.measure())
     }
 
     fn tangent(&self) -> Tangent {
@@ -499,6 +514,7 @@ impl<'a> Newton<'a> {
     /// Motions that meet no stiffness at the accepted state, in words: what would stop the first iteration.
     pub fn free_motions(mut self) -> Result<Vec<String>, Trouble> {
         let u = self.state.u.clone();
+        self.memory.workspace.aid = Aid::NONE;
         self.evaluate(&u, None, Tangent::Exact)?;
         let nodes = owners(&self.problem.dofs, self.step.constraints.free());
         let pattern = self.memory.workspace.pattern();

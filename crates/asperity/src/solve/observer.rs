@@ -20,6 +20,8 @@ pub struct IterationRecord {
     pub worst: Worst,
     /// For each term, how many stencils are on each branch; empty for terms with one branch.
     pub branches: Vec<Vec<usize>>,
+    /// Whether terms were helped to find their status, so that this residual is not that of the problem.
+    pub helped: bool,
     /// Stencils whose branch or discrete choice changed since the iteration before.
     pub changes: usize,
     /// Whether a matrix was factorised for the last solution.
@@ -63,7 +65,7 @@ impl AttemptRecord {
         let same = third.changes == 0 && second.changes == 0;
         let falls = third.residual < second.residual && second.residual < first.residual;
         let order = || (third.residual / second.residual).ln() / (second.residual / first.residual).ln();
-        (same && falls && first.iteration > 0).then(order)
+        (same && falls && !first.helped && first.iteration > 0).then(order)
     }
 }
 

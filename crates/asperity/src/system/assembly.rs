@@ -5,7 +5,7 @@
 
 use super::check::perturb;
 use super::{
-    Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, Local, Role, Row, State, Stencils, Term,
+    Aid, Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, Local, Role, Row, State, Stencils, Term,
 };
 use crate::Failure;
 use rayon::prelude::*;
@@ -67,8 +67,8 @@ pub struct Workspace {
     places: Vec<Vec<u32>>,
     chunks: Vec<Chunk>,
     enlarged: usize,
-    /// Part of their penalties that terms are asked to use, see [`Local::stiffness`].
-    pub stiffness: f64,
+    /// Help that terms are given, see [`Local::aid`].
+    pub aid: Aid,
 }
 
 /// Stencils a chunk holds; fixed, so that results do not depend on the number of threads.
@@ -105,7 +105,7 @@ impl Default for Workspace {
             places: Vec::new(),
             chunks: Vec::new(),
             enlarged: 0,
-            stiffness: 1.0,
+            aid: Aid::NONE,
         }
     }
 }
@@ -216,7 +216,7 @@ impl Workspace {
                 self.chunks.resize_with(chunks, Chunk::default);
             }
             let lanes = split(&mut history, round, end);
-            self.chunks[..chunks].iter_mut().for_each(|chunk| chunk.local.stiffness = self.stiffness);
+            self.chunks[..chunks].iter_mut().for_each(|chunk| chunk.local.aid = self.aid);
             self.chunks[..chunks].par_iter_mut().zip(lanes).enumerate().for_each(|(k, (chunk, lane))| {
                 let first = round + k * CHUNK;
                 let range = first..(first + CHUNK).min(end);

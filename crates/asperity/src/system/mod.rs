@@ -18,4 +18,4 @@ pub use constraint::{Constraints, Row};
 pub use dofs::{Dofs, Unknown};
 pub use pattern::{Couplings, Csr};
 pub use state::{Energies, History, State};
-pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};
+pub use term::{Aid, Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};

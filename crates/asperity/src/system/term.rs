@@ -73,6 +73,23 @@ impl Stencils {
     }
 }
 
+/// Help for early iterations of terms that enforce something by a penalty. A solution is accepted without it only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aid {
+    /// Part of the penalty that is used, in (0, 1].
+    pub stiffness: f64,
+    /// Part of the derivatives of directions that is kept, in (0, 1]: forces that nothing has borne yet must not rule
+    /// the matrix.
+    pub turning: f64,
+    /// Whether a stencil takes its status from the pattern of the accepted state where that says more than its own.
+    pub expects: bool,
+}
+
+impl Aid {
+    /// None.
+    pub const NONE: Self = Self { stiffness: 1.0, turning: 1.0, expects: false };
+}
+
 /// Where a stencil reads and writes: scratch of one thread, reused without allocation.
 #[derive(Debug)]
 pub struct Local {
@@ -84,9 +101,8 @@ pub struct Local {
     pub tangent: Vec<f64>,
     /// Whether the tangent is wanted.
     pub wants_tangent: bool,
-    /// Part of its penalty, in (0, 1], that a term which enforces something by a penalty is asked to use: early
-    /// iterations are led by a softer problem. A solution is accepted at 1 only.
-    pub stiffness: f64,
+    /// Help that is given.
+    pub aid: Aid,
     /// Energy stored in the stencil at the trial state.
     pub stored: f64,
     /// Energy dissipated over the increment.
@@ -100,7 +116,7 @@ impl Default for Local {
             force: Vec::new(),
             tangent: Vec::new(),
             wants_tangent: false,
-            stiffness: 1.0,
+            aid: Aid::NONE,
             stored: 0.0,
             dissipated: 0.0,
         }
@@ -144,7 +160,7 @@ pub trait Term: Send + Sync {
     ) -> Result<Box<dyn Attempt + 'a>, Failure>;
     /// Words for a stencil in messages: "cell 12 of body 'tube'".
     fn name_of(&self, stencil: usize) -> String;
-    /// Whether it enforces something by a penalty and heeds [`Local::stiffness`].
+    /// Whether it enforces something by a penalty and heeds [`Local::aid`].
     fn softens(&self) -> bool {
         false
     }

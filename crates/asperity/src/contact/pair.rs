@@ -209,4 +209,3 @@ impl Term for Contact {
         &["open", "stick", "slip"]
     }
 }
-

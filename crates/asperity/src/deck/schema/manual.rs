@@ -3,12 +3,20 @@
 use super::{Key, Presence, Schema, root};
 use std::fmt::Write;
 
+/// The heading of the outermost table.
+const TOP: &str = "the deck";
+
 /// The page: a section for each table of a deck, a line for each key.
 pub fn manual() -> String {
-    let mut page = String::from("# Keys of a deck\n");
-    section("the deck", "", &root(), &mut page);
+    let mut page = String::from("# Keys of a deck\n\nPrinted by `asperity schema --manual`.\n");
+    let about = "The keys at the top. `NAME[]` below stands for each item of a list, capitals for a name.";
+    section(TOP, about, &root(), &mut page);
     page
 }
+
+/// Heads of the two kinds of lists.
+const KEYS: &str = "| key | meaning | value | if not given |\n|---|---|---|---|\n";
+const TAGS: &str = "| key | meaning | value |\n|---|---|---|\n";
 
 fn section(path: &str, about: &str, schema: &Schema, page: &mut String) {
     let (keys, tagged) = match schema {
@@ -26,20 +34,24 @@ fn section(path: &str, about: &str, schema: &Schema, page: &mut String) {
     if tagged {
         page.push_str("Exactly one of:\n\n");
     }
-    page.push_str("| key | meaning | value | if not given |\n|---|---|---|---|\n");
+    page.push_str(if tagged { TAGS } else { KEYS });
     for key in keys {
         line(key, tagged, page);
     }
-    let inner = |key: &str| if path == "the deck" { key.to_owned() } else { format!("{path}.{key}") };
+    let inner = |key: &str| if path == TOP { key.to_owned() } else { format!("{path}.{key}") };
     for key in keys {
         section(&inner(key.name), key.doc, &key.schema, page);
     }
 }
 
 fn line(key: &Key, tagged: bool, page: &mut String) {
+    if tagged {
+        let _ = writeln!(page, "| `{}` | {} | {} |", key.name, key.doc, value(&key.schema));
+        return;
+    }
     let unless = match &key.presence {
-        _ if tagged => "",
-        Presence::Required => "an error",
+        Presence::Required => "required",
+        Presence::Default(text) if matches!(text.as_str(), "{}" | "[]") => "nothing",
         Presence::Default(text) => &format!("`{text}`"),
         Presence::Optional(words) => words,
     };
@@ -50,6 +62,7 @@ fn value(schema: &Schema) -> String {
     match schema {
         Schema::Number { unit: "", range } => format!("number, {range}"),
         Schema::Number { unit, range } => format!("{unit}, {range}"),
+        Schema::Whole { least, most } if least == most => format!("{least}"),
         Schema::Whole { least, most } if *most == u64::MAX => format!("whole number, {least} or more"),
         Schema::Whole { least, most } => format!("whole number from {least} to {most}"),
         Schema::Flag => "true or false".into(),

@@ -1,0 +1,49 @@
+//! The manual says what the program does: the page of keys is the present one, and the decks of the guide can be built.
+//! `ASPERITY_BLESS=1` writes the page of keys anew.
+
+use asperity::deck::{build, read, review, schema};
+use std::path::{Path, PathBuf};
+
+fn page(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../book/src").join(name)
+}
+
+/// The blocks of TOML on a page, in order, without their indentation.
+fn blocks(page: &str) -> Vec<String> {
+    let (mut blocks, mut open) = (Vec::new(), false);
+    for line in page.lines() {
+        match line.trim_start() {
+            "```toml" => {
+                blocks.push(String::new());
+                open = true;
+            }
+            fence if fence.starts_with("```") => open = false,
+            line if open => *blocks.last_mut().unwrap() += &format!("{line}\n"),
+            _ => {}
+        }
+    }
+    blocks
+}
+
+#[test]
+fn the_page_of_keys_is_up_to_date() {
+    let present = schema::manual();
+    if std::env::var_os("ASPERITY_BLESS").is_some() {
+        std::fs::write(page("keys.md"), &present).unwrap();
+    }
+    let committed = std::fs::read_to_string(page("keys.md")).unwrap();
+    assert!(committed == present, "book/src/keys.md is old: cargo run -- schema --manual > book/src/keys.md");
+}
+
+/// The first block is a whole deck, the others are added to it.
+#[test]
+fn the_decks_of_the_guide_are_good() {
+    let blocks = blocks(&std::fs::read_to_string(page("deck.md")).unwrap());
+    assert!(blocks.len() >= 3);
+    for deck in [blocks[0].clone(), blocks.concat()] {
+        let made = read(&deck, "guide.toml", Path::new(""), &[]).and_then(build);
+        let made = made.unwrap_or_else(|diagnostics| panic!("{}", diagnostics.render(false)));
+        let problems = review(&made).unwrap().problems;
+        assert!(problems.is_empty(), "{problems:?}");
+    }
+}

@@ -1,0 +1,212 @@
+//! The tangent of every stencil against central differences with Richardson's extrapolation, in scaled variables: all
+//! bodies by a walk over the registered cells, contact points on edges of both degrees against every shape of target,
+//! open, sticking and slipping. A state whose branch differs between perturbed evaluations is skipped and counted.
+
+use asperity::Failure;
+use asperity::contact::{Contact, ContactOptions, Surface};
+use asperity::interface::{Law, laws::Coulomb};
+use asperity::material::{Rate, laws::Elastic};
+use asperity::mesh::cells::ALL;
+use asperity::mesh::generate::{Block, Rectangle};
+use asperity::mesh::{Cell, Mesh, Side, Space};
+use asperity::solid::{Body, BodyOptions, Formulation, Integration};
+use asperity::system::{
+    Attempt, Branch, Dofs, History, Instant, Local, State, Stencil, Stencils, TangentCheck, Term, check_tangent,
+};
+use asperity::tensor::Vec3;
+use asperity::tool::{Tool, shapes};
+use std::sync::Arc;
+
+/// Largest difference of an entry over the largest entry.
+const ALLOWED: f64 = 1e-7;
+
+/// Numbers in (-1, 1) from a linear congruence (Knuth's MMIX), the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+fn state(u: Vec<f64>, history: History) -> State {
+    State { last_change: vec![0.0; u.len()], u, histories: vec![history], ..State::default() }
+}
+
+fn instant() -> Instant {
+    Instant { dt: 1.0, ..Instant::default() }
+}
+
+/// The state after an increment to `u`, whether in equilibrium or not.
+fn commit(term: &dyn Term, from: &State, u: Vec<f64>) -> Result<State, Failure> {
+    let attempt = term.attempt(from, &from.histories[0], instant())?;
+    let (mut stencils, mut new, mut local) = (Stencils::default(), from.histories[0].clone(), Local::default());
+    attempt.stencils(&u, &mut stencils)?;
+    for (i, stencil) in stencils.list.iter().enumerate() {
+        local.u = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
+        local.reset(stencil.len);
+        attempt.evaluate(i, stencil, new.slot_mut(i), &mut local)?;
+    }
+    drop(attempt);
+    Ok(state(u, new))
+}
+
+/// Checks all stencils of an attempt at `u`; lengths and angles are of the order of one here.
+fn check(attempt: &dyn Attempt, u: &[f64]) -> Result<Vec<TangentCheck>, Failure> {
+    let mut stencils = Stencils::default();
+    attempt.stencils(u, &mut stencils)?;
+    let one = |(i, stencil): (usize, &Stencil)| {
+        let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
+        check_tangent(attempt, i, stencil, &here, &vec![1.0; here.len()])
+    };
+    stencils.list.iter().enumerate().map(one).collect()
+}
+
+/// A unit square or cube at radius 1, bent so that no cell is a rectangle.
+fn mesh(cell: &'static Cell) -> Mesh {
+    let mut mesh = match cell.dimension {
+        2 => Rectangle::new([0.0; 2], [1.0; 2], [1; 2], cell).mesh("b").unwrap(),
+        _ => Block::new([0.0; 3], [1.0; 3], [1; 3], cell).mesh("b").unwrap(),
+    };
+    for x in &mut mesh.points {
+        let [a, b, c] = x.0;
+        *x += Vec3::new(1.0 + 0.1 * a * b, 0.1 * b * (1.0 - a), if cell.dimension == 3 { 0.1 * a * c } else { 0.0 });
+    }
+    mesh
+}
+
+#[test]
+fn tangents_of_all_bodies_are_exact() {
+    let (mut random, mut bodies) = (Random(1), 0);
+    for cell in ALL.iter().copied().filter(|cell| cell.dimension > 1) {
+        let mesh = Arc::new(mesh(cell));
+        let spaces = [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric, Space::Solid];
+        for space in spaces.into_iter().filter(|space| space.dimension() == cell.dimension) {
+            for integration in [Integration::Full, Integration::Reduced] {
+                for formulation in [Formulation::Standard, Formulation::FBar] {
+                    let options = BodyOptions { formulation, integration, ..BodyOptions::default() };
+                    bodies += usize::from(body_is_exact(&mesh, space, options, &mut random));
+                }
+            }
+        }
+    }
+    assert!(bodies >= 2 * ALL.iter().filter(|cell| cell.dimension > 1).count(), "{bodies} bodies");
+}
+
+/// Whether there is such a body; its tangent is checked from a stressed and turned state.
+fn body_is_exact(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, random: &mut Random) -> bool {
+    let dofs = Dofs::new(space.dimension(), mesh.points.len(), 0);
+    let material = Arc::new(Rate(Elastic::new(2.0, 0.3)));
+    let cells = (0..mesh.cell_count()).collect();
+    let Ok(body) = Body::new("b", (mesh.clone(), dofs.clone(), space), cells, material, options) else { return false };
+    for _ in 0..3 {
+        let mut about = |u: &[f64]| -> Vec<f64> { u.iter().map(|u| u + 0.04 * random.next()).collect() };
+        let start = state(vec![0.0; dofs.count()], body.initial());
+        let middle = about(&start.u);
+        let accepted = commit(&body, &start, middle).unwrap();
+        let attempt = body.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+        for result in check(attempt.as_ref(), &about(&accepted.u)).unwrap() {
+            assert!(result.error < ALLOWED, "{} {space:?} {options:?}: {}", mesh.kinds[0].name, result.error);
+        }
+    }
+    true
+}
+
+/// A contact of the lower side of one cell with a target of one segment below it, its tool free to move.
+fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
+    let mesh = Rectangle::new([1.0, 0.0], [2.0, 1.0], [1; 2], Cell::named(cell).unwrap()).mesh("b").unwrap();
+    let dofs = Dofs::new(2, mesh.points.len(), 1);
+    let mesh = Arc::new(mesh);
+    let point = |x: f64, y: f64| Vec3::new(x, y, 0.0);
+    let nodes = match shape {
+        "line" => vec![point(4.0, 0.1), point(-1.0, -0.1)],
+        _ => vec![point(4.0, -0.3), point(1.4, 0.0), point(-1.0, -0.3)],
+    };
+    let profile = vec![shapes::find(shape).unwrap().build(&nodes).unwrap()];
+    let tool = Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)));
+    let boundary = (0..mesh.kinds[0].faces.len()).map(|face| Side { cell: 0, face }).collect();
+    let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
+    // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
+    let options = ContactOptions { penalty: 1.0, tangential_penalty: 0.7, thickness: 0.8, modulus: 1e3 };
+    let law = Arc::new(Law(Coulomb { friction: 0.4 }));
+    let parts = (mesh, dofs.clone(), space);
+    (Contact::new("c", parts, (surface, boundary), (tool, 0), (law, options)), dofs)
+}
+
+/// Random motion: the cell by up to a tenth and downwards, its nodes and the tool by a little.
+fn motion(dofs: &Dofs, random: &mut Random) -> Vec<f64> {
+    let (right, down) = (0.08 * random.next(), -0.1 - 0.13 * random.next());
+    let mut u = vec![0.0; dofs.count()];
+    for node in 0..dofs.nodes() {
+        u[dofs.node(node)] = right + 0.02 * random.next();
+        u[dofs.node(node) + 1] = down + 0.02 * random.next();
+    }
+    let tool = dofs.tool(0);
+    (tool..tool + 3).for_each(|dof| u[dof] = 0.03 * random.next());
+    u
+}
+
+/// Looks at random states, each after a random accepted one.
+fn contact_states(cell: &str, shape: &str, space: Space, look: &mut dyn FnMut(&dyn Attempt, &[f64])) {
+    let ((contact, dofs), mut random) = (contact(cell, shape, space), Random(7));
+    let start = state(vec![0.0; dofs.count()], contact.initial());
+    for _ in 0..1500 {
+        let accepted = commit(&contact, &start, motion(&dofs, &mut random)).unwrap();
+        let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+        look(attempt.as_ref(), &motion(&dofs, &mut random));
+    }
+}
+
+#[test]
+fn tangents_of_contact_are_exact() {
+    for cell in ["quad4", "quad8"] {
+        for shape in ["line", "parabola", "arc"] {
+            for space in [Space::PlaneStrain, Space::Axisymmetric] {
+                let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
+                contact_states(cell, shape, space, &mut |attempt, u| {
+                    for result in check(attempt, u).unwrap() {
+                        met[usize::from(result.branch)] += 1;
+                        skipped += usize::from(!result.smooth);
+                        worst = if result.smooth && !(result.error <= worst) { result.error } else { worst };
+                    }
+                });
+                let name = format!("{cell}, {shape}, {space:?}: {met:?} skipped {skipped} worst {worst:.1e}");
+                assert!(met.iter().all(|&met| met >= 100), "{name}");
+                assert!(20 * skipped <= met.iter().sum::<usize>(), "{name}");
+                assert!(worst < ALLOWED, "{name}");
+            }
+        }
+    }
+}
+
+/// An attempt whose largest derivative is wrong by a part of 1e-5.
+struct Spoilt<'a>(&'a dyn Attempt);
+
+impl Attempt for Spoilt<'_> {
+    fn scratch(&self, index: usize) -> Vec<f64> {
+        self.0.scratch(index)
+    }
+    fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
+        self.0.stencils(u, out)
+    }
+    fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
+        let branch = self.0.evaluate(index, stencil, new, local)?;
+        if let Some(entry) = local.tangent.iter_mut().max_by(|a, b| a.abs().total_cmp(&b.abs())) {
+            *entry *= 1.0 + 1e-5;
+        }
+        Ok(branch)
+    }
+}
+
+#[test]
+fn a_wrong_derivative_is_found() {
+    let mut found = 0;
+    contact_states("quad8", "arc", Space::Axisymmetric, &mut |attempt, u| {
+        for result in check(&Spoilt(attempt), u).unwrap().iter().filter(|result| result.smooth && result.branch > 0) {
+            assert!(result.error > 10.0 * ALLOWED, "{}", result.error);
+            found += 1;
+        }
+    });
+    assert!(found > 100);
+}

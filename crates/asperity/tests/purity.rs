@@ -1,0 +1,147 @@
+//! The solution is a function of the deck alone: the number of threads, outputs, a restart, an attempt that failed
+//! before do not change a bit of it. States are compared as the bytes of a checkpoint.
+
+mod support;
+
+use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
+use asperity::output::{CHECKPOINT, Job, ResultOptions, Start, simulate};
+use asperity::solve::{Frontal, LinearError, LinearSolver, Run, RunOptions, Silent};
+use asperity::system::{Csr, State};
+use proptest::prelude::*;
+use support::{Keep, go_on, model, run};
+
+const DECK: &str = include_str!("../../../cases/tube/tube.toml");
+const COARSE: [&str; 3] = [
+    "mesh.part.tube.rectangle.cells=[2, 40]",
+    "step.push.increments.count=24",
+    "step.push.displacement.'tube.top'.y=-36.0",
+];
+const QUAD4: [&str; 3] =
+    ["mesh.part.tube.rectangle.cell=quad4", "body.tube.formulation=f-bar", "body.tube.integration=full"];
+
+fn coarse(more: &[&'static str]) -> Vec<&'static str> {
+    [&COARSE, more].concat()
+}
+
+fn bytes(state: &State) -> Vec<u8> {
+    postcard::to_stdvec(state).unwrap()
+}
+
+fn all_bytes(keep: &Keep) -> Vec<Vec<u8>> {
+    keep.states.iter().map(bytes).collect()
+}
+
+fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    for cell in [&[][..], &QUAD4] {
+        let model = model(DECK, &coarse(cell));
+        let [one, two, three] = [1, 2, 3].map(|threads| with_threads(threads, || all_bytes(&run(&model))));
+        assert_eq!(one.len(), 24);
+        assert!(one == two && one == three);
+    }
+}
+
+#[test]
+fn outputs_change_nothing() {
+    let model = model(DECK, &coarse(&[]));
+    let without = run(&model);
+    let directory = tempfile::tempdir().unwrap();
+    let options = ResultOptions { every: 1, checkpoint_every: 1, ..ResultOptions::default() };
+    let input = InputHash::of(&[DECK.as_bytes()]);
+    let job = Job { directory: directory.path(), options, input, start: Start::Beginning };
+    simulate(&model, &job, &mut Silent).unwrap().1.unwrap();
+    let (_, last) = checkpoint::load::<State>(&directory.path().join(CHECKPOINT), &input).unwrap();
+    assert_eq!(bytes(&last), bytes(without.states.last().unwrap()));
+}
+
+/// Each attempt made twice, the first thrown away when it has converged.
+#[test]
+fn an_attempt_leaves_nothing_behind() {
+    for way in ["solver.factors=fresh", "solver.factors=attempt"] {
+        let mut model = model(DECK, &coarse(&[way]));
+        let once = all_bytes(&run(&model));
+        model.problem.newton.rehearse = true;
+        assert!(once == all_bytes(&run(&model)), "{way}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 4, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_restart_changes_nothing(k in 1_usize..24) {
+        let model = model(DECK, &coarse(&QUAD4));
+        let whole = all_bytes(&run(&model));
+        let begun = go_on(&model, model.problem.initial_state(), Some(k));
+        let restarted = through_a_file(begun.states.last().unwrap());
+        let rest = go_on(&model, restarted, None);
+        prop_assert!(whole[k..] == all_bytes(&rest)[..]);
+    }
+
+    /// An attempt whose linear solver gives up in the middle is cut in half; what follows is what would have been,
+    /// had the half been tried at once.
+    #[test]
+    fn a_failed_attempt_changes_nothing(k in 1_usize..23, factorisation in 2_usize..5) {
+        let model = model(DECK, &coarse(&[]));
+        let begun = go_on(&model, model.problem.initial_state(), Some(k));
+        let mut start = begun.states.last().unwrap().clone();
+        let failed = faulty_increment(&model.problem, start.clone(), factorisation);
+        prop_assert_eq!(failed.attempts, start.attempts + 2);
+        start.next_dt *= 0.5;
+        let direct = faulty_increment(&model.problem, start, usize::MAX);
+        let counted = State { attempts: direct.attempts, iterations: direct.iterations, ..failed };
+        prop_assert!(bytes(&counted) == bytes(&direct));
+    }
+}
+
+fn through_a_file(state: &State) -> State {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.checkpoint");
+    let input = InputHash::of(&[b"tube"]);
+    let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
+    checkpoint::save(&path, &Head { input, stamp }, state).unwrap();
+    checkpoint::load(&path, &input).unwrap().1
+}
+
+/// The state after one increment with a solver that gives up once.
+fn faulty_increment(problem: &asperity::solve::Problem, start: State, at: usize) -> State {
+    let mut run = Run::new(problem, start, Box::new(Faulty { at, ..Faulty::default() }));
+    run.run(&RunOptions { increments: Some(1) }, &mut Silent).unwrap();
+    run.state
+}
+
+/// A solver that calls its `at`-th matrix singular.
+#[derive(Default)]
+struct Faulty {
+    solver: Frontal,
+    at: usize,
+    factorisations: usize,
+    unknowns: usize,
+}
+
+impl LinearSolver for Faulty {
+    fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
+        self.unknowns = nodes.len();
+        self.solver.analyse(pattern, nodes)
+    }
+    fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
+        self.factorisations += 1;
+        if self.factorisations == self.at {
+            return Err(LinearError::Singular(vec![vec![1.0; self.unknowns]]));
+        }
+        self.solver.factorise(values)
+    }
+    fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        self.solver.solve(rhs)
+    }
+    fn begin(&mut self) {
+        self.solver.begin();
+    }
+    fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
+        self.solver.iterate(values, rhs, tolerance)
+    }
+}

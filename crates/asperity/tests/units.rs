@@ -69,11 +69,14 @@ impl Scaled {
     }
 
     /// All values of all quantities of a frame, next to those of another run in its own units.
-    fn beside<'a>(&'a self, other: &'a Self, frame: usize) -> impl Iterator<Item = (&'a Quantity, Vec<f64>, &'a [f64])> {
+    fn beside<'a>(
+        &'a self,
+        other: &'a Self,
+        frame: usize,
+    ) -> impl Iterator<Item = (&'a Quantity, Vec<f64>, &'a [f64])> {
         let places = [Place::Node, Place::Cell, Place::Gauss, Place::Contact, Place::Global];
-        let quantities = places.into_iter().flat_map(move |place| {
-            self.frames[frame].at(place).zip(other.frames[frame].at(place))
-        });
+        let quantities =
+            places.into_iter().flat_map(move |place| self.frames[frame].at(place).zip(other.frames[frame].at(place)));
         quantities.map(|(mine, theirs)| {
             assert_eq!(mine.name, theirs.name);
             let factor = self.factor(mine.unit);

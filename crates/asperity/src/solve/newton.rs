@@ -10,7 +10,7 @@ use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::path::{Path, Progress};
 use super::run::Problem;
 use super::schedule::Step;
-use crate::system::{Aid, Assembly, Dofs, Evaluation, Instant, State, Tangent, Workspace};
+use crate::system::{Aid, Assembly, Dofs, Evaluation, Instant, State, Tangent, Trial, Workspace};
 use crate::{Error, Failure};
 
 /// Which matrix the iterations use.
@@ -80,6 +80,8 @@ pub struct Memory {
     pub workspace: Workspace,
     analysed: usize,
     factorised: bool,
+    /// The evaluation of the last accepted increment: room for the next.
+    pub spare: Option<Evaluation>,
     /// Analyses of the solver so far.
     pub analyses: usize,
     /// Factorisations so far.
@@ -161,7 +163,7 @@ impl<'a> Newton<'a> {
         let assembly =
             Assembly { terms: &problem.terms, attempts, dofs: &problem.dofs, constraints: &step.constraints };
         memory.workspace.prepare(&assembly, state)?;
-        let evaluation = Evaluation::new(&problem.terms, state);
+        let evaluation = memory.spare.take().unwrap_or_else(|| Evaluation::new(&problem.terms, state));
         let residual = vec![0.0; step.constraints.free_count()];
         Ok(Self {
             problem,
@@ -251,7 +253,8 @@ impl<'a> Newton<'a> {
     }
 
     fn evaluate(&mut self, u: &[f64], missing: Option<&[f64]>, tangent: Tangent) -> Result<(), Failure> {
-        self.memory.workspace.evaluate(&self.assembly, u, missing, tangent, &mut self.evaluation)?;
+        let trial = Trial { u, missing, tangent };
+        self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         self.step.constraints.gather(&unbalanced, &mut self.residual);
         Ok(())

@@ -243,7 +243,7 @@ impl<'a> Run<'a> {
     }
 
     fn accept(&mut self, step: &Step, dt: f64, wanted: f64, iterations: usize, converged: Converged) {
-        let (state, evaluation) = (&mut self.state, converged.evaluation);
+        let (state, mut evaluation) = (&mut self.state, converged.evaluation);
         for (i, (change, u)) in state.last_change.iter_mut().zip(&converged.u).enumerate() {
             *change = u - state.u[i];
             state.external_work += 0.5 * (state.internal[i] + evaluation.internal[i]) * *change;
@@ -253,9 +253,10 @@ impl<'a> Run<'a> {
             total.dissipated += new.dissipated;
         }
         state.u = converged.u;
-        state.internal = evaluation.internal;
-        state.load = evaluation.load;
-        state.histories = evaluation.histories;
+        std::mem::swap(&mut state.internal, &mut evaluation.internal);
+        std::mem::swap(&mut state.load, &mut evaluation.load);
+        std::mem::swap(&mut state.histories, &mut evaluation.histories);
+        self.memory.spare = Some(evaluation);
         for (past, now) in state.reference.iter_mut().zip(converged.reference) {
             *past = past.max(now);
         }

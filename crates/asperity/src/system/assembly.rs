@@ -3,10 +3,9 @@
 //! Stencils are evaluated in parallel in chunks of fixed size and scattered in stencil order, so that no bit depends
 //! on the number of threads. The [`Workspace`] only keeps memory and what follows exactly from the pattern.
 
-use super::check::perturb;
-use super::{
-    Aid, Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, Local, Role, Row, State, Stencils, Term,
-};
+use super::chunk::{CHUNK, Chunk, Pass, lanes};
+use super::sink::{Miss, Sink, places};
+use super::{Aid, Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, State, Stencils, Term};
 use crate::Failure;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -21,6 +20,17 @@ pub enum Tangent {
     /// Central differences of every stencil; the number is the step of a displacement (a length). A rotation is
     /// stepped by a fixed small angle.
     Perturbation(f64),
+}
+
+/// Where the terms are evaluated, and what is wanted there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial<'a> {
+    /// All unknowns.
+    pub u: &'a [f64],
+    /// The motion that prescribed unknowns have yet to make.
+    pub missing: Option<&'a [f64]>,
+    /// Whether and how the matrix is to be found.
+    pub tangent: Tangent,
 }
 
 /// Result of one evaluation.
@@ -71,29 +81,8 @@ pub struct Workspace {
     pub aid: Aid,
 }
 
-/// Stencils a chunk holds; fixed, so that results do not depend on the number of threads.
-const CHUNK: usize = 32;
 /// Chunks evaluated between two scatters; bounds the memory of local matrices.
 const ROUND: usize = 64;
-/// A pair of unknowns that is not in the matrix because one is prescribed.
-const NOWHERE: u32 = u32::MAX;
-/// Marks a stencil that touches combined unknowns and is scattered the long way.
-const LONG_WAY: u32 = u32::MAX - 1;
-
-/// Results of the stencils of one chunk.
-#[derive(Debug, Default)]
-struct Chunk {
-    local: Local,
-    forces: Vec<f64>,
-    tangents: Vec<f64>,
-    branches: Vec<(Branch, u32)>,
-    energies: Energies,
-    failure: Option<Failure>,
-}
-
-/// The pattern lacks an entry that a stencil needs.
-struct Miss;
-
 impl Default for Workspace {
     fn default() -> Self {
         Self {
@@ -155,29 +144,22 @@ impl Workspace {
             .collect();
     }
 
-    /// Evaluates all terms at `u`. `missing` is the motion that prescribed unknowns have yet to make.
+    /// Evaluates all terms at a trial state.
     ///
     /// # Errors
     /// The first [`Failure`] in the order of terms and stencils.
-    pub fn evaluate(
-        &mut self,
-        assembly: &Assembly,
-        u: &[f64],
-        missing: Option<&[f64]>,
-        tangent: Tangent,
-        out: &mut Evaluation,
-    ) -> Result<(), Failure> {
+    pub fn evaluate(&mut self, assembly: &Assembly, trial: &Trial, out: &mut Evaluation) -> Result<(), Failure> {
         for (attempt, stencils) in assembly.attempts.iter().zip(&mut self.stencils) {
             if !attempt.is_fixed() {
                 stencils.clear();
-                attempt.stencils(u, stencils)?;
+                attempt.stencils(trial.u, stencils)?;
             }
         }
         loop {
-            out.clear(assembly.dofs.count(), self.pattern.columns.len(), tangent);
+            out.clear(assembly.dofs.count(), self.pattern.columns.len(), trial.tangent);
             let mut miss = false;
             for t in 0..assembly.terms.len() {
-                match self.evaluate_term(assembly, t, u, missing, tangent, out)? {
+                match self.evaluate_term(assembly, t, trial, out)? {
                     Ok(()) => {}
                     Err(Miss) => miss = true,
                 }
@@ -197,50 +179,43 @@ impl Workspace {
         &mut self,
         assembly: &Assembly,
         t: usize,
-        u: &[f64],
-        missing: Option<&[f64]>,
-        tangent: Tangent,
+        trial: &Trial,
         out: &mut Evaluation,
     ) -> Result<Result<(), Miss>, Failure> {
-        let (attempt, stencils) = (&assembly.attempts[t], &self.stencils[t]);
-        let rotations = |dof: usize| assembly.dofs.is_rotation(dof);
         let mut history = std::mem::take(&mut out.histories[t]);
-        let places = self.places.get(t).filter(|p| !p.is_empty());
-        let mut sink = Sink { out, constraints: assembly.constraints, pattern: &self.pattern, missing };
-        let (mut result, mut place) = (Ok(()), 0);
-        let count = stencils.list.len();
-        for round in (0..count).step_by(CHUNK * ROUND) {
-            let end = (round + CHUNK * ROUND).min(count);
-            let chunks = (end - round).div_ceil(CHUNK);
-            if self.chunks.len() < chunks {
-                self.chunks.resize_with(chunks, Chunk::default);
+        let result = self.evaluate_rounds(assembly, t, trial, (&mut history, out));
+        out.histories[t] = history;
+        result
+    }
+
+    fn evaluate_rounds(
+        &mut self,
+        assembly: &Assembly,
+        t: usize,
+        trial: &Trial,
+        (history, out): (&mut History, &mut Evaluation),
+    ) -> Result<Result<(), Miss>, Failure> {
+        let (stencils, dofs) = (&self.stencils[t], assembly.dofs);
+        let pass = Pass { attempt: assembly.attempts[t].as_ref(), stencils, dofs, trial, aid: self.aid };
+        let places = self.places.get(t).filter(|p| !p.is_empty()).map(Vec::as_slice);
+        let role = assembly.terms[t].role();
+        let mut sink = Sink::new((out, t), (assembly.constraints, &self.pattern), (trial, role), places);
+        let (mut result, count) = (Ok(()), stencils.list.len());
+        for first in (0..count).step_by(CHUNK * ROUND) {
+            let end = (first + CHUNK * ROUND).min(count);
+            let number = (end - first).div_ceil(CHUNK);
+            if self.chunks.len() < number {
+                self.chunks.resize_with(number, Chunk::default);
             }
-            let lanes = split(&mut history, round, end);
-            self.chunks[..chunks].iter_mut().for_each(|chunk| chunk.local.aid = self.aid);
-            self.chunks[..chunks].par_iter_mut().zip(lanes).enumerate().for_each(|(k, (chunk, lane))| {
-                let first = round + k * CHUNK;
-                let range = first..(first + CHUNK).min(end);
-                chunk.run(attempt.as_ref(), stencils, range, u, tangent, lane, &rotations);
-            });
-            for (k, chunk) in self.chunks[..chunks].iter_mut().enumerate() {
+            let chunks = &mut self.chunks[..number];
+            chunks.par_iter_mut().zip(lanes(history, first..end)).for_each(|(chunk, lane)| chunk.run(&pass, lane));
+            for (chunk, list) in chunks.iter_mut().zip(stencils.list[first..end].chunks(CHUNK)) {
                 if let Some(failure) = chunk.failure.take() {
-                    sink.out.histories[t] = history;
                     return Err(failure);
                 }
-                let first = round + k * CHUNK;
-                let list = &stencils.list[first..(first + CHUNK).min(end)];
-                let places = places.map(|p| &p[place..]);
-                place += list.iter().map(|s| s.len * s.len).sum::<usize>();
-                let role = assembly.terms[t].role();
-                if let Err(miss) = sink.scatter(chunk, list, stencils, role, tangent, places) {
-                    result = Err(miss);
-                }
-                sink.out.branches[t].extend_from_slice(&chunk.branches);
-                sink.out.energies[t].stored += chunk.energies.stored;
-                sink.out.energies[t].dissipated += chunk.energies.dissipated;
+                result = sink.scatter(chunk, list, stencils).and(result);
             }
         }
-        out.histories[t] = history;
         Ok(result)
     }
 }
@@ -275,185 +250,3 @@ impl Evaluation {
     }
 }
 
-/// Cuts the history of stencils `first..end` into one lane for each chunk.
-fn split(history: &mut History, first: usize, end: usize) -> Vec<(usize, &[usize], &mut [f64])> {
-    let (starts, mut rest) = (&history.starts, &mut history.data[history.starts[first]..history.starts[end]]);
-    let mut lanes = Vec::with_capacity((end - first).div_ceil(CHUNK));
-    for begin in (first..end).step_by(CHUNK) {
-        let stop = (begin + CHUNK).min(end);
-        let (lane, tail) = std::mem::take(&mut rest).split_at_mut(starts[stop] - starts[begin]);
-        lanes.push((begin, &starts[begin..=stop], lane));
-        rest = tail;
-    }
-    lanes
-}
-
-impl Chunk {
-    #[allow(clippy::too_many_arguments)]
-    fn run(
-        &mut self,
-        attempt: &dyn Attempt,
-        stencils: &Stencils,
-        range: std::ops::Range<usize>,
-        u: &[f64],
-        tangent: Tangent,
-        (begin, starts, lane): (usize, &[usize], &mut [f64]),
-        is_rotation: &dyn Fn(usize) -> bool,
-    ) {
-        self.forces.clear();
-        self.tangents.clear();
-        self.branches.clear();
-        (self.energies, self.failure) = (Energies::default(), None);
-        for index in range {
-            let stencil = &stencils.list[index];
-            let dofs = stencils.dofs(stencil);
-            let (from, to) = (starts[index - begin] - starts[0], starts[index + 1 - begin] - starts[0]);
-            let local = &mut self.local;
-            local.u.clear();
-            local.u.extend(dofs.iter().map(|&dof| u[dof]));
-            if let Tangent::Perturbation(step) = tangent {
-                local.wants_tangent = false;
-                perturb(attempt, index, stencil, (step, &|k| is_rotation(dofs[k])), local, &mut self.tangents);
-            }
-            local.wants_tangent = tangent == Tangent::Exact;
-            local.reset(stencil.len);
-            match attempt.evaluate(index, stencil, &mut lane[from..to], local) {
-                Ok(branch) => self.branches.push((branch, stencil.choice)),
-                Err(failure) => {
-                    self.failure = Some(failure);
-                    return;
-                }
-            }
-            self.forces.extend_from_slice(&local.force);
-            if local.wants_tangent {
-                self.tangents.extend_from_slice(&local.tangent);
-            }
-            self.energies.stored += local.stored;
-            self.energies.dissipated += local.dissipated;
-        }
-    }
-}
-
-/// Where chunks are added up.
-struct Sink<'a> {
-    out: &'a mut Evaluation,
-    constraints: &'a Constraints,
-    pattern: &'a Csr,
-    missing: Option<&'a [f64]>,
-}
-
-impl Sink<'_> {
-    fn scatter(
-        &mut self,
-        chunk: &Chunk,
-        list: &[super::Stencil],
-        stencils: &Stencils,
-        role: Role,
-        tangent: Tangent,
-        places: Option<&[u32]>,
-    ) -> Result<(), Miss> {
-        let (mut force, mut entry, mut result) = (0, 0, Ok(()));
-        for stencil in list {
-            let (n, dofs) = (stencil.len, stencils.dofs(stencil));
-            self.add_forces(role, dofs, &chunk.forces[force..force + n]);
-            force += n;
-            if tangent == Tangent::None {
-                continue;
-            }
-            let (matrix, sign) = (&chunk.tangents[entry..entry + n * n], if role == Role::Load { -1.0 } else { 1.0 });
-            if let Some(missing) = self.missing {
-                self.carry(dofs, matrix, missing, sign);
-            }
-            match places.map(|p| &p[entry..entry + n * n]) {
-                Some(places) if places.first() != Some(&LONG_WAY) => {
-                    for (&place, &value) in places.iter().zip(matrix) {
-                        if place != NOWHERE {
-                            self.out.values[place as usize] += sign * value;
-                        }
-                    }
-                }
-                _ => {
-                    if let Err(miss) = self.add_long_way(dofs, matrix, sign) {
-                        result = Err(miss);
-                    }
-                }
-            }
-            entry += n * n;
-        }
-        result
-    }
-
-    fn add_forces(&mut self, role: Role, dofs: &[usize], forces: &[f64]) {
-        let sum = if role == Role::Load { &mut self.out.load } else { &mut self.out.internal };
-        for (&dof, &force) in dofs.iter().zip(forces) {
-            sum[dof] += force;
-            self.out.magnitude[dof] += force.abs();
-        }
-    }
-
-    fn carry(&mut self, dofs: &[usize], matrix: &[f64], missing: &[f64], sign: f64) {
-        for (row, &dof) in matrix.chunks_exact(dofs.len()).zip(dofs) {
-            let force: f64 = row.iter().zip(dofs).map(|(k, &other)| k * missing[other]).sum();
-            self.out.carried[dof] += sign * force;
-        }
-    }
-
-    fn add_long_way(&mut self, dofs: &[usize], matrix: &[f64], sign: f64) -> Result<(), Miss> {
-        for (row, &dof) in matrix.chunks_exact(dofs.len().max(1)).zip(dofs) {
-            for (&value, &other) in row.iter().zip(dofs) {
-                if value == 0.0 {
-                    continue;
-                }
-                for &(i, ci) in terms(self.constraints.row(dof)).as_slice() {
-                    for &(j, cj) in terms(self.constraints.row(other)).as_slice() {
-                        let place = self.pattern.position(i, j).ok_or(Miss)?;
-                        self.out.values[place] += sign * ci * cj * value;
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The free unknowns a row depends on, without allocation for the usual ones.
-enum RowTerms<'a> {
-    One([(usize, f64); 1]),
-    Many(&'a [(usize, f64)]),
-}
-
-impl RowTerms<'_> {
-    fn as_slice(&self) -> &[(usize, f64)] {
-        match self {
-            Self::One(one) => one,
-            Self::Many(many) => many,
-        }
-    }
-}
-
-fn terms(row: &Row) -> RowTerms<'_> {
-    match row {
-        Row::Free(i) => RowTerms::One([(*i, 1.0)]),
-        Row::Fixed => RowTerms::Many(&[]),
-        Row::Combined(terms) => RowTerms::Many(terms),
-    }
-}
-
-/// Place in the matrix of every entry of every stencil.
-fn places(pattern: &Csr, constraints: &Constraints, stencils: &Stencils) -> Vec<u32> {
-    let mut places = Vec::with_capacity(stencils.list.iter().map(|s| s.len * s.len).sum());
-    for stencil in &stencils.list {
-        let dofs = stencils.dofs(stencil);
-        if dofs.iter().any(|&dof| matches!(constraints.row(dof), Row::Combined(_))) {
-            places.resize(places.len() + dofs.len() * dofs.len(), LONG_WAY);
-            continue;
-        }
-        for &row in dofs {
-            places.extend(dofs.iter().map(|&column| match (constraints.row(row), constraints.row(column)) {
-                (Row::Free(i), Row::Free(j)) => pattern.position(*i, *j).map_or(NOWHERE, |p| p as u32),
-                _ => NOWHERE,
-            }));
-        }
-    }
-    places
-}

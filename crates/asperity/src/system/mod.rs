@@ -6,13 +6,15 @@
 
 mod assembly;
 mod check;
+mod chunk;
 mod constraint;
 mod dofs;
 mod pattern;
+mod sink;
 mod state;
 mod term;
 
-pub use assembly::{Assembly, Evaluation, Tangent, Workspace};
+pub use assembly::{Assembly, Evaluation, Tangent, Trial, Workspace};
 pub use check::{TangentCheck, check_tangent};
 pub use constraint::{Constraints, Row};
 pub use dofs::{Dofs, Unknown};

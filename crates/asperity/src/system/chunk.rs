@@ -1,0 +1,103 @@
+//! Chunks of stencils: what one thread evaluates at a time, with the lane of history that it writes.
+
+use super::check::perturb;
+use super::{Aid, Attempt, Branch, Dofs, Energies, History, Local, Stencils, Tangent, Trial};
+use crate::Failure;
+use std::ops::Range;
+
+/// Stencils a chunk holds; fixed, so that results do not depend on the number of threads.
+pub const CHUNK: usize = 32;
+
+/// Results of the stencils of one chunk.
+#[derive(Debug, Default)]
+pub struct Chunk {
+    local: Local,
+    /// Forces of all stencils, one after another.
+    pub forces: Vec<f64>,
+    /// Tangents of all stencils, one after another.
+    pub tangents: Vec<f64>,
+    /// Branch and discrete choice of each stencil.
+    pub branches: Vec<(Branch, u32)>,
+    /// Sum of their energies.
+    pub energies: Energies,
+    /// Why the chunk ends early, if it does.
+    pub failure: Option<Failure>,
+}
+
+/// What all chunks of a term share.
+pub struct Pass<'a> {
+    /// The term.
+    pub attempt: &'a dyn Attempt,
+    /// Its stencils.
+    pub stencils: &'a Stencils,
+    /// Numbering.
+    pub dofs: &'a Dofs,
+    /// Where it is evaluated.
+    pub trial: &'a Trial<'a>,
+    /// Help that it is given.
+    pub aid: Aid,
+}
+
+/// New history of the stencils of one chunk.
+pub struct Lane<'a> {
+    stencils: Range<usize>,
+    starts: &'a [usize],
+    data: &'a mut [f64],
+}
+
+impl Lane<'_> {
+    fn slot(&mut self, index: usize) -> &mut [f64] {
+        let k = index - self.stencils.start;
+        let [from, to] = [self.starts[k], self.starts[k + 1]].map(|start| start - self.starts[0]);
+        &mut self.data[from..to]
+    }
+}
+
+/// Cuts the history of some stencils into one lane for each chunk.
+pub fn lanes(history: &mut History, stencils: Range<usize>) -> Vec<Lane<'_>> {
+    let starts = &history.starts;
+    let mut rest = &mut history.data[starts[stencils.start]..starts[stencils.end]];
+    let mut lanes = Vec::with_capacity(stencils.len().div_ceil(CHUNK));
+    for begin in stencils.clone().step_by(CHUNK) {
+        let end = (begin + CHUNK).min(stencils.end);
+        let (data, tail) = std::mem::take(&mut rest).split_at_mut(starts[end] - starts[begin]);
+        lanes.push(Lane { stencils: begin..end, starts: &starts[begin..=end], data });
+        rest = tail;
+    }
+    lanes
+}
+
+impl Chunk {
+    /// Evaluates the stencils of a lane.
+    pub fn run(&mut self, pass: &Pass, mut lane: Lane) {
+        self.forces.clear();
+        self.tangents.clear();
+        self.branches.clear();
+        self.energies = Energies::default();
+        self.local.aid = pass.aid;
+        self.failure = lane.stencils.clone().try_for_each(|index| self.evaluate(index, pass, lane.slot(index))).err();
+    }
+
+    fn evaluate(&mut self, index: usize, pass: &Pass, new: &mut [f64]) -> Result<(), Failure> {
+        let (stencil, tangent) = (&pass.stencils.list[index], pass.trial.tangent);
+        let (dofs, local) = (pass.stencils.dofs(stencil), &mut self.local);
+        local.u.clear();
+        local.u.extend(dofs.iter().map(|&dof| pass.trial.u[dof]));
+        if let Tangent::Perturbation(step) = tangent {
+            let is_rotation = |k: usize| pass.dofs.is_rotation(dofs[k]);
+            local.wants_tangent = false;
+            perturb(pass.attempt, index, stencil, (step, &is_rotation), local, &mut self.tangents);
+        }
+        local.wants_tangent = tangent == Tangent::Exact;
+        local.reset(stencil.len);
+        let branch = pass.attempt.evaluate(index, stencil, new, local)?;
+        self.branches.push((branch, stencil.choice));
+        self.forces.extend_from_slice(&local.force);
+        if local.wants_tangent {
+            self.tangents.extend_from_slice(&local.tangent);
+        }
+        self.energies.stored += local.stored;
+        self.energies.dissipated += local.dissipated;
+        Ok(())
+    }
+}

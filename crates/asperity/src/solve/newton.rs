@@ -194,7 +194,8 @@ impl<'a> Newton<'a> {
             self.refresh_stiffness();
             let mut norms = self.measure();
             if missing.is_none() {
-                norms = self.follow(&mut path, (iteration, taken), norms, &u)?;
+                let (residual, converged, changed) = (norms.ratio, norms.converged(), self.changed(&before));
+                norms = self.follow(&mut path, &Progress { iteration, residual, taken, changed, converged }, norms, &u)?;
             }
             let mut line = self.describe(iteration, &norms, &before);
             (line.correction, line.step, line.factorised) = (correction, taken, factorised);
@@ -226,16 +227,21 @@ impl<'a> Newton<'a> {
         Err(Failure::new(self.why_not(record)).into())
     }
 
+    /// Part of the stencils with several branches whose branch or discrete choice is not what it was.
+    fn changed(&self, before: &[Vec<(u8, u32)>]) -> f64 {
+        let several = |t: &usize| !self.problem.terms[*t].branches().is_empty();
+        let (mut changed, mut all) = (0, 0);
+        for t in (0..before.len()).filter(several) {
+            let (now, then) = (&self.evaluation.branches[t], &before[t]);
+            changed += now.iter().zip(then).filter(|(now, then)| now != then).count();
+            all += now.len();
+        }
+        changed as f64 / all.max(1) as f64
+    }
+
     /// Goes along the path, evaluating anew where it turns.
-    fn follow(
-        &mut self,
-        path: &mut Path,
-        (iteration, taken): (usize, f64),
-        norms: Norms,
-        u: &[f64],
-    ) -> Result<Norms, Failure> {
-        let at = Progress { iteration, residual: norms.ratio, taken, converged: norms.converged() };
-        let Some(aid) = path.advance(&at) else { return Ok(norms) };
+    fn follow(&mut self, path: &mut Path, at: &Progress, norms: Norms, u: &[f64]) -> Result<Norms, Failure> {
+        let Some(aid) = path.advance(at) else { return Ok(norms) };
         self.memory.workspace.aid = aid;
         self.evaluate(u, None, self.tangent())?;
         self.memory.workspace.aid = path.aid();

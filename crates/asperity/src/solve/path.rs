@@ -13,8 +13,12 @@ const HELD: usize = 2;
 const SETTLED: f64 = 1e-3;
 /// Part of the penalties that leads,
 const LEAD: f64 = 0.01;
-/// and the residual below which the full ones take over.
+/// and the residual below which the full ones take over,
 const LED: f64 = 0.15;
+/// once fewer points than this part of all change their status in an iteration,
+const QUIET: f64 = 0.1;
+/// or after so many iterations.
+const PATIENCE: usize = 8;
 /// A part of a step below which the line search says that the set of closed points is far from the solution's,
 const SHORT: f64 = 0.2;
 /// and how often an attempt heeds that.
@@ -43,6 +47,8 @@ pub(super) struct Progress {
     pub residual: f64,
     /// Part of the last step that the line search took.
     pub taken: f64,
+    /// Part of all points whose status has changed over it.
+    pub changed: f64,
     /// Whether the residual would be accepted.
     pub converged: bool,
 }
@@ -80,7 +86,9 @@ impl Path {
             Stage::Held if at.iteration > 0 && (at.residual < SETTLED || at.iteration >= HELD) => {
                 self.stage = Stage::Free;
             }
-            Stage::Led if at.residual < LED => self.stage = Stage::Free,
+            Stage::Led if at.residual < LED && (at.changed < QUIET || at.iteration >= PATIENCE) => {
+                self.stage = Stage::Free;
+            }
             Stage::Free if at.iteration > 0 && !at.converged && at.taken < SHORT && self.leads < LEADS => {
                 (self.stage, self.leads) = (Stage::Led, self.leads + 1);
             }
@@ -97,7 +105,7 @@ mod tests {
     use super::*;
 
     fn at(iteration: usize, residual: f64, taken: f64) -> Progress {
-        Progress { iteration, residual, taken, converged: residual < 1e-6 }
+        Progress { iteration, residual, taken, changed: 0.0, converged: residual < 1e-6 }
     }
 
     #[test]

@@ -195,7 +195,8 @@ impl<'a> Newton<'a> {
             let mut norms = self.measure();
             if missing.is_none() {
                 let (residual, converged, changed) = (norms.ratio, norms.converged(), self.changed(&before));
-                norms = self.follow(&mut path, &Progress { iteration, residual, taken, changed, converged }, norms, &u)?;
+                norms =
+                    self.follow(&mut path, &Progress { iteration, residual, taken, changed, converged }, norms, &u)?;
             }
             let mut line = self.describe(iteration, &norms, &before);
             (line.correction, line.step, line.factorised) = (correction, taken, factorised);

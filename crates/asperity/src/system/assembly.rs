@@ -249,4 +249,3 @@ impl Evaluation {
         self.internal[dof] - self.load[dof]
     }
 }
-

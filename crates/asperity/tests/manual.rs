@@ -2,6 +2,7 @@
 //! `ASPERITY_BLESS=1` writes the page of keys anew.
 
 use asperity::deck::{build, read, review, schema};
+use asperity::solve::{RunOptions, Silent, Stop};
 use std::path::{Path, PathBuf};
 
 fn page(name: &str) -> PathBuf {
@@ -33,6 +34,14 @@ fn the_page_of_keys_is_up_to_date() {
     }
     let committed = std::fs::read_to_string(page("keys.md")).unwrap();
     assert!(committed == present, "book/src/keys.md is old: cargo run -- schema --manual > book/src/keys.md");
+}
+
+#[test]
+fn the_small_deck_of_the_guide_runs_to_its_end() {
+    let deck = blocks(&std::fs::read_to_string(page("deck.md")).unwrap()).swap_remove(0);
+    let made = read(&deck, "guide.toml", Path::new(""), &[]).and_then(build).unwrap_or_else(|d| panic!("{d:?}"));
+    let mut run = made.model.run(made.model.problem.initial_state());
+    assert_eq!(run.run(&RunOptions::default(), &mut Silent).unwrap(), Stop::Done);
 }
 
 /// The first block is a whole deck, the others are added to it.

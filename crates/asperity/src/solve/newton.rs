@@ -127,6 +127,8 @@ pub struct Newton<'a> {
     stiffness: f64,
     /// Multiple of the initial slope that the line search allows at the end of a step.
     bound: f64,
+    /// Motions that the last matrix was propped against, in words.
+    propped: Vec<String>,
 }
 
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
@@ -144,6 +146,10 @@ const STRICT: f64 = 0.5;
 /// Bounds of what an iterative solution may leave of its right-hand side.
 const LOOSEST: f64 = 1e-4;
 const TIGHTEST: f64 = 1e-8;
+/// Stiffness that props an iterate in which something is free, over the largest in the matrix.
+const PROP: f64 = 1e-4;
+/// Force over the reference force that holds what meets no stiffness.
+const RESISTANCE: f64 = 1e-3;
 /// Shortest step of the line search.
 const SHORTEST: f64 = 0.01;
 
@@ -177,6 +183,7 @@ impl<'a> Newton<'a> {
             residual,
             stiffness: 0.0,
             bound: SLOPE,
+            propped: Vec::new(),
         })
     }
 
@@ -204,6 +211,7 @@ impl<'a> Newton<'a> {
             observer.iteration(record, &line);
             record.iterations.push(line);
             if missing.is_none() && path.is_free() && norms.converged() {
+                self.stands(&u, norms.reference[0])?;
                 return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
             }
             if !norms.ratio.is_finite() {
@@ -380,8 +388,68 @@ impl<'a> Newton<'a> {
         }
         self.memory.factorisations += 1;
         self.memory.factorised = false;
-        self.solver.factorise(&self.evaluation.values).map_err(|e| self.explain(e, iteration))?;
-        self.memory.factorised = true;
+        self.propped.clear();
+        match self.solver.factorise(&self.evaluation.values) {
+            Err(LinearError::Singular(motions)) if self.may_close() => self.prop(&motions, iteration)?,
+            factorised => {
+                factorised.map_err(|e| self.explain(e, iteration))?;
+                self.memory.factorised = true;
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether there are terms that may yet hold what is free: contacts.
+    fn may_close(&self) -> bool {
+        self.problem.terms.iter().any(|term| term.softens())
+    }
+
+    /// Factorises with a small stiffness on every unknown, since an iterate may lose a contact that the solution has.
+    /// The solution itself must stand without it.
+    fn prop(&mut self, motions: &[Vec<f64>], iteration: usize) -> Result<(), Trouble> {
+        self.propped = self.name_motions(motions);
+        let pattern = self.memory.workspace.pattern();
+        for row in 0..pattern.starts.len() - 1 {
+            let columns = &pattern.columns[pattern.starts[row]..pattern.starts[row + 1]];
+            if let Ok(diagonal) = columns.binary_search(&row) {
+                self.evaluation.values[pattern.starts[row] + diagonal] += PROP * self.stiffness;
+            }
+        }
+        self.solver.factorise(&self.evaluation.values).map_err(|e| self.explain(e, iteration))
+    }
+
+    /// A solution that was reached with a propped matrix must stand without the prop: what still meets no stiffness must
+    /// meet a force when it moves by more than it did in the increment, as when everything slips and would slip back.
+    fn stands(&mut self, u: &[f64], reference: f64) -> Result<(), Trouble> {
+        if self.propped.is_empty() {
+            return Ok(());
+        }
+        let motions = match self.solver.factorise(&self.evaluation.values) {
+            Err(LinearError::Singular(motions)) => motions,
+            factorised => return factorised.map_err(|e| self.explain(e, 1)),
+        };
+        for motion in motions {
+            if !self.is_held(u, &motion, reference)? {
+                return Err(Failure::new(self.name_motions(&[motion]).join("; ")).into());
+            }
+        }
+        Ok(self.evaluate(u, None, self.tangent())?)
+    }
+
+    /// Whether finite motion to either side meets a force.
+    fn is_held(&mut self, u: &[f64], motion: &[f64], reference: f64) -> Result<bool, Failure> {
+        let mut full = vec![0.0; u.len()];
+        self.step.constraints.expand(motion, &mut full);
+        let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0_f64, |m, x| m.max(x.abs()));
+        let change = largest(&mut u.iter().zip(&self.state.u).map(|(a, b)| a - b));
+        let unit = largest(&mut full.iter().copied());
+        for side in [1.0, -1.0] {
+            let moved: Vec<f64> = u.iter().zip(&full).map(|(u, d)| u + side * 2.0 * change / unit * d).collect();
+            self.evaluate(&moved, None, Tangent::None)?;
+            if self.slope(&full).abs() <= RESISTANCE * unit * reference {
+                return Ok(false);
+            }
+        }
         Ok(true)
     }
 

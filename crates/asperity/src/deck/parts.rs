@@ -104,32 +104,35 @@ fn lint(mesh: &mut Mesh, place: Place, reader: &mut Reader) -> Option<()> {
 fn generated(name: &str, part: &Generator) -> Result<Mesh, Error> {
     match part {
         Generator::Rectangle(p) => {
-            let [x, y] = spacings(&p.from, (&p.to, &p.cells, &p.ratio), [&p.along_x, &p.along_y]);
+            let [x, y] = spacings(
+                &p.from,
+                (p.to.as_deref(), p.cells.as_deref(), p.ratio.as_deref().map(Vec::as_slice)),
+                [&p.along_x, &p.along_y],
+            );
             generate::Rectangle { x, y, cell: *p.cell }.mesh(name)
         }
         Generator::Annulus(p) => {
             let runs = [&p.along_radius, &p.along_angle];
-            let [radius, angle] = spacings(&p.from, (&p.to, &p.cells, &p.ratio), runs);
+            let [radius, angle] =
+                spacings(&p.from, (p.to.as_deref(), p.cells.as_deref(), p.ratio.as_deref().map(Vec::as_slice)), runs);
             generate::Annulus { centre: [p.centre[0], p.centre[1]], radius, angle, cell: *p.cell }.mesh(name)
         }
         Generator::Block(p) => {
             let runs = [&p.along_x, &p.along_y, &p.along_z];
-            let [x, y, z] = spacings(&p.from, (&p.to, &p.cells, &p.ratio), runs);
+            let [x, y, z] =
+                spacings(&p.from, (p.to.as_deref(), p.cells.as_deref(), p.ratio.as_deref().map(Vec::as_slice)), runs);
             generate::Block { x, y, z, cell: *p.cell }.mesh(name)
         }
     }
 }
 
+/// The keys `to`, `cells` and `ratio` of a part, one value of each for each direction.
+type Even<'k> = (Option<&'k [f64]>, Option<&'k [usize]>, Option<&'k [f64]>);
+
 /// Stations along each direction: graded between two ends, or by runs.
-fn spacings<const N: usize>(
-    from: &[f64],
-    (to, cells, ratio): (&Option<Vec<f64>>, &Option<Vec<usize>>, &Option<Spot<Vec<f64>>>),
-    runs: [&Vec<Run>; N],
-) -> [Spacing; N] {
+fn spacings<const N: usize>(from: &[f64], (to, cells, ratio): Even<'_>, runs: [&Vec<Run>; N]) -> [Spacing; N] {
     std::array::from_fn(|a| match (to, cells) {
-        (Some(to), Some(cells)) => {
-            Spacing::graded(from[a], to[a], cells[a], ratio.as_ref().map_or(1.0, |ratio| ratio[a]))
-        }
+        (Some(to), Some(cells)) => Spacing::graded(from[a], to[a], cells[a], ratio.map_or(1.0, |ratio| ratio[a])),
         _ => runs[a].iter().fold(Spacing::from(from[a]), |spacing, run| {
             let ratio = run.ratio.map_or(1.0, |ratio| ratio.value);
             let grade = if run.smooth { Grade::Smooth } else { Grade::Ratio(ratio) };

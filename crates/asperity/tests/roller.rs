@@ -1,0 +1,68 @@
+//! The free roller of `cases/roller`: held by a force, driven by a torque through 200 degrees in ten increments.
+
+mod support;
+
+use asperity::tensor::Vec3;
+use asperity::tool::Pose;
+use support::{Keep, model, run};
+
+const DECK: &str = include_str!("../../../cases/roller/roller.toml");
+const TORQUE: f64 = 33.45;
+const SPRING: f64 = 0.1;
+const RADIUS: f64 = 10.0;
+
+/// Translation and rotation of the roller after each increment.
+fn poses(deck: &asperity::model::Model, keep: &Keep) -> Vec<[f64; 3]> {
+    let first = deck.problem.dofs.tool(0);
+    keep.states.iter().map(|state| [0, 1, 2].map(|k| state.u[first + k])).collect()
+}
+
+#[test]
+fn a_torque_turns_the_roller_and_draws_the_strip() {
+    let model = model(DECK, &[]);
+    let keep = run(&model);
+    assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
+    let turning = keep.attempts.iter().filter(|attempt| attempt.step == 2);
+    assert_eq!(turning.count(), 10);
+    let [across, _, angle] = *poses(&model, &keep).last().unwrap();
+    assert_eq!(across, 0.0);
+    assert!((angle.to_degrees() - 200.0).abs() < 4.0, "turned by {} degrees", angle.to_degrees());
+    // The spring's force at the lever of the radius is the torque, and the strip has gone as far as the spring gave way;
+    // only the dent, 0.2 deep, shortens the lever.
+    let last = keep.states.last().unwrap();
+    let corner = model.mesh.groups["strip.bottom_left"].nodes[0];
+    let drawn = last.u[model.problem.dofs.node(corner)];
+    let lever = TORQUE / (SPRING * drawn);
+    assert!(lever > 0.98 * RADIUS && lever < 1.005 * RADIUS, "lever {lever}");
+    // Creep of the film: the roller turns more than the strip follows, by a few per cent and never less.
+    let creep = RADIUS * angle / drawn - 1.0;
+    assert!(creep > 0.0 && creep < 0.06, "creep {creep}");
+}
+
+#[test]
+fn the_rotation_stays_a_rotation() {
+    let model = model(DECK, &[]);
+    for [x, y, angle] in poses(&model, &run(&model)) {
+        let pose = Pose::new(x, y, angle);
+        let (a, b) = (pose.rotate(Vec3::new(1.0, 0.0, 0.0)), pose.rotate(Vec3::new(0.0, 1.0, 0.0)));
+        for drift in [a.dot(a) - 1.0, b.dot(b) - 1.0, a.dot(b)] {
+            assert!(drift.abs() < 1e-14, "{drift:e} at {angle}");
+        }
+    }
+}
+
+/// The exact tangent and the one by perturbation lead to the same end by as many iterations.
+#[test]
+fn the_tangent_agrees_with_perturbation() {
+    let runs = ["solver.tangent=exact", "solver.tangent=perturbation"].map(|tangent| {
+        let model = model(DECK, &[tangent]);
+        let keep = run(&model);
+        let solutions: usize = keep.attempts.iter().map(|attempt| attempt.solutions()).sum();
+        (solutions, poses(&model, &keep))
+    });
+    let [(exact, a), (perturbed, b)] = runs;
+    assert!(exact.abs_diff(perturbed) <= 2, "{exact} and {perturbed} iterations");
+    for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+        assert!((a - b).abs() < 1e-6, "{a} {b}");
+    }
+}

@@ -1,0 +1,82 @@
+//! A ball slides with friction over a block in space: every matrix factorised against one factor an attempt, in one run.
+//! `cargo run --release -p asperity --example sliding -- 21` (cells along an edge).
+
+#[path = "../tests/support/ball.rs"]
+mod ball;
+#[path = "../../frontal/benches/measure/mod.rs"]
+mod measure;
+
+use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run};
+use asperity::system::Csr;
+use ball::{Attempts, model};
+use measure::timed;
+use std::sync::{Arc, Mutex};
+
+/// Processor time of analyses, factorisations, direct and iterative solutions.
+type Times = Arc<Mutex<[f64; 4]>>;
+
+/// The solver with a clock beside it.
+struct Clocked {
+    solver: Frontal,
+    times: Times,
+}
+
+impl Clocked {
+    fn add<T>(&mut self, phase: usize, work: impl FnOnce(&mut Frontal) -> T) -> T {
+        let (result, time) = timed(|| work(&mut self.solver));
+        self.times.lock().expect("no panic")[phase] += time.processor;
+        result
+    }
+}
+
+impl LinearSolver for Clocked {
+    fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
+        self.add(0, |solver| solver.analyse(pattern, nodes))
+    }
+    fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
+        self.add(1, |solver| solver.factorise(values))
+    }
+    fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        self.add(2, |solver| solver.solve(rhs))
+    }
+    fn begin(&mut self) {
+        self.solver.begin();
+    }
+    fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
+        let before = self.solver.counts().iterations;
+        let solved = self.add(3, |solver| solver.iterate(values, rhs, tolerance))?;
+        let iterations = self.solver.counts().iterations - before;
+        if iterations > 0 && std::env::var_os("VERBOSE").is_some() {
+            println!("    {iterations} inner iterations to {tolerance:.0e}: {solved}");
+        }
+        Ok(solved)
+    }
+}
+
+/// Runs, prints what it took, and returns the whole processor time and that of the linear solver.
+fn slide(cells: usize, factors: Factors) -> [f64; 2] {
+    let model = model(cells, factors);
+    let (times, mut attempts) = (Times::default(), Attempts::default());
+    let solver = Clocked { solver: Frontal::new(factors), times: times.clone() };
+    let mut run = Run::new(&model.problem, model.problem.initial_state(), Box::new(solver));
+    let (stop, time) = timed(|| run.run(&Default::default(), &mut attempts));
+    stop.expect("a solution");
+    let (iterations, factorised) = attempts.iterations();
+    let times = *times.lock().expect("no panic");
+    println!("{factors:?}: {} unknowns, {} attempts", model.problem.dofs.count(), attempts.0.len());
+    if std::env::var_os("VERBOSE").is_some() {
+        attempts.print();
+    }
+    println!("  {iterations} iterations, {factorised} factorisations, {} analyses", run.memory.analyses);
+    println!(
+        "  analyses {:.2} s, factorisations {:.2} s, solutions {:.2} s, by FGMRES {:.2} s; run {:.2} s",
+        times[0], times[1], times[2], times[3], time.processor
+    );
+    [time.processor, times.iter().sum()]
+}
+
+fn main() {
+    let cells = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(21);
+    let [fresh, auto] = [Factors::Fresh, Factors::Auto].map(|factors| slide(cells, factors));
+    println!("auto / fresh: run {:.2}, linear solver {:.2}", auto[0] / fresh[0], auto[1] / fresh[1]);
+}

@@ -241,6 +241,8 @@ impl Attempt for OpenBody<'_> {
 
 /// Most unknowns of a cell.
 const MAX_DOFS: usize = 3 * MAX_NODES;
+/// Unknowns of most cells, for which less memory is cleared.
+const FEW_DOFS: usize = 24;
 
 impl OpenBody<'_> {
     fn increment(&self, index: usize, u: &[f64]) -> [f64; MAX_DOFS] {
@@ -286,7 +288,11 @@ impl OpenBody<'_> {
                     law.stress_with_tangent(&f, old, new)?
                 };
                 add_forces::<DIM>(point, &s.p, volume, &mut local.force);
-                add_tangent::<DIM, D>(point, &s.tangent, volume, &mut local.tangent);
+                if du.len() <= FEW_DOFS {
+                    add_tangent::<DIM, D, FEW_DOFS>(point, &s.tangent, volume, &mut local.tangent);
+                } else {
+                    add_tangent::<DIM, D, MAX_DOFS>(point, &s.tangent, volume, &mut local.tangent);
+                }
                 if cell.center.is_some() {
                     add_center::<DIM>(point, &s.along_center, volume, &center_gradient, &mut local.tangent);
                 }
@@ -333,16 +339,16 @@ fn add_forces<const DIM: usize>(point: &PointGradient, p: &[f64; 9], volume: f64
     }
 }
 
-/// `K += B^T A B dv` with `B` the map from nodal displacements to the components of the gradient.
+/// `K += B^T A B dv` with `B` the map from nodal displacements, at most `M`, to the components of the gradient.
 #[inline]
-fn add_tangent<const DIM: usize, const D: usize>(
+fn add_tangent<const DIM: usize, const D: usize, const M: usize>(
     point: &PointGradient,
     a: &[[f64; 9]; 9],
     volume: f64,
     tangent: &mut [f64],
 ) {
     let n = DIM * point.grad.len();
-    let mut ab = [[0.0; MAX_DOFS]; D];
+    let mut ab = [[0.0; M]; D];
     for (row, a) in ab.iter_mut().zip(a) {
         for ((out, grad), hoop) in row.chunks_exact_mut(DIM).zip(&point.grad).zip(&point.hoop) {
             for m in 0..DIM {

@@ -48,8 +48,8 @@ impl PointLaw<'_> {
     fn bar(&self, f: &Tensor2) -> (Tensor2, f64) {
         let Some(center) = self.center else { return (*f, 0.0) };
         let in_plane = self.space == Space::PlaneStrain;
-        let power = if in_plane { 0.5 } else { 1.0 / 3.0 };
-        let scale = (center / f.det()).powf(power);
+        let ratio = center / f.det();
+        let (scale, power) = if in_plane { (ratio.sqrt(), 0.5) } else { (ratio.cbrt(), 1.0 / 3.0) };
         let scaled = |i: usize, j: usize| !in_plane || (i < 2 && j < 2);
         (Tensor2::from_fn(|i, j| if scaled(i, j) { f[(i, j)] * scale } else { f[(i, j)] }), power)
     }
@@ -58,7 +58,8 @@ impl PointLaw<'_> {
     pub fn stress(&self, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<[f64; 9], Failure> {
         self.admissible(f)?;
         self.material.update(&self.bar(f).0, self.dt, old, new)?;
-        Ok(self.first_piola(f, new))
+        let p = first_piola(f, new);
+        Ok(self.components(&p))
     }
 
     fn admissible(&self, f: &Tensor2) -> Result<(), Failure> {
@@ -66,12 +67,11 @@ impl PointLaw<'_> {
         if fine { Ok(()) } else { Err(Failure::new("a cell is turned inside out")) }
     }
 
-    fn first_piola(&self, f: &Tensor2, state: &[f64]) -> [f64; 9] {
-        let sigma = Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]]);
-        let p = sigma * f.inverse().transpose() * f.det();
+    /// The components of a tensor along the directions.
+    fn components(&self, tensor: &Tensor2) -> [f64; 9] {
         let mut out = [0.0; 9];
         for (out, &place) in out.iter_mut().zip(self.directions().components()) {
-            *out = p[place];
+            *out = tensor[place];
         }
         out
     }
@@ -83,17 +83,19 @@ impl PointLaw<'_> {
         let mut c = self.material.update_with_gradient(&bar, self.dt, old, new, self.directions())?;
         let (inverse, det) = (f.inverse(), f.det());
         let center = if power > 0.0 { self.unbar(&mut c, f, &bar, power) } else { [0.0; 6] };
-        let p = self.first_piola(f, new);
+        let p = first_piola(f, new);
         let places = self.directions().components();
-        let along = |column: &dyn Fn(usize) -> f64, (i, j): (usize, usize)| {
-            det * (0..3).map(|k| inverse[(j, k)] * column(voigt(i, k))).sum::<f64>()
-        };
-        let mut out = PointStress { p, tangent: [[0.0; 9]; 9], along_center: [0.0; 9], det };
+        let mut out =
+            PointStress { p: self.components(&p), tangent: [[0.0; 9]; 9], along_center: [0.0; 9], det };
         for (a, &(i, j)) in places.iter().enumerate() {
-            out.along_center[a] = along(&|v| center[v], (i, j));
+            // det(f) f^-1_jk C_ik,mn: three rows of C, weighted.
+            for k in 0..3 {
+                let (weight, v) = (det * inverse[(j, k)], voigt(i, k));
+                out.along_center[a] += weight * center[v];
+                out.tangent[a].iter_mut().zip(&c[v]).for_each(|(t, c)| *t += weight * c);
+            }
             for (b, &(m, n)) in places.iter().enumerate() {
-                let p_in = places.iter().position(|&place| place == (i, n)).map_or(0.0, |k| p[k]);
-                out.tangent[a][b] = p[a] * inverse[(n, m)] - p_in * inverse[(j, m)] + along(&|v| c[v][b], (i, j));
+                out.tangent[a][b] += p[(i, j)] * inverse[(n, m)] - p[(i, n)] * inverse[(j, m)];
             }
         }
         Ok(out)
@@ -118,6 +120,12 @@ impl PointLaw<'_> {
         }
         center
     }
+}
+
+/// `det(f) sigma f^-T`.
+fn first_piola(f: &Tensor2, state: &[f64]) -> Tensor2 {
+    let sigma = Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]]);
+    sigma * f.inverse().transpose() * f.det()
 }
 
 /// Place of component (i, j) among XX YY ZZ XY YZ XZ.

@@ -15,7 +15,7 @@ impl<T: Scalar> Tensor2<T> {
     }
     /// The unit tensor.
     pub fn identity() -> Self {
-        Self(from_fn(|i| from_fn(|j| T::from(f64::from(i == j)))))
+        Self::from_fn(|i, j| T::from(f64::from(i == j)))
     }
     /// From a function of row and column.
     #[inline]
@@ -107,7 +107,7 @@ impl Tensor2<f64> {
     /// The same tensor over another scalar, as a constant.
     #[inline]
     pub fn lift<T: Scalar>(self) -> Tensor2<T> {
-        Tensor2(self.0.map(|row| row.map(T::from)))
+        Tensor2::from_fn(|i, j| T::from(self.0[i][j]))
     }
 }
 

@@ -85,8 +85,7 @@ impl PointLaw<'_> {
         let center = if power > 0.0 { self.unbar(&mut c, f, &bar, power) } else { [0.0; 6] };
         let p = first_piola(f, new);
         let places = self.directions().components();
-        let mut out =
-            PointStress { p: self.components(&p), tangent: [[0.0; 9]; 9], along_center: [0.0; 9], det };
+        let mut out = PointStress { p: self.components(&p), tangent: [[0.0; 9]; 9], along_center: [0.0; 9], det };
         for (a, &(i, j)) in places.iter().enumerate() {
             // det(f) f^-1_jk C_ik,mn: three rows of C, weighted.
             for k in 0..3 {

@@ -161,21 +161,26 @@ fn keys_of_solver_and_output_change_the_run() {
     let plain = run(&[]);
     assert!(plain.0, "the run does not converge");
     assert_eq!(plain, run(&[]));
-    let mut changes: Vec<&str> = vec!["solver.newton=modified", "solver.newton=kept", "solver.tangent=perturbation"];
-    changes.extend([
+    let changes = [
+        "solver.newton=modified",
+        "solver.newton=kept",
+        "solver.tangent=perturbation",
+        "solver.factors=attempt",
         "solver.tolerance=1e-3",
         "solver.iterations=2",
         "solver.continuation=false",
-        "solver.line_search=false",
-    ]);
-    changes.extend([
         "output.every=3",
         "output.checkpoint_every=4",
         "step.1.increments.most=2",
-        "solver.factors=attempt",
-    ]);
-    changes.extend(["step.1.increments.first=0.1", "step.1.increments.largest=0.3", "step.2.duration=2"]);
+        "step.1.increments.first=0.1",
+        "step.1.increments.largest=0.3",
+        "step.2.duration=2",
+    ];
     for change in changes {
         assert_ne!(plain, run(&[change]), "{change}");
     }
+    // Full corrections serve that run well; the search has work where the plate has an edge.
+    let edge = "{ line = [[9.0, -0.05], [1.5, -0.05]] }, { line = [[1.5, -0.05], [-9.0, -1.0]] }";
+    let hard = [&*format!("tool.plate.profile=[{edge}]")];
+    assert_ne!(run(&hard), run(&[&hard[..], &["solver.line_search=false"]].concat()));
 }

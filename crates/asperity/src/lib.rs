@@ -3,7 +3,7 @@
 //! The rooms, by layer; a room may use rooms of lower layers only (`tests/layers.rs` holds the rule):
 //!
 //! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names;
-//!    [`amplitude`] values in time.
+//!    [`amplitude`] values in time; [`integrate`] sub-steps and local equations of laws.
 //! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
 //! 3. [`system`] unknowns, state, terms, assembly.
 //! 4. [`solid`] bodies; [`contact`] contact with friction; [`load`] loads and springs.
@@ -17,6 +17,7 @@ pub mod contact;
 pub mod deck;
 pub mod declare;
 pub mod error;
+pub mod integrate;
 pub mod interface;
 pub mod load;
 pub mod material;

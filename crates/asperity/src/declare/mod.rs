@@ -13,5 +13,5 @@ mod variable;
 pub use nearest::nearest;
 pub use parameter::{Parameter, unit};
 pub use range::Range;
-pub use registry::{Entry, find};
+pub use registry::{Entry, Pairs, find};
 pub use variable::{Variable, VariableKind};

@@ -16,7 +16,7 @@ use super::Parameter;
 ///     default: None,
 /// };
 /// static SPRINGS: &[Entry<Spring>] =
-///     &[Entry { name: "linear", meaning: "f = k u", parameters: &[STIFFNESS], build: |v| Ok(Spring(v[0])) }];
+///     &[Entry { name: "linear", meaning: "f = k u", parameters: &[STIFFNESS], pairs: None, build: |v| Ok(Spring(v[0])) }];
 /// let spring = (find(SPRINGS, "linear").unwrap().build)(&[2.0]).unwrap();
 /// assert_eq!(spring.0, 2.0);
 /// ```
@@ -27,9 +27,25 @@ pub struct Entry<T: 'static> {
     pub meaning: &'static str,
     /// The numbers it takes.
     pub parameters: &'static [Parameter],
+    /// The list of pairs it takes besides, if any.
+    pub pairs: Option<Pairs>,
     /// Builds it from the values of its parameters, in the order in which they are declared, each already inside its
-    /// own range. The error says what is wrong with several of them together.
+    /// own range, followed by its pairs, one after the other. The error says what is wrong with several of them
+    /// together.
     pub build: fn(values: &[f64]) -> Result<T, String>,
+}
+
+/// A list of pairs of numbers: the points of a curve, the terms of a sum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pairs {
+    /// The key a deck uses: `curve`.
+    pub key: &'static str,
+    /// What the pairs are, with the unit of each column.
+    pub meaning: &'static str,
+    /// Fewest pairs.
+    pub least: usize,
+    /// Most pairs.
+    pub most: usize,
 }
 
 /// Looks an entry up by its name.

@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use crate::declare::Variable;
+use crate::integrate::Update;
 use crate::tensor::Tensor2;
 
 /// The components of the deformation gradient along which a derivative is wanted.
@@ -44,6 +45,11 @@ pub trait Material: Send + Sync {
     fn initialise(&self, state: &mut [f64]) {
         state.fill(0.0);
     }
+    /// The same law with its increments integrated as said.
+    ///
+    /// # Errors
+    /// In words, where the stress of a law follows from the deformation alone and nothing is integrated.
+    fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String>;
     /// The state at the end of an increment with deformation `f` relative to its beginning.
     ///
     /// # Errors

@@ -1,14 +1,20 @@
 //! Laws of solids: from the deformation of an increment to the Cauchy stress, with its exact derivative.
 //!
-//! A law is written once, generic over the scalar: a [`RateLaw`] works on the rotated stress of an objective frame.
-//! [`Rate`] turns it into a [`Material`], the object that bodies hold. Laws know no element, no mesh and no contact.
+//! A law is written once, generic over the scalar: a [`RateLaw`] works on the rotated stress of an objective frame, a
+//! [`HyperLaw`] on the left Cauchy-Green tensor. [`Rate`] and [`Hyper`] turn them into a [`Material`], the object that
+//! bodies hold. Laws know no element, no mesh and no contact.
 //!
 //! To add a law: its file in `laws/`, its `mod` line and its line in [`laws::ALL`].
 
+mod hyper;
+mod integrated;
 mod law;
 pub mod laws;
 mod rate;
+mod vars;
 
 pub use crate::declare::{Variable, VariableKind};
+pub use hyper::{Hyper, HyperLaw};
 pub use law::{Directions, Gradient, Material};
-pub use rate::{Rate, RateLaw, Vars, hughes_winget};
+pub use rate::{Rate, RateLaw, hughes_winget};
+pub use vars::{ScalarsAndTensor, Vars};

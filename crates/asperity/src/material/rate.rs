@@ -5,44 +5,24 @@
 //! `Q = (I - W/2)^-1 (I + W/2)` of the old stress and of tensor variables: exact for a rigid rotation below 180
 //! degrees.
 
-use super::{Directions, Gradient, Material, Variable};
+use super::integrated::Integrated;
+use super::{Directions, Gradient, Material, Variable, Vars};
 use crate::Failure;
+use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
 
-/// History variables of a law, over any scalar so that sub-steps may carry derivatives.
-pub trait Vars<T: Scalar>: Copy {
-    /// From stored values, as constants.
-    fn read(values: &[f64]) -> Self;
-    /// To stored values, without derivatives.
-    fn write(&self, values: &mut [f64]);
-    /// Turned by `q`; scalars stay.
-    fn rotate(self, _q: &Tensor2<T>) -> Self {
-        self
-    }
-}
-
-impl<T: Scalar> Vars<T> for () {
-    fn read(_: &[f64]) -> Self {}
-    fn write(&self, _: &mut [f64]) {}
-}
-
-impl<T: Scalar, const N: usize> Vars<T> for [T; N] {
-    fn read(values: &[f64]) -> Self {
-        std::array::from_fn(|i| T::from(values[i]))
-    }
-    fn write(&self, values: &mut [f64]) {
-        values.iter_mut().zip(self).for_each(|(value, x)| *value = x.re());
-    }
-}
-
 /// A law between the strain increment of an objective frame and the rotated stress.
-pub trait RateLaw: Send + Sync {
+pub trait RateLaw: Clone + Send + Sync + 'static {
     /// Its history variables.
     type Vars<T: Scalar>: Vars<T>;
     /// Their declaration, in the order in which they are stored.
     const VARIABLES: &'static [Variable];
 
-    /// Stress and variables after the strain increment `de` over the time `dt`.
+    /// Fills in what is not zero in the state before any strain: six stress components, then the variables.
+    fn initial(&self, _state: &mut [f64]) {}
+
+    /// Stress and variables after the strain increment `de` over the time `dt`, by one implicit step. With no strain
+    /// and no time the nearest admissible stress.
     ///
     /// # Errors
     /// A [`Failure`] when a local iteration does not converge or the strain is inadmissible.
@@ -60,6 +40,10 @@ pub trait RateLaw: Send + Sync {
     fn dissipation(&self, _old: (&Tensor2, &Self::Vars<f64>), _new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         0.0
     }
+    /// The law as a material whose increments are integrated as said.
+    fn updated(&self, update: Update) -> Box<dyn Material> {
+        Box::new(Rate(Integrated { law: self.clone(), update }))
+    }
 }
 
 /// A [`RateLaw`] as a [`Material`].
@@ -73,6 +57,9 @@ pub fn hughes_winget<T: Scalar>(f: &Tensor2<T>) -> (Tensor2<T>, Tensor2<T>) {
     let half = g.skew() * T::from(0.5);
     (g.sym(), (identity - half).inverse() * (identity + half))
 }
+
+/// Why a deformation is refused.
+pub(super) const INSIDE_OUT: &str = "a cell is turned inside out";
 
 /// What a law is given: the strain increment, the rotation and the rotated old stress.
 struct Frame<T> {
@@ -113,7 +100,7 @@ fn set_slope<const N: usize>(t: &mut Tensor2<Dual<N>>, direction: usize, slope: 
 impl<L: RateLaw> Rate<L> {
     fn advance(&self, f: &Tensor2, dt: f64, old: &[f64]) -> Result<(Tensor2, L::Vars<f64>), Failure> {
         if f.det() <= 0.0 {
-            return Err(Failure::new("a cell is turned inside out"));
+            return Err(Failure::new(INSIDE_OUT));
         }
         let (de, q) = hughes_winget(f);
         let stress = q * stress_of(old) * q.transpose();
@@ -129,7 +116,7 @@ impl<L: RateLaw> Rate<L> {
         directions: Directions,
     ) -> Result<Gradient, Failure> {
         if f.det() <= 0.0 {
-            return Err(Failure::new("a cell is turned inside out"));
+            return Err(Failure::new(INSIDE_OUT));
         }
         let frame = Frame::<Dual<N>>::new(f, &stress_of(old), directions.components());
         let vars = L::Vars::<Dual<N>>::read(&old[6..]).rotate(&frame.q);
@@ -148,6 +135,15 @@ impl<L: RateLaw> Rate<L> {
 impl<L: RateLaw> Material for Rate<L> {
     fn variables(&self) -> &'static [Variable] {
         L::VARIABLES
+    }
+
+    fn initialise(&self, state: &mut [f64]) {
+        state.fill(0.0);
+        self.0.initial(state);
+    }
+
+    fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
+        Ok(self.0.updated(update))
     }
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
@@ -182,7 +178,7 @@ impl<L: RateLaw> Material for Rate<L> {
     }
 }
 
-fn stress_of(state: &[f64]) -> Tensor2 {
+pub(super) fn stress_of(state: &[f64]) -> Tensor2 {
     Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]])
 }
 

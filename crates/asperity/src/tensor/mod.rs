@@ -4,11 +4,13 @@
 //! value, with [`Dual`] the value and its exact derivative along `N` directions.
 
 mod dual;
+mod principal;
 mod scalar;
 mod tensor2;
 mod vec3;
 
 pub use dual::Dual;
+pub use principal::{Isotropic, principal};
 pub use scalar::Scalar;
 pub use tensor2::Tensor2;
 pub use vec3::Vec3;

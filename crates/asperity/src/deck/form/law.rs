@@ -1,13 +1,13 @@
 //! Laws and their numbers, as their registries declare them.
 
 use super::scalar::Number;
-use super::{Field, Fields, Form, tag};
+use super::{Field, Fields, Form, list, number, tag};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::reader::Reader;
 use crate::deck::schema::{Key, Presence, Schema};
 use crate::deck::source::Place;
 use crate::deck::tree::Node;
-use crate::declare::{Entry, Parameter, find};
+use crate::declare::{Entry, Pairs, Parameter, Range, find, unit};
 use std::fmt;
 
 /// One of the laws of a registry, under its name: `elastic = { young = 210e3, poisson = 0.3 }`.
@@ -22,7 +22,7 @@ pub struct LawForm<T: 'static>(&'static [Entry<T>]);
 pub struct Law<T: 'static> {
     /// Its entry.
     pub entry: &'static Entry<T>,
-    /// Its numbers in the order of the entry's parameters.
+    /// Its numbers in the order of the entry's parameters, then its pairs.
     pub values: Vec<f64>,
     /// Where it stands.
     pub place: Place,
@@ -57,7 +57,7 @@ impl<T> Form for LawForm<T> {
         let key = |entry: &Entry<T>| Key {
             name: entry.name,
             doc: entry.meaning,
-            schema: Schema::Table(entry.parameters.iter().map(|p| p.key(p.key, p.meaning)).collect()),
+            schema: Schema::Table(keys(entry)),
             presence: Presence::Required,
         };
         Schema::OneOf(self.0.iter().map(key).collect())
@@ -68,7 +68,7 @@ impl<T> Form for LawForm<T> {
         let written = tag(node, &names, reader)?;
         let entry = find(self.0, &written.key)?;
         reader.under(entry.name, |reader| {
-            let values = numbers(entry.parameters, &written.node, reader)?;
+            let values = numbers(entry, &written.node, reader)?;
             let law = Law { entry, values, place: written.place };
             if let Err(against) = law.build() {
                 let what = format!("`{}`: {against}", reader.path());
@@ -80,9 +80,23 @@ impl<T> Form for LawForm<T> {
     }
 }
 
-fn numbers(parameters: &'static [Parameter], node: &Node, reader: &mut Reader) -> Option<Vec<f64>> {
+/// The keys of a law.
+fn keys<T>(entry: &Entry<T>) -> Vec<Key> {
+    let pairs = entry.pairs.iter().map(|p| pairs_of(p).required().key(p.key, p.meaning));
+    entry.parameters.iter().map(|p| p.key(p.key, p.meaning)).chain(pairs).collect()
+}
+
+fn pairs_of(pairs: &Pairs) -> impl Form<Value = Vec<Vec<f64>>> {
+    list(list(number(unit::NONE, Range::ANY), 2..=2), pairs.least..=pairs.most)
+}
+
+fn numbers<T>(entry: &Entry<T>, node: &Node, reader: &mut Reader) -> Option<Vec<f64>> {
     let mut fields = Fields::open(node, reader)?;
-    let values: Vec<Option<f64>> = parameters.iter().map(|p| fields.take(p.key, p, reader)).collect();
+    let mut values: Vec<Option<f64>> = entry.parameters.iter().map(|p| fields.take(p.key, p, reader)).collect();
+    if let Some(pairs) = &entry.pairs {
+        let given = fields.take(pairs.key, &pairs_of(pairs).required(), reader);
+        values.extend(given.map_or(vec![None], |rows| rows.concat().into_iter().map(Some).collect()));
+    }
     let complete = fields.close(reader);
     values.into_iter().collect::<Option<_>>().filter(|_| complete)
 }

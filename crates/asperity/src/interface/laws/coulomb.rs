@@ -22,6 +22,7 @@ pub(super) const ENTRY: Entry<Box<dyn Interface>> = Entry {
     name: "coulomb",
     meaning: "dry friction: shear at most friction times pressure",
     parameters: &[FRICTION],
+    pairs: None,
     build: |v| Ok(law(Coulomb { friction: v[0] })),
 };
 

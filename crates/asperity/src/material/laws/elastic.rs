@@ -23,6 +23,7 @@ pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
     name: "elastic",
     meaning: "isotropic linear elasticity, Jaumann rate",
     parameters: &[YOUNG, POISSON],
+    pairs: None,
     build: |v| Ok(rate(Elastic::new(v[0], v[1]))),
 };
 
@@ -54,11 +55,15 @@ impl Elastic {
         })
     }
 
+    /// Bulk modulus.
+    pub fn bulk(&self) -> f64 {
+        self.lambda + 2.0 / 3.0 * self.shear
+    }
+
     /// Energy per volume: `sigma : C^-1 : sigma / 2`.
     pub fn energy(&self, stress: &Tensor2) -> f64 {
-        let bulk = self.lambda + 2.0 / 3.0 * self.shear;
         let (mean, deviator) = (stress.trace() / 3.0, stress.deviator());
-        0.5 * mean * mean / bulk + 0.25 * deviator.contract(deviator) / self.shear
+        0.5 * mean * mean / self.bulk() + 0.25 * deviator.contract(deviator) / self.shear
     }
 }
 

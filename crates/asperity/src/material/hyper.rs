@@ -1,0 +1,98 @@
+//! Hyperelastic laws: the Cauchy stress follows from the left Cauchy-Green tensor `b = F F^T`, which is the only
+//! history and is carried by `b = f b_n f^T`; nothing is integrated, and closed cycles give all energy back.
+
+use super::rate::INSIDE_OUT;
+use super::{Directions, Gradient, Material, Variable, VariableKind};
+use crate::Failure;
+use crate::integrate::Update;
+use crate::tensor::{Dual, Scalar, Tensor2};
+
+/// An isotropic law between `b` and the Cauchy stress.
+pub trait HyperLaw: Clone + Send + Sync + 'static {
+    /// Cauchy stress at `b`.
+    ///
+    /// # Errors
+    /// A [`Failure`] when `b` is inadmissible.
+    fn stress<T: Scalar>(&self, b: &Tensor2<T>) -> Result<Tensor2<T>, Failure>;
+    /// Stored energy per undeformed volume.
+    fn energy(&self, b: &Tensor2) -> f64;
+}
+
+/// A [`HyperLaw`] as a [`Material`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hyper<L>(pub L);
+
+static VARIABLES: &[Variable] = &[Variable { name: "left_cauchy_green", kind: VariableKind::Symmetric }];
+
+fn left_cauchy_green(state: &[f64]) -> Tensor2 {
+    Tensor2::from_voigt(std::array::from_fn(|i| state[6 + i]))
+}
+
+impl<L: HyperLaw> Hyper<L> {
+    fn advance<T: Scalar>(&self, f: &Tensor2<T>, old: &[f64], new: &mut [f64]) -> Result<[T; 6], Failure> {
+        if f.det().re() <= 0.0 {
+            return Err(Failure::new(INSIDE_OUT));
+        }
+        let b = (*f * left_cauchy_green(old).lift() * f.transpose()).sym();
+        let stress = self.0.stress(&b)?.to_voigt();
+        new[..6].copy_from_slice(&stress.map(Scalar::re));
+        new[6..].copy_from_slice(&b.re().to_voigt());
+        Ok(stress)
+    }
+
+    fn advance_dual<const N: usize>(
+        &self,
+        f: &Tensor2,
+        old: &[f64],
+        new: &mut [f64],
+        directions: Directions,
+    ) -> Result<Gradient, Failure> {
+        let mut dual = f.lift::<Dual<N>>();
+        for (d, &place) in directions.components().iter().enumerate() {
+            dual[place] = Dual::variable(f[place], d);
+        }
+        let stress = self.advance(&dual, old, new)?;
+        let mut gradient = [[0.0; 9]; 6];
+        gradient.iter_mut().zip(&stress).for_each(|(row, s)| row[..N].copy_from_slice(&s.du));
+        Ok(gradient)
+    }
+}
+
+impl<L: HyperLaw> Material for Hyper<L> {
+    fn variables(&self) -> &'static [Variable] {
+        VARIABLES
+    }
+
+    fn initialise(&self, state: &mut [f64]) {
+        state.fill(0.0);
+        state[6..9].fill(1.0);
+    }
+
+    fn with_update(&self, _: Update) -> Result<Box<dyn Material>, String> {
+        Err("the stress of a hyperelastic law follows from the deformation alone: there is nothing to sub-step".into())
+    }
+
+    fn update(&self, f: &Tensor2, _dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        self.advance(f, old, new).map(|_| ())
+    }
+
+    fn update_with_gradient(
+        &self,
+        f: &Tensor2,
+        _dt: f64,
+        old: &[f64],
+        new: &mut [f64],
+        directions: Directions,
+    ) -> Result<Gradient, Failure> {
+        match directions {
+            Directions::Plane => self.advance_dual::<4>(f, old, new, directions),
+            Directions::PlaneAndNormal => self.advance_dual::<5>(f, old, new, directions),
+            Directions::Space => self.advance_dual::<9>(f, old, new, directions),
+        }
+    }
+
+    fn stored_energy(&self, state: &[f64]) -> f64 {
+        let b = left_cauchy_green(state);
+        self.0.energy(&b) / b.det().sqrt()
+    }
+}

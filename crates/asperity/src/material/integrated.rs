@@ -1,0 +1,73 @@
+//! A rate law whose increments are integrated by sub-steps and a scheme of [`integrate`](crate::integrate).
+//!
+//! The strain of the objective frame is cut into equal parts of constant rate; stress and variables carry their
+//! derivatives from one sub-step to the next, so the tangent is that of the whole.
+
+use super::{Material, RateLaw, Variable, Vars};
+use crate::Failure;
+use crate::integrate::{Blend, Update};
+use crate::tensor::{Scalar, Tensor2};
+use std::marker::PhantomData;
+
+/// A law with the way in which its increments are integrated.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Integrated<L> {
+    pub law: L,
+    pub update: Update,
+}
+
+/// Stress and variables as one state.
+#[derive(Clone, Copy)]
+struct Point<T, V> {
+    stress: Tensor2<T>,
+    vars: V,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Scalar, V: Vars<T>> Blend for Point<T, V> {
+    fn blend(&self, other: &Self, weight: f64) -> Self {
+        let stress = self.stress + (other.stress - self.stress) * T::from(weight);
+        Self { stress, vars: self.vars.blend(&other.vars, weight), scalar: PhantomData }
+    }
+    fn distance(&self, other: &Self) -> f64 {
+        let (a, b) = (self.stress.re(), other.stress.re());
+        let norm = |t: Tensor2| t.contract(t).sqrt();
+        let size = norm(a).max(norm(b));
+        if size > 0.0 { norm(a - b) / size } else { 0.0 }
+    }
+}
+
+impl<L: RateLaw> RateLaw for Integrated<L> {
+    type Vars<T: Scalar> = L::Vars<T>;
+    const VARIABLES: &'static [Variable] = L::VARIABLES;
+
+    fn initial(&self, state: &mut [f64]) {
+        self.law.initial(state);
+    }
+
+    fn update<T: Scalar>(
+        &self,
+        de: Tensor2<T>,
+        stress: Tensor2<T>,
+        vars: &Self::Vars<T>,
+        dt: f64,
+    ) -> Result<(Tensor2<T>, Self::Vars<T>), Failure> {
+        let step = |from: &Point<T, L::Vars<T>>, part: f64| {
+            let (stress, vars) = self.law.update(de * T::from(part), from.stress, &from.vars, dt * part)?;
+            Ok(Point { stress, vars, scalar: PhantomData })
+        };
+        let end = self.update.advance(Point { stress, vars: *vars, scalar: PhantomData }, step)?;
+        Ok((end.stress, end.vars))
+    }
+
+    fn stored_energy(&self, stress: &Tensor2, vars: &Self::Vars<f64>) -> f64 {
+        self.law.stored_energy(stress, vars)
+    }
+    fn dissipation(&self, old: (&Tensor2, &Self::Vars<f64>), new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
+        self.law.dissipation(old, new)
+    }
+    /// Integrated once, not twice.
+    fn updated(&self, update: Update) -> Box<dyn Material> {
+        self.law.updated(update)
+    }
+}

@@ -31,6 +31,10 @@ pub enum Command {
     Check(Check),
     /// Say what a mesh file holds, and what is wrong with it.
     Info(Info),
+    /// Drive laws along a path of strains and stresses.
+    Point(Point),
+    /// List every law with its parameters.
+    Laws,
     /// Print the JSON Schema of decks, for editors, or the manual's page of all keys.
     Schema(Schema),
     /// Print the completions of a shell.
@@ -95,12 +99,26 @@ pub struct Info {
     pub mesh: PathBuf,
 }
 
+/// Arguments of `point`.
+#[derive(Debug, Args)]
+pub struct Point {
+    /// The deck.
+    #[command(flatten)]
+    pub deck: Deck,
+    /// The result directory; by default NAME.results here for a deck NAME.toml.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 /// Arguments of `schema`.
 #[derive(Debug, Args)]
 pub struct Schema {
     /// Print the manual's page of all keys, in Markdown.
     #[arg(long)]
     pub manual: bool,
+    /// Of the decks of `point` instead.
+    #[arg(long)]
+    pub point: bool,
 }
 
 /// Arguments of `completions`.

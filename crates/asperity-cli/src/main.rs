@@ -23,6 +23,8 @@ fn main() -> ExitCode {
         Command::Check(check) => verbs::check(&check),
         Command::Info(info) => verbs::info(&info),
         Command::Schema(schema) => verbs::schema(&schema),
+        Command::Point(point) => verbs::point(&point),
+        Command::Laws => verbs::laws(),
         Command::Completions(completions) => verbs::completions(&completions),
     };
     exit.unwrap_or_else(Exit::after).into()

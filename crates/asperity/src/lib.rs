@@ -8,7 +8,8 @@
 //! 3. [`system`] unknowns, state, terms, assembly.
 //! 4. [`solid`] bodies; [`contact`] contact with friction; [`load`] loads and springs.
 //! 5. [`solve`] increments, Newton's method.
-//! 6. The program: [`model`] what is to be solved; [`output`] files, tables, pictures; [`deck`] what a user writes.
+//! 6. The program: [`model`] what is to be solved; [`output`] files, tables, pictures; [`point`] one driven
+//!    material point; [`deck`] what a user writes.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
@@ -24,6 +25,7 @@ pub mod material;
 pub mod mesh;
 pub mod model;
 pub mod output;
+pub mod point;
 pub mod solid;
 pub mod solve;
 pub mod system;

@@ -13,6 +13,7 @@ const LAYERS: &[&[&str]] = &[
     &["solve"],
     &["model"],
     &["output"],
+    &["point"],
     &["deck"],
 ];
 

@@ -4,6 +4,8 @@ mod check;
 mod completions;
 mod figure;
 mod info;
+mod laws;
+mod point;
 mod run;
 mod schema;
 
@@ -11,6 +13,8 @@ pub use check::check;
 pub use completions::completions;
 pub use figure::figure;
 pub use info::info;
+pub use laws::laws;
+pub use point::point;
 pub use run::{restart, run};
 pub use schema::schema;
 
@@ -18,6 +22,7 @@ use crate::arguments;
 use crate::exit::{Exit, Trouble, tell};
 use asperity::deck::{self, Made};
 use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
 
 /// How a verb ends.
 pub type Outcome = Result<Exit, Trouble>;
@@ -38,4 +43,11 @@ fn made(arguments: &arguments::Deck) -> Result<Made, Trouble> {
     made.diagnostics = made.diagnostics.without_notes();
     tell(&made.diagnostics);
     Ok(made)
+}
+
+/// `tube.results` beside the user, for a deck `anywhere/tube.toml`.
+fn results_of(deck: &Path) -> PathBuf {
+    let mut name = deck.file_stem().unwrap_or_default().to_os_string();
+    name.push(".results");
+    PathBuf::from(name)
 }

@@ -1,12 +1,11 @@
 //! `asperity run` and `asperity restart`: solve a deck and write its results.
 
-use super::{Outcome, made, print};
+use super::{Outcome, made, print, results_of};
 use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, farewell};
 use crate::signals;
 use asperity::output::{Job, Start, simulate};
-use std::path::PathBuf;
 
 /// Runs a deck from its beginning.
 pub fn run(arguments: &arguments::Run) -> Outcome {
@@ -26,7 +25,7 @@ fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
     }
     let made = made(&arguments.deck)?;
     let stop = signals::listen()?;
-    let directory = arguments.out.clone().unwrap_or_else(|| default_directory(arguments));
+    let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
     let job = Job { directory: &directory, options: made.deck.output.options(), input: made.input, start };
     let mut screen = Screen::new(&made.model.problem, stop);
     let simulated = simulate(&made.model, &job, &mut screen);
@@ -34,12 +33,4 @@ fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
     let (summary, ended) = simulated?;
     print(&farewell(&summary, &directory))?;
     ended.map(|()| Exit::Done).map_err(Trouble::from)
-}
-
-/// `tube.results` beside the user, for a deck `anywhere/tube.toml`.
-fn default_directory(arguments: &arguments::Run) -> PathBuf {
-    let stem = arguments.deck.path.file_stem().unwrap_or_default();
-    let mut name = stem.to_os_string();
-    name.push(".results");
-    PathBuf::from(name)
 }

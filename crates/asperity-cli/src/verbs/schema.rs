@@ -2,9 +2,14 @@
 
 use super::{Outcome, print};
 use crate::arguments::Schema;
-use asperity::deck::schema::{json_schema, manual};
+use asperity::deck::schema::{json_schema, manual, point_json_schema, point_manual};
 
 /// Prints the JSON Schema, or the manual's page.
 pub fn schema(arguments: &Schema) -> Outcome {
-    print(&if arguments.manual { manual() } else { format!("{:#}\n", json_schema()) })
+    print(&match (arguments.manual, arguments.point) {
+        (true, false) => manual(),
+        (true, true) => point_manual(),
+        (false, false) => format!("{:#}\n", json_schema()),
+        (false, true) => format!("{:#}\n", point_json_schema()),
+    })
 }

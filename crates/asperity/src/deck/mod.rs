@@ -12,6 +12,7 @@ pub mod keys;
 mod names;
 mod overrides;
 mod parts;
+mod point;
 mod reader;
 mod review;
 pub mod schema;
@@ -20,7 +21,8 @@ pub mod tree;
 
 pub use build::{Made, build};
 pub use diagnose::{Diagnostic, Diagnostics, Severity};
-pub use keys::Deck;
+pub use keys::{Deck, PointDeck};
+pub use point::{LoadedPoint, load_point, read_point};
 pub use reader::{Name, Unsaid};
 pub use review::{Review, review};
 
@@ -50,6 +52,12 @@ pub struct Loaded {
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it. A file that cannot be read is one of them.
 pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
+    let (name, text) = text_of(path)?;
+    read(&text, &name, path.parent().unwrap_or(Path::new("")), sets)
+}
+
+/// The name and the text of a file.
+fn text_of(path: &Path) -> Result<(String, String), Diagnostics> {
     let name = path.display().to_string();
     let lost = |why: String| Diagnostics { sources: vec![], list: vec![Diagnostic::error(format!("{name}: {why}"))] };
     let bytes = std::fs::read(path).map_err(|error| lost(error.to_string()))?;
@@ -57,7 +65,7 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
         let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|&&b| b == b'\n').count();
         lost(format!("line {line} is not UTF-8 text; save the file as UTF-8"))
     })?;
-    read(&text, &name, path.parent().unwrap_or(Path::new("")), sets)
+    Ok((name, text))
 }
 
 /// Reads a deck from text that messages call `name`; mesh files are looked for in `folder`.
@@ -65,6 +73,23 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
+    let (read, reader) = understood(text, name, sets, |tree, reader| everything(tree, folder, reader));
+    let diagnostics = gathered(reader.sources, reader.diagnostics);
+    match read {
+        Some((deck, mesh)) if !diagnostics.has_errors() => {
+            Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics })
+        }
+        _ => Err(diagnostics.without_notes()),
+    }
+}
+
+/// What `read` makes of a text with `sets` over it, and the reader with what was found.
+fn understood<T>(
+    text: &str,
+    name: &str,
+    sets: &[String],
+    read: impl FnOnce(&Node, &mut Reader) -> Option<T>,
+) -> (Option<T>, Reader) {
     let mut reader = Reader::new(Source::new(name, text));
     let (mut tree, faults) = tree::parse(text, 0);
     let torn = faults.iter().any(|fault| fault.what.contains("not valid TOML"));
@@ -74,15 +99,14 @@ pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Lo
         reader.sources.push(Source::new("--set", set));
     }
     // Text that is not TOML may hide the rest of its table: what would be said about that is not to be trusted.
-    let read = if torn { None } else { everything(&tree, folder, &mut reader) };
-    let mut diagnostics = Diagnostics { sources: reader.sources, list: reader.diagnostics };
+    let value = if torn { None } else { read(&tree, &mut reader) };
+    (value, reader)
+}
+
+fn gathered(sources: Vec<Source>, list: Vec<Diagnostic>) -> Diagnostics {
+    let mut diagnostics = Diagnostics { sources, list };
     diagnostics.sort();
-    match read {
-        Some((deck, mesh)) if !diagnostics.has_errors() => {
-            Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics })
-        }
-        _ => Err(diagnostics.without_notes()),
-    }
+    diagnostics
 }
 
 /// Deck and mesh; faults of the one do not hide those of the other.

@@ -56,12 +56,12 @@ fn eliminate<T: Scalar, const N: usize>(mut a: [[f64; N]; N], mut b: [T; N]) -> 
             let factor = a[i][k] / a[k][k];
             let (upper, lower) = a.split_at_mut(i);
             lower[0].iter_mut().zip(&upper[k]).for_each(|(x, y)| *x -= factor * y);
-            b[i] = b[i] - b[k] * factor;
+            b[i] -= b[k] * factor;
         }
     }
     for k in (0..N).rev() {
         for j in k + 1..N {
-            b[k] = b[k] - b[j] * a[k][j];
+            b[k] -= b[j] * a[k][j];
         }
         b[k] = b[k] / a[k][k];
     }

@@ -28,7 +28,14 @@ impl Builder<'_> {
                     thickness: self.site.thickness,
                 };
                 let site = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
-                let body = Body::new(&name.text, site, cells, materials[number].clone(), options);
+                let material = match &keys.update {
+                    None => materials[number].clone(),
+                    Some(keys) => {
+                        let law = materials[number].with_update(keys.update()).map_err(crate::Error::input);
+                        Arc::from(self.keep(law, keys.place)?)
+                    }
+                };
+                let body = Body::new(&name.text, site, cells, material, options);
                 Some((self.keep(body, name.place)?, number))
             })
             .collect();

@@ -5,9 +5,11 @@ mod condition;
 mod contact;
 mod mesh;
 mod output;
+mod point;
 mod solver;
 mod step;
 mod tool;
+mod update;
 
 pub use condition::{
     BodyForce, Components, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction,
@@ -15,9 +17,11 @@ pub use condition::{
 pub use contact::Contact;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;
+pub use point::{PointCurve, PointDeck, PointStep};
 pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
 pub use tool::{Segment, ToolKeys};
+pub use update::UpdateKeys;
 
 use super::diagnose::Diagnostic;
 use super::form::{Form, Law, Words, defines, law, map, number, refers, table, table_of, text, whole, word};
@@ -73,6 +77,8 @@ table! {
         formulation: Spot<Formulation> = word().spot().or("\"standard\""),
         /// How many integration points a cell has.
         integration: Spot<Integration> = word().spot().or("\"full\""),
+        /// How the law is integrated over an increment.
+        update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
     }
 }
 

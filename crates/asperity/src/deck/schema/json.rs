@@ -1,15 +1,24 @@
 //! The schema as JSON Schema (draft 2020-12), for editors that complete and check while one types.
 
-use super::{Key, Presence, Schema, root};
+use super::{Key, Presence, Schema, point_root, root};
 use crate::deck::tree::{Node, Value as Written};
 use crate::declare::Range;
 use serde_json::{Map, Value, json};
 
 /// The JSON Schema of a deck.
 pub fn json_schema() -> Value {
-    let mut schema = object(&root());
+    titled("Asperity deck", &root())
+}
+
+/// The JSON Schema of a deck for one material point.
+pub fn point_json_schema() -> Value {
+    titled("Asperity deck of a material point", &point_root())
+}
+
+fn titled(title: &str, root: &Schema) -> Value {
+    let mut schema = object(root);
     schema.insert("$schema".into(), json!("https://json-schema.org/draft/2020-12/schema"));
-    schema.insert("title".into(), json!("Asperity deck"));
+    schema.insert("title".into(), json!(title));
     Value::Object(schema)
 }
 

@@ -1,6 +1,6 @@
 //! The schema as a page of the manual, in Markdown.
 
-use super::{Key, Presence, Schema, root};
+use super::{Key, Presence, Schema, point_root, root};
 use std::fmt::Write;
 
 /// The heading of the outermost table.
@@ -8,9 +8,18 @@ const TOP: &str = "the deck";
 
 /// The page: a section for each table of a deck, a line for each key.
 pub fn manual() -> String {
-    let mut page = String::from("# Keys of a deck\n\nPrinted by `asperity schema --manual`.\n");
+    titled("Keys of a deck", "--manual", &root())
+}
+
+/// The page of a deck for one material point.
+pub fn point_manual() -> String {
+    titled("Keys of a deck for a material point", "--manual --point", &point_root())
+}
+
+fn titled(title: &str, option: &str, root: &Schema) -> String {
+    let mut page = format!("# {title}\n\nPrinted by `asperity schema {option}`.\n");
     let about = "The keys at the top. `NAME[]` below stands for each item of a list, capitals for a name.";
-    section(TOP, about, &root(), &mut page);
+    section(TOP, about, root, &mut page);
     page
 }
 

@@ -4,11 +4,11 @@
 mod json;
 mod manual;
 
-pub use json::json_schema;
-pub use manual::manual;
+pub use json::{json_schema, point_json_schema};
+pub use manual::{manual, point_manual};
 
 use super::form::Table;
-use super::keys::Deck;
+use super::keys::{Deck, PointDeck};
 use crate::declare::Range;
 
 /// A key of a table.
@@ -127,4 +127,9 @@ impl Names {
 /// The whole deck's schema.
 pub fn root() -> Schema {
     Schema::Table(Deck::keys())
+}
+
+/// The schema of a deck for one material point.
+pub fn point_root() -> Schema {
+    Schema::Table(PointDeck::keys())
 }

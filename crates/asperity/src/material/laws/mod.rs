@@ -1,16 +1,48 @@
 //! The laws, one file each, and their registry.
 
+mod drucker_prager;
 mod elastic;
+mod hardening;
+mod invariants;
+mod neo_hookean;
+mod norton_hoff;
+mod ogden;
+mod perzyna;
+mod von_mises;
 
+pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::Elastic;
+pub use hardening::Hardening;
+pub use neo_hookean::NeoHookean;
+pub use norton_hoff::NortonHoff;
+pub use ogden::Ogden;
+pub use perzyna::Perzyna;
+pub use von_mises::VonMises;
 
-use super::{Material, Rate};
+use super::{Hyper, HyperLaw, Material, Rate, RateLaw};
 use crate::declare::Entry;
 
 /// Every law a deck may name.
-pub static ALL: &[Entry<Box<dyn Material>>] = &[elastic::ENTRY];
+pub static ALL: &[Entry<Box<dyn Material>>] = &[
+    elastic::ENTRY,
+    neo_hookean::ENTRY,
+    ogden::ENTRY,
+    von_mises::COMBINED,
+    von_mises::SWIFT,
+    von_mises::TABLE,
+    perzyna::ENTRY,
+    norton_hoff::ENTRY,
+    drucker_prager::OUTER,
+    drucker_prager::INNER,
+    drucker_prager::PLANE_STRAIN,
+];
 
 /// A rate law as the object a registry hands out.
-fn rate<L: super::RateLaw + 'static>(law: L) -> Box<dyn Material> {
+fn rate<L: RateLaw>(law: L) -> Box<dyn Material> {
     Box::new(Rate(law))
+}
+
+/// A hyperelastic law as the object a registry hands out.
+fn hyper<L: HyperLaw>(law: L) -> Box<dyn Material> {
+    Box::new(Hyper(law))
 }

@@ -1,0 +1,20 @@
+//! `asperity point`: drive laws along a path of strains and stresses.
+
+use super::{Outcome, print, results_of};
+use crate::arguments::Point;
+use crate::exit::tell;
+use asperity::deck;
+use asperity::output::file::make_directory;
+use asperity::point::{draw, write};
+
+/// Runs the deck of a material point, writes its tables and pictures, and says what it wrote.
+pub fn point(arguments: &Point) -> Outcome {
+    let loaded = deck::load_point(&arguments.deck.path, &arguments.deck.sets)?;
+    tell(&loaded.diagnostics);
+    let records = loaded.run()?;
+    let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
+    make_directory(&directory)?;
+    let mut written = write(&records, &directory)?;
+    written.extend(draw(&records, &loaded.curves, &loaded.deck.title, &directory)?);
+    print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
+}

@@ -1,0 +1,55 @@
+//! How a law is integrated over an increment.
+
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::form::{Form, number, table, whole, word, words};
+use crate::deck::reader::Reader;
+use crate::deck::source::Spot;
+use crate::declare::{Range, unit};
+use crate::integrate::{Scheme, Update};
+
+table! {
+    /// Sub-steps and scheme of a law.
+    pub struct UpdateKeys check parameter {
+        /// How one sub-step is taken.
+        scheme: SchemeWord = word().or("\"backward-euler\""),
+        /// Parameter of the midpoint rule: order 2 at 0.5, backward Euler at 1.
+        theta: Option<Spot<f64>> =
+            number(unit::NONE, Range::from_to(0.5, 1.0)).spot().unless_given("0.5 for the midpoint scheme"),
+        /// Number of equal sub-steps of an increment; the fewest where a tolerance is given.
+        substeps: usize = whole(1..=10_000).or("1"),
+        /// Relative error of the stress that each sub-step must keep; sub-steps are halved until they do.
+        tolerance: Option<f64> =
+            number(unit::NONE, Range::from_to(1e-9, 0.1)).unless_given("as many sub-steps as said"),
+    }
+}
+
+words! {
+    /// How one sub-step is taken.
+    pub enum SchemeWord {
+        /// one implicit step, order 1
+        BackwardEuler = "backward-euler",
+        /// the generalised midpoint rule and a return to the admissible states
+        Midpoint = "midpoint",
+        /// two implicit stages, order 2
+        TwoStep = "two-step",
+    }
+}
+
+fn parameter(keys: &UpdateKeys, reader: &mut Reader) {
+    if let Some(theta) = keys.theta.filter(|_| keys.scheme != SchemeWord::Midpoint) {
+        let what = format!("`{}.theta` is the parameter of the midpoint scheme", reader.path());
+        reader.report(Diagnostic::error(what).at(theta.place).help("say scheme = \"midpoint\", or remove it"));
+    }
+}
+
+impl UpdateKeys {
+    /// What the keys say.
+    pub fn update(&self) -> Update {
+        let scheme = match self.scheme {
+            SchemeWord::BackwardEuler => Scheme::BackwardEuler,
+            SchemeWord::Midpoint => Scheme::Midpoint(self.theta.map_or(0.5, |theta| theta.value)),
+            SchemeWord::TwoStep => Scheme::TwoStep,
+        };
+        Update { scheme, substeps: self.substeps, tolerance: self.tolerance }
+    }
+}

@@ -1,0 +1,108 @@
+//! Reads the deck of a material point, and runs it.
+
+use super::diagnose::{Diagnostic, Diagnostics};
+use super::form::{Law, Table};
+use super::keys::PointDeck;
+use super::source::Spot;
+use super::{gathered, text_of, understood};
+use crate::Error;
+use crate::material::Material;
+use crate::point::{Curve, Probe, Record, Stage, columns};
+use std::path::Path;
+
+/// A deck of a material point that was read, with its laws.
+pub struct LoadedPoint {
+    /// The deck.
+    pub deck: PointDeck,
+    /// Each material's name and law.
+    pub materials: Vec<(String, Box<dyn Material>)>,
+    /// The path.
+    pub stages: Vec<Stage>,
+    /// What is drawn.
+    pub curves: Vec<Curve>,
+    /// Warnings and notes, and the texts that they point into.
+    pub diagnostics: Diagnostics,
+}
+
+/// Reads the deck of a material point from its file.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it.
+pub fn load_point(path: &Path, sets: &[String]) -> Result<LoadedPoint, Diagnostics> {
+    let (name, text) = text_of(path)?;
+    read_point(&text, &name, sets)
+}
+
+/// Reads the deck of a material point from text that messages call `name`.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it.
+pub fn read_point(text: &str, name: &str, sets: &[String]) -> Result<LoadedPoint, Diagnostics> {
+    let (deck, mut reader) = understood(text, name, sets, PointDeck::read);
+    let made = deck.filter(|_| reader.errors() == 0).and_then(|deck| {
+        let materials = materials(&deck, &mut reader.diagnostics);
+        let names: Vec<String> = materials.iter().flat_map(|(_, law)| columns(law.as_ref())).collect();
+        let curves = curves(&deck, &names, &mut reader.diagnostics);
+        (reader.errors() == 0).then_some((deck, materials, curves))
+    });
+    let diagnostics = gathered(reader.sources, reader.diagnostics);
+    let Some((deck, materials, curves)) = made else { return Err(diagnostics.without_notes()) };
+    let stages: Vec<Stage> = deck.step.iter().enumerate().map(|(i, step)| step.stage(i + 1)).collect();
+    let curves = if curves.is_empty() { Curve::standard(&stages) } else { curves };
+    Ok(LoadedPoint { deck, materials, stages, curves, diagnostics })
+}
+
+fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<dyn Material>)> {
+    let mut materials = Vec::new();
+    for (name, law) in &deck.material {
+        match integrated(deck, law) {
+            Ok(material) => materials.push((name.text.clone(), material)),
+            Err(why) => found.push(Diagnostic::error(why).at(law.place)),
+        }
+        if !name.text.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') {
+            let what = format!("the name `{name}` cannot name a file");
+            found.push(Diagnostic::error(what).at(name.place).help("use letters, digits, `_` and `-`"));
+        }
+    }
+    materials
+}
+
+fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Box<dyn Material>, String> {
+    let material = law.build()?;
+    match &deck.update {
+        Some(keys) => material.with_update(keys.update()),
+        None => Ok(material),
+    }
+}
+
+fn curves(deck: &PointDeck, names: &[String], found: &mut Vec<Diagnostic>) -> Vec<Curve> {
+    let mut check = |name: &Spot<String>| {
+        if !names.contains(&name.value) {
+            let what = format!("there is no column `{}`", name.value);
+            found.push(Diagnostic::error(what).at(name.place).suggest(&name.value, names.iter().map(String::as_str)));
+        }
+        name.value.clone()
+    };
+    let mut one = |x: &Spot<String>, y: &[Spot<String>]| Curve { x: check(x), y: y.iter().map(&mut check).collect() };
+    deck.curve.iter().map(|curve| one(&curve.x, &curve.y)).collect()
+}
+
+impl LoadedPoint {
+    /// Drives every material along the path.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] where the path of one cannot be followed.
+    pub fn run(&self) -> Result<Vec<Record>, Error> {
+        let stress = self.deck.initial_stress.as_ref().map(|s| s.all().map(|s| s.unwrap_or(0.0)));
+        let one = |(name, material): &(String, Box<dyn Material>)| {
+            let mut probe = Probe::new(material.as_ref(), stress);
+            let mut record = Record::new(name, material.as_ref());
+            record.push(&probe);
+            for stage in &self.stages {
+                probe.follow(stage, |probe| record.push(probe))?;
+            }
+            Ok(record)
+        };
+        self.materials.iter().map(one).collect()
+    }
+}

@@ -1,0 +1,164 @@
+//! Drucker and Prager's plasticity, non-associated: `f = sqrt(J2) + eta p - xi c` (tension positive), flow along
+//! `sqrt(J2) + eta_b p`, return to the cone or, where its deviator would turn over, to the apex `p = xi c/eta`.
+//!
+//! The cone touches Mohr and Coulomb's at the outer or inner edges, or gives the same limit load in plane strain. In
+//! plane strain `eta_b` is the associated value of the dilatancy `psi` and `eta = 3 sin phi/d`, `xi = 3 cos phi/d`,
+//! `d = sin phi eta_b + 3 sqrt(1 - eta_b^2/3)`, so that the match holds for non-associated flow too.
+
+use super::elastic::{Elastic, POISSON, YOUNG};
+use super::rate;
+use crate::Failure;
+use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
+use crate::material::{Material, RateLaw, Variable};
+use crate::tensor::{Scalar, Tensor2};
+
+pub(super) const COHESION: Parameter = Parameter {
+    key: "cohesion",
+    meaning: "cohesion",
+    unit: unit::STRESS,
+    range: Range::NOT_NEGATIVE,
+    default: None,
+};
+
+pub(super) const FRICTION: Parameter = Parameter {
+    key: "friction",
+    meaning: "angle of internal friction",
+    unit: unit::DEGREES,
+    range: Range { least: Some((0.0, true)), most: Some((89.0, true)) },
+    default: None,
+};
+
+pub(super) const DILATANCY: Parameter = Parameter {
+    key: "dilatancy",
+    meaning: "angle of dilatancy; the angle of friction for associated flow",
+    unit: unit::DEGREES,
+    range: Range { least: Some((0.0, true)), most: Some((89.0, true)) },
+    default: Some(0.0),
+};
+
+static PARAMETERS: &[Parameter] = &[YOUNG, POISSON, COHESION, FRICTION, DILATANCY];
+
+pub(super) const OUTER: Entry<Box<dyn Material>> = Entry {
+    name: "drucker_prager",
+    meaning: "Drucker-Prager plasticity, the cone through Mohr-Coulomb's outer edges (triaxial compression)",
+    parameters: PARAMETERS,
+    pairs: None,
+    build: |v| build(v, Cone::Outer),
+};
+
+pub(super) const INNER: Entry<Box<dyn Material>> = Entry {
+    name: "drucker_prager_inner",
+    meaning: "Drucker-Prager plasticity, the cone through Mohr-Coulomb's inner edges (triaxial extension)",
+    parameters: PARAMETERS,
+    pairs: None,
+    build: |v| build(v, Cone::Inner),
+};
+
+pub(super) const PLANE_STRAIN: Entry<Box<dyn Material>> = Entry {
+    name: "drucker_prager_plane_strain",
+    meaning: "Drucker-Prager plasticity, the cone with Mohr-Coulomb's limit load in plane strain",
+    parameters: PARAMETERS,
+    pairs: None,
+    build: |v| build(v, Cone::PlaneStrain),
+};
+
+fn build(v: &[f64], cone: Cone) -> Result<Box<dyn Material>, String> {
+    check_angles(v[3], v[4])?;
+    let angles = [v[3].to_radians(), v[4].to_radians()];
+    Ok(rate(DruckerPrager::new(Elastic::new(v[0], v[1]), v[2], angles, cone)))
+}
+
+/// A dilatancy beyond the friction would give out energy.
+pub(super) fn check_angles(friction: f64, dilatancy: f64) -> Result<(), String> {
+    if dilatancy > friction {
+        return Err(format!("`dilatancy`, {dilatancy}, must not exceed `friction`, {friction}: the solid would give out energy"));
+    }
+    Ok(())
+}
+
+/// Which of Mohr and Coulomb's states the cone shares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cone {
+    /// Triaxial compression.
+    Outer,
+    /// Triaxial extension.
+    Inner,
+    /// Plastic flow in plane strain.
+    PlaneStrain,
+}
+
+impl Cone {
+    /// `eta` and `xi` for friction and dilatancy in radians, then `eta_b`.
+    fn match_angles(self, friction: f64, dilatancy: f64) -> [f64; 3] {
+        let edge = |angle: f64, sign: f64| 3.0_f64.sqrt() * (3.0 - sign * angle.sin()) / 6.0;
+        let sign = if self == Self::Outer { 1.0 } else { -1.0 };
+        if self != Self::PlaneStrain {
+            let d = edge(friction, sign);
+            return [friction.sin() / d, friction.cos() / d, dilatancy.sin() / edge(dilatancy, sign)];
+        }
+        let tan = dilatancy.tan();
+        let eta_b = 3.0 * tan / (9.0 + 12.0 * tan * tan).sqrt();
+        let d = friction.sin() * eta_b + 3.0 * (1.0 - eta_b * eta_b / 3.0).sqrt();
+        [3.0 * friction.sin() / d, 3.0 * friction.cos() / d, eta_b]
+    }
+}
+
+/// The law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DruckerPrager {
+    elastic: Elastic,
+    eta: f64,
+    eta_b: f64,
+    /// `xi c`.
+    strength: f64,
+}
+
+impl DruckerPrager {
+    /// From elasticity, cohesion, and the angles of friction and dilatancy in radians.
+    pub fn new(elastic: Elastic, cohesion: f64, [friction, dilatancy]: [f64; 2], cone: Cone) -> Self {
+        let [eta, xi, eta_b] = cone.match_angles(friction, dilatancy);
+        Self { elastic, eta, eta_b, strength: xi * cohesion }
+    }
+}
+
+impl RateLaw for DruckerPrager {
+    type Vars<T: Scalar> = [T; 2];
+    const VARIABLES: &'static [Variable] = &[
+        Variable { name: "plastic_shear_strain", kind: VariableKind::Scalar },
+        Variable { name: "plastic_volume_strain", kind: VariableKind::Scalar },
+    ];
+
+    fn update<T: Scalar>(
+        &self,
+        de: Tensor2<T>,
+        stress: Tensor2<T>,
+        &[shear, volume]: &[T; 2],
+        _dt: f64,
+    ) -> Result<(Tensor2<T>, [T; 2]), Failure> {
+        let (g, k) = (self.elastic.shear, self.elastic.bulk());
+        let trial = stress + self.elastic.stress(&de);
+        let (p, s) = (trial.trace() * (1.0 / 3.0), trial.deviator());
+        let root = (s.contract(s) * 0.5).sqrt();
+        let f = root + p * self.eta - self.strength;
+        if f.re() <= 0.0 {
+            return Ok((trial, [shear, volume]));
+        }
+        let flow = f * (1.0 / (g + k * self.eta * self.eta_b));
+        if flow.re() * g <= root.re() {
+            let scale = T::one() - flow * g / root;
+            let returned = s * scale + Tensor2::identity() * (p - flow * (k * self.eta_b));
+            return Ok((returned, [shear + flow, volume + flow * self.eta_b]));
+        }
+        let apex = self.strength / self.eta;
+        Ok((Tensor2::identity() * T::from(apex), [shear + root / g, volume + (p - apex) / k]))
+    }
+
+    fn stored_energy(&self, stress: &Tensor2, _: &[f64; 2]) -> f64 {
+        self.elastic.energy(stress)
+    }
+
+    fn dissipation(&self, old: (&Tensor2, &[f64; 2]), new: (&Tensor2, &[f64; 2])) -> f64 {
+        let (p, s) = (new.0.trace() / 3.0, new.0.deviator());
+        (0.5 * s.contract(s)).sqrt() * (new.1[0] - old.1[0]) + p * (new.1[1] - old.1[1])
+    }
+}

@@ -1,0 +1,126 @@
+//! The strains that belong to prescribed stresses.
+
+use super::probe::deformation;
+use crate::Failure;
+use crate::material::{Directions, Gradient, Material};
+use crate::tensor::Tensor2;
+
+/// Largest difference from a prescribed stress, as a ratio to the largest stress.
+const TOLERANCE: f64 = 1e-11;
+/// Rounding of a stress, as a ratio to the stiffness of the undeformed solid.
+const ROUNDING: f64 = 1e-15;
+const LIMIT: usize = 50;
+
+/// One increment: where it begins, and what is prescribed at its end.
+pub(super) struct Increment<'a> {
+    pub material: &'a dyn Material,
+    /// State of the law at the beginning.
+    pub old: &'a [f64],
+    /// Strains at the beginning.
+    pub strain: [f64; 6],
+    /// Prescribed stresses; where there is none the strain is prescribed.
+    pub stress: [Option<f64>; 6],
+    pub dt: f64,
+    /// Stiffness of the undeformed solid, which says what is rounding.
+    pub modulus: f64,
+}
+
+/// A trial end of an increment.
+struct Trial {
+    strain: [f64; 6],
+    new: Vec<f64>,
+    gradient: Gradient,
+    error: f64,
+}
+
+impl Increment<'_> {
+    /// Strains and state at the end, from a first guess of the strains that has the prescribed ones.
+    pub fn solve(&self, guess: [f64; 6]) -> Result<([f64; 6], Vec<f64>), Failure> {
+        let mut trial = self.trial(guess)?;
+        for _ in 0..LIMIT {
+            if trial.error <= 1.0 {
+                return Ok((trial.strain, trial.new));
+            }
+            let change = self.change(&trial).ok_or_else(|| Failure::new("the stress has no stiffness left"))?;
+            trial = self.shorten(&trial, &change)?;
+        }
+        Err(Failure::new("the prescribed stress is not reached"))
+    }
+
+    /// The first of the shortened changes that lowers the error, or the shortest.
+    fn shorten(&self, trial: &Trial, change: &[f64; 6]) -> Result<Trial, Failure> {
+        let mut last = Err(Failure::new("the prescribed stress is not reached"));
+        for halvings in 0..8 {
+            let part = 0.5_f64.powi(halvings);
+            last = self.trial(std::array::from_fn(|i| trial.strain[i] + part * change[i]));
+            if last.as_ref().is_ok_and(|next| next.error < trial.error) {
+                break;
+            }
+        }
+        last
+    }
+
+    fn trial(&self, strain: [f64; 6]) -> Result<Trial, Failure> {
+        let mut new = vec![0.0; self.old.len()];
+        let f = deformation(&strain) * deformation(&self.strain).inverse();
+        let gradient = self.material.update_with_gradient(&f, self.dt, self.old, &mut new, Directions::Space)?;
+        if !new.iter().chain(gradient.iter().flatten()).all(|x| x.is_finite()) {
+            return Err(Failure::new("the stress is not finite"));
+        }
+        let miss = (0..6).filter_map(|i| self.stress[i].map(|wanted| (new[i] - wanted).abs())).fold(0.0, f64::max);
+        let largest = new[..6].iter().chain(self.stress.iter().flatten()).fold(0.0, |m: f64, s| m.max(s.abs()));
+        let scale = (TOLERANCE * largest).max(ROUNDING * self.modulus);
+        Ok(Trial { strain, new, gradient, error: miss / scale })
+    }
+
+    /// Change of the strains that removes the difference to first order.
+    fn change(&self, trial: &Trial) -> Option<[f64; 6]> {
+        let free: Vec<usize> = (0..6).filter(|&i| self.stress[i].is_some()).collect();
+        let columns: Vec<[f64; 6]> = free.iter().map(|&j| self.along(trial, j)).collect();
+        let mut rows: Vec<Vec<f64>> = free
+            .iter()
+            .map(|&i| {
+                let miss = self.stress[i].unwrap_or(0.0) - trial.new[i];
+                columns.iter().map(|column| column[i]).chain([miss]).collect()
+            })
+            .collect();
+        let solved = eliminate(&mut rows)?;
+        let mut change = [0.0; 6];
+        free.iter().zip(solved).for_each(|(&i, x)| change[i] = x.clamp(-0.5, 0.5));
+        Some(change)
+    }
+
+    /// Derivative of the stress along one strain.
+    fn along(&self, trial: &Trial, strain: usize) -> [f64; 6] {
+        const PLACE: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+        let (i, j) = PLACE[strain];
+        let mut slope = Tensor2::zero();
+        slope[(i, j)] = if i == j { trial.strain[i].exp() } else { 1.0 };
+        let f = slope * deformation(&self.strain).inverse();
+        let places = Directions::Space.components();
+        std::array::from_fn(|row| trial.gradient[row].iter().zip(places).map(|(c, &place)| c * f[place]).sum())
+    }
+}
+
+/// Solves a system given by rows with the right-hand side last.
+fn eliminate(rows: &mut [Vec<f64>]) -> Option<Vec<f64>> {
+    let n = rows.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
+        rows.swap(k, pivot);
+        if rows[k][k] == 0.0 {
+            return None;
+        }
+        let (upper, lower) = rows.split_at_mut(k + 1);
+        for row in lower {
+            let factor = row[k] / upper[k][k];
+            row.iter_mut().zip(&upper[k]).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+    let mut x = vec![0.0; n];
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|j| rows[k][j] * x[j]).sum();
+        x[k] = (rows[k][n] - known) / rows[k][k];
+    }
+    x.iter().all(|x| x.is_finite()).then_some(x)
+}

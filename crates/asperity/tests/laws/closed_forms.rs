@@ -1,0 +1,124 @@
+//! The decks of `cases/point` against closed forms.
+
+use super::samples::{decks, load};
+use asperity::point::Record;
+
+/// Runs a deck of `cases/point`.
+fn run(deck: &str, sets: &[&str]) -> Vec<Record> {
+    let path = decks().into_iter().find(|path| path.file_stem().is_some_and(|stem| stem == deck));
+    load(&path.unwrap_or_else(|| panic!("no deck {deck}")), sets).run().unwrap()
+}
+
+/// A column of a material where another column first has (or crosses) a value, by straight lines.
+fn at(records: &[Record], material: &str, (x, value): (&str, f64), column: &str) -> f64 {
+    let record = records.iter().find(|record| record.name == material).unwrap();
+    let (x, y) = (record.column(x).unwrap(), record.column(column).unwrap());
+    let near = |i: &usize| (x[*i] - value).abs() <= 1e-9 * value.abs();
+    if let Some(i) = (0..x.len()).find(near) {
+        return y[i];
+    }
+    let crossing = |i: &usize| (x[*i] - value) * (x[i + 1] - value) <= 0.0;
+    let i = (0..x.len() - 1).find(crossing).expect("the value is reached");
+    y[i] + (y[i + 1] - y[i]) * (value - x[i]) / (x[i + 1] - x[i])
+}
+
+fn last(records: &[Record], material: &str, column: &str) -> f64 {
+    let record = records.iter().find(|record| record.name == material).unwrap();
+    *record.column(column).unwrap().last().unwrap()
+}
+
+#[track_caller]
+fn near(found: f64, wanted: f64, ratio: f64) {
+    assert!((found / wanted - 1.0).abs() < ratio, "{found} instead of {wanted}: off by {:.1e}", found / wanted - 1.0);
+}
+
+#[test]
+fn every_deck_can_be_run() {
+    for path in decks() {
+        let records = load(&path, &[]).run().unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let finite = records.iter().flat_map(|r| r.rows.iter().flatten()).all(|x| x.is_finite());
+        assert!(finite, "{}", path.display());
+    }
+}
+
+#[test]
+fn elastic_simple_shear() {
+    let records = run("elastic", &[]);
+    for g in [1.0_f64, 2.0, 3.0] {
+        near(at(&records, "elastic", ("strain_xy", g), "stress_xy"), g.sin(), 1e-5);
+        near(at(&records, "elastic", ("strain_xy", g), "stress_xx"), 1.0 - g.cos(), 1e-5);
+        near(at(&records, "elastic", ("strain_xy", g), "stress_yy"), g.cos() - 1.0, 1e-5);
+    }
+}
+
+#[test]
+fn rubber_in_tension() {
+    let l = 1.0_f64.exp();
+    let records = run("neo_hookean", &["material.neo_hookean.neo_hookean.bulk=1e7", "material.ogden.ogden.bulk=1e7"]);
+    for material in ["neo_hookean", "ogden"] {
+        near(last(&records, material, "stress_xx"), l * l - 1.0 / l, 2e-6);
+    }
+    let (records, l) = (run("ogden", &["material.rubber.ogden.bulk=1e7"]), 1.8_f64.exp());
+    let terms = [[0.63, 1.3], [0.0012, 5.0], [-0.01, -2.0]];
+    let exact: f64 = terms.iter().map(|[mu, alpha]| mu * (l.powf(*alpha) - l.powf(-0.5 * alpha))).sum();
+    near(last(&records, "rubber", "stress_xx"), exact, 2e-6);
+}
+
+#[test]
+fn billet_steel() {
+    let records = run("von_mises", &[]);
+    for (strain, stress) in [(0.01, 701.947), (0.1, 728.907), (0.5, 848.727), (1.0, 998.502)] {
+        near(at(&records, "steel", ("strain_xx", strain), "stress_xx"), stress, 5e-6);
+    }
+    let records = run("von_mises_confined", &[]);
+    // The strain yields at 0.00455, s = 1225; beyond, the modulus is 166799.83.
+    near(last(&records, "steel", "stress_xx"), -3802.06, 2e-6);
+    near(last(&records, "steel", "equivalent_plastic_strain"), 0.0102866, 5e-6);
+    near(last(&records, "steel", "von_mises"), 703.086, 1e-6);
+    near(at(&records, "steel", ("strain_xx", -0.0044), "stress_xx"), -0.0044 * 1225.0 / 0.00455, 1e-5);
+}
+
+#[test]
+fn flow_curves() {
+    let records = run("von_mises_swift", &[]);
+    let p = last(&records, "steel", "equivalent_plastic_strain");
+    near(last(&records, "steel", "stress_xx"), 500.0 * (0.01 + p).powf(0.2), 1e-10);
+    let records = run("von_mises_table", &[]);
+    let p = last(&records, "steel", "equivalent_plastic_strain");
+    near(last(&records, "steel", "stress_xx"), 350.0 + 125.0 * (p - 0.1), 1e-10);
+}
+
+/// The first quarter cycle of Armstrong and Frederick's law: X = C/gamma (1 - exp(-gamma p)).
+#[test]
+fn back_stress_saturates() {
+    let finely = ["step.1.increments=2000", "step.2.increments=20", "step.3.increments=20"];
+    let records = run("von_mises_cyclic", &finely);
+    let p = at(&records, "steel", ("strain_xx", 0.02), "equivalent_plastic_strain");
+    near(at(&records, "steel", ("strain_xx", 0.02), "stress_xx"), 200.0 + 200.0 * (1.0 - (-100.0 * p).exp()), 1e-3);
+    let p = at(&records, "voce", ("strain_xx", 0.02), "equivalent_plastic_strain");
+    near(at(&records, "voce", ("strain_xx", 0.02), "stress_xx"), 200.0 + 200.0 * (1.0 - (-50.0 * p).exp()), 1e-9);
+}
+
+#[test]
+fn perzyna_and_norton() {
+    near(last(&run("perzyna", &[]), "steel", "stress_xx"), 770.0, 1e-8);
+    let records = run("norton_hoff", &[]);
+    for (time, stress) in [(1.0, 181.404), (10.0, 105.333), (100.0, 59.4374), (1000.0, 33.4357)] {
+        near(at(&records, "bar", ("time", time), "stress_xx"), stress, 1e-3);
+    }
+}
+
+/// `q` at a lateral pressure of 100: the outer cone (Mohr-Coulomb), the inner one, and the plane-strain one without
+/// dilatancy and with associated flow.
+#[test]
+fn cones() {
+    let records = run("drucker_prager", &["material.plane.drucker_prager_plane_strain.dilatancy=0"]);
+    near(last(&records, "outer", "von_mises"), 234.641, 1e-5);
+    near(last(&records, "inner", "von_mises"), 140.785, 1e-5);
+    // With psi = 0: eta = sin phi, xi = cos phi, eta_b = 0, so q/sqrt(3) = c cos phi + (100 + q/3) sin phi.
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    let q = (10.0 * cos + 100.0 * sin) / (1.0 / 3.0_f64.sqrt() - sin / 3.0);
+    near(last(&records, "plane", "von_mises"), q, 1e-9);
+    let records = run("drucker_prager", &["material.plane.drucker_prager_plane_strain.dilatancy=30"]);
+    near(last(&records, "plane", "von_mises"), 135.081, 1e-5);
+}

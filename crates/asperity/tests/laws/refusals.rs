@@ -1,0 +1,56 @@
+//! Sets of numbers that make no solid are refused by name, at their line.
+
+use asperity::deck::read_point;
+
+/// What is said against a material.
+fn refused(material: &str) -> String {
+    let text = format!("version = 1\nmaterial.m = {{ {material} }}\n[[step]]\nstrain.xx = 0.1\n");
+    match read_point(&text, "deck.toml", &[]) {
+        Ok(_) => panic!("accepted: {material}"),
+        Err(diagnostics) => diagnostics.render(false),
+    }
+}
+
+#[test]
+fn impossible_sets_are_refused_by_name() {
+    let steel = "young = 1.0, poisson = 0.3, yield_stress = 1.0";
+    let sand = "young = 1.0, poisson = 0.3, cohesion = 1.0";
+    for (material, said) in [
+        ("elastic = { young = 1.0, poisson = 0.5 }".to_string(), "poisson"),
+        (format!("von_mises = {{ {steel}, saturation = -0.9, saturation_rate = 2.0 }}"), "slope -1.8, steeper"),
+        (format!("von_mises = {{ {steel}, saturation = -1.0, saturation_rate = 0.1 }}"), "must be positive"),
+        (format!("von_mises = {{ {steel}, saturation = 1.0 }}"), "`saturation_rate`"),
+        (format!("von_mises = {{ {steel}, recovery = 1.0 }}"), "`recovery` has nothing to recover"),
+        ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.1, 1.0]] }".into(), "plastic strain 0"),
+        ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 1.0], [0.0, 2.0]] }".into(), "must rise"),
+        ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 0.0]] }".into(), "positive, not 0"),
+        ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 9.0], [0.1, 1.0]] }".into(), "steeper"),
+        ("ogden = { bulk = 1.0, terms = [[1.0, -2.0]] }".into(), "positive product"),
+        (format!("drucker_prager = {{ {sand}, friction = 20.0, dilatancy = 21.0 }}"), "`dilatancy`, 21, must not exceed"),
+        ("norton_hoff = { young = 1.0, poisson = 0.3, consistency = 1.0, sensitivity = 2.0 }".into(), "sensitivity"),
+        (format!("perzyna = {{ {steel}, fluidity = 1.0, power = 0.5 }}"), "power"),
+    ] {
+        let text = refused(&material);
+        assert!(text.contains(said), "{material}: {text}");
+        assert!(text.contains("deck.toml:2"), "{material}: {text}");
+    }
+}
+
+#[test]
+fn a_path_says_each_component_once_and_curves_name_columns() {
+    let deck = |more: &str| {
+        let text = format!("version = 1\nmaterial.m.elastic = {{ young = 1.0, poisson = 0.3 }}\n[[step]]\nstrain.xx = 0.1\n{more}");
+        read_point(&text, "deck.toml", &[]).err().map(|d| d.render(false)).unwrap_or_default()
+    };
+    assert_eq!(deck(""), "");
+    assert!(deck("stress.xx = 1.0").contains("both strain and stress of `xx`"));
+    assert!(deck("[[curve]]\nx = \"strain_xx\"\ny = [\"stres_xx\"]").contains("did you mean `stress_xx`?"));
+    assert!(deck("[update]\ntheta = 0.5").contains("midpoint scheme"));
+}
+
+#[test]
+fn hyperelastic_laws_have_nothing_to_sub_step() {
+    let text = "version = 1\nupdate.substeps = 2\nmaterial.m.neo_hookean = { shear = 1.0, bulk = 1.0 }\n[[step]]\n";
+    let Err(found) = read_point(text, "deck.toml", &[]) else { panic!("accepted") };
+    assert!(found.render(false).contains("nothing to sub-step"));
+}

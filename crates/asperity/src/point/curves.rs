@@ -24,11 +24,7 @@ impl Curve {
         let x = component.map_or("time".into(), |c| format!("strain_{c}"));
         let stress = component.map(|c| format!("stress_{c}")).into_iter().chain(["von_mises".into()]).collect();
         let curve = |x: &str, y: Vec<String>| Self { x: x.into(), y };
-        vec![
-            curve(&x, stress),
-            curve(&x, vec!["volume_strain".into()]),
-            curve("mean_stress", vec!["von_mises".into()]),
-        ]
+        vec![curve(&x, stress), curve(&x, vec!["volume_strain".into()]), curve("mean_stress", vec!["von_mises".into()])]
     }
 
     /// Name of its picture without the ending: `stress_yy_over_strain_yy`.

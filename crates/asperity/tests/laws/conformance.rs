@@ -2,8 +2,8 @@
 //! has an example and is tested.
 
 use super::samples::*;
-use asperity::declare::Entry;
 use asperity::deck::schema::{manual, point_manual};
+use asperity::declare::Entry;
 use asperity::material::laws::ALL;
 use asperity::material::{Directions, Gradient, Material};
 use asperity::tensor::Tensor2;

@@ -26,7 +26,10 @@ fn impossible_sets_are_refused_by_name() {
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 0.0]] }".into(), "positive, not 0"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 9.0], [0.1, 1.0]] }".into(), "steeper"),
         ("ogden = { bulk = 1.0, terms = [[1.0, -2.0]] }".into(), "positive product"),
-        (format!("drucker_prager = {{ {sand}, friction = 20.0, dilatancy = 21.0 }}"), "`dilatancy`, 21, must not exceed"),
+        (
+            format!("drucker_prager = {{ {sand}, friction = 20.0, dilatancy = 21.0 }}"),
+            "`dilatancy`, 21, must not exceed",
+        ),
         ("norton_hoff = { young = 1.0, poisson = 0.3, consistency = 1.0, sensitivity = 2.0 }".into(), "sensitivity"),
         (format!("perzyna = {{ {steel}, fluidity = 1.0, power = 0.5 }}"), "power"),
     ] {
@@ -39,7 +42,9 @@ fn impossible_sets_are_refused_by_name() {
 #[test]
 fn a_path_says_each_component_once_and_curves_name_columns() {
     let deck = |more: &str| {
-        let text = format!("version = 1\nmaterial.m.elastic = {{ young = 1.0, poisson = 0.3 }}\n[[step]]\nstrain.xx = 0.1\n{more}");
+        let text = format!(
+            "version = 1\nmaterial.m.elastic = {{ young = 1.0, poisson = 0.3 }}\n[[step]]\nstrain.xx = 0.1\n{more}"
+        );
         read_point(&text, "deck.toml", &[]).err().map(|d| d.render(false)).unwrap_or_default()
     };
     assert_eq!(deck(""), "");

@@ -12,13 +12,8 @@ use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::material::{Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
-pub(super) const COHESION: Parameter = Parameter {
-    key: "cohesion",
-    meaning: "cohesion",
-    unit: unit::STRESS,
-    range: Range::NOT_NEGATIVE,
-    default: None,
-};
+pub(super) const COHESION: Parameter =
+    Parameter { key: "cohesion", meaning: "cohesion", unit: unit::STRESS, range: Range::NOT_NEGATIVE, default: None };
 
 pub(super) const FRICTION: Parameter = Parameter {
     key: "friction",
@@ -71,7 +66,9 @@ fn build(v: &[f64], cone: Cone) -> Result<Box<dyn Material>, String> {
 /// A dilatancy beyond the friction would give out energy.
 pub(super) fn check_angles(friction: f64, dilatancy: f64) -> Result<(), String> {
     if dilatancy > friction {
-        return Err(format!("`dilatancy`, {dilatancy}, must not exceed `friction`, {friction}: the solid would give out energy"));
+        return Err(format!(
+            "`dilatancy`, {dilatancy}, must not exceed `friction`, {friction}: the solid would give out energy"
+        ));
     }
     Ok(())
 }

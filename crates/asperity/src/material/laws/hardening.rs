@@ -143,7 +143,10 @@ impl Hardening {
         if let Self::Combined { first, saturation, .. } = self
             && first + saturation <= 0.0
         {
-            return Err(format!("the flow stress `yield_stress` + `saturation` = {} must be positive", first + saturation));
+            return Err(format!(
+                "the flow stress `yield_stress` + `saturation` = {} must be positive",
+                first + saturation
+            ));
         }
         let fall = self.steepest_fall();
         if fall <= -stiffness {

@@ -58,9 +58,8 @@ impl HyperLaw for Ogden {
     fn energy(&self, b: &Tensor2) -> f64 {
         let j = b.det().sqrt();
         let squares = principal(b).0.map(|b| b * j.powf(-2.0 / 3.0));
-        let term = |[mu, alpha]: &[f64; 2]| {
-            mu / alpha * (squares.iter().map(|l| l.powf(0.5 * alpha)).sum::<f64>() - 3.0)
-        };
+        let term =
+            |[mu, alpha]: &[f64; 2]| mu / alpha * (squares.iter().map(|l| l.powf(0.5 * alpha)).sum::<f64>() - 3.0);
         self.terms.iter().map(term).sum::<f64>() + volume_energy(self.bulk, j)
     }
 }

@@ -20,6 +20,7 @@ const INCREMENTS: &[&str] = &[
     "stick",
     "slip",
     "order",
+    "residual_order",
     "accepted",
     "reason",
 ];
@@ -30,6 +31,7 @@ const ITERATIONS: &[&str] = &[
     "iteration",
     "residual",
     "tolerance",
+    "rounding",
     "correction",
     "line_search",
     "factorised",
@@ -38,6 +40,7 @@ const ITERATIONS: &[&str] = &[
     "slip",
     "changes",
     "changed",
+    "helped",
     "worst",
     "worst_force",
 ];
@@ -96,7 +99,12 @@ fn attempt_row(problem: &Problem, record: &AttemptRecord) -> Vec<Field> {
     let changes: usize = record.iterations.iter().map(|i| i.changes).sum();
     let times = [record.time.into(), record.step_time.into(), record.dt.into()];
     let solution = [record.solutions().into(), last.map(|i| i.residual).into(), changes.into()];
-    let end = [record.order().into(), usize::from(record.failure.is_none()).into(), record.failure.as_deref().into()];
+    let end = [
+        record.order().into(),
+        record.residual_order().into(),
+        usize::from(record.failure.is_none()).into(),
+        record.failure.as_deref().into(),
+    ];
     let branches = last.map_or([0; 3], |last| problem.points_by_status(last)).map(Field::from);
     leading(record).into_iter().chain(times).chain(solution).chain(branches).chain(end).collect()
 }
@@ -107,6 +115,7 @@ fn iteration_row(problem: &Problem, record: &AttemptRecord, iteration: &Iteratio
         iteration.iteration.into(),
         iteration.residual.into(),
         iteration.tolerance.into(),
+        iteration.rounding.into(),
         iteration.correction.into(),
         iteration.step.into(),
         usize::from(iteration.factorised).into(),
@@ -114,6 +123,7 @@ fn iteration_row(problem: &Problem, record: &AttemptRecord, iteration: &Iteratio
     let end = [
         iteration.changes.into(),
         changed.as_deref().into(),
+        usize::from(iteration.helped).into(),
         problem.name_of(iteration.worst.dof).as_str().into(),
         iteration.worst.force.into(),
     ];

@@ -22,6 +22,8 @@ pub struct Norms {
     pub ratio: f64,
     /// The largest ratio there may be: the tolerance, or rounding where that is larger.
     pub allowed: f64,
+    /// The ratio that the rounding of positions leaves at the stiffest unknown.
+    pub rounding: f64,
     /// Where the largest ratio is.
     pub worst: Worst,
     /// The yardsticks of force and moment.
@@ -60,7 +62,8 @@ impl Norms {
         let rounding = 16.0 * f64::EPSILON * yardstick.stiffness * yardstick.size;
         let floor = [rounding, rounding * yardstick.size].map(|f| f / yardstick.tolerance);
         let scale = [0, 1].map(|k| largest[k].max(MEMORY * yardstick.past[k]).max(floor[k]));
-        let mut norms = Self { reference: scale, allowed: yardstick.tolerance, ..Self::default() };
+        let mut norms =
+            Self { rounding: rounding / scale[0], reference: scale, allowed: yardstick.tolerance, ..Self::default() };
         for (&dof, &force) in constraints.free().iter().zip(residual) {
             let scale = scale[usize::from(dofs.is_rotation(dof))];
             let ratio = if force == 0.0 { 0.0 } else { force.abs() / scale };

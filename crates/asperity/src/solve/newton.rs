@@ -343,6 +343,7 @@ impl<'a> Newton<'a> {
             iteration,
             residual: norms.ratio,
             tolerance: norms.allowed,
+            rounding: norms.rounding,
             worst: norms.worst,
             ..IterationRecord::default()
         };

@@ -12,6 +12,8 @@ pub struct IterationRecord {
     pub residual: f64,
     /// Ratio it must not exceed.
     pub tolerance: f64,
+    /// Ratio that the rounding of positions may leave.
+    pub rounding: f64,
     /// Largest change of a displacement by the last solution over the largest change in the increment.
     pub correction: f64,
     /// Part of the last solution that the line search took.
@@ -57,15 +59,29 @@ impl AttemptRecord {
         self.iterations.len().saturating_sub(1)
     }
 
+    /// Order of convergence at the end: a step of length `c` leaves a residual `r` of the order of `c^p`, hence
+    /// `p = ln(r2 / r1) / ln(c2 / c1)`, over the last two whole steps whose residuals are above rounding. `None` where
+    /// help was given or a branch or discrete choice changed. It needs no common measure of stiff and soft directions,
+    /// which residuals alone lack: compare [`residual_order`](Self::residual_order).
+    pub fn order(&self) -> Option<f64> {
+        let above = self.iterations.iter().rev().skip_while(|i| i.residual <= i.rounding).collect::<Vec<_>>();
+        let [second, first, ..] = above.as_slice() else { return None };
+        let whole = first.step == 1.0 && second.step == 1.0;
+        let falls = second.residual < first.residual && second.correction < first.correction;
+        let steady = second.changes == 0 && !first.helped && first.iteration > 0;
+        let order = || (second.residual / first.residual).ln() / (second.correction / first.correction).ln();
+        (whole && falls && steady).then(order)
+    }
+
     /// Order of convergence, fitted on the last three residuals above `1e-12` over which no branch and no discrete
     /// choice changed: `ln(r3/r2) / ln(r2/r1)`. `None` where there are not three such.
-    pub fn order(&self) -> Option<f64> {
-        let steady = self.iterations.iter().rev().skip_while(|i| i.residual <= 1e-12).collect::<Vec<_>>();
-        let [third, second, first, ..] = steady.as_slice() else { return None };
-        let same = third.changes == 0 && second.changes == 0;
+    pub fn residual_order(&self) -> Option<f64> {
+        let above = self.iterations.iter().rev().skip_while(|i| i.residual <= 1e-12).collect::<Vec<_>>();
+        let [third, second, first, ..] = above.as_slice() else { return None };
+        let steady = third.changes == 0 && second.changes == 0 && !first.helped && first.iteration > 0;
         let falls = third.residual < second.residual && second.residual < first.residual;
         let order = || (third.residual / second.residual).ln() / (second.residual / first.residual).ln();
-        (same && falls && !first.helped && first.iteration > 0).then(order)
+        (steady && falls).then(order)
     }
 }
 

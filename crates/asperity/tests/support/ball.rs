@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 const YOUNG: f64 = 100.0;
 /// A few times the modulus over the depth of a cell, which is one: soft enough for the set of closed nodes to settle
-/// within some iterations, so that runs compare solvers and not the luck of contact.
+/// within some iterations. With the penalties that decks have by default old factors do less often: see the manual.
 const PENALTY: f64 = 400.0;
 const FRICTION: f64 = 0.3;
 /// Slip of an increment, in cells, at which friction is near its limit.

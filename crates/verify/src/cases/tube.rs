@@ -1,0 +1,142 @@
+//! The paper's own application: an elastic tube is pushed over a stepped rigid tool, with and without friction.
+
+use crate::bench::{Bench, Solved, points};
+use crate::{Case, Measured};
+use asperity::Error;
+use asperity::contact::PointRecord;
+
+/// The case.
+pub const CASE: Case = Case { name: "tube", measure };
+
+const TRAVEL: f64 = 100.0;
+/// The steady range of travel begins here,
+const BEGIN: f64 = 40.0;
+/// and ends before this.
+const END: f64 = 90.0;
+
+/// An element of the tube.
+struct Element {
+    name: &'static str,
+    sets: [&'static str; 3],
+}
+
+const ELEMENTS: [Element; 2] = [
+    Element { name: "quad8", sets: ["cell=quad8", "formulation=standard", "integration=reduced"] },
+    Element { name: "quad4", sets: ["cell=quad4", "formulation=f-bar", "integration=full"] },
+];
+
+/// Travel and force along the axis after each increment.
+type Curve = Vec<(f64, f64)>;
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let mut measured = Measured::new();
+    for element in &ELEMENTS {
+        frictionless(bench, element, &mut measured)?;
+        with_friction(bench, element, &mut measured)?;
+    }
+    newton(bench, &mut measured)?;
+    Ok(measured)
+}
+
+/// Mesh and increments: `n` cuts the cells of 4 by 2.5 mm. A tube of 152 mm makes their number whole.
+fn run(bench: &Bench, element: &Element, (n, increments): (usize, usize), more: &[&str]) -> Result<(Solved, Curve), Error> {
+    let part = "mesh.part.tube.rectangle";
+    let [cell, formulation, integration] = element.sets;
+    let mut sets = vec![
+        format!("{part}.{cell}"),
+        format!("{part}.to=[55.0, 152.0]"),
+        format!("{part}.cells=[{}, {}]", 2 * n, 38 * n),
+        format!("body.tube.{formulation}"),
+        format!("body.tube.{integration}"),
+        format!("step.push.increments.count={increments}"),
+    ];
+    sets.extend(more.iter().map(|set| (*set).to_string()));
+    let mut curve = Curve::new();
+    let solved = bench.follow("tube.toml", &sets, |model, state| {
+        curve.push((TRAVEL * state.time, points(model, state, 0).iter().map(|point| point.force()[1]).sum()));
+    })?;
+    Ok((solved, curve))
+}
+
+/// Mean, and half the range, of the force over as many whole pitches as the steady range holds.
+fn steady(curve: &Curve, pitch: f64) -> (f64, f64) {
+    let end = BEGIN + ((END - BEGIN) / pitch).floor() * pitch;
+    let samples = 2000;
+    let at = |i: usize| force_at(curve, BEGIN + (end - BEGIN) * (i as f64 + 0.5) / samples as f64);
+    let forces: Vec<f64> = (0..samples).map(at).collect();
+    let most = forces.iter().fold(f64::MIN, |a, &b| a.max(b));
+    let least = forces.iter().fold(f64::MAX, |a, &b| a.min(b));
+    (forces.iter().sum::<f64>() / samples as f64, 0.5 * (most - least))
+}
+
+/// The force at a travel, linear between increments.
+fn force_at(curve: &Curve, travel: f64) -> f64 {
+    let after = curve.partition_point(|point| point.0 < travel).clamp(1, curve.len() - 1);
+    let ((t0, f0), (t1, f1)) = (curve[after - 1], curve[after]);
+    f0 + (f1 - f0) * (travel - t0) / (t1 - t0)
+}
+
+/// Eight increments a pitch; the ripple on the meshes of both sizes, and the pressures of the finer.
+fn frictionless(bench: &Bench, element: &Element, measured: &mut Measured) -> Result<(), Error> {
+    let mut add = |key: &str, value: f64| measured.push((format!("{}-{key}", element.name), value));
+    let (mut ripples, mut last) = (Vec::new(), None);
+    for level in 0..bench.pick(1, 3) {
+        let n = 1 << level;
+        let slides = ["contact.bore.law.coulomb.friction=0.0"];
+        let (solved, curve) = run(bench, element, (n, 200 * n), &slides)?;
+        let (mean, ripple) = steady(&curve, 4.0 / n as f64);
+        ripples.push(ripple / mean);
+        last = Some((solved, mean));
+    }
+    let Some((solved, mean)) = last else { return Ok(()) };
+    add("force", mean / 1e3);
+    add("ripple", ripples[ripples.len() - 1]);
+    if ripples.len() > 1 {
+        add("ripple-ratio", ripples[ripples.len() - 1] / ripples[0]);
+    }
+    let (plateau, end) = pressures(&solved.points(0));
+    add("plateau", plateau);
+    add("end", end / plateau);
+    Ok(())
+}
+
+/// Mean pressure of the land away from its ends, and the largest at the leading end.
+fn pressures(points: &[PointRecord]) -> (f64, f64) {
+    let lead = points.iter().map(|point| point.position[1]).fold(f64::MAX, f64::min);
+    let behind = |point: &&PointRecord, from: f64, to: f64| (from..to).contains(&(point.position[1] - lead));
+    let middle: Vec<_> = points.iter().filter(|point| behind(point, 35.0, 65.0)).collect();
+    let area: f64 = middle.iter().map(|point| point.area).sum();
+    let plateau = middle.iter().map(|point| point.pressure * point.area).sum::<f64>() / area;
+    let end = points.iter().filter(|point| behind(point, 0.0, 6.0)).map(|point| point.pressure).fold(0.0, f64::max);
+    (plateau, end)
+}
+
+/// Growth of the force between two travels, and what half the increments change of its mean.
+fn with_friction(bench: &Bench, element: &Element, measured: &mut Measured) -> Result<(), Error> {
+    let mut add = |key: &str, value: f64| measured.push((format!("{}-{key}", element.name), value));
+    let (n, increments) = bench.pick((1, 100), (2, 200));
+    let (_, curve) = run(bench, element, (n, increments), &[])?;
+    let growth = (force_at(&curve, 79.8) - force_at(&curve, 39.8)) / 1e3;
+    add("growth", growth);
+    add("growth-small", growth);
+    let (_, halved) = run(bench, element, (n, 2 * increments), &[])?;
+    let common: Vec<f64> = curve.iter().map(|point| point.0).filter(|&travel| travel >= BEGIN).collect();
+    let mean = |curve: &Curve| common.iter().map(|&t| force_at(curve, t)).sum::<f64>() / common.len() as f64;
+    add("halved", mean(&halved) / mean(&curve) - 1.0);
+    Ok(())
+}
+
+/// Iterations at 70 increments as they are; order of convergence where the iterations go on to rounding.
+fn newton(bench: &Bench, measured: &mut Measured) -> Result<(), Error> {
+    let n = bench.pick(1, 2);
+    let (solved, curve) = run(bench, &ELEMENTS[0], (n, 70), &[])?;
+    let solutions: usize = solved.attempts.iter().map(|attempt| attempt.solutions()).sum();
+    measured.push(("iterations".into(), solutions as f64 / curve.len() as f64));
+    measured.push(("cuts".into(), solved.cuts() as f64));
+    let (solved, _) = run(bench, &ELEMENTS[0], (n, 70), &["solver.tolerance=1e-11"])?;
+    let orders: Vec<f64> = solved.attempts.iter().filter_map(|attempt| attempt.order()).collect();
+    measured.push(("orders".into(), orders.len() as f64));
+    let high = orders.iter().filter(|&&order| order > 1.8).count();
+    measured.push(("quadratic".into(), high as f64 / orders.len().max(1) as f64));
+    Ok(())
+}

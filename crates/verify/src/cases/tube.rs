@@ -38,14 +38,15 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     Ok(measured)
 }
 
-/// Mesh and increments: `n` cuts the cells of 4 by 2.5 mm. A tube of 152 mm makes their number whole.
+/// Mesh and increments: cells of a length of 4 mm over `n`, at least four through the wall. A tube of 152 mm makes their
+/// number whole.
 fn run(bench: &Bench, element: &Element, (n, increments): (usize, usize), more: &[&str]) -> Result<(Solved, Curve), Error> {
     let part = "mesh.part.tube.rectangle";
     let [cell, formulation, integration] = element.sets;
     let mut sets = vec![
         format!("{part}.{cell}"),
         format!("{part}.to=[55.0, 152.0]"),
-        format!("{part}.cells=[{}, {}]", 2 * n, 38 * n),
+        format!("{part}.cells=[{}, {}]", (2 * n).max(4), 38 * n),
         format!("body.tube.{formulation}"),
         format!("body.tube.{integration}"),
         format!("step.push.increments.count={increments}"),

@@ -40,7 +40,12 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 
 /// Mesh and increments: cells of a length of 4 mm over `n`, at least four through the wall. A tube of 152 mm makes their
 /// number whole.
-fn run(bench: &Bench, element: &Element, (n, increments): (usize, usize), more: &[&str]) -> Result<(Solved, Curve), Error> {
+fn run(
+    bench: &Bench,
+    element: &Element,
+    (n, increments): (usize, usize),
+    more: &[&str],
+) -> Result<(Solved, Curve), Error> {
     let part = "mesh.part.tube.rectangle";
     let [cell, formulation, integration] = element.sets;
     let mut sets = vec![

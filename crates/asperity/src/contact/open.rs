@@ -201,19 +201,30 @@ impl OpenContact<'_> {
             for kept in [entry::SLIP, entry::SLIPPED, entry::DISSIPATED] {
                 new[kept] = old[kept];
             }
+            self.account(index, g, [0.0; 2], local);
             return Ok(0);
         };
         self.refuse_jump(index, g)?;
         new[entry::PENETRATION] -= constants.least;
         self.write(&closed, old, new);
         self.add(index, g, &closed, local);
-        let (area, response) = (closed.area.re(), &closed.response);
-        let elastic = |stress: f64, penalty: f64| 0.5 * stress * stress / penalty;
-        local.stored = area
-            * (elastic(response.pressure.re(), options.penalty)
-                + elastic(response.shear[0].re(), options.tangential_penalty));
-        local.dissipated = area * response.dissipated;
+        let response = &closed.response;
+        self.account(index, g, [response.pressure.re(), response.shear[0].re()], local);
         Ok(response.status as Branch)
+    }
+
+    /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
+    /// friction stress on the whole slip, less what of it is stored. A point that closes or opens takes part with half
+    /// its stress, so that one which passes a peak of pressure within an increment does not lose its work.
+    fn account(&self, index: usize, g: &Geometry, [pressure, shear]: [f64; 2], local: &mut Local) {
+        let (contact, before) = (self.contact, self.history.slot(index)[entry::SHEAR]);
+        let elastic = |stress: f64, penalty: f64| 0.5 * stress * stress / penalty;
+        let stored = |shear: f64| elastic(shear, contact.options.tangential_penalty);
+        let (along, _, _) = triad(g.place.tangent);
+        let slip = g.place.touched.map_or(0.0, |touched| along.dot(touched - g.place.a));
+        let area = contact.area(&contact.surface.points[index], g.place.a, g.place.tangent);
+        local.stored = area * (elastic(pressure, contact.options.penalty) + stored(shear));
+        local.dissipated = area * (0.5 * (before + shear) * slip - (stored(shear) - stored(before)));
     }
 
     /// What the pattern of the accepted state says of a point that has moved to `hit`.

@@ -100,7 +100,7 @@ impl Contact {
     }
 
     /// Area a point stands for.
-    fn area(&self, point: &SurfacePoint, a: Vec3, tangent: Vec3) -> f64 {
+    pub(super) fn area(&self, point: &SurfacePoint, a: Vec3, tangent: Vec3) -> f64 {
         let around = if self.space == Space::Axisymmetric { std::f64::consts::TAU * a[0] } else { 1.0 };
         self.thickness() * point.weight * tangent.norm() * around
     }

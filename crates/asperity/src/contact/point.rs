@@ -48,8 +48,6 @@ pub struct Closed<T> {
     pub force: Vec3<T>,
     /// Where the target is touched.
     pub hit: Vec3<T>,
-    /// Area the point stands for.
-    pub area: T,
     /// Slip of the increment.
     pub slip: T,
     /// Answer of the law.
@@ -87,7 +85,7 @@ pub fn evaluate<T: Scalar>(
         area = area * place.a[0] * std::f64::consts::TAU;
     }
     let force = (inward * response.pressure + along * response.shear[0]) * area;
-    Ok((penetration, Some(Closed { force, hit: place.a + inward * penetration, area, slip, response })))
+    Ok((penetration, Some(Closed { force, hit: place.a + inward * penetration, slip, response })))
 }
 
 /// The same vector with its derivatives scaled by `part`.

@@ -148,3 +148,29 @@ fn the_smaller_verbs_speak() {
     let empty = asperity(folder.path(), &["info", "block.toml"]);
     assert_eq!(code(&empty), 2);
 }
+
+#[test]
+fn a_point_is_driven_and_leaves_table_and_curves() {
+    let directory = tempfile::tempdir().unwrap();
+    let deck = "version = 1\nmaterial.m.elastic = { young = 2.0, poisson = 0.25 }\n[[step]]\nincrements = 4\nstrain.xx = 0.1\n";
+    std::fs::write(directory.path().join("bar.toml"), deck).unwrap();
+    let point = asperity(directory.path(), &["point", "bar.toml"]);
+    assert_eq!(code(&point), 0, "{}", error(&point));
+    let table = std::fs::read_to_string(directory.path().join("bar.results/m.csv")).unwrap();
+    assert_eq!(table.lines().count(), 6);
+    for file in String::from_utf8(point.stdout).unwrap().lines() {
+        assert!(directory.path().join(file).exists(), "{file}");
+    }
+    let wrong = asperity(directory.path(), &["point", "bar.toml", "--set", "step.1.strain.xx=\"much\""]);
+    assert_eq!(code(&wrong), 2, "{}", error(&wrong));
+}
+
+#[test]
+fn laws_are_listed_with_their_numbers() {
+    let laws = asperity(Path::new("."), &["laws"]);
+    let text = String::from_utf8(laws.stdout).unwrap();
+    for entry in asperity::material::laws::ALL {
+        assert!(text.contains(&format!("  {}: {}", entry.name, entry.meaning)), "{}", entry.name);
+        entry.parameters.iter().for_each(|p| assert!(text.contains(p.meaning), "{}", p.key));
+    }
+}

@@ -28,12 +28,16 @@ fn blocks(page: &str) -> Vec<String> {
 
 #[test]
 fn the_page_of_keys_is_up_to_date() {
-    let present = schema::manual();
-    if std::env::var_os("ASPERITY_BLESS").is_some() {
-        std::fs::write(page("keys.md"), &present).unwrap();
+    for (name, option, present) in
+        [("keys.md", "", schema::manual()), ("point-keys.md", " --point", schema::point_manual())]
+    {
+        if std::env::var_os("ASPERITY_BLESS").is_some() {
+            std::fs::write(page(name), &present).unwrap();
+        }
+        let committed = std::fs::read_to_string(page(name)).unwrap();
+        let hint = format!("cargo run -- schema --manual{option} > book/src/{name}");
+        assert!(committed == present, "book/src/{name} is old: {hint}");
     }
-    let committed = std::fs::read_to_string(page("keys.md")).unwrap();
-    assert!(committed == present, "book/src/keys.md is old: cargo run -- schema --manual > book/src/keys.md");
 }
 
 #[test]

@@ -278,14 +278,15 @@ impl OpenBody<'_> {
         }
         let len = body.point_len();
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
-        for (point, (old, new)) in cell.points.iter().zip(lanes) {
+        for (number, (point, (old, new))) in cell.points.iter().zip(lanes).enumerate() {
+            let here = |f: Failure| Failure::new(format!("integration point {}: {}", number + 1, f.reason));
             let f = point.deformation(du, DIM);
             let volume = point.volume * self.thickness(old);
             let det = if local.wants_tangent {
                 let s = if body.space == Space::PlaneStress {
-                    plane_stress::stress_with_tangent(&law, &f, old, new)?
+                    plane_stress::stress_with_tangent(&law, &f, old, new).map_err(here)?
                 } else {
-                    law.stress_with_tangent(&f, old, new)?
+                    law.stress_with_tangent(&f, old, new).map_err(here)?
                 };
                 add_forces::<DIM>(point, &s.p, volume, &mut local.force);
                 if du.len() <= FEW_DOFS {
@@ -299,9 +300,9 @@ impl OpenBody<'_> {
                 s.det
             } else {
                 let (p, det) = if body.space == Space::PlaneStress {
-                    plane_stress::stress(&law, &f, old, new)?
+                    plane_stress::stress(&law, &f, old, new).map_err(here)?
                 } else {
-                    (law.stress(&f, old, new)?, f.det())
+                    (law.stress(&f, old, new).map_err(here)?, f.det())
                 };
                 add_forces::<DIM>(point, &p, volume, &mut local.force);
                 det

@@ -126,3 +126,42 @@ fn cones() {
     let records = run("drucker_prager", &["material.plane.drucker_prager_plane_strain.dilatancy=30"]);
     near(last(&records, "plane", "von_mises"), 135.081, 1e-5);
 }
+
+#[test]
+fn mohr_and_coulomb_in_compression() {
+    let records = run("mohr_coulomb", &[]);
+    near(last(&records, "soil", "von_mises"), 234.641, 1e-5);
+    near(last(&records, "clay", "von_mises"), 80.0, 1e-12);
+}
+
+/// Normally consolidated, undrained: p and the plastic shear strain at ratios `eta = q/p`, then the critical state.
+#[test]
+fn cam_clay_undrained() {
+    let records = run("cam_clay_undrained", &["step.1.increments=20000"]);
+    let record = &records[0];
+    let [p, q, shear] = ["mean_stress", "von_mises", "plastic_shear_strain"].map(|name| record.column(name).unwrap());
+    let eta = |i: usize| -q[i] / p[i];
+    for (wanted, pressure, strain) in
+        [(0.3, 95.266, None), (0.6, 83.651, None), (0.9, 69.975, Some(0.0087854)), (1.1, 61.389, Some(0.0220213))]
+    {
+        let i = (0..p.len() - 1).find(|&i| eta(i + 1) >= wanted).unwrap();
+        let part = (wanted - eta(i)) / (eta(i + 1) - eta(i));
+        near(p[i] + part * (p[i + 1] - p[i]), -pressure, 2e-5);
+        if let Some(strain) = strain {
+            near(shear[i] + part * (shear[i + 1] - shear[i]), strain, 2e-3);
+        }
+    }
+    near(last(&records, "clay", "mean_stress"), -57.435, 1e-5);
+    near(last(&records, "clay", "von_mises"), 68.922, 1e-5);
+}
+
+#[test]
+fn cam_clay_drained_and_confined() {
+    let records = run("cam_clay_drained", &["step.1.increments=4000"]);
+    near(last(&records, "normal", "mean_stress"), -166.667, 1e-4);
+    near(last(&records, "normal", "von_mises"), 200.0, 2e-4);
+    let peak = records[1].column("von_mises").unwrap().into_iter().fold(0.0, f64::max);
+    near(peak, 238.746, 1e-3);
+    let records = run("cam_clay_oedometer", &[]);
+    near(last(&records, "clay", "stress_xx") / last(&records, "clay", "stress_yy"), 0.6476, 1e-4);
+}

@@ -15,6 +15,10 @@ fn refused(material: &str) -> String {
 fn impossible_sets_are_refused_by_name() {
     let steel = "young = 1.0, poisson = 0.3, yield_stress = 1.0";
     let sand = "young = 1.0, poisson = 0.3, cohesion = 1.0";
+    let clay = |more: &str| {
+        let common = "critical_slope = 1.0, specific_volume = 2.0, initial_pressure = 1.0";
+        format!("modified_cam_clay = {{ {common}, {more} }}")
+    };
     for (material, said) in [
         ("elastic = { young = 1.0, poisson = 0.5 }".to_string(), "poisson"),
         (format!("von_mises = {{ {steel}, saturation = -0.9, saturation_rate = 2.0 }}"), "slope -1.8, steeper"),
@@ -30,6 +34,10 @@ fn impossible_sets_are_refused_by_name() {
             format!("drucker_prager = {{ {sand}, friction = 20.0, dilatancy = 21.0 }}"),
             "`dilatancy`, 21, must not exceed",
         ),
+        (format!("mohr_coulomb = {{ {sand}, friction = 20.0, dilatancy = 21.0 }}"), "must not exceed"),
+        (clay("lambda = 0.04, kappa = 0.2, poisson = 0.3, preconsolidation = 2.0"), "`kappa`, 0.2, must be smaller"),
+        (clay("lambda = 0.2, kappa = 0.04, poisson = 0.3, preconsolidation = 0.5"), "is below `initial_pressure`, 1"),
+        (clay("lambda = 0.2, kappa = 0.04, poisson = -0.3, preconsolidation = 2.0"), "must not be negative"),
         ("norton_hoff = { young = 1.0, poisson = 0.3, consistency = 1.0, sensitivity = 2.0 }".into(), "sensitivity"),
         (format!("perzyna = {{ {steel}, fluidity = 1.0, power = 0.5 }}"), "power"),
     ] {

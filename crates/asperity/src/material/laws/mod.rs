@@ -1,18 +1,22 @@
 //! The laws, one file each, and their registry.
 
+mod cam_clay;
 mod drucker_prager;
 mod elastic;
 mod hardening;
 mod invariants;
+mod mohr_coulomb;
 mod neo_hookean;
 mod norton_hoff;
 mod ogden;
 mod perzyna;
 mod von_mises;
 
+pub use cam_clay::CamClay;
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::Elastic;
 pub use hardening::Hardening;
+pub use mohr_coulomb::MohrCoulomb;
 pub use neo_hookean::NeoHookean;
 pub use norton_hoff::NortonHoff;
 pub use ogden::Ogden;
@@ -35,6 +39,8 @@ pub static ALL: &[Entry<Box<dyn Material>>] = &[
     drucker_prager::OUTER,
     drucker_prager::INNER,
     drucker_prager::PLANE_STRAIN,
+    mohr_coulomb::ENTRY,
+    cam_clay::ENTRY,
 ];
 
 /// A rate law as the object a registry hands out.

@@ -13,6 +13,11 @@ pub fn line(points: &[(f64, f64)]) -> (f64, f64) {
     (y - xy / xx * x, xy / xx)
 }
 
+/// Order of convergence of errors on meshes of which each halves the cells of the one before.
+pub fn order(errors: &[f64]) -> f64 {
+    line(&errors.iter().enumerate().map(|(level, error)| (-(level as f64), error.log2())).collect::<Vec<_>>()).1
+}
+
 /// Half width `a` and largest pressure of a Hertzian contact: `p^2 = p0^2 (1 - x^2/a^2)` by least squares over the
 /// points `(x, p)` with a pressure above a fifth of the largest, as status of points at the edge must not decide.
 pub fn hertz(points: &[(f64, f64)]) -> (f64, f64) {
@@ -30,6 +35,11 @@ pub fn hertz(points: &[(f64, f64)]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_order_is_found_again() {
+        assert!((order(&[0.4, 0.1, 0.025]) - 2.0).abs() < 1e-12);
+    }
 
     #[test]
     fn a_hertzian_pressure_is_found_again() {

@@ -32,8 +32,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("force".into(), 2.0 * force(&finest.points)),
     ];
     if levels > 1 {
-        let errors = runs.iter().enumerate().map(|(level, run)| (-(level as f64), run.error.log2()));
-        measured.push(("order".into(), fit::line(&errors.collect::<Vec<_>>()).1));
+        measured.push(("order".into(), fit::order(&runs.iter().map(|run| run.error).collect::<Vec<_>>())));
     }
     Ok(measured)
 }

@@ -1,9 +1,24 @@
 //! The cases, in the order of the report.
 
+mod capstan;
+mod contact_patch;
+mod flat_punch;
 mod hertz_cylinder;
+mod hertz_sphere;
+mod inclined_block;
+mod rotated_pair;
 mod tube;
 
 use crate::Case;
 
 /// All cases.
-pub const ALL: &[&Case] = &[&hertz_cylinder::CASE, &tube::CASE];
+pub const ALL: &[&Case] = &[
+    &tube::CASE,
+    &contact_patch::CASE,
+    &rotated_pair::CASE,
+    &inclined_block::CASE,
+    &hertz_cylinder::CASE,
+    &hertz_sphere::CASE,
+    &flat_punch::CASE,
+    &capstan::CASE,
+];

@@ -17,8 +17,6 @@ use std::cell::RefCell;
 const TOOL_DOFS: usize = 3;
 /// Most unknowns of a stencil.
 const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + TOOL_DOFS;
-/// A point counts as closed from this part of its edge's length on.
-const CLOSED: f64 = 1e-10;
 
 type D = Dual<8>;
 
@@ -106,7 +104,6 @@ struct Geometry {
     place: Place<f64>,
     pose: Pose,
     hit: Hit,
-    length: f64,
 }
 
 /// Numbers that can be seeded as independent variables: [`D`] and, trivially, `f64`.
@@ -149,7 +146,7 @@ impl OpenContact<'_> {
             *x = contact.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
         }
         let (a, tangent) = point.place(&x[..nodes.len()]);
-        let (_, inward, length) = triad(tangent);
+        let (_, inward, _) = triad(tangent);
         let motion = &u[2 * nodes.len()..];
         let pose = Pose::new(motion[0], motion[1], motion[2]);
         let lost = || Failure::new(format!("{}: its ray runs along the target", contact.name_of(index)));
@@ -158,7 +155,7 @@ impl OpenContact<'_> {
         let old = self.history.slot(index);
         let touched = (old[entry::SEGMENT] >= 0.0)
             .then(|| contact.tool.point(&pose, old[entry::SEGMENT] as usize, old[entry::S]));
-        Ok(Geometry { place: Place { a, tangent, b: a + inward * hit.u, touched }, pose, hit, length })
+        Ok(Geometry { place: Place { a, tangent, b: a + inward * hit.u, touched }, pose, hit })
     }
 
     fn evaluate_over<T: Seed>(
@@ -180,7 +177,7 @@ impl OpenContact<'_> {
         let constants = Constants {
             normal: g.hit.normal,
             before: old[entry::PENETRATION],
-            least: CLOSED * g.length,
+            least: contact.least,
             expected: if local.aid.expects { self.expected(index, &g.hit) } else { None },
             weight: point.weight * contact.thickness(),
             turning: self.turning(g.hit.u, local),

@@ -32,6 +32,10 @@ const ORDINARY: f64 = 0.02;
 /// and so do those up to this multiple of the largest in the accepted state.
 const GROWTH: f64 = 4.0;
 
+/// A point counts as closed from this part of the surface's shortest edge on. One depth for all points: a flat surface
+/// under uniform pressure then stays flat.
+const CLOSED: f64 = 1e-10;
+
 /// Contact between a surface and a rigid tool.
 pub struct Contact {
     name: String,
@@ -44,6 +48,8 @@ pub struct Contact {
     pub(super) tool_number: usize,
     pub(super) law: Arc<dyn Interface>,
     pub(super) options: ContactOptions,
+    /// Penetration from which a point counts as closed.
+    pub(super) least: f64,
 }
 
 impl Contact {
@@ -56,7 +62,12 @@ impl Contact {
         (tool, tool_number): (Arc<Tool>, usize),
         (law, options): (Arc<dyn Interface>, ContactOptions),
     ) -> Self {
-        Self { name: name.into(), mesh, dofs, space, surface, boundary, tool, tool_number, law, options }
+        let name = name.into();
+        let mut contact =
+            Self { name, mesh, dofs, space, surface, boundary, tool, tool_number, law, options, least: 0.0 };
+        let lengths = (0..contact.surface.points.len()).map(|point| contact.edge_length(point));
+        contact.least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
+        contact
     }
 
     /// The surface.

@@ -7,7 +7,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 const HEAD: &str = "# Verification\n\nWritten by `cargo run --release -p verify`; each case alone by \
-`cargo run --release -p verify -- CASE`.\nThe cases, with their sources and decks, are in `cases/`.\n";
+`cargo run --release -p verify -- CASE`.\nThe cases, with their sources and decks, are in `cases/`. Coarse ones of \
+the same physics are part of `cargo test --release`.\n\nEvery registered cell, with every integration and formulation, \
+in every space that it fills, passes a patch test, a\nrigid rotation of a stressed body in one increment, and a \
+refinement on a field in equilibrium:\n`cargo test --release -p asperity --test cells`.\n";
 const COLUMNS: &str = "| figure | value | reference | error | allowed |\n|---|---|---|---|---|\n";
 
 /// One line for a terminal.

@@ -18,7 +18,8 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Vec::new();
     for (cell, integration) in CELLS {
         let sets = |gauss: Option<usize>| {
-            let kind = [format!("mesh.part.block.rectangle.cell={cell}"), format!("body.block.integration={integration}")];
+            let kind =
+                [format!("mesh.part.block.rectangle.cell={cell}"), format!("body.block.integration={integration}")];
             kind.into_iter().chain(gauss.map(|points| format!("contact.sole.gauss={points}"))).collect::<Vec<_>>()
         };
         let default = bench.solve("patch.toml", &sets(None))?;

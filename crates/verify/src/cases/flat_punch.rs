@@ -35,7 +35,11 @@ const DISC: Extent = (4000.0, 14, 32, 5e-5);
 fn refined(bench: &Bench, (far, out, deep, ratio): Extent) -> Vec<String> {
     let (n, part) = (bench.pick(1, 2), "mesh.part.ground.rectangle");
     // Half as long cells throughout: the ratio of a run from end to end stays.
-    let near = format!("{{ to = 10.0, cells = {}, ratio = 0.02 }}, {{ to = 20.0, cells = {}, smooth = true }}", 16 * n, 12 * n);
+    let near = format!(
+        "{{ to = 10.0, cells = {}, ratio = 0.02 }}, {{ to = 20.0, cells = {}, smooth = true }}",
+        16 * n,
+        12 * n
+    );
     let x = format!("[{near}, {{ to = {far:?}, cells = {}, smooth = true }}]", out * n);
     let y = format!("[{{ to = 0.0, cells = {}, ratio = {ratio:?} }}]", deep * n);
     vec![format!("{part}.along_x={x}"), format!("{part}.along_y={y}")]
@@ -50,7 +54,8 @@ fn pressures(run: &Solved) -> [f64; 2] {
     let points = run.points(0);
     let at = |from: f64, to: f64, x: f64| {
         let near = points.iter().filter(|point| (from * A..to * A).contains(&point.position[0]));
-        let line = fit::line(&near.map(|point| (point.position[0].powi(2), point.pressure.powi(-2))).collect::<Vec<_>>());
+        let line =
+            fit::line(&near.map(|point| (point.position[0].powi(2), point.pressure.powi(-2))).collect::<Vec<_>>());
         (line.0 + line.1 * (x * A).powi(2)).powf(-0.5)
     };
     [at(0.0, 0.4, 0.0), at(0.85, 0.95, 0.9)]

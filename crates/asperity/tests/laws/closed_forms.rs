@@ -165,3 +165,16 @@ fn cam_clay_drained_and_confined() {
     let records = run("cam_clay_oedometer", &[]);
     near(last(&records, "clay", "stress_xx") / last(&records, "clay", "stress_yy"), 0.6476, 1e-4);
 }
+
+/// Hydrostatic tension: the surface p/s = 2/3 acosh((1 + q3 f^2)/(2 q1 f)) with f = 1 - (1 - f0) exp(-ev).
+#[test]
+fn gurson_in_hydrostatic_tension() {
+    let records = run("gurson", &["step.1.increments=4000"]);
+    let peak = records[0].column("mean_stress").unwrap().into_iter().fold(0.0, f64::max);
+    assert!(peak < 978.571, "{peak} beyond first yield");
+    near(peak, 978.570, 5e-3);
+    for (volume, p) in [(0.014344, 760.180), (0.052882, 504.422), (0.102172, 380.051)] {
+        near(at(&records, "porous", ("volume_strain", volume), "mean_stress"), p, 5e-4);
+    }
+    near(at(&records, "porous", ("volume_strain", 0.201463), "mean_stress"), 255.995, 5e-4);
+}

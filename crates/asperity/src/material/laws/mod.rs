@@ -3,6 +3,7 @@
 mod cam_clay;
 mod drucker_prager;
 mod elastic;
+mod gurson;
 mod hardening;
 mod invariants;
 mod mohr_coulomb;
@@ -15,6 +16,7 @@ mod von_mises;
 pub use cam_clay::CamClay;
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::Elastic;
+pub use gurson::{Gurson, Nucleation};
 pub use hardening::Hardening;
 pub use mohr_coulomb::MohrCoulomb;
 pub use neo_hookean::NeoHookean;
@@ -41,6 +43,7 @@ pub static ALL: &[Entry<Box<dyn Material>>] = &[
     drucker_prager::PLANE_STRAIN,
     mohr_coulomb::ENTRY,
     cam_clay::ENTRY,
+    gurson::ENTRY,
 ];
 
 /// A rate law as the object a registry hands out.

@@ -38,7 +38,10 @@ fn impossible_sets_are_refused_by_name() {
         (clay("lambda = 0.04, kappa = 0.2, poisson = 0.3, preconsolidation = 2.0"), "`kappa`, 0.2, must be smaller"),
         (clay("lambda = 0.2, kappa = 0.04, poisson = 0.3, preconsolidation = 0.5"), "is below `initial_pressure`, 1"),
         (clay("lambda = 0.2, kappa = 0.04, poisson = -0.3, preconsolidation = 2.0"), "must not be negative"),
-        (format!("gurson = {{ {steel}, porosity = 0.1, critical_porosity = 0.05 }}"), "`porosity`, 0.1, must be smaller"),
+        (
+            format!("gurson = {{ {steel}, porosity = 0.1, critical_porosity = 0.05 }}"),
+            "`porosity`, 0.1, must be smaller",
+        ),
         (format!("gurson = {{ {steel}, porosity = 0.01, failure_porosity = 0.1 }}"), "`critical_porosity`, 0.15"),
         (format!("gurson = {{ {steel}, porosity = 0.01, q3 = 3.0 }}"), "`q3` at most"),
         ("norton_hoff = { young = 1.0, poisson = 0.3, consistency = 1.0, sensitivity = 2.0 }".into(), "sensitivity"),

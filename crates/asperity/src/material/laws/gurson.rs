@@ -129,11 +129,7 @@ impl Gurson {
     fn surface<S: Scalar>(&self, p: S, q: S, star: S) -> [S; 3] {
         let [q1, q2, q3] = self.q;
         let x = p * (1.5 * q2);
-        [
-            q * q + star * x.cosh() * (2.0 * q1) - 1.0 - star * star * q3,
-            star * x.sinh() * (3.0 * q1 * q2),
-            q * 2.0,
-        ]
+        [q * q + star * x.cosh() * (2.0 * q1) - 1.0 - star * star * q3, star * x.sinh() * (3.0 * q1 * q2), q * 2.0]
     }
 }
 

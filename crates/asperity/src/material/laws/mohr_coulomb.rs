@@ -28,7 +28,7 @@ pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
 /// The law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MohrCoulomb {
-    pub(super) elastic: Elastic,
+    elastic: Elastic,
     sin_friction: f64,
     sin_dilatancy: f64,
     /// `2 c cos phi`.
@@ -65,14 +65,14 @@ impl MohrCoulomb {
     }
 
     /// Return to one plane.
-    fn to_plane<S: Scalar>(&self, s: &[S; 3], plane: Plane) -> [S; 3] {
+    fn onto_plane<S: Scalar>(&self, s: &[S; 3], plane: Plane) -> [S; 3] {
         let flow = self.flow_stress(plane);
         let amount = self.yields(s, plane) / (self.yields(&flow, plane) + self.strength);
         std::array::from_fn(|k| s[k] - amount * flow[k])
     }
 
     /// Return to the edge of two planes.
-    fn to_edge<S: Scalar>(&self, s: &[S; 3], planes: [Plane; 2]) -> [S; 3] {
+    fn onto_edge<S: Scalar>(&self, s: &[S; 3], planes: [Plane; 2]) -> [S; 3] {
         let flows = planes.map(|plane| self.flow_stress(plane));
         let slope = |k: usize, l: usize| self.yields(&flows[l], planes[k]) + self.strength;
         let [f, g] = planes.map(|plane| self.yields(s, plane));
@@ -92,7 +92,7 @@ impl Isotropic for MohrCoulomb {
         if self.yields(&s, (a, c)).re() <= 0.0 {
             return Ok(s);
         }
-        let plane = self.to_plane(&s, (a, c));
+        let plane = self.onto_plane(&s, (a, c));
         if plane[a].re() >= plane[b].re() && plane[b].re() >= plane[c].re() {
             return Ok(plane);
         }
@@ -100,7 +100,7 @@ impl Isotropic for MohrCoulomb {
         let (up, down) = (1.0 + self.sin_dilatancy, 1.0 - self.sin_dilatancy);
         let lower = down * s[a].re() - 2.0 * s[b].re() + up * s[c].re() > 0.0;
         let other = if lower { (a, b) } else { (b, c) };
-        let edge = self.to_edge(&s, [(a, c), other]);
+        let edge = self.onto_edge(&s, [(a, c), other]);
         match self.apex {
             Some(apex) if edge[a].re() < edge[c].re() => Ok([S::from(apex); 3]),
             _ => Ok(edge),
@@ -110,7 +110,7 @@ impl Isotropic for MohrCoulomb {
 
 impl MohrCoulomb {
     /// The admissible stress for a trial one, with the plastic shear and volume strain of the return.
-    pub(super) fn returned<T: Scalar>(&self, trial: &Tensor2<T>) -> Result<(Tensor2<T>, [T; 2]), Failure> {
+    fn returned<T: Scalar>(&self, trial: &Tensor2<T>) -> Result<(Tensor2<T>, [T; 2]), Failure> {
         let stress = self.of(trial)?;
         let lost = *trial - stress;
         let shear = lost.deviator() * T::from(0.5 / self.elastic.shear);
@@ -151,7 +151,7 @@ impl RateLaw for MohrCoulomb {
 
 impl MohrCoulomb {
     /// Work of a stress on the plastic strain that took the trial stress to it.
-    pub(super) fn plastic_work<T: Scalar>(&self, trial: &Tensor2<T>, stress: &Tensor2<T>) -> T {
+    fn plastic_work<T: Scalar>(&self, trial: &Tensor2<T>, stress: &Tensor2<T>) -> T {
         let lost = *trial - *stress;
         let shape = stress.deviator().contract(lost.deviator()) * (0.5 / self.elastic.shear);
         shape + stress.trace() * lost.trace() * (1.0 / (9.0 * self.elastic.bulk()))

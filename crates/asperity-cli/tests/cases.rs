@@ -1,4 +1,4 @@
-//! Every case in its quick size.
+//! Every case of `cases/` in its quick size; `cargo run --release -p verify` runs them in full.
 
 use verify::{Size, cases, table};
 

@@ -77,7 +77,7 @@ pub struct Workspace {
     places: Vec<Vec<u32>>,
     chunks: Vec<Chunk>,
     enlarged: usize,
-    /// Help that terms are given, see [`Local::aid`].
+    /// Help that terms are given, see [`Local::aid`](super::Local::aid).
     pub aid: Aid,
 }
 

@@ -129,7 +129,7 @@ fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
     // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
     let options = ContactOptions { penalty: 1.0, tangential_penalty: 0.7, thickness: 0.8, modulus: 1e3 };
-    let law = Arc::new(Law(Coulomb { friction: 0.4 }));
+    let law = Arc::new(Law(Coulomb::new(0.4)));
     let parts = (mesh, dofs.clone(), space);
     (Contact::new("c", parts, (surface, boundary), (tool, 0), (law, options)), dofs)
 }

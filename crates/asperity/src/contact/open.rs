@@ -187,6 +187,7 @@ impl OpenContact<'_> {
         let past = Past {
             penalty: options.penalty * local.aid.stiffness,
             tangential_penalty: options.tangential_penalty * local.aid.stiffness,
+            pressure: old[entry::PRESSURE],
             shear: [old[entry::SHEAR], 0.0],
             vars: &old[entry::COUNT..],
             dt: self.dt,

@@ -21,6 +21,8 @@ pub struct Past<'a> {
     pub penalty: f64,
     /// Tangential penalty, a stress per length.
     pub tangential_penalty: f64,
+    /// Pressure at the beginning of the increment; zero at a point that was open.
+    pub pressure: f64,
     /// Shear stress at the beginning of the increment.
     pub shear: [f64; 2],
     /// The law's own variables at the beginning of the increment.
@@ -85,6 +87,16 @@ pub trait Interface: Send + Sync {
         past: &Past,
         vars: &mut [f64],
     ) -> Result<Response<Dual<8>>, Failure>;
+    /// With the derivatives of a contact point in space.
+    ///
+    /// # Errors
+    /// As [`InterfaceLaw::respond`].
+    fn respond_space(
+        &self,
+        motion: &Motion<Dual<15>>,
+        past: &Past,
+        vars: &mut [f64],
+    ) -> Result<Response<Dual<15>>, Failure>;
 }
 
 /// An [`InterfaceLaw`] as an [`Interface`].
@@ -104,6 +116,14 @@ impl<L: InterfaceLaw> Interface for Law<L> {
         past: &Past,
         vars: &mut [f64],
     ) -> Result<Response<Dual<8>>, Failure> {
+        self.0.respond(motion, past, vars)
+    }
+    fn respond_space(
+        &self,
+        motion: &Motion<Dual<15>>,
+        past: &Past,
+        vars: &mut [f64],
+    ) -> Result<Response<Dual<15>>, Failure> {
         self.0.respond(motion, past, vars)
     }
 }

@@ -1,7 +1,9 @@
 //! The laws, one file each, and their registry.
 
+mod cone;
 mod coulomb;
 
+pub use cone::ConeScheme;
 pub use coulomb::Coulomb;
 
 use super::{Interface, Law};

@@ -145,9 +145,15 @@ impl<T: Scalar> Sliding<T> {
 
     /// With slip and work: `K_t lambda' = |step| cos w - y'`, by Gauss's rule of five points over the part that slips.
     fn closed(&self, shear: [T; 2], cos: impl Fn(f64) -> f64) -> End<T> {
-        const X: [f64; 5] = [0.046_910_077_030_668, 0.230_765_344_947_158, 0.5, 0.769_234_655_052_842, 0.953_089_922_969_332];
-        const W: [f64; 5] =
-            [0.118_463_442_528_095, 0.239_314_335_249_683, 0.284_444_444_444_444, 0.239_314_335_249_683, 0.118_463_442_528_095];
+        const X: [f64; 5] =
+            [0.046_910_077_030_668, 0.230_765_344_947_158, 0.5, 0.769_234_655_052_842, 0.953_089_922_969_332];
+        const W: [f64; 5] = [
+            0.118_463_442_528_095,
+            0.239_314_335_249_683,
+            0.284_444_444_444_444,
+            0.239_314_335_249_683,
+            0.118_463_442_528_095,
+        ];
         let (length, from, rise) = (norm(self.step).re(), self.from.re(), self.to.re() - self.from.re());
         let (mut slip, mut work) = (0.0, 0.0);
         for (x, w) in X.into_iter().zip(W) {
@@ -286,7 +292,8 @@ mod tests {
         for (path, scheme) in paths().iter().flat_map(|path| {
             [ConeScheme::Exact, ConeScheme::BackwardEuler(3), ConeScheme::Midpoint(2, 0.5)].map(|s| (path, s))
         }) {
-            let at = |x: [f64; 3]| Path { start: path.start, limit: (path.limit.0, x[0]), step: [x[1], x[2]] }.end(scheme);
+            let at =
+                |x: [f64; 3]| Path { start: path.start, limit: (path.limit.0, x[0]), step: [x[1], x[2]] }.end(scheme);
             let here = [path.limit.1, path.step[0], path.step[1]];
             let v = |i: usize| Dual::<3>::variable(here[i], i);
             let dual = Path { start: path.start, limit: (path.limit.0, v(0)), step: [v(1), v(2)] }.end(scheme);

@@ -3,7 +3,7 @@
 //! open, sticking and slipping. A state whose branch differs between perturbed evaluations is skipped and counted.
 
 use asperity::Failure;
-use asperity::contact::{Contact, ContactOptions, Surface};
+use asperity::contact::{Contact, ContactOptions, Loads, Surface, Target};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
@@ -128,10 +128,13 @@ fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
     let boundary = (0..mesh.kinds[0].faces.len()).map(|face| Side { cell: 0, face }).collect();
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
     // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
-    let options = ContactOptions { penalty: 1.0, tangential_penalty: 0.7, thickness: 0.8, modulus: 1e3 };
+    let (loads, coupling) = (Loads::Both, true);
+    let options =
+        ContactOptions { penalty: 1.0, tangential_penalty: 0.7, thickness: 0.8, modulus: 1e3, loads, coupling };
     let law = Arc::new(Law(Coulomb::new(0.4)));
     let parts = (mesh, dofs.clone(), space);
-    (Contact::new("c", parts, (surface, boundary), (tool, 0), (law, options)), dofs)
+    let target = Target::tool(tool, 0, &dofs);
+    (Contact::new("c", parts, (surface, boundary), target, (law, options)), dofs)
 }
 
 /// Random motion: the cell by up to a tenth and downwards, its nodes and the tool by a little.

@@ -5,15 +5,22 @@
 //! Bodies, laws and tools are known here; other terms of equilibrium are strangers.
 
 mod capture;
+mod faces;
+mod geometry;
 mod landmarks;
 mod open;
 mod pair;
 mod penalty;
 mod point;
 mod record;
+mod rigid;
 mod surface;
+mod target;
 
-pub use pair::{Contact, ContactOptions};
+pub use faces::Faces;
+pub use pair::{Contact, ContactOptions, Loads};
 pub use penalty::default_penalty;
 pub use record::{PointRecord, PointStatus};
-pub use surface::Surface;
+pub use rigid::Rigid;
+pub use surface::{Edge, Surface};
+pub use target::{Hit, Target};

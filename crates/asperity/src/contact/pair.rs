@@ -1,17 +1,20 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
+use super::Faces;
 use super::capture::{depths, positions};
 use super::landmarks::{Landmark, Landmarks};
 use super::open::{OpenContact, write_hit};
 use super::point::triad;
 use super::record::{PointRecord, PointStatus, entry};
-use super::surface::{MAX_EDGE_NODES, Surface, SurfacePoint};
+use super::surface::{Edge, MAX_EDGE_NODES, Surface, SurfacePoint};
+use super::target::{Cast, Hit, Memory, Target};
 use crate::Failure;
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
-use crate::tool::{Hit, Pose, Ray, Rejected, Rules, Tool, select};
+use crate::tool::{Ray, Rejected};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// How a contact is computed.
@@ -25,6 +28,29 @@ pub struct ContactOptions {
     pub thickness: f64,
     /// Least confined modulus of the solids in contact: the measure of a pressure that no solution has.
     pub modulus: f64,
+    /// Which side a contact point loads.
+    pub loads: Loads,
+    /// Whether the tangent holds the coupling of the two sides.
+    pub coupling: bool,
+}
+
+/// Which side a contact point loads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loads {
+    /// The surface and its target: one pass.
+    Both,
+    /// The surface alone, since the target carries contact points of its own: one of two passes.
+    Own,
+}
+
+impl Loads {
+    /// Part of the energy of the interface that is counted here: with two passes each side counts half.
+    pub fn share(self) -> f64 {
+        match self {
+            Self::Both => 1.0,
+            Self::Own => 0.5,
+        }
+    }
 }
 
 /// Pressures up to this part of the confined modulus leave the tangent exact,
@@ -36,7 +62,7 @@ const GROWTH: f64 = 4.0;
 /// under uniform pressure then stays flat.
 const CLOSED: f64 = 1e-10;
 
-/// Contact between a surface and a rigid tool.
+/// Contact between a surface and a target.
 pub struct Contact {
     name: String,
     pub(super) mesh: Arc<Mesh>,
@@ -44,27 +70,32 @@ pub struct Contact {
     pub(super) space: Space,
     pub(super) surface: Surface,
     boundary: Vec<Side>,
-    pub(super) tool: Arc<Tool>,
-    pub(super) tool_number: usize,
+    pub(super) target: Target,
     pub(super) law: Arc<dyn Interface>,
     pub(super) options: ContactOptions,
     /// Penetration from which a point counts as closed.
     pub(super) least: f64,
+    /// For each edge the segments of the target that share a node with it.
+    relatives: Vec<Vec<usize>>,
+    /// The longest edge of both sides, a length.
+    longest: f64,
 }
 
 impl Contact {
-    /// A contact of `surface` with tool number `tool_number`. `boundary` is the whole outer boundary of the bodies
-    /// behind the surface.
+    /// A contact of `surface` with `target`. `boundary` is the whole outer boundary of the bodies behind the surface.
     pub fn new(
         name: &str,
         (mesh, dofs, space): (Arc<Mesh>, Dofs, Space),
         (surface, boundary): (Surface, Vec<Side>),
-        (tool, tool_number): (Arc<Tool>, usize),
+        target: Target,
         (law, options): (Arc<dyn Interface>, ContactOptions),
     ) -> Self {
-        let name = name.into();
+        let (name, least, longest, relatives) = (name.into(), 0.0, 0.0, relatives(&surface, &target));
         let mut contact =
-            Self { name, mesh, dofs, space, surface, boundary, tool, tool_number, law, options, least: 0.0 };
+            Self { name, mesh, dofs, space, surface, boundary, target, law, options, least, relatives, longest };
+        let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
+        let opposite = contact.target.as_faces().map_or(Vec::new(), |faces| lengths(faces.edges()));
+        contact.longest = lengths(&contact.surface.edges).into_iter().chain(opposite).fold(0.0, f64::max);
         let lengths = (0..contact.surface.points.len()).map(|point| contact.edge_length(point));
         contact.least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
         contact
@@ -75,22 +106,17 @@ impl Contact {
         &self.surface
     }
     /// The target.
-    pub fn tool(&self) -> &Tool {
-        &self.tool
-    }
-    /// Its number among the tools.
-    pub fn tool_number(&self) -> usize {
-        self.tool_number
+    pub fn target(&self) -> &Target {
+        &self.target
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
         &self.options
     }
 
-    /// Where the tool stands.
-    pub fn pose(&self, u: &[f64]) -> Pose {
-        let first = self.dofs.tool(self.tool_number);
-        Pose::new(u[first], u[first + 1], u[first + 2])
+    /// Where moments are taken about: the present place of a tool's reference point, or the origin.
+    pub fn pole(&self, u: &[f64]) -> Vec3 {
+        self.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pole(u))
     }
 
     /// Position, tangent and present nodes of a point.
@@ -151,32 +177,64 @@ impl Contact {
 
     /// What the search finds at displacements `u`, point by point, and how many false contacts it rejects.
     pub fn search(&self, u: &[f64]) -> (Vec<Option<Hit>>, Rejected) {
+        self.search_within(u, f64::INFINITY)
+    }
+
+    fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, u);
-        let (pose, mut rejected, mut scratch) = (self.pose(u), Rejected::default(), Vec::new());
-        let points = self.surface.points.iter().zip(&depths);
-        let hits = points.map(|(point, &depth)| {
-            let (a, tangent) = self.locate(point, u);
-            let (_, inward, _) = triad(tangent);
-            self.cast(&pose, Ray { origin: a, direction: inward }, depth, (&mut scratch, &mut rejected))
-        });
-        (hits.collect(), rejected)
+        let (standing, mut memory) = (self.target.stand(u), Memory::default());
+        let points = self.surface.points.iter().zip(depths);
+        let hits = points.map(|(point, depth)| standing.cast(&self.ray(point, u, (depth, reach)), &mut memory));
+        (hits.collect(), memory.rejected)
+    }
+
+    /// The ray of a point.
+    pub(super) fn ray(&self, point: &SurfacePoint, u: &[f64], (depth, reach): (f64, f64)) -> Cast<'_> {
+        let (origin, tangent) = self.locate(point, u);
+        let (_, direction, _) = triad(tangent);
+        Cast { ray: Ray { origin, direction }, reach, depth, relatives: &self.relatives[point.edge] }
+    }
+
+    /// The largest gap at which the target is seen in the increment after `last_change`: a tool at any distance; faces,
+    /// whose unknowns would couple for nothing, within an edge's length and twice the motion of the last increment.
+    fn reach(&self, last_change: &[f64]) -> f64 {
+        match self.target {
+            Target::Tool(_) => f64::INFINITY,
+            Target::Faces(_) => self.longest + 2.0 * last_change.iter().fold(0.0_f64, |most, d| most.max(d.abs())),
+        }
     }
 
     /// The pattern in which the target is touched in an accepted state.
     fn landmarks(&self, history: &History) -> Landmarks {
         let landmark = |values: &[f64]| {
-            let (segment, s) = (values[entry::SEGMENT], values[entry::S]);
-            let place = (segment >= 0.0).then(|| self.tool.point(&Pose::default(), segment as usize, s))?;
+            let (segment, s) = (values[entry::SEGMENT], [values[entry::S], values[entry::S2]]);
+            let place = (segment >= 0.0).then(|| self.target.landmark(segment as usize, s))?;
             Some(Landmark { place, closed: values[entry::STATUS] > 0.0 })
         };
         Landmarks((0..history.slots()).map(|i| landmark(history.slot(i))).collect())
     }
 
-    pub(super) fn cast(&self, pose: &Pose, ray: Ray, depth: f64, out: (&mut Vec<Hit>, &mut Rejected)) -> Option<Hit> {
-        // To the far side of the body: what lies beyond its middle is refused, and counted.
-        self.tool.cast(pose, &ray, [f64::NEG_INFINITY, 2.0 * depth], out.0);
-        select(ray.direction, out.0, &Rules::new(depth, self.tool.size()), out.1)
+    /// Words for a point.
+    pub(super) fn describe(&self, point: usize) -> String {
+        let nodes = self.surface.nodes(&self.surface.points[point]);
+        format!("point {point} of contact '{}' (edge with nodes {nodes:?})", self.name)
     }
+}
+
+/// For each edge of the surface the segments of the target that share a node with it.
+fn relatives(surface: &Surface, target: &Target) -> Vec<Vec<usize>> {
+    let faces = target.as_faces().map_or(&[][..], Faces::edges);
+    let mut behind: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (segment, face) in faces.iter().enumerate() {
+        face.nodes.iter().for_each(|&node| behind.entry(node).or_default().push(segment));
+    }
+    let of = |edge: &Edge| {
+        let mut segments: Vec<usize> = edge.nodes.iter().filter_map(|node| behind.get(node)).flatten().copied().collect();
+        segments.sort_unstable();
+        segments.dedup();
+        segments
+    };
+    surface.edges.iter().map(of).collect()
 }
 
 impl Term for Contact {
@@ -188,7 +246,7 @@ impl Term for Contact {
         let vars: usize = self.law.variables().iter().map(|v| v.len()).sum();
         let mut history = History::new(self.surface.points.iter().map(|_| entry::COUNT + vars));
         let u = vec![0.0; self.dofs.count()];
-        for (i, hit) in self.search(&u).0.into_iter().enumerate() {
+        for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(hit, history.slot_mut(i));
         }
         history
@@ -203,13 +261,15 @@ impl Term for Contact {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &accepted.u);
         let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
         let ordinary = (ORDINARY * self.options.modulus).max(GROWTH * pressures.fold(0.0, f64::max));
-        let landmarks = self.landmarks(history);
-        Ok(Box::new(OpenContact { contact: self, history, depths, landmarks, ordinary, dt: at.dt }))
+        let (landmarks, reach) = (self.landmarks(history), self.reach(&accepted.last_change));
+        let part = if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 };
+        let ahead = accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect();
+        let open = OpenContact { contact: self, history, depths, reach, ahead, landmarks, ordinary, dt: at.dt };
+        Ok(Box::new(open))
     }
 
     fn name_of(&self, stencil: usize) -> String {
-        let nodes = self.surface.nodes(&self.surface.points[stencil]);
-        format!("point {stencil} of contact '{}' (edge with nodes {nodes:?})", self.name)
+        self.describe(stencil)
     }
 
     fn softens(&self) -> bool {

@@ -8,7 +8,7 @@ pub mod entry {
     pub const PENETRATION: usize = 0;
     /// Segment of the target that is hit; -1 without a hit.
     pub const SEGMENT: usize = 1;
-    /// Coordinate on that segment.
+    /// First coordinate on that segment.
     pub const S: usize = 2;
     /// Pressure.
     pub const PRESSURE: usize = 3;
@@ -26,8 +26,10 @@ pub mod entry {
     pub const VIOLATION: usize = 9;
     /// Energy dissipated per area in the last increment.
     pub const LAST_DISSIPATED: usize = 10;
+    /// Second coordinate on the segment; zero in the plane.
+    pub const S2: usize = 11;
     /// Number of these values.
-    pub const COUNT: usize = 11;
+    pub const COUNT: usize = 12;
 }
 
 /// Whether a contact point is open, sticks or slips.

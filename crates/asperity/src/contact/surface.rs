@@ -18,6 +18,27 @@ pub struct Edge {
     pub nodes: Vec<usize>,
 }
 
+impl Edge {
+    /// A side of the mesh.
+    pub fn new(mesh: &Mesh, side: Side) -> Self {
+        let (kind, nodes) = mesh.side(side);
+        Self { side, kind, nodes: nodes.collect() }
+    }
+
+    /// Distance between its ends before any motion.
+    pub fn chord(&self, mesh: &Mesh) -> f64 {
+        (mesh.points[self.nodes[1]] - mesh.points[self.nodes[0]]).norm()
+    }
+
+    /// Shape functions at `xi` from -1 to 1, and their derivatives.
+    pub fn shape_at(&self, xi: f64) -> ([f64; MAX_EDGE_NODES], [f64; MAX_EDGE_NODES]) {
+        let (mut n, mut gradient) = ([0.0; MAX_EDGE_NODES], [[0.0; 3]; MAX_EDGE_NODES]);
+        let nodes = self.nodes.len();
+        (self.kind.shape)([xi, 0.0, 0.0], &mut n[..nodes], &mut gradient[..nodes]);
+        (n, gradient.map(|g| g[0]))
+    }
+}
+
 /// One integration point of the surface.
 #[derive(Debug, Clone, Copy)]
 pub struct SurfacePoint {
@@ -47,13 +68,14 @@ impl Surface {
     pub fn new(mesh: &Mesh, sides: &[Side], gauss: Option<usize>) -> Self {
         let mut surface = Self { edges: Vec::new(), points: Vec::new() };
         for &side in sides {
-            let (kind, nodes) = mesh.side(side);
-            let order = gauss.unwrap_or(kind.degree).clamp(1, 3);
-            let Some(rule) = kind.gauss[order - 1] else { continue };
+            let edge = Edge::new(mesh, side);
+            let order = gauss.unwrap_or(edge.kind.degree).clamp(1, 3);
+            let Some(rule) = edge.kind.gauss[order - 1] else { continue };
             for (&xi, &weight) in rule.points.iter().zip(rule.weights) {
-                surface.points.push(point_at(kind, xi, weight, surface.edges.len()));
+                let (n, dn) = edge.shape_at(xi[0]);
+                surface.points.push(SurfacePoint { edge: surface.edges.len(), n, dn, weight });
             }
-            surface.edges.push(Edge { side, kind, nodes: nodes.collect() });
+            surface.edges.push(edge);
         }
         surface
     }
@@ -62,12 +84,6 @@ impl Surface {
     pub fn nodes(&self, point: &SurfacePoint) -> &[usize] {
         &self.edges[point.edge].nodes
     }
-}
-
-fn point_at(kind: &Cell, xi: [f64; 3], weight: f64, edge: usize) -> SurfacePoint {
-    let (mut n, mut gradient) = ([0.0; MAX_EDGE_NODES], [[0.0; 3]; MAX_EDGE_NODES]);
-    (kind.shape)(xi, &mut n[..kind.nodes.len()], &mut gradient[..kind.nodes.len()]);
-    SurfacePoint { edge, n, dn: gradient.map(|g| g[0]), weight }
 }
 
 impl SurfacePoint {

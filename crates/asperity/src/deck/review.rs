@@ -115,13 +115,13 @@ impl Page {
         self.overlaps(name, contact, &hits)
     }
 
-    fn overlaps(&mut self, name: &Name, contact: &Contact, hits: &[Option<crate::tool::Hit>]) -> Vec<Diagnostic> {
+    fn overlaps(&mut self, name: &Name, contact: &Contact, hits: &[Option<crate::contact::Hit>]) -> Vec<Diagnostic> {
         if hits.iter().all(Option::is_none) {
             let what = format!("no point of contact `{name}` sees its target");
             let help = "is the surface the right one, and does the profile run with the tool's material on its left?";
             return vec![Diagnostic::warning(what).at(name.place).help(help)];
         }
-        let depth = |(i, hit): (usize, &Option<crate::tool::Hit>)| Some((hit.as_ref()?.u / contact.edge_length(i), i));
+        let depth = |(i, hit): (usize, &Option<crate::contact::Hit>)| Some((hit.as_ref()?.u / contact.edge_length(i), i));
         let deepest = hits.iter().enumerate().filter_map(depth).max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((part, i)) = deepest.filter(|(part, _)| *part > OVERLAP) else { return vec![] };
         let closed = hits.iter().flatten().filter(|hit| hit.u > 0.0).count();

@@ -39,7 +39,7 @@ pub struct Stencil {
     /// Discrete choice made by the search (hit segment); zero when there is none.
     pub choice: u32,
     /// Where on it, roughly: which of several roots is meant.
-    pub near: f64,
+    pub near: [f64; 2],
 }
 
 /// The stencils of a term, owned by the assembly for one iteration.
@@ -59,12 +59,13 @@ impl Stencils {
     }
     /// Adds a stencil.
     pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32) {
-        self.push_near(dofs, choice, 0.0);
-    }
-    /// Adds a stencil that also says where on its choice it is.
-    pub fn push_near(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32, near: f64) {
         let start = self.dofs.len();
         self.dofs.extend(dofs);
+        self.close(start, choice, [0.0; 2]);
+    }
+    /// Adds a stencil whose unknowns already stand in [`dofs`](Self::dofs) from `start` on, and says where on its choice
+    /// it is.
+    pub fn close(&mut self, start: usize, choice: u32, near: [f64; 2]) {
         self.list.push(Stencil { start, len: self.dofs.len() - start, choice, near });
     }
     /// Unknowns of a stencil.

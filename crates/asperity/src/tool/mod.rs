@@ -20,6 +20,7 @@ mod tests;
 
 pub use finding::{Finding, Severity};
 pub use pose::Pose;
+pub use search::Tree;
 pub use select::{Rejected, Rules, select};
 pub use shapes::{Bounds, Kind, Ray, Shape};
 pub use tool::{Chain, Hit, Tool};

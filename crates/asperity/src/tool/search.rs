@@ -1,7 +1,8 @@
-//! A tree of boxes around the segments of a tool, for rays.
+//! A tree of boxes around segments, for rays.
 //!
-//! The tree is built once, in the tool's own frame, by halving the segments at the median of their middles along the
-//! longer side of the box around them. It only leaves out what a ray cannot meet; what it finds is found without it too.
+//! The tree is built once (for a tool in its own frame) by halving the segments at the median of their middles along the
+//! longer side of the box around them; segments that move keep their tree and have its boxes fitted anew. It only leaves
+//! out what a ray cannot meet; what it finds is found without it too.
 
 use super::shapes::{Bounds, Ray, turn};
 use crate::tensor::Vec3;
@@ -9,22 +10,23 @@ use crate::tensor::Vec3;
 /// Fewer segments than this are tried one after another.
 const LEAF: usize = 4;
 
-#[derive(Debug)]
-pub(super) struct Tree {
+/// Boxes around boxes around segments.
+#[derive(Debug, Clone)]
+pub struct Tree {
     /// The root first; the first child of an inner node stands right behind it.
     nodes: Vec<Node>,
     /// Segments, in the order of the leaves.
     order: Vec<usize>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Node {
     centre: Vec3,
     half: Vec3,
     content: Content,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 enum Content {
     /// `order[from..to]`.
     Leaf(usize, usize),
@@ -34,7 +36,7 @@ enum Content {
 
 impl Tree {
     /// A tree over boxes, each widened by `margin` on all sides.
-    pub(super) fn new(boxes: &[Bounds], margin: f64) -> Self {
+    pub fn new(boxes: &[Bounds], margin: f64) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len()).collect() };
         tree.grow(boxes, margin, 0, boxes.len());
         tree
@@ -57,8 +59,23 @@ impl Tree {
         self.grow(boxes, margin, middle, to);
     }
 
+    /// The same tree around segments that have moved, each box widened by `margin` on all sides.
+    pub fn refit(&self, boxes: &[Bounds], margin: f64) -> Self {
+        let mut tree = self.clone();
+        let mut all = vec![Bounds::EMPTY; tree.nodes.len()];
+        for here in (0..tree.nodes.len()).rev() {
+            all[here] = match tree.nodes[here].content {
+                Content::Leaf(from, to) => self.order[from..to].iter().fold(Bounds::EMPTY, |b, &i| b.union(boxes[i])),
+                Content::Inner(second) => all[here + 1].union(all[second]),
+            };
+            let node = &mut tree.nodes[here];
+            (node.centre, node.half) = (all[here].centre(), (all[here].max - all[here].min) * 0.5 + Vec3([margin; 3]));
+        }
+        tree
+    }
+
     /// Calls `found` with every segment whose box the part of the ray from `back` to `ahead` may meet.
-    pub(super) fn along(&self, ray: &Ray, [back, ahead]: [f64; 2], found: &mut dyn FnMut(usize)) {
+    pub fn along(&self, ray: &Ray, [back, ahead]: [f64; 2], found: &mut dyn FnMut(usize)) {
         let sides = Vec3(ray.direction.0.map(f64::abs));
         self.visit(
             0,
@@ -73,7 +90,7 @@ impl Tree {
     }
 
     /// Calls `found` with every segment whose box may overlap `bounds`.
-    pub(super) fn near(&self, bounds: &Bounds, found: &mut dyn FnMut(usize)) {
+    pub fn near(&self, bounds: &Bounds, found: &mut dyn FnMut(usize)) {
         self.visit(
             0,
             &mut |node| {

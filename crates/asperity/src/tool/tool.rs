@@ -5,9 +5,6 @@ use super::shapes::{Bounds, Ray, Shape};
 use super::{Finding, Pose, check};
 use crate::tensor::{Scalar, Vec3};
 
-/// How far beyond its ends [`Tool::cast_segment`] follows a segment's own curve, in units of `s`.
-const EXTENSION: f64 = 0.1;
-
 /// A rigid tool in the plane: chains of segments with the material on their left, and a reference point.
 #[derive(Debug)]
 pub struct Tool {
@@ -119,20 +116,10 @@ impl Tool {
         hits.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
     }
 
-    /// Where a ray meets one given segment, whether or not others are nearer: the crossing with `s` nearest to `near`
-    /// on the segment's curve, followed a little beyond its ends; where it does not meet that, the crossing with the
-    /// tangent at `near`. Continuous in the ray, so that a point whose ray is perturbed keeps its segment. None if the
-    /// ray runs along that tangent.
+    /// Where a ray meets one given segment, whether or not others are nearer, by [`Shape::meet_near`].
     pub fn cast_segment(&self, pose: &Pose, segment: usize, ray: &Ray, near: f64) -> Option<Hit> {
-        let (own, shape) = (self.own_frame(pose, ray), &self.segments[segment]);
-        let near = near.clamp(0.0, 1.0);
-        let on_curve = shape.meet(&own).into_iter().filter(|place| place.lies_within(EXTENSION));
-        if let Some(place) = on_curve.min_by(|a, b| (a.s - near).abs().total_cmp(&(b.s - near).abs())) {
-            return Some(self.hit(pose, segment, place.u, place.s));
-        }
-        let place = own.meet_line(shape.point(near), shape.tangent(near));
-        let normal = self.normal(pose, segment, near);
-        place.u.is_finite().then_some(Hit { segment, s: near + place.s, u: place.u, normal })
+        let (place, tangent) = self.segments[segment].meet_near(&self.own_frame(pose, ray), near)?;
+        Some(Hit { segment, s: place.s, u: place.u, normal: pose.rotate(-tangent.left().unit()) })
     }
 
     /// The profiles in space as polylines nowhere farther than `sagitta` from them, for drawing.

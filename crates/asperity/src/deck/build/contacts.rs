@@ -1,7 +1,7 @@
 //! Contacts: surface, target, law, penalties.
 
 use super::Builder;
-use crate::contact::{Contact, ContactOptions, Surface, default_penalty};
+use crate::contact::{Contact, ContactOptions, Loads, Surface, Target, default_penalty};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys;
 use crate::deck::reader::Name;
@@ -52,11 +52,14 @@ impl Builder<'_> {
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             thickness: self.site.thickness,
             modulus,
+            loads: Loads::Both,
+            coupling: true,
         };
         let surface = Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value));
         let boundary = boundary_behind(&mesh, sides, &self.deck.body);
+        let target = Target::tool(tools[number].clone(), number, &self.site.dofs);
         let site = (mesh.clone(), self.site.dofs.clone(), self.site.space);
-        Some(Contact::new(&name.text, site, (surface, boundary), (tools[number].clone(), number), (law, options)))
+        Some(Contact::new(&name.text, site, (surface, boundary), target, (law, options)))
     }
 }
 

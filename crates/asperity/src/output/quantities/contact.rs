@@ -65,7 +65,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     let total = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).sum::<f64>();
     let most = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).fold(0.0, f64::max);
     let count = |status| closed().filter(|record| record.status == status).count() as f64;
-    let pole = pole(source, seen.contact);
+    let pole = seen.contact.pole(&source.state.u);
     let thrust = total(&|r| r.pressure * r.area);
     // The centre of a contact without pressure is nowhere.
     let center = sum(&|r| r.position * (r.pressure * r.area)) * thrust.recip();
@@ -93,12 +93,6 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         frame.push(Quantity::new(name(what), unit, Place::Global, width, value.0.to_vec()))?;
     }
     scalars.into_iter().try_for_each(|(what, unit, value)| frame.push(Quantity::scalar(name(what), unit, value)))
-}
-
-/// Where moments are taken about: the present place of the tool's reference point.
-fn pole(source: &Source, contact: &Contact) -> Vec3 {
-    let tool = contact.tool();
-    contact.pose(&source.state.u).place(tool.reference(), tool.reference())
 }
 
 /// Present distance between the ends of an edge of the surface.

@@ -11,8 +11,8 @@ pub(super) static KIND: Kind = Kind {
 };
 
 /// `x(s) = a + s (b - a)`.
-#[derive(Debug)]
-struct Line([Vec3; 2]);
+#[derive(Debug, Clone, Copy)]
+pub struct Line(pub [Vec3; 2]);
 
 impl Shape for Line {
     fn kind(&self) -> &'static Kind {

@@ -11,6 +11,9 @@ mod arc;
 mod line;
 mod parabola;
 
+pub use line::Line;
+pub use parabola::Parabola;
+
 use crate::declare::nearest;
 use crate::tensor::Vec3;
 use std::fmt::Debug;
@@ -130,6 +133,9 @@ impl Bounds {
     }
 }
 
+/// How far beyond its ends [`Shape::meet_near`] follows a segment's own curve, in units of `s`.
+const EXTENSION: f64 = 0.1;
+
 /// A smooth segment of a profile, in the tool's own frame.
 pub trait Shape: Debug + Send + Sync {
     /// What it is.
@@ -159,6 +165,20 @@ pub trait Shape: Debug + Send + Sync {
                 hits(Crossing { s: crossing.s.clamp(0.0, 1.0), ..crossing });
             }
         }
+    }
+    /// Where a ray meets the segment, whether or not others are nearer, and the tangent `dx/ds` there: the crossing with
+    /// `s` nearest to `near` on the segment's curve, followed a little beyond its ends; where it does not meet that, the
+    /// crossing with the tangent at `near`. Continuous in the ray, so that a point whose ray is perturbed keeps its
+    /// segment. None if the ray runs along that tangent.
+    fn meet_near(&self, ray: &Ray, near: f64) -> Option<(Crossing, Vec3)> {
+        let near = near.clamp(0.0, 1.0);
+        let on_curve = self.meet(ray).into_iter().filter(|place| place.lies_within(EXTENSION));
+        if let Some(place) = on_curve.min_by(|a, b| (a.s - near).abs().total_cmp(&(b.s - near).abs())) {
+            return Some((place, self.tangent(place.s)));
+        }
+        let tangent = self.tangent(near);
+        let place = ray.meet_line(self.point(near), tangent);
+        place.u.is_finite().then_some((Crossing { s: near + place.s, ..place }, tangent))
     }
     /// Points along the segment, both ends included, whose chords are nowhere farther than `sagitta` from it.
     fn flatten(&self, sagitta: f64) -> Vec<Vec3> {

@@ -13,9 +13,11 @@ pub(super) static KIND: Kind = Kind {
     build: |nodes| Box::new(Parabola { nodes: [nodes[0], nodes[1], nodes[2]] }),
 };
 
-#[derive(Debug)]
-struct Parabola {
-    nodes: [Vec3; 3],
+/// The curve; see the equations above.
+#[derive(Debug, Clone, Copy)]
+pub struct Parabola {
+    /// First end, middle, last end.
+    pub nodes: [Vec3; 3],
 }
 
 impl Parabola {

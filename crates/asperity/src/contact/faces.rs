@@ -1,0 +1,176 @@
+//! Faces of bodies as a target: edges of first and second degree in the plane, where their nodes are.
+//!
+//! An edge is the line or the parabola through its nodes, `x_B(s) = N_k(s) x_k` with `s` from 0 to 1, the solid on its
+//! left. A tree of boxes, fitted anew for each search, keeps a ray from being tried against every edge.
+
+use super::open::Seed;
+use super::surface::{Edge, MAX_EDGE_NODES};
+use super::target::{Hit, MAX_UNKNOWNS};
+use crate::mesh::{Mesh, Side};
+use crate::system::Dofs;
+use crate::tensor::Vec3;
+use crate::tool::shapes::{Line, Parabola};
+use crate::tool::{self, Bounds, Ray, Shape, Tree};
+use std::sync::Arc;
+
+/// Edges of bodies.
+#[derive(Debug)]
+pub struct Faces {
+    mesh: Arc<Mesh>,
+    dofs: Dofs,
+    edges: Vec<Edge>,
+    tree: Tree,
+    size: f64,
+}
+
+/// Edges at given displacements.
+pub struct Standing<'a> {
+    faces: &'a Faces,
+    curves: Vec<Curve>,
+    tree: Tree,
+}
+
+/// An edge as a curve.
+#[derive(Debug, Clone, Copy)]
+enum Curve {
+    Line(Line),
+    Parabola(Parabola),
+}
+
+/// Margin of the boxes, as a part of the size: what is found must not depend on rounding.
+const MARGIN: f64 = 1e-9;
+
+impl Curve {
+    /// Through nodes in the order of the mesh: the ends, then the middle where there is one.
+    fn through(x: &[Vec3]) -> Self {
+        match *x {
+            [a, b, middle] => Self::Parabola(Parabola { nodes: [a, middle, b] }),
+            _ => Self::Line(Line([x[0], x[1]])),
+        }
+    }
+    fn shape(&self) -> &dyn Shape {
+        match self {
+            Self::Line(line) => line,
+            Self::Parabola(parabola) => parabola,
+        }
+    }
+}
+
+/// Outward normal of a curve with the solid on its left.
+fn outward(tangent: Vec3) -> Vec3 {
+    -tangent.left().unit()
+}
+
+impl Faces {
+    /// The faces `sides` of a mesh.
+    pub fn new(mesh: Arc<Mesh>, dofs: Dofs, sides: &[Side]) -> Self {
+        let edges: Vec<Edge> = sides.iter().map(|&side| Edge::new(&mesh, side)).collect();
+        let still = vec![0.0; dofs.count()];
+        let mut faces = Self { mesh, dofs, edges, tree: Tree::new(&[], 0.0), size: 0.0 };
+        let boxes = boxes(&faces.curves(&still));
+        faces.size = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b)).size();
+        faces.tree = Tree::new(&boxes, MARGIN * faces.size);
+        faces
+    }
+
+    /// The edges, in the order of their numbers as segments.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+    /// Diagonal of the box around them before any motion, a length.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+    pub(super) fn nodes(&self, segment: usize) -> &[usize] {
+        &self.edges[segment].nodes
+    }
+    pub(super) fn unknowns(&self, segment: usize) -> impl Iterator<Item = usize> {
+        self.nodes(segment).iter().flat_map(|&node| [0, 1].map(|axis| self.dofs.node(node) + axis))
+    }
+
+    pub(super) fn stand(&self, u: &[f64]) -> Standing<'_> {
+        let curves = self.curves(u);
+        let tree = self.tree.refit(&boxes(&curves), MARGIN * self.size);
+        Standing { faces: self, curves, tree }
+    }
+
+    fn curves(&self, u: &[f64]) -> Vec<Curve> {
+        let mut here = [0.0; MAX_UNKNOWNS];
+        let curve = |segment: usize| {
+            self.unknowns(segment).zip(&mut here).for_each(|(dof, value)| *value = u[dof]);
+            self.curve(segment, &here)
+        };
+        (0..self.edges.len()).map(curve).collect()
+    }
+
+    /// The edge whose nodes have the displacements `u`.
+    fn curve(&self, segment: usize, u: &[f64]) -> Curve {
+        let nodes = self.nodes(segment);
+        let mut x = [Vec3::zero(); MAX_EDGE_NODES];
+        for ((x, u), &node) in x.iter_mut().zip(u.chunks_exact(2)).zip(nodes) {
+            *x = self.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
+        }
+        Curve::through(&x[..nodes.len()])
+    }
+
+    pub(super) fn meet(&self, segment: usize, u: &[f64], ray: &Ray, near: [f64; 2]) -> Option<Hit> {
+        let (place, tangent) = self.curve(segment, u).shape().meet_near(ray, near[0])?;
+        Some(Hit { segment, s: [place.s, 0.0], u: place.u, normal: outward(tangent) })
+    }
+
+    pub(super) fn point(&self, segment: usize, s: [f64; 2], u: &[f64]) -> Vec3 {
+        self.curve(segment, u).shape().point(s[0])
+    }
+
+    pub(super) fn rates(&self, segment: usize, s: [f64; 2]) -> [Vec3; MAX_UNKNOWNS] {
+        let (n, _) = self.edges[segment].shape_at(2.0 * s[0] - 1.0);
+        let mut rates = [Vec3::zero(); MAX_UNKNOWNS];
+        for (k, rate) in rates[..2 * self.nodes(segment).len()].iter_mut().enumerate() {
+            rate[k % 2] = n[k / 2];
+        }
+        rates
+    }
+
+    /// The force shared out by the shape functions where it acts: `N_k(s) f`, with `ds = t.(dx - dx_B) / t.t` the
+    /// sliding of the place over the edge.
+    pub(super) fn receive<T: Seed>(
+        &self,
+        (hit, u): (&Hit, &[f64]),
+        sliding: Vec3<T>,
+        force: Vec3<T>,
+    ) -> [T; MAX_UNKNOWNS] {
+        let tangent = self.curve(hit.segment, u).shape().tangent(hit.s[0]);
+        let along = sliding.dot(tangent.lift()) * T::from(1.0 / tangent.dot(tangent));
+        let (n, dn) = self.edges[hit.segment].shape_at(2.0 * hit.s[0] - 1.0);
+        let mut rows = [T::zero(); MAX_UNKNOWNS];
+        for (k, row) in rows[..2 * self.nodes(hit.segment).len()].iter_mut().enumerate() {
+            *row = force[k % 2] * along.chain(n[k / 2], 2.0 * dn[k / 2]);
+        }
+        rows
+    }
+}
+
+fn boxes(curves: &[Curve]) -> Vec<Bounds> {
+    curves.iter().map(|curve| curve.shape().bounds()).collect()
+}
+
+impl Standing<'_> {
+    pub(super) fn size(&self) -> f64 {
+        self.faces.size
+    }
+
+    /// All places with `u` in `range` where a ray meets the edges, by edge and then by `u`.
+    pub(super) fn cast(&self, ray: &Ray, range: [f64; 2], hits: &mut Vec<tool::Hit>) {
+        hits.clear();
+        self.tree.along(ray, range, &mut |segment| {
+            let shape = self.curves[segment].shape();
+            shape.cast(ray, &mut |place| {
+                if (range[0]..=range[1]).contains(&place.u) {
+                    let normal = outward(shape.tangent(place.s));
+                    hits.push(tool::Hit { segment, s: place.s, u: place.u, normal });
+                }
+            });
+        });
+        hits.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
+    }
+}

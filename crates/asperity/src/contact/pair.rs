@@ -229,7 +229,8 @@ fn relatives(surface: &Surface, target: &Target) -> Vec<Vec<usize>> {
         face.nodes.iter().for_each(|&node| behind.entry(node).or_default().push(segment));
     }
     let of = |edge: &Edge| {
-        let mut segments: Vec<usize> = edge.nodes.iter().filter_map(|node| behind.get(node)).flatten().copied().collect();
+        let mut segments: Vec<usize> =
+            edge.nodes.iter().filter_map(|node| behind.get(node)).flatten().copied().collect();
         segments.sort_unstable();
         segments.dedup();
         segments

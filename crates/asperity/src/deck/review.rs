@@ -121,7 +121,8 @@ impl Page {
             let help = "is the surface the right one, and does the profile run with the tool's material on its left?";
             return vec![Diagnostic::warning(what).at(name.place).help(help)];
         }
-        let depth = |(i, hit): (usize, &Option<crate::contact::Hit>)| Some((hit.as_ref()?.u / contact.edge_length(i), i));
+        let depth =
+            |(i, hit): (usize, &Option<crate::contact::Hit>)| Some((hit.as_ref()?.u / contact.edge_length(i), i));
         let deepest = hits.iter().enumerate().filter_map(depth).max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((part, i)) = deepest.filter(|(part, _)| *part > OVERLAP) else { return vec![] };
         let closed = hits.iter().flatten().filter(|hit| hit.u > 0.0).count();

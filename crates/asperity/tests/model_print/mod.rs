@@ -49,7 +49,12 @@ fn parts(model: &Model, print: &mut Print) {
         tool.segments().iter().for_each(|segment| print.add((segment.kind().key, segment.nodes())));
     }
     for contact in &model.contacts {
-        print.add((contact.name(), contact.options(), contact.target().as_tool().map(|tool| tool.number()), contact.surface().edges.len()));
+        print.add((
+            contact.name(),
+            contact.options(),
+            contact.target().as_tool().map(|tool| tool.number()),
+            contact.surface().edges.len(),
+        ));
     }
 }
 

@@ -77,6 +77,7 @@ impl Attempt for OpenContact<'_> {
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
             write_hit(None, new);
+            self.leave(index, new);
             return Ok(0);
         };
         if local.wants_tangent {
@@ -153,32 +154,24 @@ impl OpenContact<'_> {
             b: seed(g.place.b, 4),
             touched: g.place.touched.map(|x| seed(x, 6)),
         };
+        let past = self.past(index, local);
         let constants = Constants {
             normal: g.hit.normal,
             before: old[entry::PENETRATION],
+            touch: contact.law.touch(&past),
             least: contact.least,
             expected: if local.aid.expects { self.expected(index, &g.hit) } else { None },
             weight: point.weight * contact.thickness(),
             turning: self.turning(g.hit.u, local),
             axisymmetric: contact.space == Space::Axisymmetric,
         };
-        let options = &contact.options;
-        let past = Past {
-            penalty: options.penalty * local.aid.stiffness,
-            tangential_penalty: options.tangential_penalty * local.aid.stiffness,
-            pressure: old[entry::PRESSURE],
-            shear: [old[entry::SHEAR], 0.0],
-            vars: &old[entry::COUNT..],
-            dt: self.dt,
-        };
+        let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(Some(g.hit), new);
+        new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
         let Some(closed) = closed else {
-            // What has been is kept while the point is open; the law's own state starts afresh.
-            for kept in [entry::SLIP, entry::SLIPPED, entry::DISSIPATED] {
-                new[kept] = old[kept];
-            }
-            self.account(index, g, [0.0; 2], local);
+            self.leave(index, new);
+            self.account(index, g, [0.0; 3], local);
             return Ok(0);
         };
         self.refuse_jump(index, g)?;
@@ -186,15 +179,40 @@ impl OpenContact<'_> {
         self.write(&closed, old, new);
         self.add(index, g, &closed, local);
         let response = &closed.response;
-        self.account(index, g, [response.pressure.re(), response.shear[0].re()], local);
+        self.account(index, g, [response.pressure.re(), response.shear[0].re(), response.closure], local);
         Ok(response.status as Branch)
     }
 
+    /// What the law may know of a point.
+    fn past(&self, index: usize, local: &Local) -> Past<'_> {
+        let (options, old) = (&self.contact.options, self.history.slot(index));
+        Past {
+            penalty: options.penalty * local.aid.stiffness,
+            tangential_penalty: options.tangential_penalty * local.aid.stiffness,
+            penetration: old[entry::PENETRATION],
+            pressure: old[entry::PRESSURE],
+            shear: [old[entry::SHEAR], 0.0],
+            vars: &old[entry::COUNT..],
+            dt: self.dt,
+        }
+    }
+
+    /// An open point keeps what has been, and of the law's own state what the law says.
+    fn leave(&self, index: usize, new: &mut [f64]) {
+        let old = self.history.slot(index);
+        for kept in [entry::SLIP, entry::SLIPPED, entry::DISSIPATED] {
+            new[kept] = old[kept];
+        }
+        self.contact.law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
+    }
+
     /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
-    /// friction stress on the whole slip, less what of it is stored. A point that closes or opens takes part with half
+    /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
+    /// A point that closes or opens takes part with half
     /// its stress, so that one which passes a peak of pressure within an increment does not lose its work.
-    fn account(&self, index: usize, g: &Geometry, [pressure, shear]: [f64; 2], local: &mut Local) {
-        let (contact, before) = (self.contact, self.history.slot(index)[entry::SHEAR]);
+    fn account(&self, index: usize, g: &Geometry, [pressure, shear, closure]: [f64; 3], local: &mut Local) {
+        let (contact, old) = (self.contact, self.history.slot(index));
+        let before = old[entry::SHEAR];
         let elastic = |stress: f64, penalty: f64| 0.5 * stress * stress / penalty;
         let stored = |shear: f64| elastic(shear, contact.options.tangential_penalty);
         let (along, _, _) = triad(g.place.tangent);
@@ -202,7 +220,8 @@ impl OpenContact<'_> {
         let area = contact.area(&contact.surface.points[index], g.place.a, g.place.tangent);
         let area = area * contact.options.loads.share();
         local.stored = area * (elastic(pressure, contact.options.penalty) + stored(shear));
-        local.dissipated = area * (0.5 * (before + shear) * slip - (stored(shear) - stored(before)));
+        let friction = 0.5 * (before + shear) * slip - (stored(shear) - stored(before));
+        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + pressure) * closure);
     }
 
     /// What the pattern of the accepted state says of a point that has moved to `hit`.

@@ -249,6 +249,7 @@ impl Term for Contact {
         let u = vec![0.0; self.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(hit, history.slot_mut(i));
+            self.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
         history
     }

@@ -29,7 +29,9 @@ pub struct Constants {
     pub normal: Vec3,
     /// Penetration at the last accepted state; negative for a gap.
     pub before: f64,
-    /// Penetration from which the point counts as closed: touching to rounding is open.
+    /// Penetration at which the law closes the point: what dilation or a bond leaves of a gap.
+    pub touch: f64,
+    /// How much farther a point counts as closed: touching to rounding is open.
     pub least: f64,
     /// Whether the point is closed, where that is not for its penetration to say.
     pub expected: Option<bool>,
@@ -70,14 +72,16 @@ pub fn evaluate<T: Scalar>(
     let (along, inward, length) = triad(soften(place.tangent, constants.turning));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
-    if !constants.expected.unwrap_or(penetration.re() > constants.least) {
+    if !constants.expected.unwrap_or(penetration.re() > constants.touch + constants.least) {
         return Ok((penetration, None));
     }
     // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.
     let penetration = penetration - constants.least;
     let slip = match place.touched {
         None => T::zero(),
-        Some(touched) => along.dot(touched - place.a) * in_contact(penetration, constants.before),
+        Some(touched) => {
+            along.dot(touched - place.a) * in_contact(penetration - constants.touch, constants.before - constants.touch)
+        }
     };
     let response = law(&Motion { penetration, slip: [slip, T::zero()] })?;
     let mut area = length * constants.weight;

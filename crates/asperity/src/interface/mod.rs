@@ -6,7 +6,8 @@
 //!
 //! To add a law: its file in `laws/`, its `mod` line and its line in [`laws::ALL`].
 
+mod integrated;
 mod law;
 pub mod laws;
 
-pub use law::{Interface, InterfaceLaw, Law, Motion, Past, Response, Status};
+pub use law::{Interface, InterfaceLaw, Law, MOST_VARIABLES, Motion, Past, Response, Status};

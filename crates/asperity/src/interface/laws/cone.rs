@@ -25,9 +25,9 @@ pub enum ConeScheme {
 /// What an increment imposes.
 pub(super) struct Path<T> {
     /// Shear at the beginning.
-    pub start: [f64; 2],
+    pub start: [T; 2],
     /// Limit at the beginning and at the end.
-    pub limit: (f64, T),
+    pub limit: (T, T),
     /// Elastic change of the shear if nothing slips.
     pub step: [T; 2],
 }
@@ -58,7 +58,7 @@ fn norm<T: Scalar>(a: [T; 2]) -> T {
 impl<T: Scalar> Path<T> {
     /// The end of the increment.
     pub fn end(&self, scheme: ConeScheme) -> End<T> {
-        let trial = plus(self.lifted(), self.step, T::one());
+        let trial = plus(self.start, self.step, T::one());
         if norm(trial).re() <= self.limit.1.re().max(0.0) {
             return End { shear: trial, slip: None, work: 0.0 };
         }
@@ -71,13 +71,9 @@ impl<T: Scalar> Path<T> {
         }
     }
 
-    fn lifted(&self) -> [T; 2] {
-        self.start.map(T::from)
-    }
-
     fn euler(&self, n: usize) -> End<T> {
         let part = 1.0 / n as f64;
-        let (mut shear, mut slip, mut work) = (self.lifted(), 0.0, 0.0);
+        let (mut shear, mut slip, mut work) = (self.start, 0.0, 0.0);
         for i in 1..=n {
             let y = (self.limit.1 - self.limit.0) * (i as f64 * part) + self.limit.0;
             let trial = plus(shear, self.step, T::from(part));
@@ -96,7 +92,7 @@ impl<T: Scalar> Path<T> {
     /// What is left of the increment after the crossing, the root of `|tau + a step|^2 = y(a)^2` at which the left side
     /// outgrows the right.
     fn sliding(&self) -> Sliding<T> {
-        let (start, before) = (self.lifted(), T::from(self.limit.0));
+        let (start, before) = (self.start, self.limit.0);
         let rise = self.limit.1 - before;
         let a = dot(self.step, self.step) - rise * rise;
         let b = dot(start, self.step) - before * rise;
@@ -296,7 +292,9 @@ mod tests {
                 |x: [f64; 3]| Path { start: path.start, limit: (path.limit.0, x[0]), step: [x[1], x[2]] }.end(scheme);
             let here = [path.limit.1, path.step[0], path.step[1]];
             let v = |i: usize| Dual::<3>::variable(here[i], i);
-            let dual = Path { start: path.start, limit: (path.limit.0, v(0)), step: [v(1), v(2)] }.end(scheme);
+            let dual =
+                Path { start: path.start.map(Dual::from), limit: (Dual::from(path.limit.0), v(0)), step: [v(1), v(2)] }
+                    .end(scheme);
             for k in 0..3 {
                 let shifted = |sign: f64| at(std::array::from_fn(|i| here[i] + if i == k { sign * h } else { 0.0 }));
                 let (up, down) = (shifted(1.0), shifted(-1.0));

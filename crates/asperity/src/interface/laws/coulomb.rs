@@ -45,7 +45,7 @@ impl Coulomb {
 impl InterfaceLaw for Coulomb {
     const VARIABLES: &'static [Variable] = &[];
 
-    fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past, _: &mut [f64]) -> Result<Response<T>, Failure> {
+    fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, _: &mut [T]) -> Result<Response<T>, Failure> {
         let pressure = motion.penetration * past.penalty;
         let limit = pressure * self.friction;
         let step = motion.slip.map(|slip| slip * past.tangential_penalty);
@@ -57,6 +57,7 @@ impl InterfaceLaw for Coulomb {
             shear: end.shear,
             status: if end.slip.is_some() { Status::Slip } else { Status::Stick },
             slipped: end.slip.unwrap_or(0.0) / past.tangential_penalty,
+            closure: 0.0,
             dissipated: end.work / past.tangential_penalty,
             violation,
         })
@@ -68,8 +69,9 @@ mod tests {
     use super::*;
     use crate::tensor::Dual;
 
-    fn past(shear: [f64; 2]) -> Past<'static> {
-        Past { penalty: 1e3, tangential_penalty: 500.0, pressure: 0.0, shear, vars: &[], dt: 1.0 }
+    fn past<T: Scalar>(shear: [f64; 2]) -> Past<'static, T> {
+        let (penetration, pressure, shear) = (T::zero(), T::zero(), shear.map(T::from));
+        Past { penalty: 1e3, tangential_penalty: 500.0, penetration, pressure, shear, vars: &[], dt: 1.0 }
     }
 
     #[test]

@@ -1,0 +1,106 @@
+//! A law whose increments are integrated by sub-steps and a scheme of [`integrate`](crate::integrate).
+//!
+//! Penetration and slip are cut into equal parts of constant rate; stress and variables carry their derivatives from
+//! one sub-step to the next, so the tangent is that of the whole.
+
+use super::law::MOST_VARIABLES;
+use super::{Interface, InterfaceLaw, Motion, Past, Response, Status};
+use crate::Failure;
+use crate::declare::Variable;
+use crate::integrate::{Blend, Update};
+use crate::tensor::Scalar;
+
+/// A law with the way in which its increments are integrated.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Integrated<L> {
+    pub law: L,
+    pub update: Update,
+}
+
+/// Stress, variables and what was lost, as one state.
+#[derive(Debug, Clone, Copy)]
+struct Point<T> {
+    penetration: T,
+    vars: [T; MOST_VARIABLES],
+    response: Response<T>,
+}
+
+impl<T: Scalar> Blend for Point<T> {
+    fn blend(&self, other: &Self, weight: f64) -> Self {
+        let mix = |a: T, b: T| a + (b - a) * weight;
+        let plain = |a: f64, b: f64| a + (b - a) * weight;
+        let (a, b) = (&self.response, &other.response);
+        let response = Response {
+            pressure: mix(a.pressure, b.pressure),
+            shear: std::array::from_fn(|i| mix(a.shear[i], b.shear[i])),
+            status: b.status,
+            slipped: plain(a.slipped, b.slipped),
+            closure: plain(a.closure, b.closure),
+            dissipated: plain(a.dissipated, b.dissipated),
+            violation: b.violation,
+        };
+        let vars = std::array::from_fn(|i| mix(self.vars[i], other.vars[i]));
+        Self { penetration: mix(self.penetration, other.penetration), vars, response }
+    }
+
+    fn distance(&self, other: &Self) -> f64 {
+        let stress = |p: &Self| [p.response.pressure.re(), p.response.shear[0].re(), p.response.shear[1].re()];
+        let norm = |s: [f64; 3]| s.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (a, b) = (stress(self), stress(other));
+        let size = norm(a).max(norm(b));
+        if size > 0.0 { norm(std::array::from_fn(|i| a[i] - b[i])) / size } else { 0.0 }
+    }
+}
+
+impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
+    const VARIABLES: &'static [Variable] = L::VARIABLES;
+
+    fn initial(&self, vars: &mut [f64]) {
+        self.law.initial(vars);
+    }
+    fn release(&self, old: &[f64], new: &mut [f64]) {
+        self.law.release(old, new);
+    }
+    fn touch(&self, past: &Past) -> f64 {
+        self.law.touch(past)
+    }
+    /// Integrated once, not twice.
+    fn updated(&self, update: Update) -> Box<dyn Interface> {
+        self.law.updated(update)
+    }
+
+    fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, vars: &mut [T]) -> Result<Response<T>, Failure> {
+        let n = vars.len();
+        let way = motion.penetration - past.penetration;
+        let step = |from: &Point<T>, part: f64| {
+            let penetration = from.penetration + way * part;
+            let (pressure, shear) = (from.response.pressure, from.response.shear);
+            let here = Past { penetration: from.penetration, pressure, shear, vars: &from.vars[..n], ..*past };
+            let motion = Motion { penetration, slip: motion.slip.map(|s| s * part) };
+            let mut vars = from.vars;
+            let here = Past { dt: part * past.dt, ..here };
+            let mut response = self.law.respond(&motion, &here, &mut vars[..n])?;
+            response.slipped += from.response.slipped;
+            response.closure += from.response.closure;
+            response.dissipated += from.response.dissipated;
+            Ok(Point { penetration, vars, response })
+        };
+        let end = self.update.advance(start(past), step)?;
+        vars.copy_from_slice(&end.vars[..n]);
+        Ok(end.response)
+    }
+}
+
+fn start<T: Scalar>(past: &Past<T>) -> Point<T> {
+    let response = Response {
+        pressure: past.pressure,
+        shear: past.shear,
+        status: Status::Stick,
+        slipped: 0.0,
+        closure: 0.0,
+        dissipated: 0.0,
+        violation: 0.0,
+    };
+    let vars = std::array::from_fn(|i| past.vars.get(i).copied().unwrap_or_else(T::zero));
+    Point { penetration: past.penetration, vars, response }
+}

@@ -74,12 +74,35 @@ impl Bench {
     /// # Errors
     /// What the deck says, or why the run stopped.
     pub fn follow(&self, deck: &str, sets: &[String], look: impl FnMut(&Model, &State)) -> Result<Solved, Error> {
+        let (solved, end) = self.run(deck, sets, look)?;
+        end.map(|()| solved)
+    }
+
+    /// Solves a deck whose load is more than is carried: the state in which no increment is found any more.
+    ///
+    /// # Errors
+    /// What the deck says, or that all of the load is carried.
+    pub fn exhaust(&self, deck: &str, sets: &[String]) -> Result<Solved, Error> {
+        match self.run(deck, sets, |_, _| {})? {
+            (solved, Err(Error::NotConverged(_))) => Ok(solved),
+            (_, Err(error)) => Err(error),
+            (_, Ok(())) => Err(Error::input(format!("{deck}: all of the load is carried, so that it is no limit"))),
+        }
+    }
+
+    /// The last accepted state, and why the run ended.
+    fn run(
+        &self,
+        deck: &str,
+        sets: &[String],
+        look: impl FnMut(&Model, &State),
+    ) -> Result<(Solved, Result<(), Error>), Error> {
         let model = self.model(deck, sets)?;
         let mut follower = Follower { model: &model, look, attempts: Vec::new() };
         let mut run = model.run(model.problem.initial_state());
-        run.run(&RunOptions::default(), &mut follower)?;
+        let end = run.run(&RunOptions::default(), &mut follower).map(|_| ());
         let (state, attempts) = (run.state, follower.attempts);
-        Ok(Solved { model, state, attempts })
+        Ok((Solved { model, state, attempts }, end))
     }
 }
 
@@ -134,5 +157,16 @@ impl Solved {
     /// Increments that were cut.
     pub fn cuts(&self) -> usize {
         self.attempts.iter().filter(|attempt| attempt.failure.is_some()).count()
+    }
+    /// Solved linear systems over accepted increments; those of increments that were cut count.
+    pub fn iterations(&self) -> f64 {
+        let solutions: usize = self.attempts.iter().map(|attempt| attempt.solutions()).sum();
+        solutions as f64 / (self.attempts.len() - self.cuts()) as f64
+    }
+    /// Median of the orders of convergence of all increments that show one.
+    pub fn order(&self) -> f64 {
+        let mut orders: Vec<f64> = self.attempts.iter().filter_map(|attempt| attempt.order()).collect();
+        orders.sort_by(f64::total_cmp);
+        orders.get(orders.len() / 2).copied().unwrap_or(f64::NAN)
     }
 }

@@ -18,6 +18,13 @@ pub fn order(errors: &[f64]) -> f64 {
     line(&errors.iter().enumerate().map(|(level, error)| (-(level as f64), error.log2())).collect::<Vec<_>>()).1
 }
 
+/// The limit of values on meshes of which each halves the cells of the one before: their differences go on as those of
+/// the last three (Aitken).
+pub fn extrapolate([coarse, middle, fine]: [f64; 3]) -> f64 {
+    let (first, second) = (middle - coarse, fine - middle);
+    fine + second * second / (first - second)
+}
+
 /// Half width `a` and largest pressure of a Hertzian contact: `p^2 = p0^2 (1 - x^2/a^2)` by least squares over the
 /// points `(x, p)` with a pressure above a fifth of the largest, as status of points at the edge must not decide.
 pub fn hertz(points: &[(f64, f64)]) -> (f64, f64) {
@@ -39,6 +46,12 @@ mod tests {
     #[test]
     fn an_order_is_found_again() {
         assert!((order(&[0.4, 0.1, 0.025]) - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_limit_is_found_again() {
+        let value = |h: f64| 3.0 - 0.7 * h.powf(1.3);
+        assert!((extrapolate([value(0.4), value(0.2), value(0.1)]) - 3.0).abs() < 1e-12);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The cases, in the order of the report.
 
+mod billet;
 mod capstan;
 mod contact_patch;
 mod flat_punch;
@@ -7,6 +8,8 @@ mod hertz_cylinder;
 mod hertz_sphere;
 mod inclined_block;
 mod rotated_pair;
+mod strip_punch;
+mod thick_shells;
 mod tube;
 
 use crate::Case;
@@ -21,4 +24,7 @@ pub const ALL: &[&Case] = &[
     &hertz_sphere::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
+    &thick_shells::CASE,
+    &strip_punch::CASE,
+    &billet::CASE,
 ];

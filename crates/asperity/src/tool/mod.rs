@@ -1,4 +1,4 @@
-//! Rigid tools: profiles of smooth segments, moved by the unknowns of a reference node.
+//! Rigid tools: profiles of smooth segments, moved by the unknowns of a reference node; in space, facets ([`space`]).
 //!
 //! A profile is drawn with the tool's material on its left. Its segments stand in the tool's own frame for ever; a ray
 //! is carried into that frame by the inverse of the tool's [`Pose`], so no motion can accumulate rounding. What a ray
@@ -10,6 +10,7 @@ mod pose;
 mod search;
 mod select;
 pub mod shapes;
+pub mod space;
 #[allow(clippy::module_inception)]
 mod tool;
 
@@ -21,6 +22,6 @@ mod tests;
 pub use finding::{Finding, Severity};
 pub use pose::Pose;
 pub use search::Tree;
-pub use select::{Rejected, Rules, select};
+pub use select::{Met, Rejected, Rules, select};
 pub use shapes::{Bounds, Kind, Ray, Shape};
 pub use tool::{Chain, Hit, Tool};

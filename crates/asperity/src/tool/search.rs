@@ -1,21 +1,22 @@
-//! A tree of boxes around segments, for rays.
+//! A tree of boxes around pieces, for rays: segments of the plane or facets of space.
 //!
-//! The tree is built once (for a tool in its own frame) by halving the segments at the median of their middles along the
-//! longer side of the box around them; segments that move keep their tree and have its boxes fitted anew. It only leaves
-//! out what a ray cannot meet; what it finds is found without it too.
+//! The tree is built once (for a tool in its own frame) by halving the pieces at the median of their middles along the
+//! longest side of the box around them; pieces that move keep their tree and have its boxes fitted anew. It only leaves
+//! out what a ray cannot meet; what it finds is found without it too. A ray passes by a box if it does so seen along one
+//! of the axes.
 
-use super::shapes::{Bounds, Ray, turn};
+use super::shapes::{Bounds, Ray};
 use crate::tensor::Vec3;
 
-/// Fewer segments than this are tried one after another.
+/// Fewer pieces than this are tried one after another.
 const LEAF: usize = 4;
 
-/// Boxes around boxes around segments.
+/// Boxes around boxes around pieces.
 #[derive(Debug, Clone)]
 pub struct Tree {
     /// The root first; the first child of an inner node stands right behind it.
     nodes: Vec<Node>,
-    /// Segments, in the order of the leaves.
+    /// Pieces, in the order of the leaves.
     order: Vec<usize>,
 }
 
@@ -50,7 +51,8 @@ impl Tree {
         if to - from <= LEAF {
             return;
         }
-        let axis = usize::from(half[1] > half[0]);
+        let longer = |a: usize, b: usize| if half[b] > half[a] { b } else { a };
+        let axis = longer(longer(0, 1), 2);
         let key = |i: &usize| boxes[*i].min[axis] + boxes[*i].max[axis];
         self.order[from..to].sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
         let middle = from + (to - from) / 2;
@@ -59,7 +61,7 @@ impl Tree {
         self.grow(boxes, margin, middle, to);
     }
 
-    /// The same tree around segments that have moved, each box widened by `margin` on all sides.
+    /// The same tree around pieces that have moved, each box widened by `margin` on all sides.
     pub fn refit(&self, boxes: &[Bounds], margin: f64) -> Self {
         let mut tree = self.clone();
         let mut all = vec![Bounds::EMPTY; tree.nodes.len()];
@@ -74,7 +76,7 @@ impl Tree {
         tree
     }
 
-    /// Calls `found` with every segment whose box the part of the ray from `back` to `ahead` may meet.
+    /// Calls `found` with every piece whose box the part of the ray from `back` to `ahead` may meet.
     pub fn along(&self, ray: &Ray, [back, ahead]: [f64; 2], found: &mut dyn FnMut(usize)) {
         let sides = Vec3(ray.direction.0.map(f64::abs));
         self.visit(
@@ -82,19 +84,23 @@ impl Tree {
             &mut |node| {
                 let to = node.centre - ray.origin;
                 let (along, reach) = (to.dot(ray.direction), sides.dot(node.half));
-                let aside = turn(ray.direction, to).abs() <= sides[0] * node.half[1] + sides[1] * node.half[0];
-                aside && along + reach >= back && along - reach <= ahead
+                let aside = ray.direction.cross(to);
+                let meets = (0..3).all(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    aside[i].abs() <= sides[j] * node.half[k] + sides[k] * node.half[j]
+                });
+                meets && along + reach >= back && along - reach <= ahead
             },
             found,
         );
     }
 
-    /// Calls `found` with every segment whose box may overlap `bounds`.
+    /// Calls `found` with every piece whose box may overlap `bounds`.
     pub fn near(&self, bounds: &Bounds, found: &mut dyn FnMut(usize)) {
         self.visit(
             0,
             &mut |node| {
-                (0..2).all(|i| {
+                (0..3).all(|i| {
                     node.centre[i] + node.half[i] >= bounds.min[i] && node.centre[i] - node.half[i] <= bounds.max[i]
                 })
             },

@@ -8,6 +8,28 @@
 use super::Hit;
 use crate::tensor::Vec3;
 
+/// A hit on a piece of a target.
+pub trait Met: Copy {
+    /// The piece's number: of equally near hits that on the lowest one is taken.
+    fn piece(&self) -> usize;
+    /// Signed distance along the ray.
+    fn u(&self) -> f64;
+    /// Outward unit normal of the target there.
+    fn normal(&self) -> Vec3;
+}
+
+impl Met for Hit {
+    fn piece(&self) -> usize {
+        self.segment
+    }
+    fn u(&self) -> f64 {
+        self.u
+    }
+    fn normal(&self) -> Vec3 {
+        self.normal
+    }
+}
+
 /// When a hit is admissible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules {
@@ -44,21 +66,21 @@ impl Rejected {
     pub fn total(&self) -> usize {
         self.wrong_side + self.too_deep
     }
-    fn count(&mut self, facing: bool, hit: &Hit, rules: &Rules) {
-        self.wrong_side += usize::from(!facing && hit.u > 0.0 && hit.u <= rules.deepest);
-        self.too_deep += usize::from(facing && hit.u > rules.deepest);
+    fn count(&mut self, facing: bool, u: f64, rules: &Rules) {
+        self.wrong_side += usize::from(!facing && u > 0.0 && u <= rules.deepest);
+        self.too_deep += usize::from(facing && u > rules.deepest);
     }
 }
 
 /// The contact among the hits of a ray along `direction`, if there is one. What the rules reject is counted in
 /// `rejected`.
-pub fn select(direction: Vec3, hits: &[Hit], rules: &Rules, rejected: &mut Rejected) -> Option<Hit> {
-    let facing = |hit: &Hit| direction.dot(hit.normal) > rules.least_cosine;
-    let admissible = |hit: &&Hit| facing(hit) && hit.u <= rules.deepest;
-    hits.iter().for_each(|hit| rejected.count(facing(hit), hit, rules));
-    let nearest = hits.iter().filter(admissible).map(|hit| hit.u.abs()).fold(f64::INFINITY, f64::min);
-    let equal = |hit: &&Hit| hit.u.abs() <= nearest + rules.equal;
-    hits.iter().filter(admissible).filter(equal).min_by_key(|hit| hit.segment).copied()
+pub fn select<H: Met>(direction: Vec3, hits: &[H], rules: &Rules, rejected: &mut Rejected) -> Option<H> {
+    let facing = |hit: &H| direction.dot(hit.normal()) > rules.least_cosine;
+    let admissible = |hit: &&H| facing(hit) && hit.u() <= rules.deepest;
+    hits.iter().for_each(|hit| rejected.count(facing(hit), hit.u(), rules));
+    let nearest = hits.iter().filter(admissible).map(|hit| hit.u().abs()).fold(f64::INFINITY, f64::min);
+    let equal = |hit: &&H| hit.u().abs() <= nearest + rules.equal;
+    hits.iter().filter(admissible).filter(equal).min_by_key(|hit| hit.piece()).copied()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! `phi = (s - 1/2) theta`. A point of the circle has `k |q|^2 / 2 = q . n`, `q = x - apex`. An arc of nearly straight
 //! nodes thus passes into the line without loss, and `theta = 0` is the line.
 
-use super::{Bounds, Crossing, Kind, Ray, Shape, quadratic, turn};
+use super::{Bounds, Conic, Crossing, Kind, Ray, Shape, quadratic, turn};
 use crate::tensor::Vec3;
 use std::f64::consts::PI;
 
@@ -94,6 +94,10 @@ impl Shape for Arc {
         let q0 = ray.point(shift) - self.apex;
         let roots = quadratic(0.5 * k, k * q0.dot(e) - e.dot(n), 0.5 * k * q0.dot(q0) - q0.dot(n));
         roots.map(|u| Crossing { u: shift + u, s: self.coordinate(q0 + e * u) })
+    }
+    fn conic(&self) -> Conic {
+        let (k, n) = (0.5 * self.curvature(), self.t.left());
+        Conic { origin: self.apex, c: [k, 0.0, k, -n[0], -n[1], 0.0] }
     }
     fn bounds(&self) -> Bounds {
         let axes = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));

@@ -1,6 +1,6 @@
 //! The straight segment between two nodes.
 
-use super::{Bounds, Crossing, Kind, Ray, Shape};
+use super::{Bounds, Conic, Crossing, Kind, Ray, Shape};
 use crate::tensor::Vec3;
 
 pub(super) static KIND: Kind = Kind {
@@ -29,6 +29,9 @@ impl Shape for Line {
     }
     fn meet(&self, ray: &Ray) -> [Crossing; 2] {
         [ray.meet_line(self.0[0], self.tangent(0.0)), Crossing { u: f64::NAN, s: f64::NAN }]
+    }
+    fn conic(&self) -> Conic {
+        Conic::straight(self.0[0], self.tangent(0.0))
     }
     fn bounds(&self) -> Bounds {
         Bounds::of(self.0)

@@ -101,6 +101,29 @@ impl Crossing {
     }
 }
 
+/// `c0 x^2 + c1 x y + c2 y^2 + c3 x + c4 y + c5` with `(x, y)` seen from an origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conic {
+    /// Where `x = y = 0`.
+    pub origin: Vec3,
+    /// The coefficients.
+    pub c: [f64; 6],
+}
+
+impl Conic {
+    /// The straight line through a point along a direction.
+    pub(super) fn straight(origin: Vec3, direction: Vec3) -> Self {
+        let n = direction.left().unit();
+        Self { origin, c: [0.0, 0.0, 0.0, n[0], n[1], 0.0] }
+    }
+    /// Value and gradient at a point.
+    pub fn at(&self, point: Vec3) -> (f64, Vec3) {
+        let ([a, b, c, d, e, f], q) = (self.c, point - self.origin);
+        let gradient = Vec3::new(2.0 * a * q[0] + b * q[1] + d, b * q[0] + 2.0 * c * q[1] + e, 0.0);
+        (0.5 * (gradient.dot(q) + d * q[0] + e * q[1]) + f, gradient)
+    }
+}
+
 /// An axis-parallel box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
@@ -148,6 +171,8 @@ pub trait Shape: Debug + Send + Sync {
     fn tangent(&self, s: f64) -> Vec3;
     /// Where a ray meets the carrier, whatever `s`; places that do not exist are not finite.
     fn meet(&self, ray: &Ray) -> [Crossing; 2];
+    /// The carrier as the zero line of a polynomial of second degree.
+    fn conic(&self) -> Conic;
     /// The smallest box around the segment, to rounding.
     fn bounds(&self) -> Bounds;
     /// Arc length.
@@ -196,7 +221,7 @@ pub(super) fn turn(a: Vec3, b: Vec3) -> f64 {
 }
 
 /// The roots of `a x^2 + b x + c`, without cancellation; the one that does not exist is not finite.
-fn quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
+pub(super) fn quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
     let root = (b * b - 4.0 * a * c).sqrt();
     let q = -0.5 * (b + root.copysign(b));
     [q / a, c / q]

@@ -3,7 +3,7 @@
 //! About the middle node, with `w = s - 1/2`: `x = m + b1 w + b2 w^2`, `b1 = c - a`, `b2 = 2 (a - m) + 2 (c - m)`.
 //! A ray meets it where `(e x b2) w^2 + (e x b1) w + e x (m - o) = 0`; `b2 = 0` leaves the straight line.
 
-use super::{Bounds, Crossing, Kind, Ray, Shape, quadratic, turn};
+use super::{Bounds, Conic, Crossing, Kind, Ray, Shape, quadratic, turn};
 use crate::tensor::Vec3;
 
 pub(super) static KIND: Kind = Kind {
@@ -60,6 +60,19 @@ impl Shape for Parabola {
             let x = self.nodes[1] + (self.b1() + self.b2() * w) * w;
             Crossing { u: (x - ray.origin).dot(e), s: 0.5 + w }
         })
+    }
+    fn conic(&self) -> Conic {
+        // With d = b2 / |b2|: |b2| (d x q)^2 = (b1 x d) (b1 x q).
+        let (b1, size) = (self.b1(), self.b2().norm());
+        let d = self.b2() * size.recip();
+        let span = turn(b1, d);
+        // Nodes on a straight line, however they are spaced.
+        if size == 0.0 || span.abs() <= 1e-12 * b1.norm() {
+            return Conic::straight(self.nodes[1], b1);
+        }
+        let squares = [d[1] * d[1], -2.0 * d[0] * d[1], d[0] * d[0]].map(|c| c * size);
+        let [x2, xy, y2] = squares;
+        Conic { origin: self.nodes[1], c: [x2, xy, y2, span * b1[1], -span * b1[0], 0.0] }
     }
     fn bounds(&self) -> Bounds {
         let (b1, b2) = (self.b1(), self.b2());

@@ -1,0 +1,83 @@
+//! What the facets of a tool in space have in common.
+//!
+//! A facet is a smooth piece of surface with two coordinates `s`, each in `[0, 1]` (a triangle's also `s0 + s1 <= 1`).
+//! It stands in the tool's own frame and never moves. Its outward normal is along `dx/ds0 x dx/ds1`. A ray meets the
+//! *carrier* of a facet (the whole plane, quadric or torus); the places whose `s` are in range are the facet's own.
+
+use crate::tensor::Vec3;
+use crate::tool::shapes::{Bounds, Ray};
+use std::fmt::Debug;
+
+/// How far beyond its edges a facet still counts as hit, in units of `s`: a ray through a common edge must not slip
+/// between two neighbours by rounding.
+pub(super) const EDGE: f64 = 1e-10;
+
+/// How far beyond its edges a facet's own carrier is followed when a ray is to meet this facet and no other.
+const EXTENSION: f64 = 0.1;
+
+/// Where a ray meets a facet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// Signed distance from the ray's origin along its direction.
+    pub u: f64,
+    /// Coordinates on the facet.
+    pub s: [f64; 2],
+}
+
+/// A smooth piece of a tool's surface, in the tool's own frame.
+pub trait Facet: Debug + Send + Sync {
+    /// The point at `s`.
+    fn point(&self, s: [f64; 2]) -> Vec3;
+    /// `dx/ds`, two lengths.
+    fn tangents(&self, s: [f64; 2]) -> [Vec3; 2];
+    /// Where a ray meets the carrier, in any order and whatever `s`.
+    fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting));
+    /// A box around the facet.
+    fn bounds(&self) -> Bounds;
+    /// How many equal parts of each coordinate make tiles nowhere much farther than `sagitta` from the facet.
+    fn parts(&self, sagitta: f64) -> [usize; 2];
+    /// Its corners, if its edges are straight: three or four.
+    fn corners(&self) -> &[Vec3] {
+        &[]
+    }
+    /// The unit outward normal at `s`.
+    fn normal(&self, s: [f64; 2]) -> Vec3 {
+        let [a, b] = self.tangents(s);
+        a.cross(b).unit()
+    }
+    /// Whether `s` is on the facet, enlarged at its edges by the part `beyond`.
+    fn holds(&self, s: [f64; 2], beyond: f64) -> bool {
+        s.iter().all(|s| (-beyond..=1.0 + beyond).contains(s))
+    }
+    /// The places of the facet itself, its edges included.
+    fn cast(&self, ray: &Ray, found: &mut dyn FnMut(Meeting)) {
+        self.meet(ray, &mut |place| {
+            if place.u.is_finite() && self.holds(place.s, EDGE) {
+                found(Meeting { s: place.s.map(|s| s.clamp(0.0, 1.0)), ..place });
+            }
+        });
+    }
+    /// Where a ray meets this facet or what continues it: the place on the carrier, followed a little beyond the edges,
+    /// with `s` nearest to `near`; where there is none, that on the tangent plane at `near`. None if the ray runs along
+    /// that plane.
+    fn follow(&self, ray: &Ray, near: [f64; 2]) -> Option<Meeting> {
+        let (mut best, mut least) = (None, f64::INFINITY);
+        self.meet(ray, &mut |place| {
+            let off = (place.s[0] - near[0]).hypot(place.s[1] - near[1]);
+            if place.u.is_finite() && off < least && self.holds(place.s, EXTENSION) {
+                (best, least) = (Some(place), off);
+            }
+        });
+        best.or_else(|| flat(self.point(near), self.tangents(near), ray, near))
+    }
+}
+
+/// Where a ray meets the plane through a point with two tangents, whose coordinates there are `near`.
+pub(super) fn flat(point: Vec3, [a, b]: [Vec3; 2], ray: &Ray, near: [f64; 2]) -> Option<Meeting> {
+    let normal = a.cross(b);
+    let u = normal.dot(point - ray.origin) / normal.dot(ray.direction);
+    let off = ray.point(u) - point;
+    let size = normal.dot(normal);
+    let s = [near[0] + off.cross(b).dot(normal) / size, near[1] + a.cross(off).dot(normal) / size];
+    (u.is_finite() && s[0].is_finite() && s[1].is_finite()).then_some(Meeting { u, s })
+}

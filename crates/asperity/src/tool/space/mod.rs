@@ -1,0 +1,23 @@
+//! Rigid tools in space: facets moved by the six unknowns of a reference node.
+//!
+//! Facets are triangles, bilinear quadrilaterals, and segments of profiles that are revolved or extruded; they stand in
+//! the tool's own frame for ever, and rays are carried into it. The rules of [`select`](super::select) choose among the
+//! hits.
+
+mod check;
+mod facet;
+mod polygons;
+mod pose;
+mod roots;
+pub mod solids;
+pub mod stl;
+mod swept;
+#[cfg(test)]
+mod tests;
+mod tool;
+
+pub use check::Finding;
+pub use facet::{Facet, Meeting};
+pub use pose::Pose;
+pub use swept::Frame;
+pub use tool::{Hit, Tiles, Tool};

@@ -1,0 +1,137 @@
+//! Real roots of polynomials of low degree in an interval.
+//!
+//! Between two neighbouring roots of its derivative a polynomial is monotone, so that a change of sign there is one
+//! root and is found by bisection. Degree by degree from the constant up, this finds all of them without a formula that
+//! could lose digits, and without allocation.
+
+/// Largest degree.
+const DEGREE: usize = 4;
+/// An extremum this near to zero, as a part of the polynomial's size, is a double root.
+const TOUCH: f64 = 1e-14;
+
+/// Up to four roots, rising.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Roots {
+    values: [f64; DEGREE + 1],
+    count: usize,
+}
+
+impl Roots {
+    const NONE: Self = Self { values: [0.0; DEGREE + 1], count: 0 };
+
+    fn push(&mut self, x: f64) {
+        if self.count < DEGREE && (self.count == 0 || x > self.values[self.count - 1]) {
+            self.values[self.count] = x;
+            self.count += 1;
+        }
+    }
+    /// The roots.
+    pub(super) fn as_slice(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
+}
+
+/// The roots of `sum c_i x^i` in `[from, to]`.
+pub(super) fn roots(c: [f64; DEGREE + 1], [from, to]: [f64; 2]) -> Roots {
+    let mut inner = Roots::NONE;
+    // Derivatives from the last one up: the k-th has the coefficients c_i i! / (i - k)!.
+    for order in (0..DEGREE).rev() {
+        let mut d = [0.0; DEGREE + 1];
+        for i in order..=DEGREE {
+            d[i - order] = (i - order + 1..=i).fold(c[i], |product, factor| product * factor as f64);
+        }
+        inner = between(&d, inner.as_slice(), [from, to], order == 0);
+    }
+    inner
+}
+
+fn value(c: &[f64; DEGREE + 1], x: f64) -> f64 {
+    c.iter().rev().fold(0.0, |sum, c| sum * x + c)
+}
+
+/// Roots of a polynomial whose extrema are known; where it only touches zero, that counts if it is `wanted`.
+fn between(c: &[f64; DEGREE + 1], extrema: &[f64], [from, to]: [f64; 2], touching: bool) -> Roots {
+    let reach = from.abs().max(to.abs()).max(1.0);
+    let size: f64 = c.iter().enumerate().map(|(i, c)| c.abs() * reach.powi(i as i32)).sum();
+    let mut found = Roots::NONE;
+    let mut left = (from, value(c, from));
+    for &x in extrema.iter().chain(&[to]) {
+        let right = (x, value(c, x));
+        if left.1 == 0.0 {
+            found.push(left.0);
+        }
+        if left.1 * right.1 < 0.0 {
+            found.push(bisect(c, left, right));
+        } else if touching && x < to && right.1.abs() <= TOUCH * size && right.1 != 0.0 {
+            found.push(x);
+        }
+        left = right;
+    }
+    if left.1 == 0.0 {
+        found.push(left.0);
+    }
+    found
+}
+
+/// Newton's method kept inside a shrinking bracket.
+fn bisect(c: &[f64; DEGREE + 1], mut left: (f64, f64), mut right: (f64, f64)) -> f64 {
+    let mut x = 0.5 * (left.0 + right.0);
+    for _ in 0..100 {
+        let y = value(c, x);
+        if y == 0.0 || x <= left.0 || x >= right.0 {
+            break;
+        }
+        if y * left.1 < 0.0 {
+            right = (x, y);
+        } else {
+            left = (x, y);
+        }
+        let slope = c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (i, c)| sum * x + c * i as f64);
+        let next = x - y / slope;
+        let inside = next > left.0 && next < right.0;
+        let after = if inside { next } else { 0.5 * (left.0 + right.0) };
+        if (after - x).abs() <= 1e-17 + 1e-16 * x.abs() {
+            return after;
+        }
+        x = after;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `k (x - a)(x - b)(x - c)(x - d)`.
+    fn product(k: f64, zeros: [f64; 4]) -> [f64; 5] {
+        let mut c = [k, 0.0, 0.0, 0.0, 0.0];
+        for (n, zero) in zeros.iter().enumerate() {
+            for i in (0..=n + 1).rev() {
+                c[i] = if i > 0 { c[i - 1] } else { 0.0 } - zero * c[i];
+            }
+        }
+        c
+    }
+
+    #[test]
+    fn all_roots_of_products_are_found() {
+        for zeros in [[-0.9, -0.3, 0.1, 0.8], [-0.5, -0.4999, 0.2, 0.21], [-5.0, -0.1, 0.7, 3.0]] {
+            let found = roots(product(-2.0, zeros), [-1.0, 1.0]);
+            let inside: Vec<f64> = zeros.into_iter().filter(|x| x.abs() < 1.0).collect();
+            assert_eq!(found.as_slice().len(), inside.len(), "{zeros:?} {found:?}");
+            for (a, b) in found.as_slice().iter().zip(&inside) {
+                assert!((a - b).abs() < 1e-11, "{zeros:?} {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn double_roots_and_lower_degrees() {
+        let double = roots(product(1.0, [0.25, 0.25, 2.0, -2.0]), [-1.0, 1.0]);
+        assert!(double.as_slice().iter().all(|x| (x - 0.25).abs() < 1e-7) && !double.as_slice().is_empty());
+        assert_eq!(roots([-1.0, 2.0, 0.0, 0.0, 0.0], [-1.0, 1.0]).as_slice(), [0.5]);
+        assert_eq!(roots([1.0, 0.0, 1.0, 0.0, 0.0], [-1.0, 1.0]).as_slice(), [] as [f64; 0]);
+        assert_eq!(roots([0.0, 1.0, 0.0, 0.0, 0.0], [0.0, 1.0]).as_slice(), [0.0]);
+        assert_eq!(roots([0.0; 5], [-1.0, 1.0]).as_slice().len(), 2);
+    }
+}

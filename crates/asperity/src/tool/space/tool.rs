@@ -1,0 +1,155 @@
+//! A rigid tool in space and what a ray meets on it.
+
+use super::facet::{Facet, Meeting};
+use super::{Finding, Pose, check};
+use crate::tensor::{Scalar, Vec3};
+use crate::tool::search::Tree;
+use crate::tool::select::Met;
+use crate::tool::shapes::{Bounds, Ray};
+
+/// A rigid tool in space: facets with the material behind them, and a reference point.
+#[derive(Debug)]
+pub struct Tool {
+    name: String,
+    reference: Vec3,
+    facets: Vec<Box<dyn Facet>>,
+    bounds: Bounds,
+    tree: Tree,
+}
+
+/// A place where a ray meets a tool in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// The facet.
+    pub facet: usize,
+    /// Coordinates on the facet.
+    pub s: [f64; 2],
+    /// Signed distance along the ray.
+    pub u: f64,
+    /// Outward unit normal of the tool there, in space.
+    pub normal: Vec3,
+}
+
+impl Met for Hit {
+    fn piece(&self) -> usize {
+        self.facet
+    }
+    fn u(&self) -> f64 {
+        self.u
+    }
+    fn normal(&self) -> Vec3 {
+        self.normal
+    }
+}
+
+/// The surface of a tool as triangles and quadrilaterals, for drawing.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tiles {
+    /// Points.
+    pub points: Vec<Vec3>,
+    /// Three or four points a tile, outward by the right-hand rule, with the facet it lies on.
+    pub tiles: Vec<(usize, Vec<usize>)>,
+}
+
+impl Tool {
+    /// A tool of facets; `reference` is the point that its translation moves and about which it turns. Anything is
+    /// accepted here; [`check`](Self::check) says what is wrong with it.
+    pub fn new(name: impl Into<String>, facets: Vec<Box<dyn Facet>>, reference: Vec3) -> Self {
+        let boxes: Vec<Bounds> = facets.iter().map(|facet| facet.bounds()).collect();
+        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b));
+        let tree = Tree::new(&boxes, 1e-9 * bounds.size());
+        Self { name: name.into(), reference, facets, bounds, tree }
+    }
+
+    /// The user's name for it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+    /// The reference point, where it stood before any motion.
+    pub fn reference(&self) -> Vec3 {
+        self.reference
+    }
+    /// Its facets.
+    pub fn facets(&self) -> &[Box<dyn Facet>] {
+        &self.facets
+    }
+    /// The box around it in its own frame.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+    /// The diagonal of that box, a length.
+    pub fn size(&self) -> f64 {
+        self.bounds.size()
+    }
+    /// What is wrong with its facets or worth knowing.
+    pub fn check(&self) -> Vec<Finding> {
+        check::findings(self)
+    }
+
+    /// Present position of the material point at `s` on a facet.
+    pub fn point<T: Scalar>(&self, pose: &Pose<T>, facet: usize, s: [f64; 2]) -> Vec3<T> {
+        pose.place(self.reference, self.facets[facet].point(s))
+    }
+    /// Present outward unit normal there.
+    pub fn normal(&self, pose: &Pose, facet: usize, s: [f64; 2]) -> Vec3 {
+        pose.rotate(self.facets[facet].normal(s))
+    }
+
+    /// All places with `u` in `range` where the line through `ray` meets the tool, by facet and then by `u`; `hits` is
+    /// cleared first and its memory reused.
+    pub fn cast(&self, pose: &Pose, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+        hits.clear();
+        let own = self.own_frame(pose, ray);
+        self.tree.along(&own, range, &mut |facet| {
+            self.facets[facet].cast(&own, &mut |place| {
+                if (range[0]..=range[1]).contains(&place.u) {
+                    hits.push(self.hit(pose, facet, place));
+                }
+            });
+        });
+        hits.sort_unstable_by(|a, b| a.facet.cmp(&b.facet).then(a.u.total_cmp(&b.u)));
+    }
+
+    /// Where a ray meets one given facet or what continues it, whether or not others are nearer: see
+    /// [`Facet::follow`]. Continuous in the ray, so that a point whose ray is perturbed keeps its facet.
+    pub fn cast_facet(&self, pose: &Pose, facet: usize, ray: &Ray, near: [f64; 2]) -> Option<Hit> {
+        let own = self.own_frame(pose, ray);
+        self.facets[facet].follow(&own, near).map(|place| self.hit(pose, facet, place))
+    }
+
+    /// Its surface in space, nowhere much farther than `sagitta` from it.
+    pub fn surface(&self, pose: &Pose, sagitta: f64) -> Tiles {
+        let mut out = Tiles::default();
+        for (i, facet) in self.facets.iter().enumerate() {
+            tile(i, facet.as_ref(), sagitta, &mut out);
+        }
+        out.points.iter_mut().for_each(|p| *p = pose.place(self.reference, *p));
+        out
+    }
+
+    fn own_frame(&self, pose: &Pose, ray: &Ray) -> Ray {
+        let origin = pose.withdraw(self.reference, ray.origin);
+        Ray { origin, direction: pose.rotate_back(ray.direction) }
+    }
+    fn hit(&self, pose: &Pose, facet: usize, place: Meeting) -> Hit {
+        Hit { facet, s: place.s, u: place.u, normal: self.normal(pose, facet, place.s) }
+    }
+}
+
+/// The tiles of one facet.
+fn tile(number: usize, facet: &dyn Facet, sagitta: f64, out: &mut Tiles) {
+    let first = out.points.len();
+    if let corners @ [_, _, _] = facet.corners() {
+        out.points.extend(corners);
+        out.tiles.push((number, (first..first + 3).collect()));
+        return;
+    }
+    let [n, m] = facet.parts(sagitta);
+    let at = |i: usize, j: usize| facet.point([i as f64 / n as f64, j as f64 / m as f64]);
+    out.points.extend((0..=n).flat_map(|i| (0..=m).map(move |j| (i, j))).map(|(i, j)| at(i, j)));
+    let place = |i: usize, j: usize| first + i * (m + 1) + j;
+    let tiles = (0..n).flat_map(|i| (0..m).map(move |j| (i, j)));
+    out.tiles.extend(tiles.map(|(i, j)| {
+        (number, vec![place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)])
+    }));
+}

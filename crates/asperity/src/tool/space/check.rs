@@ -137,7 +137,7 @@ fn judge(edges: &BTreeMap<(Key, Key), Edge>, found: &mut Vec<Finding>) {
     let (mut open, mut many) = (None, None);
     for (&(from, to), edge) in edges {
         match (edge.along.as_slice(), edge.against.as_slice()) {
-            ([a], [_]) => drop(a),
+            ([_], [_]) => {}
             ([a], []) | ([], [a]) => {
                 let ends = [from, to].map(|key| Vec3(key.map(f64::from_bits)));
                 open.get_or_insert((0, *a, ends)).0 += 1;

@@ -90,7 +90,8 @@ impl Facet for Extruded {
         [self.frame.turn(self.shape.tangent(s)), self.frame.z * self.length]
     }
     fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting)) {
-        let (origin, along) = (self.frame.coordinates(ray.origin - self.frame.origin), self.frame.coordinates(ray.direction));
+        let (origin, along) =
+            (self.frame.coordinates(ray.origin - self.frame.origin), self.frame.coordinates(ray.direction));
         let flat = Vec3::new(along[0], along[1], 0.0);
         let speed = flat.norm();
         if speed <= 1e-14 {

@@ -322,7 +322,8 @@ fn the_surface_for_drawing_lies_on_the_tool() {
         for (facet, corners) in &tiles.tiles {
             let [a, b, c] = [0, 1, corners.len() - 1].map(|k| tiles.points[corners[k]]);
             let pose = Pose::new([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]);
-            let middle = corners.iter().fold(Vec3::zero(), |sum, &k| sum + tiles.points[k]) * (1.0 / corners.len() as f64);
+            let middle =
+                corners.iter().fold(Vec3::zero(), |sum, &k| sum + tiles.points[k]) * (1.0 / corners.len() as f64);
             let direction = (b - a).cross(c - a);
             if direction.norm() < 1e-9 {
                 continue;

@@ -149,7 +149,6 @@ fn tile(number: usize, facet: &dyn Facet, sagitta: f64, out: &mut Tiles) {
     out.points.extend((0..=n).flat_map(|i| (0..=m).map(move |j| (i, j))).map(|(i, j)| at(i, j)));
     let place = |i: usize, j: usize| first + i * (m + 1) + j;
     let tiles = (0..n).flat_map(|i| (0..m).map(move |j| (i, j)));
-    out.tiles.extend(tiles.map(|(i, j)| {
-        (number, vec![place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)])
-    }));
+    out.tiles
+        .extend(tiles.map(|(i, j)| (number, vec![place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)])));
 }

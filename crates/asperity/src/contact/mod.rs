@@ -14,6 +14,7 @@ mod penalty;
 mod point;
 mod record;
 mod rigid;
+pub mod space;
 mod surface;
 mod target;
 

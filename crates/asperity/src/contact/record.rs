@@ -28,8 +28,12 @@ pub mod entry {
     pub const LAST_DISSIPATED: usize = 10;
     /// Second coordinate on the segment; zero in the plane.
     pub const S2: usize = 11;
+    /// Shear stress along the second tangent, in space.
+    pub const SHEAR2: usize = 12;
+    /// Slip along the second tangent, accumulated with its sign since the start, in space.
+    pub const SLIP2: usize = 13;
     /// Number of these values.
-    pub const COUNT: usize = 12;
+    pub const COUNT: usize = 14;
 }
 
 /// Whether a contact point is open, sticks or slips.

@@ -18,6 +18,7 @@ mod tool;
 
 pub use check::Finding;
 pub use facet::{Facet, Meeting};
+pub use polygons::{Quad, Triangle};
 pub use pose::Pose;
 pub use swept::Frame;
 pub use tool::{Hit, Tiles, Tool};

@@ -1,0 +1,243 @@
+//! A contact in space during one attempt: its points as stencils, evaluated on the facets that the search found.
+
+use super::geometry::{DIRECTIONS, Geometry, TOOL};
+use super::pair::Contact;
+use super::point::{self, Closed, Constants, Place, Triad};
+use crate::Failure;
+use crate::contact::record::entry;
+use crate::interface::Past;
+use crate::system::{Attempt, Branch, History, Local, Stencil, Stencils};
+use crate::tensor::{Dual, Scalar, Vec3};
+use crate::tool::Rejected;
+use crate::tool::space::Hit;
+use rayon::prelude::*;
+use std::cell::RefCell;
+
+type D = Dual<DIRECTIONS>;
+
+/// A contact during one attempt.
+pub struct OpenContact<'a> {
+    /// The contact.
+    pub contact: &'a Contact,
+    /// Its history in the accepted state.
+    pub history: &'a History,
+    /// Largest admissible penetration at each point.
+    pub depths: Vec<f64>,
+    /// Pressure up to which the tangent is exact.
+    pub ordinary: f64,
+    /// Length of the increment.
+    pub dt: f64,
+}
+
+/// Begins the new history of a point with what the search found.
+pub fn write_hit(hit: Option<Hit>, values: &mut [f64]) {
+    values.fill(0.0);
+    match hit {
+        Some(hit) => {
+            values[entry::PENETRATION] = hit.u;
+            values[entry::SEGMENT] = hit.facet as f64;
+            [values[entry::S], values[entry::S2]] = hit.s;
+        }
+        None => values[entry::SEGMENT] = -1.0,
+    }
+}
+
+thread_local! {
+    /// Memory of the search, so that casting a ray allocates nothing.
+    static HITS: RefCell<Vec<Hit>> = const { RefCell::new(Vec::new()) };
+}
+
+impl Attempt for OpenContact<'_> {
+    fn is_fixed(&self) -> bool {
+        false
+    }
+
+    fn scratch(&self, index: usize) -> Vec<f64> {
+        vec![0.0; self.history.slot(index).len()]
+    }
+
+    fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
+        let (contact, parts) = (self.contact, &self.contact.parts);
+        let (pose, points) = (contact.pose(u), &parts.surface.points);
+        let cast = |index: usize| {
+            let (mut rejected, ray) = (Rejected::default(), contact.ray(&points[index], u));
+            HITS.with_borrow_mut(|hits| contact.cast(&pose, ray, self.depths[index], hits, &mut rejected))
+        };
+        // Each ray for itself: the order of the threads decides nothing.
+        let hits: Vec<Option<Hit>> = (0..points.len()).into_par_iter().with_min_len(64).map(cast).collect();
+        let tool = parts.dofs.tool(contact.tool_number());
+        for (point, hit) in points.iter().zip(hits) {
+            let start = out.dofs.len();
+            let nodes = parts.surface.nodes(point);
+            out.dofs.extend(nodes.iter().flat_map(|&node| [0, 1, 2].map(|axis| parts.dofs.node(node) + axis)));
+            out.dofs.extend(tool..tool + if hit.is_some() { TOOL } else { 0 });
+            let (choice, near) = hit.map_or((0, [0.0; 2]), |hit| (hit.facet as u32 + 1, hit.s));
+            out.close(start, choice, near);
+        }
+        Ok(())
+    }
+
+    fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
+        let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
+            write_hit(None, new);
+            self.leave(index, new);
+            return Ok(0);
+        };
+        let law = &self.contact.parts.law;
+        if local.wants_tangent {
+            self.evaluate_over::<D>(index, &geometry, new, local, |place, constants, past, vars| {
+                point::evaluate(place, constants, |m| law.respond_space(m, past, vars))
+            })
+        } else {
+            self.evaluate_over::<f64>(index, &geometry, new, local, |place, constants, past, vars| {
+                point::evaluate(place, constants, |m| law.respond(m, past, vars))
+            })
+        }
+    }
+}
+
+/// Numbers that can be seeded as independent variables: [`D`] and, trivially, `f64`.
+pub(super) trait Seed: Scalar {
+    fn seed(value: f64, direction: usize) -> Self;
+    fn slopes(&self) -> [f64; DIRECTIONS];
+}
+
+impl Seed for f64 {
+    fn seed(value: f64, _: usize) -> f64 {
+        value
+    }
+    fn slopes(&self) -> [f64; DIRECTIONS] {
+        [0.0; DIRECTIONS]
+    }
+}
+
+impl Seed for D {
+    fn seed(value: f64, direction: usize) -> D {
+        D::variable(value, direction)
+    }
+    fn slopes(&self) -> [f64; DIRECTIONS] {
+        self.du
+    }
+}
+
+fn seed<T: Seed>(v: Vec3, first: usize) -> Vec3<T> {
+    Vec3(std::array::from_fn(|i| T::seed(v[i], first + i)))
+}
+
+type Evaluated<T> = Result<(T, Option<Closed<T>>), Failure>;
+
+impl OpenContact<'_> {
+    fn evaluate_over<T: Seed>(
+        &self,
+        index: usize,
+        g: &Geometry,
+        new: &mut [f64],
+        local: &mut Local,
+        evaluate: impl FnOnce(&Place<T>, &Constants, &Past, &mut [f64]) -> Evaluated<T>,
+    ) -> Result<Branch, Failure> {
+        let old = self.history.slot(index);
+        let place = Place {
+            a: seed(g.place.a, 0),
+            tangents: [seed(g.place.tangents[0], 3), seed(g.place.tangents[1], 6)],
+            b: seed(g.place.b, 9),
+            touched: g.place.touched.map(|x| seed(x, 12)),
+        };
+        let past = self.past(index, local);
+        let constants = self.constants(index, g, &past, local);
+        let past = Past { penetration: constants.before.max(constants.touch), ..past };
+        write_hit(Some(g.hit), new);
+        new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
+        let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
+        let Some(closed) = closed else {
+            self.leave(index, new);
+            self.account(index, g, ([0.0; 2], 0.0, 0.0), local);
+            return Ok(0);
+        };
+        self.refuse_jump(index, g)?;
+        new[entry::PENETRATION] -= constants.least;
+        write(&closed, old, new);
+        self.add(index, g, &closed, local);
+        let response = &closed.response;
+        self.account(index, g, (response.shear.map(T::re), response.pressure.re(), response.closure), local);
+        Ok(response.status as Branch)
+    }
+
+    fn constants(&self, index: usize, g: &Geometry, past: &Past, local: &Local) -> Constants {
+        let parts = &self.contact.parts;
+        Constants {
+            normal: g.hit.normal,
+            before: past.penetration,
+            touch: parts.law.touch(past),
+            least: self.contact.least,
+            weight: parts.surface.points[index].weight,
+            turning: self.turning(g.hit.u, local),
+        }
+    }
+
+    /// What the law may know of a point.
+    fn past(&self, index: usize, local: &Local) -> Past<'_> {
+        let (options, old) = (&self.contact.parts.options, self.history.slot(index));
+        Past {
+            penalty: options.penalty * local.aid.stiffness,
+            tangential_penalty: options.tangential_penalty * local.aid.stiffness,
+            penetration: old[entry::PENETRATION],
+            pressure: old[entry::PRESSURE],
+            shear: [old[entry::SHEAR], old[entry::SHEAR2]],
+            vars: &old[entry::COUNT..],
+            dt: self.dt,
+        }
+    }
+
+    /// An open point keeps what has been, and of the law's own state what the law says.
+    fn leave(&self, index: usize, new: &mut [f64]) {
+        let old = self.history.slot(index);
+        for kept in [entry::SLIP, entry::SLIP2, entry::SLIPPED, entry::DISSIPATED] {
+            new[kept] = old[kept];
+        }
+        self.contact.parts.law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
+    }
+
+    /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
+    /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
+    /// A point that closes or opens takes part with half its stress.
+    fn account(&self, index: usize, g: &Geometry, (shear, pressure, closure): ([f64; 2], f64, f64), local: &mut Local) {
+        let (options, old) = (&self.contact.parts.options, self.history.slot(index));
+        let before = [old[entry::SHEAR], old[entry::SHEAR2]];
+        let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
+        let triad = Triad::new(g.place.tangents);
+        let slip = |e: Vec3| g.place.touched.map_or(0.0, |touched| e.dot(touched - g.place.a));
+        let area = triad.area * self.contact.parts.surface.points[index].weight;
+        let work: f64 = (0..2).map(|i| 0.5 * (before[i] + shear[i]) * slip(triad.along[i])).sum();
+        local.stored = area * (0.5 * pressure * pressure / options.penalty + stored(shear));
+        let friction = work - (stored(shear) - stored(before));
+        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + pressure) * closure);
+    }
+
+    /// Part of the triad's derivatives that the tangent keeps at a penetration.
+    fn turning(&self, penetration: f64, local: &Local) -> f64 {
+        let pressure = self.contact.parts.options.penalty * local.aid.stiffness * penetration.abs();
+        if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }.min(local.aid.turning)
+    }
+
+    /// A point that had nothing before it and now lies deep has jumped over the target's face.
+    fn refuse_jump(&self, index: usize, g: &Geometry) -> Result<(), Failure> {
+        if g.place.touched.is_none() && g.hit.u > 0.25 * self.depths[index] {
+            let name = self.contact.describe(index);
+            return Err(Failure::new(format!("{name} came to lie {:.3e} deep in one increment", g.hit.u)));
+        }
+        Ok(())
+    }
+}
+
+fn write<T: Seed>(closed: &Closed<T>, old: &[f64], new: &mut [f64]) {
+    let response = &closed.response;
+    new[entry::PRESSURE] = response.pressure.re();
+    [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear.map(T::re);
+    new[entry::SLIP] = old[entry::SLIP] + closed.slip[0].re();
+    new[entry::SLIP2] = old[entry::SLIP2] + closed.slip[1].re();
+    new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
+    new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
+    new[entry::STATUS] = f64::from(response.status as u8);
+    new[entry::VIOLATION] = response.violation;
+    new[entry::LAST_DISSIPATED] = response.dissipated;
+}

@@ -1,0 +1,165 @@
+//! Contact points in space: their tangents against differences on faces of every kind over targets of every kind, and
+//! their indifference to a rotation of everything.
+
+#[path = "support/stencils.rs"]
+mod stencils;
+
+use asperity::contact::space::{Contact, Parts, Surface};
+use asperity::contact::{ContactOptions, Loads};
+use asperity::interface::{Law, laws::Coulomb};
+use asperity::mesh::{Cell, generate::Block};
+use asperity::system::{Dofs, State, Term};
+use asperity::tensor::Vec3;
+use asperity::tool::shapes;
+use asperity::tool::space::solids::{Facets, cone, extruded, polygons, sphere, torus};
+use asperity::tool::space::{Frame, Pose, Tool};
+use std::sync::Arc;
+use stencils::{Random, check, commit, instant, state};
+
+/// Largest difference of an entry over the largest entry.
+const ALLOWED: f64 = 1e-7;
+
+fn at(x: f64, y: f64, z: f64) -> Vec3 {
+    Vec3::new(x, y, z)
+}
+
+/// Something of the target's kind whose highest place is near the middle of the unit square `z = 0`.
+fn target(kind: &str) -> Facets {
+    let corners = [at(-3.0, -3.0, -0.2), at(4.0, -3.0, 0.1), at(4.0, 4.0, -0.1), at(-3.0, 4.0, 0.2)];
+    match kind {
+        "triangle" => polygons([vec![at(-4.0, -4.0, -0.1), at(6.0, -4.0, 0.1), at(0.5, 7.0, 0.0)]]).unwrap(),
+        "quad" => polygons([corners.to_vec()]).unwrap(),
+        "sphere" => sphere(at(0.5, 0.4, -4.0), 4.0).unwrap(),
+        "cone" => cone(at(-5.0, 0.5, -3.0), at(6.0, 0.6, -3.0), [2.8, 3.2], 0.0).unwrap(),
+        "torus" => torus(at(0.5, 0.4, -5.0), at(0.1, 1.0, 0.1), 3.0, 2.0).unwrap(),
+        _ => {
+            let nodes = [at(4.0, -0.3, 0.0), at(0.5, -0.02, 0.0), at(-3.0, -0.3, 0.0)];
+            let shape = shapes::find(kind).unwrap().build(&nodes).unwrap();
+            let frame = Frame::across(at(0.0, 4.0, 0.0), at(0.0, -1.0, 0.01), at(1.0, 0.0, 0.0)).unwrap();
+            extruded(vec![shape], frame, 8.0)
+        }
+    }
+}
+
+/// A contact of the lower faces of a bent unit cube with a target below it, its tool free to move.
+fn contact(cell: &str, kind: &str) -> (Contact, Dofs) {
+    let mut mesh = Block::new([0.0; 3], [1.0; 3], [1; 3], Cell::named(cell).unwrap()).mesh("b").unwrap();
+    for x in &mut mesh.points {
+        let [a, b, c] = x.0;
+        *x += at(0.1 * a * b, 0.15 * b * (1.0 - a), 0.04 * a * (1.0 - b) * (1.0 - c));
+    }
+    let dofs = Dofs::new(3, mesh.points.len(), 1);
+    let mesh = Arc::new(mesh);
+    let tool = Arc::new(Tool::new("t", target(kind), at(0.5, 0.3, -1.0)));
+    let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
+    let lower = mesh.groups["b.back"].sides.clone();
+    // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
+    let options = ContactOptions {
+        penalty: 1.0,
+        tangential_penalty: 0.7,
+        thickness: 1.0,
+        modulus: 1e3,
+        loads: Loads::Both,
+        coupling: true,
+    };
+    let parts = Parts {
+        name: "c".into(),
+        surface: Surface::new(&mesh, &lower, None),
+        mesh,
+        dofs: dofs.clone(),
+        boundary,
+        tool: (tool, 0),
+        law: Arc::new(Law(Coulomb::new(0.4))),
+        options,
+    };
+    (Contact::new(parts), dofs)
+}
+
+/// Random motion: the cube by up to a tenth and downwards, its nodes and the tool by a little.
+fn motion(dofs: &Dofs, random: &mut Random) -> Vec<f64> {
+    let (right, back, down) = (0.06 * random.next(), 0.06 * random.next(), -0.08 - 0.1 * random.next());
+    let mut u = vec![0.0; dofs.count()];
+    for node in 0..dofs.nodes() {
+        for (axis, by) in [right, back, down].into_iter().enumerate() {
+            u[dofs.node(node) + axis] = by + 0.01 * random.next();
+        }
+    }
+    let tool = dofs.tool(0);
+    (tool..tool + 6).for_each(|dof| u[dof] = 0.03 * random.next());
+    u
+}
+
+/// A pressure of some steps of the differences, times the penalty.
+const LITTLE: f64 = 1e-2;
+
+fn pressures(contact: &Contact, state: &State) -> Vec<f64> {
+    contact.records(&state.u, &state.histories[0]).iter().map(|record| record.pressure).collect()
+}
+
+#[test]
+fn tangents_are_exact_on_every_face_and_target() {
+    for cell in ["tet4", "tet10", "hex8", "hex20", "hex27", "wedge15"] {
+        for kind in ["triangle", "quad", "sphere", "cone", "torus", "parabola", "arc"] {
+            let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
+            let ((contact, dofs), mut random) = (contact(cell, kind), Random(7));
+            let start = state(vec![0.0; dofs.count()], contact.initial());
+            for _ in 0..60 {
+                let accepted = commit(&contact, &start, motion(&dofs, &mut random)).unwrap();
+                let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+                let trial = motion(&dofs, &mut random);
+                let pressures = pressures(&contact, &commit(&contact, &accepted, trial.clone()).unwrap());
+                for (result, pressure) in check(attempt.as_ref(), &trial).unwrap().into_iter().zip(pressures) {
+                    met[usize::from(result.branch)] += 1;
+                    // Where hardly anything is left of the pressure, the steps of the differences are not small.
+                    let smooth = result.smooth && (pressure == 0.0 || pressure > LITTLE);
+                    skipped += usize::from(!smooth);
+                    assert!(result.error.is_finite());
+                    worst = if smooth { worst.max(result.error) } else { worst };
+                }
+            }
+            let name = format!("{cell}, {kind}: {met:?} skipped {skipped} worst {worst:.1e}");
+            assert!(met.iter().all(|&met| met >= 4), "{name}");
+            assert!(10 * skipped <= met.iter().sum::<usize>(), "{name}");
+            assert!(worst < ALLOWED, "{name}");
+        }
+    }
+}
+
+/// Pressed and sheared, then turned by 63 degrees in one increment: nothing slips and no stress changes.
+#[test]
+fn a_loaded_pair_turns_without_slip() {
+    for cell in ["tet4", "tet10", "hex8", "hex20", "hex27"] {
+        let ((contact, dofs), mut random) = (contact(cell, "sphere"), Random(3));
+        let start = state(vec![0.0; dofs.count()], contact.initial());
+        let mut steps = (0..2).map(|_| {
+            let mut u = motion(&dofs, &mut random);
+            (0..dofs.nodes()).for_each(|node| u[dofs.node(node) + 2] -= 0.1);
+            // Turned from a tool that is only moved, so that the rotation vector is that of the turn.
+            u[dofs.tool(0) + 3..].fill(0.0);
+            u
+        });
+        let pressed = commit(&contact, &start, steps.next().unwrap()).unwrap();
+        let loaded = commit(&contact, &pressed, steps.next().unwrap()).unwrap();
+        let axis = at(0.48, -0.6, 0.64) * 63.0_f64.to_radians();
+        let turn = Pose::new([0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
+        let rest = dofs.nodes();
+        let mut u = loaded.u.clone();
+        let mut carry = |x: Vec3, first: usize| {
+            let now = turn.rotate(x + at(loaded.u[first], loaded.u[first + 1], loaded.u[first + 2])) - x;
+            (0..3).for_each(|axis| u[first + axis] = now[axis]);
+        };
+        (0..rest).for_each(|node| carry(contact.mesh().points[node], dofs.node(node)));
+        carry(contact.tool().reference(), dofs.tool(0));
+        (0..3).for_each(|i| u[dofs.tool(0) + 3 + i] = axis[i]);
+        let turned = commit(&contact, &loaded, u).unwrap();
+        let before = contact.records(&loaded.u, &loaded.histories[0]);
+        let after = contact.records(&turned.u, &turned.histories[0]);
+        let closed = before.iter().filter(|record| record.pressure > 0.0 && record.shear > 0.0).count();
+        assert!(closed > before.len() / 2, "{cell}: {closed} closed");
+        for (a, b) in before.iter().zip(&after) {
+            assert!((a.slip - b.slip).abs() < 1e-12 && (a.slipped - b.slipped).abs() < 1e-12, "{cell} {a:?} {b:?}");
+            assert!((a.pressure - b.pressure).abs() < 1e-12 && (a.shear - b.shear).abs() < 1e-12, "{cell}");
+            assert!((turn.rotate(a.traction()) - b.traction()).norm() < 1e-12, "{cell}");
+        }
+    }
+}

@@ -64,12 +64,7 @@ impl Boundary {
 }
 
 /// Position and tangents of a point of the surface at displacements `u`.
-pub fn locate(
-    surface: &Surface,
-    point: &SurfacePoint,
-    (mesh, dofs): (&Mesh, &Dofs),
-    u: &[f64],
-) -> (Vec3, [Vec3; 2]) {
+pub fn locate(surface: &Surface, point: &SurfacePoint, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> (Vec3, [Vec3; 2]) {
     let (nodes, mut x) = (surface.nodes(point), [Vec3::zero(); MAX_NODES]);
     x.iter_mut().zip(positions(mesh, dofs, nodes, u)).for_each(|(x, here)| *x = here);
     point.place(&x[..nodes.len()])

@@ -143,7 +143,8 @@ impl Contact {
         let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, u);
         let (pose, mut rejected, mut scratch) = (self.pose(u), Rejected::default(), Vec::new());
         let points = parts.surface.points.iter().zip(&depths);
-        let hits = points.map(|(point, &depth)| self.cast(&pose, self.ray(point, u), depth, &mut scratch, &mut rejected));
+        let hits =
+            points.map(|(point, &depth)| self.cast(&pose, self.ray(point, u), depth, &mut scratch, &mut rejected));
         (hits.collect(), rejected)
     }
 

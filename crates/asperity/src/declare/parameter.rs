@@ -46,6 +46,14 @@ pub mod unit {
     pub const STIFFNESS: &str = "force per length";
     /// A stress per length: the penalty of a contact.
     pub const PENALTY: &str = "stress per length";
+    /// A mass per volume.
+    pub const DENSITY: &str = "mass per volume";
+    /// An acceleration.
+    pub const ACCELERATION: &str = "acceleration";
+    /// A temperature.
+    pub const TEMPERATURE: &str = "temperature";
+    /// One over a temperature.
+    pub const EXPANSION: &str = "strain per temperature";
     /// A force per volume.
     pub const BODY_FORCE: &str = "force per volume";
     /// A length per time.

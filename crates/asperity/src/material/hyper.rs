@@ -36,7 +36,7 @@ impl<L: HyperLaw> Hyper<L> {
         let b = (*f * left_cauchy_green(old).lift() * f.transpose()).sym();
         let stress = self.0.stress(&b)?.to_voigt();
         new[..6].copy_from_slice(&stress.map(Scalar::re));
-        new[6..].copy_from_slice(&b.re().to_voigt());
+        new[6..12].copy_from_slice(&b.re().to_voigt());
         Ok(stress)
     }
 
@@ -66,6 +66,10 @@ impl<L: HyperLaw> Material for Hyper<L> {
     fn initialise(&self, state: &mut [f64]) {
         state.fill(0.0);
         state[6..9].fill(1.0);
+    }
+
+    fn bears(&self, _: &[f64]) -> Result<(), String> {
+        Err("the stress of a hyperelastic law follows from the deformation alone".into())
     }
 
     fn with_update(&self, _: Update) -> Result<Box<dyn Material>, String> {

@@ -45,6 +45,11 @@ pub trait Material: Send + Sync {
     fn initialise(&self, state: &mut [f64]) {
         state.fill(0.0);
     }
+    /// Whether the stress of a state may stand at the beginning, given from outside.
+    ///
+    /// # Errors
+    /// In words, why not.
+    fn bears(&self, state: &[f64]) -> Result<(), String>;
     /// The same law with its increments integrated as said.
     ///
     /// # Errors

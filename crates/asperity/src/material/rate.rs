@@ -58,6 +58,9 @@ pub fn hughes_winget<T: Scalar>(f: &Tensor2<T>) -> (Tensor2<T>, Tensor2<T>) {
     (g.sym(), (identity - half).inverse() * (identity + half))
 }
 
+/// Part of a stress given beforehand by which the law may correct it.
+const BORNE: f64 = 1e-9;
+
 /// Why a deformation is refused.
 pub(super) const INSIDE_OUT: &str = "a cell is turned inside out";
 
@@ -140,6 +143,16 @@ impl<L: RateLaw> Material for Rate<L> {
     fn initialise(&self, state: &mut [f64]) {
         state.fill(0.0);
         self.0.initial(state);
+    }
+
+    /// A stress that an increment of nothing leaves as it is.
+    fn bears(&self, state: &[f64]) -> Result<(), String> {
+        let (borne, _) = self.advance(&Tensor2::identity(), 0.0, state).map_err(|failure| failure.reason)?;
+        let given = stress_of(state);
+        let off = borne - given;
+        // Not `>`, so that what is not a number is refused.
+        let near = off.contract(off) <= (BORNE * BORNE) * given.contract(given);
+        if near { Ok(()) } else { Err("the law does not bear it: it lies beyond yield".into()) }
     }
 
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {

@@ -4,11 +4,17 @@
 //! forces are `F_L = integral of P grad_n N_L dv_n`, `P = det(f) sigma f^-T`, with gradients and volume taken at the
 //! beginning of the increment. The tangent is the exact derivative of that same expression.
 
+mod attempt;
 mod body;
 mod gradient;
+mod heat;
+mod initial_stress;
+mod operator;
 mod plane_stress;
 mod point;
 mod record;
 
 pub use body::{Body, BodyOptions, Formulation, Integration};
+pub use heat::Heat;
+pub use initial_stress::InitialStress;
 pub use record::PointRecord;

@@ -14,8 +14,8 @@ const LIMIT: usize = 30;
 fn solve(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<Tensor2, Failure> {
     let mut f = *f;
     for _ in 0..LIMIT {
-        let c = law.material.update_with_gradient(&f, law.dt, old, new, Directions::PlaneAndNormal)?;
-        let change = -new[2] / c[2][4];
+        let c = law.material.update_with_gradient(&(f * law.free), law.dt, old, new, Directions::PlaneAndNormal)?;
+        let change = -new[2] / (c[2][4] * law.free);
         f[(2, 2)] += change.clamp(-0.5 * f[(2, 2)], f[(2, 2)]);
         if change.abs() <= 4.0 * f64::EPSILON {
             return Ok(f);

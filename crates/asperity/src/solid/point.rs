@@ -32,6 +32,8 @@ pub struct PointLaw<'a> {
     pub dt: f64,
     /// `det f0` at the centre where F-bar is used.
     pub center: Option<f64>,
+    /// What heat leaves of a unit of deformation to the law.
+    pub free: f64,
 }
 
 impl PointLaw<'_> {
@@ -44,7 +46,7 @@ impl PointLaw<'_> {
         }
     }
 
-    /// Deformation the law sees, the power of F-bar, and which components it scales.
+    /// Deformation the law sees but for heat, the power of F-bar, and which components it scales.
     fn bar(&self, f: &Tensor2) -> (Tensor2, f64) {
         let Some(center) = self.center else { return (*f, 0.0) };
         let in_plane = self.space == Space::PlaneStrain;
@@ -57,7 +59,7 @@ impl PointLaw<'_> {
     /// New state and `P` without derivatives.
     pub fn stress(&self, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<[f64; 9], Failure> {
         self.admissible(f)?;
-        self.material.update(&self.bar(f).0, self.dt, old, new)?;
+        self.material.update(&(self.bar(f).0 * self.free), self.dt, old, new)?;
         let p = first_piola(f, new);
         Ok(self.components(&p))
     }
@@ -80,8 +82,9 @@ impl PointLaw<'_> {
     pub fn stress_with_tangent(&self, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<PointStress, Failure> {
         self.admissible(f)?;
         let (bar, power) = self.bar(f);
-        let mut c = self.material.update_with_gradient(&bar, self.dt, old, new, self.directions())?;
+        let mut c = self.material.update_with_gradient(&(bar * self.free), self.dt, old, new, self.directions())?;
         let (inverse, det) = (f.inverse(), f.det());
+        c.iter_mut().flatten().for_each(|c| *c *= self.free);
         let center = if power > 0.0 { self.unbar(&mut c, f, &bar, power) } else { [0.0; 6] };
         let p = first_piola(f, new);
         let places = self.directions().components();

@@ -63,13 +63,17 @@ impl Problem {
     pub fn initial_state(&self) -> State {
         let count = self.dofs.count();
         let histories: Vec<_> = self.terms.iter().map(|term| term.initial()).collect();
+        let mut internal = vec![0.0; count];
+        // A first state that cannot be evaluated is told by the first attempt.
+        let stored: Vec<f64> = self.terms.iter().map(|term| term.at_start(&mut internal).unwrap_or(0.0)).collect();
         State {
             u: vec![0.0; count],
             last_change: vec![0.0; count],
             step_start: vec![0.0; count],
-            internal: vec![0.0; count],
+            internal,
             load: vec![0.0; count],
-            energies: vec![Energies::default(); self.terms.len()],
+            external_work: stored.iter().sum(),
+            energies: stored.iter().map(|&stored| Energies { stored, ..Energies::default() }).collect(),
             next_dt: self.steps.first().map_or(0.0, |s| s.increments.first * s.duration),
             histories,
             ..State::default()
@@ -250,6 +254,7 @@ impl<'a> Run<'a> {
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
+            total.supplied += new.supplied;
             total.dissipated += new.dissipated;
         }
         state.u = converged.u;

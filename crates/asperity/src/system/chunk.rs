@@ -98,6 +98,7 @@ impl Chunk {
         }
         self.energies.stored += local.stored;
         self.energies.dissipated += local.dissipated;
+        self.energies.supplied += local.supplied;
         Ok(())
     }
 }

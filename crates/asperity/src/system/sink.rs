@@ -49,6 +49,7 @@ impl<'a> Sink<'a> {
         let energies = &mut self.out.energies[self.term];
         energies.stored += chunk.energies.stored;
         energies.dissipated += chunk.energies.dissipated;
+        energies.supplied += chunk.energies.supplied;
         result
     }
 

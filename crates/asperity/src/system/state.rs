@@ -47,6 +47,8 @@ pub struct Energies {
     pub stored: f64,
     /// Dissipated energy, accumulated over accepted increments.
     pub dissipated: f64,
+    /// Energy that heat supplied, accumulated likewise.
+    pub supplied: f64,
 }
 
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.

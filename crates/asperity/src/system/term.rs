@@ -108,6 +108,8 @@ pub struct Local {
     pub stored: f64,
     /// Energy dissipated over the increment.
     pub dissipated: f64,
+    /// Energy that heat supplied over the increment.
+    pub supplied: f64,
 }
 
 impl Default for Local {
@@ -120,6 +122,7 @@ impl Default for Local {
             aid: Aid::NONE,
             stored: 0.0,
             dissipated: 0.0,
+            supplied: 0.0,
         }
     }
 }
@@ -133,7 +136,7 @@ impl Local {
             self.tangent.clear();
             self.tangent.resize(len * len, 0.0);
         }
-        (self.stored, self.dissipated) = (0.0, 0.0);
+        (self.stored, self.dissipated, self.supplied) = (0.0, 0.0, 0.0);
     }
 }
 
@@ -147,6 +150,14 @@ pub trait Term: Send + Sync {
     }
     /// History before the first increment.
     fn initial(&self) -> History;
+    /// Adds the forces that the term exerts before the first increment to those on all unknowns, and returns the energy
+    /// that it stores then.
+    ///
+    /// # Errors
+    /// A [`Failure`] where the first state cannot be evaluated.
+    fn at_start(&self, _forces: &mut [f64]) -> Result<f64, Failure> {
+        Ok(0.0)
+    }
     /// Opens an attempt at the increment that follows `accepted`. What is derived from the accepted state (gradients,
     /// capture bands, search trees) lives in the returned object and dies with the attempt. `history` is this term's
     /// own lane of it.

@@ -2,8 +2,10 @@
 
 use super::Builder;
 use crate::deck::diagnose::Diagnostic;
+use crate::deck::keys::Body as BodyKeys;
+use crate::deck::reader::Name;
 use crate::material::Material;
-use crate::solid::{Body, BodyOptions};
+use crate::solid::{Body, BodyOptions, Heat};
 use std::sync::Arc;
 
 /// No body yet.
@@ -15,8 +17,9 @@ impl Builder<'_> {
         let materials = self.materials()?;
         let before = self.found.len();
         self.check_cells();
-        let bodies: Vec<_> = self
-            .deck
+        self.check_temperatures();
+        let deck = self.deck;
+        let bodies: Vec<_> = deck
             .body
             .iter()
             .map(|(name, keys)| {
@@ -36,10 +39,59 @@ impl Builder<'_> {
                     }
                 };
                 let body = Body::new(&name.text, site, cells, material, options);
-                Some((self.keep(body, name.place)?, number))
+                let body = self.keep(body, name.place)?;
+                let body = self.heated(body, name, keys)?;
+                Some((self.prestressed(body, name, keys)?, number))
             })
             .collect();
         bodies.into_iter().collect::<Option<Vec<_>>>().filter(|_| self.found.len() == before)
+    }
+
+    fn prestressed(&mut self, body: Body, name: &Name, keys: &BodyKeys) -> Option<Body> {
+        let Some(stress) = &keys.initial_stress else { return Some(body) };
+        if let Some(shear) = stress.across_the_plane().filter(|_| self.plane()) {
+            self.refuse(
+                format!("`body.{name}.initial_stress` has a shear across the plane of a plane model"),
+                shear.place,
+            );
+            return None;
+        }
+        self.keep(body.prestressed(stress.field()), name.place)
+    }
+
+    /// The body with its temperature, which needs an expansion and a step that says it.
+    fn heated(&mut self, body: Body, name: &Name, keys: &BodyKeys) -> Option<Body> {
+        let said = self.deck.step.iter().flat_map(|step| &step.temperature).find(|(other, _)| other.text == name.text);
+        match (&keys.expansion, said) {
+            (None, None) => Some(body),
+            (Some(expansion), Some(_)) => {
+                let temperature = self.temperature(&name.text);
+                Some(body.heated(Heat { expansion: expansion.value, temperature }))
+            }
+            (Some(expansion), None) => {
+                self.refuse(
+                    format!("`body.{name}.expansion` has no use: no step says `temperature.{name}`"),
+                    expansion.place,
+                );
+                None
+            }
+            (None, Some((at, _))) => {
+                self.refuse(format!("`temperature.{name}` has no use: the body `{name}` has no `expansion`"), at.place);
+                None
+            }
+        }
+    }
+
+    /// A temperature must be that of a body.
+    fn check_temperatures(&mut self) {
+        let deck = self.deck;
+        for (name, _) in deck.step.iter().flat_map(|step| &step.temperature) {
+            let bodies = || deck.body.iter().map(|(body, _)| body.text.as_str());
+            if !bodies().any(|body| body == name.text) && self.site.mesh.groups.contains_key(&name.text) {
+                let what = format!("`{name}` is no body, and only bodies have a temperature");
+                self.found.push(Diagnostic::error(what).at(name.place).suggest(&name.text, bodies()));
+            }
+        }
     }
 
     fn materials(&mut self) -> Option<Vec<Arc<dyn Material>>> {

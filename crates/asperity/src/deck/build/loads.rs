@@ -5,6 +5,7 @@ use crate::amplitude::{Amplitude, Change, Timeline};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{Components, PressureKind, Step};
 use crate::deck::reader::Name;
+use crate::deck::source::Spot;
 use crate::load::{FollowerPressure, Springs, body_force, dead_pressure, force_on_nodes, force_on_tool, traction};
 use crate::mesh::Side;
 use crate::system::Term;
@@ -59,7 +60,14 @@ impl Builder<'_> {
 
     /// All loads.
     pub(super) fn loads(&mut self) -> Option<Terms> {
-        let kinds = [self.forces(), self.pressures(), self.tractions(), self.body_forces(), self.tool_loads()];
+        let kinds = [
+            self.forces(),
+            self.pressures(),
+            self.tractions(),
+            self.body_forces(),
+            self.gravities(),
+            self.tool_loads(),
+        ];
         kinds.into_iter().collect::<Option<Vec<Terms>>>().map(|terms| terms.into_iter().flatten().collect())
     }
 
@@ -94,6 +102,47 @@ impl Builder<'_> {
             terms.push(Box::new(body_force(&format!("body_force.{name}"), &self.site, cells, components)));
         }
         Some(terms)
+    }
+
+    /// The weight of every body that has a density.
+    fn gravities(&mut self) -> Option<Terms> {
+        let (deck, dimension) = (self.deck, self.site.space.dimension());
+        let gravity: Vec<_> = deck.step.iter().filter_map(|step| step.gravity.as_ref()).collect();
+        let heavy: Vec<_> = deck.body.iter().filter_map(|(name, keys)| Some((name, keys.density?))).collect();
+        match (gravity.first(), heavy.first()) {
+            (Some(gravity), None) => {
+                self.refuse("`gravity` has no use: no body has a `density`", gravity.place);
+                return None;
+            }
+            (None, Some((name, density))) => {
+                self.refuse(format!("`body.{name}.density` has no use: no step says `gravity`"), density.place);
+                return None;
+            }
+            _ => {}
+        }
+        if let Some(z) = gravity.iter().find_map(|gravity| gravity.z).filter(|_| self.plane()) {
+            self.refuse("`gravity` has a component along z, but the model is plane", z.place);
+            return None;
+        }
+        let term = |(name, density): (&Name, Spot<f64>)| {
+            let weight = |axis: usize| {
+                let change = |step: &Step| {
+                    let said = step.gravity.as_ref().and_then(|g| Some((g.components()[axis]?, g.amplitude.clone())));
+                    said.map_or(Change::Keep, |(value, amplitude)| Change::To(value * density.value, amplitude))
+                };
+                Timeline::new(deck.step.iter().map(|step| (step.duration, change(step))))
+            };
+            let cells = self.site.mesh.groups.get(&name.text).map_or(&[][..], |group| &group.cells);
+            let components = (0..dimension).map(weight).collect();
+            Box::new(body_force(&format!("gravity.{name}"), &self.site, cells, components)) as Box<dyn Term>
+        };
+        Some(heavy.into_iter().map(term).collect())
+    }
+
+    /// The temperature of a body over all steps.
+    pub(super) fn temperature(&self, body: &str) -> Timeline {
+        let said: Said<_> = |step| &step.temperature;
+        timeline(&self.deck.step, ("temperature", body), said, |t| Some((t.value, t.amplitude.clone())))
     }
 
     fn pressures(&mut self) -> Option<Terms> {

@@ -65,9 +65,12 @@ table! {
     }
 }
 
+/// For what is there from the beginning of its step.
+const AT_ONCE: &str = "[[0.0, 1.0], [1.0, 1.0]]";
+
 /// Declares a load with components of one unit.
 macro_rules! vector_load {
-    ($name:ident, $unit:expr, $about:literal) => {
+    ($name:ident, $unit:expr, $course:expr, $about:literal) => {
         table! {
             #[doc = $about]
             pub struct $name check some_component {
@@ -78,7 +81,7 @@ macro_rules! vector_load {
                 /// Along z.
                 z: Option<Spot<f64>> = number($unit, Range::ANY).spot().unless_given("0"),
                 /// Course within the step.
-                amplitude: Amplitude = amplitude().or(RAMP),
+                amplitude: Amplitude = amplitude().or($course),
             }
         }
 
@@ -96,9 +99,10 @@ macro_rules! vector_load {
     };
 }
 
-vector_load!(Force, unit::FORCE, " A force on each node.");
-vector_load!(Traction, unit::STRESS, " A force per undeformed area.");
-vector_load!(BodyForce, unit::BODY_FORCE, " A force per undeformed volume.");
+vector_load!(Force, unit::FORCE, RAMP, " A force on each node.");
+vector_load!(Traction, unit::STRESS, RAMP, " A force per undeformed area.");
+vector_load!(BodyForce, unit::BODY_FORCE, RAMP, " A force per undeformed volume.");
+vector_load!(Gravity, unit::ACCELERATION, AT_ONCE, " The acceleration of gravity.");
 
 /// Something with components along the axes.
 pub trait Components {
@@ -129,6 +133,16 @@ words! {
         Follower = "follower",
         /// Along the undeformed normal, over the undeformed area.
         Dead = "dead",
+    }
+}
+
+table! {
+    /// The temperature of a body.
+    pub struct Temperature {
+        /// Temperature above that at which the undeformed body is free of stress.
+        value: f64 = number(unit::TEMPERATURE, Range::ANY).required(),
+        /// Course within the step.
+        amplitude: Amplitude = amplitude().or(RAMP),
     }
 }
 

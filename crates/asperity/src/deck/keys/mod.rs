@@ -3,6 +3,7 @@
 
 mod condition;
 mod contact;
+mod initial_stress;
 mod mesh;
 mod output;
 mod point;
@@ -12,9 +13,11 @@ mod tool;
 mod update;
 
 pub use condition::{
-    BodyForce, Components, Displacement, Force, Motion, Pressure, PressureKind, Spring, ToolLoad, Traction,
+    BodyForce, Components, Displacement, Force, Gravity, Motion, Pressure, PressureKind, Spring, Temperature, ToolLoad,
+    Traction,
 };
 pub use contact::Contact;
+pub use initial_stress::InitialStressKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;
 pub use point::{PointCurve, PointDeck, PointStep};
@@ -79,6 +82,12 @@ table! {
         integration: Spot<Integration> = word().spot().or("\"full\""),
         /// How the law is integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
+        /// Mass of an undeformed unit of volume, on which gravity acts.
+        density: Option<Spot<f64>> = number(unit::DENSITY, Range::POSITIVE).spot().unless_given("no weight"),
+        /// Linear thermal expansion.
+        expansion: Option<Spot<f64>> = number(unit::EXPANSION, Range::ANY).spot().unless_given("none"),
+        /// Stresses before the first increment; supports and loads that are in equilibrium with them move nothing.
+        initial_stress: Option<InitialStressKeys> = InitialStressKeys::form().unless_given("none"),
     }
 }
 

@@ -3,7 +3,9 @@
 //! A condition holds from the step that says it until a later step says it anew or releases it. Within a step it goes
 //! from where it was to the value it says, along its amplitude.
 
-use super::condition::{BodyForce, Displacement, Force, Motion, Pressure, Spring, ToolLoad, Traction};
+use super::condition::{
+    BodyForce, Displacement, Force, Gravity, Motion, Pressure, Spring, Temperature, ToolLoad, Traction,
+};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::form::{Form, list, map, number, refers, table, table_of, text, whole};
 use crate::deck::reader::{Name, Reader};
@@ -34,6 +36,11 @@ table! {
         traction: Vec<(Name, Traction)> = map(refers(Names::Sides), table_of()).or("{}"),
         /// Forces per undeformed volume on groups of cells.
         body_force: Vec<(Name, BodyForce)> = map(refers(Names::Cells), table_of()).or("{}"),
+        /// Gravity, which acts on all bodies with a `density`, from the beginning of the step unless an amplitude says
+        /// otherwise, until a later step says another; zero ends it.
+        gravity: Option<Gravity> = table_of().unless_given("none, or that of the step before"),
+        /// Temperatures of bodies with an `expansion`.
+        temperature: Vec<(Name, Temperature)> = map(refers(Names::Cells), table_of()).or("{}"),
         /// Springs to the ground at each node of groups.
         spring: Vec<(Name, Spring)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Motions of tools, from their first place.
@@ -135,6 +142,7 @@ impl Step {
             of("pressure", &self.pressure),
             of("traction", &self.traction),
             of("body_force", &self.body_force),
+            of("temperature", &self.temperature),
             of("spring", &self.spring),
             of("load", &self.load),
         ]

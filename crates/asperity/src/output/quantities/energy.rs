@@ -1,4 +1,5 @@
-//! Energies: what is stored, what has been dissipated, what came from outside, and what is missing between them.
+//! Energies: what is stored, what has been dissipated, what came from outside (with what was stored at the start and
+//! what heat supplied), and what is missing between them.
 
 use super::Source;
 use crate::Error;
@@ -12,13 +13,14 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         each.fold(Energies::default(), |sum, e| Energies {
             stored: sum.stored + e.stored,
             dissipated: sum.dissipated + e.dissipated,
+            supplied: sum.supplied + e.supplied,
         })
     };
     let bodies = of(&mut source.parts.bodies.iter().map(|(term, _)| *term));
     let springs = of(&mut source.parts.springs.iter().copied());
     let all = of(&mut (0..energies.len()));
     let contact = |whole: f64, bodies: f64, springs: f64| whole - bodies - springs;
-    let external = source.state.external_work;
+    let external = source.state.external_work + all.supplied;
     let entries = [
         ("energy.external", external),
         ("energy.strain", bodies.stored),

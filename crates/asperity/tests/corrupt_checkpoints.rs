@@ -21,7 +21,7 @@ fn state() -> State {
         increment: 7,
         u: wave(60),
         last_change: wave(60),
-        energies: vec![Energies { stored: 1.0, dissipated: 0.5 }],
+        energies: vec![Energies { stored: 1.0, dissipated: 0.5, ..Energies::default() }],
         histories: vec![History { starts: vec![0, 3, 9], data: wave(9) }],
         ..State::default()
     }

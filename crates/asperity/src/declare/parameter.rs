@@ -58,6 +58,10 @@ pub mod unit {
     pub const BODY_FORCE: &str = "force per volume";
     /// A length per time.
     pub const VELOCITY: &str = "velocity";
+    /// A work per area.
+    pub const WORK: &str = "work per area";
+    /// A stress per velocity.
+    pub const VISCOSITY: &str = "stress per velocity";
     /// One over a time.
     pub const RATE: &str = "rate";
 }

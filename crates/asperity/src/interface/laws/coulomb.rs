@@ -10,7 +10,7 @@ use crate::declare::{Entry, Parameter, Range, Variable, unit};
 use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
 use crate::tensor::Scalar;
 
-const FRICTION: Parameter = Parameter {
+pub(super) const FRICTION: Parameter = Parameter {
     key: "friction",
     meaning: "coefficient of friction",
     unit: unit::NONE,

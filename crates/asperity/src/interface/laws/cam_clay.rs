@@ -1,0 +1,398 @@
+//! An interface like Cam-clay: associated flow on the ellipse `f = tau.tau + M^2 (p + p_t)(p - p_c)`.
+//!
+//! With the centre `h = (p_c - p_t) / 2` and the semi-axis `r = (p_c + p_t) / 2` the interface dilates below `h`, closes
+//! above it, and slips without either at `p = h`, `|tau| = M r`. The surface printed by Charlier & Habraken (1990),
+//! `tau^2 - phi p (p + a)`, is an open hyperbola; with one sign turned it is this one, `M^2 = phi`, `p_c = a`,
+//! `p_t = 0`.
+//!
+//! The return with the dimensionless multiplier `g` is `tau = tau_trial / (1 + k g)`, `p = h + (p_trial - h) / (1 + M^2 g)`,
+//! `k = K_t / K_p`, and `S(g) = sqrt(|tau|^2 + M^2 (p - h)^2) = M r`. Newton's method on `1 / S - 1 / (M r)` climbs to
+//! the root from below (the secular equation). With `chi` the ellipse hardens by closure and softens by dilation,
+//! `p_c = p_c0 exp(w / chi)`, down to a part of its first size: two unknowns. A point opens where the trial pressure
+//! reaches `-p_t`, which is then lost; what has closed or dilated is kept but for the part `reset_dilation`.
+
+use super::dilatant::RESET;
+use super::law;
+use super::trial::Trial;
+use crate::Failure;
+use crate::declare::{Entry, Parameter, Range, Variable, VariableKind, unit};
+use crate::integrate::{System, solve};
+use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
+use crate::tensor::Scalar;
+
+const fn needed(key: &'static str, meaning: &'static str, unit: &'static str) -> Parameter {
+    Parameter { key, meaning, unit, range: Range::POSITIVE, default: None }
+}
+
+const TENSION: Parameter = Parameter {
+    key: "tension",
+    meaning: "tensile strength p_t of the bond",
+    unit: unit::STRESS,
+    range: Range::NOT_NEGATIVE,
+    default: Some(0.0),
+};
+
+const HARDENING: Parameter = Parameter {
+    key: "hardening",
+    meaning: "closure chi that multiplies the preconsolidation by e; 0 for none",
+    unit: unit::LENGTH,
+    range: Range::NOT_NEGATIVE,
+    default: Some(0.0),
+};
+
+const LEAST: Parameter = Parameter {
+    key: "least",
+    meaning: "part of the first preconsolidation below which it does not soften",
+    unit: unit::NONE,
+    range: Range::above_to(0.0, 1.0),
+    default: Some(0.05),
+};
+
+pub(super) const ENTRY: Entry<Box<dyn Interface>> = Entry {
+    name: "cam_clay",
+    meaning: "associated ellipse in pressure and shear: dilates at small pressure, closes at large",
+    parameters: &[
+        needed("critical_slope", "ratio M of shear to pressure in the critical state", unit::NONE),
+        needed("preconsolidation", "pressure p_c at which the ellipse ends", unit::STRESS),
+        TENSION,
+        HARDENING,
+        LEAST,
+        RESET,
+    ],
+    pairs: None,
+    build: |v| {
+        let [slope, preconsolidation, tension, hardening, least, reset] = std::array::from_fn(|i| v[i]);
+        Ok(law(CamClay { slope, preconsolidation, tension, hardening, least, reset }))
+    },
+};
+
+pub(super) const PRINTED: Entry<Box<dyn Interface>> = Entry {
+    name: "cam_clay_phi_a",
+    meaning: "the same ellipse by the constants of Charlier and Habraken, with the sign repaired",
+    parameters: &[
+        needed("phi", "square of the ratio of shear to pressure in the critical state", unit::NONE),
+        needed("a", "pressure at which the ellipse ends", unit::STRESS),
+    ],
+    pairs: None,
+    build: |v| Ok(law(CamClay::perfect(v[0].sqrt(), v[1], 0.0))),
+};
+
+/// The law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CamClay {
+    /// Ratio `M` of shear to pressure in the critical state.
+    pub slope: f64,
+    /// First preconsolidation `p_c0`.
+    pub preconsolidation: f64,
+    /// Tensile strength `p_t`.
+    pub tension: f64,
+    /// Closure that multiplies the preconsolidation by e; zero for a fixed ellipse.
+    pub hardening: f64,
+    /// Least preconsolidation over the first.
+    pub least: f64,
+    /// Part of the closure that an opening point forgets.
+    pub reset: f64,
+}
+
+/// Places of the variables.
+const BROKEN: usize = 0;
+const CLOSURE: usize = 1;
+
+/// Shape of a return: the ratio of the penalties, the tensile strength, and a stress that is large in it.
+#[derive(Debug, Clone, Copy)]
+struct Shape<'a> {
+    law: &'a CamClay,
+    ratio: f64,
+    penalty: f64,
+    tension: f64,
+    scale: f64,
+}
+
+/// Where a return ends for a multiplier and a preconsolidation.
+struct End<S> {
+    shear: S,
+    pressure: S,
+    /// `S(g)` and `M r`.
+    size: S,
+    wanted: S,
+}
+
+impl Shape<'_> {
+    fn end<S: Scalar>(&self, g: S, last: S, [shear, pressure]: [S; 2]) -> End<S> {
+        let slope = self.law.slope;
+        let (centre, axis) = ((last - self.tension) * 0.5, (last + self.tension) * 0.5);
+        let shear = shear / (g * self.ratio + 1.0);
+        let away = (pressure - centre) / (g * (slope * slope) + 1.0);
+        let size = (shear * shear + away * away * (slope * slope)).sqrt();
+        End { shear, pressure: centre + away, size, wanted: axis * slope }
+    }
+
+    /// Preconsolidation after the closure `w` since the beginning.
+    fn hardened<S: Scalar>(&self, w: S) -> S {
+        let grown = if self.law.hardening > 0.0 { (w / self.law.hardening).exp() } else { S::one() };
+        grown.max(S::from(self.law.least)) * self.law.preconsolidation
+    }
+
+    /// The multiplier for a fixed ellipse, and the number of iterations.
+    fn secular(&self, last: f64, [shear, pressure]: [f64; 2]) -> Option<(f64, usize)> {
+        let squared = self.law.slope * self.law.slope;
+        let (k, m) = (self.ratio, squared);
+        let (mut g, mut before) = (0.0, f64::INFINITY);
+        for iteration in 0..60 {
+            let end = self.end(g, last, [shear, pressure]);
+            let miss = end.size / end.wanted - 1.0;
+            if miss <= 1e-14 || miss >= before {
+                return Some((g, iteration));
+            }
+            before = miss;
+            let away = end.pressure - (last - self.tension) * 0.5;
+            let slope = (k * end.shear * end.shear / (1.0 + k * g) + m * m * away * away / (1.0 + m * g)) / end.size;
+            g += miss * end.size / slope;
+            if !g.is_finite() {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// The preconsolidation that belongs to a multiplier: the root of a rising function of its logarithm.
+    fn consistent(&self, g: f64, trial: [f64; 2], before: f64) -> f64 {
+        let miss = |last: f64| {
+            let end = self.end(g, last, trial);
+            last - self.hardened(before + (trial[1] - end.pressure) / self.penalty)
+        };
+        let [mut low, mut high] =
+            [self.hardened(f64::NEG_INFINITY), 2.0 * self.hardened(before) + 2.0 * trial[1].abs()];
+        while miss(high) < 0.0 && high.is_finite() {
+            high *= 2.0;
+        }
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            *(if miss(middle) > 0.0 { &mut high } else { &mut low }) = middle;
+        }
+        0.5 * (low + high)
+    }
+
+    /// Multiplier and preconsolidation of an ellipse that hardens, by bisection.
+    fn bracketed(&self, trial: [f64; 2], before: f64) -> [f64; 2] {
+        let outside = |g: f64| {
+            let end = self.end(g, self.consistent(g, trial, before), trial);
+            end.size > end.wanted
+        };
+        let (mut low, mut high) = (0.0, 1e-3);
+        while outside(high) && high < 1e30 {
+            (low, high) = (high, 4.0 * high);
+        }
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            *(if outside(middle) { &mut low } else { &mut high }) = middle;
+            if high - low <= 1e-9 * high {
+                break;
+            }
+        }
+        [high, self.consistent(high, trial, before)]
+    }
+}
+
+/// In the multiplier; data are the sizes of the trial stress and the preconsolidation.
+impl System<1, 3> for Shape<'_> {
+    fn residual<S: Scalar>(&self, &[g]: &[S; 1], &[shear, pressure, last]: &[S; 3]) -> [S; 1] {
+        let end = self.end(g, last, [shear, pressure]);
+        [end.size / end.wanted - 1.0]
+    }
+}
+
+/// In the multiplier and the preconsolidation; data are the sizes of the trial stress and the old closure.
+impl System<2, 3> for Shape<'_> {
+    fn residual<S: Scalar>(&self, &[g, last]: &[S; 2], &[shear, pressure, before]: &[S; 3]) -> [S; 2] {
+        let last = last * self.scale;
+        let end = self.end(g, last, [shear, pressure]);
+        let closure = before + (pressure - end.pressure) / self.penalty;
+        [end.size / end.wanted - 1.0, (last - self.hardened(closure)) / self.scale]
+    }
+}
+
+impl CamClay {
+    /// An ellipse of a fixed size.
+    pub fn perfect(slope: f64, preconsolidation: f64, tension: f64) -> Self {
+        Self { slope, preconsolidation, tension, hardening: 0.0, least: 1.0, reset: 0.0 }
+    }
+
+    /// Shear and pressure on the surface.
+    fn returned<T: Scalar>(&self, shape: &Shape, trial: [T; 2], before: T) -> Result<[T; 2], Failure> {
+        const WHAT: &str = "Cam-clay of the interface";
+        let plain = trial.map(T::re);
+        let failed = || Failure::new(format!("{WHAT}: the return does not converge"));
+        let end = if self.hardening > 0.0 {
+            let [g, last] = shape.bracketed(plain, before.re());
+            let data = [trial[0], trial[1], before];
+            let [g, last] = solve::<_, _, 2, 3>(shape, [g, last / shape.scale], &data, WHAT)?;
+            shape.end(g, last * shape.scale, trial)
+        } else {
+            let last = self.preconsolidation;
+            let (g, _) = shape.secular(last, plain).ok_or_else(failed)?;
+            let [g] = solve::<_, _, 1, 3>(shape, [g], &[trial[0], trial[1], T::from(last)], WHAT)?;
+            shape.end(g, T::from(last), trial)
+        };
+        Ok([end.shear, end.pressure])
+    }
+}
+
+impl InterfaceLaw for CamClay {
+    const VARIABLES: &'static [Variable] = &[
+        Variable { name: "bond_broken", kind: VariableKind::Scalar },
+        Variable { name: "closure", kind: VariableKind::Scalar },
+    ];
+
+    fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, vars: &mut [T]) -> Result<Response<T>, Failure> {
+        let trial = Trial::new(motion, past);
+        let before = past.vars[CLOSURE];
+        let pressure = (motion.penetration - before) * past.penalty;
+        let tension = if past.vars[BROKEN].re() > 0.0 { 0.0 } else { self.tension };
+        let (ratio, penalty) = (past.tangential_penalty / past.penalty, past.penalty);
+        let mut shape = Shape { law: self, ratio, penalty, tension, scale: 1.0 };
+        let last = shape.hardened(before.re());
+        let at = [trial.size, pressure];
+        let here = shape.end(0.0, last, at.map(T::re));
+        if here.size <= here.wanted {
+            return Ok(trial.stick(pressure));
+        }
+        if pressure.re() <= -tension {
+            // Only expected to close: the surface has no stress there.
+            return Ok(trial.slide(pressure, T::zero()));
+        }
+        shape.scale = last;
+        let [shear, pressure] = self.returned(&shape, at, before)?;
+        let closure = (at[1] - pressure) / penalty;
+        vars[CLOSURE] = before + closure;
+        let response = trial.slide(pressure, shear);
+        let dissipated = response.dissipated + pressure.re() * closure.re();
+        Ok(Response { closure: closure.re(), dissipated, status: Status::Slip, ..response })
+    }
+
+    fn release(&self, old: &[f64], new: &mut [f64]) {
+        new[BROKEN] = 1.0;
+        new[CLOSURE] = (1.0 - self.reset) * old[CLOSURE];
+    }
+
+    fn touch(&self, past: &Past) -> f64 {
+        let strength = if past.vars[BROKEN] > 0.0 { 0.0 } else { self.tension };
+        past.vars[CLOSURE] - strength / past.penalty
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Random numbers in (0, 1) (splitmix64).
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        }
+        /// Between 10^-a and 10^a.
+        fn decades(&mut self, a: f64) -> f64 {
+            10_f64.powf(a * (2.0 * self.next() - 1.0))
+        }
+    }
+
+    /// Returns of trial stresses up to 10^6 times the ellipse, ratios of penalties over six decades.
+    fn returns(count: usize) -> (usize, f64) {
+        let (mut random, mut most, mut sum, mut outside) = (Random(1), 0, 0, 0);
+        while outside < count {
+            let law = CamClay::perfect(random.decades(0.7), 1.0, random.next());
+            let shape = Shape { law: &law, ratio: random.decades(3.0), penalty: 1.0, tension: law.tension, scale: 1.0 };
+            let trial = [random.decades(6.0), random.decades(6.0) * (2.0 * random.next() - 1.0)];
+            let here = shape.end(0.0, 1.0, trial);
+            if here.size <= here.wanted {
+                continue;
+            }
+            outside += 1;
+            let (g, iterations) = shape.secular(1.0, trial).unwrap();
+            let end = shape.end(g, 1.0, trial);
+            assert!((end.size / end.wanted - 1.0).abs() < 1e-12, "{trial:?} {law:?}");
+            (most, sum) = (most.max(iterations), sum + iterations);
+        }
+        (most, sum as f64 / count as f64)
+    }
+
+    #[test]
+    fn returns_take_few_iterations() {
+        let (most, mean) = returns(20_000);
+        assert!(most <= 12 && mean < 4.0, "{most} at most, {mean} in the mean");
+    }
+
+    /// `cargo test --release -p asperity --lib two_hundred_thousand_returns -- --ignored --nocapture`
+    #[test]
+    #[ignore = "long"]
+    fn two_hundred_thousand_returns() {
+        let (most, mean) = returns(200_000);
+        eprintln!("{most} iterations at most, {mean:.2} in the mean");
+        assert!(most <= 12);
+    }
+
+    fn past(vars: &[f64]) -> Past<'_> {
+        let (penalty, tangential_penalty) = (1e3, 700.0);
+        Past { penalty, tangential_penalty, penetration: 0.0, pressure: 0.0, shear: [0.0; 2], vars, dt: 1.0 }
+    }
+
+    /// Held at a penetration, slip leads to the critical state: `tau = M p` and no more closure; from the dry side by
+    /// dilation, from the wet one by closure.
+    #[test]
+    fn slip_leads_to_the_critical_state() {
+        let law = CamClay::perfect(0.8, 100.0, 0.0);
+        for penetration in [0.02, 0.09] {
+            let (mut vars, mut shear, mut last) = ([0.0; 2], [0.0; 2], 0.0);
+            for _ in 0..400 {
+                let old = vars;
+                let motion = Motion { penetration, slip: [0.003, 0.004] };
+                let response = law.respond(&motion, &Past { shear, ..past(&old) }, &mut vars).unwrap();
+                (shear, last) = (response.shear, response.pressure);
+                assert!(response.dissipated >= 0.0);
+            }
+            assert!((last - 50.0).abs() < 1e-6 && (f64::hypot(shear[0], shear[1]) - 40.0).abs() < 1e-6, "{last}");
+            assert!((vars[CLOSURE] - (penetration - 0.05)).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn the_constants_of_the_paper_make_the_same_ellipse() {
+        let law = (PRINTED.build)(&[0.64, 100.0]).unwrap();
+        let other = CamClay::perfect(0.8, 100.0, 0.0);
+        let motion = Motion { penetration: 0.03, slip: [0.1, 0.0] };
+        let vars = [0.0; 2];
+        let a = law.respond(&motion, &past(&vars), &mut vars.clone()).unwrap();
+        let b = other.respond(&motion, &past(&vars), &mut vars.clone()).unwrap();
+        assert_eq!(a, b);
+        let f = a.shear[0] * a.shear[0] + 0.64 * a.pressure * (a.pressure - 100.0);
+        assert!(f.abs() < 1e-9, "{f}");
+    }
+
+    /// On the surface that belongs to its closure, normal to it.
+    #[test]
+    fn a_hardening_ellipse_is_consistent() {
+        let law = CamClay { hardening: 0.05, least: 0.1, ..CamClay::perfect(0.8, 100.0, 5.0) };
+        for (penetration, slip) in [(0.02, 0.1), (0.09, 0.1), (0.3, 0.0), (0.2, 1.0), (-0.001, 0.4)] {
+            let old = [0.0; 2];
+            let mut vars = old;
+            let response = law.respond(&Motion { penetration, slip: [0.0, slip] }, &past(&old), &mut vars).unwrap();
+            let last = 100.0 * (vars[CLOSURE] / 0.05).exp().max(0.1);
+            let (p, tau) = (response.pressure, response.shear[1]);
+            let f = tau * tau + 0.64 * (p + 5.0) * (p - last);
+            assert!(f.abs() < 1e-6 * last * last, "{f} at {p}, {tau}, {last}");
+            // Closure over slip is that of the normal.
+            let normal = [0.64 * (2.0 * p + 5.0 - last), 2.0 * tau];
+            assert!((vars[CLOSURE] * normal[1] - response.slipped * normal[0]).abs() < 1e-8, "{p} {tau}");
+            assert!(response.dissipated >= 0.0);
+        }
+    }
+}

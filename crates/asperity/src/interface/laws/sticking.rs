@@ -1,0 +1,28 @@
+//! Contact that never slips while it is closed: `p = K_p u`, `tau = tau_n + K_t d`.
+
+use super::law;
+use super::trial::Trial;
+use crate::Failure;
+use crate::declare::{Entry, Variable};
+use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response};
+use crate::tensor::Scalar;
+
+pub(super) const ENTRY: Entry<Box<dyn Interface>> = Entry {
+    name: "sticking",
+    meaning: "no slip while closed, whatever the shear",
+    parameters: &[],
+    pairs: None,
+    build: |_| Ok(law(Sticking)),
+};
+
+/// The law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sticking;
+
+impl InterfaceLaw for Sticking {
+    const VARIABLES: &'static [Variable] = &[];
+
+    fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, _: &mut [T]) -> Result<Response<T>, Failure> {
+        Ok(Trial::new(motion, past).stick(motion.penetration * past.penalty))
+    }
+}

@@ -4,7 +4,7 @@ use asperity::deck::Made;
 use asperity::model::Model;
 use asperity::output::{Job, Start, simulate};
 use asperity::solve::{AttemptRecord, Observer};
-use asperity::system::{Instant, Local, State, Stencils, Term};
+use asperity::system::{History, Instant, Local, State, Stencils, Term};
 use std::fmt::Debug;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
@@ -58,7 +58,8 @@ fn parts(model: &Model, print: &mut Print) {
     }
 }
 
-/// Forces, tangents and energies of a term early and at the end of each step, at a small and at a large trial motion.
+/// Forces, tangents and energies of a term early and at the end of each step, at trial motions of several sizes, and
+/// at the opposite one after each: what a law remembers counts.
 fn forces(model: &Model, number: usize, term: &dyn Term, print: &mut Print) {
     let (state, mut time) = (model.problem.initial_state(), 0.0);
     print.add(term.name());
@@ -66,7 +67,13 @@ fn forces(model: &Model, number: usize, term: &dyn Term, print: &mut Print) {
         for part in [0.3, 1.0] {
             let step_time = part * keys.duration;
             let at = Instant { step, step_time, time: time + step_time, dt: step_time };
-            [1e-3, 0.1].iter().for_each(|&size| evaluate((term, number), (&state, at), &motion(model, size), print));
+            for size in [1e-3, 0.03, 0.1] {
+                let u = motion(model, size);
+                let history = evaluate((term, number), (&state, at), &u, print);
+                let mut state = State { u, ..state.clone() };
+                state.histories[number] = history;
+                evaluate((term, number), (&state, at), &motion(model, -size), print);
+            }
         }
         time += keys.duration;
     }
@@ -78,14 +85,25 @@ fn motion(model: &Model, size: f64) -> Vec<f64> {
     (0..model.problem.dofs.count()).map(wave).collect()
 }
 
-fn evaluate((term, number): (&dyn Term, usize), (state, at): (&State, Instant), u: &[f64], print: &mut Print) {
+/// The history after an attempt; the old one where there is none.
+fn evaluate(
+    (term, number): (&dyn Term, usize),
+    (state, at): (&State, Instant),
+    u: &[f64],
+    print: &mut Print,
+) -> History {
+    let mut history = state.histories[number].clone();
     let attempt = match term.attempt(state, &state.histories[number], at) {
         Ok(attempt) => attempt,
-        Err(failure) => return print.add(failure),
+        Err(failure) => {
+            print.add(failure);
+            return history;
+        }
     };
     let (mut stencils, mut local) = (Stencils::default(), Local { wants_tangent: true, ..Local::default() });
     if let Err(failure) = attempt.stencils(u, &mut stencils) {
-        return print.add(failure);
+        print.add(failure);
+        return history;
     }
     for (i, stencil) in stencils.list.iter().enumerate() {
         local.u = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
@@ -95,7 +113,11 @@ fn evaluate((term, number): (&dyn Term, usize), (state, at): (&State, Instant), 
         print.add(stencils.dofs(stencil));
         let energies = [local.stored, local.dissipated];
         [&local.force[..], &local.tangent, &new, &energies].iter().for_each(|values| print.bits(values));
+        if history.slot(i).len() == new.len() {
+            history.slot_mut(i).copy_from_slice(&new);
+        }
     }
+    history
 }
 
 /// Listens to the attempts of a run.

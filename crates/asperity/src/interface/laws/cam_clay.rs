@@ -98,7 +98,7 @@ pub struct CamClay {
 const BROKEN: usize = 0;
 const CLOSURE: usize = 1;
 
-/// Shape of a return: the ratio of the penalties, the tensile strength, and a stress that is large in it.
+/// Shape of a return: the ratio of the penalties, the tensile strength, and a growth that is large in it.
 #[derive(Debug, Clone, Copy)]
 struct Shape<'a> {
     law: &'a CamClay,
@@ -127,10 +127,14 @@ impl Shape<'_> {
         End { shear, pressure: centre + away, size, wanted: axis * slope }
     }
 
-    /// Preconsolidation after the closure `w` since the beginning.
-    fn hardened<S: Scalar>(&self, w: S) -> S {
-        let grown = if self.law.hardening > 0.0 { (w / self.law.hardening).exp() } else { S::one() };
-        grown.max(S::from(self.law.least)) * self.law.preconsolidation
+    /// Logarithm of the preconsolidation over the first one, after the closure `w` since the beginning.
+    fn grown<S: Scalar>(&self, w: S) -> S {
+        let grown = if self.law.hardening > 0.0 { w / self.law.hardening } else { S::zero() };
+        grown.max(S::from(self.law.least.ln()))
+    }
+
+    fn preconsolidation<S: Scalar>(&self, grown: S) -> S {
+        grown.exp() * self.law.preconsolidation
     }
 
     /// The multiplier for a fixed ellipse, and the number of iterations.
@@ -155,46 +159,44 @@ impl Shape<'_> {
         None
     }
 
-    /// The preconsolidation that belongs to a multiplier: the root of a rising function of its logarithm.
+    /// The growth that belongs to a multiplier: the root of a rising function.
     fn consistent(&self, g: f64, trial: [f64; 2], before: f64) -> f64 {
-        let miss = |last: f64| {
-            let end = self.end(g, last, trial);
-            last - self.hardened(before + (trial[1] - end.pressure) / self.penalty)
+        let miss = |grown: f64| {
+            let end = self.end(g, self.preconsolidation(grown), trial);
+            grown - self.grown(before + (trial[1] - end.pressure) / self.penalty)
         };
-        let [mut low, mut high] =
-            [self.hardened(f64::NEG_INFINITY), 2.0 * self.hardened(before) + 2.0 * trial[1].abs()];
-        while miss(high) < 0.0 && high.is_finite() {
-            high *= 2.0;
+        let (mut low, mut high, mut step) = (self.grown(f64::NEG_INFINITY), self.grown(before), 1.0);
+        while miss(high) < 0.0 && step < 1e3 {
+            (low, high, step) = (high, high + step, 2.0 * step);
         }
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            *(if miss(middle) > 0.0 { &mut high } else { &mut low }) = middle;
-        }
-        0.5 * (low + high)
+        halved(low, high, |grown| miss(grown) < 0.0)
     }
 
-    /// Multiplier and preconsolidation of an ellipse that hardens, by bisection.
+    /// Multiplier and growth of an ellipse that hardens.
     fn bracketed(&self, trial: [f64; 2], before: f64) -> [f64; 2] {
         let outside = |g: f64| {
-            let end = self.end(g, self.consistent(g, trial, before), trial);
+            let end = self.end(g, self.preconsolidation(self.consistent(g, trial, before)), trial);
             end.size > end.wanted
         };
         let (mut low, mut high) = (0.0, 1e-3);
         while outside(high) && high < 1e30 {
             (low, high) = (high, 4.0 * high);
         }
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            *(if outside(middle) { &mut low } else { &mut high }) = middle;
-            if high - low <= 1e-9 * high {
-                break;
-            }
-        }
-        [high, self.consistent(high, trial, before)]
+        let g = halved(low, high, outside);
+        [g, self.consistent(g, trial, before)]
     }
+}
+
+/// Where a condition that holds at `low` ceases to.
+fn halved(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        *(if holds(middle) { &mut low } else { &mut high }) = middle;
+    }
+    0.5 * (low + high)
 }
 
 /// In the multiplier; data are the sizes of the trial stress and the preconsolidation.
@@ -205,13 +207,12 @@ impl System<1, 3> for Shape<'_> {
     }
 }
 
-/// In the multiplier and the preconsolidation; data are the sizes of the trial stress and the old closure.
+/// In the multiplier and the growth; data are the sizes of the trial stress and the old closure.
 impl System<2, 3> for Shape<'_> {
-    fn residual<S: Scalar>(&self, &[g, last]: &[S; 2], &[shear, pressure, before]: &[S; 3]) -> [S; 2] {
-        let last = last * self.scale;
-        let end = self.end(g, last, [shear, pressure]);
+    fn residual<S: Scalar>(&self, &[g, grown]: &[S; 2], &[shear, pressure, before]: &[S; 3]) -> [S; 2] {
+        let end = self.end(g, self.preconsolidation(grown), [shear, pressure]);
         let closure = before + (pressure - end.pressure) / self.penalty;
-        [end.size / end.wanted - 1.0, (last - self.hardened(closure)) / self.scale]
+        [end.size / end.wanted - 1.0, (grown - self.grown(closure)) / self.scale]
     }
 }
 
@@ -227,10 +228,12 @@ impl CamClay {
         let plain = trial.map(T::re);
         let failed = || Failure::new(format!("{WHAT}: the return does not converge"));
         let end = if self.hardening > 0.0 {
-            let [g, last] = shape.bracketed(plain, before.re());
-            let data = [trial[0], trial[1], before];
-            let [g, last] = solve::<_, _, 2, 3>(shape, [g, last / shape.scale], &data, WHAT)?;
-            shape.end(g, last * shape.scale, trial)
+            let (data, grown) = ([trial[0], trial[1], before], shape.grown(before.re()));
+            let (first, _) = shape.secular(shape.preconsolidation(grown), plain).ok_or_else(failed)?;
+            let from = |start| solve::<_, _, 2, 3>(shape, start, &data, WHAT).ok().filter(|[g, _]| g.re() > 0.0);
+            let found = from([first, grown]).or_else(|| from(shape.bracketed(plain, before.re())));
+            let [g, grown] = found.ok_or_else(failed)?;
+            shape.end(g, shape.preconsolidation(grown), trial)
         } else {
             let last = self.preconsolidation;
             let (g, _) = shape.secular(last, plain).ok_or_else(failed)?;
@@ -254,7 +257,7 @@ impl InterfaceLaw for CamClay {
         let tension = if past.vars[BROKEN].re() > 0.0 { 0.0 } else { self.tension };
         let (ratio, penalty) = (past.tangential_penalty / past.penalty, past.penalty);
         let mut shape = Shape { law: self, ratio, penalty, tension, scale: 1.0 };
-        let last = shape.hardened(before.re());
+        let last = shape.preconsolidation(shape.grown(before.re()));
         let at = [trial.size, pressure];
         let here = shape.end(0.0, last, at.map(T::re));
         if here.size <= here.wanted {
@@ -264,7 +267,7 @@ impl InterfaceLaw for CamClay {
             // Only expected to close: the surface has no stress there.
             return Ok(trial.slide(pressure, T::zero()));
         }
-        shape.scale = last;
+        shape.scale = 1.0 + at[1].re().abs() / (penalty * self.hardening.max(f64::MIN_POSITIVE));
         let [shear, pressure] = self.returned(&shape, at, before)?;
         let closure = (at[1] - pressure) / penalty;
         vars[CLOSURE] = before + closure;
@@ -393,6 +396,28 @@ mod tests {
             let normal = [0.64 * (2.0 * p + 5.0 - last), 2.0 * tau];
             assert!((vars[CLOSURE] * normal[1] - response.slipped * normal[0]).abs() < 1e-8, "{p} {tau}");
             assert!(response.dissipated >= 0.0);
+        }
+    }
+
+    /// Whatever the increment, the return converges: far outside the ellipse, on both sides of the critical state, at
+    /// its least size and away from it.
+    #[test]
+    fn hardening_returns_converge() {
+        let mut random = Random(2);
+        for _ in 0..20_000 {
+            let (hardening, least) = (random.decades(2.0), 0.05 + 0.95 * random.next());
+            let tension = if random.next() < 0.5 { 0.0 } else { random.next() };
+            let law = CamClay { hardening, least, ..CamClay::perfect(random.decades(0.5), 1.0, tension) };
+            let (old, penalty) = ([0.0, (random.next() - 0.5) * hardening], random.decades(2.0));
+            let past = Past { penalty, tangential_penalty: penalty * random.decades(1.0), ..past(&old) };
+            let motion = Motion {
+                penetration: law.touch(&past) + random.decades(3.0) / penalty,
+                slip: [random.decades(3.0) / penalty, random.decades(3.0) / penalty],
+            };
+            let mut vars = old;
+            let failed = |failure: Failure| panic!("{failure}: {law:?} {past:?} {motion:?}");
+            let response = law.respond(&motion, &past, &mut vars).unwrap_or_else(failed);
+            assert!(response.dissipated >= -1e-12, "{law:?} {past:?} {motion:?} {response:?}");
         }
     }
 }

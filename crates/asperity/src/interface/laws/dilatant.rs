@@ -197,7 +197,8 @@ mod tests {
                 shear = response.shear;
                 let pressure = 10.0 + 1e3 * 0.3 * 0.02 * (1.0 - (-vars[SLIP] / 0.02).exp());
                 assert!((response.pressure - pressure).abs() < 1e-10);
-                assert!((shear[0] - (0.6 * pressure + 2.0)).abs() < 1e-10);
+                let limit = 0.6 * pressure + 2.0;
+                assert!(response.status == Status::Stick || (shear[0] - limit).abs() < 1e-10 * limit, "{steps}");
                 assert!(response.dissipated >= 0.0);
             }
             assert!((vars[DILATION] - 0.3 * 0.02).abs() < 1e-12, "{}", vars[DILATION]);

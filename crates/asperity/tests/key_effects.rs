@@ -168,7 +168,7 @@ fn keys_of_solver_and_output_change_the_run() {
         "solver.factors=attempt",
         "solver.tolerance=1e-3",
         "solver.iterations=2",
-        "solver.continuation=false",
+        "solver.piecewise=false",
         "output.every=3",
         "output.checkpoint_every=4",
         "step.1.increments.most=2",

@@ -142,6 +142,9 @@ impl LinearSolver for Faulty {
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         self.solver.solve(rhs)
     }
+    fn apply(&self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        self.solver.apply(rhs)
+    }
     fn begin(&mut self) {
         self.broken = false;
         self.solver.begin();

@@ -174,4 +174,12 @@ impl Solver {
         self.counts.solutions += 1;
         self.factor.solve(rhs)
     }
+
+    /// [`Factor::apply`] with the factor there is.
+    ///
+    /// # Errors
+    /// Those of [`Factor::apply`].
+    pub fn apply(&self, rhs: &mut [f64]) -> Result<(), Error> {
+        self.factor.apply(rhs)
+    }
 }

@@ -17,10 +17,17 @@ impl Workspace {
         let symbolic = &factor.symbolic;
         Workspace { x: vec![0.0; symbolic.pattern.len()], local: vec![0.0; symbolic.prediction.largest_front] }
     }
+
+    /// Room for `count` vectors at once.
+    pub fn with_room_for(factor: &Factor, count: usize) -> Self {
+        let one = Self::new(factor);
+        Workspace { x: vec![0.0; one.x.len() * count], ..one }
+    }
 }
 
 impl Factor {
-    /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included.
+    /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included; for one vector or
+    /// several, one after the other, for all of which each front is then fetched once.
     pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
         self.permuted(x, work, |factor, work| {
             for front in &factor.symbolic.tree.fronts {
@@ -45,13 +52,13 @@ impl Factor {
     }
 
     fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&Self, &mut Workspace)) {
-        let order = &self.symbolic.tree.order;
-        for (permuted, &unknown) in work.x.iter_mut().zip(order) {
-            *permuted = x[unknown as usize];
+        let (order, n) = (&self.symbolic.tree.order, self.symbolic.pattern.len());
+        for (permuted, x) in work.x.chunks_exact_mut(n.max(1)).zip(x.chunks_exact(n.max(1))) {
+            permuted.iter_mut().zip(order).for_each(|(permuted, &unknown)| *permuted = x[unknown as usize]);
         }
         solve(self, work);
-        for (permuted, &unknown) in work.x.iter().zip(order) {
-            x[unknown as usize] = *permuted;
+        for (permuted, x) in work.x.chunks_exact(n.max(1)).zip(x.chunks_exact_mut(n.max(1))) {
+            permuted.iter().zip(order).for_each(|(permuted, &unknown)| x[unknown as usize] = *permuted);
         }
     }
 
@@ -61,17 +68,19 @@ impl Factor {
         let (left, right) = self.factors[front.factor_range()].split_at(front.size() * front.pivots);
         let pivots = &self.pivots[front.pivot_range()];
         let panels = Panels { left, right, pivots, m: front.size(), p: front.pivots, symmetric: front.symmetric };
-        let local = &mut work.local[..front.size()];
-        let (top, border) = local.split_at_mut(front.pivots);
-        top.copy_from_slice(&work.x[front.pivot_range()]);
-        for (value, &row) in border.iter_mut().zip(tree.rows(front)) {
-            *value = work.x[row as usize];
-        }
-        Arch::new().dispatch(|| step(&panels, local));
-        let (top, border) = local.split_at(front.pivots);
-        work.x[front.pivot_range()].copy_from_slice(top);
-        for (value, &row) in border.iter().zip(tree.rows(front)) {
-            work.x[row as usize] = *value;
+        for x in work.x.chunks_exact_mut(self.symbolic.pattern.len()) {
+            let local = &mut work.local[..front.size()];
+            let (top, border) = local.split_at_mut(front.pivots);
+            top.copy_from_slice(&x[front.pivot_range()]);
+            for (value, &row) in border.iter_mut().zip(tree.rows(front)) {
+                *value = x[row as usize];
+            }
+            Arch::new().dispatch(|| step(&panels, local));
+            let (top, border) = local.split_at(front.pivots);
+            x[front.pivot_range()].copy_from_slice(top);
+            for (value, &row) in border.iter().zip(tree.rows(front)) {
+                x[row as usize] = *value;
+            }
         }
     }
 }

@@ -7,7 +7,7 @@
 mod capture;
 mod faces;
 mod geometry;
-mod landmarks;
+mod kink;
 mod open;
 mod pair;
 mod penalty;

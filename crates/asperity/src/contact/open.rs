@@ -1,7 +1,7 @@
 //! A contact during one attempt: its points as stencils, evaluated on the segments that the search found.
 
+use super::kink::answer;
 use super::geometry::{DIRECTIONS, Geometry};
-use super::landmarks::Landmarks;
 use super::pair::Contact;
 use super::point::{self, Constants, Place, triad};
 use super::record::entry;
@@ -9,11 +9,11 @@ use super::target::{Hit, Memory};
 use crate::Failure;
 use crate::interface::Past;
 use crate::mesh::Space;
-use crate::system::{Attempt, Branch, Couplings, History, Local, Stencil, Stencils};
+use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
 use std::cell::RefCell;
 
-type D = Dual<DIRECTIONS>;
+pub(super) type D = Dual<DIRECTIONS>;
 
 /// A contact during one attempt.
 pub struct OpenContact<'a> {
@@ -27,8 +27,6 @@ pub struct OpenContact<'a> {
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
     pub ahead: Vec<f64>,
-    /// Pattern of the accepted state.
-    pub landmarks: Landmarks,
     /// Pressure up to which the tangent is exact.
     pub ordinary: f64,
     /// Length of the increment.
@@ -89,6 +87,24 @@ impl Attempt for OpenContact<'_> {
                 point::evaluate(place, constants, |m| self.contact.law.respond(m, past, vars))
             })
         }
+    }
+
+    fn kinks(&self, u: &[f64], stencils: &Stencils, term: usize, out: &mut Kinks) -> Result<(), Failure> {
+        let mut local = Vec::new();
+        for (index, stencil) in stencils.list.iter().enumerate().filter(|(_, stencil)| stencil.choice > 0) {
+            let dofs = stencils.dofs(stencil);
+            local.clear();
+            local.extend(dofs.iter().map(|&dof| u[dof]));
+            if let Some(geometry) = self.geometry(index, stencil, &local)? {
+                out.begin((term, index), dofs);
+                self.bend(index, (stencil, &geometry), &local, out);
+            }
+        }
+        Ok(())
+    }
+
+    fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
+        answer(&*self.contact.law, &self.past(stencil), self.contact.least, y)
     }
 }
 
@@ -154,15 +170,14 @@ impl OpenContact<'_> {
             b: seed(g.place.b, 4),
             touched: g.place.touched.map(|x| seed(x, 6)),
         };
-        let past = self.past(index, local);
+        let past = self.past(index);
         let constants = Constants {
             normal: g.hit.normal,
             before: old[entry::PENETRATION],
             touch: contact.law.touch(&past),
             least: contact.least,
-            expected: if local.aid.expects { self.expected(index, &g.hit) } else { None },
             weight: point.weight * contact.thickness(),
-            turning: self.turning(g.hit.u, local),
+            turning: self.turning(g.hit.u),
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
@@ -184,11 +199,11 @@ impl OpenContact<'_> {
     }
 
     /// What the law may know of a point.
-    fn past(&self, index: usize, local: &Local) -> Past<'_> {
+    fn past(&self, index: usize) -> Past<'_> {
         let (options, old) = (&self.contact.options, self.history.slot(index));
         Past {
-            penalty: options.penalty * local.aid.stiffness,
-            tangential_penalty: options.tangential_penalty * local.aid.stiffness,
+            penalty: options.penalty,
+            tangential_penalty: options.tangential_penalty,
             penetration: old[entry::PENETRATION],
             pressure: old[entry::PRESSURE],
             shear: [old[entry::SHEAR], 0.0],
@@ -224,15 +239,10 @@ impl OpenContact<'_> {
         local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + pressure) * closure);
     }
 
-    /// What the pattern of the accepted state says of a point that has moved to `hit`.
-    fn expected(&self, index: usize, hit: &Hit) -> Option<bool> {
-        self.landmarks.expected(index, self.contact.target.landmark(hit.segment, hit.s))
-    }
-
     /// Part of the triad's derivatives that the tangent keeps at a penetration.
-    fn turning(&self, penetration: f64, local: &Local) -> f64 {
-        let pressure = self.contact.options.penalty * local.aid.stiffness * penetration.abs();
-        if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }.min(local.aid.turning)
+    fn turning(&self, penetration: f64) -> f64 {
+        let pressure = self.contact.options.penalty * penetration.abs();
+        if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }
     }
 
     /// A point that had nothing before it and now lies deep has jumped over the target's face.

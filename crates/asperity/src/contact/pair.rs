@@ -2,7 +2,6 @@
 
 use super::Faces;
 use super::capture::{depths, positions};
-use super::landmarks::{Landmark, Landmarks};
 use super::open::{OpenContact, write_hit};
 use super::point::triad;
 use super::record::{PointRecord, PointStatus, entry};
@@ -204,16 +203,6 @@ impl Contact {
         }
     }
 
-    /// The pattern in which the target is touched in an accepted state.
-    fn landmarks(&self, history: &History) -> Landmarks {
-        let landmark = |values: &[f64]| {
-            let (segment, s) = (values[entry::SEGMENT], [values[entry::S], values[entry::S2]]);
-            let place = (segment >= 0.0).then(|| self.target.landmark(segment as usize, s))?;
-            Some(Landmark { place, closed: values[entry::STATUS] > 0.0 })
-        };
-        Landmarks((0..history.slots()).map(|i| landmark(history.slot(i))).collect())
-    }
-
     /// Words for a point.
     pub(super) fn describe(&self, point: usize) -> String {
         let nodes = self.surface.nodes(&self.surface.points[point]);
@@ -263,10 +252,10 @@ impl Term for Contact {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &accepted.u);
         let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
         let ordinary = (ORDINARY * self.options.modulus).max(GROWTH * pressures.fold(0.0, f64::max));
-        let (landmarks, reach) = (self.landmarks(history), self.reach(&accepted.last_change));
+        let reach = self.reach(&accepted.last_change);
         let part = if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 };
         let ahead = accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect();
-        let open = OpenContact { contact: self, history, depths, reach, ahead, landmarks, ordinary, dt: at.dt };
+        let open = OpenContact { contact: self, history, depths, reach, ahead, ordinary, dt: at.dt };
         Ok(Box::new(open))
     }
 
@@ -274,7 +263,7 @@ impl Term for Contact {
         self.describe(stencil)
     }
 
-    fn softens(&self) -> bool {
+    fn bends(&self) -> bool {
         true
     }
 

@@ -33,8 +33,6 @@ pub struct Constants {
     pub touch: f64,
     /// How much farther a point counts as closed: touching to rounding is open.
     pub least: f64,
-    /// Whether the point is closed, where that is not for its penetration to say.
-    pub expected: Option<bool>,
     /// Quadrature weight times thickness.
     pub weight: f64,
     /// Part of the triad's derivatives that is kept, from 0 to 1.
@@ -72,7 +70,7 @@ pub fn evaluate<T: Scalar>(
     let (along, inward, length) = triad(soften(place.tangent, constants.turning));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
-    if !constants.expected.unwrap_or(penetration.re() > constants.touch + constants.least) {
+    if penetration.re() <= constants.touch + constants.least {
         return Ok((penetration, None));
     }
     // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.
@@ -99,6 +97,6 @@ fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
 
 /// The part of the increment during which a point that began open is in contact, at constant speed of approach. One
 /// that is only expected to close has not yet: all of the slip counts.
-fn in_contact<T: Scalar>(penetration: T, before: f64) -> T {
+pub fn in_contact<T: Scalar>(penetration: T, before: f64) -> T {
     if before < 0.0 && penetration.re() > 0.0 { penetration / (penetration - before) } else { T::one() }
 }

@@ -158,11 +158,6 @@ impl Target {
         }
     }
 
-    /// Place of that point before any motion.
-    pub fn landmark(&self, segment: usize, s: [f64; 2]) -> Vec3 {
-        self.point(segment, s, &[0.0; MAX_UNKNOWNS][..self.count(segment)])
-    }
-
     /// Derivatives of that point, which is now at `at`, along each unknown of the segment.
     pub fn rates(&self, segment: usize, s: [f64; 2], u: &[f64], at: Vec3) -> [Vec3; MAX_UNKNOWNS] {
         match self {

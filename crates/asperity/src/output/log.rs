@@ -40,7 +40,6 @@ const ITERATIONS: &[&str] = &[
     "slip",
     "changes",
     "changed",
-    "helped",
     "worst",
     "worst_force",
 ];
@@ -123,7 +122,6 @@ fn iteration_row(problem: &Problem, record: &AttemptRecord, iteration: &Iteratio
     let end = [
         iteration.changes.into(),
         changed.as_deref().into(),
-        usize::from(iteration.helped).into(),
         problem.name_of(iteration.worst.dof).as_str().into(),
         iteration.worst.force.into(),
     ];

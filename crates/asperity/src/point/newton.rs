@@ -4,6 +4,7 @@ use super::probe::deformation;
 use crate::Failure;
 use crate::material::{Directions, Gradient, Material};
 use crate::tensor::Tensor2;
+use crate::tensor::dense::eliminate;
 
 /// Largest difference from a prescribed stress, as a ratio to the largest stress.
 const TOLERANCE: f64 = 1e-11;
@@ -100,27 +101,4 @@ impl Increment<'_> {
         let places = Directions::Space.components();
         std::array::from_fn(|row| trial.gradient[row].iter().zip(places).map(|(c, &place)| c * f[place]).sum())
     }
-}
-
-/// Solves a system given by rows with the right-hand side last.
-fn eliminate(rows: &mut [Vec<f64>]) -> Option<Vec<f64>> {
-    let n = rows.len();
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
-        rows.swap(k, pivot);
-        if rows[k][k] == 0.0 {
-            return None;
-        }
-        let (upper, lower) = rows.split_at_mut(k + 1);
-        for row in lower {
-            let factor = row[k] / upper[k][k];
-            row.iter_mut().zip(&upper[k]).for_each(|(x, y)| *x -= factor * y);
-        }
-    }
-    let mut x = vec![0.0; n];
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|j| rows[k][j] * x[j]).sum();
-        x[k] = (rows[k][n] - known) / rows[k][k];
-    }
-    x.iter().all(|x| x.is_finite()).then_some(x)
 }

@@ -2,12 +2,14 @@
 //! it knows neither mechanics nor contact.
 
 mod convergence;
+mod free;
 mod linear;
 mod newton;
 mod observer;
-mod path;
+mod piecewise;
 mod run;
 mod schedule;
+mod step;
 
 pub use convergence::{Norms, Worst};
 pub use linear::{Factors, Frontal, LinearError, LinearSolver};

@@ -22,8 +22,6 @@ pub struct IterationRecord {
     pub worst: Worst,
     /// For each term, how many stencils are on each branch; empty for terms with one branch.
     pub branches: Vec<Vec<usize>>,
-    /// Whether terms were helped to find their status, so that this residual is not that of the problem.
-    pub helped: bool,
     /// Stencils whose branch or discrete choice changed since the iteration before.
     pub changes: usize,
     /// Whether a matrix was factorised for the last solution.
@@ -61,14 +59,14 @@ impl AttemptRecord {
 
     /// Order of convergence at the end: a step of length `c` leaves a residual `r` of the order of `c^p`, hence
     /// `p = ln(r2 / r1) / ln(c2 / c1)`, over the last two whole steps whose residuals are above rounding. `None` where
-    /// help was given or a branch or discrete choice changed. It needs no common measure of stiff and soft directions,
+    /// a branch or discrete choice changed. It needs no common measure of stiff and soft directions,
     /// which residuals alone lack: compare [`residual_order`](Self::residual_order).
     pub fn order(&self) -> Option<f64> {
         let above = self.iterations.iter().rev().skip_while(|i| i.residual <= i.rounding).collect::<Vec<_>>();
         let [second, first, ..] = above.as_slice() else { return None };
         let whole = first.step == 1.0 && second.step == 1.0;
         let falls = second.residual < first.residual && second.correction < first.correction;
-        let steady = second.changes == 0 && !first.helped && first.iteration > 0;
+        let steady = second.changes == 0 && first.iteration > 0;
         let order = || (second.residual / first.residual).ln() / (second.correction / first.correction).ln();
         (whole && falls && steady).then(order)
     }
@@ -78,7 +76,7 @@ impl AttemptRecord {
     pub fn residual_order(&self) -> Option<f64> {
         let above = self.iterations.iter().rev().skip_while(|i| i.residual <= 1e-12).collect::<Vec<_>>();
         let [third, second, first, ..] = above.as_slice() else { return None };
-        let steady = third.changes == 0 && second.changes == 0 && !first.helped && first.iteration > 0;
+        let steady = third.changes == 0 && second.changes == 0 && first.iteration > 0;
         let falls = third.residual < second.residual && second.residual < first.residual;
         let order = || (third.residual / second.residual).ln() / (second.residual / first.residual).ln();
         (steady && falls).then(order)

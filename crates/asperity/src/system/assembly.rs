@@ -5,7 +5,7 @@
 
 use super::chunk::{CHUNK, Chunk, Pass, lanes};
 use super::sink::{Miss, Sink, places};
-use super::{Aid, Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, State, Stencils, Term};
+use super::{Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, State, Stencils, Term};
 use crate::Failure;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -77,8 +77,6 @@ pub struct Workspace {
     places: Vec<Vec<u32>>,
     chunks: Vec<Chunk>,
     enlarged: usize,
-    /// Help that terms are given, see [`Local::aid`](super::Local::aid).
-    pub aid: Aid,
 }
 
 /// Chunks evaluated between two scatters; bounds the memory of local matrices.
@@ -94,7 +92,6 @@ impl Default for Workspace {
             places: Vec::new(),
             chunks: Vec::new(),
             enlarged: 0,
-            aid: Aid::NONE,
         }
     }
 }
@@ -111,6 +108,11 @@ impl Workspace {
     /// How often a pattern had to be enlarged inside an attempt.
     pub fn enlarged(&self) -> usize {
         self.enlarged
+    }
+
+    /// The stencils of a term at the last evaluation.
+    pub fn stencils(&self, term: usize) -> &Stencils {
+        &self.stencils[term]
     }
 
     /// Prepares the pattern of an attempt: a function of the accepted state alone.
@@ -196,7 +198,7 @@ impl Workspace {
         (history, out): (&mut History, &mut Evaluation),
     ) -> Result<Result<(), Miss>, Failure> {
         let (stencils, dofs) = (&self.stencils[t], assembly.dofs);
-        let pass = Pass { attempt: assembly.attempts[t].as_ref(), stencils, dofs, trial, aid: self.aid };
+        let pass = Pass { attempt: assembly.attempts[t].as_ref(), stencils, dofs, trial };
         let places = self.places.get(t).filter(|p| !p.is_empty()).map(Vec::as_slice);
         let role = assembly.terms[t].role();
         let mut sink = Sink::new((out, t), (assembly.constraints, &self.pattern), (trial, role), places);

@@ -1,7 +1,7 @@
 //! Chunks of stencils: what one thread evaluates at a time, with the lane of history that it writes.
 
 use super::check::perturb;
-use super::{Aid, Attempt, Branch, Dofs, Energies, History, Local, Stencils, Tangent, Trial};
+use super::{Attempt, Branch, Dofs, Energies, History, Local, Stencils, Tangent, Trial};
 use crate::Failure;
 use std::ops::Range;
 
@@ -34,8 +34,6 @@ pub struct Pass<'a> {
     pub dofs: &'a Dofs,
     /// Where it is evaluated.
     pub trial: &'a Trial<'a>,
-    /// Help that it is given.
-    pub aid: Aid,
 }
 
 /// New history of the stencils of one chunk.
@@ -74,7 +72,6 @@ impl Chunk {
         self.tangents.clear();
         self.branches.clear();
         self.energies = Energies::default();
-        self.local.aid = pass.aid;
         self.failure = lane.stencils.clone().try_for_each(|index| self.evaluate(index, pass, lane.slot(index))).err();
     }
 

@@ -47,6 +47,10 @@ impl Constraints {
         Self { rows, free }
     }
 
+    /// Number of all unknowns.
+    pub fn count(&self) -> usize {
+        self.rows.len()
+    }
     /// Number of free unknowns.
     pub fn free_count(&self) -> usize {
         self.free.len()

@@ -1,6 +1,6 @@
 //! What equilibrium is a sum of.
 
-use super::{Couplings, History, State};
+use super::{Answer, Coordinates, Couplings, History, Kinks, State};
 use crate::Failure;
 
 /// Whether a term resists (a body, a contact, a spring) or acts from outside (a load).
@@ -74,23 +74,6 @@ impl Stencils {
     }
 }
 
-/// Help for early iterations of terms that enforce something by a penalty. A solution is accepted without it only.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Aid {
-    /// Part of the penalty that is used, in (0, 1].
-    pub stiffness: f64,
-    /// Part of the derivatives of directions that is kept, in (0, 1]: forces that nothing has borne yet must not rule
-    /// the matrix.
-    pub turning: f64,
-    /// Whether a stencil takes its status from the pattern of the accepted state where that says more than its own.
-    pub expects: bool,
-}
-
-impl Aid {
-    /// None.
-    pub const NONE: Self = Self { stiffness: 1.0, turning: 1.0, expects: false };
-}
-
 /// Where a stencil reads and writes: scratch of one thread, reused without allocation.
 #[derive(Debug)]
 pub struct Local {
@@ -102,8 +85,6 @@ pub struct Local {
     pub tangent: Vec<f64>,
     /// Whether the tangent is wanted.
     pub wants_tangent: bool,
-    /// Help that is given.
-    pub aid: Aid,
     /// Energy stored in the stencil at the trial state.
     pub stored: f64,
     /// Energy dissipated over the increment.
@@ -119,7 +100,6 @@ impl Default for Local {
             force: Vec::new(),
             tangent: Vec::new(),
             wants_tangent: false,
-            aid: Aid::NONE,
             stored: 0.0,
             dissipated: 0.0,
             supplied: 0.0,
@@ -172,8 +152,9 @@ pub trait Term: Send + Sync {
     ) -> Result<Box<dyn Attempt + 'a>, Failure>;
     /// Words for a stencil in messages: "cell 12 of body 'tube'".
     fn name_of(&self, stencil: usize) -> String;
-    /// Whether it enforces something by a penalty and heeds [`Local::aid`].
-    fn softens(&self) -> bool {
+    /// Whether its stencils bend within a step, see [`Attempt::kinks`]; it may then hold at the end of a step what it did
+    /// not hold at its beginning.
+    fn bends(&self) -> bool {
         false
     }
     /// Words for a motion of all unknowns that meets no stiffness, if it is a motion of this term as a whole: "body
@@ -207,4 +188,18 @@ pub trait Attempt: Send + Sync {
     /// # Errors
     /// A [`Failure`] when the law or the geometry cannot be evaluated there.
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure>;
+    /// Lists the stencils that bend at trial unknowns `u`, for which `stencils` were listed; `term` is this term's number.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate).
+    fn kinks(&self, _u: &[f64], _stencils: &Stencils, _term: usize, _out: &mut Kinks) -> Result<(), Failure> {
+        Ok(())
+    }
+    /// Stresses of a stencil that bends, at coordinates `y`.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate).
+    fn answer(&self, _stencil: usize, _y: &Coordinates) -> Result<Answer, Failure> {
+        Ok(Answer::default())
+    }
 }

@@ -28,6 +28,25 @@ pub struct Geometry {
     pub pose: Pose,
 }
 
+/// A force on the unknowns of a stencil: on its own nodes, then on those of the tool.
+pub struct Rows<'a, T> {
+    shapes: &'a [f64],
+    force: Vec3<T>,
+    moment: Vec3<T>,
+    turning: Vec3<T>,
+}
+
+impl<T: Seed> Rows<'_, T> {
+    /// On unknown number `k`.
+    pub(super) fn of(&self, k: usize) -> T {
+        match k.checked_sub(3 * self.shapes.len()) {
+            None => -self.force[k % 3] * self.shapes[k / 3],
+            Some(axis) if axis < 3 => self.force[axis],
+            Some(axis) => self.turning[axis - 3],
+        }
+    }
+}
+
 impl OpenContact<'_> {
     /// Where everything is for values `u` of a stencil's unknowns; None where it hits nothing.
     pub(super) fn geometry(&self, index: usize, stencil: &Stencil, u: &[f64]) -> Result<Option<Geometry>, Failure> {
@@ -55,36 +74,37 @@ impl OpenContact<'_> {
         (old[entry::SEGMENT] >= 0.0).then(|| (old[entry::SEGMENT] as usize, [old[entry::S], old[entry::S2]]))
     }
 
+    /// What a force at `at` does to the unknowns of a stencil.
+    pub(super) fn rows<T: Seed>(&self, index: usize, g: &Geometry, at: Vec3<T>, force: Vec3<T>) -> Rows<'_, T> {
+        let (contact, point) = (self.contact, &self.contact.parts.surface.points[index]);
+        let reference = contact.tool().reference() + g.pose.translation;
+        let moment = (at - reference.lift()).cross(force);
+        let own = contact.parts.surface.nodes(point).len();
+        Rows { shapes: &point.n[..own], force, moment, turning: conjugate(&g.pose, moment) }
+    }
+
     /// Adds the forces of a closed point and their derivatives by the chain rule: `-N_L f` on its own nodes, and on the
     /// tool the force and what does the work of its moment about the reference point.
     pub(super) fn add<T: Seed>(&self, index: usize, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
-        let (n, contact) = (local.force.len(), self.contact);
-        let (own, shapes) = (n - TOOL, &contact.parts.surface.points[index].n);
-        let reference = contact.tool().reference() + g.pose.translation;
-        let moment = (closed.hit - reference.lift()).cross(closed.force);
-        let turning = conjugate(&g.pose, moment);
-        let row = |k: usize| match k.checked_sub(own) {
-            None => -closed.force[k % 3] * shapes[k / 3],
-            Some(axis) if axis < 3 => closed.force[axis],
-            Some(axis) => turning[axis - 3],
-        };
+        let n = local.force.len();
+        let (own, rows) = (n - TOOL, self.rows(index, g, closed.hit, closed.force));
         for i in 0..n {
-            local.force[i] += row(i).re();
+            local.force[i] += rows.of(i).re();
         }
         if local.wants_tangent {
             let columns = self.columns(index, g, own);
             for i in 0..n {
-                let slopes = row(i).slopes();
+                let slopes = rows.of(i).slopes();
                 for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns[..n]) {
                     *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
                 }
             }
-            stiffen(&g.pose, (closed.force.re(), moment.re()), &mut local.tangent[own * n + own..], n);
+            stiffen(&g.pose, (closed.force.re(), rows.moment.re()), &mut local.tangent[own * n + own..], n);
         }
     }
 
     /// Derivatives of the fifteen directions along each unknown of the stencil.
-    fn columns(&self, index: usize, g: &Geometry, own: usize) -> [[f64; DIRECTIONS]; MAX_DOFS] {
+    pub(super) fn columns(&self, index: usize, g: &Geometry, own: usize) -> [[f64; DIRECTIONS]; MAX_DOFS] {
         let (contact, mut columns) = (self.contact, [[0.0; DIRECTIONS]; MAX_DOFS]);
         let point = &contact.parts.surface.points[index];
         for (k, column) in columns[..own].iter_mut().enumerate() {

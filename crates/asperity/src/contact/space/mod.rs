@@ -2,6 +2,7 @@
 
 mod capture;
 mod geometry;
+mod kink;
 mod open;
 mod pair;
 mod point;

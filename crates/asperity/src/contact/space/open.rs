@@ -4,16 +4,17 @@ use super::geometry::{DIRECTIONS, Geometry, TOOL};
 use super::pair::Contact;
 use super::point::{self, Closed, Constants, Place, Triad};
 use crate::Failure;
+use crate::contact::kink::answer;
 use crate::contact::record::entry;
 use crate::interface::Past;
-use crate::system::{Attempt, Branch, History, Local, Stencil, Stencils};
+use crate::system::{Answer, Attempt, Branch, Coordinates, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
 use crate::tool::Rejected;
 use crate::tool::space::Hit;
 use rayon::prelude::*;
 use std::cell::RefCell;
 
-type D = Dual<DIRECTIONS>;
+pub(super) type D = Dual<DIRECTIONS>;
 
 /// A contact during one attempt.
 pub struct OpenContact<'a> {
@@ -94,6 +95,25 @@ impl Attempt for OpenContact<'_> {
             })
         }
     }
+
+    fn kinks(&self, u: &[f64], stencils: &Stencils, term: usize, out: &mut Kinks) -> Result<(), Failure> {
+        let mut local = Vec::new();
+        for (index, stencil) in stencils.list.iter().enumerate().filter(|(_, stencil)| stencil.choice > 0) {
+            let dofs = stencils.dofs(stencil);
+            local.clear();
+            local.extend(dofs.iter().map(|&dof| u[dof]));
+            if let Some(geometry) = self.geometry(index, stencil, &local)? {
+                out.begin((term, index), dofs);
+                self.bend(index, &geometry, dofs.len(), out);
+            }
+        }
+        Ok(())
+    }
+
+    fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
+        let parts = &self.contact.parts;
+        answer(&*parts.law, &self.past(stencil), self.contact.least, y)
+    }
 }
 
 /// Numbers that can be seeded as independent variables: [`D`] and, trivially, `f64`.
@@ -120,7 +140,7 @@ impl Seed for D {
     }
 }
 
-fn seed<T: Seed>(v: Vec3, first: usize) -> Vec3<T> {
+pub(super) fn seed<T: Seed>(v: Vec3, first: usize) -> Vec3<T> {
     Vec3(std::array::from_fn(|i| T::seed(v[i], first + i)))
 }
 
@@ -142,8 +162,8 @@ impl OpenContact<'_> {
             b: seed(g.place.b, 9),
             touched: g.place.touched.map(|x| seed(x, 12)),
         };
-        let past = self.past(index, local);
-        let constants = self.constants(index, g, &past, local);
+        let past = self.past(index);
+        let constants = self.constants(index, g, &past);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(Some(g.hit), new);
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
@@ -162,7 +182,7 @@ impl OpenContact<'_> {
         Ok(response.status as Branch)
     }
 
-    fn constants(&self, index: usize, g: &Geometry, past: &Past, local: &Local) -> Constants {
+    fn constants(&self, index: usize, g: &Geometry, past: &Past) -> Constants {
         let parts = &self.contact.parts;
         Constants {
             normal: g.hit.normal,
@@ -170,16 +190,16 @@ impl OpenContact<'_> {
             touch: parts.law.touch(past),
             least: self.contact.least,
             weight: parts.surface.points[index].weight,
-            turning: self.turning(g.hit.u, local),
+            turning: self.turning(g.hit.u),
         }
     }
 
     /// What the law may know of a point.
-    fn past(&self, index: usize, local: &Local) -> Past<'_> {
+    fn past(&self, index: usize) -> Past<'_> {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         Past {
-            penalty: options.penalty * local.aid.stiffness,
-            tangential_penalty: options.tangential_penalty * local.aid.stiffness,
+            penalty: options.penalty,
+            tangential_penalty: options.tangential_penalty,
             penetration: old[entry::PENETRATION],
             pressure: old[entry::PRESSURE],
             shear: [old[entry::SHEAR], old[entry::SHEAR2]],
@@ -214,9 +234,9 @@ impl OpenContact<'_> {
     }
 
     /// Part of the triad's derivatives that the tangent keeps at a penetration.
-    fn turning(&self, penetration: f64, local: &Local) -> f64 {
-        let pressure = self.contact.parts.options.penalty * local.aid.stiffness * penetration.abs();
-        if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }.min(local.aid.turning)
+    fn turning(&self, penetration: f64) -> f64 {
+        let pressure = self.contact.parts.options.penalty * penetration.abs();
+        if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }
     }
 
     /// A point that had nothing before it and now lies deep has jumped over the target's face.

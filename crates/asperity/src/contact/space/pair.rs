@@ -207,7 +207,7 @@ impl Term for Contact {
         self.describe(stencil)
     }
 
-    fn softens(&self) -> bool {
+    fn bends(&self) -> bool {
         true
     }
 

@@ -17,9 +17,9 @@ table! {
         tolerance: f64 = number(unit::NONE, Range::above_to(0.0, 0.1)).or("1e-6"),
         /// Most iterations of an attempt; then the increment is cut.
         iterations: usize = whole(2..=1000).or("25"),
-        /// Whether the first iterations are led by a softer penalty, with which the set of closed points settles
-        /// sooner.
-        continuation: bool = flag().or("true"),
+        /// Whether each step of Newton's method finds out at once which points close, open, stick or slip over it,
+        /// instead of taking one after the other from iteration to iteration.
+        piecewise: bool = flag().or("true"),
         /// Whether a correction that does not lower the residual is shortened.
         line_search: bool = flag().or("true"),
     }
@@ -63,7 +63,7 @@ impl Solver {
             perturbation: self.tangent == Tangent::Perturbation,
             tolerance: self.tolerance,
             iterations: self.iterations,
-            continuation: self.continuation,
+            piecewise: self.piecewise,
             line_search: self.line_search,
             rehearse: false,
         }

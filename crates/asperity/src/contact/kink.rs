@@ -1,0 +1,49 @@
+//! Penetration and slip of a point as the coordinates over which its forces bend.
+
+use super::geometry::Geometry;
+use super::open::{D, OpenContact, seed};
+use super::point::{in_contact, triad};
+use crate::Failure;
+use crate::interface::{Interface, MOST_VARIABLES, Motion, Past};
+use crate::system::{Answer, COORDINATES, Coordinates, Kinks, Stencil};
+use crate::tensor::{Dual, Scalar};
+
+impl OpenContact<'_> {
+    /// Adds the coordinates of a point at values `u` of its unknowns to the stencil begun last.
+    pub(super) fn bend(&self, index: usize, (stencil, g): (&Stencil, &Geometry), u: &[f64], out: &mut Kinks) {
+        let (along, inward, _) = triad(seed::<D>(g.place.tangent, 2));
+        let (a, b, normal) = (seed::<D>(g.place.a, 0), seed::<D>(g.place.b, 4), g.hit.normal.lift::<D>());
+        let penetration = normal.dot(b - a) / normal.dot(inward);
+        let slip = g.place.touched.map_or(D::zero(), |touched| along.dot(seed::<D>(touched, 6) - a));
+        let area = self.contact.area(&self.contact.surface.points[index], g.place.a, g.place.tangent);
+        let columns = self.columns(index, g, u);
+        for (y, direction) in [(penetration, inward.re()), (slip, along.re())] {
+            let rate = |column: &[f64; 8]| y.du.iter().zip(column).map(|(s, c)| s * c).sum();
+            let rows = self.rows::<f64>(index, (g, u), (g.place.b, g.place.b), direction * area);
+            out.coordinate(y.re(), columns[..stencil.len].iter().map(rate), rows.into_iter().take(stencil.len));
+        }
+    }
+}
+
+/// Pressure and shear over penetration and slip `y`, for what `past` is before the increment; a point that is farther
+/// than `least` beyond touching is closed.
+pub(in crate::contact) fn answer(law: &dyn Interface, past: &Past, least: f64, y: &Coordinates) -> Result<Answer, Failure> {
+    let (touch, mut answer) = (law.touch(past), Answer::default());
+    if y[0] <= touch + least {
+        return Ok(answer);
+    }
+    let penetration = Dual::<8>::variable(y[0] - least, 0);
+    let part = in_contact(penetration - touch, past.penetration - touch);
+    let slip = [1, 2].map(|i| Dual::variable(y[i], i) * part);
+    let past = Past { penetration: past.penetration.max(touch), ..*past };
+    let mut vars = [0.0; MOST_VARIABLES];
+    let vars = &mut vars[..past.vars.len()];
+    vars.copy_from_slice(past.vars);
+    let response = law.respond_plane(&Motion { penetration, slip }, &past, vars)?;
+    let [s, t] = response.shear;
+    for (i, stress) in [response.pressure, s, t].into_iter().enumerate() {
+        answer.stress[i] = stress.re();
+        answer.slopes[i].copy_from_slice(&stress.du[..COORDINATES]);
+    }
+    Ok(answer)
+}

@@ -1,0 +1,217 @@
+//! Newton's step on a piecewise smooth function: the solution of the linear system, put right for the stencils that
+//! close, open, stick or slip over it.
+//!
+//! What the linear system leaves of a stencil that bends is `w = t(y) - t0 - C0 (y - y0)`, so that the step is
+//! `du = part d - K^-1 H w` with the factor that is there already, and the coordinates over it are
+//! `y = y0 + G du = y0 + part G d - S w`, `S = G K^-1 H`. Over the few stresses `w` that are not zero this is a small dense
+//! problem. Where it has no solution for the whole step it may have one for a part of it. The step is that of Newton's
+//! method for B-differentiable functions (Pang, Math. Oper. Res. 15, 1990), taking less of it a search along its path
+//! (Ralph, Math. Oper. Res. 19, 1994).
+
+use super::linear::LinearSolver;
+use crate::Failure;
+use crate::system::{Answer, Attempt, COORDINATES, Constraints, Coordinates, Kinks};
+use crate::tensor::dense::eliminate;
+
+/// Stresses that the linear system leaves count from this part of the largest stress on.
+const NOTHING: f64 = 1e-9;
+/// Iterations for the small problem.
+const ITERATIONS: usize = 40;
+/// Shortest step of its line search, and what a step must lower the error by, over its length.
+const SHORTEST: f64 = 0.01;
+const DESCENT: f64 = 0.1;
+/// Most stresses that are put right: more cost as much as a new matrix.
+const MOST: usize = 512;
+/// Parts of the step that are tried, one after another.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
+
+/// A stress: kink and coordinate.
+type Stress = (usize, usize);
+
+/// The stencils that bend over a linear step.
+pub(super) struct Piecewise<'a> {
+    attempts: &'a [Box<dyn Attempt + 'a>],
+    kinks: &'a Kinks,
+    start: Vec<Answer>,
+    /// `G d` of each kink.
+    along: Vec<Coordinates>,
+    active: Vec<Stress>,
+    /// `S`: change of the coordinates of all kinks for a unit of each active stress.
+    influence: Vec<Vec<Coordinates>>,
+    /// `w`, active stress by active stress.
+    left: Vec<f64>,
+}
+
+/// The small problem at some `w`.
+struct Problem {
+    /// `w - w(y)`.
+    error: Vec<f64>,
+    /// Its derivative along `w`, by rows with room for a right-hand side.
+    rows: Vec<Vec<f64>>,
+    /// Largest stress.
+    size: f64,
+}
+
+impl Problem {
+    fn norm(&self) -> f64 {
+        self.error.iter().map(|e| e * e).sum::<f64>().sqrt()
+    }
+}
+
+impl<'a> Piecewise<'a> {
+    /// For the linear step `direction`, on all unknowns.
+    pub fn new(attempts: &'a [Box<dyn Attempt + 'a>], kinks: &'a Kinks, direction: &[f64]) -> Result<Self, Failure> {
+        let start = kinks.list().iter().map(|kink| attempts[kink.term].answer(kink.stencil, &kink.y));
+        let along = kinks.list().iter().map(|kink| kinks.along(kink, direction)).collect();
+        let start = start.collect::<Result<_, _>>()?;
+        Ok(Self { attempts, kinks, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new() })
+    }
+
+    /// Puts the step right and returns the part of it for which that could be done; None if for no part of it.
+    ///
+    /// # Errors
+    /// When a law cannot answer, or a solution with the factor fails.
+    pub fn settle(&mut self, solver: &dyn LinearSolver, constraints: &Constraints) -> Result<Option<f64>, Failure> {
+        for part in PARTS {
+            self.left.fill(0.0);
+            if self.settle_part(part, solver, constraints)? {
+                return Ok(Some(part));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Solves for the active stresses until no other wakes.
+    fn settle_part(
+        &mut self,
+        part: f64,
+        solver: &dyn LinearSolver,
+        constraints: &Constraints,
+    ) -> Result<bool, Failure> {
+        while self.solve(part)? {
+            let woken = self.awake(part)?;
+            if woken.is_empty() {
+                return Ok(true);
+            }
+            self.activate(&woken, solver, constraints)?;
+        }
+        Ok(false)
+    }
+
+    /// Coordinates of all kinks at the end of the step.
+    fn coordinates(&self, part: f64, left: &[f64]) -> Vec<Coordinates> {
+        let kinks = self.kinks.list().iter().zip(&self.along);
+        let mut y: Vec<Coordinates> =
+            kinks.map(|(kink, along)| std::array::from_fn(|c| kink.y[c] + part * along[c])).collect();
+        for (w, influence) in left.iter().zip(&self.influence).filter(|(w, _)| **w != 0.0) {
+            for (y, change) in y.iter_mut().zip(influence) {
+                (0..COORDINATES).for_each(|c| y[c] -= w * change[c]);
+            }
+        }
+        y
+    }
+
+    /// `w(y)` of a kink, its slopes, and the size of its stresses.
+    fn bend(&self, number: usize, y: &Coordinates) -> Result<(Answer, f64), Failure> {
+        let (kink, start) = (&self.kinks.list()[number], &self.start[number]);
+        let mut now = self.attempts[kink.term].answer(kink.stencil, y)?;
+        let largest = |t: &Coordinates| t.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+        let size = largest(&now.stress).max(largest(&start.stress));
+        for i in 0..kink.count {
+            let carried: f64 = (0..kink.count).map(|j| start.slopes[i][j] * (y[j] - kink.y[j])).sum();
+            now.stress[i] -= start.stress[i] + carried;
+            (0..kink.count).for_each(|j| now.slopes[i][j] -= start.slopes[i][j]);
+        }
+        Ok((now, size))
+    }
+
+    /// Stresses that the step leaves and that are not yet put right.
+    fn awake(&self, part: f64) -> Result<Vec<Stress>, Failure> {
+        let (mut found, mut largest) = (Vec::new(), 0.0_f64);
+        for (number, y) in self.coordinates(part, &self.left).iter().enumerate() {
+            let (bent, size) = self.bend(number, y)?;
+            largest = largest.max(size);
+            let left = bent.stress.into_iter().enumerate().filter(|(_, w)| *w != 0.0);
+            found.extend(left.map(|(coordinate, w)| ((number, coordinate), w.abs())));
+        }
+        found.retain(|(stress, w)| *w > NOTHING * largest && !self.active.contains(stress));
+        found.truncate(MOST - self.active.len());
+        Ok(found.into_iter().map(|(stress, _)| stress).collect())
+    }
+
+    /// Puts stresses right from now on.
+    fn activate(
+        &mut self,
+        woken: &[Stress],
+        solver: &dyn LinearSolver,
+        constraints: &Constraints,
+    ) -> Result<(), Failure> {
+        let (n, mut full) = (constraints.free_count(), vec![0.0; constraints.count()]);
+        let mut motions = vec![0.0; n * woken.len()];
+        for (&(kink, coordinate), motion) in woken.iter().zip(motions.chunks_exact_mut(n.max(1))) {
+            full.fill(0.0);
+            self.kinks.push(&self.kinks.list()[kink], coordinate, 1.0, &mut full);
+            constraints.gather(&full, motion);
+        }
+        solver.apply(&mut motions).map_err(|error| Failure::new(error.to_string()))?;
+        for (&stress, motion) in woken.iter().zip(motions.chunks_exact(n.max(1))) {
+            full.fill(0.0);
+            constraints.expand(motion, &mut full);
+            self.active.push(stress);
+            self.influence.push(self.kinks.list().iter().map(|kink| self.kinks.along(kink, &full)).collect());
+            self.left.push(0.0);
+        }
+        Ok(())
+    }
+
+    /// Adds the forces of what was put right, and says whether there are any.
+    pub fn push(&self, forces: &mut [f64]) -> bool {
+        for (&(kink, coordinate), &w) in self.active.iter().zip(&self.left) {
+            self.kinks.push(&self.kinks.list()[kink], coordinate, w, forces);
+        }
+        !self.active.is_empty()
+    }
+
+    /// Solves the small problem for the active stresses, by Newton's method with a line search on the error.
+    fn solve(&mut self, part: f64) -> Result<bool, Failure> {
+        let mut at = self.problem(part, &self.left)?;
+        for _ in 0..ITERATIONS {
+            let norm = at.norm();
+            if norm <= NOTHING * at.size {
+                return Ok(true);
+            }
+            for (row, error) in at.rows.iter_mut().zip(&at.error) {
+                row.push(*error);
+            }
+            let Some(step) = eliminate(&mut at.rows) else { return Ok(false) };
+            let mut length = 1.0;
+            loop {
+                let next: Vec<f64> = self.left.iter().zip(&step).map(|(w, d)| w - length * d).collect();
+                at = self.problem(part, &next)?;
+                if at.norm() <= (1.0 - DESCENT * length) * norm || length < SHORTEST {
+                    self.left = next;
+                    break;
+                }
+                length *= 0.5;
+            }
+        }
+        Ok(false)
+    }
+
+    fn problem(&self, part: f64, left: &[f64]) -> Result<Problem, Failure> {
+        let y = self.coordinates(part, left);
+        let mut problem = Problem { error: Vec::new(), rows: Vec::new(), size: 0.0 };
+        for (row, &(kink, coordinate)) in self.active.iter().enumerate() {
+            let (bent, size) = self.bend(kink, &y[kink])?;
+            problem.size = problem.size.max(size);
+            problem.error.push(left[row] - bent.stress[coordinate]);
+            let slopes = &bent.slopes[coordinate];
+            let along = |change: &Coordinates| slopes.iter().zip(change).map(|(slope, c)| slope * c).sum::<f64>();
+            let mut entries = Vec::with_capacity(self.active.len() + 1);
+            entries.extend(self.influence.iter().map(|influence| along(&influence[kink])));
+            entries[row] += 1.0;
+            problem.rows.push(entries);
+        }
+        Ok(problem)
+    }
+}

@@ -1,0 +1,242 @@
+//! One step of Newton's method: the linear system, what bends over its solution, and how far to go along it.
+
+use super::linear::LinearError;
+use super::newton::{Newton, Trouble, Variant};
+use super::piecewise::Piecewise;
+use crate::Failure;
+use crate::system::{Dofs, Tangent};
+
+/// Slope, as a part of the initial one, at which the search for a shorter step ends.
+const GOOD: f64 = 0.8;
+/// Bounds of what an iterative solution may leave of its right-hand side.
+const LOOSEST: f64 = 1e-3;
+const TIGHTEST: f64 = 1e-8;
+/// Shortest step of the line search.
+const SHORTEST: f64 = 0.01;
+/// A step is at most a cell long, or this multiple of what was moved in the increment so far and what is still missing,
+const FAR: f64 = 4.0;
+/// and turns a tool by at most so much, in radians.
+const TURN: f64 = 0.5;
+
+/// A step.
+pub(super) struct Motion {
+    /// Change of all unknowns.
+    pub du: Vec<f64>,
+    /// Part of the whole step that it is.
+    pub part: f64,
+    /// Whether a matrix was factorised for it.
+    pub factorised: bool,
+}
+
+impl Newton<'_> {
+    /// Newton's step from `u`, as far as the functions that bend over it allow; `forcing` bounds what an iterative solution
+    /// leaves of the linear system.
+    pub(super) fn linearise(
+        &mut self,
+        (iteration, u): (usize, &[f64]),
+        missing: Option<&[f64]>,
+        forcing: f64,
+    ) -> Result<Motion, Trouble> {
+        let constraints = &self.step.constraints;
+        let mut rhs = vec![0.0; self.residual.len()];
+        let mut du = vec![0.0; self.state.u.len()];
+        if let Some(missing) = missing {
+            constraints.gather(&self.evaluation.carried, &mut rhs);
+            du.copy_from_slice(missing);
+        }
+        rhs.iter_mut().zip(&self.residual).for_each(|(rhs, r)| *rhs = -(*rhs + r));
+        let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
+        constraints.expand(&rhs, &mut du);
+        let mut motion = Motion { du, part: 1.0, factorised };
+        if self.problem.newton.piecewise {
+            self.bend(u, &mut motion, forcing)?;
+        }
+        self.limit(u, missing, &mut motion);
+        Ok(motion)
+    }
+
+    /// Puts the linear step right for the stencils that bend over it.
+    fn bend(&mut self, u: &[f64], motion: &mut Motion, forcing: f64) -> Result<(), Trouble> {
+        let (workspace, kinks) = (&self.memory.workspace, &mut self.memory.kinks);
+        kinks.clear();
+        for (term, attempt) in self.assembly.attempts.iter().enumerate() {
+            attempt.kinks(u, workspace.stencils(term), term, kinks)?;
+        }
+        let (constraints, mut full) = (&self.step.constraints, vec![0.0; u.len()]);
+        let mut piecewise = Piecewise::new(&self.assembly.attempts, kinks, &motion.du)?;
+        let settled = piecewise.settle(self.solver, constraints)?;
+        let Some(part) = settled.filter(|_| piecewise.push(&mut full)) else { return Ok(()) };
+        let mut rhs = vec![0.0; self.residual.len()];
+        constraints.gather(&full, &mut rhs);
+        let iterates = !motion.factorised && self.problem.newton.variant == Variant::Full;
+        let iterated = iterates && self.solver.iterate(&self.evaluation.values, &mut rhs, forcing).unwrap_or(false);
+        if !iterated {
+            self.solver.solve(&mut rhs).map_err(|e| self.explain(e, 1))?;
+        }
+        rhs.iter_mut().for_each(|dq| *dq = -*dq);
+        motion.du.iter_mut().for_each(|du| *du *= part);
+        constraints.expand(&rhs, &mut motion.du);
+        motion.part = part;
+        Ok(())
+    }
+
+    /// Shortens a step that leads far beyond what the increment moves: something is then free that a shorter step may
+    /// find held.
+    fn limit(&self, u: &[f64], missing: Option<&[f64]>, motion: &mut Motion) {
+        let (mut longest, mut usual) = ([0.0_f64; 2], [self.problem.cell_size, TURN]);
+        for (dof, du) in motion.du.iter().enumerate() {
+            let kind = usize::from(self.problem.dofs.is_rotation(dof));
+            longest[kind] = longest[kind].max(du.abs());
+            let moved = (u[dof] - self.state.u[dof]).abs().max(missing.map_or(0.0, |missing| missing[dof].abs()));
+            usual[kind] = usual[kind].max(FAR * moved);
+        }
+        let allowed = longest.iter().zip(&usual).map(|(longest, usual)| usual / longest).fold(1.0, f64::min);
+        if allowed < 1.0 {
+            motion.du.iter_mut().for_each(|du| *du *= allowed);
+            motion.part *= allowed;
+        }
+    }
+
+    /// Analyses the pattern if it is new.
+    fn analyse(&mut self, iteration: usize) -> Result<(), Trouble> {
+        let analysis = self.memory.workspace.analysis();
+        if self.memory.analysed != analysis {
+            let nodes = owners(&self.problem.dofs, self.step.constraints.free());
+            let pattern = self.memory.workspace.pattern();
+            self.solver.analyse(pattern, nodes).map_err(|e| self.explain(e, iteration))?;
+            (self.memory.analysed, self.memory.factorised) = (analysis, false);
+            self.memory.analyses += 1;
+        }
+        Ok(())
+    }
+
+    /// Factorises if this iteration asks for it, and says whether it did.
+    fn factorise(&mut self, iteration: usize) -> Result<bool, Trouble> {
+        let keep = match self.problem.newton.variant {
+            Variant::Full => false,
+            Variant::Modified => iteration > 0,
+            Variant::Kept => iteration != 4,
+        };
+        if keep && self.memory.factorised {
+            return Ok(false);
+        }
+        self.memory.factorisations += 1;
+        self.memory.factorised = false;
+        self.propped.clear();
+        match self.solver.factorise(&self.evaluation.values) {
+            Err(LinearError::Singular(motions)) if self.may_hold() => self.prop(&motions, iteration)?,
+            factorised => {
+                factorised.map_err(|e| self.explain(e, iteration))?;
+                self.memory.factorised = true;
+            }
+        }
+        Ok(true)
+    }
+
+    /// Solves with the present matrix or that of the variant, and says whether a matrix was factorised.
+    fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, Trouble> {
+        self.analyse(iteration)?;
+        if self.problem.newton.variant == Variant::Full {
+            let solved = self.solver.iterate(&self.evaluation.values, rhs, forcing);
+            if solved.map_err(|e| self.explain(e, 1))? {
+                return Ok(false);
+            }
+        }
+        let factorised = self.factorise(iteration)?;
+        self.solver.solve(rhs).map_err(|e| self.explain(e, 1))?;
+        Ok(factorised)
+    }
+
+    /// Moves `u` along a step, evaluates there, and returns the part of the whole step that was taken.
+    pub(super) fn advance(
+        &mut self,
+        u: &mut Vec<f64>,
+        motion: &Motion,
+        missing: Option<&[f64]>,
+    ) -> Result<f64, Failure> {
+        let (begin, slope) = (u.clone(), self.slope(&motion.du));
+        let along = |part: f64| -> Vec<f64> { begin.iter().zip(&motion.du).map(|(u, d)| u + part * d).collect() };
+        let rest = |part: f64| missing.filter(|_| part < 1.0).map(|m| m.iter().map(|m| m * (1.0 - part)).collect());
+        let mut part = 1.0;
+        loop {
+            *u = along(part);
+            let missing: Option<Vec<f64>> = rest(part * motion.part);
+            match self.evaluate(u, missing.as_deref(), self.tangent()) {
+                Ok(()) => break,
+                Err(failure) if part <= SHORTEST => return Err(failure),
+                Err(_) => part *= 0.5,
+            }
+        }
+        if !self.problem.newton.line_search || missing.is_some() || part < 1.0 {
+            return Ok(part * motion.part);
+        }
+        let end = self.slope(&motion.du);
+        if end.abs() <= self.bound * slope.abs() {
+            return Ok(motion.part);
+        }
+        part = self.search(&along, &motion.du, (slope, end))?;
+        *u = along(part);
+        self.evaluate(u, None, self.tangent())?;
+        Ok(part * motion.part)
+    }
+
+    /// Work of the present unbalanced forces along a direction.
+    pub(super) fn slope(&self, direction: &[f64]) -> f64 {
+        let free = self.step.constraints.free().iter();
+        free.zip(&self.residual).map(|(&dof, r)| direction[dof] * r).sum()
+    }
+
+    /// Looks for a part of the step where the slope is small: regula falsi (Illinois) where it changes sign, halving
+    /// where it only grows.
+    fn search(
+        &mut self,
+        along: &dyn Fn(f64) -> Vec<f64>,
+        direction: &[f64],
+        (begin, end): (f64, f64),
+    ) -> Result<f64, Failure> {
+        let (mut low, mut high) = ((0.0, begin), (1.0, end));
+        let mut best = (end.abs(), 1.0);
+        for _ in 0..6 {
+            let crosses = low.1 * high.1 < 0.0;
+            let part = if crosses { high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1) } else { 0.5 * high.0 };
+            let part = part.max(SHORTEST);
+            self.evaluate(&along(part), None, Tangent::None)?;
+            let slope = self.slope(direction);
+            if slope.abs() < best.0 {
+                best = (slope.abs(), part);
+            }
+            if slope.abs() <= GOOD * begin.abs() || part <= SHORTEST {
+                break;
+            }
+            if slope * high.1 < 0.0 {
+                low = (part, slope);
+                high.1 *= 0.5;
+            } else {
+                high = (part, slope);
+            }
+        }
+        Ok(best.1)
+    }
+}
+
+/// Residual of an iterative solution over its right-hand side, from the unbalanced forces now and an iteration before:
+/// what the linear system leaves is no more than what the next iteration finds anyway, so that the order stays
+/// quadratic (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996, their second choice).
+pub(super) fn forcing(now: f64, before: f64) -> f64 {
+    (now / before.max(f64::MIN_POSITIVE)).powi(2).clamp(TIGHTEST, LOOSEST)
+}
+
+/// For each free unknown, its node or tool, numbered as they come.
+pub(super) fn owners(dofs: &Dofs, free: &[usize]) -> Vec<usize> {
+    let owner = |dof: usize| match dof.checked_sub(dofs.node(dofs.nodes())) {
+        None => dof / dofs.per_node(),
+        Some(beyond) => dofs.nodes() + beyond / dofs.per_tool(),
+    };
+    let (mut number, mut last) = (0, None);
+    let number = |&dof: &usize| {
+        number += usize::from(last.is_some_and(|last| last != owner(dof)));
+        last = Some(owner(dof));
+        number
+    };
+    free.iter().map(number).collect()
+}

@@ -39,6 +39,9 @@ impl LinearSolver for Clocked {
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         self.add(2, |solver| solver.solve(rhs))
     }
+    fn apply(&self, rhs: &mut [f64]) -> Result<(), LinearError> {
+        self.solver.apply(rhs)
+    }
     fn begin(&mut self) {
         self.solver.begin();
     }

@@ -27,7 +27,12 @@ impl OpenContact<'_> {
 
 /// Pressure and shear over penetration and slip `y`, for what `past` is before the increment; a point that is farther
 /// than `least` beyond touching is closed.
-pub(in crate::contact) fn answer(law: &dyn Interface, past: &Past, least: f64, y: &Coordinates) -> Result<Answer, Failure> {
+pub(in crate::contact) fn answer(
+    law: &dyn Interface,
+    past: &Past,
+    least: f64,
+    y: &Coordinates,
+) -> Result<Answer, Failure> {
     let (touch, mut answer) = (law.touch(past), Answer::default());
     if y[0] <= touch + least {
         return Ok(answer);

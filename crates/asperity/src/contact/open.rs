@@ -1,7 +1,7 @@
 //! A contact during one attempt: its points as stencils, evaluated on the segments that the search found.
 
-use super::kink::answer;
 use super::geometry::{DIRECTIONS, Geometry};
+use super::kink::answer;
 use super::pair::Contact;
 use super::point::{self, Constants, Place, triad};
 use super::record::entry;

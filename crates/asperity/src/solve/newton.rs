@@ -338,4 +338,3 @@ impl<'a> Newton<'a> {
         text
     }
 }
-

@@ -5,7 +5,7 @@
 mod stencils;
 
 use asperity::contact::space::{Contact, Parts, Surface};
-use asperity::contact::{ContactOptions, Loads};
+use asperity::contact::{ContactOptions, Guard, Loads};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::{Cell, generate::Block};
 use asperity::system::{Dofs, State, Term};
@@ -61,6 +61,7 @@ fn contact(cell: &str, kind: &str) -> (Contact, Dofs) {
         modulus: 1e3,
         loads: Loads::Both,
         coupling: true,
+        guard: Guard::Refuse,
     };
     let parts = Parts {
         name: "c".into(),

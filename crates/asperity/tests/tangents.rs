@@ -2,66 +2,24 @@
 //! bodies by a walk over the registered cells, contact points on edges of both degrees against every shape of target,
 //! open, sticking and slipping. A state whose branch differs between perturbed evaluations is skipped and counted.
 
+mod perturbed;
+
 use asperity::Failure;
-use asperity::contact::{Contact, ContactOptions, Loads, Surface, Target};
+use asperity::contact::{Contact, ContactOptions, Guard, Loads, Surface, Target};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Side, Space};
 use asperity::solid::{Body, BodyOptions, Formulation, Integration};
-use asperity::system::{
-    Attempt, Branch, Dofs, History, Instant, Local, State, Stencil, Stencils, TangentCheck, Term, check_tangent,
-};
+use asperity::system::{Attempt, Branch, Dofs, Local, Stencil, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::{Tool, shapes};
+use perturbed::{Random, check, commit, instant, state};
 use std::sync::Arc;
 
 /// Largest difference of an entry over the largest entry.
 const ALLOWED: f64 = 1e-7;
-
-/// Numbers in (-1, 1) from a linear congruence (Knuth's MMIX), the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
-fn state(u: Vec<f64>, history: History) -> State {
-    State { last_change: vec![0.0; u.len()], u, histories: vec![history], ..State::default() }
-}
-
-fn instant() -> Instant {
-    Instant { dt: 1.0, ..Instant::default() }
-}
-
-/// The state after an increment to `u`, whether in equilibrium or not.
-fn commit(term: &dyn Term, from: &State, u: Vec<f64>) -> Result<State, Failure> {
-    let attempt = term.attempt(from, &from.histories[0], instant())?;
-    let (mut stencils, mut new, mut local) = (Stencils::default(), from.histories[0].clone(), Local::default());
-    attempt.stencils(&u, &mut stencils)?;
-    for (i, stencil) in stencils.list.iter().enumerate() {
-        local.u = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
-        local.reset(stencil.len);
-        attempt.evaluate(i, stencil, new.slot_mut(i), &mut local)?;
-    }
-    drop(attempt);
-    Ok(state(u, new))
-}
-
-/// Checks all stencils of an attempt at `u`; lengths and angles are of the order of one here.
-fn check(attempt: &dyn Attempt, u: &[f64]) -> Result<Vec<TangentCheck>, Failure> {
-    let mut stencils = Stencils::default();
-    attempt.stencils(u, &mut stencils)?;
-    let one = |(i, stencil): (usize, &Stencil)| {
-        let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
-        check_tangent(attempt, i, stencil, &here, &vec![1.0; here.len()])
-    };
-    stencils.list.iter().enumerate().map(one).collect()
-}
 
 /// A unit square or cube at radius 1, bent so that no cell is a rectangle.
 fn mesh(cell: &'static Cell) -> Mesh {
@@ -129,8 +87,15 @@ fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
     // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
     let (loads, coupling) = (Loads::Both, true);
-    let options =
-        ContactOptions { penalty: 1.0, tangential_penalty: 0.7, thickness: 0.8, modulus: 1e3, loads, coupling };
+    let options = ContactOptions {
+        penalty: 1.0,
+        tangential_penalty: 0.7,
+        thickness: 0.8,
+        modulus: 1e3,
+        loads,
+        coupling,
+        guard: Guard::Refuse,
+    };
     let law = Arc::new(Law(Coulomb::new(0.4)));
     let parts = (mesh, dofs.clone(), space);
     let target = Target::tool(tool, 0, &dofs);

@@ -4,13 +4,15 @@
 //! left. A tree of boxes, fitted anew for each search, keeps a ray from being tried against every edge.
 
 use super::open::Seed;
+use super::split::Vertex;
 use super::surface::{Edge, MAX_EDGE_NODES};
-use super::target::{Hit, MAX_UNKNOWNS};
+use super::target::{Cast, Hit, MAX_UNKNOWNS, Memory};
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::shapes::{Line, Parabola};
 use crate::tool::{self, Bounds, Ray, Shape, Tree};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Edges of bodies.
@@ -19,6 +21,8 @@ pub struct Faces {
     mesh: Arc<Mesh>,
     dofs: Dofs,
     edges: Vec<Edge>,
+    /// The edges before and behind each.
+    neighbours: Vec<[Option<usize>; 2]>,
     tree: Tree,
     size: f64,
 }
@@ -66,7 +70,8 @@ impl Faces {
     pub fn new(mesh: Arc<Mesh>, dofs: Dofs, sides: &[Side]) -> Self {
         let edges: Vec<Edge> = sides.iter().map(|&side| Edge::new(&mesh, side)).collect();
         let still = vec![0.0; dofs.count()];
-        let mut faces = Self { mesh, dofs, edges, tree: Tree::new(&[], 0.0), size: 0.0 };
+        let neighbours = neighbours(&edges);
+        let mut faces = Self { mesh, dofs, edges, neighbours, tree: Tree::new(&[], 0.0), size: 0.0 };
         let boxes = boxes(&faces.curves(&still));
         faces.size = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b)).size();
         faces.tree = Tree::new(&boxes, MARGIN * faces.size);
@@ -95,12 +100,7 @@ impl Faces {
     }
 
     fn curves(&self, u: &[f64]) -> Vec<Curve> {
-        let mut here = [0.0; MAX_UNKNOWNS];
-        let curve = |segment: usize| {
-            self.unknowns(segment).zip(&mut here).for_each(|(dof, value)| *value = u[dof]);
-            self.curve(segment, &here)
-        };
-        (0..self.edges.len()).map(curve).collect()
+        (0..self.edges.len()).map(|segment| self.curve(segment, &self.values(segment, u))).collect()
     }
 
     /// The edge whose nodes have the displacements `u`.
@@ -150,6 +150,49 @@ impl Faces {
     }
 }
 
+/// The edges that end where each begins, and begin where it ends.
+fn neighbours(edges: &[Edge]) -> Vec<[Option<usize>; 2]> {
+    let at =
+        |end: usize| edges.iter().enumerate().map(move |(i, edge)| (edge.nodes[end], i)).collect::<BTreeMap<_, _>>();
+    let (beginning, ending) = (at(0), at(1));
+    let of = |edge: &Edge| [ending.get(&edge.nodes[0]).copied(), beginning.get(&edge.nodes[1]).copied()];
+    edges.iter().map(of).collect()
+}
+
+/// Outward normal of an edge at one of its ends, and the direction along it away from that end.
+pub type Look = (Vec3, Vec3);
+
+/// The segment and the end that a vertex means.
+fn parts(vertex: Vertex) -> (usize, usize) {
+    ((vertex as usize - 1) / 2, (vertex as usize - 1) % 2)
+}
+
+impl Faces {
+    /// The node of a vertex.
+    pub(super) fn node_of(&self, vertex: Vertex) -> usize {
+        let (segment, end) = parts(vertex);
+        self.edges[segment].nodes[end]
+    }
+    /// The unknowns of a vertex.
+    pub(super) fn unknowns_of(&self, vertex: Vertex) -> [usize; 2] {
+        [0, 1].map(|axis| self.dofs.node(self.node_of(vertex)) + axis)
+    }
+    /// Place of a vertex whose unknowns are `u`.
+    pub(super) fn place_of(&self, vertex: Vertex, u: &[f64]) -> Vec3 {
+        self.mesh.points[self.node_of(vertex)] + Vec3::new(u[0], u[1], 0.0)
+    }
+    /// `dx_B/ds` at `s` on a segment whose unknowns are `u`.
+    pub(super) fn tangent(&self, segment: usize, s: f64, u: &[f64]) -> Vec3 {
+        self.curve(segment, u).shape().tangent(s)
+    }
+    /// Values of the unknowns of a segment among all unknowns.
+    pub(super) fn values(&self, segment: usize, u: &[f64]) -> [f64; MAX_UNKNOWNS] {
+        let mut here = [0.0; MAX_UNKNOWNS];
+        self.unknowns(segment).zip(&mut here).for_each(|(dof, value)| *value = u[dof]);
+        here
+    }
+}
+
 fn boxes(curves: &[Curve]) -> Vec<Bounds> {
     curves.iter().map(|curve| curve.shape().bounds()).collect()
 }
@@ -157,6 +200,31 @@ fn boxes(curves: &[Curve]) -> Vec<Bounds> {
 impl Standing<'_> {
     pub(super) fn size(&self) -> f64 {
         self.faces.size
+    }
+
+    /// What a ray meets by the rules against false contacts; what they reject is counted.
+    pub(super) fn select(&self, cast: &Cast, memory: &mut Memory) -> Option<Hit> {
+        self.cast(&cast.ray, cast.range(), &mut memory.hits);
+        cast.select(self.size(), memory)
+    }
+
+    /// Vertices of the edges near a chord, within `margin` of the box around it; each as the end of every edge it ends.
+    pub(super) fn vertices_near(&self, chord: [Vec3; 2], margin: f64, out: &mut Vec<Vertex>) {
+        let (around, wide) = (Bounds::of(chord), Vec3([margin; 3]));
+        let around = Bounds { min: around.min - wide, max: around.max + wide };
+        self.tree.near(&around, &mut |segment| out.extend([1, 2].map(|end| 2 * segment as u32 + end)));
+        out.sort_unstable();
+    }
+
+    /// Place of a vertex, and the looks of its edge and of the edge beyond it.
+    pub(super) fn faces_at(&self, vertex: Vertex) -> (Vec3, Look, Option<Look>) {
+        let (segment, end) = parts(vertex);
+        let look = |segment: usize, end: usize| {
+            let tangent = self.curves[segment].shape().tangent(end as f64);
+            (outward(tangent), if end == 0 { tangent } else { -tangent })
+        };
+        let beyond = self.faces.neighbours[segment][end].map(|other| look(other, 1 - end));
+        (self.curves[segment].shape().point(end as f64), look(segment, end), beyond)
     }
 
     /// All places with `u` in `range` where a ray meets the edges, by edge and then by `u`.

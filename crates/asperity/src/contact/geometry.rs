@@ -1,14 +1,15 @@
 //! Where everything is at one contact point, which unknowns that depends on, and the chain rule from the eight
 //! directions of the contact point to those unknowns.
 //!
-//! The unknowns of a stencil are those of its own nodes, of the segment it hits, and of the segment touched at the last
-//! accepted state where that is another one.
+//! The unknowns of a stencil are those of its own nodes, of the segment it hits, of the segment touched at the last
+//! accepted state where that is another one, and of the vertices at which the target ends over its edge.
 
+use super::before::Before;
 use super::open::{OpenContact, Seed};
 use super::pair::Loads;
 use super::point::{Closed, Place, triad};
-use super::record::entry;
-use super::surface::MAX_EDGE_NODES;
+use super::split::{End, Placed};
+use super::surface::{MAX_EDGE_NODES, SurfacePoint};
 use super::target::{Hit, MAX_UNKNOWNS};
 use crate::Failure;
 use crate::system::{Local, Stencil};
@@ -17,7 +18,7 @@ use crate::tool::Ray;
 use std::ops::Range;
 
 /// Most unknowns of a stencil.
-pub const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + 2 * MAX_UNKNOWNS;
+pub const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + 2 * MAX_UNKNOWNS + 4;
 /// Directions in which a contact point is differentiated.
 pub const DIRECTIONS: usize = 8;
 
@@ -30,82 +31,99 @@ pub struct Layout {
     pub hit: Range<usize>,
     /// Those of the segment touched at the last accepted state.
     pub touched: Option<Range<usize>>,
+    /// Those of the vertices at which the covered part of the edge begins and ends.
+    pub ends: [Option<Range<usize>>; 2],
 }
 
 /// Where everything is at one point, in plain numbers.
 pub struct Geometry {
+    /// Where the point stands on its edge.
+    pub spot: SurfacePoint,
     /// Positions.
     pub place: Place<f64>,
     /// Where the target is hit.
     pub hit: Hit,
+    /// What it touched at the last accepted state.
+    pub before: Before,
     /// Which unknowns they depend on.
     pub layout: Layout,
+    ends: [Option<End>; 2],
+    /// First and second derivative of the position along the whole edge.
+    along: [Vec3; 2],
 }
 
 impl OpenContact<'_> {
-    /// The segment touched at the last accepted state, and where.
-    pub(super) fn touched(&self, index: usize) -> Option<(usize, [f64; 2])> {
-        let old = self.history.slot(index);
-        (old[entry::SEGMENT] >= 0.0).then(|| (old[entry::SEGMENT] as usize, [old[entry::S], old[entry::S2]]))
-    }
-
-    /// Appends the unknowns of a point that hits `segment`, in the order of its [`Layout`].
-    pub(super) fn unknowns(&self, index: usize, segment: Option<usize>, out: &mut Vec<usize>) {
+    /// Appends the unknowns of a point, in the order of its [`Layout`].
+    pub(super) fn unknowns(&self, index: usize, stencil: &Stencil, out: &mut Vec<usize>) {
         let contact = self.contact;
         let nodes = contact.surface.nodes(&contact.surface.points[index]);
         out.extend(nodes.iter().flat_map(|&node| [0, 1].map(|axis| contact.dofs.node(node) + axis)));
-        let Some(segment) = segment else { return };
+        let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return };
         contact.target.unknowns(segment, out);
-        match self.touched(index) {
-            Some((touched, _)) if !contact.target.together(segment, touched) => contact.target.unknowns(touched, out),
+        match self.touched_segment(index, stencil) {
+            Some(touched) if !contact.target.together(segment, touched) => contact.target.unknowns(touched, out),
             _ => {}
         }
+        let ends = contact.target.as_faces().into_iter().flat_map(|faces| {
+            stencil.also[..2].iter().filter(|&&vertex| vertex > 0).flat_map(|&vertex| faces.unknowns_of(vertex))
+        });
+        out.extend(ends);
     }
 
-    fn layout(&self, index: usize, segment: usize) -> Layout {
+    fn layout(&self, index: usize, stencil: &Stencil, segment: usize) -> Layout {
         let contact = self.contact;
         let own = 2 * contact.surface.nodes(&contact.surface.points[index]).len();
         let hit = own..own + contact.target.count(segment);
-        let touched = self.touched(index).map(|(touched, _)| match contact.target.together(segment, touched) {
-            true => hit.clone(),
-            false => hit.end..hit.end + contact.target.count(touched),
+        let touched =
+            self.touched_segment(index, stencil).map(|touched| match contact.target.together(segment, touched) {
+                true => hit.clone(),
+                false => hit.end..hit.end + contact.target.count(touched),
+            });
+        let mut end = touched.as_ref().map_or(hit.end, |touched| touched.end.max(hit.end));
+        let ends = [0, 1].map(|k| {
+            (stencil.also[k] > 0).then(|| {
+                end += 2;
+                end - 2..end
+            })
         });
-        Layout { own, hit, touched }
+        Layout { own, hit, touched, ends }
     }
 
     /// Where everything is for values `u` of a stencil's unknowns; None where it hits nothing.
     pub(super) fn geometry(&self, index: usize, stencil: &Stencil, u: &[f64]) -> Result<Option<Geometry>, Failure> {
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return Ok(None) };
-        let contact = self.contact;
-        let (point, layout) = (&contact.surface.points[index], self.layout(index, segment));
-        let nodes = contact.surface.nodes(point);
+        let (contact, layout) = (self.contact, self.layout(index, stencil, segment));
+        let edge = &contact.surface.edges[contact.surface.points[index].edge];
         let mut x = [Vec3::zero(); MAX_EDGE_NODES];
-        for ((x, u), &node) in x.iter_mut().zip(u.chunks_exact(2)).zip(nodes) {
+        for ((x, u), &node) in x.iter_mut().zip(u.chunks_exact(2)).zip(&edge.nodes) {
             *x = contact.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
         }
-        let (a, tangent) = point.place(&x[..nodes.len()]);
+        let placed = Placed { edge, x };
+        let ends = [0, 1].map(|k| self.end(stencil.also[k], &placed, layout.ends[k].clone().map(|range| &u[range])));
+        let spot = contact.surface.moved(index, laid(&contact.surface.points[index], &ends));
+        let (a, tangent) = spot.place(&x[..edge.nodes.len()]);
         let (_, inward, _) = triad(tangent);
         let lost = || Failure::new(format!("{}: its ray runs along the target", contact.describe(index)));
         let ray = Ray { origin: a, direction: inward };
         let hit = contact.target.meet(segment, &u[layout.hit.clone()], &ray, stencil.near).ok_or_else(lost)?;
-        let of_touched = self.touched(index).zip(layout.touched.clone());
+        let before = self.before(index, stencil, &spot);
+        let of_touched = before.touched.zip(layout.touched.clone());
         let touched = of_touched.map(|((segment, s), range)| contact.target.point(segment, s, &u[range]));
-        Ok(Some(Geometry { place: Place { a, tangent, b: a + inward * hit.u, touched }, hit, layout }))
+        let [_, first, second] = if ends == [None; 2] { [Vec3::zero(); 3] } else { placed.at(spot.xi) };
+        let place = Place { a, tangent, b: a + inward * hit.u, touched };
+        Ok(Some(Geometry { spot, place, hit, before, layout, ends, along: [first, second] }))
+    }
+
+    fn end(&self, vertex: u32, placed: &Placed, u: Option<&[f64]>) -> Option<End> {
+        Some(placed.foot(self.contact.target.as_faces()?.place_of(vertex, u?)))
     }
 
     /// What a force at a point does to each unknown of its stencil: `-N_L f` to its own nodes, and to the target its
     /// work along the target's rates, unless the target loads itself.
-    pub(super) fn rows<T: Seed>(
-        &self,
-        index: usize,
-        (g, u): (&Geometry, &[f64]),
-        (at, b): (Vec3<T>, Vec3<T>),
-        force: Vec3<T>,
-    ) -> [T; MAX_DOFS] {
+    pub(super) fn rows<T: Seed>(&self, (g, u): (&Geometry, &[f64]), (at, b): (Vec3<T>, Vec3<T>), force: Vec3<T>) -> [T; MAX_DOFS] {
         let (contact, mut rows) = (self.contact, [T::zero(); MAX_DOFS]);
-        let n = &contact.surface.points[index].n;
         for (k, row) in rows[..g.layout.own].iter_mut().enumerate() {
-            *row = -force[k % 2] * n[k / 2];
+            *row = -force[k % 2] * g.spot.n[k / 2];
         }
         if contact.options.loads == Loads::Both {
             let hit = g.layout.hit.clone();
@@ -116,50 +134,104 @@ impl OpenContact<'_> {
     }
 
     /// Adds the forces of a closed point and their derivatives by the chain rule.
-    pub(super) fn add<T: Seed>(&self, index: usize, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
+    pub(super) fn add<T: Seed>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
         let (n, b) = (local.force.len(), super::open::seed(g.place.b, 4));
-        let rows = self.rows(index, (g, &local.u), (closed.hit, b), closed.force);
+        let rows = self.rows((g, &local.u), (closed.hit, b), closed.force);
         for (force, row) in local.force.iter_mut().zip(&rows) {
             *force += row.re();
         }
         if !local.wants_tangent {
             return;
         }
-        let columns = self.columns(index, g, &local.u);
+        let columns = self.columns(g, &local.u);
         for (i, row) in rows[..n].iter().enumerate() {
             let slopes = row.slopes();
             for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns[..n]) {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }
+        self.add_fixed_rates(g, closed.force.re(), local);
+    }
+
+    /// What the forces' own places on the nodes add: the shape functions move with the ends of the covered part, and the
+    /// rates of a tool with its reference point.
+    fn add_fixed_rates(&self, g: &Geometry, force: Vec3, local: &mut Local) {
+        let n = local.force.len();
         if self.contact.options.loads == Loads::Both {
             let first = g.layout.hit.start;
-            for (row, column, value) in self.contact.target.stiffen(closed.force.re()) {
+            for (row, column, value) in self.contact.target.stiffen(force) {
                 local.tangent[(first + row) * n + first + column] += value;
             }
         }
+        let slope = g.spot.dn.map(|dn| dn / g.spot.half);
+        self.each_end(g, |column, [shift, _]| {
+            for k in 0..g.layout.own {
+                local.tangent[k * n + column] -= force[k % 2] * slope[k / 2] * shift;
+            }
+        });
     }
 
     /// Derivatives of the eight directions along each unknown of the stencil.
-    pub(super) fn columns(&self, index: usize, g: &Geometry, u: &[f64]) -> [[f64; DIRECTIONS]; MAX_DOFS] {
-        let (contact, point) = (self.contact, &self.contact.surface.points[index]);
-        let mut columns = [[0.0; DIRECTIONS]; MAX_DOFS];
+    pub(super) fn columns(&self, g: &Geometry, u: &[f64]) -> [[f64; DIRECTIONS]; MAX_DOFS] {
+        let (contact, mut columns) = (self.contact, [[0.0; DIRECTIONS]; MAX_DOFS]);
         for (k, column) in columns[..g.layout.own].iter_mut().enumerate() {
-            column[k % 2] = point.n[k / 2];
-            column[2 + k % 2] = point.dn[k / 2];
+            column[k % 2] = g.spot.n[k / 2];
+            column[2 + k % 2] = g.spot.dn[k / 2];
         }
+        self.each_end(g, |column, [shift, stretch]| {
+            let tangent = g.along[1] * (g.spot.half * shift) + g.along[0] * stretch;
+            for (direction, change) in [(0, g.along[0] * shift), (2, tangent), (6, self.sliding(g, u) * shift)] {
+                columns[column][direction] += change[0];
+                columns[column][direction + 1] += change[1];
+            }
+        });
         if !contact.options.coupling {
             return columns;
         }
         let hit = g.layout.hit.clone();
         let rates = contact.target.rates(g.hit.segment, g.hit.s, &u[hit.clone()], g.place.b);
         spread(&mut columns[hit], &rates, 4);
-        let touched = self.touched(index).zip(g.layout.touched.clone()).zip(g.place.touched);
+        let touched = g.before.touched.zip(g.layout.touched.clone()).zip(g.place.touched);
         if let Some((((segment, s), range), at)) = touched {
             spread(&mut columns[range.clone()], &contact.target.rates(segment, s, &u[range], at), 6);
         }
         columns
     }
+
+    /// Motion of the touched point as the point moves along its edge, and what of it makes up for the friction stress
+    /// that was there: stress enters a law with the slip times the tangential penalty.
+    fn sliding(&self, g: &Geometry, u: &[f64]) -> Vec3 {
+        let (Some((segment, s)), Some(range)) = (g.before.touched, g.layout.touched.clone()) else {
+            return Vec3::zero();
+        };
+        let Some(faces) = self.contact.target.as_faces() else { return Vec3::zero() };
+        let (along, _, _) = triad(g.place.tangent);
+        let stress = along * (g.before.shear_slope / self.contact.options.tangential_penalty);
+        faces.tangent(segment, s[0], &u[range]) * g.before.sliding + stress
+    }
+
+    /// For each unknown that moves an end of the covered part: how far the point moves along the edge, and by how much
+    /// half of the part lengthens.
+    fn each_end(&self, g: &Geometry, mut act: impl FnMut(usize, [f64; 2])) {
+        let [left, right] = [0.5 * (1.0 - g.spot.rule), 0.5 * (1.0 + g.spot.rule)];
+        for (k, (shift, stretch)) in [(left, -0.5), (right, 0.5)].into_iter().enumerate() {
+            let Some((end, range)) = g.ends[k].as_ref().zip(g.layout.ends[k].clone()) else { continue };
+            let own = end.own[..g.layout.own].iter().enumerate().map(|(j, &rate)| (j, rate));
+            let coupled = if self.contact.options.coupling { range } else { 0..0 };
+            for (column, rate) in own.chain(coupled.zip(end.vertex)) {
+                act(column, [shift * rate, stretch * rate]);
+            }
+        }
+    }
+}
+
+/// Where a point of the rule stands, and half the length of the part, when the rule is laid between two ends.
+pub fn laid(point: &SurfacePoint, ends: &[Option<End>; 2]) -> [f64; 2] {
+    if *ends == [None; 2] {
+        return [point.rule, 1.0];
+    }
+    let [from, to] = [ends[0].map_or(-1.0, |end| end.xi), ends[1].map_or(1.0, |end| end.xi)];
+    [0.5 * (from + to) + 0.5 * (to - from) * point.rule, 0.5 * (to - from)]
 }
 
 fn spread(columns: &mut [[f64; DIRECTIONS]], rates: &[Vec3], direction: usize) {

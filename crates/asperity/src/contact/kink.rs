@@ -10,16 +10,16 @@ use crate::tensor::{Dual, Scalar};
 
 impl OpenContact<'_> {
     /// Adds the coordinates of a point at values `u` of its unknowns to the stencil begun last.
-    pub(super) fn bend(&self, index: usize, (stencil, g): (&Stencil, &Geometry), u: &[f64], out: &mut Kinks) {
+    pub(super) fn bend(&self, (stencil, g): (&Stencil, &Geometry), u: &[f64], out: &mut Kinks) {
         let (along, inward, _) = triad(seed::<D>(g.place.tangent, 2));
         let (a, b, normal) = (seed::<D>(g.place.a, 0), seed::<D>(g.place.b, 4), g.hit.normal.lift::<D>());
         let penetration = normal.dot(b - a) / normal.dot(inward);
         let slip = g.place.touched.map_or(D::zero(), |touched| along.dot(seed::<D>(touched, 6) - a));
-        let area = self.contact.area(&self.contact.surface.points[index], g.place.a, g.place.tangent);
-        let columns = self.columns(index, g, u);
+        let area = self.contact.area(&g.spot, g.place.a, g.place.tangent);
+        let columns = self.columns(g, u);
         for (y, direction) in [(penetration, inward.re()), (slip, along.re())] {
             let rate = |column: &[f64; 8]| y.du.iter().zip(column).map(|(s, c)| s * c).sum();
-            let rows = self.rows::<f64>(index, (g, u), (g.place.b, g.place.b), direction * area);
+            let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), direction * area);
             out.coordinate(y.re(), columns[..stencil.len].iter().map(rate), rows.into_iter().take(stencil.len));
         }
     }

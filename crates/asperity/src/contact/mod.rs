@@ -4,10 +4,12 @@
 //! slip from the place it hits, asks the interface law for pressure and shear, and loads its own nodes and the target.
 //! Bodies, laws and tools are known here; other terms of equilibrium are strangers.
 
+mod before;
 mod capture;
 mod faces;
 mod geometry;
 mod kink;
+mod guard;
 mod open;
 mod pair;
 mod penalty;
@@ -15,11 +17,13 @@ mod point;
 mod record;
 mod rigid;
 pub mod space;
+mod split;
 mod surface;
 mod target;
 
 pub use faces::Faces;
-pub use pair::{Contact, ContactOptions, Loads};
+pub use guard::{Guard, has_facets};
+pub use pair::{Contact, ContactOptions, Loads, second_name};
 pub use penalty::default_penalty;
 pub use record::{PointRecord, PointStatus};
 pub use rigid::Rigid;

@@ -1,16 +1,19 @@
 //! A contact during one attempt: its points as stencils, evaluated on the segments that the search found.
 
-use super::geometry::{DIRECTIONS, Geometry};
+use super::geometry::{DIRECTIONS, Geometry, laid};
 use super::kink::answer;
 use super::pair::Contact;
 use super::point::{self, Constants, Place, triad};
 use super::record::entry;
-use super::target::{Hit, Memory};
+use super::split::Seeker;
+use super::surface::SurfacePoint;
+use super::target::{Cast, Hit, Memory, Standing};
 use crate::Failure;
 use crate::interface::Past;
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
+use crate::tool::Ray;
 use std::cell::RefCell;
 
 pub(super) type D = Dual<DIRECTIONS>;
@@ -21,6 +24,10 @@ pub struct OpenContact<'a> {
     pub contact: &'a Contact,
     /// Its history in the accepted state.
     pub history: &'a History,
+    /// Accepted unknowns.
+    pub accepted: &'a [f64],
+    /// The target in the accepted configuration, where it deforms.
+    pub standing: Option<Standing<'a>>,
     /// Largest admissible penetration at each point.
     pub depths: Vec<f64>,
     /// Largest gap at which the target is seen.
@@ -34,8 +41,9 @@ pub struct OpenContact<'a> {
 }
 
 /// Begins the new history of a point with what the search found.
-pub fn write_hit(hit: Option<Hit>, values: &mut [f64]) {
+pub fn write_hit(spot: &SurfacePoint, hit: Option<Hit>, values: &mut [f64]) {
     values.fill(0.0);
+    (values[entry::XI], values[entry::HALF]) = (spot.xi, spot.half);
     match hit {
         Some(hit) => {
             values[entry::PENETRATION] = hit.u;
@@ -74,7 +82,7 @@ impl Attempt for OpenContact<'_> {
 
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
-            write_hit(None, new);
+            write_hit(&self.contact.surface.points[index], None, new);
             self.leave(index, new);
             return Ok(0);
         };
@@ -97,14 +105,15 @@ impl Attempt for OpenContact<'_> {
             local.extend(dofs.iter().map(|&dof| u[dof]));
             if let Some(geometry) = self.geometry(index, stencil, &local)? {
                 out.begin((term, index), dofs);
-                self.bend(index, (stencil, &geometry), &local, out);
+                self.bend((stencil, &geometry), &local, out);
             }
         }
         Ok(())
     }
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        answer(&*self.contact.law, &self.past(stencil), self.contact.least, y)
+        let shear = self.history.slot(stencil)[entry::SHEAR];
+        answer(&*self.contact.law, &self.past(stencil, shear), self.contact.least, y)
     }
 }
 
@@ -140,18 +149,51 @@ type Evaluated<T> = Result<(T, Option<point::Closed<T>>), Failure>;
 
 impl OpenContact<'_> {
     fn list(&self, u: &[f64], out: &mut Stencils) {
-        let contact = self.contact;
-        let standing = contact.target.stand(u);
+        let standing = self.contact.target.stand(u);
         MEMORY.with_borrow_mut(|memory| {
-            for (index, point) in contact.surface.points.iter().enumerate() {
-                let cast = contact.ray(point, u, (self.depths[index], self.reach));
-                let hit = standing.cast(&cast, memory);
-                let start = out.dofs.len();
-                self.unknowns(index, hit.map(|hit| hit.segment), &mut out.dofs);
-                let (choice, near) = hit.map_or((0, [0.0; 2]), |hit| (hit.segment as u32 + 1, hit.s));
-                out.close(start, choice, near);
+            for edge in 0..self.contact.surface.edges.len() {
+                let vertices = self.vertices(edge, &standing, u, memory);
+                for index in self.contact.surface.points_of(edge) {
+                    let stencil = self.seek((index, vertices), &standing, u, memory);
+                    let start = out.dofs.len();
+                    self.unknowns(index, &stencil, &mut out.dofs);
+                    out.close(start, stencil);
+                }
             }
         });
+    }
+
+    /// The vertices between which a target that deforms covers an edge.
+    fn vertices(&self, edge: usize, standing: &Standing, u: &[f64], memory: &mut Memory) -> [u32; 2] {
+        let (contact, Standing::Faces(standing)) = (self.contact, standing) else { return [0; 2] };
+        let points = contact.surface.points_of(edge);
+        let Some(index) = points.clone().next() else { return [0; 2] };
+        let depth = self.depths[points].iter().copied().fold(0.0, f64::max);
+        let (placed, cast) = (contact.placed(edge, u), contact.bounds(index, depth, self.reach));
+        Seeker { standing, placed, cast }.vertices(memory)
+    }
+
+    /// The choices of a point on an edge that is covered between two vertices.
+    fn seek(
+        &self,
+        (index, vertices): (usize, [u32; 2]),
+        standing: &Standing,
+        u: &[f64],
+        memory: &mut Memory,
+    ) -> Stencil {
+        let (contact, point) = (self.contact, &self.contact.surface.points[index]);
+        let placed = contact.placed(point.edge, u);
+        let ends = vertices.map(|vertex| {
+            let faces = contact.target.as_faces().filter(|_| vertex > 0)?;
+            Some(placed.foot(faces.place_of(vertex, &faces.unknowns_of(vertex).map(|dof| u[dof]))))
+        });
+        let spot = contact.surface.moved(index, laid(point, &ends));
+        let (origin, tangent) = spot.place(&placed.x[..placed.edge.nodes.len()]);
+        let (_, direction, _) = triad(tangent);
+        let cast = Cast { ray: Ray { origin, direction }, ..contact.bounds(index, self.depths[index], self.reach) };
+        let Some(hit) = standing.cast(&cast, memory) else { return Stencil::default() };
+        let also = [vertices[0], vertices[1], self.recall(index, &spot, memory)];
+        Stencil { choice: hit.segment as u32 + 1, near: hit.s, also, ..Stencil::default() }
     }
 
     fn evaluate_over<T: Seed>(
@@ -163,25 +205,24 @@ impl OpenContact<'_> {
         evaluate: impl FnOnce(&Place<T>, &Constants, &Past, &mut [f64]) -> Evaluated<T>,
     ) -> Result<Branch, Failure> {
         let (contact, old, g) = (self.contact, self.history.slot(index), geometry);
-        let point = &contact.surface.points[index];
         let place = Place {
             a: seed(g.place.a, 0),
             tangent: seed(g.place.tangent, 2),
             b: seed(g.place.b, 4),
             touched: g.place.touched.map(|x| seed(x, 6)),
         };
-        let past = self.past(index);
+        let past = self.past(index, g.before.shear);
         let constants = Constants {
             normal: g.hit.normal,
             before: old[entry::PENETRATION],
             touch: contact.law.touch(&past),
             least: contact.least,
-            weight: point.weight * contact.thickness(),
+            weight: g.spot.weight * contact.thickness(),
             turning: self.turning(g.hit.u),
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
-        write_hit(Some(g.hit), new);
+        write_hit(&g.spot, Some(g.hit), new);
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
         let Some(closed) = closed else {
@@ -192,21 +233,21 @@ impl OpenContact<'_> {
         self.refuse_jump(index, g)?;
         new[entry::PENETRATION] -= constants.least;
         self.write(&closed, old, new);
-        self.add(index, g, &closed, local);
+        self.add(g, &closed, local);
         let response = &closed.response;
         self.account(index, g, [response.pressure.re(), response.shear[0].re(), response.closure], local);
         Ok(response.status as Branch)
     }
 
     /// What the law may know of a point.
-    fn past(&self, index: usize) -> Past<'_> {
+    fn past(&self, index: usize, shear: f64) -> Past<'_> {
         let (options, old) = (&self.contact.options, self.history.slot(index));
         Past {
             penalty: options.penalty,
             tangential_penalty: options.tangential_penalty,
             penetration: old[entry::PENETRATION],
             pressure: old[entry::PRESSURE],
-            shear: [old[entry::SHEAR], 0.0],
+            shear: [shear, 0.0],
             vars: &old[entry::COUNT..],
             dt: self.dt,
         }
@@ -227,12 +268,12 @@ impl OpenContact<'_> {
     /// its stress, so that one which passes a peak of pressure within an increment does not lose its work.
     fn account(&self, index: usize, g: &Geometry, [pressure, shear, closure]: [f64; 3], local: &mut Local) {
         let (contact, old) = (self.contact, self.history.slot(index));
-        let before = old[entry::SHEAR];
+        let before = g.before.shear;
         let elastic = |stress: f64, penalty: f64| 0.5 * stress * stress / penalty;
         let stored = |shear: f64| elastic(shear, contact.options.tangential_penalty);
         let (along, _, _) = triad(g.place.tangent);
         let slip = g.place.touched.map_or(0.0, |touched| along.dot(touched - g.place.a));
-        let area = contact.area(&contact.surface.points[index], g.place.a, g.place.tangent);
+        let area = contact.area(&g.spot, g.place.a, g.place.tangent);
         let area = area * contact.options.loads.share();
         local.stored = area * (elastic(pressure, contact.options.penalty) + stored(shear));
         let friction = 0.5 * (before + shear) * slip - (stored(shear) - stored(before));

@@ -2,17 +2,19 @@
 
 use super::Faces;
 use super::capture::{depths, positions};
+use super::guard::Guard;
 use super::open::{OpenContact, write_hit};
 use super::point::triad;
 use super::record::{PointRecord, PointStatus, entry};
+use super::split::Placed;
 use super::surface::{Edge, MAX_EDGE_NODES, Surface, SurfacePoint};
 use super::target::{Cast, Hit, Memory, Target};
-use crate::Failure;
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
 use crate::tool::{Ray, Rejected};
+use crate::{Error, Failure};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -31,6 +33,13 @@ pub struct ContactOptions {
     pub loads: Loads,
     /// Whether the tangent holds the coupling of the two sides.
     pub coupling: bool,
+    /// What is done when the facets of a curved face bear too much of the pressure.
+    pub guard: Guard,
+}
+
+/// Name of the second of two passes, whose points lie on what is the target of the first.
+pub fn second_name(name: &str) -> String {
+    format!("{name}.target")
 }
 
 /// Which side a contact point loads.
@@ -57,7 +66,7 @@ const ORDINARY: f64 = 0.02;
 /// and so do those up to this multiple of the largest in the accepted state.
 const GROWTH: f64 = 4.0;
 
-/// A point counts as closed from this part of the surface's shortest edge on. One depth for all points: a flat surface
+/// A point counts as closed from this part of the shortest edge on. One depth for all points: a flat surface
 /// under uniform pressure then stays flat.
 const CLOSED: f64 = 1e-10;
 
@@ -94,12 +103,21 @@ impl Contact {
             Self { name, mesh, dofs, space, surface, boundary, target, law, options, least, relatives, longest };
         let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
         let opposite = contact.target.as_faces().map_or(Vec::new(), |faces| lengths(faces.edges()));
-        contact.longest = lengths(&contact.surface.edges).into_iter().chain(opposite).fold(0.0, f64::max);
-        let lengths = (0..contact.surface.points.len()).map(|point| contact.edge_length(point));
-        contact.least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
+        contact.longest = lengths(&contact.surface.edges).into_iter().chain(opposite.clone()).fold(0.0, f64::max);
+        // Common to both sides: else one would be pressed a little harder than the other.
+        let shortest = opposite.iter().copied().fold(f64::INFINITY, f64::min);
+        let shortest = match contact.target.deforms() {
+            true => lengths(&contact.surface.edges).into_iter().fold(shortest, f64::min),
+            false => (0..contact.surface.points.len()).map(|i| contact.edge_length(i)).fold(f64::INFINITY, f64::min),
+        };
+        contact.least = CLOSED * shortest;
         contact
     }
 
+    /// The user's name for it.
+    pub(super) fn title(&self) -> &str {
+        &self.name
+    }
     /// The surface.
     pub fn surface(&self) -> &Surface {
         &self.surface
@@ -107,6 +125,10 @@ impl Contact {
     /// The target.
     pub fn target(&self) -> &Target {
         &self.target
+    }
+    /// Whether its points load their own side alone: one of two passes.
+    pub fn loads_itself(&self) -> bool {
+        self.options.loads == Loads::Own
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
@@ -150,8 +172,10 @@ impl Contact {
 
     /// All points in an accepted state, with this term's lane of its history.
     pub fn records<'a>(&'a self, u: &'a [f64], history: &'a History) -> impl Iterator<Item = PointRecord> + 'a {
-        self.surface.points.iter().enumerate().map(move |(i, point)| {
-            let (values, (a, tangent)) = (history.slot(i), self.locate(point, u));
+        (0..self.surface.points.len()).map(move |i| {
+            let values = history.slot(i);
+            let point = &self.spot(i, values);
+            let (a, tangent) = self.locate(point, u);
             let (along, inward, _) = triad(tangent);
             let segment = (values[entry::SEGMENT] >= 0.0).then_some(values[entry::SEGMENT] as usize);
             PointRecord {
@@ -182,16 +206,33 @@ impl Contact {
     fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, u);
         let (standing, mut memory) = (self.target.stand(u), Memory::default());
-        let points = self.surface.points.iter().zip(depths);
-        let hits = points.map(|(point, depth)| standing.cast(&self.ray(point, u, (depth, reach)), &mut memory));
+        let points = self.surface.points.iter().zip(depths).enumerate();
+        let hits = points.map(|(i, (point, depth))| {
+            let (origin, tangent) = self.locate(point, u);
+            let (_, direction, _) = triad(tangent);
+            standing.cast(&Cast { ray: Ray { origin, direction }, ..self.bounds(i, depth, reach) }, &mut memory)
+        });
         (hits.collect(), memory.rejected)
     }
 
-    /// The ray of a point.
-    pub(super) fn ray(&self, point: &SurfacePoint, u: &[f64], (depth, reach): (f64, f64)) -> Cast<'_> {
-        let (origin, tangent) = self.locate(point, u);
-        let (_, direction, _) = triad(tangent);
-        Cast { ray: Ray { origin, direction }, reach, depth, relatives: &self.relatives[point.edge] }
+    /// What rays of a point may meet; the ray itself is yet to be given.
+    pub(super) fn bounds(&self, point: usize, depth: f64, reach: f64) -> Cast<'_> {
+        let ray = Ray { origin: Vec3::zero(), direction: Vec3::zero() };
+        Cast { ray, reach, depth, relatives: &self.relatives[self.surface.points[point].edge] }
+    }
+
+    /// An edge of the surface with its nodes in place.
+    pub(super) fn placed(&self, edge: usize, u: &[f64]) -> Placed<'_> {
+        let (edge, mut x) = (&self.surface.edges[edge], [Vec3::zero(); MAX_EDGE_NODES]);
+        for (x, here) in x.iter_mut().zip(positions(&self.mesh, &self.dofs, &edge.nodes, u)) {
+            *x = here;
+        }
+        Placed { edge, x }
+    }
+
+    /// Where a point stands on its edge in an accepted state.
+    pub(super) fn spot(&self, index: usize, values: &[f64]) -> SurfacePoint {
+        self.surface.moved(index, [values[entry::XI], values[entry::HALF]])
     }
 
     /// The largest gap at which the target is seen in the increment after `last_change`: a tool at any distance; faces,
@@ -237,7 +278,7 @@ impl Term for Contact {
         let mut history = History::new(self.surface.points.iter().map(|_| entry::COUNT + vars));
         let u = vec![0.0; self.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
-            write_hit(hit, history.slot_mut(i));
+            write_hit(&self.surface.points[i], hit, history.slot_mut(i));
             self.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
         history
@@ -255,12 +296,29 @@ impl Term for Contact {
         let reach = self.reach(&accepted.last_change);
         let part = if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 };
         let ahead = accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect();
-        let open = OpenContact { contact: self, history, depths, reach, ahead, ordinary, dt: at.dt };
-        Ok(Box::new(open))
+        let standing = self.target.deforms().then(|| self.target.stand(&accepted.u));
+        Ok(Box::new(OpenContact {
+            contact: self,
+            history,
+            accepted: &accepted.u,
+            standing,
+            depths,
+            reach,
+            ahead,
+            ordinary,
+            dt: at.dt,
+        }))
     }
 
     fn name_of(&self, stencil: usize) -> String {
         self.describe(stencil)
+    }
+
+    fn verdict(&self, state: &State, history: &History) -> Result<(), Error> {
+        match self.facets(&state.u, history) {
+            Some((text, true)) => Err(Error::NotConverged(format!("{text}, or guard = \"warn\""))),
+            _ => Ok(()),
+        }
     }
 
     fn bends(&self) -> bool {

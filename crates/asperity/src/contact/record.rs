@@ -32,8 +32,12 @@ pub mod entry {
     pub const SHEAR2: usize = 12;
     /// Slip along the second tangent, accumulated with its sign since the start, in space.
     pub const SLIP2: usize = 13;
+    /// Place on the edge of the surface, from -1 to 1.
+    pub const XI: usize = 14;
+    /// Half of the length, from -1 to 1, of the part of the edge on which the points stand.
+    pub const HALF: usize = 15;
     /// Number of these values.
-    pub const COUNT: usize = 14;
+    pub const COUNT: usize = 16;
 }
 
 /// Whether a contact point is open, sticks or slips.

@@ -30,6 +30,12 @@ impl Edge {
         (mesh.points[self.nodes[1]] - mesh.points[self.nodes[0]]).norm()
     }
 
+    /// Second derivatives of the shape functions, which are constant.
+    pub fn curvature(&self) -> [f64; MAX_EDGE_NODES] {
+        let (left, right) = (self.shape_at(-0.5).1, self.shape_at(0.5).1);
+        std::array::from_fn(|k| right[k] - left[k])
+    }
+
     /// Shape functions at `xi` from -1 to 1, and their derivatives.
     pub fn shape_at(&self, xi: f64) -> ([f64; MAX_EDGE_NODES], [f64; MAX_EDGE_NODES]) {
         let (mut n, mut gradient) = ([0.0; MAX_EDGE_NODES], [[0.0; 3]; MAX_EDGE_NODES]);
@@ -44,9 +50,15 @@ impl Edge {
 pub struct SurfacePoint {
     /// The edge it lies on.
     pub edge: usize,
+    /// Its place in Gauss' rule, from -1 to 1.
+    pub rule: f64,
+    /// Its place on the edge, from -1 to 1: that in the rule, unless the rule is laid on a part of the edge.
+    pub xi: f64,
+    /// Half of the length of that part in `xi`, at most 1.
+    pub half: f64,
     /// Shape functions there.
     pub n: [f64; MAX_EDGE_NODES],
-    /// Their derivatives along the edge.
+    /// Their derivatives along the part.
     pub dn: [f64; MAX_EDGE_NODES],
     /// Quadrature weight.
     pub weight: f64,
@@ -72,12 +84,28 @@ impl Surface {
             let order = gauss.unwrap_or(edge.kind.degree).clamp(1, 3);
             let Some(rule) = edge.kind.gauss[order - 1] else { continue };
             for (&xi, &weight) in rule.points.iter().zip(rule.weights) {
-                let (n, dn) = edge.shape_at(xi[0]);
-                surface.points.push(SurfacePoint { edge: surface.edges.len(), n, dn, weight });
+                let ((n, dn), number) = (edge.shape_at(xi[0]), surface.edges.len());
+                surface.points.push(SurfacePoint { edge: number, rule: xi[0], xi: xi[0], half: 1.0, n, dn, weight });
             }
             surface.edges.push(edge);
         }
         surface
+    }
+
+    /// A point where it stands when the rule is laid on a part of its edge: at `xi`, on a part of half length `half`.
+    pub fn moved(&self, point: usize, [xi, half]: [f64; 2]) -> SurfacePoint {
+        let point = self.points[point];
+        if [xi, half] == [point.xi, point.half] {
+            return point;
+        }
+        let (n, dn) = self.edges[point.edge].shape_at(xi);
+        SurfacePoint { xi, half, n, dn: dn.map(|dn| dn * half), ..point }
+    }
+
+    /// The points of an edge, which follow each other.
+    pub fn points_of(&self, edge: usize) -> std::ops::Range<usize> {
+        let place = |edge: usize| self.points.partition_point(|point| point.edge < edge);
+        place(edge)..place(edge + 1)
     }
 
     /// Nodes of the edge a point lies on.

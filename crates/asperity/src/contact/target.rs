@@ -69,7 +69,7 @@ pub struct Cast<'a> {
 /// Memory of a search, so that casting a ray allocates nothing, and what it counts.
 #[derive(Debug, Default)]
 pub struct Memory {
-    hits: Vec<tool::Hit>,
+    pub(super) hits: Vec<tool::Hit>,
     /// False contacts.
     pub rejected: Rejected,
 }
@@ -193,21 +193,27 @@ impl Target {
 impl Standing<'_> {
     /// What a ray meets by the rules against false contacts; what they reject is counted.
     pub fn cast(&self, cast: &Cast, memory: &mut Memory) -> Option<Hit> {
-        // To the far side of the body: what lies beyond its middle is refused, and counted.
-        let range = [-cast.reach, 2.0 * cast.depth];
-        let size = match self {
+        match self {
             Self::Tool(rigid, pose) => {
-                rigid.tool().cast(pose, &cast.ray, range, &mut memory.hits);
-                rigid.tool().size()
+                rigid.tool().cast(pose, &cast.ray, cast.range(), &mut memory.hits);
+                cast.select(rigid.tool().size(), memory)
             }
-            Self::Faces(faces) => {
-                faces.cast(&cast.ray, range, &mut memory.hits);
-                faces.size()
-            }
-        };
-        let direction = cast.ray.direction;
-        let relative = |hit: &tool::Hit| cast.relatives.contains(&hit.segment);
+            Self::Faces(faces) => faces.select(cast, memory),
+        }
+    }
+}
+
+impl Cast<'_> {
+    /// To the far side of the body: what lies beyond its middle is refused, and counted.
+    pub(super) fn range(&self) -> [f64; 2] {
+        [-self.reach, 2.0 * self.depth]
+    }
+
+    /// The contact among the hits in memory, on a target of the given size.
+    pub(super) fn select(&self, size: f64, memory: &mut Memory) -> Option<Hit> {
+        let direction = self.ray.direction;
+        let relative = |hit: &tool::Hit| self.relatives.contains(&hit.segment);
         memory.hits.retain(|hit| !relative(hit) || direction.dot(hit.normal) > FOLD);
-        select(direction, &memory.hits, &Rules::new(cast.depth, size), &mut memory.rejected).map(Hit::plane)
+        select(direction, &memory.hits, &Rules::new(self.depth, size), &mut memory.rejected).map(Hit::plane)
     }
 }

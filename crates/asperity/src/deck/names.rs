@@ -28,6 +28,7 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
     let Mention { names, name, .. } = mention;
     match names {
         Names::Condition => None,
+        Names::Target => target(mention, mentions, mesh),
         Names::Group | Names::Cells | Names::Sides => {
             group(name, *names, mesh?).map(|diagnostic| otherwise(diagnostic, name, mentions, mesh))
         }
@@ -37,6 +38,25 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
                 .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
     }
+}
+
+/// A tool or a group of sides, and not both.
+fn target(Mention { names, name, .. }: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Option<Diagnostic> {
+    let mut valid = defined(mentions, Names::Tool);
+    if !valid.contains(&name.text.as_str()) {
+        let mesh = mesh?;
+        let Some(known) = mesh.groups.get(&name.text) else {
+            valid
+                .extend(mesh.groups.iter().filter(|(_, group)| !group.sides.is_empty()).map(|(name, _)| name.as_str()));
+            return Some(otherwise(nothing(name, *names, &valid), name, mentions, Some(mesh)));
+        };
+        let whole = !known.cells.is_empty() && known.sides.is_empty();
+        let help = "a body is touched at its surface: name a group of its sides";
+        return group(name, Names::Sides, mesh).map(|found| if whole { found.help(help) } else { found });
+    }
+    mesh?.groups.contains_key(&name.text).then(|| {
+        Diagnostic::error(format!("`{name}` is both a tool and a group")).at(name.place).help("rename the tool")
+    })
 }
 
 fn nothing(name: &Name, names: Names, valid: &[&str]) -> Diagnostic {
@@ -88,7 +108,8 @@ fn group(name: &Name, names: Names, mesh: &Mesh) -> Option<Diagnostic> {
 /// A material or a tool that nothing uses is most likely a slip.
 fn idle(mention: &Mention, mentions: &[Mention]) -> Option<Diagnostic> {
     let Mention { names, name, .. } = mention;
-    let uses = |other: &Mention| other.names == *names && !other.defines && other.name.text == name.text;
+    let kind = |other: &Mention| other.names == *names || (*names == Names::Tool && other.names == Names::Target);
+    let uses = |other: &Mention| kind(other) && !other.defines && other.name.text == name.text;
     let watched = matches!(names, Names::Material | Names::Tool);
     (watched && !mentions.iter().any(uses))
         .then(|| Diagnostic::warning(format!("nothing uses the {} `{name}`", names.noun())).at(name.place))

@@ -6,7 +6,7 @@ use super::diagnose::{Diagnostic, Severity};
 use super::keys;
 use super::reader::Name;
 use crate::Error;
-use crate::contact::Contact;
+use crate::contact::{Contact, second_name};
 use crate::solve::Step;
 use crate::system::Term;
 use crate::tool::Tool;
@@ -36,8 +36,13 @@ pub fn review(made: &Made) -> Result<Review, Error> {
     page.model(made);
     page.bodies(made);
     page.tools(made);
-    for ((name, keys), contact) in made.deck.contact.iter().zip(&made.model.contacts) {
-        problems.extend(page.contact((name, keys), contact, made));
+    for (name, keys) in &made.deck.contact {
+        let second = second_name(&name.text);
+        let passes =
+            made.model.contacts.iter().filter(|contact| [&name.text, &second].contains(&&contact.name().into()));
+        for contact in passes {
+            problems.extend(page.contact((name, keys), contact, made));
+        }
     }
     page.steps(made);
     problems.extend(page.motions(made)?);
@@ -97,11 +102,20 @@ impl Page {
         let found: Vec<f64> = hits.iter().flatten().map(|hit| hit.u).collect();
         let nearest = found.iter().map(|u| -u).fold(f64::INFINITY, f64::min).max(0.0);
         let edges = contact.surface().edges.len();
-        self.line(format!("contact {name}: {} points on {edges} edges of {}", hits.len(), keys.surface));
+        let (surface, target) = match contact.name() == name.text {
+            true => (&keys.surface, &keys.target),
+            false => (&keys.target, &keys.surface),
+        };
+        let target = if contact.target().deforms() { target.to_string() } else { format!("the tool {target}") };
+        self.line(format!("contact {}: {} points on {edges} edges of {surface}", contact.name(), hits.len()));
         self.line(match found.as_slice() {
-            [] => format!("  none sees the tool {}", keys.target),
-            _ => format!("  {} see the tool {}, the nearest {nearest:.3e} away", found.len(), keys.target),
+            [] => format!("  none sees {target}"),
+            _ => format!("  {} see {target}, the nearest {nearest:.3e} away", found.len()),
         });
+        if contact.target().deforms() {
+            let passes = if contact.loads_itself() { "two passes: they load their own side" } else { "one pass" };
+            self.line(format!("  {passes}"));
+        }
         if rejected.total() > 0 {
             let (behind, deep) = (rejected.wrong_side, rejected.too_deep);
             self.line(format!("  false contacts refused: {behind} on faces that look away, {deep} too deep"));
@@ -127,9 +141,13 @@ impl Page {
         let Some((part, i)) = deepest.filter(|(part, _)| *part > OVERLAP) else { return vec![] };
         let closed = hits.iter().flatten().filter(|hit| hit.u > 0.0).count();
         let u = hits[i].as_ref().map_or(0.0, |hit| hit.u);
-        let what = format!("{closed} points of contact `{name}` lie inside the tool before the first increment");
+        let what = format!("{closed} points of contact `{name}` lie inside the target before the first increment");
+        let help = match contact.target().deforms() {
+            true => "for an interference fit that is as it should be; else move the bodies apart",
+            false => "move the tool or the body apart",
+        };
         let label = format!("the deepest by {u:.3e}, {part:.1e} of its edge");
-        vec![Diagnostic::warning(what).at(name.place).label(label).help("move the tool or the body apart")]
+        vec![Diagnostic::warning(what).at(name.place).label(label).help(help)]
     }
 
     fn steps(&mut self, made: &Made) {

@@ -18,6 +18,11 @@ pub struct Certificate {
     pub coulomb_violation: Option<f64>,
     /// Least frictional dissipation of a point in an increment; below zero would be energy from nowhere.
     pub least_dissipation: Option<f64>,
+    /// Pressure that the facets of curved faces are worth over the pressure that is carried, in the last increment:
+    /// above 0.1 two passes suffer from it.
+    pub facet_ratio: Option<f64>,
+    /// Difference of the mean pressures of the two sides of a contact over their mean, in the last increment.
+    pub mismatch: Option<f64>,
     /// Hits of a ray that the rules against false contact turned away, summed over the increments.
     pub rejected_false_contacts: Option<f64>,
     /// The largest energy of the run and the largest that was missing.
@@ -36,6 +41,8 @@ enum Worst {
 impl Certificate {
     /// Takes in one frame, given as columns of the history.
     pub fn observe<'a>(&mut self, columns: impl IntoIterator<Item = (&'a str, f64)>) {
+        // These two mean the last increment.
+        (self.facet_ratio, self.mismatch) = (None, None);
         for (name, value) in columns {
             self.observe_energy(name, value);
             if let Some((figure, worst)) = self.figure(name) {
@@ -64,6 +71,8 @@ impl Certificate {
             ("contact", "max_penetration_relative") => (&mut self.max_penetration_relative, Worst::Largest),
             ("contact", "coulomb_violation") => (&mut self.coulomb_violation, Worst::Largest),
             ("contact", "least_dissipation") => (&mut self.least_dissipation, Worst::Least),
+            ("contact", "facet_ratio") => (&mut self.facet_ratio, Worst::Largest),
+            ("contact", "mismatch") => (&mut self.mismatch, Worst::Largest),
             ("contact", "false_contacts") => (&mut self.rejected_false_contacts, Worst::Sum),
             ("equilibrium", "error") => (&mut self.equilibrium_error, Worst::Largest),
             _ => return None,

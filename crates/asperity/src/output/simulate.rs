@@ -55,6 +55,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     }
     let ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
     account(&mut results.summary, &run, seconds);
+    results.summary.notes.extend(facets(model, &run.state));
     results.finish(&ended)?;
     Ok((results.summary, ended))
 }
@@ -87,6 +88,12 @@ impl Job<'_> {
         };
         Ok((results, log))
     }
+}
+
+/// What contacts say of their facets in the last accepted state.
+fn facets(model: &Model, state: &State) -> Vec<String> {
+    let lanes = model.contacts.iter().zip(&state.histories[model.first_contact()..]);
+    lanes.filter_map(|(contact, history)| contact.facets(&state.u, history)).map(|(text, _)| text).collect()
 }
 
 /// What the run knows of its cost, and of promises that it bends.

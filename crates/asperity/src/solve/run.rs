@@ -148,6 +148,10 @@ impl<'a> Run<'a> {
             let record = self.increment(step, observer)?;
             accepted += 1;
             observer.accepted(&self.state, &record)?;
+            if self.state.step > record.step {
+                let terms = self.problem.terms.iter().zip(&self.state.histories);
+                terms.into_iter().try_for_each(|(term, history)| term.verdict(&self.state, history))?;
+            }
         }
         Ok(Stop::Done)
     }

@@ -1,7 +1,7 @@
 //! What equilibrium is a sum of.
 
 use super::{Answer, Coordinates, Couplings, History, Kinks, State};
-use crate::Failure;
+use crate::{Error, Failure};
 
 /// Whether a term resists (a body, a contact, a spring) or acts from outside (a load).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +40,8 @@ pub struct Stencil {
     pub choice: u32,
     /// Where on it, roughly: which of several roots is meant.
     pub near: [f64; 2],
+    /// Further discrete choices, whose meaning belongs to the term.
+    pub also: [u32; 3],
 }
 
 /// The stencils of a term, owned by the assembly for one iteration.
@@ -61,12 +63,11 @@ impl Stencils {
     pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>, choice: u32) {
         let start = self.dofs.len();
         self.dofs.extend(dofs);
-        self.close(start, choice, [0.0; 2]);
+        self.close(start, Stencil { choice, ..Stencil::default() });
     }
-    /// Adds a stencil whose unknowns already stand in [`dofs`](Self::dofs) from `start` on, and says where on its choice
-    /// it is.
-    pub fn close(&mut self, start: usize, choice: u32, near: [f64; 2]) {
-        self.list.push(Stencil { start, len: self.dofs.len() - start, choice, near });
+    /// Adds a stencil with the choices of another, whose unknowns already stand in [`dofs`](Self::dofs) from `start` on.
+    pub fn close(&mut self, start: usize, stencil: Stencil) {
+        self.list.push(Stencil { start, len: self.dofs.len() - start, ..stencil });
     }
     /// Unknowns of a stencil.
     pub fn dofs(&self, stencil: &Stencil) -> &[usize] {
@@ -152,6 +153,13 @@ pub trait Term: Send + Sync {
     ) -> Result<Box<dyn Attempt + 'a>, Failure>;
     /// Words for a stencil in messages: "cell 12 of body 'tube'".
     fn name_of(&self, stencil: usize) -> String;
+    /// Whether the accepted state at the end of a step may stand.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] with what is wrong with it.
+    fn verdict(&self, _state: &State, _history: &History) -> Result<(), Error> {
+        Ok(())
+    }
     /// Whether its stencils bend within a step, see [`Attempt::kinks`]; it may then hold at the end of a step what it did
     /// not hold at its beginning.
     fn bends(&self) -> bool {

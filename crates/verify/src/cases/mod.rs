@@ -7,10 +7,12 @@ mod flat_punch;
 mod hertz_cylinder;
 mod hertz_sphere;
 mod inclined_block;
+mod interference_fit;
 mod rotated_pair;
 mod strip_punch;
 mod thick_shells;
 mod tube;
+mod two_body_patch;
 
 use crate::Case;
 
@@ -18,6 +20,8 @@ use crate::Case;
 pub const ALL: &[&Case] = &[
     &tube::CASE,
     &contact_patch::CASE,
+    &two_body_patch::CASE,
+    &interference_fit::CASE,
     &rotated_pair::CASE,
     &inclined_block::CASE,
     &hertz_cylinder::CASE,

@@ -73,7 +73,7 @@ impl Attempt for OpenContact<'_> {
             out.dofs.extend(nodes.iter().flat_map(|&node| [0, 1, 2].map(|axis| parts.dofs.node(node) + axis)));
             out.dofs.extend(tool..tool + if hit.is_some() { TOOL } else { 0 });
             let (choice, near) = hit.map_or((0, [0.0; 2]), |hit| (hit.facet as u32 + 1, hit.s));
-            out.close(start, choice, near);
+            out.close(start, Stencil { choice, near, ..Stencil::default() });
         }
         Ok(())
     }

@@ -1,9 +1,11 @@
-//! Contacts: surface, target, law, penalties.
+//! Contacts: surface, target, passes, law, penalties.
 
 use super::Builder;
-use crate::contact::{Contact, ContactOptions, Loads, Surface, Target, default_penalty};
+use crate::contact::{
+    Contact, ContactOptions, Faces, Guard, Loads, Surface, Target, default_penalty, has_facets, second_name,
+};
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys;
+use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side};
@@ -11,26 +13,45 @@ use crate::solid::Body;
 use crate::tool::Tool;
 use std::sync::Arc;
 
+/// Which edges a contact joins.
+#[derive(Clone, Copy)]
+enum Opposite<'a> {
+    Tool(usize),
+    Sides(&'a [Side]),
+}
+
 impl Builder<'_> {
-    /// The contacts.
+    /// The contacts, those of the second of two passes right behind those of the first.
     pub(super) fn contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
         let moduli = moduli(&self.site.mesh, bodies);
         let deck = self.deck;
         self.check_doubles();
         let contacts: Vec<_> =
             deck.contact.iter().map(|(name, keys)| self.contact(name, keys, tools, &moduli)).collect();
-        contacts.into_iter().collect()
+        Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
-    /// No side may touch the same tool by two contacts: it would do so twice as hard.
+    fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {
+        let tool = self.deck.tool.iter().position(|(tool, _)| tool.text == keys.target.text);
+        tool.map(Opposite::Tool).or_else(|| {
+            Some(Opposite::Sides(mesh.groups.get(&keys.target.text)?.sides.as_slice())).filter(|_| self.plane())
+        })
+    }
+
+    /// No two sides may touch by two contacts: they would do so twice as hard.
     fn check_doubles(&mut self) {
         let mesh = self.site.mesh.clone();
-        let sides = |keys: &keys::Contact| mesh.groups.get(&keys.surface.text).map_or(&[][..], |group| &group.sides);
+        let sides = |name: &Name| mesh.groups.get(&name.text).map_or(&[][..], |group| &group.sides);
+        let share = |one: &[Side], other: &[Side]| one.iter().any(|side| other.contains(side));
+        let same = |one: &Name, other: &Name| one.text == other.text || share(sides(one), sides(other));
         let mut found = Vec::new();
         for (i, (name, keys)) in self.deck.contact.iter().enumerate() {
-            let earlier = self.deck.contact[..i].iter().filter(|(_, other)| other.target.text == keys.target.text);
-            let shares = |other: &keys::Contact| sides(keys).iter().any(|side| sides(other).contains(side));
-            for (other, _) in earlier.filter(|(_, other)| shares(other)) {
+            let twice = |other: &keys::Contact| {
+                (same(&other.surface, &keys.surface) && same(&other.target, &keys.target))
+                    || (share(sides(&other.surface), sides(&keys.target))
+                        && share(sides(&other.target), sides(&keys.surface)))
+            };
+            for (other, _) in self.deck.contact[..i].iter().filter(|(_, other)| twice(other)) {
                 let what = format!("the contacts `{other}` and `{name}` let the same sides touch `{}`", keys.target);
                 found.push(Diagnostic::error(what).at(keys.surface.place).help("keep one of the two"));
             }
@@ -38,29 +59,129 @@ impl Builder<'_> {
         self.found.append(&mut found);
     }
 
-    fn contact(&mut self, name: &Name, keys: &keys::Contact, tools: &[Arc<Tool>], moduli: &[f64]) -> Option<Contact> {
-        let number = self.deck.tool.iter().position(|(tool, _)| tool.text == keys.target.text)?;
+    fn contact(
+        &mut self,
+        name: &Name,
+        keys: &keys::Contact,
+        tools: &[Arc<Tool>],
+        moduli: &[f64],
+    ) -> Option<Vec<Contact>> {
         let law = keys.law.build().map_err(crate::Error::input);
         let law: Arc<dyn Interface> = Arc::from(self.keep(law, keys.law.place)?);
         let mesh = self.site.mesh.clone();
-        let sides = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
+        let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
+        let Some(opposite) = self.opposite(keys, &mesh) else {
+            self.refuse("two bodies touch in the plane spaces and the axisymmetric one only", keys.target.place);
+            return None;
+        };
+        let options = self.options(keys, (surface, opposite), moduli);
+        let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
+            let carrier = Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value));
+            let boundary = boundary_behind(&mesh, sides, &self.deck.body);
+            let site = (mesh.clone(), self.site.dofs.clone(), self.site.space);
+            Contact::new(name, site, (carrier, boundary), target, (law.clone(), options))
+        };
+        let faces = |sides: &[Side]| Target::Faces(Faces::new(mesh.clone(), self.site.dofs.clone(), sides));
+        let contacts = match opposite {
+            Opposite::Tool(number) => {
+                let target = Target::tool(tools[number].clone(), number, &self.site.dofs);
+                vec![build(&name.text, surface, target, options)]
+            }
+            Opposite::Sides(sides) => {
+                let first = build(&name.text, surface, faces(sides), options);
+                let second = (options.loads == Loads::Own && !same_sides(surface, sides))
+                    .then(|| build(&second_name(&name.text), sides, faces(surface), options));
+                std::iter::once(first).chain(second).collect()
+            }
+        };
+        self.check_passes(name, keys, (surface, opposite)).then_some(contacts)
+    }
+
+    fn options(
+        &self,
+        keys: &keys::Contact,
+        (surface, opposite): (&[Side], Opposite),
+        moduli: &[f64],
+    ) -> ContactOptions {
+        let mut sides = surface.to_vec();
+        if let Opposite::Sides(others) = opposite {
+            sides.extend_from_slice(others);
+        }
         let modulus = sides.iter().map(|side| moduli[side.cell]).fold(f64::INFINITY, f64::min);
-        let computed = || default_penalty(&mesh, sides, |cell| moduli[cell]);
+        let computed = || default_penalty(&self.site.mesh, &sides, |cell| moduli[cell]);
         let penalty = keys.penalty.unwrap_or_else(computed);
-        let options = ContactOptions {
+        ContactOptions {
             penalty,
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             thickness: self.site.thickness,
             modulus,
-            loads: Loads::Both,
-            coupling: true,
-        };
-        let surface = Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value));
-        let boundary = boundary_behind(&mesh, sides, &self.deck.body);
-        let target = Target::tool(tools[number].clone(), number, &self.site.dofs);
-        let site = (mesh.clone(), self.site.dofs.clone(), self.site.space);
-        Some(Contact::new(&name.text, site, (surface, boundary), target, (law, options)))
+            loads: self.carried(keys, (surface, opposite)),
+            coupling: keys.coupling.is_none_or(|coupling| coupling.value),
+            guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
+        }
     }
+
+    /// One pass or two: two between bodies, but one where the facets of linear edges would be felt. A surface that
+    /// touches itself carries the points of both sides anyhow.
+    fn carried(&self, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> Loads {
+        let Opposite::Sides(others) = opposite else { return Loads::Both };
+        let passes = keys.passes.map_or(Passes::Auto, |passes| passes.value);
+        let facets = |sides: &[Side]| {
+            let faces = Faces::new(self.site.mesh.clone(), self.site.dofs.clone(), sides);
+            has_facets(&self.site.mesh, &self.site.dofs, faces.edges())
+        };
+        let two = match passes {
+            Passes::One => false,
+            Passes::Two => true,
+            Passes::Auto => same_sides(surface, others) || !(facets(surface) || facets(others)),
+        };
+        if two { Loads::Own } else { Loads::Both }
+    }
+
+    /// What is said of two bodies must be of use.
+    fn check_passes(&mut self, name: &Name, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> bool {
+        let before = self.found.len();
+        let Opposite::Sides(others) = opposite else {
+            let said = [
+                keys.passes.map(|spot| ("passes", spot.place)),
+                keys.coupling.map(|spot| ("coupling", spot.place)),
+                keys.guard.map(|spot| ("guard", spot.place)),
+            ];
+            for (key, place) in said.into_iter().flatten() {
+                self.refuse(format!("`{key}` is for the contact of two bodies; `{}` is a tool", keys.target), place);
+            }
+            return self.found.len() == before;
+        };
+        let second = second_name(&name.text);
+        if self.deck.contact.iter().any(|(other, _)| other.text == second) {
+            self.refuse(format!("`{second}` is what the second side of `{name}` is called"), name.place);
+        }
+        let shared = surface.iter().any(|side| others.contains(side));
+        if shared && !same_sides(surface, others) {
+            let what = format!("`{}` and `{}` share some of their sides", keys.surface, keys.target);
+            let help = "for self-contact name one group in both places; else name groups without common sides";
+            self.found.push(Diagnostic::error(what).at(keys.target.place).help(help));
+        }
+        if let Some(passes) = keys.passes.filter(|passes| shared && passes.value == Passes::One) {
+            self.refuse(
+                "a surface that touches itself carries the points of both sides: that is two passes",
+                passes.place,
+            );
+        }
+        let perturbed = self.deck.solver.tangent == keys::Tangent::Perturbation;
+        if let Some(coupling) = keys.coupling.filter(|coupling| perturbed && !coupling.value) {
+            self.refuse(
+                "a perturbed tangent holds the coupling: `coupling = false` needs tangent = \"exact\"",
+                coupling.place,
+            );
+        }
+        self.found.len() == before
+    }
+}
+
+/// Whether two lists hold the same sides; those of a group are sorted.
+fn same_sides(one: &[Side], other: &[Side]) -> bool {
+    one == other
 }
 
 /// Confined modulus of the material of each cell.

@@ -1,6 +1,7 @@
 //! Contacts.
 
-use crate::deck::form::{Form, Law, law, number, refers, table, whole};
+use crate::contact::Guard;
+use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, whole, word, words};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
 use crate::deck::source::Spot;
@@ -12,8 +13,8 @@ table! {
     pub struct Contact {
         /// The group of sides that carries the contact points.
         surface: Name = refers(Names::Sides).required(),
-        /// The rigid tool that it may touch.
-        target: Name = refers(Names::Tool).required(),
+        /// What it may touch: a rigid tool, or a group of sides of this or another body.
+        target: Name = refers(Names::Target).required(),
         /// The law of the interface. Without friction: law.coulomb = { friction = 0.0 }.
         law: Law<Box<dyn Interface>> = law(interface::laws::ALL).required(),
         /// Integration points along an edge.
@@ -21,9 +22,34 @@ table! {
             whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
-            .computed("50 times the confined modulus over the depth of the cells behind the surface"),
+            .computed("50 times the confined modulus over the depth of the cells behind the faces, the least of both sides"),
         /// Friction stress for one unit of elastic slip.
         tangential_penalty: Option<f64> =
             number(unit::PENALTY, Range::POSITIVE).computed("equal to the penalty"),
+        /// Which sides of two bodies carry contact points.
+        passes: Option<Spot<Passes>> = word().spot().computed(
+            "two between bodies, but one where edges of first degree bend; a tool carries none"),
+        /// Whether the tangent holds the coupling of the two bodies. Without it the paper's iterations are reproduced.
+        coupling: Option<Spot<bool>> = flag().spot().computed("true"),
+        /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
+        guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
+    }
+}
+
+words! {
+    /// Which sides of two bodies carry contact points.
+    pub enum Passes {
+        /// As the faces suit.
+        Auto = "auto",
+        /// The surface; its forces act on both bodies.
+        One = "one",
+        /// Both, each for its own forces.
+        Two = "two",
+    }
+}
+
+impl Words for Guard {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        vec![(Self::Refuse, "refuse", "the run ends with its step"), (Self::Warn, "warn", "the summary notes it")]
     }
 }

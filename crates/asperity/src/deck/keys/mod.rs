@@ -16,7 +16,7 @@ pub use condition::{
     BodyForce, Components, Displacement, Force, Gravity, Motion, Pressure, PressureKind, Spring, Temperature, ToolLoad,
     Traction,
 };
-pub use contact::Contact;
+pub use contact::{Contact, Passes};
 pub use initial_stress::InitialStressKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;

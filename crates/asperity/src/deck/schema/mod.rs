@@ -103,6 +103,8 @@ pub enum Names {
     Cells,
     /// A group with sides.
     Sides,
+    /// What a surface may touch: a tool, or a group with sides.
+    Target,
     /// A condition of an earlier step: `pressure.bore`.
     Condition,
 }
@@ -119,6 +121,7 @@ impl Names {
             Self::Group => "group",
             Self::Cells => "group of cells",
             Self::Sides => "group of sides",
+            Self::Target => "tool or group of sides",
             Self::Condition => "condition of an earlier step",
         }
     }

@@ -3,8 +3,9 @@
 
 use super::Source;
 use crate::Error;
-use crate::contact::{Contact, PointRecord, PointStatus};
+use crate::contact::{Contact, PointRecord, PointStatus, second_name};
 use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::system::History;
 use crate::tensor::Vec3;
 
 /// A contact in an accepted state.
@@ -13,6 +14,7 @@ struct Seen<'a> {
     name: &'a str,
     reference: Vec<Vec3>,
     records: Vec<PointRecord>,
+    history: &'a History,
 }
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
@@ -22,12 +24,30 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         let history = source.history(*term)?;
         let reference = contact.records(&zero, history).map(|record| record.position).collect();
         let records = contact.records(&source.state.u, history).collect();
-        all.push(Seen { contact, name, reference, records });
+        all.push(Seen { contact, name, reference, records, history });
     }
     if !all.is_empty() {
         report_points(&all, frame)?;
     }
-    all.iter().try_for_each(|seen| report_contact(source, seen, frame))
+    all.iter().try_for_each(|seen| report_contact(source, seen, frame))?;
+    for first in &all {
+        let second = second_name(first.name);
+        if let Some(second) = all.iter().find(|other| other.name == second && other.contact.loads_itself()) {
+            let name = format!("contact.{}.mismatch", first.name);
+            frame.push(Quantity::scalar(name, Unit::One, mismatch(first, second)))?;
+        }
+    }
+    Ok(())
+}
+
+/// Difference of the mean pressures of the two sides of a contact over their mean.
+fn mismatch(first: &Seen, second: &Seen) -> f64 {
+    let [one, other] = [first, second].map(|seen| {
+        let closed = || seen.records.iter().filter(|record| record.status != PointStatus::Open);
+        closed().map(|r| r.pressure * r.area).sum::<f64>() / closed().map(|r| r.area).sum::<f64>()
+    });
+    // Without contact there is nothing to disagree about.
+    if one + other > 0.0 { 2.0 * (one - other).abs() / (one + other) } else { 0.0 }
 }
 
 fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
@@ -74,6 +94,8 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.position - pole).cross(r.force()))),
         ("center", Unit::Length, Width::Vector, center),
     ];
+    // With two passes each side counts half of the energy of the interface.
+    let share = seen.contact.options().loads.share();
     let least = closed().map(|r| r.last_dissipated * r.area).reduce(f64::min).unwrap_or(0.0);
     let scalars = [
         ("area", Unit::Area, total(&|r| r.area)),
@@ -83,7 +105,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("max_penetration_relative", Unit::One, most(&|r| r.penetration / edge_length(source, seen.contact, r.edge))),
         ("stick", Unit::One, count(PointStatus::Stick)),
         ("slip", Unit::One, count(PointStatus::Slip)),
-        ("dissipation", Unit::Energy, seen.records.iter().map(|r| r.dissipated * r.area).sum()),
+        ("dissipation", Unit::Energy, share * seen.records.iter().map(|r| r.dissipated * r.area).sum::<f64>()),
         ("least_dissipation", Unit::Energy, least),
         ("coulomb_violation", Unit::One, most(&|r| r.violation)),
         ("false_contacts", Unit::One, seen.contact.search(&source.state.u).1.total() as f64),
@@ -92,7 +114,12 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     for (what, unit, width, value) in vectors {
         frame.push(Quantity::new(name(what), unit, Place::Global, width, value.0.to_vec()))?;
     }
-    scalars.into_iter().try_for_each(|(what, unit, value)| frame.push(Quantity::scalar(name(what), unit, value)))
+    scalars.into_iter().try_for_each(|(what, unit, value)| frame.push(Quantity::scalar(name(what), unit, value)))?;
+    if !seen.contact.target().deforms() {
+        return Ok(());
+    }
+    let ratio = seen.contact.facet_ratio(&source.state.u, seen.history);
+    frame.push(Quantity::scalar(name("facet_ratio"), Unit::One, ratio))
 }
 
 /// Present distance between the ends of an edge of the surface.

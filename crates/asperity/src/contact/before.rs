@@ -1,0 +1,106 @@
+//! What a contact point was at the last accepted state: the target's material point it touched, and its friction stress.
+//!
+//! Points stand at the same places of their edge as long as the target covers all of it, and then the history says. On
+//! an edge that is covered in part they move along it, and a point is another material point than the history's: what it
+//! touched is found again in the accepted configuration, and the stress is the linear field that fits those of the
+//! edge's closed points best. Both are functions of the place, and their slopes are part of the tangent.
+
+use super::open::OpenContact;
+use super::point::triad;
+use super::record::entry;
+use super::split::Placed;
+use super::surface::SurfacePoint;
+use super::target::{Cast, Memory, Standing};
+use crate::system::Stencil;
+use crate::tensor::Vec3;
+use crate::tool::Ray;
+
+/// See the module.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Before {
+    /// Segment and place on it that was touched.
+    pub touched: Option<(usize, [f64; 2])>,
+    /// Its motion along that segment per motion of the point along its edge.
+    pub sliding: f64,
+    /// Friction stress.
+    pub shear: f64,
+    /// Its slope along the edge.
+    pub shear_slope: f64,
+}
+
+/// The stencil's third choice: the history says what was touched,
+const AS_BEFORE: u32 = 0;
+/// or nothing was; anything else is a segment and one.
+const NOTHING: u32 = u32::MAX;
+
+impl OpenContact<'_> {
+    /// The stencil's choice of what a point at `spot` touched.
+    pub(super) fn recall(&self, index: usize, spot: &SurfacePoint, memory: &mut Memory) -> u32 {
+        let Some(Standing::Faces(standing)) = &self.standing else { return AS_BEFORE };
+        if spot.half == 1.0 && spot.xi == self.history.slot(index)[entry::XI] {
+            return AS_BEFORE;
+        }
+        let (_, ray) = self.ray_before(spot);
+        let cast = Cast { ray, ..self.contact.bounds(index, self.depths[index], self.reach) };
+        standing.select(&cast, memory).map_or(NOTHING, |hit| hit.segment as u32 + 1)
+    }
+
+    /// The segment touched at the last accepted state.
+    pub(super) fn touched_segment(&self, index: usize, stencil: &Stencil) -> Option<usize> {
+        match stencil.also[2] {
+            AS_BEFORE => {
+                let segment = self.history.slot(index)[entry::SEGMENT];
+                (segment >= 0.0).then_some(segment as usize)
+            }
+            NOTHING => None,
+            other => Some(other as usize - 1),
+        }
+    }
+
+    /// What a point at `spot` was.
+    pub(super) fn before(&self, index: usize, stencil: &Stencil, spot: &SurfacePoint) -> Before {
+        let old = self.history.slot(index);
+        let Some(segment) = self.touched_segment(index, stencil) else { return Before::default() };
+        if stencil.also[2] == AS_BEFORE {
+            let touched = Some((segment, [old[entry::S], old[entry::S2]]));
+            return Before { touched, shear: old[entry::SHEAR], ..Before::default() };
+        }
+        let Some((s, sliding)) = self.slide(segment, spot) else { return Before::default() };
+        let [shear, shear_slope] = self.shear_before(spot);
+        Before { touched: Some((segment, [s, 0.0])), sliding, shear, shear_slope }
+    }
+
+    /// Edge and ray of a point in the accepted configuration.
+    fn ray_before(&self, spot: &SurfacePoint) -> (Placed<'_>, Ray) {
+        let placed = self.contact.placed(spot.edge, self.accepted);
+        let [origin, tangent, _] = placed.at(spot.xi);
+        let (_, direction, _) = triad(tangent);
+        (placed, Ray { origin, direction })
+    }
+
+    /// Where a point at `spot` met a segment in the accepted configuration, and how that moves along the segment per
+    /// motion of the point: `(J - u (e_R.x'') / J) / (e_S.t)`.
+    fn slide(&self, segment: usize, spot: &SurfacePoint) -> Option<(f64, f64)> {
+        let faces = self.contact.target.as_faces()?;
+        let (u, (placed, ray)) = (faces.values(segment, self.accepted), self.ray_before(spot));
+        let hit = faces.meet(segment, &u, &ray, [0.5, 0.0])?;
+        let [_, tangent, second] = placed.at(spot.xi);
+        let (along, inward, length) = triad(tangent);
+        let t: Vec3 = faces.tangent(segment, hit.s[0], &u);
+        Some((hit.s[0], (length - hit.u * inward.dot(second) / length) / along.dot(t)))
+    }
+
+    /// Friction stress at a place of an edge and its slope: the straight line nearest to the closed points of the edge,
+    /// or the stress of the only one.
+    fn shear_before(&self, spot: &SurfacePoint) -> [f64; 2] {
+        let slots = self.contact.surface.points_of(spot.edge).map(|i| self.history.slot(i));
+        let closed: Vec<[f64; 2]> =
+            slots.filter(|old| old[entry::STATUS] > 0.0).map(|old| [old[entry::XI], old[entry::SHEAR]]).collect();
+        let mean = |k: usize| closed.iter().map(|point| point[k]).sum::<f64>() / closed.len().max(1) as f64;
+        let [xi, shear] = [mean(0), mean(1)];
+        let spread: f64 = closed.iter().map(|point| (point[0] - xi).powi(2)).sum();
+        let product: f64 = closed.iter().map(|point| (point[0] - xi) * (point[1] - shear)).sum();
+        let slope = if spread > 0.0 { product / spread } else { 0.0 };
+        [shear + slope * (spot.xi - xi), slope]
+    }
+}

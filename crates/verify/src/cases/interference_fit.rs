@@ -1,0 +1,80 @@
+//! A ring pressed into another: Lame's pressure on both sides of the joint, and the guard that says when facets of the
+//! mesh bear it instead.
+
+use crate::bench::{Bench, Solved};
+use crate::{Case, Measured};
+use asperity::Error;
+
+/// The case.
+pub const CASE: Case = Case { name: "interference-fit", measure };
+
+const YOUNG: f64 = 210e3;
+const BORE: f64 = 20.0;
+const RIM: f64 = 50.0;
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let (n, penalty) = bench.pick(([12, 17], 2e5), ([24, 31], 1e6));
+    let solve = |sets: &[String]| bench.solve("fit.toml", sets);
+    let meshed = |cell: &str, [shaft, hub]: [usize; 2], more: &[&str]| {
+        let mut sets = vec![
+            format!("contact.seat.penalty={penalty:?}"),
+            format!("mesh.part.shaft.annulus.cells=[4, {shaft}]"),
+            format!("mesh.part.hub.annulus.cells=[6, {hub}]"),
+            format!("mesh.part.shaft.annulus.cell={cell}"),
+            format!("mesh.part.hub.annulus.cell={cell}"),
+        ];
+        if cell == "quad4" {
+            sets.extend(["shaft", "hub"].map(|body| format!("body.{body}.integration=full")));
+            sets.push("contact.seat.gauss=2".into());
+        }
+        sets.extend(more.iter().map(|set| (*set).to_owned()));
+        sets
+    };
+    let two = solve(&meshed("quad8", n, &[]))?;
+    let one = solve(&meshed("quad8", n, &["contact.seat.passes=one"]))?;
+    let linear = [2 * n[0], 2 * n[1]];
+    let auto = solve(&meshed("quad4", linear, &[]))?;
+    let refused = solve(&meshed("quad4", linear, &["contact.seat.passes=two"]));
+    Ok(vec![
+        ("shaft_pressure".into(), pressure(&two, 0)),
+        ("hub_pressure".into(), pressure(&two, 1)),
+        ("ripple".into(), ripple(&two)),
+        ("facet_ratio".into(), ratio(&two)),
+        ("bore_hoop".into(), hoop(&two, "shaft.inner", BORE)),
+        ("rim_hoop".into(), hoop(&two, "hub.outer", RIM)),
+        ("one_pass".into(), pressure(&one, 0)),
+        ("linear_contacts".into(), auto.model.contacts.len() as f64),
+        ("linear_one_pass".into(), pressure(&auto, 0)),
+        ("linear_refused".into(), f64::from(refused.is_err_and(|error| error.to_string().contains("facets")))),
+    ])
+}
+
+/// Force over area of one side.
+fn pressure(run: &Solved, contact: usize) -> f64 {
+    let points = run.points(contact);
+    let [force, area] = points.iter().fold([0.0; 2], |[f, a], p| [f + p.pressure * p.area, a + p.area]);
+    force / area
+}
+
+/// Root mean square of the deviation from the mean, over the mean.
+fn ripple(run: &Solved) -> f64 {
+    let (mean, points) = (pressure(run, 0), run.points(0));
+    let [sum, area] = points.iter().fold([0.0; 2], |[s, a], p| [s + (p.pressure - mean).powi(2) * p.area, a + p.area]);
+    (sum / area).sqrt() / mean
+}
+
+fn ratio(run: &Solved) -> f64 {
+    let history = &run.state.histories[run.model.first_contact()];
+    run.model.contacts[0].facet_ratio(&run.state.u, history)
+}
+
+/// Hoop stress at a free circle, `E u / r`: the mean over its nodes.
+fn hoop(run: &Solved, group: &str, radius: f64) -> f64 {
+    let (mesh, dofs) = (&run.model.mesh, &run.model.problem.dofs);
+    let nodes = &mesh.groups[group].nodes;
+    let moved = |node: usize| {
+        let (x, u) = (mesh.points[node], &run.state.u[dofs.node(node)..]);
+        (x[0] * u[0] + x[1] * u[1]) / radius
+    };
+    YOUNG * nodes.iter().map(|&node| moved(node)).sum::<f64>() / (nodes.len() as f64 * radius)
+}

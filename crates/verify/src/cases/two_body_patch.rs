@@ -1,0 +1,51 @@
+//! Two blocks of different meshes under uniform pressure: the stress is uniform to rounding with two passes.
+
+use crate::bench::{Bench, Solved};
+use crate::{Case, Measured};
+use asperity::Error;
+
+/// The case.
+pub const CASE: Case = Case { name: "two-body-patch", measure };
+
+const PRESSURE: f64 = 10.0;
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let n = bench.pick(1, 3);
+    let meshed = |foundation: &str, punch: &str| {
+        vec![
+            format!("mesh.part.foundation.rectangle.cells=[{}, {}]", 7 * n, 3 * n),
+            format!("mesh.part.punch.rectangle.cells=[{}, {}]", 5 * n, 2 * n),
+            format!("mesh.part.foundation.rectangle.cell={foundation}"),
+            format!("mesh.part.punch.rectangle.cell={punch}"),
+        ]
+    };
+    let with = |mut sets: Vec<String>, more: &[&str]| {
+        sets.extend(more.iter().map(|set| (*set).to_owned()));
+        bench.solve("flush.toml", &sets)
+    };
+    let flush = with(meshed("quad4", "quad4"), &[])?;
+    let one = with(meshed("quad4", "quad4"), &["contact.joint.passes=one", "contact.joint.gauss=2"])?;
+    Ok(vec![
+        ("flush_quad4".into(), error(&flush)),
+        ("flush_quad8".into(), error(&with(meshed("quad8", "quad8"), &[])?)),
+        ("flush_mixed".into(), error(&with(meshed("quad4", "quad8"), &[])?)),
+        ("punch_quad4".into(), error(&bench.solve("punch4.toml", &[])?)),
+        ("punch_quad8".into(), error(&bench.solve("punch8.toml", &[])?)),
+        ("one_pass".into(), error(&one)),
+        ("one_pass_quad8".into(), error(&with(meshed("quad8", "quad8"), &["contact.joint.passes=one"])?)),
+        ("mismatch".into(), mean_pressure(&flush, 0) / mean_pressure(&flush, 1) - 1.0),
+    ])
+}
+
+/// Largest deviation of the vertical stress from the pressure, over the pressure.
+fn error(run: &Solved) -> f64 {
+    let bodies = run.model.bodies.iter().zip(&run.state.histories);
+    let stresses = bodies.flat_map(|((body, _), history)| body.records(&run.state.u, history));
+    stresses.map(|record| (record.state[1] + PRESSURE).abs() / PRESSURE).fold(0.0, f64::max)
+}
+
+fn mean_pressure(run: &Solved, contact: usize) -> f64 {
+    let points = run.points(contact);
+    let [force, area] = points.iter().fold([0.0; 2], |[f, a], p| [f + p.pressure * p.area, a + p.area]);
+    force / area
+}

@@ -120,7 +120,12 @@ impl OpenContact<'_> {
 
     /// What a force at a point does to each unknown of its stencil: `-N_L f` to its own nodes, and to the target its
     /// work along the target's rates, unless the target loads itself.
-    pub(super) fn rows<T: Seed>(&self, (g, u): (&Geometry, &[f64]), (at, b): (Vec3<T>, Vec3<T>), force: Vec3<T>) -> [T; MAX_DOFS] {
+    pub(super) fn rows<T: Seed>(
+        &self,
+        (g, u): (&Geometry, &[f64]),
+        (at, b): (Vec3<T>, Vec3<T>),
+        force: Vec3<T>,
+    ) -> [T; MAX_DOFS] {
         let (contact, mut rows) = (self.contact, [T::zero(); MAX_DOFS]);
         for (k, row) in rows[..g.layout.own].iter_mut().enumerate() {
             *row = -force[k % 2] * g.spot.n[k / 2];

@@ -31,7 +31,7 @@ use crate::mesh::Mesh;
 use form::Table;
 use reader::Reader;
 use source::Source;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tree::Node;
 
 /// A deck that was read, with its mesh.
@@ -41,6 +41,8 @@ pub struct Loaded {
     pub deck: Deck,
     /// Its mesh, with the groups that the deck adds.
     pub mesh: Mesh,
+    /// Where the files that it names are looked for.
+    pub folder: PathBuf,
     /// What was not said, and what holds instead.
     pub unsaid: Vec<Unsaid>,
     /// Warnings and notes, and the texts that later messages point into.
@@ -77,7 +79,7 @@ pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Lo
     let diagnostics = gathered(reader.sources, reader.diagnostics);
     match read {
         Some((deck, mesh)) if !diagnostics.has_errors() => {
-            Ok(Loaded { deck, mesh, unsaid: reader.unsaid, diagnostics })
+            Ok(Loaded { deck, mesh, folder: folder.to_path_buf(), unsaid: reader.unsaid, diagnostics })
         }
         _ => Err(diagnostics.without_notes()),
     }

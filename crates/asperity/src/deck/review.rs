@@ -6,6 +6,7 @@ use super::diagnose::{Diagnostic, Severity};
 use super::keys;
 use super::reader::Name;
 use crate::Error;
+use crate::contact::space::Contact as Solid;
 use crate::contact::{Contact, second_name};
 use crate::solve::Step;
 use crate::system::Term;
@@ -43,6 +44,9 @@ pub fn review(made: &Made) -> Result<Review, Error> {
         for contact in passes {
             problems.extend(page.contact((name, keys), contact, made));
         }
+    }
+    for ((name, keys), contact) in made.deck.contact.iter().zip(&made.model.solid_contacts) {
+        problems.extend(page.solid_contact(name, keys, contact, made));
     }
     page.steps(made);
     problems.extend(page.motions(made)?);
@@ -89,6 +93,12 @@ impl Page {
     fn tools(&mut self, made: &Made) {
         for tool in &made.model.tools {
             self.line(format!("tool {}: {}", tool.name(), profile(tool)));
+        }
+        for tool in &made.model.solid_tools {
+            let (facets, bounds) = (tool.facets().len(), tool.bounds());
+            let ends = ["x", "y", "z"].iter().enumerate();
+            let ends: Vec<_> = ends.map(|(i, x)| format!("{x} from {} to {}", bounds.min[i], bounds.max[i])).collect();
+            self.line(format!("tool {}: {facets} facets, {}", tool.name(), ends.join(", ")));
         }
         for note in made.diagnostics.list.iter().filter(|d| d.severity == Severity::Note) {
             self.line(format!("  {}", note.what));
@@ -150,6 +160,28 @@ impl Page {
         vec![Diagnostic::warning(what).at(name.place).label(label).help(help)]
     }
 
+    /// The same of a contact in space.
+    fn solid_contact(&mut self, name: &Name, keys: &keys::Contact, contact: &Solid, made: &Made) -> Vec<Diagnostic> {
+        let (hits, rejected) = contact.search(&vec![0.0; made.model.problem.dofs.count()]);
+        let found: Vec<(f64, usize)> =
+            hits.iter().enumerate().filter_map(|(i, hit)| Some((hit.as_ref()?.u, i))).collect();
+        let (faces, target) = (contact.surface().faces.len(), &keys.target);
+        self.line(format!("contact {name}: {} points on {faces} faces of {}", hits.len(), keys.surface));
+        let nearest = found.iter().map(|(u, _)| -u).fold(f64::INFINITY, f64::min).max(0.0);
+        self.line(match found.as_slice() {
+            [] => format!("  none sees the tool {target}"),
+            _ => format!("  {} see the tool {target}, the nearest {nearest:.3e} away", found.len()),
+        });
+        if rejected.total() > 0 {
+            let (behind, deep) = (rejected.wrong_side, rejected.too_deep);
+            self.line(format!("  false contacts refused: {behind} on faces that look away, {deep} too deep"));
+        }
+        let (options, origin) = (contact.options(), if keys.penalty.is_some() { "given" } else { "computed" });
+        let (penalty, tangential) = (options.penalty, options.tangential_penalty);
+        self.line(format!("  penalty {penalty:.4e} ({origin}), tangential {tangential:.4e}"));
+        solid_overlaps(name, contact, &found)
+    }
+
     fn steps(&mut self, made: &Made) {
         for step in &made.model.problem.steps {
             self.line(describe(step));
@@ -174,6 +206,24 @@ impl Page {
             self.line(format!("  {} = {}", unsaid.path, unsaid.instead));
         }
     }
+}
+
+/// What is odd about the distances that the points of a contact in space begin with.
+fn solid_overlaps(name: &Name, contact: &Solid, found: &[(f64, usize)]) -> Vec<Diagnostic> {
+    if found.is_empty() {
+        let what = format!("no point of contact `{name}` sees its target");
+        let help = "is the surface the right one, and do the tool's facets look outward?";
+        return vec![Diagnostic::warning(what).at(name.place).help(help)];
+    }
+    let part = |&(u, i): &(f64, usize)| (u / contact.face_length(i), u);
+    let Some((part, u)) = found.iter().map(part).max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(part, _)| *part > OVERLAP)
+    else {
+        return vec![];
+    };
+    let closed = found.iter().filter(|(u, _)| *u > 0.0).count();
+    let what = format!("{closed} points of contact `{name}` lie inside the tool before the first increment");
+    let label = format!("the deepest by {u:.3e}, {part:.1e} of its face");
+    vec![Diagnostic::warning(what).at(name.place).label(label).help("move the tool or the body apart")]
 }
 
 fn profile(tool: &Tool) -> String {

@@ -15,6 +15,7 @@ mod pressure;
 mod spring;
 #[cfg(test)]
 mod tests;
+mod torque;
 mod traction;
 
 pub use body_force::body_force;
@@ -23,6 +24,7 @@ pub use follower::FollowerPressure;
 pub use force::{force_on_nodes, force_on_tool};
 pub use pressure::dead_pressure;
 pub use spring::Springs;
+pub use torque::TorqueOnTool;
 pub use traction::traction;
 
 use crate::mesh::{Mesh, Space};

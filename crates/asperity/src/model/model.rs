@@ -1,11 +1,11 @@
 //! A model owns its mesh, bodies, tools, contacts, springs, loads and steps; a run only reads it.
 
-use crate::contact::Contact;
+use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
 use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
 use crate::system::{Dofs, State, Term};
-use crate::tool::Tool;
+use crate::tool::{self, Tool};
 use std::sync::Arc;
 
 /// What a model is put together from.
@@ -24,10 +24,14 @@ pub struct ModelParts {
     pub bodies: Vec<(Body, usize)>,
     /// The names of the materials.
     pub materials: Vec<String>,
-    /// The tools, in the order of their unknowns.
+    /// The tools of a plane model, in the order of their unknowns.
     pub tools: Vec<Arc<Tool>>,
-    /// The contacts.
+    /// The tools of a model in space, in the order of their unknowns.
+    pub solid_tools: Vec<Arc<tool::space::Tool>>,
+    /// The contacts of a plane model.
     pub contacts: Vec<Contact>,
+    /// The contacts of a model in space.
+    pub solid_contacts: Vec<contact::space::Contact>,
     /// Springs.
     pub springs: Vec<Box<dyn Term>>,
     /// Loads.
@@ -54,10 +58,14 @@ pub struct Model {
     pub bodies: Vec<(Arc<Body>, usize)>,
     /// The names of the materials.
     pub materials: Vec<String>,
-    /// The tools, in the order of their unknowns.
+    /// The tools of a plane model, in the order of their unknowns.
     pub tools: Vec<Arc<Tool>>,
-    /// The contacts.
+    /// The tools of a model in space, in the order of their unknowns.
+    pub solid_tools: Vec<Arc<tool::space::Tool>>,
+    /// The contacts of a plane model.
     pub contacts: Vec<Arc<Contact>>,
+    /// The contacts of a model in space.
+    pub solid_contacts: Vec<Arc<contact::space::Contact>>,
     /// Number of springs.
     pub springs: usize,
     /// Names and nodes of the groups that are held or moved in any step.
@@ -69,12 +77,27 @@ pub struct Model {
 impl Model {
     /// Puts the parts together.
     pub fn new(parts: ModelParts) -> Self {
-        let ModelParts { title, space, thickness, mesh, dofs, materials, tools, supports, steps, newton, .. } = parts;
+        let ModelParts {
+            title,
+            space,
+            thickness,
+            mesh,
+            dofs,
+            materials,
+            tools,
+            solid_tools,
+            supports,
+            steps,
+            newton,
+            ..
+        } = parts;
         let bodies: Vec<_> = parts.bodies.into_iter().map(|(body, material)| (Arc::new(body), material)).collect();
         let contacts: Vec<_> = parts.contacts.into_iter().map(Arc::new).collect();
+        let solid_contacts: Vec<_> = parts.solid_contacts.into_iter().map(Arc::new).collect();
         let springs = parts.springs.len();
         let mut terms: Vec<Arc<dyn Term>> = bodies.iter().map(|(body, _)| body.clone() as Arc<dyn Term>).collect();
         terms.extend(contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
+        terms.extend(solid_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
         let problem = Problem {
             terms,
@@ -83,10 +106,29 @@ impl Model {
             newton,
             size: mesh.size(),
             cell_size: smallest_cell(&mesh),
-            tools: tools.iter().map(|tool| tool.name().to_string()).collect(),
+            tools: tools
+                .iter()
+                .map(|tool| tool.name())
+                .chain(solid_tools.iter().map(|tool| tool.name()))
+                .map(str::to_owned)
+                .collect(),
             node_name: node_namer(mesh.clone()),
         };
-        Self { title, space, thickness, mesh, bodies, materials, tools, contacts, springs, supports, problem }
+        Self {
+            title,
+            space,
+            thickness,
+            mesh,
+            bodies,
+            materials,
+            tools,
+            solid_tools,
+            contacts,
+            solid_contacts,
+            springs,
+            supports,
+            problem,
+        }
     }
 
     /// Number of the first contact among the terms.
@@ -95,7 +137,7 @@ impl Model {
     }
     /// Number of the first spring among the terms.
     pub fn first_spring(&self) -> usize {
-        self.bodies.len() + self.contacts.len()
+        self.bodies.len() + self.contacts.len() + self.solid_contacts.len()
     }
 
     /// A run from a given state: the initial one ([`Problem::initial_state`]) or that of a checkpoint.

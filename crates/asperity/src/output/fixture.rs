@@ -44,6 +44,7 @@ impl Fixture {
             contacts: vec![],
             springs: vec![],
             tools: vec![],
+            solid_tools: vec![],
             supports: vec![("all".into(), (0..self.mesh.points.len()).collect())],
             constraints: vec![&self.held],
         }

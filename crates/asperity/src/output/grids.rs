@@ -6,10 +6,12 @@ use super::quantity::{Frame, Number, Place, Quantity};
 use super::vtk::{Cells, DataArray, Grid, Values};
 use crate::Error;
 use crate::mesh::Mesh;
-use crate::tool::Pose;
+use crate::tool::{Pose, space};
 
 /// Lines of a tool's outline leave its curves by no more than this part of its size.
 const SAGITTA: f64 = 1e-4;
+/// Tiles of a tool in space leave its surface by about this part of its size.
+const SOLID_SAGITTA: f64 = 1e-3;
 
 /// The grid of the bodies, whose cells and groups are the same in all frames.
 #[derive(Debug, Clone)]
@@ -85,9 +87,27 @@ pub fn tools(source: &Source, frame: &Frame) -> Grid {
             }
         }
     }
+    for index in 0..source.parts.solid_tools.len() {
+        solid_tool(source, index, &mut grid, (&mut displacement, &mut number));
+    }
     grid.point_data = vec![DataArray::new("displacement", 3, Values::Real(displacement))];
     grid.cell_data = vec![DataArray::new("tool", 1, Values::Integer(number))];
     grid
+}
+
+/// The surface of a tool in space as triangles and quadrilaterals.
+fn solid_tool(source: &Source, index: usize, grid: &mut Grid, (displacement, number): (&mut Vec<f64>, &mut Vec<i64>)) {
+    let (tool, pose) = (source.parts.solid_tools[index], source.solid_pose(index));
+    let before = tool.surface(&space::Pose::default(), SOLID_SAGITTA * tool.size());
+    let first = grid.points.len();
+    for point in &before.points {
+        grid.points.push(point.0);
+        displacement.extend((pose.place(tool.reference(), *point) - *point).0);
+    }
+    for (_, corners) in &before.tiles {
+        grid.cells.push(if corners.len() == 3 { 5 } else { 9 }, corners.iter().map(|corner| first + corner));
+        number.push(index as i64);
+    }
 }
 
 /// A quantity as an array.

@@ -126,7 +126,7 @@ impl Results {
         summary.bodies = parts.bodies.iter().map(|(_, body)| body.name().to_string()).collect();
         summary.materials.clone_from(&parts.material_names);
         summary.contact_order = parts.contacts.iter().map(|(_, name, _)| name.clone()).collect();
-        summary.tools = parts.tools.iter().map(|tool| tool.name().to_string()).collect();
+        summary.tools = parts.tool_names().into_iter().map(str::to_owned).collect();
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
         Ok(Self { directory, options, input, grid, series, history, summary, spent: Duration::ZERO })
@@ -215,7 +215,7 @@ impl Results {
 
 /// The kinds of frames that a model has.
 fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
-    let (contacts, tools) = (!parts.contacts.is_empty(), !parts.tools.is_empty());
+    let (contacts, tools) = (!parts.contacts.is_empty(), !parts.tool_names().is_empty());
     Fields::ALL.into_iter().filter(move |fields| match fields {
         Fields::Bodies | Fields::Points => true,
         Fields::Contacts => contacts,

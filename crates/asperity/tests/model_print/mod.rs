@@ -48,6 +48,12 @@ fn parts(model: &Model, print: &mut Print) {
         print.add((tool.name(), tool.reference()));
         tool.segments().iter().for_each(|segment| print.add((segment.kind().key, segment.nodes())));
     }
+    for tool in &model.solid_tools {
+        print.add((tool.name(), tool.reference(), tool.facets()));
+    }
+    for contact in &model.solid_contacts {
+        print.add((contact.name(), contact.options(), contact.tool_number(), contact.surface().faces.len()));
+    }
     for contact in &model.contacts {
         print.add((
             contact.name(),

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// Which edges a contact joins.
 #[derive(Clone, Copy)]
-enum Opposite<'a> {
+pub(super) enum Opposite<'a> {
     Tool(usize),
     Sides(&'a [Side]),
 }
@@ -39,7 +39,7 @@ impl Builder<'_> {
     }
 
     /// No two sides may touch by two contacts: they would do so twice as hard.
-    fn check_doubles(&mut self) {
+    pub(super) fn check_doubles(&mut self) {
         let mesh = self.site.mesh.clone();
         let sides = |name: &Name| mesh.groups.get(&name.text).map_or(&[][..], |group| &group.sides);
         let share = |one: &[Side], other: &[Side]| one.iter().any(|side| other.contains(side));
@@ -139,7 +139,12 @@ impl Builder<'_> {
     }
 
     /// What is said of two bodies must be of use.
-    fn check_passes(&mut self, name: &Name, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> bool {
+    pub(super) fn check_passes(
+        &mut self,
+        name: &Name,
+        keys: &keys::Contact,
+        (surface, opposite): (&[Side], Opposite),
+    ) -> bool {
         let before = self.found.len();
         let Opposite::Sides(others) = opposite else {
             let said = [
@@ -185,7 +190,7 @@ fn same_sides(one: &[Side], other: &[Side]) -> bool {
 }
 
 /// Confined modulus of the material of each cell.
-fn moduli(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<f64> {
+pub(super) fn moduli(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<f64> {
     let mut moduli = vec![0.0; mesh.cell_count()];
     for (body, _) in bodies {
         let modulus = body.material().confined_modulus();
@@ -195,7 +200,7 @@ fn moduli(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<f64> {
 }
 
 /// The whole outer boundary of the bodies whose cells lie behind the sides.
-fn boundary_behind(mesh: &Mesh, sides: &[Side], bodies: &[(Name, keys::Body)]) -> Vec<Side> {
+pub(super) fn boundary_behind(mesh: &Mesh, sides: &[Side], bodies: &[(Name, keys::Body)]) -> Vec<Side> {
     let groups = bodies.iter().filter_map(|(name, _)| mesh.groups.get(&name.text));
     let behind = groups.filter(|group| sides.iter().any(|side| group.cells.binary_search(&side.cell).is_ok()));
     let mut cells: Vec<usize> = behind.flat_map(|group| group.cells.iter().copied()).collect();

@@ -3,10 +3,12 @@
 use super::Builder;
 use crate::amplitude::{Amplitude, Change, Timeline};
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::{Components, PressureKind, Step};
+use crate::deck::keys::{Components, PressureKind, Step, ToolCondition};
 use crate::deck::reader::Name;
 use crate::deck::source::Spot;
-use crate::load::{FollowerPressure, Springs, body_force, dead_pressure, force_on_nodes, force_on_tool, traction};
+use crate::load::{
+    FollowerPressure, Springs, TorqueOnTool, body_force, dead_pressure, force_on_nodes, force_on_tool, traction,
+};
 use crate::mesh::Side;
 use crate::system::Term;
 
@@ -183,13 +185,19 @@ impl Builder<'_> {
         let mut terms = Terms::new();
         for name in names(&self.deck.step, said) {
             let tool = self.deck.tool.iter().position(|(tool, _)| tool.text == name.text)?;
+            let (plane, title) = (self.plane(), format!("load.{name}"));
             let values = (0..self.site.dofs.per_tool()).map(|i| {
                 timeline(&self.deck.step, ("load", &name.text), said, |load| {
-                    Some(([load.x, load.y, load.torque][i]?, load.amplitude.clone()))
+                    let value = if plane { load.plane()[i] } else { load.space()[i] };
+                    Some((value?, load.amplitude.clone()))
                 })
             });
-            let values = values.collect();
-            terms.push(Box::new(force_on_tool(&format!("load.{name}"), &self.site.dofs, tool, values)));
+            let mut values: Vec<Timeline> = values.collect();
+            if !plane {
+                let torques = values.split_off(3);
+                terms.push(Box::new(TorqueOnTool::new(&title, &self.site.dofs, tool, torques)));
+            }
+            terms.push(Box::new(force_on_tool(&title, &self.site.dofs, tool, values)));
         }
         Some(terms)
     }

@@ -5,6 +5,8 @@
 mod bodies;
 mod contacts;
 mod loads;
+mod solid_contacts;
+mod solid_tools;
 mod supports;
 mod tools;
 
@@ -19,6 +21,7 @@ use crate::model::{Model, ModelParts};
 use crate::output::checkpoint::InputHash;
 use crate::solve::{Increments, Step};
 use crate::system::Dofs;
+use std::path::Path;
 use std::sync::Arc;
 
 /// A deck and the model that it makes.
@@ -39,6 +42,9 @@ pub struct Made {
 struct Builder<'d> {
     deck: &'d Deck,
     site: Site,
+    /// Where files are looked for, and the bytes of those that were read.
+    folder: &'d Path,
+    files: Vec<Vec<u8>>,
     found: Vec<Diagnostic>,
 }
 
@@ -67,14 +73,15 @@ impl Builder<'_> {
 /// # Errors
 /// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
 pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
-    let input = fingerprint(&loaded);
-    let Loaded { deck, mesh, unsaid, mut diagnostics } = loaded;
+    let prints = prints(&loaded);
+    let Loaded { deck, mesh, folder, unsaid, mut diagnostics } = loaded;
     let space = *deck.space;
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len());
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
     let site = Site { mesh: Arc::new(mesh), dofs, space, thickness };
-    let mut builder = Builder { deck: &deck, site, found: Vec::new() };
+    let mut builder = Builder { deck: &deck, site, folder: &folder, files: Vec::new(), found: Vec::new() };
     let built = builder.everything();
+    let input = InputHash::of(&prints.iter().chain(&builder.files).map(Vec::as_slice).collect::<Vec<_>>());
     diagnostics.list.append(&mut builder.found);
     diagnostics.sort();
     match built {
@@ -87,22 +94,26 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
 }
 
 /// The deck's text, what was set over it, and the mesh it led to.
-fn fingerprint(loaded: &Loaded) -> InputHash {
+fn prints(loaded: &Loaded) -> Vec<Vec<u8>> {
     let mesh = &loaded.mesh;
     let points = mesh.points.iter().flat_map(|point| point.0).flat_map(f64::to_le_bytes).collect::<Vec<_>>();
     let cells = mesh.starts.iter().chain(&mesh.nodes).flat_map(|&i| (i as u64).to_le_bytes()).collect::<Vec<_>>();
     let kinds: String = mesh.kinds.iter().flat_map(|kind| [kind.name, " "]).collect();
     let groups = format!("{:?}", mesh.groups);
-    let texts = loaded.diagnostics.sources.iter().map(|source| source.text.as_bytes());
-    InputHash::of(&texts.chain([points.as_slice(), &cells, kinds.as_bytes(), groups.as_bytes()]).collect::<Vec<_>>())
+    let texts = loaded.diagnostics.sources.iter().map(|source| source.text.as_bytes().to_vec());
+    texts.chain([points, cells, kinds.into_bytes(), groups.into_bytes()]).collect()
 }
 
 impl Builder<'_> {
     fn everything(&mut self) -> Option<ModelParts> {
         self.check_mesh();
         let bodies = self.bodies();
-        let tools = self.tools();
-        let contacts = tools.as_ref().and_then(|tools| self.contacts(tools, bodies.as_deref()?));
+        let plane = self.plane();
+        let tools = if plane { self.tools() } else { Some(Vec::new()) };
+        let solid_tools = if plane { Some(Vec::new()) } else { self.solid_tools() };
+        let contacts = tools.as_ref().filter(|_| plane).and_then(|tools| self.contacts(tools, bodies.as_deref()?));
+        let solid = solid_tools.as_ref().filter(|_| !plane);
+        let solid_contacts = solid.and_then(|tools| self.solid_contacts(tools, bodies.as_deref()?));
         let (springs, loads) = (self.springs(), self.loads());
         let (constrained, supports) = self.supports();
         let steps = self.deck.step.iter().enumerate().zip(constrained);
@@ -115,7 +126,9 @@ impl Builder<'_> {
             bodies: bodies?,
             materials: self.deck.material.iter().map(|(name, _)| name.text.clone()).collect(),
             tools: tools?,
-            contacts: contacts?,
+            solid_tools: solid_tools?,
+            contacts: if plane { contacts? } else { Vec::new() },
+            solid_contacts: if plane { Vec::new() } else { solid_contacts? },
             springs: springs?,
             loads: loads?,
             steps: steps

@@ -2,12 +2,12 @@
 
 use super::Builder;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::ToolKeys;
+use crate::deck::keys::{Segment, ToolKeys};
 use crate::deck::reader::Name;
-use crate::deck::source::Place;
+use crate::deck::source::{Place, Spot};
 use crate::mesh::Space;
 use crate::tensor::Vec3;
-use crate::tool::{Finding, Severity, Tool};
+use crate::tool::{Finding, Severity, Shape, Tool};
 use std::sync::Arc;
 
 impl Builder<'_> {
@@ -18,29 +18,47 @@ impl Builder<'_> {
     }
 
     fn tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<Tool>> {
-        if !self.plane() {
-            let what = format!("the tool `{name}` is drawn in the plane, but space = \"solid\"");
-            let help = "tools are for the plane spaces and the axisymmetric one";
-            self.found.push(Diagnostic::error(what).at(name.place).help(help));
+        let profile = keys.profile.as_ref().filter(|_| keys.revolve.is_none() && keys.extrude.is_none());
+        let Some(profile) = profile else {
+            let what = format!("the tool `{name}` is a body of space, but space = \"{}\"", self.site.space.name());
+            let help = "in the plane a tool is a `profile`, neither revolved nor extruded";
+            self.found.push(Diagnostic::error(what).at(keys.place).help(help));
             return None;
-        }
+        };
+        let (segments, reference) = (self.segments(profile)?, self.reference(keys, 2)?);
+        let tool = Tool::new(&name.text, vec![segments], reference);
+        self.judge(&tool, profile, self.site.space == Space::Axisymmetric).then(|| Arc::new(tool))
+    }
+
+    /// The segments of a profile.
+    pub(super) fn segments(&mut self, profile: &Spot<Vec<Segment>>) -> Option<Vec<Box<dyn Shape>>> {
         let mut segments = Vec::new();
-        for segment in &keys.profile.value {
+        for segment in &profile.value {
             let built = segment.kind.build(&segment.nodes).map_err(crate::Error::input);
             segments.push(self.keep(built, segment.place));
         }
-        let reference = Vec3::new(keys.reference[0], keys.reference[1], 0.0);
-        let tool = Tool::new(&name.text, vec![segments.into_iter().collect::<Option<_>>()?], reference);
-        self.judge(&tool, keys).then(|| Arc::new(tool))
+        segments.into_iter().collect()
+    }
+
+    /// The reference point of a tool, which must have as many coordinates as the space.
+    pub(super) fn reference(&mut self, keys: &ToolKeys, dimension: usize) -> Option<Vec3> {
+        let Some(reference) = &keys.reference else { return Some(Vec3::zero()) };
+        if reference.len() != dimension {
+            let what =
+                format!("`reference` must have {dimension} coordinates in this space; it has {}", reference.len());
+            self.refuse(what, reference.place);
+            return None;
+        }
+        Some(Vec3(std::array::from_fn(|i| reference.get(i).copied().unwrap_or(0.0))))
     }
 
     /// Whether a tool can be used; what is found is shown at its segments.
-    fn judge(&mut self, tool: &Tool, keys: &ToolKeys) -> bool {
+    pub(super) fn judge(&mut self, tool: &Tool, profile: &Spot<Vec<Segment>>, revolved: bool) -> bool {
         let mut sound = true;
-        for finding in tool.check(self.site.space == Space::Axisymmetric) {
-            let segments = &keys.profile.value;
+        for finding in tool.check(revolved) {
+            let segments = &profile.value;
             let first = finding.segments().first().and_then(|&i| segments.get(i)).map(|segment| segment.place);
-            let place: Place = first.unwrap_or(keys.profile.place);
+            let place: Place = first.unwrap_or(profile.place);
             let what = format!("tool `{}`: {finding}", tool.name());
             let grave = finding.severity() == Severity::Error;
             sound &= !grave;

@@ -177,8 +177,16 @@ table! {
         x: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("held"),
         /// Translation along y (z when axisymmetric).
         y: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("held"),
-        /// Rotation about the reference point, counter-clockwise.
-        rotation: Option<f64> = number(unit::DEGREES, Range::ANY).unless_given("held"),
+        /// Translation along z, in space.
+        z: Option<Spot<f64>> = number(unit::LENGTH, Range::ANY).spot().unless_given("held"),
+        /// Rotation about the reference point in the plane, counter-clockwise.
+        rotation: Option<Spot<f64>> = number(unit::DEGREES, Range::ANY).spot().unless_given("held"),
+        /// In space the tool is turned about a vector by its length; this is its component along x.
+        rotation_x: Option<Spot<f64>> = number(unit::DEGREES, Range::ANY).spot().unless_given("held"),
+        /// Its component along y.
+        rotation_y: Option<Spot<f64>> = number(unit::DEGREES, Range::ANY).spot().unless_given("held"),
+        /// Its component along z.
+        rotation_z: Option<Spot<f64>> = number(unit::DEGREES, Range::ANY).spot().unless_given("held"),
         /// Course within the step.
         amplitude: Amplitude = amplitude().or(RAMP),
     }
@@ -191,8 +199,16 @@ table! {
         x: Option<f64> = number(unit::FORCE, Range::ANY).unless_given("held"),
         /// Force along y (z when axisymmetric).
         y: Option<f64> = number(unit::FORCE, Range::ANY).unless_given("held"),
-        /// Torque about the reference point, counter-clockwise.
-        torque: Option<f64> = number(unit::TORQUE, Range::ANY).unless_given("held"),
+        /// Force along z, in space.
+        z: Option<Spot<f64>> = number(unit::FORCE, Range::ANY).spot().unless_given("held"),
+        /// Torque about the reference point in the plane, counter-clockwise.
+        torque: Option<Spot<f64>> = number(unit::TORQUE, Range::ANY).spot().unless_given("held"),
+        /// Torque about the x axis through the reference point, in space.
+        torque_x: Option<Spot<f64>> = number(unit::TORQUE, Range::ANY).spot().unless_given("held"),
+        /// Torque about the y axis.
+        torque_y: Option<Spot<f64>> = number(unit::TORQUE, Range::ANY).spot().unless_given("held"),
+        /// Torque about the z axis.
+        torque_z: Option<Spot<f64>> = number(unit::TORQUE, Range::ANY).spot().unless_given("held"),
         /// Course within the step.
         amplitude: Amplitude = amplitude().or(RAMP),
     }
@@ -211,13 +227,55 @@ fn some_component<T: Components>(load: &T, reader: &mut Reader) {
 }
 
 fn motion(motion: &Motion, reader: &mut Reader) {
-    let says = motion.x.is_some() || motion.y.is_some() || motion.rotation.is_some();
-    says_something(says, motion.place, "`x`, `y`, `rotation`", reader);
+    let says = motion.plane().iter().chain(&motion.space()).any(Option::is_some);
+    says_something(says, motion.place, "`x`, `y`, `z`, `rotation`", reader);
 }
 
 fn load(load: &ToolLoad, reader: &mut Reader) {
-    let says = load.x.is_some() || load.y.is_some() || load.torque.is_some();
-    says_something(says, load.place, "`x`, `y`, `torque`", reader);
+    let says = load.plane().iter().chain(&load.space()).any(Option::is_some);
+    says_something(says, load.place, "`x`, `y`, `z`, `torque`", reader);
+}
+
+/// What is said of the unknowns of a tool, one value for each.
+pub trait ToolCondition {
+    /// Along x and y and about the axis across the plane.
+    fn plane(&self) -> [Option<f64>; 3];
+    /// Along and about the three axes of space.
+    fn space(&self) -> [Option<f64>; 6];
+    /// Keys of space alone, and the one of the plane alone.
+    fn foreign(&self) -> ([(&'static str, Option<Spot<f64>>); 4], (&'static str, Option<Spot<f64>>));
+}
+
+fn value(spot: Option<Spot<f64>>) -> Option<f64> {
+    spot.map(|spot| spot.value)
+}
+
+impl ToolCondition for Motion {
+    fn plane(&self) -> [Option<f64>; 3] {
+        [self.x, self.y, value(self.rotation)]
+    }
+    fn space(&self) -> [Option<f64>; 6] {
+        let [a, b, c] = [self.rotation_x, self.rotation_y, self.rotation_z].map(value);
+        [self.x, self.y, value(self.z), a, b, c]
+    }
+    fn foreign(&self) -> ([(&'static str, Option<Spot<f64>>); 4], (&'static str, Option<Spot<f64>>)) {
+        let turns = [("rotation_x", self.rotation_x), ("rotation_y", self.rotation_y), ("rotation_z", self.rotation_z)];
+        ([("z", self.z), turns[0], turns[1], turns[2]], ("rotation", self.rotation))
+    }
+}
+
+impl ToolCondition for ToolLoad {
+    fn plane(&self) -> [Option<f64>; 3] {
+        [self.x, self.y, value(self.torque)]
+    }
+    fn space(&self) -> [Option<f64>; 6] {
+        let [a, b, c] = [self.torque_x, self.torque_y, self.torque_z].map(value);
+        [self.x, self.y, value(self.z), a, b, c]
+    }
+    fn foreign(&self) -> ([(&'static str, Option<Spot<f64>>); 4], (&'static str, Option<Spot<f64>>)) {
+        let turns = [("torque_x", self.torque_x), ("torque_y", self.torque_y), ("torque_z", self.torque_z)];
+        ([("z", self.z), turns[0], turns[1], turns[2]], ("torque", self.torque))
+    }
 }
 
 fn displacement(given: &Displacement, reader: &mut Reader) {

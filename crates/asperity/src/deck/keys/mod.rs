@@ -7,20 +7,22 @@ mod initial_stress;
 mod mesh;
 mod output;
 mod point;
+mod solid_tool;
 mod solver;
 mod step;
 mod tool;
 mod update;
 
 pub use condition::{
-    BodyForce, Components, Displacement, Force, Gravity, Motion, Pressure, PressureKind, Spring, Temperature, ToolLoad,
-    Traction,
+    BodyForce, Components, Displacement, Force, Gravity, Motion, Pressure, PressureKind, Spring, Temperature,
+    ToolCondition, ToolLoad, Traction,
 };
 pub use contact::{Contact, Passes};
 pub use initial_stress::InitialStressKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;
 pub use point::{PointCurve, PointDeck, PointStep};
+pub use solid_tool::{Extrude, FacetKeys, Revolve, StlKeys};
 pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
 pub use tool::{Segment, ToolKeys};

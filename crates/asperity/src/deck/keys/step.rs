@@ -4,7 +4,7 @@
 //! from where it was to the value it says, along its amplitude.
 
 use super::condition::{
-    BodyForce, Displacement, Force, Gravity, Motion, Pressure, Spring, Temperature, ToolLoad, Traction,
+    BodyForce, Displacement, Force, Gravity, Motion, Pressure, Spring, Temperature, ToolCondition, ToolLoad, Traction,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::form::{Form, list, map, number, refers, table, table_of, text, whole};
@@ -178,12 +178,15 @@ fn unknown_release(released: &Name, standing: &BTreeSet<String>, what: String) -
 fn conflicts(step: &Step, reader: &mut Reader) {
     for (tool, load) in &step.load {
         let Some((_, motion)) = step.motion.iter().find(|(name, _)| name.text == tool.text) else { continue };
-        for (key, moved, loaded) in [
-            ("x", motion.x.is_some(), load.x.is_some()),
-            ("y", motion.y.is_some(), load.y.is_some()),
-            ("rotation", motion.rotation.is_some(), load.torque.is_some()),
-        ] {
-            if moved && loaded {
+        let keys = ["x", "y", "z", "rotation_x", "rotation_y", "rotation_z", "x", "y", "rotation"];
+        let both = |moved: &[Option<f64>], loaded: &[Option<f64>]| -> Vec<bool> {
+            moved.iter().zip(loaded).map(|(moved, loaded)| moved.is_some() && loaded.is_some()).collect()
+        };
+        // x and y are in both lists; what they say is reported from the second.
+        let space = both(&motion.space()[2..], &load.space()[2..]);
+        let plane = both(&motion.plane(), &load.plane());
+        for (key, conflict) in keys[2..].iter().zip(space.into_iter().chain(plane)) {
+            if conflict {
                 let what = format!("tool `{tool}` is both moved and loaded along `{key}` in `{}`", reader.path());
                 reader.report(Diagnostic::error(what).at(tool.place).help("keep one of the two"));
             }

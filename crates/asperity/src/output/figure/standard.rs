@@ -177,7 +177,7 @@ fn profiles(tools: &Grid) -> Vec<Vec<[f64; 3]>> {
     let points = moved(tools);
     let mut profiles: Vec<Vec<[f64; 3]>> = Vec::new();
     let mut end = None;
-    for (_, nodes) in tools.cells.iter().flatten() {
+    for (_, nodes) in tools.cells.iter().flatten().filter(|(_, nodes)| nodes.len() == 2) {
         let ends: Vec<usize> = nodes.iter().filter_map(|&n| usize::try_from(n).ok()).collect();
         let (Some(&from), Some(&to)) = (ends.first(), ends.get(1)) else { continue };
         let (Some(&a), Some(&b)) = (points.get(from), points.get(to)) else { continue };

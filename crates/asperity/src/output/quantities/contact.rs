@@ -1,16 +1,16 @@
 //! Contact: everything at the integration points of the surfaces, and the resultants of each contact. Forces and
 //! stress vectors are those that the target exerts on the surface.
 
-use super::Source;
+use super::{Source, Touching};
 use crate::Error;
-use crate::contact::{Contact, PointRecord, PointStatus, second_name};
+use crate::contact::{PointRecord, PointStatus, second_name};
 use crate::output::{Frame, Place, Quantity, Unit, Width};
 use crate::system::History;
 use crate::tensor::Vec3;
 
 /// A contact in an accepted state.
 struct Seen<'a> {
-    contact: &'a Contact,
+    contact: Touching<'a>,
     name: &'a str,
     reference: Vec<Vec3>,
     records: Vec<PointRecord>,
@@ -22,9 +22,9 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let mut all = Vec::new();
     for (term, name, contact) in &source.parts.contacts {
         let history = source.history(*term)?;
-        let reference = contact.records(&zero, history).map(|record| record.position).collect();
-        let records = contact.records(&source.state.u, history).collect();
-        all.push(Seen { contact, name, reference, records, history });
+        let reference = contact.records(&zero, history).iter().map(|record| record.position).collect();
+        let records = contact.records(&source.state.u, history);
+        all.push(Seen { contact: *contact, name, reference, records, history });
     }
     if !all.is_empty() {
         report_points(&all, frame)?;
@@ -95,7 +95,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("center", Unit::Length, Width::Vector, center),
     ];
     // With two passes each side counts half of the energy of the interface.
-    let share = seen.contact.options().loads.share();
+    let share = seen.contact.share();
     let least = closed().map(|r| r.last_dissipated * r.area).reduce(f64::min).unwrap_or(0.0);
     let scalars = [
         ("area", Unit::Area, total(&|r| r.area)),
@@ -108,25 +108,21 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("dissipation", Unit::Energy, share * seen.records.iter().map(|r| r.dissipated * r.area).sum::<f64>()),
         ("least_dissipation", Unit::Energy, least),
         ("coulomb_violation", Unit::One, most(&|r| r.violation)),
-        ("false_contacts", Unit::One, seen.contact.search(&source.state.u).1.total() as f64),
+        ("false_contacts", Unit::One, seen.contact.false_contacts(&source.state.u) as f64),
     ];
     let name = |what: &str| format!("contact.{}.{what}", seen.name);
     for (what, unit, width, value) in vectors {
         frame.push(Quantity::new(name(what), unit, Place::Global, width, value.0.to_vec()))?;
     }
     scalars.into_iter().try_for_each(|(what, unit, value)| frame.push(Quantity::scalar(name(what), unit, value)))?;
-    if !seen.contact.target().deforms() {
-        return Ok(());
+    match seen.contact.facet_ratio(&source.state.u, seen.history) {
+        Some(ratio) => frame.push(Quantity::scalar(name("facet_ratio"), Unit::One, ratio)),
+        None => Ok(()),
     }
-    let ratio = seen.contact.facet_ratio(&source.state.u, seen.history);
-    frame.push(Quantity::scalar(name("facet_ratio"), Unit::One, ratio))
 }
 
 /// Present distance between the ends of an edge of the surface.
-fn edge_length(source: &Source, contact: &Contact, edge: usize) -> f64 {
+fn edge_length(source: &Source, contact: Touching, edge: usize) -> f64 {
     let place = |node: usize| source.parts.mesh.points[node] + Vec3(source.displacement(node));
-    match contact.surface().edges[edge].nodes[..] {
-        [start, end, ..] => (place(end) - place(start)).norm(),
-        _ => f64::NAN,
-    }
+    contact.edge_ends(edge).map_or(f64::NAN, |[start, end]| (place(end) - place(start)).norm())
 }

@@ -10,16 +10,17 @@ mod stress;
 #[cfg(test)]
 mod tests;
 mod tools;
+mod touching;
+
+pub use touching::Touching;
 
 use super::Frame;
 use crate::Error;
-use crate::contact::Contact;
 use crate::mesh::{Mesh, Space};
 use crate::model::Model;
 use crate::solid::Body;
-use crate::system::{Constraints, Dofs, History, State, Term};
-use crate::tool::{Pose, Tool};
-use std::sync::Arc;
+use crate::system::{Constraints, Dofs, History, State};
+use crate::tool::{self, Pose, Tool};
 
 /// The parts of a model that outputs read. Numbers of terms are places in the list of terms and in the state.
 pub struct Parts<'a> {
@@ -36,11 +37,13 @@ pub struct Parts<'a> {
     /// Names of the materials.
     pub material_names: Vec<String>,
     /// The contacts with their numbers of terms and names.
-    pub contacts: Vec<(usize, String, &'a Contact)>,
+    pub contacts: Vec<(usize, String, Touching<'a>)>,
     /// Terms that store energy and are neither bodies nor contacts.
     pub springs: Vec<usize>,
-    /// The rigid tools.
+    /// The rigid tools of a plane model.
     pub tools: Vec<&'a Tool>,
+    /// The rigid tools of a model in space.
+    pub solid_tools: Vec<&'a tool::space::Tool>,
     /// Names and nodes of the groups that anything holds or moves in any step.
     pub supports: Vec<(String, Vec<usize>)>,
     /// For each step what it does with each unknown.
@@ -101,6 +104,11 @@ impl Source<'_> {
     fn history(&self, term: usize) -> Result<&History, Error> {
         self.state.histories.get(term).ok_or_else(|| Error::Internal(format!("the state has no term {term}")))
     }
+    /// Where a tool of a model in space stands.
+    pub fn solid_pose(&self, tool: usize) -> tool::space::Pose {
+        let first = self.parts.dofs.tool(tool);
+        tool::space::Pose::new(std::array::from_fn(|i| self.state.u[first + i]))
+    }
     /// Where a tool stands; none for tools in space, whose motion is of another kind.
     pub fn pose(&self, tool: usize) -> Option<Pose> {
         let (first, u) = (self.parts.dofs.tool(tool), &self.state.u);
@@ -115,9 +123,10 @@ impl Source<'_> {
 impl<'a> Parts<'a> {
     /// The parts of a model.
     pub fn of(model: &'a Model) -> Self {
-        let contact = |(i, contact): (usize, &'a Arc<Contact>)| {
-            (model.first_contact() + i, contact.name().to_string(), contact.as_ref())
-        };
+        let plane = model.contacts.iter().map(|contact| Touching::Plane(contact));
+        let solid = model.solid_contacts.iter().map(|contact| Touching::Solid(contact));
+        let contact =
+            |(i, contact): (usize, Touching<'a>)| (model.first_contact() + i, contact.name().to_string(), contact);
         Self {
             space: model.space,
             mesh: &model.mesh,
@@ -125,9 +134,10 @@ impl<'a> Parts<'a> {
             bodies: model.bodies.iter().enumerate().map(|(i, (body, _))| (i, body.as_ref())).collect(),
             materials: model.bodies.iter().map(|(_, material)| *material).collect(),
             material_names: model.materials.clone(),
-            contacts: model.contacts.iter().enumerate().map(contact).collect(),
+            contacts: plane.chain(solid).enumerate().map(contact).collect(),
             springs: (model.first_spring()..).take(model.springs).collect(),
             tools: model.tools.iter().map(AsRef::as_ref).collect(),
+            solid_tools: model.solid_tools.iter().map(AsRef::as_ref).collect(),
             supports: model.supports.clone(),
             constraints: model.problem.steps.iter().map(|step| &step.constraints).collect(),
         }
@@ -135,6 +145,11 @@ impl<'a> Parts<'a> {
 }
 
 impl Parts<'_> {
+    /// Names of the tools, in the order of their unknowns.
+    pub fn tool_names(&self) -> Vec<&str> {
+        let solid = self.solid_tools.iter().map(|tool| tool.name());
+        self.tools.iter().map(|tool| tool.name()).chain(solid).collect()
+    }
     /// Whether a column out of the plane would say nothing.
     pub fn is_plane(&self) -> bool {
         self.space != Space::Solid

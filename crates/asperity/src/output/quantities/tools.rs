@@ -3,10 +3,11 @@
 use super::Source;
 use crate::Error;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::tensor::Vec3;
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let dofs = source.parts.dofs;
-    for (number, tool) in source.parts.tools.iter().enumerate() {
+    for (number, tool) in source.parts.tool_names().into_iter().enumerate() {
         let first = dofs.tool(number);
         let held = |dof: usize| source.reaction(dof);
         let moved = |dof: usize| source.state.u[dof];
@@ -15,13 +16,15 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         let rotation =
             |of: &dyn Fn(usize) -> f64| padded((0..rotations).map(|a| of(first + dofs.per_node() + a)), 3 - rotations);
         let mut push = |what: &str, unit, width, values: [f64; 3]| {
-            let name = format!("tool.{}.{what}", tool.name());
+            let name = format!("tool.{tool}.{what}");
             frame.push(Quantity::new(name, unit, Place::Global, width, values.to_vec()))
         };
         push("translation", Unit::Length, Width::Vector, translation(&moved))?;
         push("rotation", Unit::One, Width::Axial, rotation(&moved))?;
         push("force", Unit::Force, Width::Vector, translation(&held))?;
-        push("moment", Unit::Moment, Width::Axial, rotation(&held))?;
+        let conjugate = rotation(&held);
+        let moment = if rotations == 3 { source.solid_pose(number).moment(Vec3(conjugate)).0 } else { conjugate };
+        push("moment", Unit::Moment, Width::Axial, moment)?;
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ mod flat;
 use super::Builder;
 use crate::amplitude::Amplitude;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::{Components, Displacement, Step};
+use crate::deck::keys::{Components, Displacement, Step, ToolCondition};
 use crate::deck::reader::Name;
 use crate::mesh::{Mesh, Space};
 use crate::solve::{Course, Prescribed};
@@ -116,16 +116,37 @@ impl Builder<'_> {
             self.mirror(name, claims);
         }
         for (name, keys) in &step.motion {
-            let rotation = keys.rotation.map(f64::to_radians);
-            self.move_tool(name, [keys.x, keys.y, rotation], &keys.amplitude, claims);
+            let values = self.of_tool("motion", name, keys);
+            let translations = self.site.dofs.per_node();
+            let value = |(i, value): (usize, Option<f64>)| {
+                value.map(|value| if i < translations { value } else { value.to_radians() })
+            };
+            let values: Vec<_> = values.into_iter().enumerate().map(value).collect();
+            self.move_tool(name, &values, &keys.amplitude, claims);
         }
         for (name, keys) in &step.load {
             let tool = deck.tool.iter().position(|(tool, _)| tool.text == name.text);
-            let loaded = [keys.x, keys.y, keys.torque].map(|value| value.is_some());
-            for i in (0..3).filter(|&i| loaded[i] && tool.is_some()) {
+            let loaded = self.of_tool("load", name, keys);
+            for (i, _) in loaded.iter().enumerate().filter(|(_, value)| value.is_some() && tool.is_some()) {
                 claims.remove(&(format!("motion.{name}"), i));
             }
         }
+    }
+
+    /// What a condition says of each unknown of a tool; keys of the other kind of space are refused.
+    fn of_tool(&mut self, kind: &str, name: &Name, keys: &impl ToolCondition) -> Vec<Option<f64>> {
+        let (space, plane) = keys.foreign();
+        let (foreign, help): (&[_], _) = match self.plane() {
+            true => (&space, "remove it: the model is plane"),
+            false => (&[plane], "say it by its components `_x`, `_y`, `_z`: the model is in space"),
+        };
+        for (key, spot) in foreign {
+            if let Some(spot) = spot {
+                let what = format!("`{kind}.{name}` cannot say `{key}` where space = \"{}\"", self.site.space.name());
+                self.found.push(Diagnostic::error(what).at(spot.place).help(help));
+            }
+        }
+        if self.plane() { keys.plane().to_vec() } else { keys.space().to_vec() }
     }
 
     fn displace(&mut self, name: &Name, keys: &Displacement, claims: &mut Claims) {
@@ -179,10 +200,10 @@ impl Builder<'_> {
         claims.insert((by.clone(), 3), made);
     }
 
-    fn move_tool(&mut self, name: &Name, to: [Option<f64>; 3], amplitude: &Amplitude, claims: &mut Claims) {
+    fn move_tool(&mut self, name: &Name, to: &[Option<f64>], amplitude: &Amplitude, claims: &mut Claims) {
         let Some(tool) = self.deck.tool.iter().position(|(tool, _)| tool.text == name.text) else { return };
         let by = format!("motion.{name}");
-        for (i, value) in to.into_iter().enumerate().filter_map(|(i, value)| Some((i, value?))) {
+        for (i, value) in to.iter().enumerate().filter_map(|(i, value)| Some((i, (*value)?))) {
             let what = What::Unknown(self.site.dofs.tool(tool) + i);
             let course = Course::To(value, amplitude.clone());
             let claim = Claim { by: by.clone(), place: name.place, what, course };

@@ -1,0 +1,71 @@
+//! Contacts of the plane and of space under one roof, for reports.
+
+use crate::contact::{Contact, PointRecord, space};
+use crate::system::{History, Term};
+use crate::tensor::Vec3;
+
+/// A contact of either kind.
+#[derive(Clone, Copy)]
+pub enum Touching<'a> {
+    /// In the plane or axisymmetric.
+    Plane(&'a Contact),
+    /// In space.
+    Solid(&'a space::Contact),
+}
+
+impl Touching<'_> {
+    /// The user's name for it.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Plane(contact) => contact.name(),
+            Self::Solid(contact) => contact.name(),
+        }
+    }
+    /// All points in an accepted state, with this term's lane of its history.
+    pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
+        match self {
+            Self::Plane(contact) => contact.records(u, history).collect(),
+            Self::Solid(contact) => contact.records(u, history),
+        }
+    }
+    /// Where moments are taken about.
+    pub fn pole(&self, u: &[f64]) -> Vec3 {
+        match self {
+            Self::Plane(contact) => contact.pole(u),
+            Self::Solid(contact) => contact.pole(u),
+        }
+    }
+    /// False contacts that the search refuses at displacements `u`.
+    pub fn false_contacts(&self, u: &[f64]) -> usize {
+        match self {
+            Self::Plane(contact) => contact.search(u).1.total(),
+            Self::Solid(contact) => contact.search(u).1.total(),
+        }
+    }
+    /// Whether its target carries points of its own: one of two passes.
+    pub fn loads_itself(&self) -> bool {
+        matches!(self, Self::Plane(contact) if contact.loads_itself())
+    }
+    /// Part of the interface's energy that is counted here.
+    pub fn share(&self) -> f64 {
+        match self {
+            Self::Plane(contact) => contact.options().loads.share(),
+            Self::Solid(contact) => contact.options().loads.share(),
+        }
+    }
+    /// How much of its pressure facets stand for, where the target deforms.
+    pub fn facet_ratio(&self, u: &[f64], history: &History) -> Option<f64> {
+        match self {
+            Self::Plane(contact) => contact.target().deforms().then(|| contact.facet_ratio(u, history)),
+            Self::Solid(_) => None,
+        }
+    }
+    /// Nodes whose distance is the length of an edge, or of the first edge of a face.
+    pub fn edge_ends(&self, edge: usize) -> Option<[usize; 2]> {
+        let nodes = match self {
+            Self::Plane(contact) => &contact.surface().edges[edge].nodes,
+            Self::Solid(contact) => &contact.surface().faces[edge].nodes,
+        };
+        nodes.first().zip(nodes.get(1)).map(|(a, b)| [*a, *b])
+    }
+}

@@ -37,6 +37,7 @@ fn others(schema: &Schema, value: &Value, names: &[String]) -> Vec<Value> {
         }
         Schema::Flag => vec![(!value.as_bool().unwrap()).into()],
         Schema::Text("the path of a mesh file") => vec!["../meshes/plane2-41a.msh".into()],
+        Schema::Text("the path of an STL file") => vec!["../meshes/cube2.stl".into()],
         Schema::Text(_) => vec!["another".into()],
         Schema::Word(words) => words.iter().map(|(word, _)| Value::from(*word)).filter(|word| word != value).collect(),
         Schema::Name(_) => names.iter().map(|name| Value::from(name.as_str())).filter(|name| name != value).collect(),

@@ -23,7 +23,7 @@ impl Builder<'_> {
     }
 
     fn solid_tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<Tool>> {
-        let (facets, reference) = (self.facets(name, keys), self.reference(keys, 3)?);
+        let (facets, reference) = (self.facets(name, keys), self.reference(name, keys, 3)?);
         let tool = Tool::new(&name.text, facets?, reference);
         self.judge_facets(&tool, keys).then(|| Arc::new(tool))
     }

@@ -25,7 +25,7 @@ impl Builder<'_> {
             self.found.push(Diagnostic::error(what).at(keys.place).help(help));
             return None;
         };
-        let (segments, reference) = (self.segments(profile)?, self.reference(keys, 2)?);
+        let (segments, reference) = (self.segments(profile)?, self.reference(name, keys, 2)?);
         let tool = Tool::new(&name.text, vec![segments], reference);
         self.judge(&tool, profile, self.site.space == Space::Axisymmetric).then(|| Arc::new(tool))
     }
@@ -41,11 +41,11 @@ impl Builder<'_> {
     }
 
     /// The reference point of a tool, which must have as many coordinates as the space.
-    pub(super) fn reference(&mut self, keys: &ToolKeys, dimension: usize) -> Option<Vec3> {
+    pub(super) fn reference(&mut self, name: &Name, keys: &ToolKeys, dimension: usize) -> Option<Vec3> {
         let Some(reference) = &keys.reference else { return Some(Vec3::zero()) };
         if reference.len() != dimension {
-            let what =
-                format!("`reference` must have {dimension} coordinates in this space; it has {}", reference.len());
+            let has = reference.len();
+            let what = format!("`tool.{name}.reference` must have {dimension} coordinates in this space; it has {has}");
             self.refuse(what, reference.place);
             return None;
         }

@@ -62,7 +62,6 @@ fn contact(cell: &str, kind: &str) -> (Contact, Dofs) {
         loads: Loads::Both,
         coupling: true,
         guard: Guard::Refuse,
-        guard: Guard::Refuse,
     };
     let parts = Parts {
         name: "c".into(),

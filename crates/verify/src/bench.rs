@@ -132,7 +132,11 @@ impl<F: FnMut(&Model, &State)> Observer for Follower<'_, F> {
 
 /// The points of a contact in a state.
 pub fn points(model: &Model, state: &State, contact: usize) -> Vec<PointRecord> {
-    model.contacts[contact].records(&state.u, &state.histories[model.first_contact() + contact]).collect()
+    let history = &state.histories[model.first_contact() + contact];
+    match model.contacts.get(contact) {
+        Some(contact) => contact.records(&state.u, history).collect(),
+        None => model.solid_contacts[contact - model.contacts.len()].records(&state.u, history),
+    }
 }
 
 /// Force of the supports on the nodes of a group: what the terms exert there beyond the loads.

@@ -3,7 +3,9 @@
 mod billet;
 mod capstan;
 mod contact_patch;
+mod dragged_ball;
 mod flat_punch;
+mod hertz_ball;
 mod hertz_cylinder;
 mod hertz_sphere;
 mod inclined_block;
@@ -26,6 +28,8 @@ pub const ALL: &[&Case] = &[
     &inclined_block::CASE,
     &hertz_cylinder::CASE,
     &hertz_sphere::CASE,
+    &hertz_ball::CASE,
+    &dragged_ball::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
     &thick_shells::CASE,

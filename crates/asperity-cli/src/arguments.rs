@@ -31,7 +31,7 @@ pub enum Command {
     Check(Check),
     /// Say what a mesh file holds, and what is wrong with it.
     Info(Info),
-    /// Drive laws along a path of strains and stresses.
+    /// Drive laws of solids along a path of strains and stresses, or those of interfaces along a path of slip.
     Point(Point),
     /// List every law with its parameters.
     Laws,
@@ -116,9 +116,12 @@ pub struct Schema {
     /// Print the manual's page of all keys, in Markdown.
     #[arg(long)]
     pub manual: bool,
-    /// Of the decks of `point` instead.
-    #[arg(long)]
+    /// Of the decks of `point` for solids instead.
+    #[arg(long, conflicts_with = "interface")]
     pub point: bool,
+    /// Of the decks of `point` for interfaces instead.
+    #[arg(long)]
+    pub interface: bool,
 }
 
 /// Arguments of `completions`.

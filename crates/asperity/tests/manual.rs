@@ -28,9 +28,11 @@ fn blocks(page: &str) -> Vec<String> {
 
 #[test]
 fn the_page_of_keys_is_up_to_date() {
-    for (name, option, present) in
-        [("keys.md", "", schema::manual()), ("point-keys.md", " --point", schema::point_manual())]
-    {
+    for (name, option, present) in [
+        ("keys.md", "", schema::manual()),
+        ("point-keys.md", " --point", schema::point_manual()),
+        ("interface-keys.md", " --interface", schema::interface_manual()),
+    ] {
         if std::env::var_os("ASPERITY_BLESS").is_some() {
             std::fs::write(page(name), &present).unwrap();
         }

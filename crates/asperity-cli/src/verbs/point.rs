@@ -1,4 +1,4 @@
-//! `asperity point`: drive laws along a path of strains and stresses.
+//! `asperity point`: drive laws of solids along a path of strains and stresses, those of interfaces along one of slip.
 
 use super::{Outcome, print, results_of};
 use crate::arguments::Point;
@@ -7,14 +7,14 @@ use asperity::deck;
 use asperity::output::file::make_directory;
 use asperity::point::{draw, write};
 
-/// Runs the deck of a material point, writes its tables and pictures, and says what it wrote.
+/// Runs the deck of a point, writes its tables and pictures, and says what it wrote.
 pub fn point(arguments: &Point) -> Outcome {
-    let loaded = deck::load_point(&arguments.deck.path, &arguments.deck.sets)?;
-    tell(&loaded.diagnostics);
+    let loaded = deck::load_driven(&arguments.deck.path, &arguments.deck.sets)?;
+    tell(loaded.diagnostics());
     let records = loaded.run()?;
     let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
     make_directory(&directory)?;
     let mut written = write(&records, &directory)?;
-    written.extend(draw(&records, &loaded.curves, &loaded.deck.title, &directory)?);
+    written.extend(draw(&records, loaded.curves(), loaded.title(), &directory)?);
     print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }

@@ -2,14 +2,16 @@
 
 use super::{Outcome, print};
 use crate::arguments::Schema;
-use asperity::deck::schema::{json_schema, manual, point_json_schema, point_manual};
+use asperity::deck::schema::{
+    interface_json_schema, interface_manual, json_schema, manual, point_json_schema, point_manual,
+};
 
 /// Prints the JSON Schema, or the manual's page.
 pub fn schema(arguments: &Schema) -> Outcome {
-    print(&match (arguments.manual, arguments.point) {
-        (true, false) => manual(),
-        (true, true) => point_manual(),
-        (false, false) => format!("{:#}\n", json_schema()),
-        (false, true) => format!("{:#}\n", point_json_schema()),
-    })
+    let (page, schema): (fn() -> String, fn() -> _) = match (arguments.point, arguments.interface) {
+        (true, _) => (point_manual, point_json_schema),
+        (_, true) => (interface_manual, interface_json_schema),
+        _ => (manual, json_schema),
+    };
+    print(&if arguments.manual { page() } else { format!("{:#}\n", schema()) })
 }

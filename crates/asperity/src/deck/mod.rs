@@ -16,15 +16,17 @@ mod point;
 mod reader;
 mod review;
 pub mod schema;
+mod slide;
 pub mod source;
 pub mod tree;
 
 pub use build::{Made, build};
 pub use diagnose::{Diagnostic, Diagnostics, Severity};
-pub use keys::{Deck, PointDeck};
+pub use keys::{Deck, InterfaceDeck, PointDeck};
 pub use point::{LoadedPoint, load_point, read_point};
 pub use reader::{Name, Unsaid};
 pub use review::{Review, review};
+pub use slide::{Driven, LoadedInterface, load_driven, read_interface};
 
 use crate::error::Error;
 use crate::mesh::Mesh;

@@ -2,7 +2,8 @@
 
 use super::diagnose::{Diagnostic, Diagnostics};
 use super::form::{Law, Table};
-use super::keys::PointDeck;
+use super::keys::{PointCurve, PointDeck};
+use super::reader::Name;
 use super::source::Spot;
 use super::{gathered, text_of, understood};
 use crate::Error;
@@ -42,7 +43,7 @@ pub fn read_point(text: &str, name: &str, sets: &[String]) -> Result<LoadedPoint
     let made = deck.filter(|_| reader.errors() == 0).and_then(|deck| {
         let materials = materials(&deck, &mut reader.diagnostics);
         let names: Vec<String> = materials.iter().flat_map(|(_, law)| columns(law.as_ref())).collect();
-        let curves = curves(&deck, &names, &mut reader.diagnostics);
+        let curves = curves(&deck.curve, &names, &mut reader.diagnostics);
         (reader.errors() == 0).then_some((deck, materials, curves))
     });
     let diagnostics = gathered(reader.sources, reader.diagnostics);
@@ -59,12 +60,17 @@ fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<
             Ok(material) => materials.push((name.text.clone(), material)),
             Err(why) => found.push(Diagnostic::error(why).at(law.place)),
         }
-        if !name.text.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') {
-            let what = format!("the name `{name}` cannot name a file");
-            found.push(Diagnostic::error(what).at(name.place).help("use letters, digits, `_` and `-`"));
-        }
+        refuse_name(name, found);
     }
     materials
+}
+
+/// A name that a table's file cannot have.
+pub(super) fn refuse_name(name: &Name, found: &mut Vec<Diagnostic>) {
+    if !name.text.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') {
+        let what = format!("the name `{name}` cannot name a file");
+        found.push(Diagnostic::error(what).at(name.place).help("use letters, digits, `_` and `-`"));
+    }
 }
 
 fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Box<dyn Material>, String> {
@@ -75,7 +81,7 @@ fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Box<dyn 
     }
 }
 
-fn curves(deck: &PointDeck, names: &[String], found: &mut Vec<Diagnostic>) -> Vec<Curve> {
+pub(super) fn curves(curves: &[PointCurve], names: &[String], found: &mut Vec<Diagnostic>) -> Vec<Curve> {
     let mut check = |name: &Spot<String>| {
         if !names.contains(&name.value) {
             let what = format!("there is no column `{}`", name.value);
@@ -84,7 +90,7 @@ fn curves(deck: &PointDeck, names: &[String], found: &mut Vec<Diagnostic>) -> Ve
         name.value.clone()
     };
     let mut one = |x: &Spot<String>, y: &[Spot<String>]| Curve { x: check(x), y: y.iter().map(&mut check).collect() };
-    deck.curve.iter().map(|curve| one(&curve.x, &curve.y)).collect()
+    curves.iter().map(|curve| one(&curve.x, &curve.y)).collect()
 }
 
 impl LoadedPoint {

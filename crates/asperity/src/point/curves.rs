@@ -27,6 +27,13 @@ impl Curve {
         vec![curve(&x, stress), curve(&x, vec!["volume_strain".into()]), curve("mean_stress", vec!["von_mises".into()])]
     }
 
+    /// The curves of an interface where none are asked for: shear and closure over slip, and the path of the stress.
+    pub fn of_interfaces() -> Vec<Self> {
+        let curve = |x: &str, y: &str| Self { x: x.into(), y: vec![y.into()] };
+        let slip = "slip_s";
+        vec![curve(slip, "shear_s"), curve(slip, "closure"), curve(slip, "pressure"), curve("pressure", "shear")]
+    }
+
     /// Name of its picture without the ending: `stress_yy_over_strain_yy`.
     pub fn file_name(&self) -> String {
         format!("{}_over_{}", self.y[0], self.x)

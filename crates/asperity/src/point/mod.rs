@@ -4,15 +4,18 @@
 //! The deformation is the triangular `F = [[l1, g12, g13], [0, l2, g23], [0, 0, l3]]`, which is any deformation up to a
 //! rotation. Its strains are `ln l_i` and the shears `g_ij`; stresses are Cauchy's. Each of the six components follows
 //! a prescribed strain or a prescribed stress; what is prescribed as stress is found by Newton's method with the exact
-//! derivative of the law. This room knows laws only: no mesh, no body.
+//! derivative of the law. A point of an interface is driven by its slip, and by penetration or pressure. This room knows
+//! laws only: no mesh, no body.
 
 mod course;
 mod curves;
 mod newton;
 mod probe;
+mod slider;
 mod table;
 
 pub use course::{COMPONENTS, Control, Stage};
 pub use curves::Curve;
 pub use probe::Probe;
+pub use slider::{Normal, Slide, Slider, columns as slider_columns, drive};
 pub use table::{Record, columns, draw, write};

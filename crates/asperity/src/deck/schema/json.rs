@@ -1,6 +1,6 @@
 //! The schema as JSON Schema (draft 2020-12), for editors that complete and check while one types.
 
-use super::{Key, Presence, Schema, point_root, root};
+use super::{Key, Presence, Schema, interface_root, point_root, root};
 use crate::deck::tree::{Node, Value as Written};
 use crate::declare::Range;
 use serde_json::{Map, Value, json};
@@ -13,6 +13,11 @@ pub fn json_schema() -> Value {
 /// The JSON Schema of a deck for one material point.
 pub fn point_json_schema() -> Value {
     titled("Asperity deck of a material point", &point_root())
+}
+
+/// The JSON Schema of a deck for one point of an interface.
+pub fn interface_json_schema() -> Value {
+    titled("Asperity deck of a point of an interface", &interface_root())
 }
 
 fn titled(title: &str, root: &Schema) -> Value {

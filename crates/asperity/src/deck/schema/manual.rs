@@ -1,6 +1,6 @@
 //! The schema as a page of the manual, in Markdown.
 
-use super::{Key, Presence, Schema, point_root, root};
+use super::{Key, Presence, Schema, interface_root, point_root, root};
 use std::fmt::Write;
 
 /// The heading of the outermost table.
@@ -14,6 +14,11 @@ pub fn manual() -> String {
 /// The page of a deck for one material point.
 pub fn point_manual() -> String {
     titled("Keys of a deck for a material point", "--manual --point", &point_root())
+}
+
+/// The page of a deck for one point of an interface.
+pub fn interface_manual() -> String {
+    titled("Keys of a deck for a point of an interface", "--manual --interface", &interface_root())
 }
 
 fn titled(title: &str, option: &str, root: &Schema) -> String {

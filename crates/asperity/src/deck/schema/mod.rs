@@ -4,11 +4,11 @@
 mod json;
 mod manual;
 
-pub use json::{json_schema, point_json_schema};
-pub use manual::{manual, point_manual};
+pub use json::{interface_json_schema, json_schema, point_json_schema};
+pub use manual::{interface_manual, manual, point_manual};
 
 use super::form::Table;
-use super::keys::{Deck, PointDeck};
+use super::keys::{Deck, InterfaceDeck, PointDeck};
 use crate::declare::Range;
 
 /// A key of a table.
@@ -89,6 +89,8 @@ pub enum Schema {
 pub enum Names {
     /// A material.
     Material,
+    /// An interface.
+    Interface,
     /// A rigid tool.
     Tool,
     /// A contact.
@@ -114,6 +116,7 @@ impl Names {
     pub fn noun(self) -> &'static str {
         match self {
             Self::Material => "material",
+            Self::Interface => "interface",
             Self::Tool => "tool",
             Self::Contact => "contact",
             Self::Part => "part of the mesh",
@@ -135,4 +138,9 @@ pub fn root() -> Schema {
 /// The schema of a deck for one material point.
 pub fn point_root() -> Schema {
     Schema::Table(PointDeck::keys())
+}
+
+/// The schema of a deck for one point of an interface.
+pub fn interface_root() -> Schema {
+    Schema::Table(InterfaceDeck::keys())
 }

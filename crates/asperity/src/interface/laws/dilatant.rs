@@ -140,7 +140,9 @@ impl InterfaceLaw for Dilatant {
 
     fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, vars: &mut [T]) -> Result<Response<T>, Failure> {
         let trial = Trial::new(motion, past);
-        let pressure = (motion.penetration + past.vars[DILATION]) * past.penalty;
+        // From the slip alone: a scheme that combines states keeps no other relation between the two.
+        let dilation = self.opening(T::zero(), past.vars[SLIP]);
+        let pressure = (motion.penetration + dilation) * past.penalty;
         let cohesion = if past.vars[BROKEN].re() > 0.0 { 0.0 } else { self.cohesion };
         let limit = pressure * self.friction + cohesion;
         if trial.size.re() <= limit.re() || limit.re() <= 0.0 {
@@ -154,7 +156,7 @@ impl InterfaceLaw for Dilatant {
         let opening = self.opening(before, slip);
         let pressure = pressure + opening * past.penalty;
         vars[SLIP] = before + slip;
-        vars[DILATION] = past.vars[DILATION] + opening;
+        vars[DILATION] = dilation + opening;
         let response = trial.slide(pressure, pressure * self.friction + cohesion);
         let given_back = pressure.re() * opening.re();
         Ok(Response { closure: -opening.re(), dissipated: response.dissipated - given_back, ..response })
@@ -207,16 +209,16 @@ mod tests {
 
     #[test]
     fn a_broken_bond_stays_broken_and_dilation_stays() {
-        let old = [0.0, 0.02, 0.004];
-        assert!((LAW.touch(&past(&old)) + 0.004 + 0.001).abs() < 1e-15);
-        let held =
-            LAW.respond(&Motion { penetration: -0.0045, slip: [0.0; 2] }, &past(&old), &mut old.clone()).unwrap();
+        let dilation = 0.3 * 0.02 * (1.0 - (-1.0_f64).exp());
+        let old = [0.0, 0.02, dilation];
+        assert!((LAW.touch(&past(&old)) + dilation + 0.001).abs() < 1e-15);
+        let motion = Motion { penetration: -dilation - 5e-4, slip: [0.0; 2] };
+        let held = LAW.respond(&motion, &past(&old), &mut old.clone()).unwrap();
         assert_eq!(held.status, Status::Stick);
         assert!((held.pressure + 0.5).abs() < 1e-12);
         let mut new = [0.0; 3];
         LAW.release(&old, &mut new);
         assert_eq!((new[BROKEN], new[SLIP]), (1.0, 0.02));
-        let dilation = 0.3 * 0.02 * (1.0 - (-1.0_f64).exp());
         assert!((LAW.touch(&past(&new)) + dilation).abs() < 1e-15);
         // Without cohesion now: |tau| = phi p.
         let motion = Motion { penetration: 0.01, slip: [1e-4, 1.0] };

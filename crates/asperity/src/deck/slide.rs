@@ -1,0 +1,130 @@
+//! Reads the deck of a point of an interface, and runs it.
+
+use super::diagnose::{Diagnostic, Diagnostics};
+use super::form::Table;
+use super::keys::InterfaceDeck;
+use super::point::{LoadedPoint, curves, refuse_name};
+use super::tree::{self, Value};
+use super::{gathered, text_of, understood};
+use crate::Error;
+use crate::interface::Interface;
+use crate::point::{Curve, Record, Slide, drive, slider_columns};
+use std::path::Path;
+
+/// A deck of a point of an interface that was read, with its laws.
+pub struct LoadedInterface {
+    /// The deck.
+    pub deck: InterfaceDeck,
+    /// Each interface's name and law.
+    pub laws: Vec<(String, Box<dyn Interface>)>,
+    /// The path.
+    pub stages: Vec<Slide>,
+    /// What is drawn.
+    pub curves: Vec<Curve>,
+    /// Warnings and notes, and the texts that they point into.
+    pub diagnostics: Diagnostics,
+}
+
+/// A deck of one point, of a solid or of an interface.
+pub enum Driven {
+    /// Of a solid.
+    Solid(Box<LoadedPoint>),
+    /// Of an interface.
+    Interface(Box<LoadedInterface>),
+}
+
+/// Reads the deck of a point from its file: that of an interface if it has the key `interface`.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it.
+pub fn load_driven(path: &Path, sets: &[String]) -> Result<Driven, Diagnostics> {
+    let (name, text) = text_of(path)?;
+    if has_interface(&text) {
+        return read_interface(&text, &name, sets).map(|loaded| Driven::Interface(Box::new(loaded)));
+    }
+    super::read_point(&text, &name, sets).map(|loaded| Driven::Solid(Box::new(loaded)))
+}
+
+fn has_interface(text: &str) -> bool {
+    matches!(&tree::parse(text, 0).0.value, Value::Table(entries) if entries.iter().any(|e| e.key == "interface"))
+}
+
+/// Reads the deck of a point of an interface from text that messages call `name`.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it.
+pub fn read_interface(text: &str, name: &str, sets: &[String]) -> Result<LoadedInterface, Diagnostics> {
+    let (deck, mut reader) = understood(text, name, sets, InterfaceDeck::read);
+    let made = deck.filter(|_| reader.errors() == 0).and_then(|deck| {
+        let laws = laws(&deck, &mut reader.diagnostics);
+        let names: Vec<String> = laws.iter().flat_map(|(_, law)| slider_columns(law.as_ref())).collect();
+        let curves = curves(&deck.curve, &names, &mut reader.diagnostics);
+        (reader.errors() == 0).then_some((deck, laws, curves))
+    });
+    let diagnostics = gathered(reader.sources, reader.diagnostics);
+    let Some((deck, laws, curves)) = made else { return Err(diagnostics.without_notes()) };
+    let mut slip = [0.0; 2];
+    let stages = deck.step.iter().enumerate().map(|(i, step)| step.slide(i + 1, &mut slip)).collect();
+    let curves = if curves.is_empty() { Curve::of_interfaces() } else { curves };
+    Ok(LoadedInterface { deck, laws, stages, curves, diagnostics })
+}
+
+fn laws(deck: &InterfaceDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<dyn Interface>)> {
+    let mut laws = Vec::new();
+    for (name, law) in &deck.interface {
+        match law.build() {
+            Ok(law) => {
+                let update = deck.update.as_ref().map(|keys| law.with_update(keys.update()));
+                laws.push((name.text.clone(), update.unwrap_or(law)));
+            }
+            Err(why) => found.push(Diagnostic::error(why).at(law.place)),
+        }
+        refuse_name(name, found);
+    }
+    laws
+}
+
+impl LoadedInterface {
+    /// Drives every law along the path.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] where the path of one cannot be followed.
+    pub fn run(&self) -> Result<Vec<Record>, Error> {
+        let penalties = [self.deck.penalty, self.deck.tangential_penalty.unwrap_or(self.deck.penalty)];
+        self.laws.iter().map(|(name, law)| drive(name, law.as_ref(), penalties, &self.stages)).collect()
+    }
+}
+
+impl Driven {
+    /// What pictures call it.
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Solid(loaded) => &loaded.deck.title,
+            Self::Interface(loaded) => &loaded.deck.title,
+        }
+    }
+    /// What is drawn.
+    pub fn curves(&self) -> &[Curve] {
+        match self {
+            Self::Solid(loaded) => &loaded.curves,
+            Self::Interface(loaded) => &loaded.curves,
+        }
+    }
+    /// Warnings and notes.
+    pub fn diagnostics(&self) -> &Diagnostics {
+        match self {
+            Self::Solid(loaded) => &loaded.diagnostics,
+            Self::Interface(loaded) => &loaded.diagnostics,
+        }
+    }
+    /// Drives every law along the path.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] where the path of one cannot be followed.
+    pub fn run(&self) -> Result<Vec<Record>, Error> {
+        match self {
+            Self::Solid(loaded) => loaded.run(),
+            Self::Interface(loaded) => loaded.run(),
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! What every law must keep: exact tangents, isotropy, dissipation, stress inside its surface, finite numbers, a way
+//! back from a gap; and that every law is described, has an example and is tested.
+
+use super::samples::*;
+use asperity::deck::schema::{interface_manual, manual};
+use asperity::declare::Entry;
+use asperity::interface::laws::ALL;
+use asperity::interface::{Motion, Past, Response, Status};
+use asperity::tensor::Dual;
+
+/// States of a law at which it is looked at; `cargo test --release -p asperity --test interfaces -- --ignored` takes
+/// ten thousand.
+const STATES: usize = 500;
+
+#[test]
+fn every_law_has_an_example_and_stands_in_the_manual() {
+    let samples = samples();
+    let (manual, point) = (manual(), interface_manual());
+    for Entry { name, parameters, .. } in ALL {
+        assert!(samples.iter().any(|sample| sample.law == *name), "no deck of cases/interface names `{name}`");
+        for (page, head) in [(&manual, "contact.CONTACT.law"), (&point, "interface.INTERFACE")] {
+            let section = page.split_once(&format!("## `{head}.{name}`")).map(|(_, rest)| rest);
+            let section = section.unwrap_or_else(|| panic!("the manual lacks `{name}`"));
+            let section = section.split("\n## ").next().unwrap();
+            for p in *parameters {
+                assert!(section.contains(&format!("| `{}` |", p.key)), "`{name}` lacks `{}`", p.key);
+            }
+        }
+        let book = include_str!("../../../../book/src/interface.md");
+        assert!(book.contains(&format!("`{name}`")), "the guide lacks `{name}`");
+    }
+}
+
+/// Pressure and shear.
+fn stress(response: &Response<f64>) -> [f64; 3] {
+    [response.pressure, response.shear[0], response.shear[1]]
+}
+
+struct At<'a> {
+    sample: &'a Sample,
+    state: State,
+    motion: Motion<f64>,
+    dt: f64,
+}
+
+impl At<'_> {
+    /// The stress at the motion moved along a direction, and its status.
+    fn along(&self, direction: usize, h: f64) -> Option<([f64; 3], Status)> {
+        let mut motion = self.motion;
+        match direction {
+            0 => motion.penetration += h,
+            i => motion.slip[i - 1] += h,
+        }
+        let (_, response) = self.state.moved(self.sample, &motion, self.dt).ok()?;
+        Some((stress(&response), response.status))
+    }
+
+    fn tangent(&self) -> Option<[[f64; 3]; 3]> {
+        let seed = |value: f64, direction: usize| Dual::<8>::variable(value, direction);
+        let slip = [seed(self.motion.slip[0], 1), seed(self.motion.slip[1], 2)];
+        let motion = Motion { penetration: seed(self.motion.penetration, 0), slip };
+        let (past, mut vars) = (self.state.past(self.sample, self.dt), self.state.vars.clone());
+        let response = self.sample.interface.respond_plane(&motion, &past, &mut vars).ok()?;
+        let rows = [response.pressure, response.shear[0], response.shear[1]];
+        Some(rows.map(|row| [row.du[0], row.du[1], row.du[2]]))
+    }
+
+    /// The largest error of a column of the tangent against central differences of fourth order, over a few sizes of
+    /// the difference and relative to the column; nothing at a corner of the law.
+    fn compare(&self, direction: usize, tangent: &[[f64; 3]; 3]) -> Option<f64> {
+        let unit = self.sample.pressure / self.sample.penalties[usize::from(direction > 0)];
+        let scale = (0..3).fold(0.0_f64, |m, i| m.max(tangent[i][direction].abs()));
+        let scale = scale.max(1e-6 * self.sample.penalties[usize::from(direction > 0)]);
+        let mut best = f64::INFINITY;
+        for h in [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4].map(|h| h * unit) {
+            let at = |k: f64| self.along(direction, k * h);
+            let (Some(a), Some(b), Some(c), Some(d)) = (at(-2.0), at(-1.0), at(1.0), at(2.0)) else { continue };
+            if [b.1, c.1, d.1].iter().any(|&status| status != a.1) {
+                continue;
+            }
+            let error = |i: usize| (8.0 * (c.0[i] - b.0[i]) - (d.0[i] - a.0[i])) / (12.0 * h) - tangent[i][direction];
+            best = best.min((0..3).fold(0.0, |m: f64, i| m.max(error(i).abs())) / scale);
+        }
+        (best.is_finite() && (best < 1e-7 || !self.is_corner(direction, unit, scale))).then_some(best)
+    }
+
+    /// Whether the derivatives of the two sides differ.
+    fn is_corner(&self, direction: usize, unit: f64, scale: f64) -> bool {
+        let h = 1e-5 * unit;
+        let at = |k: f64| self.along(direction, k * h).map(|(stress, _)| stress);
+        let (Some(a), Some(b), Some(o), Some(c), Some(d)) = (at(-2.0), at(-1.0), at(0.0), at(1.0), at(2.0)) else {
+            return true;
+        };
+        let sides = |i: usize| (4.0 * (c[i] + b[i]) - d[i] - a[i] - 6.0 * o[i]) / (2.0 * h);
+        (0..3).any(|i| sides(i).abs() > 1e-3 * scale)
+    }
+}
+
+fn tangents(states: usize) {
+    for sample in samples() {
+        let (mut random, mut worst, mut compared, mut met) = (Random(1), 0.0_f64, 0, [0; 2]);
+        for _ in 0..states {
+            let state = reached(&sample, &mut random);
+            let (motion, dt) = increment(&sample, &state, &mut random);
+            let at = At { sample: &sample, state, motion, dt };
+            let Some(tangent) = at.tangent() else { continue };
+            let (_, status) = at.along(0, 0.0).unwrap();
+            met[status as usize - 1] += 1;
+            for error in (0..3).filter_map(|direction| at.compare(direction, &tangent)) {
+                compared += 1;
+                worst = worst.max(error);
+                assert!(error < 1e-7, "{}: {error:.1e} at {:?} {:?} {dt}", sample.name, at.state, at.motion);
+            }
+        }
+        eprintln!("{}: {met:?} stick and slip, worst of {compared} columns {worst:.1e}", sample.name);
+        assert!(10 * compared > 25 * states, "{}: only {compared} columns", sample.name);
+        assert!(met[1] > states / 10 || sample.law == "sticking", "{}: {met:?}", sample.name);
+    }
+}
+
+#[test]
+fn tangents_are_those_of_differences() {
+    tangents(STATES);
+}
+
+#[test]
+#[ignore = "long"]
+fn tangents_are_those_of_differences_at_ten_thousand_states() {
+    tangents(10_000);
+}
+
+/// Along random paths no increment gives out energy, and none leaves its surface.
+#[test]
+fn no_increment_gives_out_energy_or_leaves_its_surface() {
+    for sample in samples() {
+        let (mut random, mut done) = (Random(2), 0);
+        for _ in 0..STATES {
+            let mut state = State::initial(sample.interface.as_ref());
+            for _ in 0..8 {
+                let (motion, dt) = increment(&sample, &state, &mut random);
+                let Ok((next, response)) = state.moved(&sample, &motion, dt) else { continue };
+                let scale = sample.pressure * sample.pressure / sample.penalties[1];
+                assert!(response.dissipated >= -1e-12 * scale, "{}: {response:?}", sample.name);
+                assert!(response.slipped >= -1e-12 * sample.slip, "{}: {response:?}", sample.name);
+                assert!(response.violation < 1e-9, "{}: {response:?}", sample.name);
+                state = next;
+                done += 1;
+            }
+        }
+        assert!(done > 4 * STATES, "{}: only {done} increments", sample.name);
+    }
+}
+
+/// The two tangents have no direction of their own: turned slip and stress give turned stress.
+#[test]
+fn laws_are_isotropic() {
+    for sample in samples() {
+        let mut random = Random(3);
+        for _ in 0..STATES {
+            let state = reached(&sample, &mut random);
+            let (motion, dt) = increment(&sample, &state, &mut random);
+            let (sin, cos) = (std::f64::consts::TAU * random.number()).sin_cos();
+            let turn = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
+            let Ok((_, plain)) = state.moved(&sample, &motion, dt) else { continue };
+            let turned = State { shear: turn(state.shear), ..state };
+            let (_, other) = turned.moved(&sample, &Motion { slip: turn(motion.slip), ..motion }, dt).unwrap();
+            let wanted = turn(plain.shear);
+            let scale = sample.pressure.max(1e-4 * sample.penalties[1] * motion.slip[0].hypot(motion.slip[1]));
+            let miss = (other.shear[0] - wanted[0]).hypot(other.shear[1] - wanted[1]);
+            assert!(miss + (other.pressure - plain.pressure).abs() < 1e-9 * scale, "{}: {miss}", sample.name);
+        }
+    }
+}
+
+/// A point that opens keeps what its law says, and comes back without a jump of its pressure.
+#[test]
+fn a_gap_closes_again_where_the_law_says() {
+    for sample in samples() {
+        let mut random = Random(4);
+        for _ in 0..STATES {
+            let mut state = reached(&sample, &mut random);
+            let mut left = vec![f64::NAN; state.vars.len()];
+            sample.interface.release(&state.vars, &mut left);
+            assert!(left.iter().all(|x| x.is_finite()), "{}", sample.name);
+            (state.vars, state.shear, state.pressure) = (left, [0.0; 2], 0.0);
+            let touch = sample.interface.touch(&state.past(&sample, 1.0));
+            state.penetration = touch;
+            let small = 1e-9 * sample.pressure / sample.penalties[0];
+            let motion = Motion { penetration: touch + small, slip: [0.0; 2] };
+            let (_, response) = state.moved(&sample, &motion, 1e-3 * sample.time).unwrap();
+            let pressure = response.pressure / sample.pressure;
+            assert!((0.0..2e-9).contains(&pressure), "{}: {pressure}", sample.name);
+        }
+    }
+}
+
+/// Any numbers: a result is finite, or there is none. A point that is only expected to close may ask with a gap.
+#[test]
+fn no_state_gives_what_is_no_number() {
+    for sample in samples() {
+        let (mut random, mut good) = (Random(5), 0);
+        for _ in 0..10 * STATES {
+            let state = reached(&sample, &mut random);
+            let (mut motion, dt) = increment(&sample, &state, &mut random);
+            motion.penetration *= random.decades(-3.0, 3.0) * if random.number() < 0.3 { -1.0 } else { 1.0 };
+            motion.slip = motion.slip.map(|s| s * random.decades(-6.0, 4.0));
+            if random.number() < 0.1 {
+                motion.slip = [0.0; 2];
+            }
+            let at = At { sample: &sample, state, motion, dt: dt * random.decades(-4.0, 4.0) };
+            let Some(tangent) = at.tangent() else { continue };
+            let (stress, _) = at.along(0, 0.0).unwrap();
+            good += 1;
+            let finite = stress.iter().chain(tangent.iter().flatten()).all(|x| x.is_finite());
+            assert!(finite, "{}: {stress:?} {tangent:?} after {:?} by {:?}", sample.name, at.state, at.motion);
+        }
+        assert!(good > STATES, "{}: only {good} results", sample.name);
+    }
+}
+
+#[test]
+fn the_plain_response_is_the_one_with_the_tangent() {
+    for sample in samples() {
+        let mut random = Random(6);
+        for _ in 0..STATES {
+            let state = reached(&sample, &mut random);
+            let (motion, dt) = increment(&sample, &state, &mut random);
+            let (mut plain, mut dual) = (state.vars.clone(), state.vars.clone());
+            let past: Past = state.past(&sample, dt);
+            let lifted = Motion { penetration: motion.penetration.into(), slip: motion.slip.map(Dual::from) };
+            let with = sample.interface.respond_plane(&lifted, &past, &mut dual);
+            let without = sample.interface.respond(&motion, &past, &mut plain);
+            assert_eq!(with.is_ok(), without.is_ok(), "{}", sample.name);
+            let (Ok(with), Ok(without)) = (with, without) else { continue };
+            assert_eq!(with.status, without.status, "{}", sample.name);
+            let near = |a: f64, b: f64| (a - b).abs() <= 1e-11 * sample.pressure;
+            let pairs = stress(&without).into_iter().zip([with.pressure, with.shear[0], with.shear[1]]);
+            assert!(pairs.into_iter().all(|(a, b)| near(a, b.re)), "{}", sample.name);
+        }
+    }
+}

@@ -69,6 +69,8 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         bodies: vec![(body, 0)],
         materials: vec!["m".into()],
         tools: vec![],
+        solid_tools: vec![],
+        solid_contacts: vec![],
         contacts: vec![],
         springs: vec![],
         loads: vec![],

@@ -138,6 +138,8 @@ pub fn model(size: usize, factors: Factors) -> Model {
         bodies: vec![(body.expect("a body"), 0)],
         materials: vec!["rubber".into()],
         tools: vec![],
+        solid_tools: vec![],
+        solid_contacts: vec![],
         contacts: vec![],
         springs: vec![],
         loads: vec![Box::new(ball)],

@@ -17,4 +17,4 @@ pub use crate::declare::{Variable, VariableKind};
 pub use hyper::{Hyper, HyperLaw};
 pub use law::{Directions, Gradient, Material};
 pub use rate::{Rate, RateLaw, hughes_winget};
-pub use vars::{ScalarsAndTensor, Vars};
+pub use vars::{ScalarsAndTensor, ScalarsAndVector, Vars};

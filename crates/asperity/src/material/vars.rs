@@ -1,6 +1,6 @@
 //! History variables of laws, over any scalar.
 
-use crate::tensor::{Scalar, Tensor2};
+use crate::tensor::{Scalar, Tensor2, Vec3};
 
 /// History variables of a law, over any scalar so that sub-steps may carry derivatives.
 pub trait Vars<T: Scalar>: Copy {
@@ -58,5 +58,32 @@ impl<T: Scalar, const N: usize> Vars<T> for ScalarsAndTensor<T, N> {
     fn blend(&self, other: &Self, weight: f64) -> Self {
         let tensor = self.tensor + (other.tensor - self.tensor) * T::from(weight);
         Self { scalars: self.scalars.blend(&other.scalars, weight), tensor }
+    }
+}
+
+/// `N` scalars and a vector, which turns with the frame.
+#[derive(Debug, Clone, Copy)]
+pub struct ScalarsAndVector<T, const N: usize> {
+    /// The scalars, stored first.
+    pub scalars: [T; N],
+    /// The vector.
+    pub vector: Vec3<T>,
+}
+
+impl<T: Scalar, const N: usize> Vars<T> for ScalarsAndVector<T, N> {
+    fn read(values: &[f64]) -> Self {
+        let vector = Vec3(std::array::from_fn(|i| T::from(values[N + i])));
+        Self { scalars: Vars::<T>::read(values), vector }
+    }
+    fn write(&self, values: &mut [f64]) {
+        self.scalars.write(&mut values[..N]);
+        self.vector.0.write(&mut values[N..]);
+    }
+    fn rotate(self, q: &Tensor2<T>) -> Self {
+        Self { vector: *q * self.vector, ..self }
+    }
+    fn blend(&self, other: &Self, weight: f64) -> Self {
+        let vector = self.vector + (other.vector - self.vector) * T::from(weight);
+        Self { scalars: self.scalars.blend(&other.scalars, weight), vector }
     }
 }

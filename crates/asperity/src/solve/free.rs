@@ -68,8 +68,10 @@ impl Newton<'_> {
 
     /// What a linear system that cannot be solved means in the user's words.
     pub(super) fn explain(&self, error: LinearError, iteration: usize) -> Trouble {
-        let LinearError::Singular(motions) = &error else {
-            return Trouble::Error(Error::Internal(error.to_string()));
+        let motions = match &error {
+            LinearError::Singular(motions) => motions,
+            LinearError::Inaccurate(_) => return Trouble::Failure(Failure::new(error.to_string())),
+            LinearError::Other(_) => return Trouble::Error(Error::Internal(error.to_string())),
         };
         let text = self.name_motions(motions).join("; ");
         if iteration == 0 {

@@ -9,6 +9,8 @@ use std::fmt;
 pub enum LinearError {
     /// The matrix has no inverse; motions that meet no stiffness, each over the unknowns of the system.
     Singular(Vec<Vec<f64>>),
+    /// The matrix is so nearly singular that its solution is not accurate; how much, in words.
+    Inaccurate(String),
     /// Anything else, in words.
     Other(String),
 }
@@ -17,7 +19,7 @@ impl fmt::Display for LinearError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular(_) => f.write_str("the matrix is singular"),
-            Self::Other(text) => f.write_str(text),
+            Self::Inaccurate(text) | Self::Other(text) => f.write_str(text),
         }
     }
 }
@@ -112,6 +114,9 @@ fn translate(error: frontal::Error) -> LinearError {
     match error {
         frontal::Error::Singular(singular) => {
             LinearError::Singular(singular.null_vectors.into_iter().map(|v| v.entries).collect())
+        }
+        frontal::Error::Inaccurate { backward_error, .. } => {
+            LinearError::Inaccurate(format!("the matrix is nearly singular: a backward error of {backward_error:.1e}"))
         }
         other => LinearError::Other(other.to_string()),
     }

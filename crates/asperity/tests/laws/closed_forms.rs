@@ -55,6 +55,19 @@ fn elastic_simple_shear() {
     }
 }
 
+/// Perfectly plastic under Jaumann's rate: `s11` tends to `k^2/G` and `s12` to `sqrt(k^2 - s11^2)`, extrapolated to
+/// increments of no length.
+#[test]
+fn plastic_simple_shear() {
+    let steel = "material.steel.von_mises={ young = 210e3, poisson = 0.3, yield_stress = 400.0 }";
+    let path = "step.1.strain={ xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.1 }";
+    let [coarse, fine] = [2000, 4000].map(|n| run("von_mises", &[steel, path, &format!("step.1.increments={n}")]));
+    for (column, exact) in [("stress_xx", 0.6603), ("stress_xy", 230.9392)] {
+        let [a, b] = [&coarse, &fine].map(|records| last(records, "steel", column));
+        assert!((2.0 * b - a - exact).abs() < 1e-4, "{column}: {} instead of {exact}", 2.0 * b - a);
+    }
+}
+
 #[test]
 fn rubber_in_tension() {
     let l = 1.0_f64.exp();
@@ -177,4 +190,37 @@ fn gurson_in_hydrostatic_tension() {
         near(at(&records, "porous", ("volume_strain", volume), "mean_stress"), p, 5e-4);
     }
     near(at(&records, "porous", ("volume_strain", 0.201463), "mean_stress"), 255.995, 5e-4);
+}
+
+/// The undrained strength of overconsolidated clay, `q = M p0 (R/2)^(1 - kappa/lambda)` at the critical state.
+#[test]
+fn cam_clay_undrained_overconsolidated() {
+    for (ratio, q) in [(1.0, 68.922), (2.0, 120.0), (4.0, 208.932)] {
+        let consolidated = format!("material.clay.modified_cam_clay.preconsolidation={:?}", 100.0 * ratio);
+        let path = "step.1.strain={ xx = 0.2, yy = -0.4, zz = 0.2 }";
+        near(last(&run("cam_clay_undrained", &[&consolidated, path]), "clay", "von_mises"), q, 1e-3);
+    }
+}
+
+/// Jaeger's curve: the strength by the angle of the joints' normal from the axis; beyond that of the friction the joints
+/// slip, near both ends the rock itself fails.
+#[test]
+fn fractured_rock_in_compression() {
+    let strength = |normal: f64, lateral: f64| {
+        let (sin, cos) = normal.to_radians().sin_cos();
+        let joint = format!("material.rock.ubiquitous_joint.normal_x={sin:?}");
+        let other = format!("material.rock.ubiquitous_joint.normal_y={cos:?}");
+        let stress = format!("initial_stress={{ xx = {l:?}, yy = {l:?}, zz = {l:?} }}", l = -lateral);
+        // Stiff, and compressed so little that the joints hardly turn.
+        let stiff = ["material.rock.ubiquitous_joint.young=1e8", "step.1.strain={ yy = -1e-6 }"];
+        last(&run("ubiquitous_joint", &[&joint, &other, &stress, stiff[0], stiff[1]]), "rock", "von_mises")
+    };
+    let intact = 8.5780;
+    let curve = [(0.0, intact), (30.0, intact), (40.0, 6.5104), (45.0, 4.7321), (50.0, 3.9392), (60.0, 3.4641)];
+    for (normal, exact) in curve.into_iter().chain([(75.0, 4.7321), (80.0, 6.5104)]) {
+        let found = strength(normal, 0.0);
+        assert!((found / exact - 1.0).abs() < 2e-5, "{normal} degrees: {found} instead of {exact}");
+    }
+    near(strength(60.0, 5.0) + 5.0, 18.4641, 2e-5);
+    near(strength(0.0, 5.0) + 5.0, 31.5726, 2e-5);
 }

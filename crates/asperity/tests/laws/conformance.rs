@@ -69,10 +69,20 @@ fn compare(material: &dyn Material, state: &[f64], f: &Tensor2, d: usize, gradie
 
 #[test]
 fn tangents_are_those_of_differences() {
+    compare_tangents(1, STATES);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn tangents_are_those_of_differences_at_many_states() {
+    compare_tangents(11, 10 * STATES);
+}
+
+fn compare_tangents(seed: u64, states: usize) {
     for sample in samples() {
         let material = sample.material.as_ref();
-        let (mut random, mut worst, mut kinks, mut compared) = (Random::new(1), 0.0_f64, 0, 0);
-        for _ in 0..STATES {
+        let (mut random, mut worst, mut kinks, mut compared) = (Random::new(seed), 0.0_f64, 0, 0);
+        for _ in 0..states {
             let state = reached(material, &mut random);
             let f = random.deformation([-5.0, -1.5]);
             let mut new = state.clone();
@@ -90,7 +100,7 @@ fn tangents_are_those_of_differences() {
             }
         }
         eprintln!("{}: worst of {compared} columns {worst:.1e}, {kinks} at corners", sample.name);
-        assert!(compared > 8 * STATES, "{}: only {compared} columns", sample.name);
+        assert!(compared > 8 * states, "{}: only {compared} columns", sample.name);
         assert!(kinks * 50 < compared, "{}: {kinks} corners", sample.name);
     }
 }
@@ -161,13 +171,23 @@ fn no_increment_gives_out_energy() {
     }
 }
 
-/// Any numbers: a result is finite, or there is none.
 #[test]
 fn no_state_gives_what_is_no_number() {
+    search_what_is_no_number(5, 20 * STATES);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn no_state_of_a_million_gives_what_is_no_number() {
+    search_what_is_no_number(15, 1000 * STATES);
+}
+
+/// Any numbers: a result is finite, or there is none.
+fn search_what_is_no_number(seed: u64, states: usize) {
     for sample in samples() {
         let material = sample.material.as_ref();
-        let (mut random, mut good) = (Random::new(5), 0);
-        for _ in 0..20 * STATES {
+        let (mut random, mut good) = (Random::new(seed), 0);
+        for _ in 0..states {
             let mut state = reached(material, &mut random);
             let factor = 10_f64.powf(4.0 * random.number());
             state[..6].iter_mut().for_each(|s| *s *= factor);
@@ -179,7 +199,8 @@ fn no_state_gives_what_is_no_number() {
             let finite = new.iter().chain(c.iter().flatten()).all(|x| x.is_finite());
             assert!(finite, "{}: {new:?} after {state:?} by {f:?} in {dt}", sample.name);
         }
-        assert!(good > 2 * STATES, "{}: only {good} results", sample.name);
+        eprintln!("{}: {good} results of {states}, all finite", sample.name);
+        assert!(10 * good > states, "{}: only {good} results", sample.name);
     }
 }
 

@@ -19,6 +19,10 @@ fn impossible_sets_are_refused_by_name() {
         let common = "critical_slope = 1.0, specific_volume = 2.0, initial_pressure = 1.0";
         format!("modified_cam_clay = {{ {common}, {more} }}")
     };
+    let rock = |more: &str| {
+        let joint = "joint_cohesion = 1.0, joint_friction = 30.0";
+        format!("ubiquitous_joint = {{ {sand}, friction = 40.0, {joint}, {more} }}")
+    };
     for (material, said) in [
         ("elastic = { young = 1.0, poisson = 0.5 }".to_string(), "poisson"),
         (format!("von_mises = {{ {steel}, saturation = -0.9, saturation_rate = 2.0 }}"), "slope -1.8, steeper"),
@@ -35,6 +39,9 @@ fn impossible_sets_are_refused_by_name() {
             "`dilatancy`, 21, must not exceed",
         ),
         (format!("mohr_coulomb = {{ {sand}, friction = 20.0, dilatancy = 21.0 }}"), "must not exceed"),
+        (rock("normal_x = 0.0, normal_y = 0.0"), "the joints have no direction"),
+        (rock("normal_x = 1.0, normal_y = 0.0, joint_dilatancy = 31.0"), "`joint_dilatancy`, 31, must not exceed"),
+        (rock("normal_x = 1.0, normal_y = 0.0, joint_tension = 2.0"), "`joint_tension`, 2, lies beyond the tip"),
         (clay("lambda = 0.04, kappa = 0.2, poisson = 0.3, preconsolidation = 2.0"), "`kappa`, 0.2, must be smaller"),
         (clay("lambda = 0.2, kappa = 0.04, poisson = 0.3, preconsolidation = 0.5"), "is below `initial_pressure`, 1"),
         (clay("lambda = 0.2, kappa = 0.04, poisson = -0.3, preconsolidation = 2.0"), "must not be negative"),

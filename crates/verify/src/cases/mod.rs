@@ -11,6 +11,7 @@ mod hertz_sphere;
 mod inclined_block;
 mod interference_fit;
 mod rotated_pair;
+mod strip_footing;
 mod strip_punch;
 mod thick_shells;
 mod tube;
@@ -34,5 +35,6 @@ pub const ALL: &[&Case] = &[
     &capstan::CASE,
     &thick_shells::CASE,
     &strip_punch::CASE,
+    &strip_footing::CASE,
     &billet::CASE,
 ];

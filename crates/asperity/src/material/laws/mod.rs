@@ -11,6 +11,7 @@ mod neo_hookean;
 mod norton_hoff;
 mod ogden;
 mod perzyna;
+mod ubiquitous_joint;
 mod von_mises;
 
 pub use cam_clay::CamClay;
@@ -44,6 +45,7 @@ pub static ALL: &[Entry<Box<dyn Material>>] = &[
     mohr_coulomb::ENTRY,
     cam_clay::ENTRY,
     gurson::ENTRY,
+    ubiquitous_joint::ENTRY,
 ];
 
 /// A rate law as the object a registry hands out.

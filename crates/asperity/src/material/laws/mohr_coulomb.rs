@@ -110,7 +110,7 @@ impl Isotropic for MohrCoulomb {
 
 impl MohrCoulomb {
     /// The admissible stress for a trial one, with the plastic shear and volume strain of the return.
-    fn returned<T: Scalar>(&self, trial: &Tensor2<T>) -> Result<(Tensor2<T>, [T; 2]), Failure> {
+    pub(super) fn returned<T: Scalar>(&self, trial: &Tensor2<T>) -> Result<(Tensor2<T>, [T; 2]), Failure> {
         let stress = self.of(trial)?;
         let lost = *trial - stress;
         let shear = lost.deviator() * T::from(0.5 / self.elastic.shear);
@@ -151,7 +151,7 @@ impl RateLaw for MohrCoulomb {
 
 impl MohrCoulomb {
     /// Work of a stress on the plastic strain that took the trial stress to it.
-    fn plastic_work<T: Scalar>(&self, trial: &Tensor2<T>, stress: &Tensor2<T>) -> T {
+    pub(super) fn plastic_work<T: Scalar>(&self, trial: &Tensor2<T>, stress: &Tensor2<T>) -> T {
         let lost = *trial - *stress;
         let shape = stress.deviator().contract(lost.deviator()) * (0.5 / self.elastic.shear);
         shape + stress.trace() * lost.trace() * (1.0 / (9.0 * self.elastic.bulk()))

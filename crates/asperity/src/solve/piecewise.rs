@@ -17,13 +17,14 @@ use crate::tensor::dense::eliminate;
 const NOTHING: f64 = 1e-9;
 /// Iterations for the small problem.
 const ITERATIONS: usize = 40;
-/// Shortest step of its line search, and what a step must lower the error by, over its length.
+/// Shortest step of its line search and along its path, and what a step must lower the error by, over its length.
 const SHORTEST: f64 = 0.01;
 const DESCENT: f64 = 0.1;
+/// Part of a step below which the whole linear step does better: what bends has met its limit, and only another geometry
+/// may carry more.
+const ENOUGH: f64 = 0.25;
 /// Most stresses that are put right: more cost as much as a new matrix.
 const MOST: usize = 512;
-/// Parts of the step that are tried, one after another.
-const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
 /// A stress: kink and coordinate.
 type Stress = (usize, usize);
@@ -67,18 +68,23 @@ impl<'a> Piecewise<'a> {
         Ok(Self { attempts, kinks, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new() })
     }
 
-    /// Puts the step right and returns the part of it for which that could be done; None if for no part of it.
+    /// Puts the step right and returns the part of it for which that could be done, following the path of solutions from
+    /// where the step begins; None if for too little of it.
     ///
     /// # Errors
     /// When a law cannot answer, or a solution with the factor fails.
     pub fn settle(&mut self, solver: &dyn LinearSolver, constraints: &Constraints) -> Result<Option<f64>, Failure> {
-        for part in PARTS {
-            self.left.fill(0.0);
-            if self.settle_part(part, solver, constraints)? {
-                return Ok(Some(part));
+        let (mut part, mut stride) = (0.0, 1.0_f64);
+        while part < 1.0 && stride >= SHORTEST {
+            let (before, next) = (self.left.clone(), 1.0_f64.min(part + stride));
+            if self.settle_part(next, solver, constraints)? {
+                (part, stride) = (next, 2.0 * stride);
+            } else {
+                self.left.iter_mut().enumerate().for_each(|(i, w)| *w = before.get(i).copied().unwrap_or(0.0));
+                stride *= 0.25;
             }
         }
-        Ok(None)
+        Ok((part >= ENOUGH).then_some(part))
     }
 
     /// Solves for the active stresses until no other wakes.
@@ -188,9 +194,12 @@ impl<'a> Piecewise<'a> {
             loop {
                 let next: Vec<f64> = self.left.iter().zip(&step).map(|(w, d)| w - length * d).collect();
                 at = self.problem(part, &next)?;
-                if at.norm() <= (1.0 - DESCENT * length) * norm || length < SHORTEST {
+                if at.norm() <= (1.0 - DESCENT * length) * norm {
                     self.left = next;
                     break;
+                }
+                if length < SHORTEST {
+                    return Ok(false);
                 }
                 length *= 0.5;
             }

@@ -242,3 +242,49 @@ impl Standing<'_> {
         hits.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Cell, generate::Rectangle};
+
+    /// Numbers in (-1, 1) from a linear congruence (Knuth's MMIX).
+    fn random(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// Rays over bodies that are bent out of all shape: the tree finds what trying every edge finds.
+    #[test]
+    fn no_candidate_is_missed() {
+        let (mut state, mut found) = (5, 0);
+        for cell in ["quad4", "quad8"] {
+            let mesh = Rectangle::new([0.0; 2], [3.0, 1.0], [30, 9], Cell::named(cell).unwrap()).mesh("b").unwrap();
+            let (sides, mesh) = (mesh.boundary(&mesh.groups["b"].cells), Arc::new(mesh));
+            let dofs = Dofs::new(2, mesh.points.len(), 0);
+            let faces = Faces::new(mesh, dofs.clone(), &sides);
+            for scene in 0..40 {
+                let u: Vec<f64> = (0..dofs.count()).map(|_| 0.05 * f64::from(scene) * random(&mut state)).collect();
+                let standing = faces.stand(&u);
+                for _ in 0..50 {
+                    let [x, y, angle] = [0, 1, 2].map(|_| random(&mut state));
+                    let (sin, cos) = (4.0 * angle).sin_cos();
+                    let origin = Vec3::new(1.5 + 3.0 * x, 0.5 + 2.0 * y, 0.0);
+                    let ray = Ray { origin, direction: Vec3::new(cos, sin, 0.0) };
+                    let range = [-2.0 * random(&mut state).abs(), 2.0 * random(&mut state).abs()];
+                    let mut hits = Vec::new();
+                    standing.cast(&ray, range, &mut hits);
+                    let mut all = Vec::new();
+                    for (segment, curve) in standing.curves.iter().enumerate() {
+                        curve.shape().cast(&ray, &mut |place| all.push((segment, place.u)));
+                    }
+                    all.retain(|(_, u)| (range[0]..=range[1]).contains(u));
+                    all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+                    assert_eq!(hits.iter().map(|hit| (hit.segment, hit.u)).collect::<Vec<_>>(), all);
+                    found += all.len();
+                }
+            }
+        }
+        assert!(found > 2000, "{found}");
+    }
+}

@@ -24,7 +24,7 @@ mod target;
 pub use faces::Faces;
 pub use guard::{Guard, has_facets};
 pub use pair::{Contact, ContactOptions, Loads, second_name};
-pub use penalty::default_penalty;
+pub use penalty::{TWO_PASSES, default_penalty};
 pub use record::{PointRecord, PointStatus};
 pub use rigid::Rigid;
 pub use surface::{Edge, Surface};

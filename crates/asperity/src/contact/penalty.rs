@@ -6,6 +6,10 @@ use crate::mesh::{CellView, Mesh, Side};
 /// Ratio of the penalty to the stiffness of the cell behind a face.
 const RATIO: f64 = 50.0;
 
+/// Part of it that serves with two passes: each side answers the other with a penalty of its own, and what a stiffer pair
+/// disagrees about from point to point, friction least of all, leaves Newton's method without an end.
+pub const TWO_PASSES: f64 = 0.2;
+
 /// Default penalty for faces `sides`, with `modulus` the confined modulus of a cell's material.
 pub fn default_penalty(mesh: &Mesh, sides: &[Side], modulus: impl Fn(usize) -> f64) -> f64 {
     let stiffness = |side: &Side| modulus(side.cell) / depth(mesh, *side);

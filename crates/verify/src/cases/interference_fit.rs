@@ -35,7 +35,16 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let linear = [2 * n[0], 2 * n[1]];
     let auto = solve(&meshed("quad4", linear, &[]))?;
     let refused = solve(&meshed("quad4", linear, &["contact.seat.passes=two"]));
+    // Without coupling the increment is given up at once, not cut again and again.
+    let uncoupled = |penalty: &str| {
+        let more = ["contact.seat.coupling=false", "step.1.increments.smallest=0.6", penalty];
+        bench.exhaust("fit.toml", &meshed("quad8", [12, 17], &more)).map(|run| rate(&run))
+    };
     Ok(vec![
+        ("iterations".into(), two.iterations()),
+        ("uncoupled_soft".into(), uncoupled("contact.seat.penalty=2e4")?),
+        ("uncoupled".into(), uncoupled("contact.seat.penalty=2e5")?),
+        ("uncoupled_stiff".into(), uncoupled("contact.seat.penalty=1e6")?),
         ("shaft_pressure".into(), pressure(&two, 0)),
         ("hub_pressure".into(), pressure(&two, 1)),
         ("ripple".into(), ripple(&two)),
@@ -47,6 +56,13 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("linear_one_pass".into(), pressure(&auto, 0)),
         ("linear_refused".into(), f64::from(refused.is_err_and(|error| error.to_string().contains("facets")))),
     ])
+}
+
+/// What one iteration leaves of the residual, over the last ten.
+fn rate(run: &Solved) -> f64 {
+    let residuals: Vec<f64> = run.attempts[0].iterations.iter().map(|iteration| iteration.residual).collect();
+    let [.., last] = residuals[..] else { return f64::NAN };
+    (last / residuals[residuals.len().saturating_sub(11)]).powf(0.1)
 }
 
 /// Force over area of one side.

@@ -3,6 +3,7 @@
 mod billet;
 mod capstan;
 mod contact_patch;
+mod crushed_ring;
 mod dragged_ball;
 mod flat_punch;
 mod hertz_ball;
@@ -10,6 +11,7 @@ mod hertz_cylinder;
 mod hertz_sphere;
 mod inclined_block;
 mod interference_fit;
+mod partial_slip;
 mod rotated_pair;
 mod strip_footing;
 mod strip_punch;
@@ -25,6 +27,8 @@ pub const ALL: &[&Case] = &[
     &contact_patch::CASE,
     &two_body_patch::CASE,
     &interference_fit::CASE,
+    &partial_slip::CASE,
+    &crushed_ring::CASE,
     &rotated_pair::CASE,
     &inclined_block::CASE,
     &hertz_cylinder::CASE,

@@ -17,7 +17,14 @@ pub const CASE: Case = Case { name: "rotated-pair", measure };
 const ANGLE: f64 = 63.0;
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let model = bench.model("pair.toml", &[])?;
+    let mut measured = turned(bench, "pair.toml")?;
+    let bodies = turned(bench, "bodies.toml")?;
+    measured.extend(bodies.into_iter().map(|(what, value)| (format!("bodies_{what}"), value)));
+    Ok(measured)
+}
+
+fn turned(bench: &Bench, deck: &str) -> Result<Measured, Error> {
+    let model = bench.model(deck, &[])?;
     let mut run = model.run(model.problem.initial_state());
     run.run(&RunOptions { increments: Some(2) }, &mut Silent)?;
     let (loaded, force) = (points(&model, &run.state, 0), reaction(&model, &run.state, "block.top"));
@@ -59,6 +66,8 @@ fn carry_on_turning(model: &Model, state: &mut State) {
         state.last_change[at] = c * x - s * y - x;
         state.last_change[at + 1] = s * x + c * y - y;
     }
-    state.last_change[dofs.tool(0)..].copy_from_slice(&[0.0, 0.0, ANGLE.to_radians()]);
+    if dofs.tools() > 0 {
+        state.last_change[dofs.tool(0)..].copy_from_slice(&[0.0, 0.0, ANGLE.to_radians()]);
+    }
     state.last_dt = model.problem.steps[state.step].duration;
 }

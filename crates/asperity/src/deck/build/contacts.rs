@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::contact::{
-    Contact, ContactOptions, Faces, Guard, Loads, Surface, Target, default_penalty, has_facets, second_name,
+    Contact, ContactOptions, Faces, Guard, Loads, Surface, Target, TWO_PASSES, default_penalty, has_facets, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -108,14 +108,16 @@ impl Builder<'_> {
             sides.extend_from_slice(others);
         }
         let modulus = sides.iter().map(|side| moduli[side.cell]).fold(f64::INFINITY, f64::min);
-        let computed = || default_penalty(&self.site.mesh, &sides, |cell| moduli[cell]);
+        let loads = self.carried(keys, (surface, opposite));
+        let part = if loads == Loads::Own { TWO_PASSES } else { 1.0 };
+        let computed = || part * default_penalty(&self.site.mesh, &sides, |cell| moduli[cell]);
         let penalty = keys.penalty.unwrap_or_else(computed);
         ContactOptions {
             penalty,
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             thickness: self.site.thickness,
             modulus,
-            loads: self.carried(keys, (surface, opposite)),
+            loads,
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
             guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
         }

@@ -22,7 +22,7 @@ table! {
             whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
-            .computed("50 times the confined modulus over the depth of the cells behind the faces, the least of both sides"),
+            .computed("50 times the confined modulus over the depth of the cells behind the faces, the least of both sides; 10 times with two passes"),
         /// Friction stress for one unit of elastic slip.
         tangential_penalty: Option<f64> =
             number(unit::PENALTY, Range::POSITIVE).computed("equal to the penalty"),

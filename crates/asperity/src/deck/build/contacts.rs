@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::contact::{
-    Contact, ContactOptions, Faces, Guard, Loads, Surface, Target, TWO_PASSES, default_penalty, has_facets, second_name,
+    Contact, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};

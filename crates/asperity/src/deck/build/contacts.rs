@@ -31,6 +31,16 @@ impl Builder<'_> {
         Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
+    /// The law of a contact, integrated as said.
+    pub(super) fn interface(&mut self, keys: &keys::Contact) -> Option<Arc<dyn Interface>> {
+        let law = keys.law.build().map_err(crate::Error::input);
+        let law = self.keep(law, keys.law.place)?;
+        Some(Arc::from(match &keys.update {
+            Some(update) => law.with_update(update.update()),
+            None => law,
+        }))
+    }
+
     fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {
         let tool = self.deck.tool.iter().position(|(tool, _)| tool.text == keys.target.text);
         tool.map(Opposite::Tool).or_else(|| {
@@ -66,8 +76,7 @@ impl Builder<'_> {
         tools: &[Arc<Tool>],
         moduli: &[f64],
     ) -> Option<Vec<Contact>> {
-        let law = keys.law.build().map_err(crate::Error::input);
-        let law: Arc<dyn Interface> = Arc::from(self.keep(law, keys.law.place)?);
+        let law = self.interface(keys)?;
         let mesh = self.site.mesh.clone();
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let Some(opposite) = self.opposite(keys, &mesh) else {

@@ -6,7 +6,6 @@ use crate::contact::space::{Contact, Parts, Surface};
 use crate::contact::{ContactOptions, Guard, Loads, default_penalty};
 use crate::deck::keys;
 use crate::deck::reader::Name;
-use crate::interface::Interface;
 use crate::mesh::Side;
 use crate::solid::Body;
 use crate::tool::space::Tool;
@@ -35,8 +34,7 @@ impl Builder<'_> {
             self.refuse("two bodies touch in the plane spaces and the axisymmetric one only", keys.target.place);
             return None;
         };
-        let law = keys.law.build().map_err(crate::Error::input);
-        let law: Arc<dyn Interface> = Arc::from(self.keep(law, keys.law.place)?);
+        let law = self.interface(keys)?;
         let mesh = self.site.mesh.clone();
         let sides = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         if !self.check_passes(name, keys, (sides, Opposite::Tool(number))) {

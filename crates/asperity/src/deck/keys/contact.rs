@@ -1,7 +1,8 @@
 //! Contacts.
 
+use super::UpdateKeys;
 use crate::contact::Guard;
-use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, whole, word, words};
+use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, table_of, whole, word, words};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
 use crate::deck::source::Spot;
@@ -17,6 +18,8 @@ table! {
         target: Name = refers(Names::Target).required(),
         /// The law of the interface. Without friction: law.coulomb = { friction = 0.0 }.
         law: Law<Box<dyn Interface>> = law(interface::laws::ALL).required(),
+        /// How the law is integrated over an increment.
+        update: Option<UpdateKeys> = table_of().unless_given("in closed form where the law has one, else in one step"),
         /// Integration points along an edge.
         gauss: Option<Spot<usize>> =
             whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree"),

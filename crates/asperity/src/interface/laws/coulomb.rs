@@ -7,7 +7,9 @@ use super::cone::{ConeScheme, Path};
 use super::law;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, unit};
-use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
+use crate::integrate::{Scheme, Update};
+use crate::interface::integrated::Integrated;
+use crate::interface::{Interface, InterfaceLaw, Law, Motion, Past, Response, Status};
 use crate::tensor::Scalar;
 
 pub(super) const FRICTION: Parameter = Parameter {
@@ -61,6 +63,20 @@ impl InterfaceLaw for Coulomb {
             dissipated: end.work / past.tangential_penalty,
             violation,
         })
+    }
+
+    /// The schemes of the cone itself; with a tolerance, and by two implicit stages, as any other law.
+    fn updated(&self, update: Update) -> Box<dyn Interface> {
+        let scheme = match update.scheme {
+            Scheme::BackwardEuler => ConeScheme::BackwardEuler(update.substeps),
+            Scheme::Midpoint(theta) => ConeScheme::Midpoint(update.substeps, theta),
+            Scheme::TwoStep => ConeScheme::Exact,
+        };
+        if update.tolerance.is_none() && scheme != ConeScheme::Exact {
+            return law(Self { scheme, ..*self });
+        }
+        let one = Self { scheme: ConeScheme::BackwardEuler(1), ..*self };
+        Box::new(Law(Integrated { law: one, update }))
     }
 }
 

@@ -54,7 +54,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("one_pass".into(), pressure(&one, 0)),
         ("linear_contacts".into(), auto.model.contacts.len() as f64),
         ("linear_one_pass".into(), pressure(&auto, 0)),
-        ("linear_refused".into(), f64::from(refused.is_err_and(|error| error.to_string().contains("facets")))),
+        ("linear_refused".into(), f64::from(refused.is_err())),
     ])
 }
 

@@ -65,3 +65,5 @@ impl fmt::Display for Failure {
         f.write_str(&self.reason)
     }
 }
+
+impl std::error::Error for Failure {}

@@ -60,13 +60,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let state = made.model.problem.initial_state();
     let history = &state.histories[made.model.first_contact()];
     let begin = Instant::now();
-    let attempt = contact.attempt(&state, history, At { dt: 1.0, ..At::default() })?;
+    let attempt = contact.attempt(&state, history, At { dt: 1.0, ..At::default() }).map_err(|why| why.reason)?;
     println!("opening of an attempt {:9.4} s", begin.elapsed().as_secs_f64());
     let (mut stencils, searches) = (Stencils::default(), 20);
     let begin = Instant::now();
     for _ in 0..searches {
         stencils.clear();
-        attempt.stencils(&state.u, &mut stencils)?;
+        attempt.stencils(&state.u, &mut stencils).map_err(|why| why.reason)?;
     }
     let search = begin.elapsed().as_secs_f64() / f64::from(searches);
     drop(attempt);

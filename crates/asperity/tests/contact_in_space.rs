@@ -6,13 +6,17 @@ mod stencils;
 
 use asperity::contact::space::{Contact, Parts, Surface};
 use asperity::contact::{ContactOptions, Guard, Loads};
+use asperity::deck::{build, read};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::{Cell, generate::Block};
-use asperity::system::{Dofs, State, Term};
+use asperity::output::{Job, Start, simulate};
+use asperity::solve::{RunOptions, Silent, Stop};
+use asperity::system::{Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::shapes;
 use asperity::tool::space::solids::{Facets, cone, extruded, polygons, sphere, torus};
 use asperity::tool::space::{Frame, Pose, Tool};
+use std::path::Path;
 use std::sync::Arc;
 use stencils::{Random, check, commit, instant, state};
 
@@ -43,6 +47,10 @@ fn target(kind: &str) -> Facets {
 
 /// A contact of the lower faces of a bent unit cube with a target below it, its tool free to move.
 fn contact(cell: &str, kind: &str) -> (Contact, Dofs) {
+    with_friction(cell, kind, 0.4)
+}
+
+fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
     let mut mesh = Block::new([0.0; 3], [1.0; 3], [1; 3], Cell::named(cell).unwrap()).mesh("b").unwrap();
     for x in &mut mesh.points {
         let [a, b, c] = x.0;
@@ -70,7 +78,7 @@ fn contact(cell: &str, kind: &str) -> (Contact, Dofs) {
         dofs: dofs.clone(),
         boundary,
         tool: (tool, 0),
-        law: Arc::new(Law(Coulomb::new(0.4))),
+        law: Arc::new(Law(Coulomb::new(friction))),
         options,
     };
     (Contact::new(parts), dofs)
@@ -163,4 +171,78 @@ fn a_loaded_pair_turns_without_slip() {
             assert!((turn.rotate(a.traction()) - b.traction()).norm() < 1e-12, "{cell}");
         }
     }
+}
+
+/// Without friction what the nodes bear and what the tool bears balance, forces and moments, however the tool is turned.
+#[test]
+fn forces_and_moments_of_the_two_sides_balance() {
+    let ((contact, dofs), mut random) = (with_friction("hex20", "torus", 0.0), Random(5));
+    let start = state(vec![0.0; dofs.count()], contact.initial());
+    for _ in 0..20 {
+        let u = motion(&dofs, &mut random);
+        let attempt = contact.attempt(&start, &start.histories[0], instant()).unwrap();
+        let (mut stencils, mut sum) = (Stencils::default(), vec![0.0; dofs.count()]);
+        attempt.stencils(&u, &mut stencils).unwrap();
+        for (i, stencil) in stencils.list.iter().enumerate() {
+            let mut local = Local { u: stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect(), ..Local::default() };
+            local.reset(stencil.len);
+            attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local).unwrap();
+            stencils.dofs(stencil).iter().zip(&local.force).for_each(|(&dof, force)| sum[dof] += force);
+        }
+        let at = |values: &[f64], first: usize| Vec3([values[first], values[first + 1], values[first + 2]]);
+        let (mut force, mut moment, mut size) = (Vec3::zero(), Vec3::zero(), 0.0);
+        for node in 0..dofs.nodes() {
+            let (x, f) = (contact.mesh().points[node] + at(&u, dofs.node(node)), at(&sum, dofs.node(node)));
+            (force, moment, size) = (force + f, moment + x.cross(f), size + f.norm());
+        }
+        let (tool, pole) = (dofs.tool(0), contact.pole(&u));
+        let f = at(&sum, tool);
+        (force, moment) = (force + f, moment + pole.cross(f) + contact.pose(&u).moment(at(&sum, tool + 3)));
+        assert!(size > 0.01 && force.norm() < 1e-13 * size && moment.norm() < 1e-13 * size, "{force:?} {moment:?}");
+    }
+}
+
+/// A ball that is free to turn rolls along a slab: past half a turn, by its travel over its radius.
+#[test]
+fn a_free_ball_rolls_past_half_a_turn() {
+    const DECK: &str = r#"
+version = 1
+space = "solid"
+mesh.part.slab.box = { from = [-0.5, -0.5, -0.5], to = [2.5, 0.5, 0.0], cells = [24, 8, 2], cell = "hex8" }
+material.rubber.elastic = { young = 10.0, poisson = 0.3 }
+body.slab.material = "rubber"
+tool.ball = { sphere = { center = [0.0, 0.0, 0.5], radius = 0.5 }, reference = [0.0, 0.0, 0.5] }
+contact.track = { surface = "slab.front", target = "ball", law.coulomb = { friction = 0.8 } }
+[[step]]
+displacement."slab.back" = { x = 0.0, y = 0.0, z = 0.0 }
+motion.ball = { z = -0.05 }
+increments.count = 2
+[[step]]
+motion.ball = { x = 1.8 }
+load.ball = { torque_y = 0.0 }
+increments.count = 30
+"#;
+    let made =
+        read(DECK, "ball.toml", Path::new(""), &[]).and_then(build).unwrap_or_else(|d| panic!("{}", d.render(false)));
+    let mut run = made.model.run(made.model.problem.initial_state());
+    assert_eq!(run.run(&RunOptions::default(), &mut Silent).unwrap(), Stop::Done);
+    let angle = run.state.u[made.model.problem.dofs.tool(0) + 4];
+    // The radius at which it rolls lies between that of the ball and that to the sunken face.
+    assert!((1.8 / 0.5..1.8 / 0.45).contains(&angle) && angle > 3.5, "{angle}");
+    let directory = tempfile::tempdir().unwrap();
+    let job = Job {
+        directory: directory.path(),
+        options: made.deck.output.options(),
+        input: made.input,
+        start: Start::Beginning,
+    };
+    simulate(&made.model, &job, &mut Silent).unwrap().1.unwrap();
+    let text = |path: &str| String::from_utf8_lossy(&std::fs::read(directory.path().join(path)).unwrap()).into_owned();
+    let header = text("history.csv").lines().next().unwrap().to_owned();
+    for column in ["contact.track.force.z", "contact.track.moment.x", "tool.ball.rotation.y", "tool.ball.moment.z"] {
+        assert!(header.split(',').any(|name| name == column), "{column}: {header}");
+    }
+    let tools = text("tools/tools_000032.vtu");
+    let cells = tools.split("NumberOfCells=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
+    assert!(cells.parse::<usize>().unwrap() > 100, "the ball is drawn as a surface: {cells}");
 }

@@ -69,3 +69,32 @@ impl Attempt for OpenTorque {
         Ok(0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::amplitude::{Amplitude, Change};
+    use crate::system::check_tangent;
+
+    /// A constant torque does the work of its moment along any motion, and its tangent is that of differences.
+    #[test]
+    fn the_tangent_is_exact_at_any_rotation() {
+        let constant = |value: f64| Timeline::new([(1.0, Change::To(value, Amplitude::at_once()))]);
+        let components = vec![constant(2.0), constant(-1.0), constant(0.5)];
+        let torque = TorqueOnTool::new("t", &Dofs::new(3, 0, 1), 0, components);
+        let (state, history) = (State::default(), torque.initial());
+        let at = Instant { step_time: 1.0, time: 1.0, dt: 1.0, ..Instant::default() };
+        let attempt = torque.attempt(&state, &history, at).unwrap();
+        let mut stencils = Stencils::default();
+        attempt.stencils(&[0.0; 6], &mut stencils).unwrap();
+        assert_eq!(stencils.dofs, [3, 4, 5]);
+        for w in [[0.0; 3], [0.4, -0.3, 0.8], [3.0, 0.0, 1.0], [0.0, 9.0, 0.0]] {
+            let check = check_tangent(attempt.as_ref(), 0, &stencils.list[0], &w, &[1.0; 3]).unwrap();
+            assert!(check.error < 1e-9, "{w:?} {}", check.error);
+        }
+        let mut local = Local { u: vec![0.0, 9.0, 0.0], ..Local::default() };
+        local.reset(3);
+        attempt.evaluate(0, &stencils.list[0], &mut [], &mut local).unwrap();
+        assert!((local.force[1] + 1.0).abs() < 1e-14, "about the axis of the rotation the torque is itself");
+    }
+}

@@ -236,6 +236,9 @@ fn load(load: &ToolLoad, reader: &mut Reader) {
     says_something(says, load.place, "`x`, `y`, `z`, `torque`", reader);
 }
 
+/// A key and what stands behind it.
+pub type Said = (&'static str, Option<Spot<f64>>);
+
 /// What is said of the unknowns of a tool, one value for each.
 pub trait ToolCondition {
     /// Along x and y and about the axis across the plane.
@@ -243,7 +246,7 @@ pub trait ToolCondition {
     /// Along and about the three axes of space.
     fn space(&self) -> [Option<f64>; 6];
     /// Keys of space alone, and the one of the plane alone.
-    fn foreign(&self) -> ([(&'static str, Option<Spot<f64>>); 4], (&'static str, Option<Spot<f64>>));
+    fn foreign(&self) -> ([Said; 4], Said);
 }
 
 fn value(spot: Option<Spot<f64>>) -> Option<f64> {
@@ -258,7 +261,7 @@ impl ToolCondition for Motion {
         let [a, b, c] = [self.rotation_x, self.rotation_y, self.rotation_z].map(value);
         [self.x, self.y, value(self.z), a, b, c]
     }
-    fn foreign(&self) -> ([(&'static str, Option<Spot<f64>>); 4], (&'static str, Option<Spot<f64>>)) {
+    fn foreign(&self) -> ([Said; 4], Said) {
         let turns = [("rotation_x", self.rotation_x), ("rotation_y", self.rotation_y), ("rotation_z", self.rotation_z)];
         ([("z", self.z), turns[0], turns[1], turns[2]], ("rotation", self.rotation))
     }
@@ -272,7 +275,7 @@ impl ToolCondition for ToolLoad {
         let [a, b, c] = [self.torque_x, self.torque_y, self.torque_z].map(value);
         [self.x, self.y, value(self.z), a, b, c]
     }
-    fn foreign(&self) -> ([(&'static str, Option<Spot<f64>>); 4], (&'static str, Option<Spot<f64>>)) {
+    fn foreign(&self) -> ([Said; 4], Said) {
         let turns = [("torque_x", self.torque_x), ("torque_y", self.torque_y), ("torque_z", self.torque_z)];
         ([("z", self.z), turns[0], turns[1], turns[2]], ("torque", self.torque))
     }

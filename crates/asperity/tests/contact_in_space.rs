@@ -176,9 +176,10 @@ fn a_loaded_pair_turns_without_slip() {
 /// Without friction what the nodes bear and what the tool bears balance, forces and moments, however the tool is turned.
 #[test]
 fn forces_and_moments_of_the_two_sides_balance() {
-    let ((contact, dofs), mut random) = (with_friction("hex20", "torus", 0.0), Random(5));
+    let ((contact, dofs), mut random) = (with_friction("hex20", "cone", 0.0), Random(5));
     let start = state(vec![0.0; dofs.count()], contact.initial());
-    for _ in 0..20 {
+    let mut pressed = 0;
+    for _ in 0..40 {
         let u = motion(&dofs, &mut random);
         let attempt = contact.attempt(&start, &start.histories[0], instant()).unwrap();
         let (mut stencils, mut sum) = (Stencils::default(), vec![0.0; dofs.count()]);
@@ -198,8 +199,10 @@ fn forces_and_moments_of_the_two_sides_balance() {
         let (tool, pole) = (dofs.tool(0), contact.pole(&u));
         let f = at(&sum, tool);
         (force, moment) = (force + f, moment + pole.cross(f) + contact.pose(&u).moment(at(&sum, tool + 3)));
-        assert!(size > 0.01 && force.norm() < 1e-13 * size && moment.norm() < 1e-13 * size, "{force:?} {moment:?}");
+        assert!(force.norm() <= 1e-13 * size && moment.norm() <= 1e-13 * size, "{force:?} {moment:?}");
+        pressed += usize::from(size > 1e-3);
     }
+    assert!(pressed >= 10, "{pressed}");
 }
 
 /// A ball that is free to turn rolls along a slab: past half a turn, by its travel over its radius.

@@ -5,6 +5,7 @@
 //! meets, [`select`] judges by the paper's two rules against false contacts. This room knows neither meshes nor laws.
 
 mod check;
+mod fillet;
 mod finding;
 mod pose;
 mod search;
@@ -19,6 +20,7 @@ mod conformance;
 #[cfg(test)]
 mod tests;
 
+pub use fillet::{Draft, rounded};
 pub use finding::{Finding, Severity};
 pub use pose::Pose;
 pub use search::Tree;

@@ -55,9 +55,10 @@ impl Builder<'_> {
 
     /// A profile that is revolved or extruded, judged as a profile first.
     fn swept(&mut self, name: &Name, keys: &ToolKeys, profile: &Spot<Vec<Segment>>) -> Option<Facets> {
-        let segments = self.segments(profile)?;
-        let flat = tool::Tool::new(&name.text, vec![self.segments(profile)?], Vec3::zero());
-        if !self.judge(&flat, profile, keys.revolve.is_some()) {
+        let (segments, _) = self.segments(profile, keys)?;
+        let (again, places) = self.segments(profile, keys)?;
+        let flat = tool::Tool::new(&name.text, vec![again], Vec3::zero());
+        if !self.judge(&flat, (&places, profile.place), keys.revolve.is_some()) {
             return None;
         }
         let told = |why| crate::Error::input(format!("tool `{name}`: {why}"));

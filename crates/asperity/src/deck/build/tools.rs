@@ -7,8 +7,11 @@ use crate::deck::reader::Name;
 use crate::deck::source::{Place, Spot};
 use crate::mesh::Space;
 use crate::tensor::Vec3;
-use crate::tool::{Finding, Severity, Shape, Tool};
+use crate::tool::{Draft, Finding, Severity, Shape, Tool, rounded};
 use std::sync::Arc;
+
+/// Segments, and where each is said.
+pub(super) type Segments = (Vec<Box<dyn Shape>>, Vec<Place>);
 
 impl Builder<'_> {
     /// The tools.
@@ -25,19 +28,27 @@ impl Builder<'_> {
             self.found.push(Diagnostic::error(what).at(keys.place).help(help));
             return None;
         };
-        let (segments, reference) = (self.segments(profile)?, self.reference(name, keys, 2)?);
+        let ((segments, places), reference) = (self.segments(profile, keys)?, self.reference(name, keys, 2)?);
         let tool = Tool::new(&name.text, vec![segments], reference);
-        self.judge(&tool, profile, self.site.space == Space::Axisymmetric).then(|| Arc::new(tool))
+        let axisymmetric = self.site.space == Space::Axisymmetric;
+        self.judge(&tool, (&places, profile.place), axisymmetric).then(|| Arc::new(tool))
     }
 
-    /// The segments of a profile.
-    pub(super) fn segments(&mut self, profile: &Spot<Vec<Segment>>) -> Option<Vec<Box<dyn Shape>>> {
-        let mut segments = Vec::new();
-        for segment in &profile.value {
-            let built = segment.kind.build(&segment.nodes).map_err(crate::Error::input);
-            segments.push(self.keep(built, segment.place));
+    /// The segments of a profile, with its fillets, and where each is said.
+    pub(super) fn segments(&mut self, profile: &Spot<Vec<Segment>>, keys: &ToolKeys) -> Option<Segments> {
+        let draft = |(i, segment): (usize, &Segment)| (i, segment.kind, segment.nodes.clone());
+        let drafts: Vec<Draft> = profile.value.iter().enumerate().map(draft).collect();
+        let drafts = match keys.fillet {
+            Some(fillet) => self.keep(rounded(drafts, fillet.value).map_err(crate::Error::input), fillet.place)?,
+            None => drafts,
+        };
+        let (mut segments, mut places) = (Vec::new(), Vec::new());
+        for (i, kind, nodes) in drafts {
+            let place = profile.value[i].place;
+            segments.push(self.keep(kind.build(&nodes).map_err(crate::Error::input), place));
+            places.push(place);
         }
-        segments.into_iter().collect()
+        Some((segments.into_iter().collect::<Option<_>>()?, places))
     }
 
     /// The reference point of a tool, which must have as many coordinates as the space.
@@ -53,12 +64,11 @@ impl Builder<'_> {
     }
 
     /// Whether a tool can be used; what is found is shown at its segments.
-    pub(super) fn judge(&mut self, tool: &Tool, profile: &Spot<Vec<Segment>>, revolved: bool) -> bool {
+    pub(super) fn judge(&mut self, tool: &Tool, (places, whole): (&[Place], Place), revolved: bool) -> bool {
         let mut sound = true;
         for finding in tool.check(revolved) {
-            let segments = &profile.value;
-            let first = finding.segments().first().and_then(|&i| segments.get(i)).map(|segment| segment.place);
-            let place: Place = first.unwrap_or(profile.place);
+            let first = finding.segments().first().and_then(|&i| places.get(i)).copied();
+            let place = first.unwrap_or(whole);
             let what = format!("tool `{}`: {finding}", tool.name());
             let grave = finding.severity() == Severity::Error;
             sound &= !grave;

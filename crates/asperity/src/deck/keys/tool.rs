@@ -19,6 +19,9 @@ table! {
         /// on the left.
         profile: Option<Spot<Vec<Segment>>> =
             list(SegmentForm, 1..=usize::MAX).spot().unless_given("another key says its shape"),
+        /// Radius of the arcs that round every corner between two straight segments of the profile.
+        fillet: Option<Spot<f64>> =
+            number(unit::LENGTH, Range::POSITIVE).spot().unless_given("corners stay sharp"),
         /// In space: the profile revolved once about an axis; its x is the distance from the axis, its y along it.
         revolve: Option<Revolve> = table_of().unless_given("not revolved"),
         /// In space: the profile carried along a line; its ends stay open.
@@ -70,6 +73,9 @@ fn tool(keys: &ToolKeys, reader: &mut Reader) {
     }
     let swept = [("revolve", keys.revolve.is_some()), ("extrude", keys.extrude.is_some())];
     let swept: Vec<&str> = swept.iter().filter(|(_, said)| *said).map(|(key, _)| *key).collect();
+    if keys.fillet.is_some() && keys.profile.is_none() {
+        refuse(format!("`{path}.fillet` has no profile to act on"), "cylinders and cones have a fillet of their own");
+    }
     match swept[..] {
         [key] if keys.profile.is_none() => {
             refuse(format!("`{path}.{key}` has no profile to act on"), "give `profile`, or remove it");

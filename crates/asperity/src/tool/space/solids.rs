@@ -4,6 +4,7 @@ use super::facet::Facet;
 use super::polygons::{Quad, Triangle};
 use super::swept::{Extruded, Frame, Revolved};
 use crate::tensor::Vec3;
+use crate::tool::fillet::fillet;
 use crate::tool::shapes::{Shape, find};
 use std::sync::Arc;
 
@@ -143,17 +144,4 @@ pub fn filleted(corners: &[Vec3], rounds: &[f64]) -> Result<Profile, String> {
         }
     }
     Ok(profile)
-}
-
-/// The arc that rounds the middle corner; none where nothing turns.
-fn fillet([a, b, c]: [Vec3; 3], radius: f64) -> Option<[Vec3; 3]> {
-    let (back, on) = ((a - b).unit(), (c - b).unit());
-    let half = 0.5 * back.cross(on).norm().atan2(back.dot(on));
-    let bisector = back + on;
-    if bisector.norm() < 1e-9 {
-        return None;
-    }
-    let cut = radius / half.tan();
-    let nearest = b + bisector.unit() * (radius / half.sin() - radius);
-    Some([b + back * cut, nearest, b + on * cut])
 }

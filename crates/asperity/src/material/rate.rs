@@ -1,9 +1,10 @@
 //! Rate laws in an objective frame: Jaumann's rate by Hughes and Winget (1980).
 //!
 //! With `f` the deformation of the increment, `G = 2 (f - I)(f + I)^-1` is the gradient of the displacement increment
-//! about the midpoint configuration, exactly. Its symmetric part drives the law, its skew part `W` the rotation
-//! `Q = (I - W/2)^-1 (I + W/2)` of the old stress and of tensor variables: exact for a rigid rotation below 180
-//! degrees.
+//! about the midpoint configuration, exactly. Its skew part `W` gives the rotation `Q = (I - W/2)^-1 (I + W/2)` of the
+//! old stress and of tensor variables: exact for a rigid rotation below 180 degrees. Its symmetric part is the strain
+//! that drives the law; it belongs to the midpoint and is turned to the end by the second half of the rotation,
+//! `H = sqrt(Q)`, without which the stress of a shear would be of first order only.
 
 use super::integrated::Integrated;
 use super::{Directions, Gradient, Material, Variable, Vars};
@@ -50,12 +51,25 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rate<L>(pub L);
 
-/// Midpoint strain increment and rotation of a deformation `f`.
+/// Strain increment of a deformation `f`, turned to its end, and rotation.
 pub fn hughes_winget<T: Scalar>(f: &Tensor2<T>) -> (Tensor2<T>, Tensor2<T>) {
     let identity = Tensor2::<T>::identity();
     let g = (*f - identity) * (*f + identity).inverse() * T::from(2.0);
-    let half = g.skew() * T::from(0.5);
-    (g.sym(), (identity - half).inverse() * (identity + half))
+    let spin = g.skew() * T::from(0.5);
+    let half = cayley(&(spin * halving(&spin).0));
+    ((half * g.sym() * half.transpose()).sym(), cayley(&spin))
+}
+
+/// The rotation `(I - A)^-1 (I + A)` of a skew `A`, by twice the angle whose tangent is the length of its axis.
+fn cayley<T: Scalar>(skew: &Tensor2<T>) -> Tensor2<T> {
+    let identity = Tensor2::<T>::identity();
+    (identity - *skew).inverse() * (identity + *skew)
+}
+
+/// The factor `c = 1/(1 + s)` by which the axis is shortened for half the angle, and `s = sqrt(1 + A:A/2)`.
+fn halving<T: Scalar>(skew: &Tensor2<T>) -> (T, T) {
+    let s = (skew.contract(*skew) * 0.5 + 1.0).sqrt();
+    ((s + 1.0).recip(), s)
 }
 
 /// Part of a stress given beforehand by which the law may correct it.
@@ -73,22 +87,31 @@ struct Frame<T> {
 
 impl<const N: usize> Frame<Dual<N>> {
     /// The frame of a deformation with its derivatives along the components `places` of `f`. They are written by hand
-    /// because every point of every iteration passes here: with `A = (f + I)^-1` and `B = (I - W/2)^-1`,
-    /// `dG = 4 A df A`, `dQ = B dW B`. Duals through [`hughes_winget`] are their oracle in the tests.
+    /// because every point of every iteration passes here: with `A = (f + I)^-1`, `B = (I - W/2)^-1` and `C` the same of
+    /// the half rotation, `dG = 4 A df A`, `dQ = B dW B`, `dH = C d(c W) C`. Duals through [`hughes_winget`] are their
+    /// oracle in the tests.
     fn new(f: &Tensor2, old: &Tensor2, places: &[(usize, usize)]) -> Self {
         let identity = Tensor2::identity();
-        let (de, q) = hughes_winget(f);
         let a = (*f + identity).inverse();
-        let b = (q + identity) * 0.5;
-        let turn = *old * q.transpose();
-        let mut frame = Self { de: de.lift(), q: q.lift(), stress: (q * *old * q.transpose()).lift() };
+        let g = (*f - identity) * a * 2.0;
+        let spin = g.skew() * 0.5;
+        let (c, s) = halving(&spin);
+        let (q, half) = (cayley(&spin), cayley(&(spin * c)));
+        let (b, b_half) = ((q + identity) * 0.5, (half + identity) * 0.5);
+        let (turn, turn_half) = (*old * q.transpose(), g.sym() * half.transpose());
+        let de = (half * turn_half).sym();
+        let mut frame = Self { de: de.lift(), q: q.lift(), stress: (q * turn).lift() };
         for (d, &(m, n)) in places.iter().enumerate() {
-            let g = Tensor2::from_fn(|i, j| 4.0 * a[(i, m)] * a[(n, j)]);
-            let dq = b * g.skew() * b;
-            let half = dq * turn;
-            set_slope(&mut frame.de, d, &g.sym());
+            let dg = Tensor2::from_fn(|i, j| 4.0 * a[(i, m)] * a[(n, j)]);
+            let dw = dg.skew();
+            let dq = b * dw * b;
+            let dc = -0.25 * c * c * spin.contract(dw) / s;
+            let dh = b_half * (dw * c + spin * (2.0 * dc)) * b_half;
+            let (by_turn, strain) = (dh * turn_half, half * dg.sym() * half.transpose());
+            let stress = dq * turn;
+            set_slope(&mut frame.de, d, &(strain + by_turn + by_turn.transpose()));
             set_slope(&mut frame.q, d, &dq);
-            set_slope(&mut frame.stress, d, &(half + half.transpose()));
+            set_slope(&mut frame.stress, d, &(stress + stress.transpose()));
         }
         frame
     }

@@ -65,6 +65,7 @@ impl Scaled {
             Unit::Force => force,
             Unit::Moment | Unit::Energy => force * length,
             Unit::Stress => force / (length * length),
+            Unit::EnergyDensity => force / length,
         }
     }
 

@@ -34,7 +34,7 @@ pub(in crate::contact) fn answer(
     y: &Coordinates,
 ) -> Result<Answer, Failure> {
     let (touch, mut answer) = (law.touch(past), Answer::default());
-    if y[0] <= touch + least {
+    if y[0] <= law.opens(past, [y[1], y[2]]) + least {
         return Ok(answer);
     }
     let penetration = Dual::<8>::variable(y[0] - least, 0);

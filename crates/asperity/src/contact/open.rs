@@ -216,6 +216,7 @@ impl OpenContact<'_> {
             normal: g.hit.normal,
             before: old[entry::PENETRATION],
             touch: contact.law.touch(&past),
+            opens: contact.law.opens(&past, [g.place.slip(), 0.0]),
             least: contact.least,
             weight: g.spot.weight * contact.thickness(),
             turning: self.turning(g.hit.u),
@@ -256,7 +257,7 @@ impl OpenContact<'_> {
     /// An open point keeps what has been, and of the law's own state what the law says.
     fn leave(&self, index: usize, new: &mut [f64]) {
         let old = self.history.slot(index);
-        for kept in [entry::SLIP, entry::SLIPPED, entry::DISSIPATED] {
+        for kept in [entry::SLIP, entry::SLIPPED, entry::DISSIPATED, entry::RUBBED] {
             new[kept] = old[kept];
         }
         self.contact.law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
@@ -303,6 +304,7 @@ impl OpenContact<'_> {
         new[entry::SLIP] = old[entry::SLIP] + closed.slip.re();
         new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
         new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
+        new[entry::RUBBED] = old[entry::RUBBED] + response.pressure.re().max(0.0) * response.slipped;
         new[entry::STATUS] = f64::from(response.status as u8);
         new[entry::VIOLATION] = response.violation;
         new[entry::LAST_DISSIPATED] = response.dissipated;

@@ -191,6 +191,7 @@ impl Contact {
                 slipped: values[entry::SLIPPED],
                 dissipated: values[entry::DISSIPATED],
                 last_dissipated: values[entry::LAST_DISSIPATED],
+                rubbed: values[entry::RUBBED],
                 violation: values[entry::VIOLATION],
                 segment,
                 edge: point.edge,

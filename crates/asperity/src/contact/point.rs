@@ -22,6 +22,14 @@ pub struct Place<T> {
     pub touched: Option<Vec3<T>>,
 }
 
+impl Place<f64> {
+    /// Slip of the increment; none without a material point that was touched.
+    pub fn slip(&self) -> f64 {
+        let (along, _, _) = triad(self.tangent);
+        self.touched.map_or(0.0, |touched| along.dot(touched - self.a))
+    }
+}
+
 /// What is constant while it is differentiated.
 #[derive(Debug, Clone, Copy)]
 pub struct Constants {
@@ -31,6 +39,8 @@ pub struct Constants {
     pub before: f64,
     /// Penetration at which the law closes the point: what dilation or a bond leaves of a gap.
     pub touch: f64,
+    /// Penetration down to which it stays closed with the slip of the increment.
+    pub opens: f64,
     /// How much farther a point counts as closed: touching to rounding is open.
     pub least: f64,
     /// Quadrature weight times thickness.
@@ -70,7 +80,7 @@ pub fn evaluate<T: Scalar>(
     let (along, inward, length) = triad(soften(place.tangent, constants.turning));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
-    if penetration.re() <= constants.touch + constants.least {
+    if penetration.re() <= constants.opens + constants.least {
         return Ok((penetration, None));
     }
     // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.

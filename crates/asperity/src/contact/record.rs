@@ -36,8 +36,10 @@ pub mod entry {
     pub const XI: usize = 14;
     /// Half of the length, from -1 to 1, of the part of the edge on which the points stand.
     pub const HALF: usize = 15;
+    /// Pressure times irreversible slip, summed since the start.
+    pub const RUBBED: usize = 16;
     /// Number of these values.
-    pub const COUNT: usize = 16;
+    pub const COUNT: usize = 17;
 }
 
 /// Whether a contact point is open, sticks or slips.
@@ -88,6 +90,8 @@ pub struct PointRecord {
     pub dissipated: f64,
     /// Energy dissipated per area in the last increment.
     pub last_dissipated: f64,
+    /// Pressure times irreversible slip, summed since the start: the depth of wear over Archard's coefficient.
+    pub rubbed: f64,
     /// Relative violation of the yield surface.
     pub violation: f64,
     /// Segment of the target that is hit.

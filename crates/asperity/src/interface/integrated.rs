@@ -64,6 +64,9 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
     fn touch(&self, past: &Past) -> f64 {
         self.law.touch(past)
     }
+    fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
+        self.law.opens(past, slip)
+    }
     /// Integrated once, not twice.
     fn updated(&self, update: Update) -> Box<dyn Interface> {
         self.law.updated(update)

@@ -88,6 +88,11 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
         0.0
     }
 
+    /// The penetration down to which a point that was in contact stays closed while it slips by `slip`: dilation pushes
+    /// it apart as it goes.
+    fn opens(&self, past: &Past, _slip: [f64; 2]) -> f64 {
+        self.touch(past)
+    }
     /// The same law, its increments integrated as said.
     fn updated(&self, update: Update) -> Box<dyn Interface> {
         Box::new(Law(Integrated { law: self.clone(), update }))
@@ -107,6 +112,8 @@ pub trait Interface: Send + Sync {
     fn release(&self, old: &[f64], new: &mut [f64]);
     /// As [`InterfaceLaw::touch`].
     fn touch(&self, past: &Past) -> f64;
+    /// As [`InterfaceLaw::opens`] of a point that was in contact; as [`InterfaceLaw::touch`] of another.
+    fn opens(&self, past: &Past, slip: [f64; 2]) -> f64;
     /// Plain numbers; `vars` holds the old variables and takes the new ones.
     ///
     /// # Errors
@@ -175,6 +182,10 @@ impl<L: InterfaceLaw> Interface for Law<L> {
     }
     fn touch(&self, past: &Past) -> f64 {
         self.0.touch(past)
+    }
+    fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
+        let touch = self.0.touch(past);
+        if past.penetration < touch { touch } else { self.0.opens(past, slip) }
     }
     fn respond(&self, motion: &Motion<f64>, past: &Past, vars: &mut [f64]) -> Result<Response<f64>, Failure> {
         lifted(&self.0, motion, past, vars)

@@ -53,6 +53,8 @@ pub enum Unit {
     Stress,
     /// Force times length, as work.
     Energy,
+    /// Work per area.
+    EnergyDensity,
 }
 
 /// What kind of number the values are; the store keeps all as `f64`, files write the narrowest fit.
@@ -128,6 +130,7 @@ impl Unit {
             Self::Force => "force",
             Self::Moment | Self::Energy => "force · length",
             Self::Stress => "force / length^{2}",
+            Self::EnergyDensity => "force / length",
         }
     }
 }

@@ -185,7 +185,7 @@ impl<'a> Slider<'a> {
         let (past, mut next) = (self.past(dt), self.clone());
         (next.penetration, next.slip) = (penetration, [0, 1].map(|i| self.slip[i] + slip[i]));
         let touch = self.law.touch(&past);
-        if penetration <= touch {
+        if penetration <= self.law.opens(&Past { penetration: self.penetration, ..past }, slip) {
             self.law.release(&self.vars, &mut next.vars);
             (next.pressure, next.shear, next.status, next.violation) = (0.0, [0.0; 2], None, 0.0);
             return Ok((next, 0.0));

@@ -72,7 +72,7 @@ impl At<'_> {
         let scale = (0..3).fold(0.0_f64, |m, i| m.max(tangent[i][direction].abs()));
         let scale = scale.max(1e-6 * self.sample.penalties[usize::from(direction > 0)]);
         let mut best = f64::INFINITY;
-        for h in [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4].map(|h| h * unit) {
+        for h in [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6].map(|h| h * unit) {
             let at = |k: f64| self.along(direction, k * h);
             let (Some(a), Some(b), Some(c), Some(d)) = (at(-2.0), at(-1.0), at(1.0), at(2.0)) else { continue };
             if [b.1, c.1, d.1].iter().any(|&status| status != a.1) {

@@ -12,6 +12,7 @@ mod hertz_sphere;
 mod inclined_block;
 mod interference_fit;
 mod partial_slip;
+mod pull_out;
 mod rotated_pair;
 mod strip_footing;
 mod strip_punch;
@@ -37,6 +38,7 @@ pub const ALL: &[&Case] = &[
     &dragged_ball::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
+    &pull_out::CASE,
     &thick_shells::CASE,
     &strip_punch::CASE,
     &strip_footing::CASE,

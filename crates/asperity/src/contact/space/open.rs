@@ -188,6 +188,7 @@ impl OpenContact<'_> {
             normal: g.hit.normal,
             before: past.penetration,
             touch: parts.law.touch(past),
+            opens: parts.law.opens(past, g.place.slip()),
             least: self.contact.least,
             weight: parts.surface.points[index].weight,
             turning: self.turning(g.hit.u),
@@ -211,7 +212,7 @@ impl OpenContact<'_> {
     /// An open point keeps what has been, and of the law's own state what the law says.
     fn leave(&self, index: usize, new: &mut [f64]) {
         let old = self.history.slot(index);
-        for kept in [entry::SLIP, entry::SLIP2, entry::SLIPPED, entry::DISSIPATED] {
+        for kept in [entry::SLIP, entry::SLIP2, entry::SLIPPED, entry::DISSIPATED, entry::RUBBED] {
             new[kept] = old[kept];
         }
         self.contact.parts.law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
@@ -257,6 +258,7 @@ fn write<T: Seed>(closed: &Closed<T>, old: &[f64], new: &mut [f64]) {
     new[entry::SLIP2] = old[entry::SLIP2] + closed.slip[1].re();
     new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
     new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
+    new[entry::RUBBED] = old[entry::RUBBED] + response.pressure.re().max(0.0) * response.slipped;
     new[entry::STATUS] = f64::from(response.status as u8);
     new[entry::VIOLATION] = response.violation;
     new[entry::LAST_DISSIPATED] = response.dissipated;

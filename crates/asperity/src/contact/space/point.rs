@@ -26,6 +26,14 @@ pub struct Place<T> {
     pub touched: Option<Vec3<T>>,
 }
 
+impl Place<f64> {
+    /// Slip of the increment along both tangents; none without a material point that was touched.
+    pub fn slip(&self) -> [f64; 2] {
+        let along = Triad::new(self.tangents).along;
+        self.touched.map_or([0.0; 2], |touched| along.map(|e| e.dot(touched - self.a)))
+    }
+}
+
 /// What is constant while it is differentiated.
 #[derive(Debug, Clone, Copy)]
 pub struct Constants {
@@ -35,6 +43,8 @@ pub struct Constants {
     pub before: f64,
     /// Penetration at which the law closes the point: what dilation or a bond leaves of a gap.
     pub touch: f64,
+    /// Penetration down to which it stays closed with the slip of the increment.
+    pub opens: f64,
     /// How much farther a point counts as closed: touching to rounding is open.
     pub least: f64,
     /// Quadrature weight.
@@ -87,7 +97,7 @@ pub fn evaluate<T: Scalar>(
     let triad = Triad::new(place.tangents.map(|g| soften(g, constants.turning)));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(triad.inward);
-    if penetration.re() <= constants.touch + constants.least {
+    if penetration.re() <= constants.opens + constants.least {
         return Ok((penetration, None));
     }
     // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.

@@ -263,10 +263,6 @@ impl InterfaceLaw for CamClay {
         if here.size <= here.wanted {
             return Ok(trial.stick(pressure));
         }
-        if pressure.re() <= -tension {
-            // Only expected to close: the surface has no stress there.
-            return Ok(trial.slide(pressure, T::zero()));
-        }
         shape.scale = 1.0 + at[1].re().abs() / (penalty * self.hardening.max(f64::MIN_POSITIVE));
         let [shear, pressure] = self.returned(&shape, at, before)?;
         let closure = (at[1] - pressure) / penalty;
@@ -284,6 +280,12 @@ impl InterfaceLaw for CamClay {
     fn touch(&self, past: &Past) -> f64 {
         let strength = if past.vars[BROKEN] > 0.0 { 0.0 } else { self.tension };
         past.vars[CLOSURE] - strength / past.penalty
+    }
+
+    /// At the tip of the ellipse a unit of slip would dilate without limit; more than `M` of it is taken for a gap.
+    fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
+        let trial = [0, 1].map(|i| past.shear[i] + past.tangential_penalty * slip[i]);
+        self.touch(past) - self.slope * trial[0].hypot(trial[1]) / past.tangential_penalty
     }
 }
 

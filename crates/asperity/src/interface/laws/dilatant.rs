@@ -144,14 +144,15 @@ impl InterfaceLaw for Dilatant {
         let dilation = self.opening(T::zero(), past.vars[SLIP]);
         let pressure = (motion.penetration + dilation) * past.penalty;
         let cohesion = if past.vars[BROKEN].re() > 0.0 { 0.0 } else { self.cohesion };
-        let limit = pressure * self.friction + cohesion;
-        if trial.size.re() <= limit.re() || limit.re() <= 0.0 {
+        let (limit, before) = (pressure * self.friction + cohesion, past.vars[SLIP]);
+        let most = trial.size.re() / past.tangential_penalty;
+        let dilated = limit.re() + self.friction * past.penalty * self.opening(before.re(), most);
+        if trial.size.re() <= limit.re() || dilated <= 0.0 {
             return Ok(trial.within(pressure, limit));
         }
         let stiffness = [past.penalty, past.tangential_penalty];
-        let (before, scale) = (past.vars[SLIP], trial.size.re() + limit.re());
+        let scale = trial.size.re() + limit.re().abs();
         let equation = Return { law: self, stiffness, cohesion, scale };
-        let most = trial.size.re() / past.tangential_penalty;
         let slip = root(&equation, [0.0, most], &[trial.size, pressure, before], "dilatant friction")?;
         let opening = self.opening(before, slip);
         let pressure = pressure + opening * past.penalty;
@@ -171,6 +172,14 @@ impl InterfaceLaw for Dilatant {
     fn touch(&self, past: &Past) -> f64 {
         let strength = if past.vars[BROKEN] > 0.0 { 0.0 } else { self.tension };
         -past.vars[DILATION] - strength / past.penalty
+    }
+
+    /// Where all that the shear stress at the tensile strength lets slip has dilated.
+    fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
+        let [cohesion, tension] = if past.vars[BROKEN] > 0.0 { [0.0; 2] } else { [self.cohesion, self.tension] };
+        let trial = [0, 1].map(|i| past.shear[i] + past.tangential_penalty * slip[i]);
+        let beyond = trial[0].hypot(trial[1]) - (cohesion - self.friction * tension);
+        self.touch(past) - self.opening(past.vars[SLIP], beyond.max(0.0) / past.tangential_penalty)
     }
 }
 
@@ -204,6 +213,24 @@ mod tests {
                 assert!(response.dissipated >= 0.0);
             }
             assert!((vars[DILATION] - 0.3 * 0.02).abs() < 1e-12, "{}", vars[DILATION]);
+        }
+    }
+
+    /// Slip pushes a point apart by more than it was pressed together, and its pressure still falls to its strength
+    /// without a jump.
+    #[test]
+    fn a_point_stays_closed_while_it_dilates() {
+        let (vars, slip) = ([1.0, 0.01, 0.3 * 0.02 * (1.0 - (-0.5_f64).exp())], [0.05, 0.02]);
+        let past = past(&vars);
+        let (touch, opens) = (LAW.touch(&past), LAW.opens(&past, slip));
+        assert!(opens < touch - 2e-3, "{opens} {touch}");
+        for above in [1e-12, 1e-4, 1e-3] {
+            let motion = Motion { penetration: opens + above, slip };
+            let response = LAW.respond(&motion, &past, &mut vars.clone()).unwrap();
+            assert!(
+                (response.pressure / (1e3 * above) - 1.0).abs() < 0.5 && response.dissipated >= 0.0,
+                "{response:?}"
+            );
         }
     }
 

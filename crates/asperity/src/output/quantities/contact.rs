@@ -74,6 +74,8 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     frame.push(scalar("contact_gap", Unit::Length, &|r| -r.penetration))?;
     frame.push(scalar("contact_slip", Unit::Length, &|r| r.slip))?;
     frame.push(scalar("contact_slip_path", Unit::Length, &|r| r.slipped))?;
+    frame.push(scalar("contact_heat", Unit::EnergyDensity, &|r| r.dissipated))?;
+    frame.push(scalar("contact_rubbing", Unit::EnergyDensity, &|r| r.rubbed))?;
     frame.push(scalar("contact_area", Unit::Area, &|r| r.area))?;
     frame.push(vector("contact_normal", Unit::One, &|r| r.inward))?;
     frame.push(vector("contact_force", Unit::Force, &PointRecord::force))

@@ -1,0 +1,53 @@
+//! A rigid pile drawn through elastic soil that holds its dilatant skin: `p = p0 + k_e psi0 s_c (1 - exp(-s / s_c))`.
+
+use crate::bench::{Bench, points};
+use crate::{Case, Measured};
+use asperity::Error;
+
+/// The case.
+pub const CASE: Case = Case { name: "pull-out", measure };
+
+/// Radii, and Lamé's shear modulus and Poisson's ratio of the soil.
+const RADII: [f64; 2] = [500.0, 5000.0];
+const POISSON: f64 = 0.3;
+const SHEAR: f64 = 50.0 / (2.0 * (1.0 + POISSON));
+/// Friction, cohesion, dilatancy and its slip.
+const SKIN: [f64; 4] = [0.6, 0.01, 0.3, 1.0];
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let increments = format!("step.2.increments={{ first = 0.01, largest = {} }}", bench.pick(0.02, 0.005));
+    let [mut before, mut slipped] = [0.0; 2];
+    let run = bench.follow("pile.toml", &[increments.clone()], |model, state| {
+        if state.step <= 1 && state.time <= 1.0 + 1e-9 {
+            (before, slipped) = mean(&points(model, state, 0), |point| (point.pressure, point.slipped));
+        }
+    })?;
+    let end = run.points(0);
+    let (pressure, slip) = mean(&end, |point| (point.pressure, point.slipped));
+    let (shear, _) = mean(&end, |point| (point.shear.abs(), 0.0));
+    let dilated = risen(run.model.contacts[0].options().penalty, [slipped, slip]);
+    let skin = bench.solve("skin.toml", &[increments])?;
+    let (critical, last) = mean(&skin.points(0), |point| (point.pressure, point.shear.abs()));
+    Ok(vec![
+        ("pressure".into(), pressure / (before + dilated)),
+        ("shear".into(), shear / (SKIN[0] * pressure + SKIN[1])),
+        ("dilated".into(), (pressure - before) / dilated),
+        ("critical_pressure".into(), 2.0 * critical / 0.3),
+        ("critical_shear".into(), last / (0.6 * critical)),
+    ])
+}
+
+/// Rise of the pressure between two slips.
+fn risen(penalty: f64, [from, to]: [f64; 2]) -> f64 {
+    let rho = (RADII[1] / RADII[0]).powi(2);
+    let ring = 2.0 * SHEAR / RADII[0] * (rho + 1.0 / (1.0 - 2.0 * POISSON)) / (rho - 1.0);
+    let stiffness = 1.0 / (1.0 / ring + 1.0 / penalty);
+    let dilation = |slip: f64| SKIN[2] * SKIN[3] * (1.0 - (-slip / SKIN[3]).exp());
+    stiffness * (dilation(to) - dilation(from))
+}
+
+fn mean<T>(points: &[T], of: impl Fn(&T) -> (f64, f64)) -> (f64, f64) {
+    let n = points.len() as f64;
+    let sum = points.iter().map(of).fold((0.0, 0.0), |sum, x| (sum.0 + x.0, sum.1 + x.1));
+    (sum.0 / n, sum.1 / n)
+}

@@ -15,7 +15,7 @@ const SHEAR: f64 = 50.0 / (2.0 * (1.0 + POISSON));
 const SKIN: [f64; 4] = [0.6, 0.01, 0.3, 1.0];
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let increments = format!("step.2.increments={{ first = 0.01, largest = {} }}", bench.pick(0.02, 0.005));
+    let increments = format!("step.2.increments={{ first = 0.005, largest = {} }}", bench.pick(0.02, 0.005));
     let [mut before, mut slipped] = [0.0; 2];
     let run = bench.follow("pile.toml", &[increments.clone()], |model, state| {
         if state.step <= 1 && state.time <= 1.0 + 1e-9 {

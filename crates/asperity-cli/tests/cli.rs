@@ -174,3 +174,34 @@ fn laws_are_listed_with_their_numbers() {
         entry.parameters.iter().for_each(|p| assert!(text.contains(p.meaning), "{}", p.key));
     }
 }
+
+#[test]
+fn a_point_of_an_interface_leaves_a_table_and_its_curves() {
+    let folder = folder("");
+    let joint = "friction = 0.6, dilatancy = 0.3, dilation_slip = 2e-3";
+    let deck = format!(
+        "version = 1\ninterface.joint.dilatant = {{ {joint} }}\npenalty = 1e6\n[[step]]\npressure = 100.0\n\
+         [[step]]\nnormal_stiffness = 2e4\nslip = [0.02, 0.0]\n"
+    );
+    std::fs::write(folder.path().join("joint.toml"), deck).unwrap();
+    let run = asperity(folder.path(), &["point", "joint.toml"]);
+    assert_eq!(code(&run), 0, "{}", error(&run));
+    let results = folder.path().join("joint.results");
+    let table = std::fs::read_to_string(results.join("joint.csv")).unwrap();
+    assert!(table.starts_with("time,penetration,slip_s,") && table.lines().count() == 202, "{table}");
+    for curve in ["shear_s_over_slip_s", "closure_over_slip_s", "shear_over_pressure"] {
+        assert!(results.join(format!("{curve}.svg")).exists(), "{curve}");
+    }
+}
+
+#[test]
+fn every_law_of_an_interface_is_listed_with_its_numbers() {
+    let listed = asperity(Path::new("."), &["laws"]);
+    let text = String::from_utf8_lossy(&listed.stdout).into_owned();
+    for entry in asperity::interface::laws::ALL {
+        assert!(text.contains(&format!("\n  {}: {}\n", entry.name, entry.meaning)), "{} is not listed", entry.name);
+        let own = text.split_once(&format!("\n  {}: ", entry.name)).map(|(_, rest)| rest).unwrap();
+        let own = own.split("\n\n").next().unwrap();
+        assert!(entry.parameters.iter().all(|p| own.contains(&format!("    {} ", p.key))), "{own}");
+    }
+}

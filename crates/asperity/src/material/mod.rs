@@ -6,6 +6,7 @@
 //!
 //! To add a law: its file in `laws/`, its `mod` line and its line in [`laws::ALL`].
 
+mod frame;
 mod hyper;
 mod integrated;
 mod law;
@@ -14,7 +15,8 @@ mod rate;
 mod vars;
 
 pub use crate::declare::{Variable, VariableKind};
+pub use frame::hughes_winget;
 pub use hyper::{Hyper, HyperLaw};
 pub use law::{Directions, Gradient, Material};
-pub use rate::{Rate, RateLaw, hughes_winget};
+pub use rate::{Rate, RateLaw};
 pub use vars::{ScalarsAndTensor, ScalarsAndVector, Vars};

@@ -6,6 +6,7 @@
 //! that drives the law; it belongs to the midpoint and is turned to the end by the second half of the rotation,
 //! `H = sqrt(Q)`, without which the stress of a shear would be of first order only.
 
+use super::frame::{Frame, hughes_winget};
 use super::integrated::Integrated;
 use super::{Directions, Gradient, Material, Variable, Vars};
 use crate::Failure;
@@ -51,77 +52,11 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rate<L>(pub L);
 
-/// Strain increment of a deformation `f`, turned to its end, and rotation.
-pub fn hughes_winget<T: Scalar>(f: &Tensor2<T>) -> (Tensor2<T>, Tensor2<T>) {
-    let identity = Tensor2::<T>::identity();
-    let g = (*f - identity) * (*f + identity).inverse() * T::from(2.0);
-    let spin = g.skew() * T::from(0.5);
-    let half = cayley(&(spin * halving(&spin).0));
-    ((half * g.sym() * half.transpose()).sym(), cayley(&spin))
-}
-
-/// The rotation `(I - A)^-1 (I + A)` of a skew `A`, by twice the angle whose tangent is the length of its axis.
-fn cayley<T: Scalar>(skew: &Tensor2<T>) -> Tensor2<T> {
-    let identity = Tensor2::<T>::identity();
-    (identity - *skew).inverse() * (identity + *skew)
-}
-
-/// The factor `c = 1/(1 + s)` by which the axis is shortened for half the angle, and `s = sqrt(1 + A:A/2)`.
-fn halving<T: Scalar>(skew: &Tensor2<T>) -> (T, T) {
-    let s = (skew.contract(*skew) * 0.5 + 1.0).sqrt();
-    ((s + 1.0).recip(), s)
-}
-
 /// Part of a stress given beforehand by which the law may correct it.
 const BORNE: f64 = 1e-9;
 
 /// Why a deformation is refused.
 pub(super) const INSIDE_OUT: &str = "a cell is turned inside out";
-
-/// What a law is given: the strain increment, the rotation and the rotated old stress.
-struct Frame<T> {
-    de: Tensor2<T>,
-    q: Tensor2<T>,
-    stress: Tensor2<T>,
-}
-
-impl<const N: usize> Frame<Dual<N>> {
-    /// The frame of a deformation with its derivatives along the components `places` of `f`. They are written by hand
-    /// because every point of every iteration passes here: with `A = (f + I)^-1`, `B = (I - W/2)^-1` and `C` the same of
-    /// the half rotation, `dG = 4 A df A`, `dQ = B dW B`, `dH = C d(c W) C`. Duals through [`hughes_winget`] are their
-    /// oracle in the tests.
-    fn new(f: &Tensor2, old: &Tensor2, places: &[(usize, usize)]) -> Self {
-        let identity = Tensor2::identity();
-        let a = (*f + identity).inverse();
-        let g = (*f - identity) * a * 2.0;
-        let spin = g.skew() * 0.5;
-        let (c, s) = halving(&spin);
-        let (q, half) = (cayley(&spin), cayley(&(spin * c)));
-        let (b, b_half) = ((q + identity) * 0.5, (half + identity) * 0.5);
-        let (turn, turn_half) = (*old * q.transpose(), g.sym() * half.transpose());
-        let de = (half * turn_half).sym();
-        let mut frame = Self { de: de.lift(), q: q.lift(), stress: (q * turn).lift() };
-        for (d, &(m, n)) in places.iter().enumerate() {
-            let dg = Tensor2::from_fn(|i, j| 4.0 * a[(i, m)] * a[(n, j)]);
-            let dw = dg.skew();
-            let dq = b * dw * b;
-            let dc = -0.25 * c * c * spin.contract(dw) / s;
-            let dh = b_half * (dw * c + spin * (2.0 * dc)) * b_half;
-            let (by_turn, strain) = (dh * turn_half, half * dg.sym() * half.transpose());
-            let stress = dq * turn;
-            set_slope(&mut frame.de, d, &(strain + by_turn + by_turn.transpose()));
-            set_slope(&mut frame.q, d, &dq);
-            set_slope(&mut frame.stress, d, &(stress + stress.transpose()));
-        }
-        frame
-    }
-}
-
-fn set_slope<const N: usize>(t: &mut Tensor2<Dual<N>>, direction: usize, slope: &Tensor2) {
-    for (row, slopes) in t.0.iter_mut().zip(&slope.0) {
-        row.iter_mut().zip(slopes).for_each(|(x, slope)| x.du[direction] = *slope);
-    }
-}
 
 impl<L: RateLaw> Rate<L> {
     fn advance(&self, f: &Tensor2, dt: f64, old: &[f64]) -> Result<(Tensor2, L::Vars<f64>), Failure> {
@@ -216,33 +151,4 @@ impl<L: RateLaw> Material for Rate<L> {
 
 pub(super) fn stress_of(state: &[f64]) -> Tensor2 {
     Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A deformation with all nine components away from the identity, and a stress.
-    fn sample() -> (Tensor2, Tensor2) {
-        let f = Tensor2([[1.13, 0.21, -0.07], [-0.16, 0.88, 0.05], [0.11, -0.09, 1.06]]);
-        (f, Tensor2::from_voigt([3.0, -2.0, 1.5, 0.7, -0.4, 1.1]))
-    }
-
-    #[test]
-    fn derivatives_of_the_frame_are_those_of_duals() {
-        let (f, old) = sample();
-        let places = Directions::Space.components();
-        let mut dual = f.lift::<Dual<9>>();
-        places.iter().enumerate().for_each(|(d, &place)| dual[place] = Dual::variable(f[place], d));
-        let (de, q) = hughes_winget(&dual);
-        let stress = q * old.lift() * q.transpose();
-        let frame = Frame::<Dual<9>>::new(&f, &old, places);
-        for (by_hand, by_duals) in [(frame.de, de), (frame.q, q), (frame.stress, stress)] {
-            for place in places {
-                let (a, b) = (by_hand[*place], by_duals[*place]);
-                assert!((a.re - b.re).abs() < 1e-14, "{place:?}: {} against {}", a.re, b.re);
-                a.du.iter().zip(b.du).for_each(|(x, y)| assert!((x - y).abs() < 1e-13, "{place:?}: {x} against {y}"));
-            }
-        }
-    }
 }

@@ -104,15 +104,13 @@ impl<'a> Piecewise<'a> {
         Ok(false)
     }
 
-    /// Coordinates of all kinks at the end of the step.
-    fn coordinates(&self, part: f64, left: &[f64]) -> Vec<Coordinates> {
-        let kinks = self.kinks.list().iter().zip(&self.along);
-        let mut y: Vec<Coordinates> =
-            kinks.map(|(kink, along)| std::array::from_fn(|c| kink.y[c] + part * along[c])).collect();
-        for (w, influence) in left.iter().zip(&self.influence).filter(|(w, _)| **w != 0.0) {
-            for (y, change) in y.iter_mut().zip(influence) {
-                (0..COORDINATES).for_each(|c| y[c] -= w * change[c]);
-            }
+    /// Coordinates of a kink at the end of the step.
+    fn coordinates(&self, number: usize, part: f64, left: &[f64]) -> Coordinates {
+        let (start, along) = (&self.kinks.list()[number].y, &self.along[number]);
+        let mut y: Coordinates = std::array::from_fn(|c| start[c] + part * along[c]);
+        for (w, influence) in left.iter().zip(&self.influence) {
+            let change = &influence[number];
+            (0..COORDINATES).for_each(|c| y[c] -= w * change[c]);
         }
         y
     }
@@ -134,8 +132,8 @@ impl<'a> Piecewise<'a> {
     /// Stresses that the step leaves and that are not yet put right.
     fn awake(&self, part: f64) -> Result<Vec<Stress>, Failure> {
         let (mut found, mut largest) = (Vec::new(), 0.0_f64);
-        for (number, y) in self.coordinates(part, &self.left).iter().enumerate() {
-            let (bent, size) = self.bend(number, y)?;
+        for number in 0..self.kinks.list().len() {
+            let (bent, size) = self.bend(number, &self.coordinates(number, part, &self.left))?;
             largest = largest.max(size);
             let left = bent.stress.into_iter().enumerate().filter(|(_, w)| *w != 0.0);
             found.extend(left.map(|(coordinate, w)| ((number, coordinate), w.abs())));
@@ -208,10 +206,9 @@ impl<'a> Piecewise<'a> {
     }
 
     fn problem(&self, part: f64, left: &[f64]) -> Result<Problem, Failure> {
-        let y = self.coordinates(part, left);
         let mut problem = Problem { error: Vec::new(), rows: Vec::new(), size: 0.0 };
         for (row, &(kink, coordinate)) in self.active.iter().enumerate() {
-            let (bent, size) = self.bend(kink, &y[kink])?;
+            let (bent, size) = self.bend(kink, &self.coordinates(kink, part, left))?;
             problem.size = problem.size.max(size);
             problem.error.push(left[row] - bent.stress[coordinate]);
             let slopes = &bent.slopes[coordinate];

@@ -14,6 +14,7 @@ mod interference_fit;
 mod partial_slip;
 mod pull_out;
 mod rotated_pair;
+mod shallow_ironing;
 mod strip_footing;
 mod strip_punch;
 mod thick_shells;
@@ -30,6 +31,7 @@ pub const ALL: &[&Case] = &[
     &interference_fit::CASE,
     &partial_slip::CASE,
     &crushed_ring::CASE,
+    &shallow_ironing::CASE,
     &rotated_pair::CASE,
     &inclined_block::CASE,
     &hertz_cylinder::CASE,

@@ -249,3 +249,55 @@ increments.count = 30
     let cells = tools.split("NumberOfCells=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
     assert!(cells.parse::<usize>().unwrap() > 100, "the ball is drawn as a surface: {cells}");
 }
+
+/// A slab and the ball that is dragged along it, turned with all they are given by so many thirds of a turn about the
+/// space diagonal: forces on the ball and the largest pressure, in the axes of the slab.
+fn dragged(thirds: usize) -> [f64; 4] {
+    let turn = |v: [f64; 3]| -> [f64; 3] { std::array::from_fn(|axis| v[(axis + 3 - thirds) % 3]) };
+    let side = |axis: usize, end: usize| {
+        format!("slab.{}", [["left", "right"], ["bottom", "top"], ["back", "front"]][(axis + thirds) % 3][end])
+    };
+    let [from, to, center] = [[-1.0, 0.0, -1.0], [2.0, 1.0, 0.0], [0.1, 0.0, 1.0]].map(turn);
+    let (cells, [x, y, z]) = (turn([9.0, 3.0, 2.0]).map(|n| n as usize), turn([0.6, 0.1, -0.15]));
+    let (held, mirror, top) = (side(2, 0), side(1, 0), side(2, 1));
+    let deck = format!(
+        r#"
+version = 1
+space = "solid"
+mesh.part.slab.box = {{ from = {from:?}, to = {to:?}, cells = {cells:?}, cell = "hex20" }}
+material.rubber.elastic = {{ young = 10.0, poisson = 0.3 }}
+body.slab = {{ material = "rubber", integration = "reduced" }}
+tool.ball.sphere = {{ center = {center:?}, radius = 1.0 }}
+contact.track = {{ surface = "{top}", target = "ball", law.coulomb = {{ friction = 0.3 }} }}
+solver.tolerance = 1e-11
+[[step]]
+symmetry = ["{mirror}"]
+displacement."{held}" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+motion.ball = {{ x = {x}, y = {y}, z = {z} }}
+increments.count = 6
+"#
+    );
+    let made = read(&deck, "turned.toml", Path::new(""), &[])
+        .and_then(build)
+        .unwrap_or_else(|d| panic!("{}", d.render(false)));
+    let mut run = made.model.run(made.model.problem.initial_state());
+    assert_eq!(run.run(&RunOptions::default(), &mut Silent).unwrap(), Stop::Done);
+    let history = &run.state.histories[made.model.first_contact()];
+    let records = made.model.solid_contacts[0].records(&run.state.u, history);
+    assert!(records.iter().any(|record| record.slipped > 0.0));
+    let force = records.iter().fold(Vec3::zero(), |sum, record| sum + record.force());
+    let back: [f64; 3] = std::array::from_fn(|axis| force[(axis + thirds) % 3]);
+    let pressure = records.iter().map(|record| record.pressure).fold(0.0, f64::max);
+    [back[0], back[1], back[2], pressure]
+}
+
+/// The lattice of the slab numbers its nodes, and with them the axes of its faces, in another order each time.
+#[test]
+fn a_turned_model_gives_the_turned_answer() {
+    let straight = dragged(0);
+    for thirds in [1, 2] {
+        let turned = dragged(thirds);
+        let error = straight.iter().zip(&turned).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-8 * straight[3], "{straight:?} {turned:?}");
+    }
+}

@@ -45,6 +45,19 @@ fn the_number_of_threads_changes_nothing() {
     }
 }
 
+/// Contact in space: its rays are cast side by side.
+#[test]
+fn the_number_of_threads_changes_nothing_in_space() {
+    let deck = include_str!("../../../cases/dragged-ball/slab.toml");
+    let model = model(deck, &["mesh.part.slab.box.cells=[12, 6, 2]", "step.drag.increments.count=4"]);
+    let [one, two, three] = [1, 2, 3].map(|threads| with_threads(threads, || all_bytes(&run(&model))));
+    assert_eq!(one.len(), 8);
+    assert!(one == two && one == three);
+    let begun = go_on(&model, model.problem.initial_state(), Some(5));
+    let rest = go_on(&model, through_a_file(begun.states.last().unwrap()), None);
+    assert!(one[5..] == all_bytes(&rest)[..], "a restart changes nothing either");
+}
+
 #[test]
 fn outputs_change_nothing() {
     let model = model(DECK, &coarse(&[]));

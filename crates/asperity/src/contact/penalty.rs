@@ -20,5 +20,5 @@ pub fn default_penalty(mesh: &Mesh, sides: &[Side], modulus: impl Fn(usize) -> f
 pub fn depth(mesh: &Mesh, side: Side) -> f64 {
     let (kind, nodes) = mesh.side(side);
     let nodes: Vec<usize> = nodes.collect();
-    mesh.measure(side.cell) / CellView { kind, nodes: &nodes }.measure(&mesh.points)
+    mesh.measure(side.cell) / CellView { kind, nodes: &nodes }.extent(&mesh.points)
 }

@@ -30,6 +30,16 @@ impl CellView<'_> {
         }
     }
 
+    /// Length of an edge or area of a face, however it stands in space.
+    pub fn extent(&self, points: &[Vec3]) -> f64 {
+        let rule = self.kind.full;
+        let ratio = |xi: [f64; 3]| match (self.kind.dimension, self.map(points, xi).1) {
+            (1, [u, ..]) => u.norm(),
+            (_, [u, v, _]) => u.cross(v).norm(),
+        };
+        rule.points.iter().zip(rule.weights).map(|(&xi, weight)| weight * ratio(xi)).sum()
+    }
+
     /// Length, area or volume by the full quadrature of the cell.
     pub fn measure(&self, points: &[Vec3]) -> f64 {
         let rule = self.kind.full;

@@ -13,6 +13,7 @@ use crate::tool::Rejected;
 use crate::tool::space::Hit;
 use rayon::prelude::*;
 use std::cell::RefCell;
+use std::f64::consts::FRAC_PI_2;
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -24,6 +25,8 @@ pub struct OpenContact<'a> {
     pub history: &'a History,
     /// Largest admissible penetration at each point.
     pub depths: Vec<f64>,
+    /// Rotation vector of the tool in the accepted state.
+    pub rotation: Vec3,
     /// Pressure up to which the tangent is exact.
     pub ordinary: f64,
     /// Length of the increment.
@@ -174,6 +177,7 @@ impl OpenContact<'_> {
             return Ok(0);
         };
         self.refuse_jump(index, g)?;
+        self.refuse_turn(index, g)?;
         new[entry::PENETRATION] -= constants.least;
         write(&closed, old, new);
         self.add(index, g, &closed, local);
@@ -238,6 +242,16 @@ impl OpenContact<'_> {
     fn turning(&self, penetration: f64) -> f64 {
         let pressure = self.contact.parts.options.penalty * penetration.abs();
         if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }
+    }
+
+    /// The slip is a chord: a tool that turns by half a turn brings what was touched to the other side, and none is seen.
+    fn refuse_turn(&self, index: usize, g: &Geometry) -> Result<(), Failure> {
+        let turned = (g.pose.rotation - self.rotation).norm();
+        if g.place.touched.is_some() && turned > FRAC_PI_2 {
+            let (name, degrees) = (self.contact.describe(index), turned.to_degrees());
+            return Err(Failure::new(format!("{name}: its tool turned by {degrees:.0} degrees in one increment")));
+        }
+        Ok(())
     }
 
     /// A point that had nothing before it and now lies deep has jumped over the target's face.

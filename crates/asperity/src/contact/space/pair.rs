@@ -201,7 +201,14 @@ impl Term for Contact {
         let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, &accepted.u);
         let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
         let ordinary = (ORDINARY * parts.options.modulus).max(GROWTH * pressures.fold(0.0, f64::max));
-        Ok(Box::new(OpenContact { contact: self, history, depths, ordinary, dt: at.dt }))
+        Ok(Box::new(OpenContact {
+            contact: self,
+            history,
+            depths,
+            rotation: self.pose(&accepted.u).rotation,
+            ordinary,
+            dt: at.dt,
+        }))
     }
 
     fn name_of(&self, stencil: usize) -> String {

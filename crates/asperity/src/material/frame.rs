@@ -1,5 +1,6 @@
 //! The frame in which a rate law sees an increment: strain, rotation and old stress, with their derivatives.
 
+use super::Gradient;
 use crate::tensor::{Dual, Scalar, Tensor2};
 
 /// Strain increment of a deformation `f`, turned to its end, and rotation.
@@ -39,6 +40,19 @@ impl<const N: usize> Frame<Dual<N>> {
     pub fn new(f: &Tensor2, old: &Tensor2, places: &[(usize, usize)]) -> Self {
         let in_plane = places.iter().all(|&(i, j)| (i == 2) == (j == 2));
         if in_plane { Self::plane(f, old, places) } else { Self::space(f, old, places) }
+    }
+
+    /// Derivatives of the rotated stress and the elastic stress `lambda tr(de) I + 2 G de` together.
+    pub fn elastic_gradient(&self, [lambda, shear]: [f64; 2]) -> Gradient {
+        let (stress, de) = (self.stress.to_voigt(), self.de.to_voigt());
+        let mut gradient = [[0.0; 9]; 6];
+        for (v, row) in gradient.iter_mut().enumerate() {
+            for (d, slope) in row.iter_mut().enumerate().take(N) {
+                let mean = if v < 3 { lambda * (de[0].du[d] + de[1].du[d] + de[2].du[d]) } else { 0.0 };
+                *slope = stress[v].du[d] + 2.0 * shear * de[v].du[d] + mean;
+            }
+        }
+        gradient
     }
 
     /// In the plane a rotation is an angle, `tan(angle / 2) = t = (G_xy - G_yx) / 4`. A tensor turned by it keeps its trace,
@@ -161,6 +175,17 @@ mod tests {
         let in_plane = |t: &Tensor2| Tensor2::from_fn(|i, j| if (i == 2) == (j == 2) { t[(i, j)] } else { 0.0 });
         for directions in [Directions::Plane, Directions::PlaneAndNormal] {
             compare(&in_plane(&f), &in_plane(&old), directions.components());
+        }
+    }
+
+    #[test]
+    fn an_elastic_step_has_the_derivative_of_duals() {
+        let (f, old) = sample();
+        let frame = Frame::<Dual<9>>::new(&f, &old, Directions::Space.components());
+        let elastic = frame.de * Dual::from(2.0 * 5.0) + Tensor2::identity() * (frame.de.trace() * 7.0);
+        let by_duals = (frame.stress + elastic).to_voigt();
+        for (row, dual) in frame.elastic_gradient([7.0, 5.0]).iter().zip(by_duals) {
+            row.iter().zip(dual.du).for_each(|(a, b)| assert!((a - b).abs() < 1e-13 * b.abs().max(1.0), "{a}, {b}"));
         }
     }
 

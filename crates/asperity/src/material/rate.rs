@@ -36,6 +36,12 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
         dt: f64,
     ) -> Result<(Tensor2<T>, Self::Vars<T>), Failure>;
 
+    /// Lame's constants of a step in which the stress grows by `lambda tr(de) I + 2 G de` and nothing else changes:
+    /// its derivative then needs no duals through the law. None where the law does not know.
+    fn elastic_step(&self, _de: &Tensor2, _stress: &Tensor2, _vars: &Self::Vars<f64>) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Recoverable energy per volume at a stress.
     fn stored_energy(&self, stress: &Tensor2, vars: &Self::Vars<f64>) -> f64;
     /// Energy dissipated per volume between two states.
@@ -80,6 +86,14 @@ impl<L: RateLaw> Rate<L> {
             return Err(Failure::new(INSIDE_OUT));
         }
         let frame = Frame::<Dual<N>>::new(f, &stress_of(old), directions.components());
+        let (de, stress) = (frame.de.re(), frame.stress.re());
+        let vars = L::Vars::<f64>::read(&old[6..]).rotate(&frame.q.re());
+        if let Some(lame) = self.0.elastic_step(&de, &stress, &vars) {
+            let (stress, vars) = self.0.update(de, stress, &vars, dt)?;
+            new[..6].copy_from_slice(&stress.to_voigt());
+            vars.write(&mut new[6..]);
+            return Ok(frame.elastic_gradient(lame));
+        }
         let vars = L::Vars::<Dual<N>>::read(&old[6..]).rotate(&frame.q);
         let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, dt)?;
         let stress = stress.to_voigt();

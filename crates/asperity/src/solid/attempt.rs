@@ -1,7 +1,7 @@
 //! A body during one attempt: its cells' gradients at the accepted state, and the forces of each cell.
 
-use super::body::{Body, Formulation};
-use super::gradient::{self, PointGradient};
+use super::body::Body;
+use super::gradient::{self, PointGradient, Shapes};
 use super::operator::{FEW_DOFS, MAX_DOFS, add_center, add_forces, add_tangent};
 use super::plane_stress;
 use super::point::PointLaw;
@@ -62,15 +62,10 @@ impl Body {
             x.iter_mut().zip(&u[first..first + self.dofs.per_node()]).for_each(|(x, u)| *x += u);
         }
         let x = &x[..view.nodes.len()];
-        let rule = self.rule(view.kind);
-        let at = |xi, weight| {
-            gradient::at(view.kind, xi, weight, x, self.space).ok_or_else(|| Failure::new(self.inverted(cell)))
-        };
-        let points = rule.points.iter().zip(rule.weights).map(|(&xi, &w)| at(xi, w)).collect::<Result<_, _>>()?;
-        let center = match self.options.formulation {
-            Formulation::Standard => None,
-            Formulation::FBar => Some(at(view.kind.center(), 1.0)?),
-        };
+        let at = |shapes: &Shapes| gradient::at(shapes, x, self.space).ok_or_else(|| Failure::new(self.inverted(cell)));
+        let shapes = self.shapes(view.kind);
+        let points = shapes.points.iter().map(at).collect::<Result<_, _>>()?;
+        let center = shapes.center.as_ref().map(at).transpose()?;
         Ok(CellGradients { points, center })
     }
 }

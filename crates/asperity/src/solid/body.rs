@@ -1,6 +1,7 @@
 //! A body as a term of equilibrium: one stencil a cell.
 
 use super::attempt::OpenBody;
+use super::gradient::Shapes;
 use super::{Heat, InitialStress};
 use crate::material::Material;
 use crate::mesh::cells::{Cell, Rule};
@@ -54,8 +55,18 @@ pub struct Body {
     pub(super) cells: Vec<usize>,
     pub(super) material: Arc<dyn Material>,
     pub(super) options: BodyOptions,
+    shapes: Vec<KindShapes>,
     initial_stress: Option<InitialStress>,
     pub(super) heat: Option<Heat>,
+}
+
+/// The shape functions of one kind of cell at the points where a body needs them.
+pub(super) struct KindShapes {
+    kind: &'static Cell,
+    /// At the points of its quadrature.
+    pub points: Vec<Shapes>,
+    /// At the centre, with F-bar.
+    pub center: Option<Shapes>,
 }
 
 impl Body {
@@ -73,7 +84,32 @@ impl Body {
         for &cell in &cells {
             refuse(name, mesh.cell(cell).kind, space, &options)?;
         }
-        Ok(Self { name: name.into(), mesh, dofs, space, cells, material, options, initial_stress: None, heat: None })
+        let name = name.into();
+        let (shapes, initial_stress, heat) = (Vec::new(), None, None);
+        let mut body = Self { name, mesh, dofs, space, cells, material, options, shapes, initial_stress, heat };
+        body.shapes = body.all_shapes();
+        Ok(body)
+    }
+
+    fn all_shapes(&self) -> Vec<KindShapes> {
+        let mut all: Vec<KindShapes> = Vec::new();
+        for kind in self.cells.iter().map(|&cell| self.mesh.cell(cell).kind) {
+            if all.iter().all(|known| known.kind.name != kind.name) {
+                let rule = self.rule(kind);
+                let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| Shapes::new(kind, xi, weight));
+                let barred = self.options.formulation == Formulation::FBar;
+                let center = barred.then(|| Shapes::new(kind, kind.center(), 1.0));
+                all.push(KindShapes { kind, points: points.collect(), center });
+            }
+        }
+        all
+    }
+
+    /// The shape functions of a kind of its cells.
+    pub(super) fn shapes(&self, kind: &'static Cell) -> &KindShapes {
+        let place = self.shapes.iter().position(|known| known.kind.name == kind.name);
+        // Every kind among the cells was met when the body was made.
+        &self.shapes[place.unwrap_or(0)]
     }
 
     /// The body with stresses before the first increment.

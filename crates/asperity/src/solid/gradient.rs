@@ -17,14 +17,29 @@ pub struct PointGradient {
     pub volume: f64,
 }
 
-/// Gradients of the cell `kind` at reference point `xi` for nodes at `x`; `None` if the cell is inside out there, or
-/// not to the right of the axis.
-pub fn at(kind: &Cell, xi: [f64; 3], weight: f64, x: &[[f64; 3]], space: Space) -> Option<PointGradient> {
+/// The shape functions at one reference point, with its weight: the same for all cells of a kind.
+pub struct Shapes {
+    n: [f64; MAX_NODES],
+    dn: [[f64; 3]; MAX_NODES],
+    weight: f64,
+}
+
+impl Shapes {
+    /// Those of the cell `kind` at `xi`.
+    pub fn new(kind: &Cell, xi: [f64; 3], weight: f64) -> Self {
+        let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+        (kind.shape)(xi, &mut n, &mut dn);
+        Self { n, dn, weight }
+    }
+}
+
+/// Gradients at one point of a cell with nodes at `x`; `None` if the cell is inside out there, or not to the right of
+/// the axis.
+pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space) -> Option<PointGradient> {
     let count = x.len();
-    let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
-    (kind.shape)(xi, &mut n, &mut dn);
+    let Shapes { n, dn, weight } = shapes;
     let mut jacobian = Tensor2::zero();
-    for (x, dn) in x.iter().zip(&dn) {
+    for (x, dn) in x.iter().zip(dn) {
         for i in 0..3 {
             for a in 0..3 {
                 jacobian[(i, a)] += x[i] * dn[a];

@@ -150,6 +150,13 @@ impl RateLaw for DruckerPrager {
         Ok((Tensor2::identity() * T::from(apex), [shear + root / g, volume + (p - apex) / k]))
     }
 
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, _: &[f64; 2]) -> Option<[f64; 2]> {
+        let trial = *stress + self.elastic.stress(de);
+        let (p, s) = (trial.trace() * (1.0 / 3.0), trial.deviator());
+        let f = (s.contract(s) * 0.5).sqrt() + p * self.eta - self.strength;
+        (f <= 0.0).then_some([self.elastic.lambda, self.elastic.shear])
+    }
+
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 2]) -> f64 {
         self.elastic.energy(stress)
     }

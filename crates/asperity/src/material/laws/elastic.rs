@@ -81,6 +81,10 @@ impl RateLaw for Elastic {
         Ok((stress + self.stress(&de), ()))
     }
 
+    fn elastic_step(&self, _: &Tensor2, _: &Tensor2, (): &()) -> Option<[f64; 2]> {
+        Some([self.lambda, self.shear])
+    }
+
     fn stored_energy(&self, stress: &Tensor2, _: &()) -> f64 {
         self.energy(stress)
     }

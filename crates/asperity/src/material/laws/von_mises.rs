@@ -101,6 +101,11 @@ impl System<1, 4> for Consistency<'_> {
 }
 
 impl VonMises {
+    /// Whether a trial state with `s:s`, `s:X`, `X:X` lies within yield at the plastic strain `p`.
+    fn bears(&self, [ss, sx, xx, p]: [f64; 4]) -> bool {
+        (1.5 * (ss - 2.0 * sx + xx)).sqrt() <= self.hardening.stress(p)
+    }
+
     /// Stress and variables with the plastic increment `dp`.
     fn relax<T: Scalar>(&self, trial: &Tensor2<T>, vars: &State<T>, dp: T) -> (Tensor2<T>, State<T>) {
         let w = (dp * self.recovery + 1.0).recip();
@@ -131,15 +136,20 @@ impl RateLaw for VonMises {
         let trial = stress + self.elastic.stress(&de);
         let (s, x) = (trial.deviator(), vars.tensor);
         let data = [s.contract(s), s.contract(x), x.contract(x), vars.scalars[0]];
-        let [ss, sx, xx, _] = data.map(T::re);
-        let flow = self.hardening.stress(vars.scalars[0].re());
-        if (1.5 * (ss - 2.0 * sx + xx)).sqrt() <= flow {
+        let [ss, sx, xx, p] = data.map(T::re);
+        if self.bears([ss, sx, xx, p]) {
             return Ok((trial, *vars));
         }
         let reach = (1.5 * ss).sqrt() + (1.5 * xx).sqrt();
         let equation = Consistency { law: self, scale: reach };
         let dp = root(&equation, [0.0, reach / (3.0 * self.elastic.shear)], &data, "von Mises")?;
         Ok(self.relax(&trial, vars, dp))
+    }
+
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64>) -> Option<[f64; 2]> {
+        let (s, x) = ((*stress + self.elastic.stress(de)).deviator(), vars.tensor);
+        let bears = self.bears([s.contract(s), s.contract(x), x.contract(x), vars.scalars[0]]);
+        bears.then_some([self.elastic.lambda, self.elastic.shear])
     }
 
     fn stored_energy(&self, stress: &Tensor2, vars: &State<f64>) -> f64 {

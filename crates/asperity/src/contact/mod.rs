@@ -16,6 +16,7 @@ mod penalty;
 mod point;
 mod record;
 mod rigid;
+mod search;
 pub mod space;
 mod split;
 mod surface;

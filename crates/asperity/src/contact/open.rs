@@ -1,20 +1,17 @@
 //! A contact during one attempt: its points as stencils, evaluated on the segments that the search found.
 
-use super::geometry::{DIRECTIONS, Geometry, laid};
+use super::geometry::{DIRECTIONS, Geometry};
 use super::kink::answer;
 use super::pair::Contact;
 use super::point::{self, Constants, Place, triad};
 use super::record::entry;
-use super::split::Seeker;
 use super::surface::SurfacePoint;
-use super::target::{Cast, Hit, Memory, Standing};
+use super::target::{Hit, Standing};
 use crate::Failure;
 use crate::interface::Past;
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
-use crate::tool::Ray;
-use std::cell::RefCell;
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -52,10 +49,6 @@ pub fn write_hit(spot: &SurfacePoint, hit: Option<Hit>, values: &mut [f64]) {
         }
         None => values[entry::SEGMENT] = -1.0,
     }
-}
-
-thread_local! {
-    static MEMORY: RefCell<Memory> = RefCell::default();
 }
 
 impl Attempt for OpenContact<'_> {
@@ -148,54 +141,6 @@ pub(super) fn seed<T: Seed>(v: Vec3, direction: usize) -> Vec3<T> {
 type Evaluated<T> = Result<(T, Option<point::Closed<T>>), Failure>;
 
 impl OpenContact<'_> {
-    fn list(&self, u: &[f64], out: &mut Stencils) {
-        let standing = self.contact.target.stand(u);
-        MEMORY.with_borrow_mut(|memory| {
-            for edge in 0..self.contact.surface.edges.len() {
-                let vertices = self.vertices(edge, &standing, u, memory);
-                for index in self.contact.surface.points_of(edge) {
-                    let stencil = self.seek((index, vertices), &standing, u, memory);
-                    let start = out.dofs.len();
-                    self.unknowns(index, &stencil, &mut out.dofs);
-                    out.close(start, stencil);
-                }
-            }
-        });
-    }
-
-    /// The vertices between which a target that deforms covers an edge.
-    fn vertices(&self, edge: usize, standing: &Standing, u: &[f64], memory: &mut Memory) -> [u32; 2] {
-        let (contact, Standing::Faces(standing)) = (self.contact, standing) else { return [0; 2] };
-        let points = contact.surface.points_of(edge);
-        let Some(index) = points.clone().next() else { return [0; 2] };
-        let depth = self.depths[points].iter().copied().fold(0.0, f64::max);
-        let (placed, cast) = (contact.placed(edge, u), contact.bounds(index, depth, self.reach));
-        Seeker { standing, placed, cast }.vertices(memory)
-    }
-
-    /// The choices of a point on an edge that is covered between two vertices.
-    fn seek(
-        &self,
-        (index, vertices): (usize, [u32; 2]),
-        standing: &Standing,
-        u: &[f64],
-        memory: &mut Memory,
-    ) -> Stencil {
-        let (contact, point) = (self.contact, &self.contact.surface.points[index]);
-        let placed = contact.placed(point.edge, u);
-        let ends = vertices.map(|vertex| {
-            let faces = contact.target.as_faces().filter(|_| vertex > 0)?;
-            Some(placed.foot(faces.place_of(vertex, &faces.unknowns_of(vertex).map(|dof| u[dof]))))
-        });
-        let spot = contact.surface.moved(index, laid(point, &ends));
-        let (origin, tangent) = spot.place(&placed.x[..placed.edge.nodes.len()]);
-        let (_, direction, _) = triad(tangent);
-        let cast = Cast { ray: Ray { origin, direction }, ..contact.bounds(index, self.depths[index], self.reach) };
-        let Some(hit) = standing.cast(&cast, memory) else { return Stencil::default() };
-        let also = [vertices[0], vertices[1], self.recall(index, &spot, memory)];
-        Stencil { choice: hit.segment as u32 + 1, near: hit.s, also, ..Stencil::default() }
-    }
-
     fn evaluate_over<T: Seed>(
         &self,
         index: usize,

@@ -1,21 +1,18 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
-use super::Faces;
 use super::capture::{depths, positions};
 use super::guard::Guard;
 use super::open::{OpenContact, write_hit};
 use super::point::triad;
 use super::record::{PointRecord, PointStatus, entry};
-use super::split::Placed;
+use super::search::relatives;
 use super::surface::{Edge, MAX_EDGE_NODES, Surface, SurfacePoint};
-use super::target::{Cast, Hit, Memory, Target};
+use super::target::Target;
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
-use crate::tool::{Ray, Rejected};
 use crate::{Error, Failure};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// How a contact is computed.
@@ -77,16 +74,16 @@ pub struct Contact {
     pub(super) dofs: Dofs,
     pub(super) space: Space,
     pub(super) surface: Surface,
-    boundary: Vec<Side>,
+    pub(super) boundary: Vec<Side>,
     pub(super) target: Target,
     pub(super) law: Arc<dyn Interface>,
     pub(super) options: ContactOptions,
     /// Penetration from which a point counts as closed.
     pub(super) least: f64,
     /// For each edge the segments of the target that share a node with it.
-    relatives: Vec<Vec<usize>>,
+    pub(super) relatives: Vec<Vec<usize>>,
     /// The longest edge of both sides, a length.
-    longest: f64,
+    pub(super) longest: f64,
 }
 
 impl Contact {
@@ -199,50 +196,9 @@ impl Contact {
         })
     }
 
-    /// What the search finds at displacements `u`, point by point, and how many false contacts it rejects.
-    pub fn search(&self, u: &[f64]) -> (Vec<Option<Hit>>, Rejected) {
-        self.search_within(u, f64::INFINITY)
-    }
-
-    fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {
-        let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, u);
-        let (standing, mut memory) = (self.target.stand(u), Memory::default());
-        let points = self.surface.points.iter().zip(depths).enumerate();
-        let hits = points.map(|(i, (point, depth))| {
-            let (origin, tangent) = self.locate(point, u);
-            let (_, direction, _) = triad(tangent);
-            standing.cast(&Cast { ray: Ray { origin, direction }, ..self.bounds(i, depth, reach) }, &mut memory)
-        });
-        (hits.collect(), memory.rejected)
-    }
-
-    /// What rays of a point may meet; the ray itself is yet to be given.
-    pub(super) fn bounds(&self, point: usize, depth: f64, reach: f64) -> Cast<'_> {
-        let ray = Ray { origin: Vec3::zero(), direction: Vec3::zero() };
-        Cast { ray, reach, depth, relatives: &self.relatives[self.surface.points[point].edge] }
-    }
-
-    /// An edge of the surface with its nodes in place.
-    pub(super) fn placed(&self, edge: usize, u: &[f64]) -> Placed<'_> {
-        let (edge, mut x) = (&self.surface.edges[edge], [Vec3::zero(); MAX_EDGE_NODES]);
-        for (x, here) in x.iter_mut().zip(positions(&self.mesh, &self.dofs, &edge.nodes, u)) {
-            *x = here;
-        }
-        Placed { edge, x }
-    }
-
     /// Where a point stands on its edge in an accepted state.
     pub(super) fn spot(&self, index: usize, values: &[f64]) -> SurfacePoint {
         self.surface.moved(index, [values[entry::XI], values[entry::HALF]])
-    }
-
-    /// The largest gap at which the target is seen in the increment after `last_change`: a tool at any distance; faces,
-    /// whose unknowns would couple for nothing, within an edge's length and twice the motion of the last increment.
-    fn reach(&self, last_change: &[f64]) -> f64 {
-        match self.target {
-            Target::Tool(_) => f64::INFINITY,
-            Target::Faces(_) => self.longest + 2.0 * last_change.iter().fold(0.0_f64, |most, d| most.max(d.abs())),
-        }
     }
 
     /// Words for a point.
@@ -250,23 +206,6 @@ impl Contact {
         let nodes = self.surface.nodes(&self.surface.points[point]);
         format!("point {point} of contact '{}' (edge with nodes {nodes:?})", self.name)
     }
-}
-
-/// For each edge of the surface the segments of the target that share a node with it.
-fn relatives(surface: &Surface, target: &Target) -> Vec<Vec<usize>> {
-    let faces = target.as_faces().map_or(&[][..], Faces::edges);
-    let mut behind: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (segment, face) in faces.iter().enumerate() {
-        face.nodes.iter().for_each(|&node| behind.entry(node).or_default().push(segment));
-    }
-    let of = |edge: &Edge| {
-        let mut segments: Vec<usize> =
-            edge.nodes.iter().filter_map(|node| behind.get(node)).flatten().copied().collect();
-        segments.sort_unstable();
-        segments.dedup();
-        segments
-    };
-    surface.edges.iter().map(of).collect()
 }
 
 impl Term for Contact {

@@ -1,0 +1,131 @@
+//! The search: which segments the rays of a surface meet, and where on its edges the target ends.
+
+use super::Faces;
+use super::capture::{depths, positions};
+use super::geometry::laid;
+use super::open::OpenContact;
+use super::pair::Contact;
+use super::point::triad;
+use super::split::{Placed, Seeker};
+use super::surface::{Edge, MAX_EDGE_NODES, Surface};
+use super::target::{Cast, Hit, Memory, Standing, Target};
+use crate::system::{Stencil, Stencils};
+use crate::tensor::Vec3;
+use crate::tool::{Ray, Rejected};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+thread_local! {
+    static MEMORY: RefCell<Memory> = RefCell::default();
+}
+
+impl Contact {
+    /// What the search finds at displacements `u`, point by point, and how many false contacts it rejects.
+    pub fn search(&self, u: &[f64]) -> (Vec<Option<Hit>>, Rejected) {
+        self.search_within(u, f64::INFINITY)
+    }
+
+    pub(super) fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {
+        let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, u);
+        let (standing, mut memory) = (self.target.stand(u), Memory::default());
+        let points = self.surface.points.iter().zip(depths).enumerate();
+        let hits = points.map(|(i, (point, depth))| {
+            let (origin, tangent) = self.locate(point, u);
+            let (_, direction, _) = triad(tangent);
+            standing.cast(&Cast { ray: Ray { origin, direction }, ..self.bounds(i, depth, reach) }, &mut memory)
+        });
+        (hits.collect(), memory.rejected)
+    }
+
+    /// What rays of a point may meet; the ray itself is yet to be given.
+    pub(super) fn bounds(&self, point: usize, depth: f64, reach: f64) -> Cast<'_> {
+        let ray = Ray { origin: Vec3::zero(), direction: Vec3::zero() };
+        Cast { ray, reach, depth, relatives: &self.relatives[self.surface.points[point].edge] }
+    }
+
+    /// An edge of the surface with its nodes in place.
+    pub(super) fn placed(&self, edge: usize, u: &[f64]) -> Placed<'_> {
+        let (edge, mut x) = (&self.surface.edges[edge], [Vec3::zero(); MAX_EDGE_NODES]);
+        for (x, here) in x.iter_mut().zip(positions(&self.mesh, &self.dofs, &edge.nodes, u)) {
+            *x = here;
+        }
+        Placed { edge, x }
+    }
+
+    /// The largest gap at which the target is seen in the increment after `last_change`: a tool at any distance; faces,
+    /// whose unknowns would couple for nothing, within an edge's length and twice the motion of the last increment.
+    pub(super) fn reach(&self, last_change: &[f64]) -> f64 {
+        match self.target {
+            Target::Tool(_) => f64::INFINITY,
+            Target::Faces(_) => self.longest + 2.0 * last_change.iter().fold(0.0_f64, |most, d| most.max(d.abs())),
+        }
+    }
+}
+
+impl OpenContact<'_> {
+    /// Lists the stencils of all points at unknowns `u`.
+    pub(super) fn list(&self, u: &[f64], out: &mut Stencils) {
+        let standing = self.contact.target.stand(u);
+        MEMORY.with_borrow_mut(|memory| {
+            for edge in 0..self.contact.surface.edges.len() {
+                let vertices = self.vertices(edge, &standing, u, memory);
+                for index in self.contact.surface.points_of(edge) {
+                    let stencil = self.seek((index, vertices), &standing, u, memory);
+                    let start = out.dofs.len();
+                    self.unknowns(index, &stencil, &mut out.dofs);
+                    out.close(start, stencil);
+                }
+            }
+        });
+    }
+
+    /// The vertices between which a target that deforms covers an edge.
+    fn vertices(&self, edge: usize, standing: &Standing, u: &[f64], memory: &mut Memory) -> [u32; 2] {
+        let (contact, Standing::Faces(standing)) = (self.contact, standing) else { return [0; 2] };
+        let points = contact.surface.points_of(edge);
+        let Some(index) = points.clone().next() else { return [0; 2] };
+        let depth = self.depths[points].iter().copied().fold(0.0, f64::max);
+        let (placed, cast) = (contact.placed(edge, u), contact.bounds(index, depth, self.reach));
+        Seeker { standing, placed, cast }.vertices(memory)
+    }
+
+    /// The choices of a point on an edge that is covered between two vertices.
+    fn seek(
+        &self,
+        (index, vertices): (usize, [u32; 2]),
+        standing: &Standing,
+        u: &[f64],
+        memory: &mut Memory,
+    ) -> Stencil {
+        let (contact, point) = (self.contact, &self.contact.surface.points[index]);
+        let placed = contact.placed(point.edge, u);
+        let ends = vertices.map(|vertex| {
+            let faces = contact.target.as_faces().filter(|_| vertex > 0)?;
+            Some(placed.foot(faces.place_of(vertex, &faces.unknowns_of(vertex).map(|dof| u[dof]))))
+        });
+        let spot = contact.surface.moved(index, laid(point, &ends));
+        let (origin, tangent) = spot.place(&placed.x[..placed.edge.nodes.len()]);
+        let (_, direction, _) = triad(tangent);
+        let cast = Cast { ray: Ray { origin, direction }, ..contact.bounds(index, self.depths[index], self.reach) };
+        let Some(hit) = standing.cast(&cast, memory) else { return Stencil::default() };
+        let also = [vertices[0], vertices[1], self.recall(index, &spot, memory)];
+        Stencil { choice: hit.segment as u32 + 1, near: hit.s, also, ..Stencil::default() }
+    }
+}
+
+/// For each edge of the surface the segments of the target that share a node with it.
+pub fn relatives(surface: &Surface, target: &Target) -> Vec<Vec<usize>> {
+    let faces = target.as_faces().map_or(&[][..], Faces::edges);
+    let mut behind: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (segment, face) in faces.iter().enumerate() {
+        face.nodes.iter().for_each(|&node| behind.entry(node).or_default().push(segment));
+    }
+    let of = |edge: &Edge| {
+        let mut segments: Vec<usize> =
+            edge.nodes.iter().filter_map(|node| behind.get(node)).flatten().copied().collect();
+        segments.sort_unstable();
+        segments.dedup();
+        segments
+    };
+    surface.edges.iter().map(of).collect()
+}

@@ -17,7 +17,7 @@ const SKIN: [f64; 4] = [0.6, 0.01, 0.3, 1.0];
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let increments = format!("step.2.increments={{ first = 0.005, largest = {} }}", bench.pick(0.02, 0.005));
     let [mut before, mut slipped] = [0.0; 2];
-    let run = bench.follow("pile.toml", &[increments.clone()], |model, state| {
+    let run = bench.follow("pile.toml", std::slice::from_ref(&increments), |model, state| {
         if state.step <= 1 && state.time <= 1.0 + 1e-9 {
             (before, slipped) = mean(&points(model, state, 0), |point| (point.pressure, point.slipped));
         }

@@ -41,10 +41,9 @@ pub fn rounded(profile: Vec<Draft>, radius: f64) -> Result<Vec<Draft>, String> {
             arcs[i] = Some((i, arc, nodes.to_vec()));
         }
     }
-    for i in 0..n {
-        if straight(i).is_some_and(|[a, b]| (cut[i].2[1] - cut[i].2[0]).dot(b - a) <= 0.0) {
-            return Err(format!("the fillet is too large for segment {}", i + 1));
-        }
+    let too_short = |(i, _, nodes): &&Draft| straight(*i).is_some_and(|[a, b]| (nodes[1] - nodes[0]).dot(b - a) <= 0.0);
+    if let Some((i, ..)) = cut.iter().find(too_short) {
+        return Err(format!("the fillet is too large for segment {}", i + 1));
     }
     Ok(cut.into_iter().zip(arcs).flat_map(|(segment, arc)| std::iter::once(segment).chain(arc)).collect())
 }

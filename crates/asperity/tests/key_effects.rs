@@ -180,8 +180,8 @@ fn keys_of_solver_and_output_change_the_run() {
     for change in changes {
         assert_ne!(plain, run(&[change]), "{change}");
     }
-    // Full corrections serve that run well; the search has work where the plate has an edge.
-    let edge = "{ line = [[9.0, -0.05], [1.5, -0.05]] }, { line = [[1.5, -0.05], [-9.0, -1.0]] }";
-    let hard = [&*format!("tool.plate.profile=[{edge}]")];
+    // Full corrections serve that run well; the search has work where points find out one by one about a ridge.
+    let ridge = "{ line = [[9.0, -1.0], [2.2, 0.0]] }, { line = [[2.2, 0.0], [-9.0, -5.0]] }";
+    let hard = [&*format!("tool.plate.profile=[{ridge}]"), "solver.piecewise=false"];
     assert_ne!(run(&hard), run(&[&hard[..], &["solver.line_search=false"]].concat()));
 }

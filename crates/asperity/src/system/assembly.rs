@@ -67,7 +67,7 @@ pub struct Assembly<'a> {
 }
 
 /// Memory that lives through the run: pattern, places in it, chunk buffers.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Workspace {
     couplings: Couplings,
     constraints: Option<Constraints>,
@@ -81,21 +81,6 @@ pub struct Workspace {
 
 /// Chunks evaluated between two scatters; bounds the memory of local matrices.
 const ROUND: usize = 64;
-impl Default for Workspace {
-    fn default() -> Self {
-        Self {
-            couplings: Couplings::default(),
-            constraints: None,
-            pattern: Csr::default(),
-            analysis: 0,
-            stencils: Vec::new(),
-            places: Vec::new(),
-            chunks: Vec::new(),
-            enlarged: 0,
-        }
-    }
-}
-
 impl Workspace {
     /// The pattern of the matrix.
     pub fn pattern(&self) -> &Csr {

@@ -180,7 +180,7 @@ impl Target {
         }
     }
 
-    /// What the rates of the hit segment's own unknowns add to the derivatives of [`receive`](Self::receive) besides
+    /// What the rates of the hit segment's own unknowns add to the derivatives of `receive` besides
     /// those of place and force: entries `(row, column, value)`.
     pub fn stiffen(&self, force: Vec3) -> Vec<(usize, usize, f64)> {
         match self {

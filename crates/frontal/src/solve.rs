@@ -31,7 +31,12 @@ impl Factor {
     pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
         self.permuted(x, work, |factor, work| {
             for front in &factor.symbolic.tree.fronts {
-                factor.at_front(front, work, forward);
+                // What reaches no pivot of a front goes past it: a sparse right-hand side costs its path to the root.
+                factor.at_front(front, work, |panels, x| {
+                    if x[..panels.p].iter().any(|x| *x != 0.0) {
+                        forward(panels, x);
+                    }
+                });
             }
             for front in factor.symbolic.tree.fronts.iter().rev() {
                 factor.at_front(front, work, backward);

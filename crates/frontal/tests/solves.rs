@@ -69,6 +69,25 @@ fn the_transposed_system_and_many_right_hand_sides() {
 }
 
 #[test]
+fn many_sparse_right_hand_sides_are_substituted_without_refinement() {
+    let matrix = grid([9, 11, 2], 3, 5);
+    let n = matrix.len();
+    let symbolic = Symbolic::analyse(&matrix.pattern, &Options::default()).expect("a good pattern");
+    let mut factor = symbolic.new_factor();
+    assert_eq!(factor.apply(&mut vec![0.0; n]), Err(Error::NotFactorised));
+    symbolic.factorise(&matrix.values, &mut factor).expect("a regular matrix");
+    let columns = 37;
+    let mut b = vec![0.0; columns * n];
+    (0..columns).for_each(|k| b[k * n + (k * 29) % n] = 1.0 + k as f64);
+    let (mut applied, mut solved) = (b.clone(), b);
+    factor.apply(&mut applied).expect("a factor");
+    factor.solve(&mut solved).expect("a regular matrix");
+    let largest = solved.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    assert!(applied.iter().zip(&solved).all(|(a, s)| (a - s).abs() < 1e-12 * largest));
+    assert!(matches!(factor.apply(&mut applied[..n - 1]), Err(Error::WrongLength { .. })));
+}
+
+#[test]
 fn symmetric_matrices_take_half_the_work() {
     for (cells, k) in [([12, 30, 0], 2), ([6, 7, 8], 3), ([2, 1, 0], 1)] {
         let mut matrix = grid(cells, k, 9);

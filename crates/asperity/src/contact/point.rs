@@ -105,8 +105,7 @@ fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
     Vec3(v.0.map(|x| x.chain(x.re(), part)))
 }
 
-/// The part of the increment during which a point that began open is in contact, at constant speed of approach. One
-/// that is only expected to close has not yet: all of the slip counts.
+/// The part of the increment during which a point that began open is in contact, at constant speed of approach.
 pub fn in_contact<T: Scalar>(penetration: T, before: f64) -> T {
     if before < 0.0 && penetration.re() > 0.0 { penetration / (penetration - before) } else { T::one() }
 }

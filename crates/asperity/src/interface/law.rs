@@ -9,8 +9,8 @@ use crate::tensor::{Dual, Scalar};
 /// How a contact point is moved over an increment, in its local triad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion<T> {
-    /// Penetration at the end of the increment, a length; positive, since an open point asks no law. Only a point that
-    /// is expected to close in an early iteration asks with a gap, and means the same smooth function.
+    /// Penetration at the end of the increment, a length; beyond [`InterfaceLaw::touch`], since an open point asks no
+    /// law.
     pub penetration: T,
     /// Slip of the increment along the two tangents, a length; in the plane the second is zero.
     pub slip: [T; 2],

@@ -194,7 +194,7 @@ fn a_gap_closes_again_where_the_law_says() {
     }
 }
 
-/// Any numbers: a result is finite, or there is none. A point that is only expected to close may ask with a gap.
+/// Any numbers: a result is finite, or there is none. A gap is one of them.
 #[test]
 fn no_state_gives_what_is_no_number() {
     for sample in samples() {

@@ -62,7 +62,7 @@ impl<T: Scalar> Path<T> {
         if norm(trial).re() <= self.limit.1.re().max(0.0) {
             return End { shear: trial, slip: None, work: 0.0 };
         }
-        // A point that is only expected to close has no limit to slide along.
+        // Without a limit there is nothing to slide along.
         match scheme {
             ConeScheme::Exact if self.limit.1.re() > 0.0 => self.sliding().exact(),
             ConeScheme::Midpoint(n, theta) if self.limit.1.re() > 0.0 => self.sliding().midpoint(n, theta),

@@ -99,7 +99,7 @@ impl ShearLimited {
     /// Largest shear stress at a pressure.
     pub fn limit<T: Scalar>(&self, pressure: T) -> T {
         let (dry, most) = (pressure * self.friction, T::from(self.most));
-        // A point that is only expected to close may ask with a pressure below zero.
+        // A trial may come with a pressure below zero.
         let closed = dry.re() > 0.0;
         match self.transition {
             Transition::Constant => most,

@@ -38,7 +38,7 @@ impl<T: Scalar> Trial<T> {
         Response { pressure, shear, status, slipped, closure: 0.0, dissipated: limit * slipped, violation }
     }
 
-    /// Stick up to the limit, slip on it. A point that is only expected to close may ask with a negative limit.
+    /// Stick up to the limit, slip on it. A trial may come with a negative limit.
     pub fn within(&self, pressure: T, limit: T) -> Response<T> {
         if self.size.re() <= limit.re() { self.stick(pressure) } else { self.slide(pressure, limit.max(T::zero())) }
     }

@@ -1,8 +1,7 @@
 //! Contact points in space: their tangents against differences on faces of every kind over targets of every kind, and
 //! their indifference to a rotation of everything.
 
-#[path = "support/stencils.rs"]
-mod stencils;
+mod perturbed;
 
 use asperity::contact::space::{Contact, Parts, Surface};
 use asperity::contact::{ContactOptions, Guard, Loads};
@@ -16,9 +15,9 @@ use asperity::tensor::Vec3;
 use asperity::tool::shapes;
 use asperity::tool::space::solids::{Facets, cone, extruded, polygons, sphere, torus};
 use asperity::tool::space::{Frame, Pose, Tool};
+use perturbed::{Random, check, commit, instant, state};
 use std::path::Path;
 use std::sync::Arc;
-use stencils::{Random, check, commit, instant, state};
 
 /// Largest difference of an entry over the largest entry.
 const ALLOWED: f64 = 1e-7;

@@ -3,6 +3,7 @@
 
 use super::point::triad;
 use super::surface::Surface;
+use crate::Failure;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
@@ -69,6 +70,15 @@ pub fn depths(surface: &Surface, mesh: &Mesh, dofs: &Dofs, boundary: &[Side], u:
         0.5 * boundary.depth(a, inward, surface.edges[point.edge].side, 1e-3 * length)
     };
     surface.points.iter().map(at).collect()
+}
+
+/// Refuses a point that nothing was seen from before and that now lies deep: it has jumped over the target's face.
+/// `depth` is its largest admissible penetration.
+pub fn refuse_jump(penetration: f64, depth: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
+    if penetration > 0.25 * depth {
+        return Err(Failure::new(format!("{} came to lie {penetration:.3e} deep in one increment", name())));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

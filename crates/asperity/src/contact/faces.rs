@@ -3,13 +3,12 @@
 //! An edge is the line or the parabola through its nodes, `x_B(s) = N_k(s) x_k` with `s` from 0 to 1, the solid on its
 //! left. A tree of boxes, fitted anew for each search, keeps a ray from being tried against every edge.
 
-use super::open::Seed;
 use super::split::Vertex;
 use super::surface::{Edge, MAX_EDGE_NODES};
 use super::target::{Cast, Hit, MAX_UNKNOWNS, Memory};
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
-use crate::tensor::Vec3;
+use crate::tensor::{Scalar, Vec3};
 use crate::tool::shapes::{Line, Parabola};
 use crate::tool::{self, Bounds, Ray, Shape, Tree};
 use std::collections::BTreeMap;
@@ -133,7 +132,7 @@ impl Faces {
 
     /// The force shared out by the shape functions where it acts: `N_k(s) f`, with `ds = t.(dx - dx_B) / t.t` the
     /// sliding of the place over the edge.
-    pub(super) fn receive<T: Seed>(
+    pub(super) fn receive<T: Scalar>(
         &self,
         (hit, u): (&Hit, &[f64]),
         sliding: Vec3<T>,

@@ -5,9 +5,10 @@
 //! accepted state where that is another one, and of the vertices at which the target ends over its edge.
 
 use super::before::Before;
-use super::open::{OpenContact, Seed};
+use super::open::OpenContact;
 use super::pair::Loads;
 use super::point::{Closed, Place, triad};
+use super::seed::Seed;
 use super::split::{End, Placed};
 use super::surface::{MAX_EDGE_NODES, SurfacePoint};
 use super::target::{Hit, MAX_UNKNOWNS};
@@ -120,7 +121,7 @@ impl OpenContact<'_> {
 
     /// What a force at a point does to each unknown of its stencil: `-N_L f` to its own nodes, and to the target its
     /// work along the target's rates, unless the target loads itself.
-    pub(super) fn rows<T: Seed>(
+    pub(super) fn rows<T: Seed<DIRECTIONS>>(
         &self,
         (g, u): (&Geometry, &[f64]),
         (at, b): (Vec3<T>, Vec3<T>),
@@ -139,7 +140,7 @@ impl OpenContact<'_> {
     }
 
     /// Adds the forces of a closed point and their derivatives by the chain rule.
-    pub(super) fn add<T: Seed>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
+    pub(super) fn add<T: Seed<DIRECTIONS>>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
         let (n, b) = (local.force.len(), super::open::seed(g.place.b, 4));
         let rows = self.rows((g, &local.u), (closed.hit, b), closed.force);
         for (force, row) in local.force.iter_mut().zip(&rows) {

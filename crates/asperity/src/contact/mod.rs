@@ -17,6 +17,7 @@ mod point;
 mod record;
 mod rigid;
 mod search;
+mod seed;
 pub mod space;
 mod split;
 mod surface;

@@ -1,17 +1,19 @@
 //! A contact during one attempt: its points as stencils, evaluated on the segments that the search found.
 
+use super::capture::refuse_jump;
 use super::geometry::{DIRECTIONS, Geometry};
 use super::kink::answer;
 use super::pair::Contact;
-use super::point::{self, Constants, Place, triad};
-use super::record::entry;
+use super::point::{self, Constants, Place};
+use super::record::{entry, leave, write};
+use super::seed::Seed;
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
 use crate::Failure;
 use crate::interface::Past;
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
-use crate::tensor::{Dual, Scalar, Vec3};
+use crate::tensor::{Dual, Vec3};
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -76,7 +78,7 @@ impl Attempt for OpenContact<'_> {
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
             write_hit(&self.contact.surface.points[index], None, new);
-            self.leave(index, new);
+            leave(&*self.contact.law, self.history.slot(index), new);
             return Ok(0);
         };
         if local.wants_tangent {
@@ -90,16 +92,9 @@ impl Attempt for OpenContact<'_> {
         }
     }
 
-    fn kinks(&self, u: &[f64], stencils: &Stencils, term: usize, out: &mut Kinks) -> Result<(), Failure> {
-        let mut local = Vec::new();
-        for (index, stencil) in stencils.list.iter().enumerate().filter(|(_, stencil)| stencil.choice > 0) {
-            let dofs = stencils.dofs(stencil);
-            local.clear();
-            local.extend(dofs.iter().map(|&dof| u[dof]));
-            if let Some(geometry) = self.geometry(index, stencil, &local)? {
-                out.begin((term, index), dofs);
-                self.bend((stencil, &geometry), &local, out);
-            }
+    fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
+        if let Some(geometry) = self.geometry(index, stencil, u)? {
+            self.bend((stencil, &geometry), u, out);
         }
         Ok(())
     }
@@ -110,38 +105,14 @@ impl Attempt for OpenContact<'_> {
     }
 }
 
-/// Numbers that can be seeded as independent variables: [`D`] and, trivially, `f64`.
-pub(super) trait Seed: Scalar {
-    fn seed(value: f64, direction: usize) -> Self;
-    fn slopes(&self) -> [f64; DIRECTIONS];
-}
-
-impl Seed for f64 {
-    fn seed(value: f64, _: usize) -> f64 {
-        value
-    }
-    fn slopes(&self) -> [f64; DIRECTIONS] {
-        [0.0; DIRECTIONS]
-    }
-}
-
-impl Seed for D {
-    fn seed(value: f64, direction: usize) -> D {
-        D::variable(value, direction)
-    }
-    fn slopes(&self) -> [f64; DIRECTIONS] {
-        self.du
-    }
-}
-
-pub(super) fn seed<T: Seed>(v: Vec3, direction: usize) -> Vec3<T> {
+pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, direction: usize) -> Vec3<T> {
     Vec3([T::seed(v[0], direction), T::seed(v[1], direction + 1), T::zero()])
 }
 
 type Evaluated<T> = Result<(T, Option<point::Closed<T>>), Failure>;
 
 impl OpenContact<'_> {
-    fn evaluate_over<T: Seed>(
+    fn evaluate_over<T: Seed<DIRECTIONS>>(
         &self,
         index: usize,
         geometry: &Geometry,
@@ -164,7 +135,7 @@ impl OpenContact<'_> {
             opens: contact.law.opens(&past, [g.place.slip(), 0.0]),
             least: contact.least,
             weight: g.spot.weight * contact.thickness(),
-            turning: self.turning(g.hit.u),
+            turning: contact.options.turning(g.hit.u, self.ordinary),
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
@@ -172,13 +143,15 @@ impl OpenContact<'_> {
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
         let Some(closed) = closed else {
-            self.leave(index, new);
+            leave(&*self.contact.law, self.history.slot(index), new);
             self.account(index, g, [0.0; 3], local);
             return Ok(0);
         };
-        self.refuse_jump(index, g)?;
+        if g.place.touched.is_none() {
+            refuse_jump(g.hit.u, self.depths[index], || self.contact.describe(index))?;
+        }
         new[entry::PENETRATION] -= constants.least;
-        self.write(&closed, old, new);
+        write(&closed.response, [closed.slip, T::zero()], old, new);
         self.add(g, &closed, local);
         let response = &closed.response;
         self.account(index, g, [response.pressure.re(), response.shear[0].re(), response.closure], local);
@@ -199,59 +172,19 @@ impl OpenContact<'_> {
         }
     }
 
-    /// An open point keeps what has been, and of the law's own state what the law says.
-    fn leave(&self, index: usize, new: &mut [f64]) {
-        let old = self.history.slot(index);
-        for kept in [entry::SLIP, entry::SLIPPED, entry::DISSIPATED, entry::RUBBED] {
-            new[kept] = old[kept];
-        }
-        self.contact.law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
-    }
-
     /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
     /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
-    /// A point that closes or opens takes part with half
-    /// its stress, so that one which passes a peak of pressure within an increment does not lose its work.
+    /// A point that closes or opens takes part with half its stress, so that one which passes a peak of pressure within an
+    /// increment does not lose its work.
     fn account(&self, index: usize, g: &Geometry, [pressure, shear, closure]: [f64; 3], local: &mut Local) {
         let (contact, old) = (self.contact, self.history.slot(index));
         let before = g.before.shear;
         let elastic = |stress: f64, penalty: f64| 0.5 * stress * stress / penalty;
         let stored = |shear: f64| elastic(shear, contact.options.tangential_penalty);
-        let (along, _, _) = triad(g.place.tangent);
-        let slip = g.place.touched.map_or(0.0, |touched| along.dot(touched - g.place.a));
         let area = contact.area(&g.spot, g.place.a, g.place.tangent);
         let area = area * contact.options.loads.share();
         local.stored = area * (elastic(pressure, contact.options.penalty) + stored(shear));
-        let friction = 0.5 * (before + shear) * slip - (stored(shear) - stored(before));
+        let friction = 0.5 * (before + shear) * g.place.slip() - (stored(shear) - stored(before));
         local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + pressure) * closure);
-    }
-
-    /// Part of the triad's derivatives that the tangent keeps at a penetration.
-    fn turning(&self, penetration: f64) -> f64 {
-        let pressure = self.contact.options.penalty * penetration.abs();
-        if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }
-    }
-
-    /// A point that had nothing before it and now lies deep has jumped over the target's face.
-    fn refuse_jump(&self, index: usize, g: &Geometry) -> Result<(), Failure> {
-        let depth = 0.25 * self.depths[index];
-        if g.place.touched.is_none() && g.hit.u > depth {
-            let name = self.contact.describe(index);
-            return Err(Failure::new(format!("{name} came to lie {:.3e} deep in one increment", g.hit.u)));
-        }
-        Ok(())
-    }
-
-    fn write<T: Seed>(&self, closed: &point::Closed<T>, old: &[f64], new: &mut [f64]) {
-        let response = &closed.response;
-        new[entry::PRESSURE] = response.pressure.re();
-        new[entry::SHEAR] = response.shear[0].re();
-        new[entry::SLIP] = old[entry::SLIP] + closed.slip.re();
-        new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
-        new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
-        new[entry::RUBBED] = old[entry::RUBBED] + response.pressure.re().max(0.0) * response.slipped;
-        new[entry::STATUS] = f64::from(response.status as u8);
-        new[entry::VIOLATION] = response.violation;
-        new[entry::LAST_DISSIPATED] = response.dissipated;
     }
 }

@@ -34,6 +34,20 @@ pub struct ContactOptions {
     pub guard: Guard,
 }
 
+impl ContactOptions {
+    /// Pressure up to which the tangent is exact in the increment after a history.
+    pub(super) fn ordinary(&self, history: &History) -> f64 {
+        let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
+        (ORDINARY * self.modulus).max(GROWTH * pressures.fold(0.0, f64::max))
+    }
+
+    /// Part of the triad's derivatives that the tangent keeps at a penetration.
+    pub(super) fn turning(&self, penetration: f64, ordinary: f64) -> f64 {
+        let pressure = self.penalty * penetration.abs();
+        if pressure > ordinary { ordinary / pressure } else { 1.0 }
+    }
+}
+
 /// Name of the second of two passes, whose points lie on what is the target of the first.
 pub fn second_name(name: &str) -> String {
     format!("{name}.target")
@@ -65,7 +79,7 @@ const GROWTH: f64 = 4.0;
 
 /// A point counts as closed from this part of the shortest edge on. One depth for all points: a flat surface
 /// under uniform pressure then stays flat.
-const CLOSED: f64 = 1e-10;
+pub(super) const CLOSED: f64 = 1e-10;
 
 /// Contact between a surface and a target.
 pub struct Contact {
@@ -231,8 +245,6 @@ impl Term for Contact {
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &accepted.u);
-        let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
-        let ordinary = (ORDINARY * self.options.modulus).max(GROWTH * pressures.fold(0.0, f64::max));
         let reach = self.reach(&accepted.last_change);
         let part = if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 };
         let ahead = accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect();
@@ -245,7 +257,7 @@ impl Term for Contact {
             depths,
             reach,
             ahead,
-            ordinary,
+            ordinary: self.options.ordinary(history),
             dt: at.dt,
         }))
     }

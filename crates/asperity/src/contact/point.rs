@@ -101,7 +101,7 @@ pub fn evaluate<T: Scalar>(
 }
 
 /// The same vector with its derivatives scaled by `part`.
-fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
+pub fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
     Vec3(v.0.map(|x| x.chain(x.re(), part)))
 }
 

@@ -1,6 +1,7 @@
 //! History of a contact point, and what outputs may ask of it.
 
-use crate::tensor::Vec3;
+use crate::interface::{Interface, Response};
+use crate::tensor::{Scalar, Vec3};
 
 /// Places of the values in a point's history; the law's own variables follow.
 pub mod entry {
@@ -40,6 +41,28 @@ pub mod entry {
     pub const RUBBED: usize = 16;
     /// Number of these values.
     pub const COUNT: usize = 17;
+}
+
+/// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.
+pub fn write<T: Scalar>(response: &Response<T>, slip: [T; 2], old: &[f64], new: &mut [f64]) {
+    new[entry::PRESSURE] = response.pressure.re();
+    [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear.map(T::re);
+    new[entry::SLIP] = old[entry::SLIP] + slip[0].re();
+    new[entry::SLIP2] = old[entry::SLIP2] + slip[1].re();
+    new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
+    new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
+    new[entry::RUBBED] = old[entry::RUBBED] + response.pressure.re().max(0.0) * response.slipped;
+    new[entry::STATUS] = f64::from(response.status as u8);
+    new[entry::VIOLATION] = response.violation;
+    new[entry::LAST_DISSIPATED] = response.dissipated;
+}
+
+/// An open point keeps what has been, and of the law's own state what the law says.
+pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
+    for kept in [entry::SLIP, entry::SLIP2, entry::SLIPPED, entry::DISSIPATED, entry::RUBBED] {
+        new[kept] = old[kept];
+    }
+    law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
 }
 
 /// Whether a contact point is open, sticks or slips.

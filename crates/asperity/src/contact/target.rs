@@ -7,10 +7,9 @@
 //! point knows no more of its target, so that a new kind of target is one more arm here.
 
 use super::faces::Faces;
-use super::open::Seed;
 use super::rigid::Rigid;
 use crate::system::Dofs;
-use crate::tensor::Vec3;
+use crate::tensor::{Scalar, Vec3};
 use crate::tool::{self, Pose, Ray, Rejected, Rules, Tool, select};
 use std::sync::Arc;
 
@@ -168,7 +167,7 @@ impl Target {
 
     /// What `force` does to the unknowns of the hit segment: its work along their rates. `at` is where it acts, and `b`
     /// the material point there; their derivatives differ by the sliding of the one over the other.
-    pub(super) fn receive<T: Seed>(
+    pub(super) fn receive<T: Scalar>(
         &self,
         (hit, u): (&Hit, &[f64]),
         (at, b): (Vec3<T>, Vec3<T>),

@@ -76,11 +76,12 @@ impl<'a> Piecewise<'a> {
     pub fn settle(&mut self, solver: &dyn LinearSolver, constraints: &Constraints) -> Result<Option<f64>, Failure> {
         let (mut part, mut stride) = (0.0, 1.0_f64);
         while part < 1.0 && stride >= SHORTEST {
-            let (before, next) = (self.left.clone(), 1.0_f64.min(part + stride));
+            let (mut before, next) = (self.left.clone(), 1.0_f64.min(part + stride));
             if self.settle_part(next, solver, constraints)? {
                 (part, stride) = (next, 2.0 * stride);
             } else {
-                self.left.iter_mut().enumerate().for_each(|(i, w)| *w = before.get(i).copied().unwrap_or(0.0));
+                before.resize(self.left.len(), 0.0);
+                self.left = before;
                 stride *= 0.25;
             }
         }

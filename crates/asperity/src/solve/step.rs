@@ -58,10 +58,7 @@ impl Newton<'_> {
     /// Puts the linear step right for the stencils that bend over it.
     fn bend(&mut self, u: &[f64], motion: &mut Motion, forcing: f64) -> Result<(), Trouble> {
         let (workspace, kinks) = (&self.memory.workspace, &mut self.memory.kinks);
-        kinks.clear();
-        for (term, attempt) in self.assembly.attempts.iter().enumerate() {
-            attempt.kinks(u, workspace.stencils(term), term, kinks)?;
-        }
+        workspace.kinks(&self.assembly, u, kinks)?;
         let (constraints, mut full) = (&self.step.constraints, vec![0.0; u.len()]);
         let mut piecewise = Piecewise::new(&self.assembly.attempts, kinks, &motion.du)?;
         let settled = piecewise.settle(self.solver, constraints)?;

@@ -5,7 +5,7 @@
 
 use super::chunk::{CHUNK, Chunk, Pass, lanes};
 use super::sink::{Miss, Sink, places};
-use super::{Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, State, Stencils, Term};
+use super::{Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, Kinks, State, Stencils, Term};
 use crate::Failure;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -95,9 +95,24 @@ impl Workspace {
         self.enlarged
     }
 
-    /// The stencils of a term at the last evaluation.
-    pub fn stencils(&self, term: usize) -> &Stencils {
-        &self.stencils[term]
+    /// Lists the stencils that bend at `u`, where the terms were evaluated last.
+    ///
+    /// # Errors
+    /// The first [`Failure`] in the order of terms and stencils.
+    pub fn kinks(&self, assembly: &Assembly, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
+        let mut local = Vec::new();
+        out.clear();
+        for (t, stencils) in self.stencils.iter().enumerate().filter(|(t, _)| assembly.terms[*t].bends()) {
+            for (index, stencil) in stencils.list.iter().enumerate() {
+                let dofs = stencils.dofs(stencil);
+                local.clear();
+                local.extend(dofs.iter().map(|&dof| u[dof]));
+                out.begin((t, index), dofs);
+                assembly.attempts[t].kink(index, stencil, &local, out)?;
+                out.end();
+            }
+        }
+        Ok(())
     }
 
     /// Prepares the pattern of an attempt: a function of the accepted state alone.

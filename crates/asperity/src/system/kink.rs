@@ -61,6 +61,12 @@ impl Kinks {
         let (dofs, y) = (start..self.dofs.len(), Coordinates::default());
         self.list.push(Kink { term, stencil, count: 0, y, dofs, first });
     }
+    /// Forgets the stencil begun last if it turned out to have no coordinates.
+    pub fn end(&mut self) {
+        if let Some(kink) = self.list.pop_if(|kink| kink.count == 0) {
+            self.dofs.truncate(kink.dofs.start);
+        }
+    }
     /// Adds a coordinate to the stencil begun last: its value, its rates along the unknowns (a row of `G`), and the
     /// forces on them of a unit of its stress (a column of `H`).
     pub fn coordinate(&mut self, y: f64, rates: impl Iterator<Item = f64>, forces: impl Iterator<Item = f64>) {
@@ -103,7 +109,10 @@ mod tests {
         kinks.begin((0, 9), &[1, 3]);
         kinks.coordinate(0.1, [1.0, -1.0].into_iter(), [10.0, 20.0].into_iter());
         kinks.coordinate(0.2, [0.5, 0.0].into_iter(), [30.0, 40.0].into_iter());
-        let [_, kink] = kinks.list() else { panic!("two were begun") };
+        kinks.begin((0, 10), &[0, 2]);
+        kinks.end();
+        kinks.end();
+        let [_, kink] = kinks.list() else { panic!("two have coordinates") };
         assert_eq!((kink.stencil, kink.count, kink.y), (9, 2, [0.1, 0.2, 0.0]));
         assert_eq!(kinks.along(kink, &[0.0, 3.0, 0.0, 2.0, 0.0]), [1.0, 1.5, 0.0]);
         let mut forces = [0.0; 5];

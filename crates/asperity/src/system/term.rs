@@ -160,7 +160,7 @@ pub trait Term: Send + Sync {
     fn verdict(&self, _state: &State, _history: &History) -> Result<(), Error> {
         Ok(())
     }
-    /// Whether its stencils bend within a step, see [`Attempt::kinks`]; it may then hold at the end of a step what it did
+    /// Whether its stencils bend within a step, see [`Attempt::kink`]; it may then hold at the end of a step what it did
     /// not hold at its beginning.
     fn bends(&self) -> bool {
         false
@@ -196,11 +196,11 @@ pub trait Attempt: Send + Sync {
     /// # Errors
     /// A [`Failure`] when the law or the geometry cannot be evaluated there.
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure>;
-    /// Lists the stencils that bend at trial unknowns `u`, for which `stencils` were listed; `term` is this term's number.
+    /// Adds to `out` the coordinates over which stencil number `index` bends at `u`, the trial values of its unknowns.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
-    fn kinks(&self, _u: &[f64], _stencils: &Stencils, _term: usize, _out: &mut Kinks) -> Result<(), Failure> {
+    fn kink(&self, _index: usize, _stencil: &Stencil, _u: &[f64], _out: &mut Kinks) -> Result<(), Failure> {
         Ok(())
     }
     /// Stresses of a stencil that bends, at coordinates `y`.

@@ -1,11 +1,12 @@
 //! Where everything is at one contact point in space, and the chain rule from its fifteen directions to the unknowns of
 //! its stencil: those of its own nodes, then the six of the tool.
 
-use super::open::{OpenContact, Seed};
+use super::open::OpenContact;
 use super::point::{Closed, Place, Triad};
 use super::surface::MAX_NODES;
 use crate::Failure;
 use crate::contact::record::entry;
+use crate::contact::seed::Seed;
 use crate::system::{Local, Stencil};
 use crate::tensor::{Dual, Vec3};
 use crate::tool::Ray;
@@ -36,7 +37,7 @@ pub struct Rows<'a, T> {
     turning: Vec3<T>,
 }
 
-impl<T: Seed> Rows<'_, T> {
+impl<T: Seed<DIRECTIONS>> Rows<'_, T> {
     /// On unknown number `k`.
     pub(super) fn of(&self, k: usize) -> T {
         match k.checked_sub(3 * self.shapes.len()) {
@@ -75,7 +76,13 @@ impl OpenContact<'_> {
     }
 
     /// What a force at `at` does to the unknowns of a stencil.
-    pub(super) fn rows<T: Seed>(&self, index: usize, g: &Geometry, at: Vec3<T>, force: Vec3<T>) -> Rows<'_, T> {
+    pub(super) fn rows<T: Seed<DIRECTIONS>>(
+        &self,
+        index: usize,
+        g: &Geometry,
+        at: Vec3<T>,
+        force: Vec3<T>,
+    ) -> Rows<'_, T> {
         let (contact, point) = (self.contact, &self.contact.parts.surface.points[index]);
         let reference = contact.tool().reference() + g.pose.translation;
         let moment = (at - reference.lift()).cross(force);
@@ -85,7 +92,7 @@ impl OpenContact<'_> {
 
     /// Adds the forces of a closed point and their derivatives by the chain rule: `-N_L f` on its own nodes, and on the
     /// tool the force and what does the work of its moment about the reference point.
-    pub(super) fn add<T: Seed>(&self, index: usize, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
+    pub(super) fn add<T: Seed<DIRECTIONS>>(&self, index: usize, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
         let n = local.force.len();
         let (own, rows) = (n - TOOL, self.rows(index, g, closed.hit, closed.force));
         for i in 0..n {
@@ -124,7 +131,7 @@ impl OpenContact<'_> {
 }
 
 /// The forces on the unknowns of a rotation that do the work of a moment.
-fn conjugate<T: Seed>(pose: &Pose, moment: Vec3<T>) -> Vec3<T> {
+fn conjugate<T: Seed<DIRECTIONS>>(pose: &Pose, moment: Vec3<T>) -> Vec3<T> {
     let rotation = Pose { translation: Vec3::zero(), rotation: pose.rotation.lift() };
     rotation.conjugate(moment)
 }

@@ -4,11 +4,13 @@ use super::geometry::{DIRECTIONS, Geometry, TOOL};
 use super::pair::Contact;
 use super::point::{self, Closed, Constants, Place, Triad};
 use crate::Failure;
+use crate::contact::capture::refuse_jump;
 use crate::contact::kink::answer;
-use crate::contact::record::entry;
+use crate::contact::record::{entry, leave, write};
+use crate::contact::seed::Seed;
 use crate::interface::Past;
 use crate::system::{Answer, Attempt, Branch, Coordinates, History, Kinks, Local, Stencil, Stencils};
-use crate::tensor::{Dual, Scalar, Vec3};
+use crate::tensor::{Dual, Vec3};
 use crate::tool::Rejected;
 use crate::tool::space::Hit;
 use rayon::prelude::*;
@@ -84,7 +86,7 @@ impl Attempt for OpenContact<'_> {
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
             write_hit(None, new);
-            self.leave(index, new);
+            leave(&*self.contact.parts.law, self.history.slot(index), new);
             return Ok(0);
         };
         let law = &self.contact.parts.law;
@@ -99,16 +101,9 @@ impl Attempt for OpenContact<'_> {
         }
     }
 
-    fn kinks(&self, u: &[f64], stencils: &Stencils, term: usize, out: &mut Kinks) -> Result<(), Failure> {
-        let mut local = Vec::new();
-        for (index, stencil) in stencils.list.iter().enumerate().filter(|(_, stencil)| stencil.choice > 0) {
-            let dofs = stencils.dofs(stencil);
-            local.clear();
-            local.extend(dofs.iter().map(|&dof| u[dof]));
-            if let Some(geometry) = self.geometry(index, stencil, &local)? {
-                out.begin((term, index), dofs);
-                self.bend(index, &geometry, dofs.len(), out);
-            }
+    fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
+        if let Some(geometry) = self.geometry(index, stencil, u)? {
+            self.bend(index, &geometry, u.len(), out);
         }
         Ok(())
     }
@@ -119,38 +114,14 @@ impl Attempt for OpenContact<'_> {
     }
 }
 
-/// Numbers that can be seeded as independent variables: [`D`] and, trivially, `f64`.
-pub(super) trait Seed: Scalar {
-    fn seed(value: f64, direction: usize) -> Self;
-    fn slopes(&self) -> [f64; DIRECTIONS];
-}
-
-impl Seed for f64 {
-    fn seed(value: f64, _: usize) -> f64 {
-        value
-    }
-    fn slopes(&self) -> [f64; DIRECTIONS] {
-        [0.0; DIRECTIONS]
-    }
-}
-
-impl Seed for D {
-    fn seed(value: f64, direction: usize) -> D {
-        D::variable(value, direction)
-    }
-    fn slopes(&self) -> [f64; DIRECTIONS] {
-        self.du
-    }
-}
-
-pub(super) fn seed<T: Seed>(v: Vec3, first: usize) -> Vec3<T> {
+pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, first: usize) -> Vec3<T> {
     Vec3(std::array::from_fn(|i| T::seed(v[i], first + i)))
 }
 
 type Evaluated<T> = Result<(T, Option<Closed<T>>), Failure>;
 
 impl OpenContact<'_> {
-    fn evaluate_over<T: Seed>(
+    fn evaluate_over<T: Seed<DIRECTIONS>>(
         &self,
         index: usize,
         g: &Geometry,
@@ -172,14 +143,16 @@ impl OpenContact<'_> {
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
         let Some(closed) = closed else {
-            self.leave(index, new);
+            leave(&*self.contact.parts.law, self.history.slot(index), new);
             self.account(index, g, ([0.0; 2], 0.0, 0.0), local);
             return Ok(0);
         };
-        self.refuse_jump(index, g)?;
+        if g.place.touched.is_none() {
+            refuse_jump(g.hit.u, self.depths[index], || self.contact.describe(index))?;
+        }
         self.refuse_turn(index, g)?;
         new[entry::PENETRATION] -= constants.least;
-        write(&closed, old, new);
+        write(&closed.response, closed.slip, old, new);
         self.add(index, g, &closed, local);
         let response = &closed.response;
         self.account(index, g, (response.shear.map(T::re), response.pressure.re(), response.closure), local);
@@ -195,7 +168,7 @@ impl OpenContact<'_> {
             opens: parts.law.opens(past, g.place.slip()),
             least: self.contact.least,
             weight: parts.surface.points[index].weight,
-            turning: self.turning(g.hit.u),
+            turning: self.contact.parts.options.turning(g.hit.u, self.ordinary),
         }
     }
 
@@ -213,15 +186,6 @@ impl OpenContact<'_> {
         }
     }
 
-    /// An open point keeps what has been, and of the law's own state what the law says.
-    fn leave(&self, index: usize, new: &mut [f64]) {
-        let old = self.history.slot(index);
-        for kept in [entry::SLIP, entry::SLIP2, entry::SLIPPED, entry::DISSIPATED, entry::RUBBED] {
-            new[kept] = old[kept];
-        }
-        self.contact.parts.law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
-    }
-
     /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
     /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
     /// A point that closes or opens takes part with half its stress.
@@ -229,19 +193,12 @@ impl OpenContact<'_> {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
         let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
-        let triad = Triad::new(g.place.tangents);
-        let slip = |e: Vec3| g.place.touched.map_or(0.0, |touched| e.dot(touched - g.place.a));
-        let area = triad.area * self.contact.parts.surface.points[index].weight;
-        let work: f64 = (0..2).map(|i| 0.5 * (before[i] + shear[i]) * slip(triad.along[i])).sum();
+        let (slip, area) = (g.place.slip(), Triad::new(g.place.tangents).area);
+        let area = area * self.contact.parts.surface.points[index].weight;
+        let work: f64 = (0..2).map(|i| 0.5 * (before[i] + shear[i]) * slip[i]).sum();
         local.stored = area * (0.5 * pressure * pressure / options.penalty + stored(shear));
         let friction = work - (stored(shear) - stored(before));
         local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + pressure) * closure);
-    }
-
-    /// Part of the triad's derivatives that the tangent keeps at a penetration.
-    fn turning(&self, penetration: f64) -> f64 {
-        let pressure = self.contact.parts.options.penalty * penetration.abs();
-        if pressure > self.ordinary { self.ordinary / pressure } else { 1.0 }
     }
 
     /// The slip is a chord: a tool that turns by half a turn brings what was touched to the other side, and none is seen.
@@ -253,27 +210,4 @@ impl OpenContact<'_> {
         }
         Ok(())
     }
-
-    /// A point that had nothing before it and now lies deep has jumped over the target's face.
-    fn refuse_jump(&self, index: usize, g: &Geometry) -> Result<(), Failure> {
-        if g.place.touched.is_none() && g.hit.u > 0.25 * self.depths[index] {
-            let name = self.contact.describe(index);
-            return Err(Failure::new(format!("{name} came to lie {:.3e} deep in one increment", g.hit.u)));
-        }
-        Ok(())
-    }
-}
-
-fn write<T: Seed>(closed: &Closed<T>, old: &[f64], new: &mut [f64]) {
-    let response = &closed.response;
-    new[entry::PRESSURE] = response.pressure.re();
-    [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear.map(T::re);
-    new[entry::SLIP] = old[entry::SLIP] + closed.slip[0].re();
-    new[entry::SLIP2] = old[entry::SLIP2] + closed.slip[1].re();
-    new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
-    new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
-    new[entry::RUBBED] = old[entry::RUBBED] + response.pressure.re().max(0.0) * response.slipped;
-    new[entry::STATUS] = f64::from(response.status as u8);
-    new[entry::VIOLATION] = response.violation;
-    new[entry::LAST_DISSIPATED] = response.dissipated;
 }

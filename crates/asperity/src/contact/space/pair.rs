@@ -6,6 +6,7 @@ use super::point::Triad;
 use super::surface::{Surface, SurfacePoint};
 use crate::Failure;
 use crate::contact::ContactOptions;
+use crate::contact::pair::CLOSED;
 use crate::contact::record::{PointRecord, PointStatus, entry};
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side};
@@ -14,14 +15,6 @@ use crate::tensor::Vec3;
 use crate::tool::space::{Hit, Pose, Tool};
 use crate::tool::{Ray, Rejected, Rules, select};
 use std::sync::Arc;
-
-/// Pressures up to this part of the confined modulus leave the tangent exact,
-const ORDINARY: f64 = 0.02;
-/// and so do those up to this multiple of the largest in the accepted state.
-const GROWTH: f64 = 4.0;
-
-/// A point counts as closed from this part of the surface's shortest edge on.
-const CLOSED: f64 = 1e-10;
 
 /// What a contact in space is made of.
 pub struct Parts {
@@ -199,14 +192,12 @@ impl Term for Contact {
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let parts = &self.parts;
         let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, &accepted.u);
-        let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
-        let ordinary = (ORDINARY * parts.options.modulus).max(GROWTH * pressures.fold(0.0, f64::max));
         Ok(Box::new(OpenContact {
             contact: self,
             history,
             depths,
             rotation: self.pose(&accepted.u).rotation,
-            ordinary,
+            ordinary: parts.options.ordinary(history),
             dt: at.dt,
         }))
     }

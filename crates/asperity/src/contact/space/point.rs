@@ -9,6 +9,7 @@
 //! state, which is objective under any common rigid motion. The traction on the solid is `p e_R + tau_S e_S + tau_T e_T`.
 
 use crate::Failure;
+use crate::contact::point::{in_contact, soften};
 use crate::interface::{Motion, Response};
 use crate::tensor::{Scalar, Vec3};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -111,16 +112,6 @@ pub fn evaluate<T: Scalar>(
     let traction = triad.inward * response.pressure + triad.along[0] * tau_s + triad.along[1] * tau_t;
     let force = traction * (triad.area * constants.weight);
     Ok((penetration, Some(Closed { force, hit: place.a + triad.inward * penetration, slip, response })))
-}
-
-/// The same vector with its derivatives scaled by `part`.
-fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
-    Vec3(v.0.map(|x| x.chain(x.re(), part)))
-}
-
-/// The part of the increment during which a point that began open is in contact, at constant speed of approach.
-fn in_contact<T: Scalar>(penetration: T, before: f64) -> T {
-    if before < 0.0 { penetration / (penetration - before) } else { T::one() }
 }
 
 #[cfg(test)]

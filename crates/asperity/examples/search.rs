@@ -55,7 +55,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let made = read(DECK, "search", folder.path(), &[]).and_then(build).map_err(|d| d.render(false))?;
     println!("deck, mesh and tree   {:9.4} s", begin.elapsed().as_secs_f64());
     let contact = &made.model.solid_contacts[0];
-    println!("triangles             {:9}", contact.tool().facets().len());
+    let tool = contact.target().as_tool().ok_or("the ball is a tool")?.tool();
+    println!("triangles             {:9}", tool.facets().len());
     println!("contact points        {:9}", contact.surface().points.len());
     let state = made.model.problem.initial_state();
     let history = &state.histories[made.model.first_contact()];

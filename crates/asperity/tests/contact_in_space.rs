@@ -3,7 +3,7 @@
 
 mod perturbed;
 
-use asperity::contact::space::{Contact, Parts, Surface};
+use asperity::contact::space::{Contact, Parts, Rigid, Surface, Target};
 use asperity::contact::{ContactOptions, Guard, Loads};
 use asperity::deck::{build, read};
 use asperity::interface::{Law, laws::Coulomb};
@@ -76,11 +76,15 @@ fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
         mesh,
         dofs: dofs.clone(),
         boundary,
-        tool: (tool, 0),
+        target: Target::tool(tool, 0, &dofs),
         law: Arc::new(Law(Coulomb::new(friction))),
         options,
     };
     (Contact::new(parts), dofs)
+}
+
+fn rigid(contact: &Contact) -> &Rigid {
+    contact.target().as_tool().unwrap()
 }
 
 /// Random motion: the cube by up to a tenth and downwards, its nodes and the tool by a little.
@@ -157,7 +161,7 @@ fn a_loaded_pair_turns_without_slip() {
             (0..3).for_each(|axis| u[first + axis] = now[axis]);
         };
         (0..rest).for_each(|node| carry(contact.mesh().points[node], dofs.node(node)));
-        carry(contact.tool().reference(), dofs.tool(0));
+        carry(rigid(&contact).tool().reference(), dofs.tool(0));
         (0..3).for_each(|i| u[dofs.tool(0) + 3 + i] = axis[i]);
         let turned = commit(&contact, &loaded, u).unwrap();
         let before = contact.records(&loaded.u, &loaded.histories[0]);
@@ -197,7 +201,7 @@ fn forces_and_moments_of_the_two_sides_balance() {
         }
         let (tool, pole) = (dofs.tool(0), contact.pole(&u));
         let f = at(&sum, tool);
-        (force, moment) = (force + f, moment + pole.cross(f) + contact.pose(&u).moment(at(&sum, tool + 3)));
+        (force, moment) = (force + f, moment + pole.cross(f) + rigid(&contact).pose(&u).moment(at(&sum, tool + 3)));
         assert!(force.norm() <= 1e-13 * size && moment.norm() <= 1e-13 * size, "{force:?} {moment:?}");
         pressed += usize::from(size > 1e-3);
     }

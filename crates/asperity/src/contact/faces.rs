@@ -204,7 +204,7 @@ impl Standing<'_> {
     /// What a ray meets by the rules against false contacts; what they reject is counted.
     pub(super) fn select(&self, cast: &Cast, memory: &mut Memory) -> Option<Hit> {
         self.cast(&cast.ray, cast.range(), &mut memory.hits);
-        cast.select(self.size(), memory)
+        cast.select(self.size(), memory).map(Hit::plane)
     }
 
     /// Vertices of the edges near a chord, within `margin` of the box around it; each as the end of every edge it ends.

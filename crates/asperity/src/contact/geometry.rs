@@ -5,6 +5,7 @@
 //! accepted state where that is another one, and of the vertices at which the target ends over its edge.
 
 use super::before::Before;
+use super::layout::Layout;
 use super::open::OpenContact;
 use super::pair::Loads;
 use super::point::{Closed, Place, triad};
@@ -16,25 +17,11 @@ use crate::Failure;
 use crate::system::{Local, Stencil};
 use crate::tensor::Vec3;
 use crate::tool::Ray;
-use std::ops::Range;
 
 /// Most unknowns of a stencil.
 pub const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + 2 * MAX_UNKNOWNS + 4;
 /// Directions in which a contact point is differentiated.
 pub const DIRECTIONS: usize = 8;
-
-/// The unknowns of a stencil, by what they move.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Layout {
-    /// Number of unknowns of its own nodes, which come first.
-    pub own: usize,
-    /// Those of the segment that is hit.
-    pub hit: Range<usize>,
-    /// Those of the segment touched at the last accepted state.
-    pub touched: Option<Range<usize>>,
-    /// Those of the vertices at which the covered part of the edge begins and ends.
-    pub ends: [Option<Range<usize>>; 2],
-}
 
 /// Where everything is at one point, in plain numbers.
 pub struct Geometry {
@@ -74,20 +61,11 @@ impl OpenContact<'_> {
     fn layout(&self, index: usize, stencil: &Stencil, segment: usize) -> Layout {
         let contact = self.contact;
         let own = 2 * contact.surface.nodes(&contact.surface.points[index]).len();
-        let hit = own..own + contact.target.count(segment);
-        let touched =
-            self.touched_segment(index, stencil).map(|touched| match contact.target.together(segment, touched) {
-                true => hit.clone(),
-                false => hit.end..hit.end + contact.target.count(touched),
-            });
-        let mut end = touched.as_ref().map_or(hit.end, |touched| touched.end.max(hit.end));
-        let ends = [0, 1].map(|k| {
-            (stencil.also[k] > 0).then(|| {
-                end += 2;
-                end - 2..end
-            })
+        let touched = self.touched_segment(index, stencil).map(|touched| {
+            (!contact.target.together(segment, touched)).then(|| contact.target.count(touched))
         });
-        Layout { own, hit, touched, ends }
+        let ends = [0, 1].map(|k| if stencil.also[k] > 0 { 2 } else { 0 });
+        Layout::new(own, contact.target.count(segment), touched, ends)
     }
 
     /// Where everything is for values `u` of a stencil's unknowns; None where it hits nothing.

@@ -7,8 +7,9 @@
 
 use super::capture::positions;
 use super::pair::{Contact, Loads};
-use super::record::{PointStatus, entry};
+use super::record::{PointRecord, PointStatus};
 use super::surface::Edge;
+use crate::Error;
 use crate::mesh::Mesh;
 use crate::system::{Dofs, History};
 use crate::tensor::Vec3;
@@ -29,11 +30,11 @@ pub const NOTED: f64 = 0.1;
 pub const REFUSED: f64 = 0.5;
 
 /// Edges that meet at a larger angle, in radians, form a corner and no facets of a curve.
-const CORNER: f64 = 0.7;
+pub(super) const CORNER: f64 = 0.7;
 /// Edges that turn by less, in radians, are flat.
-const FLAT: f64 = 1e-4;
+pub(super) const FLAT: f64 = 1e-4;
 /// Nodes of the two sides that lie within this part of an edge of each other match.
-const MATCH: f64 = 1e-3;
+pub(super) const MATCH: f64 = 1e-3;
 
 /// Sagittas of a chain of edges at displacements `u`.
 pub fn sagittas(mesh: &Mesh, dofs: &Dofs, edges: &[Edge], u: &[f64]) -> Vec<f64> {
@@ -67,6 +68,45 @@ pub fn has_facets(mesh: &Mesh, dofs: &Dofs, edges: &[Edge]) -> bool {
     straight.iter().zip(sagittas).any(|(edge, sagitta)| 8.0 * sagitta > FLAT * edge.chord(mesh))
 }
 
+/// The pressure that facets are worth over the pressure that is carried, `K delta A / F`, over closed points; `sagitta`
+/// is that of an edge or face and of the segment it faces. Zero without pressure.
+pub(super) fn facet_ratio(
+    penalty: f64,
+    points: impl IntoIterator<Item = PointRecord>,
+    sagitta: impl Fn(usize, usize) -> f64,
+) -> f64 {
+    let (mut delta, mut force, mut area) = (0.0_f64, 0.0, 0.0);
+    for point in points.into_iter().filter(|point| point.status != PointStatus::Open) {
+        (force, area) = (force + point.pressure * point.area, area + point.area);
+        delta = delta.max(point.segment.map_or(0.0, |hit| sagitta(point.edge, hit)));
+    }
+    if force > 0.0 { penalty * delta * area / force } else { 0.0 }
+}
+
+/// What must be said of a contact whose facets stand for a part of its pressure, and whether the state may not stand.
+pub(super) fn said(title: &str, guard: Guard, ratio: f64) -> Option<(String, bool)> {
+    let refused = ratio > REFUSED && guard == Guard::Refuse;
+    (ratio > NOTED).then(|| {
+        let text = format!(
+            "contact '{title}': the facets of its curved faces stand for {ratio:.2} of its pressure, too much for two \
+             passes above {REFUSED}; a finer mesh, edges of second degree, a softer penalty or passes = \"one\" \
+             would help"
+        );
+        (text, refused)
+    })
+}
+
+/// Ends a step on what was said, if the state may not stand.
+///
+/// # Errors
+/// [`Error::NotConverged`] then.
+pub(super) fn verdict(said: Option<(String, bool)>) -> Result<(), Error> {
+    match said {
+        Some((text, true)) => Err(Error::NotConverged(format!("{text}, or guard = \"warn\""))),
+        _ => Ok(()),
+    }
+}
+
 fn ends(mesh: &Mesh, dofs: &Dofs, edge: &Edge, u: &[f64]) -> [Vec3; 2] {
     let mut x = positions(mesh, dofs, &edge.nodes[..2], u);
     std::array::from_fn(|_| x.next().unwrap_or(Vec3::zero()))
@@ -90,22 +130,9 @@ impl Contact {
         let Some(faces) = self.target.as_faces() else { return 0.0 };
         let (mesh, dofs) = (&self.mesh, &self.dofs);
         let (own, other) = (sagittas(mesh, dofs, &self.surface.edges, u), sagittas(mesh, dofs, faces.edges(), u));
-        let (mut delta, mut force, mut area) = (0.0_f64, 0.0, 0.0);
-        for i in 0..self.surface.points.len() {
-            let values = history.slot(i);
-            let point = &self.spot(i, values);
-            if PointStatus::from_value(values[entry::STATUS]) == PointStatus::Open {
-                continue;
-            }
-            let (a, tangent) = self.locate(point, u);
-            let here = self.area(point, a, tangent);
-            (force, area) = (force + values[entry::PRESSURE] * here, area + here);
-            let (edge, hit) = (point.edge, values[entry::SEGMENT] as usize);
-            if !self.matches(edge, &faces.edges()[hit], u) {
-                delta = delta.max(own[edge]).max(other[hit]);
-            }
-        }
-        if force > 0.0 { self.options.penalty * delta * area / force } else { 0.0 }
+        facet_ratio(self.options.penalty, self.records(u, history), |edge, hit| {
+            if self.matches(edge, &faces.edges()[hit], u) { 0.0 } else { own[edge].max(other[hit]) }
+        })
     }
 
     /// Whether the nodes of an edge and of the edge it faces coincide.
@@ -118,15 +145,6 @@ impl Contact {
     /// What must be said of the facets in an accepted state, and whether the state may not stand.
     pub fn facets(&self, u: &[f64], history: &History) -> Option<(String, bool)> {
         let ratio = if self.options.loads == Loads::Own { self.facet_ratio(u, history) } else { 0.0 };
-        let refused = ratio > REFUSED && self.options.guard == Guard::Refuse;
-        (ratio > NOTED).then(|| {
-            let text = format!(
-                "contact '{}': the facets of its curved faces stand for {ratio:.2} of its pressure, too much for two \
-                 passes above {REFUSED}; a finer mesh, edges of second degree, a softer penalty or passes = \"one\" \
-                 would help",
-                self.title()
-            );
-            (text, refused)
-        })
+        said(self.title(), self.options.guard, ratio)
     }
 }

@@ -10,6 +10,7 @@ mod faces;
 mod geometry;
 mod guard;
 mod kink;
+mod layout;
 mod open;
 mod pair;
 mod penalty;

@@ -1,7 +1,8 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
 use super::capture::{depths, positions};
-use super::guard::Guard;
+use super::faces::Faces;
+use super::guard::{self, Guard};
 use super::open::{OpenContact, write_hit};
 use super::point::triad;
 use super::record::{PointRecord, PointStatus, entry};
@@ -109,7 +110,9 @@ impl Contact {
         target: Target,
         (law, options): (Arc<dyn Interface>, ContactOptions),
     ) -> Self {
-        let (name, least, longest, relatives) = (name.into(), 0.0, 0.0, relatives(&surface, &target));
+        let faces = target.as_faces().map_or(&[][..], Faces::edges);
+        let relatives = relatives(surface.edges.iter().map(|edge| &edge.nodes), faces.iter().map(|edge| &edge.nodes));
+        let (name, least, longest) = (name.into(), 0.0, 0.0);
         let mut contact =
             Self { name, mesh, dofs, space, surface, boundary, target, law, options, least, relatives, longest };
         let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
@@ -222,6 +225,12 @@ impl Contact {
     }
 }
 
+/// Unknowns that the last increment, carried on over `dt`, leads to.
+pub(super) fn ahead(accepted: &State, dt: f64) -> Vec<f64> {
+    let part = if accepted.last_dt > 0.0 { dt / accepted.last_dt } else { 0.0 };
+    accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect()
+}
+
 impl Term for Contact {
     fn name(&self) -> &str {
         &self.name
@@ -246,8 +255,6 @@ impl Term for Contact {
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &accepted.u);
         let reach = self.reach(&accepted.last_change);
-        let part = if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 };
-        let ahead = accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect();
         let standing = self.target.deforms().then(|| self.target.stand(&accepted.u));
         Ok(Box::new(OpenContact {
             contact: self,
@@ -256,7 +263,7 @@ impl Term for Contact {
             standing,
             depths,
             reach,
-            ahead,
+            ahead: ahead(accepted, at.dt),
             ordinary: self.options.ordinary(history),
             dt: at.dt,
         }))
@@ -267,10 +274,7 @@ impl Term for Contact {
     }
 
     fn verdict(&self, state: &State, history: &History) -> Result<(), Error> {
-        match self.facets(&state.u, history) {
-            Some((text, true)) => Err(Error::NotConverged(format!("{text}, or guard = \"warn\""))),
-            _ => Ok(()),
-        }
+        guard::verdict(self.facets(&state.u, history))
     }
 
     fn bends(&self) -> bool {

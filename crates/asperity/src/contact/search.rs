@@ -1,13 +1,12 @@
 //! The search: which segments the rays of a surface meet, and where on its edges the target ends.
 
-use super::Faces;
 use super::capture::{depths, positions};
 use super::geometry::laid;
 use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::triad;
 use super::split::{Placed, Seeker};
-use super::surface::{Edge, MAX_EDGE_NODES, Surface};
+use super::surface::MAX_EDGE_NODES;
 use super::target::{Cast, Hit, Memory, Standing, Target};
 use crate::system::{Stencil, Stencils};
 use crate::tensor::Vec3;
@@ -57,7 +56,7 @@ impl Contact {
     pub(super) fn reach(&self, last_change: &[f64]) -> f64 {
         match self.target {
             Target::Tool(_) => f64::INFINITY,
-            Target::Faces(_) => self.longest + 2.0 * last_change.iter().fold(0.0_f64, |most, d| most.max(d.abs())),
+            Target::Faces(_) => reach(self.longest, last_change),
         }
     }
 }
@@ -113,19 +112,25 @@ impl OpenContact<'_> {
     }
 }
 
-/// For each edge of the surface the segments of the target that share a node with it.
-pub fn relatives(surface: &Surface, target: &Target) -> Vec<Vec<usize>> {
-    let faces = target.as_faces().map_or(&[][..], Faces::edges);
+/// The largest gap at which faces no longer than `longest` are seen in the increment after `last_change`.
+pub fn reach(longest: f64, last_change: &[f64]) -> f64 {
+    longest + 2.0 * last_change.iter().fold(0.0_f64, |most, d| most.max(d.abs()))
+}
+
+/// For each piece of the surface, by its nodes, the segments of the target that share a node with it.
+pub fn relatives<'a>(
+    surface: impl Iterator<Item = &'a Vec<usize>>,
+    target: impl Iterator<Item = &'a Vec<usize>>,
+) -> Vec<Vec<usize>> {
     let mut behind: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (segment, face) in faces.iter().enumerate() {
-        face.nodes.iter().for_each(|&node| behind.entry(node).or_default().push(segment));
+    for (segment, nodes) in target.enumerate() {
+        nodes.iter().for_each(|&node| behind.entry(node).or_default().push(segment));
     }
-    let of = |edge: &Edge| {
-        let mut segments: Vec<usize> =
-            edge.nodes.iter().filter_map(|node| behind.get(node)).flatten().copied().collect();
+    let of = |nodes: &Vec<usize>| {
+        let mut segments: Vec<usize> = nodes.iter().filter_map(|node| behind.get(node)).flatten().copied().collect();
         segments.sort_unstable();
         segments.dedup();
         segments
     };
-    surface.edges.iter().map(of).collect()
+    surface.map(of).collect()
 }

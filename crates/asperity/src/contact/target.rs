@@ -10,7 +10,7 @@ use super::faces::Faces;
 use super::rigid::Rigid;
 use crate::system::Dofs;
 use crate::tensor::{Scalar, Vec3};
-use crate::tool::{self, Pose, Ray, Rejected, Rules, Tool, select};
+use crate::tool::{self, Met, Pose, Ray, Rejected, Rules, Tool, select};
 use std::sync::Arc;
 
 /// Most unknowns of a segment in the plane: those of an edge with three nodes.
@@ -66,11 +66,17 @@ pub struct Cast<'a> {
 }
 
 /// Memory of a search, so that casting a ray allocates nothing, and what it counts.
-#[derive(Debug, Default)]
-pub struct Memory {
-    pub(super) hits: Vec<tool::Hit>,
+#[derive(Debug)]
+pub struct Memory<H = tool::Hit> {
+    pub(super) hits: Vec<H>,
     /// False contacts.
     pub rejected: Rejected,
+}
+
+impl<H> Default for Memory<H> {
+    fn default() -> Self {
+        Self { hits: Vec::new(), rejected: Rejected::default() }
+    }
 }
 
 /// Least cosine between a ray and the normal of a face next to the one that the ray comes from: such faces are no
@@ -195,7 +201,7 @@ impl Standing<'_> {
         match self {
             Self::Tool(rigid, pose) => {
                 rigid.tool().cast(pose, &cast.ray, cast.range(), &mut memory.hits);
-                cast.select(rigid.tool().size(), memory)
+                cast.select(rigid.tool().size(), memory).map(Hit::plane)
             }
             Self::Faces(faces) => faces.select(cast, memory),
         }
@@ -209,10 +215,10 @@ impl Cast<'_> {
     }
 
     /// The contact among the hits in memory, on a target of the given size.
-    pub(super) fn select(&self, size: f64, memory: &mut Memory) -> Option<Hit> {
+    pub(super) fn select<H: Met>(&self, size: f64, memory: &mut Memory<H>) -> Option<H> {
         let direction = self.ray.direction;
-        let relative = |hit: &tool::Hit| self.relatives.contains(&hit.segment);
-        memory.hits.retain(|hit| !relative(hit) || direction.dot(hit.normal) > FOLD);
-        select(direction, &memory.hits, &Rules::new(self.depth, size), &mut memory.rejected).map(Hit::plane)
+        let relative = |hit: &H| self.relatives.contains(&hit.piece());
+        memory.hits.retain(|hit| !relative(hit) || direction.dot(hit.normal()) > FOLD);
+        select(direction, &memory.hits, &Rules::new(self.depth, size), &mut memory.rejected)
     }
 }

@@ -7,10 +7,11 @@ use super::keys;
 use super::reader::Name;
 use crate::Error;
 use crate::contact::space::Contact as Solid;
-use crate::contact::{Contact, second_name};
+use crate::contact::{self, Contact, ContactOptions, Loads, second_name};
 use crate::solve::Step;
 use crate::system::Term;
-use crate::tool::Tool;
+use crate::tool::space::Hit;
+use crate::tool::{Rejected, Tool};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -37,16 +38,15 @@ pub fn review(made: &Made) -> Result<Review, Error> {
     page.model(made);
     page.bodies(made);
     page.tools(made);
+    let nothing = vec![0.0; made.model.problem.dofs.count()];
+    let plane = made.model.contacts.iter().map(|contact| Seen::plane(contact, &nothing));
+    let solid = made.model.solid_contacts.iter().map(|contact| Seen::solid(contact, &nothing));
+    let all: Vec<Seen> = plane.chain(solid).collect();
     for (name, keys) in &made.deck.contact {
         let second = second_name(&name.text);
-        let passes =
-            made.model.contacts.iter().filter(|contact| [&name.text, &second].contains(&&contact.name().into()));
-        for contact in passes {
-            problems.extend(page.contact((name, keys), contact, made));
+        for seen in all.iter().filter(|seen| [name.text.as_str(), &second].contains(&seen.name)) {
+            problems.extend(page.contact(name, keys, seen));
         }
-    }
-    for ((name, keys), contact) in made.deck.contact.iter().zip(&made.model.solid_contacts) {
-        problems.extend(page.solid_contact(name, keys, contact, made));
     }
     page.steps(made);
     problems.extend(page.motions(made)?);
@@ -106,80 +106,30 @@ impl Page {
     }
 
     /// What a contact finds in the undeformed state, and what is odd about it.
-    fn contact(&mut self, deck: (&Name, &keys::Contact), contact: &Contact, made: &Made) -> Vec<Diagnostic> {
-        let (name, keys) = deck;
-        let (hits, rejected) = contact.search(&vec![0.0; made.model.problem.dofs.count()]);
-        let found: Vec<f64> = hits.iter().flatten().map(|hit| hit.u).collect();
-        let nearest = found.iter().map(|u| -u).fold(f64::INFINITY, f64::min).max(0.0);
-        let edges = contact.surface().edges.len();
-        let (surface, target) = match contact.name() == name.text {
+    fn contact(&mut self, name: &Name, keys: &keys::Contact, seen: &Seen) -> Option<Diagnostic> {
+        let nearest = seen.found.iter().map(|(u, _)| -u).fold(f64::INFINITY, f64::min).max(0.0);
+        let (surface, target) = match seen.name == name.text {
             true => (&keys.surface, &keys.target),
             false => (&keys.target, &keys.surface),
         };
-        let target = if contact.target().deforms() { target.to_string() } else { format!("the tool {target}") };
-        self.line(format!("contact {}: {} points on {edges} edges of {surface}", contact.name(), hits.len()));
-        self.line(match found.as_slice() {
+        let target = if seen.deforms { target.to_string() } else { format!("the tool {target}") };
+        self.line(format!("contact {}: {} points on {} of {surface}", seen.name, seen.points, seen.pieces));
+        self.line(match seen.found.as_slice() {
             [] => format!("  none sees {target}"),
-            _ => format!("  {} see {target}, the nearest {nearest:.3e} away", found.len()),
+            _ => format!("  {} see {target}, the nearest {nearest:.3e} away", seen.found.len()),
         });
-        if contact.target().deforms() {
-            let passes = if contact.loads_itself() { "two passes: they load their own side" } else { "one pass" };
-            self.line(format!("  {passes}"));
+        if seen.deforms {
+            let two = seen.options.loads == Loads::Own;
+            self.line(if two { "  two passes: they load their own side" } else { "  one pass" });
         }
-        if rejected.total() > 0 {
-            let (behind, deep) = (rejected.wrong_side, rejected.too_deep);
+        if seen.rejected.total() > 0 {
+            let (behind, deep) = (seen.rejected.wrong_side, seen.rejected.too_deep);
             self.line(format!("  false contacts refused: {behind} on faces that look away, {deep} too deep"));
         }
-        let options = contact.options();
-        let origin = if keys.penalty.is_some() { "given" } else { "computed" };
-        self.line(format!(
-            "  penalty {:.4e} ({origin}), tangential {:.4e}",
-            options.penalty, options.tangential_penalty
-        ));
-        self.overlaps(name, contact, &hits)
-    }
-
-    fn overlaps(&mut self, name: &Name, contact: &Contact, hits: &[Option<crate::contact::Hit>]) -> Vec<Diagnostic> {
-        if hits.iter().all(Option::is_none) {
-            let what = format!("no point of contact `{name}` sees its target");
-            let help = "is the surface the right one, and does the profile run with the tool's material on its left?";
-            return vec![Diagnostic::warning(what).at(name.place).help(help)];
-        }
-        let depth =
-            |(i, hit): (usize, &Option<crate::contact::Hit>)| Some((hit.as_ref()?.u / contact.edge_length(i), i));
-        let deepest = hits.iter().enumerate().filter_map(depth).max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((part, i)) = deepest.filter(|(part, _)| *part > OVERLAP) else { return vec![] };
-        let closed = hits.iter().flatten().filter(|hit| hit.u > 0.0).count();
-        let u = hits[i].as_ref().map_or(0.0, |hit| hit.u);
-        let what = format!("{closed} points of contact `{name}` lie inside the target before the first increment");
-        let help = match contact.target().deforms() {
-            true => "for an interference fit that is as it should be; else move the bodies apart",
-            false => "move the tool or the body apart",
-        };
-        let label = format!("the deepest by {u:.3e}, {part:.1e} of its edge");
-        vec![Diagnostic::warning(what).at(name.place).label(label).help(help)]
-    }
-
-    /// The same of a contact in space.
-    fn solid_contact(&mut self, name: &Name, keys: &keys::Contact, contact: &Solid, made: &Made) -> Vec<Diagnostic> {
-        let (hits, rejected) = contact.search(&vec![0.0; made.model.problem.dofs.count()]);
-        let found: Vec<(f64, usize)> =
-            hits.iter().enumerate().filter_map(|(i, hit)| Some((hit.as_ref()?.u, i))).collect();
-        let (faces, target) = (contact.surface().faces.len(), &keys.target);
-        self.line(format!("contact {name}: {} points on {faces} faces of {}", hits.len(), keys.surface));
-        let nearest = found.iter().map(|(u, _)| -u).fold(f64::INFINITY, f64::min).max(0.0);
-        self.line(match found.as_slice() {
-            [] => format!("  none sees the tool {target}"),
-            _ => format!("  {} see the tool {target}, the nearest {nearest:.3e} away", found.len()),
-        });
-        if rejected.total() > 0 {
-            let (behind, deep) = (rejected.wrong_side, rejected.too_deep);
-            self.line(format!("  false contacts refused: {behind} on faces that look away, {deep} too deep"));
-        }
-        let (options, origin) = (contact.options(), if keys.penalty.is_some() { "given" } else { "computed" });
+        let (options, origin) = (seen.options, if keys.penalty.is_some() { "given" } else { "computed" });
         let (penalty, tangential) = (options.penalty, options.tangential_penalty);
         self.line(format!("  penalty {penalty:.4e} ({origin}), tangential {tangential:.4e}"));
-        solid_overlaps(name, contact, &found)
+        seen.oddity(name)
     }
 
     fn steps(&mut self, made: &Made) {
@@ -208,22 +158,67 @@ impl Page {
     }
 }
 
-/// What is odd about the distances that the points of a contact in space begin with.
-fn solid_overlaps(name: &Name, contact: &Solid, found: &[(f64, usize)]) -> Vec<Diagnostic> {
-    if found.is_empty() {
-        let what = format!("no point of contact `{name}` sees its target");
-        let help = "is the surface the right one, and do the tool's facets look outward?";
-        return vec![Diagnostic::warning(what).at(name.place).help(help)];
+/// What a contact is, and what its search finds in the undeformed state.
+struct Seen<'a> {
+    name: &'a str,
+    options: &'a ContactOptions,
+    deforms: bool,
+    points: usize,
+    /// On how many edges or faces they stand.
+    pieces: String,
+    /// Penetrations, and the same as parts of the edge or face.
+    found: Vec<(f64, f64)>,
+    rejected: Rejected,
+    /// What faces a target well.
+    advice: &'static str,
+}
+
+impl<'a> Seen<'a> {
+    fn plane(contact: &'a Contact, u: &[f64]) -> Self {
+        let (hits, rejected) = contact.search(u);
+        let part = |(i, hit): (usize, &Option<contact::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.edge_length(i)));
+        Self {
+            name: contact.name(),
+            options: contact.options(),
+            deforms: contact.target().deforms(),
+            points: hits.len(),
+            pieces: format!("{} edges", contact.surface().edges.len()),
+            found: hits.iter().enumerate().filter_map(part).collect(),
+            rejected,
+            advice: "is the surface the right one, and does the profile run with the tool's material on its left?",
+        }
     }
-    let part = |&(u, i): &(f64, usize)| (u / contact.face_length(i), u);
-    let Some((part, u)) = found.iter().map(part).max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(part, _)| *part > OVERLAP)
-    else {
-        return vec![];
-    };
-    let closed = found.iter().filter(|(u, _)| *u > 0.0).count();
-    let what = format!("{closed} points of contact `{name}` lie inside the tool before the first increment");
-    let label = format!("the deepest by {u:.3e}, {part:.1e} of its face");
-    vec![Diagnostic::warning(what).at(name.place).label(label).help("move the tool or the body apart")]
+
+    fn solid(contact: &'a Solid, u: &[f64]) -> Self {
+        let (hits, rejected) = contact.search(u);
+        let part = |(i, hit): (usize, &Option<Hit>)| hit.map(|hit| (hit.u, hit.u / contact.face_length(i)));
+        Self {
+            name: contact.name(),
+            options: contact.options(),
+            deforms: contact.target().deforms(),
+            points: hits.len(),
+            pieces: format!("{} faces", contact.surface().faces.len()),
+            found: hits.iter().enumerate().filter_map(part).collect(),
+            rejected,
+            advice: "is the surface the right one, and do the tool's facets look outward?",
+        }
+    }
+
+    /// What is odd about the distances.
+    fn oddity(&self, name: &Name) -> Option<Diagnostic> {
+        let Some((u, part)) = self.found.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            let what = format!("no point of contact `{name}` sees its target");
+            return Some(Diagnostic::warning(what).at(name.place).help(self.advice));
+        };
+        let closed = self.found.iter().filter(|(u, _)| *u > 0.0).count();
+        let what = format!("{closed} points of contact `{name}` lie inside the target before the first increment");
+        let help = match self.deforms {
+            true => "for an interference fit that is as it should be; else move the bodies apart",
+            false => "move the tool or the body apart",
+        };
+        let label = format!("the deepest by {u:.3e}, {part:.1e} of its edge");
+        (*part > OVERLAP).then(|| Diagnostic::warning(what).at(name.place).label(label).help(help))
+    }
 }
 
 fn profile(tool: &Tool) -> String {

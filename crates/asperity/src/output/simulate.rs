@@ -92,8 +92,8 @@ impl Job<'_> {
 
 /// What contacts say of their facets in the last accepted state.
 fn facets(model: &Model, state: &State) -> Vec<String> {
-    let lanes = model.contacts.iter().zip(&state.histories[model.first_contact()..]);
-    lanes.filter_map(|(contact, history)| contact.facets(&state.u, history)).map(|(text, _)| text).collect()
+    let contacts = Parts::of(model).contacts;
+    contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.u, &state.histories[*term])).collect()
 }
 
 /// What the run knows of its cost, and of promises that it bends.

@@ -52,7 +52,8 @@ fn parts(model: &Model, print: &mut Print) {
         print.add((tool.name(), tool.reference(), tool.facets()));
     }
     for contact in &model.solid_contacts {
-        print.add((contact.name(), contact.options(), contact.tool_number(), contact.surface().faces.len()));
+        let tool = contact.target().as_tool().map(|tool| tool.number());
+        print.add((contact.name(), contact.options(), tool, contact.surface().faces.len()));
     }
     for contact in &model.contacts {
         print.add((

@@ -1,12 +1,23 @@
-//! Contact in space between the faces of bodies and a rigid tool: the same element as in the plane, with two tangents.
+//! Contact in space between the faces of bodies, and with rigid tools: the same element as in the plane, with two
+//! tangents.
 
 mod capture;
+mod faces;
 mod geometry;
+mod guard;
 mod kink;
 mod open;
 mod pair;
+mod patch;
 mod point;
+mod rigid;
+mod search;
 mod surface;
+mod target;
 
+pub use faces::Faces;
+pub use guard::has_facets;
 pub use pair::{Contact, Parts};
+pub use rigid::Rigid;
 pub use surface::{Face, Surface};
+pub use target::Target;

@@ -1,20 +1,18 @@
 //! A contact in space during one attempt: its points as stencils, evaluated on the facets that the search found.
 
-use super::geometry::{DIRECTIONS, Geometry, TOOL};
+use super::geometry::{DIRECTIONS, Geometry};
 use super::pair::Contact;
 use super::point::{self, Closed, Constants, Place, Triad};
+use super::rigid;
 use crate::Failure;
 use crate::contact::capture::refuse_jump;
 use crate::contact::kink::answer;
 use crate::contact::record::{entry, leave, write};
 use crate::contact::seed::Seed;
 use crate::interface::Past;
-use crate::system::{Answer, Attempt, Branch, Coordinates, History, Kinks, Local, Stencil, Stencils};
+use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Vec3};
-use crate::tool::Rejected;
 use crate::tool::space::Hit;
-use rayon::prelude::*;
-use std::cell::RefCell;
 use std::f64::consts::FRAC_PI_2;
 
 pub(super) type D = Dual<DIRECTIONS>;
@@ -27,8 +25,12 @@ pub struct OpenContact<'a> {
     pub history: &'a History,
     /// Largest admissible penetration at each point.
     pub depths: Vec<f64>,
-    /// Rotation vector of the tool in the accepted state.
+    /// Rotation vector of the tool in the accepted state; zero where there is none.
     pub rotation: Vec3,
+    /// Largest gap at which the target is seen.
+    pub reach: f64,
+    /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
+    pub ahead: Vec<f64>,
     /// Pressure up to which the tangent is exact.
     pub ordinary: f64,
     /// Length of the increment.
@@ -48,11 +50,6 @@ pub fn write_hit(hit: Option<Hit>, values: &mut [f64]) {
     }
 }
 
-thread_local! {
-    /// Memory of the search, so that casting a ray allocates nothing.
-    static HITS: RefCell<Vec<Hit>> = const { RefCell::new(Vec::new()) };
-}
-
 impl Attempt for OpenContact<'_> {
     fn is_fixed(&self) -> bool {
         false
@@ -62,24 +59,16 @@ impl Attempt for OpenContact<'_> {
         vec![0.0; self.history.slot(index).len()]
     }
 
-    fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
-        let (contact, parts) = (self.contact, &self.contact.parts);
-        let (pose, points) = (contact.pose(u), &parts.surface.points);
-        let cast = |index: usize| {
-            let (mut rejected, ray) = (Rejected::default(), contact.ray(&points[index], u));
-            HITS.with_borrow_mut(|hits| contact.cast(&pose, ray, self.depths[index], hits, &mut rejected))
-        };
-        // Each ray for itself: the order of the threads decides nothing.
-        let hits: Vec<Option<Hit>> = (0..points.len()).into_par_iter().with_min_len(64).map(cast).collect();
-        let tool = parts.dofs.tool(contact.tool_number());
-        for (point, hit) in points.iter().zip(hits) {
-            let start = out.dofs.len();
-            let nodes = parts.surface.nodes(point);
-            out.dofs.extend(nodes.iter().flat_map(|&node| [0, 1, 2].map(|axis| parts.dofs.node(node) + axis)));
-            out.dofs.extend(tool..tool + if hit.is_some() { TOOL } else { 0 });
-            let (choice, near) = hit.map_or((0, [0.0; 2]), |hit| (hit.facet as u32 + 1, hit.s));
-            out.close(start, Stencil { choice, near, ..Stencil::default() });
+    fn reach(&self, couplings: &mut Couplings) {
+        if self.contact.parts.target.deforms() {
+            let mut stencils = Stencils::default();
+            self.list(&self.ahead, &mut stencils);
+            stencils.list.iter().for_each(|stencil| couplings.push(stencils.dofs(stencil)));
         }
+    }
+
+    fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
+        self.list(u, out);
         Ok(())
     }
 
@@ -103,7 +92,7 @@ impl Attempt for OpenContact<'_> {
 
     fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
         if let Some(geometry) = self.geometry(index, stencil, u)? {
-            self.bend(index, &geometry, u.len(), out);
+            self.bend(index, &geometry, u, out);
         }
         Ok(())
     }
@@ -130,12 +119,7 @@ impl OpenContact<'_> {
         evaluate: impl FnOnce(&Place<T>, &Constants, &Past, &mut [f64]) -> Evaluated<T>,
     ) -> Result<Branch, Failure> {
         let old = self.history.slot(index);
-        let place = Place {
-            a: seed(g.place.a, 0),
-            tangents: [seed(g.place.tangents[0], 3), seed(g.place.tangents[1], 6)],
-            b: seed(g.place.b, 9),
-            touched: g.place.touched.map(|x| seed(x, 12)),
-        };
+        let place = Self::seeded(g);
         let past = self.past(index);
         let constants = self.constants(index, g, &past);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
@@ -150,7 +134,7 @@ impl OpenContact<'_> {
         if g.place.touched.is_none() {
             refuse_jump(g.hit.u, self.depths[index], || self.contact.describe(index))?;
         }
-        self.refuse_turn(index, g)?;
+        self.refuse_turn(index, (g, &local.u))?;
         new[entry::PENETRATION] -= constants.least;
         write(&closed.response, closed.slip, old, new);
         self.add(index, g, &closed, local);
@@ -194,7 +178,7 @@ impl OpenContact<'_> {
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
         let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
         let (slip, area) = (g.place.slip(), Triad::new(g.place.tangents).area);
-        let area = area * self.contact.parts.surface.points[index].weight;
+        let area = area * self.contact.parts.surface.points[index].weight * options.loads.share();
         let work: f64 = (0..2).map(|i| 0.5 * (before[i] + shear[i]) * slip[i]).sum();
         local.stored = area * (0.5 * pressure * pressure / options.penalty + stored(shear));
         let friction = work - (stored(shear) - stored(before));
@@ -202,9 +186,12 @@ impl OpenContact<'_> {
     }
 
     /// The slip is a chord: a tool that turns by half a turn brings what was touched to the other side, and none is seen.
-    fn refuse_turn(&self, index: usize, g: &Geometry) -> Result<(), Failure> {
-        let turned = (g.pose.rotation - self.rotation).norm();
-        if g.place.touched.is_some() && turned > FRAC_PI_2 {
+    fn refuse_turn(&self, index: usize, (g, u): (&Geometry, &[f64])) -> Result<(), Failure> {
+        if self.contact.parts.target.deforms() || g.place.touched.is_none() {
+            return Ok(());
+        }
+        let turned = (rigid::pose(&u[g.layout.hit.clone()]).rotation - self.rotation).norm();
+        if turned > FRAC_PI_2 {
             let (name, degrees) = (self.contact.describe(index), turned.to_degrees());
             return Err(Failure::new(format!("{name}: its tool turned by {degrees:.0} degrees in one increment")));
         }

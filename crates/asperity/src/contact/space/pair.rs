@@ -1,19 +1,21 @@
-//! Faces of bodies and a rigid tool in space as a term of equilibrium: one stencil a contact point.
+//! A surface and its target in space as a term of equilibrium: one stencil a contact point.
 
 use super::capture::{depths, locate};
 use super::open::{OpenContact, write_hit};
 use super::point::Triad;
-use super::surface::{Surface, SurfacePoint};
-use crate::Failure;
-use crate::contact::ContactOptions;
-use crate::contact::pair::CLOSED;
+use super::surface::{Face, Surface, SurfacePoint};
+use super::target::Target;
+use crate::contact::guard;
+use crate::contact::pair::{CLOSED, ahead};
 use crate::contact::record::{PointRecord, PointStatus, entry};
+use crate::contact::search::relatives;
+use crate::contact::{ContactOptions, Loads};
 use crate::interface::Interface;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{CellView, Mesh, Side};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
-use crate::tool::space::{Hit, Pose, Tool};
-use crate::tool::{Ray, Rejected, Rules, select};
+use crate::tool::Ray;
+use crate::{Error, Failure};
 use std::sync::Arc;
 
 /// What a contact in space is made of.
@@ -28,28 +30,45 @@ pub struct Parts {
     pub surface: Surface,
     /// The whole outer boundary of the bodies behind the surface.
     pub boundary: Vec<Side>,
-    /// The target and its number among the tools.
-    pub tool: (Arc<Tool>, usize),
+    /// What they may touch.
+    pub target: Target,
     /// The law of the interface.
     pub law: Arc<dyn Interface>,
     /// How it is computed.
     pub options: ContactOptions,
 }
 
-/// Contact in space between a surface and a rigid tool.
+/// Contact in space between a surface and a target.
 pub struct Contact {
     pub(super) parts: Parts,
     /// Penetration from which a point counts as closed.
     pub(super) least: f64,
+    /// For each face the segments of the target that share a node with it.
+    pub(super) relatives: Vec<Vec<usize>>,
+    /// Size of the largest face of both sides, a length.
+    pub(super) longest: f64,
+}
+
+impl Parts {
+    /// Size of an undeformed face, a length: the root of its area.
+    fn length(&self, face: &Face) -> f64 {
+        let Face { kind, nodes, .. } = face;
+        CellView { kind, nodes }.extent(&self.mesh.points).sqrt()
+    }
 }
 
 impl Contact {
     /// A contact of these parts.
     pub fn new(parts: Parts) -> Self {
-        let mut contact = Self { parts, least: 0.0 };
-        let lengths = (0..contact.parts.surface.points.len()).map(|point| contact.face_length(point));
-        contact.least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
-        contact
+        let opposite = parts.target.as_faces().map_or(&[][..], |faces| faces.list());
+        let own = parts.surface.faces.iter();
+        let relatives = relatives(own.map(|face| &face.nodes), opposite.iter().map(|face| &face.nodes));
+        let sizes = parts.surface.faces.iter().chain(opposite).map(|face| face.size(&parts.mesh));
+        let longest = sizes.fold(0.0, f64::max);
+        // Common to both sides: else one would be pressed a little harder than the other.
+        let lengths = parts.surface.faces.iter().chain(opposite).map(|face| parts.length(face));
+        let least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
+        Self { parts, least, relatives, longest }
     }
 
     /// The mesh.
@@ -61,40 +80,30 @@ impl Contact {
         &self.parts.surface
     }
     /// The target.
-    pub fn tool(&self) -> &Tool {
-        &self.parts.tool.0
+    pub fn target(&self) -> &Target {
+        &self.parts.target
     }
-    /// Its number among the tools.
-    pub fn tool_number(&self) -> usize {
-        self.parts.tool.1
+    /// Whether its points load their own side alone: one of two passes.
+    pub fn loads_itself(&self) -> bool {
+        self.parts.options.loads == Loads::Own
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
         &self.parts.options
     }
 
-    /// Where the tool stands.
-    pub fn pose(&self, u: &[f64]) -> Pose {
-        let first = self.parts.dofs.tool(self.parts.tool.1);
-        Pose::new(std::array::from_fn(|i| u[first + i]))
-    }
-    /// Where moments are taken about: the present place of the tool's reference point.
+    /// Where moments are taken about: the present place of a tool's reference point, or the origin.
     pub fn pole(&self, u: &[f64]) -> Vec3 {
-        self.tool().reference() + self.pose(u).translation
+        self.parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pole(u))
     }
 
     pub(super) fn locate(&self, point: &SurfacePoint, u: &[f64]) -> (Vec3, [Vec3; 2]) {
         locate(&self.parts.surface, point, (&self.parts.mesh, &self.parts.dofs), u)
     }
 
-    /// Size of the undeformed face of a point, a length: the root of its area if the face were even.
+    /// Size of the undeformed face of a point, a length.
     pub fn face_length(&self, point: usize) -> f64 {
-        let point = &self.parts.surface.points[point];
-        let nodes = self.parts.surface.nodes(point);
-        let x: Vec<Vec3> = nodes.iter().map(|&node| self.parts.mesh.points[node]).collect();
-        let kind = self.parts.surface.faces[point.face].kind;
-        let measure: f64 = kind.gauss[0].map_or(1.0, |rule| rule.weights.iter().sum());
-        (Triad::new(point.place(&x).1).area * measure).sqrt()
+        self.parts.length(&self.parts.surface.faces[self.parts.surface.points[point].face])
     }
 
     /// All points in an accepted state, with this term's lane of its history. Their `along` is the direction of the
@@ -131,34 +140,10 @@ impl Contact {
         }
     }
 
-    /// What the search finds at displacements `u`, point by point, and how many false contacts it rejects.
-    pub fn search(&self, u: &[f64]) -> (Vec<Option<Hit>>, Rejected) {
-        let parts = &self.parts;
-        let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, u);
-        let (pose, mut rejected, mut scratch) = (self.pose(u), Rejected::default(), Vec::new());
-        let points = parts.surface.points.iter().zip(&depths);
-        let hits =
-            points.map(|(point, &depth)| self.cast(&pose, self.ray(point, u), depth, &mut scratch, &mut rejected));
-        (hits.collect(), rejected)
-    }
-
     /// The ray of a point, along its inward normal.
     pub(super) fn ray(&self, point: &SurfacePoint, u: &[f64]) -> Ray {
         let (origin, tangents) = self.locate(point, u);
         Ray { origin, direction: Triad::new(tangents).inward }
-    }
-
-    pub(super) fn cast(
-        &self,
-        pose: &Pose,
-        ray: Ray,
-        depth: f64,
-        hits: &mut Vec<Hit>,
-        rejected: &mut Rejected,
-    ) -> Option<Hit> {
-        // To the far side of the body: what lies beyond its middle is refused, and counted.
-        self.tool().cast(pose, &ray, [f64::NEG_INFINITY, 2.0 * depth], hits);
-        select(ray.direction, hits, &Rules::new(depth, self.tool().size()), rejected)
     }
 
     /// Words for a point.
@@ -177,7 +162,7 @@ impl Term for Contact {
         let vars: usize = self.parts.law.variables().iter().map(|v| v.len()).sum();
         let mut history = History::new(self.parts.surface.points.iter().map(|_| entry::COUNT + vars));
         let u = vec![0.0; self.parts.dofs.count()];
-        for (i, hit) in self.search(&u).0.into_iter().enumerate() {
+        for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(hit, history.slot_mut(i));
             self.parts.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
@@ -196,7 +181,9 @@ impl Term for Contact {
             contact: self,
             history,
             depths,
-            rotation: self.pose(&accepted.u).rotation,
+            rotation: parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pose(&accepted.u).rotation),
+            reach: self.reach(&accepted.last_change),
+            ahead: ahead(accepted, at.dt),
             ordinary: parts.options.ordinary(history),
             dt: at.dt,
         }))
@@ -204,6 +191,10 @@ impl Term for Contact {
 
     fn name_of(&self, stencil: usize) -> String {
         self.describe(stencil)
+    }
+
+    fn verdict(&self, state: &State, history: &History) -> Result<(), Error> {
+        guard::verdict(self.facets(&state.u, history))
     }
 
     fn bends(&self) -> bool {

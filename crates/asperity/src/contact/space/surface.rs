@@ -3,6 +3,7 @@
 use crate::mesh::cells::Cell;
 use crate::mesh::{Mesh, Side};
 use crate::tensor::{Scalar, Vec3};
+use crate::tool::Bounds;
 
 /// Most nodes of a face.
 pub const MAX_NODES: usize = 9;
@@ -16,6 +17,28 @@ pub struct Face {
     pub kind: &'static Cell,
     /// Its nodes.
     pub nodes: Vec<usize>,
+}
+
+impl Face {
+    /// A side of the mesh.
+    pub fn new(mesh: &Mesh, side: Side) -> Self {
+        let (kind, nodes) = mesh.side(side);
+        Self { side, kind, nodes: nodes.collect() }
+    }
+
+    /// Its nodes with displacements `u`, three a node.
+    pub fn moved(&self, mesh: &Mesh, u: &[f64]) -> [Vec3; MAX_NODES] {
+        let mut x = [Vec3::zero(); MAX_NODES];
+        for ((x, u), &node) in x.iter_mut().zip(u.chunks_exact(3)).zip(&self.nodes) {
+            *x = mesh.points[node] + Vec3::new(u[0], u[1], u[2]);
+        }
+        x
+    }
+
+    /// Diagonal of the box around its undeformed nodes.
+    pub fn size(&self, mesh: &Mesh) -> f64 {
+        Bounds::of(self.nodes.iter().map(|&node| mesh.points[node])).size()
+    }
 }
 
 /// One integration point of the surface.
@@ -46,13 +69,13 @@ impl Surface {
     pub fn new(mesh: &Mesh, sides: &[Side], gauss: Option<usize>) -> Self {
         let mut surface = Self { faces: Vec::new(), points: Vec::new() };
         for &side in sides {
-            let (kind, nodes) = mesh.side(side);
-            let order = gauss.unwrap_or(kind.degree).clamp(1, 3);
-            let Some(rule) = kind.gauss[order - 1].filter(|_| kind.dimension == 2) else { continue };
+            let face = Face::new(mesh, side);
+            let order = gauss.unwrap_or(face.kind.degree).clamp(1, 3);
+            let Some(rule) = face.kind.gauss[order - 1].filter(|_| face.kind.dimension == 2) else { continue };
             for (&xi, &weight) in rule.points.iter().zip(rule.weights) {
-                surface.points.push(point_at(kind, xi, weight, surface.faces.len()));
+                surface.points.push(point_at(face.kind, xi, weight, surface.faces.len()));
             }
-            surface.faces.push(Face { side, kind, nodes: nodes.collect() });
+            surface.faces.push(face);
         }
         surface
     }

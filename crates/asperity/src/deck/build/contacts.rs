@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::contact::{
-    Contact, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets, second_name,
+    Contact, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets, second_name, space,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -41,11 +41,10 @@ impl Builder<'_> {
         }))
     }
 
-    fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {
+    pub(super) fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {
         let tool = self.deck.tool.iter().position(|(tool, _)| tool.text == keys.target.text);
-        tool.map(Opposite::Tool).or_else(|| {
-            Some(Opposite::Sides(mesh.groups.get(&keys.target.text)?.sides.as_slice())).filter(|_| self.plane())
-        })
+        tool.map(Opposite::Tool)
+            .or_else(|| Some(Opposite::Sides(mesh.groups.get(&keys.target.text)?.sides.as_slice())))
     }
 
     /// No two sides may touch by two contacts: they would do so twice as hard.
@@ -79,10 +78,7 @@ impl Builder<'_> {
         let law = self.interface(keys)?;
         let mesh = self.site.mesh.clone();
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
-        let Some(opposite) = self.opposite(keys, &mesh) else {
-            self.refuse("two bodies touch in the plane spaces and the axisymmetric one only", keys.target.place);
-            return None;
-        };
+        let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), moduli);
         let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
             let carrier = Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value));
@@ -98,7 +94,7 @@ impl Builder<'_> {
             }
             Opposite::Sides(sides) => {
                 let first = build(&name.text, surface, faces(sides), options);
-                let second = (options.loads == Loads::Own && !same_sides(surface, sides))
+                let second = is_double(&options, surface, sides)
                     .then(|| build(&second_name(&name.text), sides, faces(surface), options));
                 std::iter::once(first).chain(second).collect()
             }
@@ -106,7 +102,7 @@ impl Builder<'_> {
         self.check_passes(name, keys, (surface, opposite)).then_some(contacts)
     }
 
-    fn options(
+    pub(super) fn options(
         &self,
         keys: &keys::Contact,
         (surface, opposite): (&[Side], Opposite),
@@ -137,9 +133,10 @@ impl Builder<'_> {
     fn carried(&self, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> Loads {
         let Opposite::Sides(others) = opposite else { return Loads::Both };
         let passes = keys.passes.map_or(Passes::Auto, |passes| passes.value);
-        let facets = |sides: &[Side]| {
-            let faces = Faces::new(self.site.mesh.clone(), self.site.dofs.clone(), sides);
-            has_facets(&self.site.mesh, &self.site.dofs, faces.edges())
+        let (mesh, dofs) = (&self.site.mesh, &self.site.dofs);
+        let facets = |sides: &[Side]| match self.plane() {
+            true => has_facets(mesh, dofs, Faces::new(mesh.clone(), dofs.clone(), sides).edges()),
+            false => space::has_facets(mesh, space::Faces::new(mesh.clone(), dofs.clone(), sides).list()),
         };
         let two = match passes {
             Passes::One => false,
@@ -193,6 +190,11 @@ impl Builder<'_> {
         }
         self.found.len() == before
     }
+}
+
+/// Whether the target of a contact carries points of its own, in a second pass.
+pub(super) fn is_double(options: &ContactOptions, surface: &[Side], target: &[Side]) -> bool {
+    options.loads == Loads::Own && !same_sides(surface, target)
 }
 
 /// Whether two lists hold the same sides; those of a group are sorted.

@@ -1,9 +1,9 @@
 //! Contacts of a model in space.
 
 use super::Builder;
-use super::contacts::{Opposite, boundary_behind, moduli};
-use crate::contact::space::{Contact, Parts, Surface};
-use crate::contact::{ContactOptions, Guard, Loads, default_penalty};
+use super::contacts::{Opposite, boundary_behind, is_double, moduli};
+use crate::contact::second_name;
+use crate::contact::space::{Contact, Faces, Parts, Surface, Target};
 use crate::deck::keys;
 use crate::deck::reader::Name;
 use crate::mesh::Side;
@@ -12,14 +12,14 @@ use crate::tool::space::Tool;
 use std::sync::Arc;
 
 impl Builder<'_> {
-    /// The contacts with tools in space.
+    /// The contacts in space, those of the second of two passes right behind those of the first.
     pub(super) fn solid_contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
         let moduli = moduli(&self.site.mesh, bodies);
         let deck = self.deck;
         self.check_doubles();
         let contact = |(name, keys): &(Name, keys::Contact)| self.solid_contact(name, keys, tools, &moduli);
         let contacts: Vec<_> = deck.contact.iter().map(contact).collect();
-        contacts.into_iter().collect()
+        Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
     fn solid_contact(
@@ -28,41 +28,37 @@ impl Builder<'_> {
         keys: &keys::Contact,
         tools: &[Arc<Tool>],
         moduli: &[f64],
-    ) -> Option<Contact> {
-        let number = self.deck.tool.iter().position(|(tool, _)| tool.text == keys.target.text);
-        let Some(number) = number else {
-            self.refuse("two bodies touch in the plane spaces and the axisymmetric one only", keys.target.place);
-            return None;
-        };
+    ) -> Option<Vec<Contact>> {
         let law = self.interface(keys)?;
-        let mesh = self.site.mesh.clone();
+        let (mesh, dofs) = (self.site.mesh.clone(), self.site.dofs.clone());
         let sides = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
-        if !self.check_passes(name, keys, (sides, Opposite::Tool(number))) {
+        let opposite = self.opposite(keys, &mesh)?;
+        if !self.check_passes(name, keys, (sides, opposite)) {
             return None;
         }
-        Some(Contact::new(Parts {
-            name: name.text.clone(),
-            dofs: self.site.dofs.clone(),
-            surface: Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value)),
-            boundary: boundary_behind(&mesh, sides, &self.deck.body),
-            tool: (tools[number].clone(), number),
-            law,
-            options: self.solid_options(keys, sides, moduli),
-            mesh: mesh.clone(),
-        }))
-    }
-
-    fn solid_options(&self, keys: &keys::Contact, sides: &[Side], moduli: &[f64]) -> ContactOptions {
-        let computed = || default_penalty(&self.site.mesh, sides, |cell| moduli[cell]);
-        let penalty = keys.penalty.unwrap_or_else(computed);
-        ContactOptions {
-            penalty,
-            tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
-            thickness: 1.0,
-            modulus: sides.iter().map(|side| moduli[side.cell]).fold(f64::INFINITY, f64::min),
-            loads: Loads::Both,
-            coupling: true,
-            guard: Guard::Refuse,
-        }
+        let options = self.options(keys, (sides, opposite), moduli);
+        let build = |name: &str, sides: &[Side], target: Target| {
+            Contact::new(Parts {
+                name: name.into(),
+                dofs: dofs.clone(),
+                surface: Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value)),
+                boundary: boundary_behind(&mesh, sides, &self.deck.body),
+                target,
+                law: law.clone(),
+                options,
+                mesh: mesh.clone(),
+            })
+        };
+        let faces = |sides: &[Side]| Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides));
+        Some(match opposite {
+            Opposite::Tool(number) => {
+                vec![build(&name.text, sides, Target::tool(tools[number].clone(), number, &dofs))]
+            }
+            Opposite::Sides(others) => {
+                let second = is_double(&options, sides, others)
+                    .then(|| build(&second_name(&name.text), others, faces(sides)));
+                std::iter::once(build(&name.text, sides, faces(others))).chain(second).collect()
+            }
+        })
     }
 }

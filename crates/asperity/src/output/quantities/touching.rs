@@ -44,7 +44,10 @@ impl Touching<'_> {
     }
     /// Whether its target carries points of its own: one of two passes.
     pub fn loads_itself(&self) -> bool {
-        matches!(self, Self::Plane(contact) if contact.loads_itself())
+        match self {
+            Self::Plane(contact) => contact.loads_itself(),
+            Self::Solid(contact) => contact.loads_itself(),
+        }
     }
     /// Part of the interface's energy that is counted here.
     pub fn share(&self) -> f64 {
@@ -57,8 +60,16 @@ impl Touching<'_> {
     pub fn facet_ratio(&self, u: &[f64], history: &History) -> Option<f64> {
         match self {
             Self::Plane(contact) => contact.target().deforms().then(|| contact.facet_ratio(u, history)),
-            Self::Solid(_) => None,
+            Self::Solid(contact) => contact.target().deforms().then(|| contact.facet_ratio(u, history)),
         }
+    }
+    /// What must be said of the facets in an accepted state.
+    pub fn facets(&self, u: &[f64], history: &History) -> Option<String> {
+        let said = match self {
+            Self::Plane(contact) => contact.facets(u, history),
+            Self::Solid(contact) => contact.facets(u, history),
+        };
+        said.map(|(text, _)| text)
     }
     /// Nodes whose distance is the length of an edge, or of the first edge of a face.
     pub fn edge_ends(&self, edge: usize) -> Option<[usize; 2]> {

@@ -32,6 +32,10 @@ pub trait Facet: Debug + Send + Sync {
     fn tangents(&self, s: [f64; 2]) -> [Vec3; 2];
     /// Where a ray meets the carrier, in any order and whatever `s`.
     fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting));
+    /// The same, where only those near `near` are wanted.
+    fn meet_near(&self, ray: &Ray, _near: [f64; 2], found: &mut dyn FnMut(Meeting)) {
+        self.meet(ray, found);
+    }
     /// A box around the facet.
     fn bounds(&self) -> Bounds;
     /// How many equal parts of each coordinate make tiles nowhere much farther than `sagitta` from the facet.
@@ -62,7 +66,7 @@ pub trait Facet: Debug + Send + Sync {
     /// that plane.
     fn follow(&self, ray: &Ray, near: [f64; 2]) -> Option<Meeting> {
         let (mut best, mut least) = (None, f64::INFINITY);
-        self.meet(ray, &mut |place| {
+        self.meet_near(ray, near, &mut |place| {
             let off = (place.s[0] - near[0]).hypot(place.s[1] - near[1]);
             if place.u.is_finite() && off < least && self.holds(place.s, EXTENSION) {
                 (best, least) = (Some(place), off);

@@ -1,0 +1,150 @@
+//! Faces of bodies as a target in space: triangles and quadrilaterals of first and second degree, where their nodes are.
+//!
+//! A tree of boxes, fitted anew for each search, keeps a ray from being tried against every face.
+
+use super::patch::Patch;
+use super::surface::{Face, MAX_NODES};
+use super::target::{Cast, MAX_UNKNOWNS, Memory};
+use crate::contact::capture::positions;
+use crate::mesh::{Mesh, Side};
+use crate::system::Dofs;
+use crate::tensor::{Scalar, Vec3};
+use crate::tool::space::Hit;
+use crate::tool::{Bounds, Ray, Tree};
+use std::sync::Arc;
+
+/// Faces of bodies.
+#[derive(Debug)]
+pub struct Faces {
+    mesh: Arc<Mesh>,
+    dofs: Dofs,
+    faces: Vec<Face>,
+    tree: Tree,
+    size: f64,
+}
+
+/// Faces at given displacements.
+pub struct Standing<'a> {
+    faces: &'a Faces,
+    patches: Vec<Patch>,
+    tree: Tree,
+}
+
+/// Margin of the boxes, as a part of the size: what is found must not depend on rounding.
+const MARGIN: f64 = 1e-9;
+
+impl Faces {
+    /// The faces `sides` of a mesh.
+    pub fn new(mesh: Arc<Mesh>, dofs: Dofs, sides: &[Side]) -> Self {
+        let list: Vec<Face> = sides.iter().map(|&side| Face::new(&mesh, side)).collect();
+        let still = vec![0.0; dofs.count()];
+        let mut faces = Self { mesh, dofs, faces: list, tree: Tree::new(&[], 0.0), size: 0.0 };
+        let boxes = boxes(&faces.patches(&still));
+        faces.size = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b)).size();
+        faces.tree = Tree::new(&boxes, MARGIN * faces.size);
+        faces
+    }
+
+    /// The faces, in the order of their numbers as segments.
+    pub fn list(&self) -> &[Face] {
+        &self.faces
+    }
+    /// Diagonal of the box around them before any motion, a length.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+    pub(super) fn nodes(&self, segment: usize) -> &[usize] {
+        &self.faces[segment].nodes
+    }
+    pub(super) fn unknowns(&self, segment: usize) -> impl Iterator<Item = usize> {
+        self.nodes(segment).iter().flat_map(|&node| [0, 1, 2].map(|axis| self.dofs.node(node) + axis))
+    }
+
+    pub(super) fn stand(&self, u: &[f64]) -> Standing<'_> {
+        let patches = self.patches(u);
+        let tree = self.tree.refit(&boxes(&patches), MARGIN * self.size);
+        Standing { faces: self, patches, tree }
+    }
+
+    fn patches(&self, u: &[f64]) -> Vec<Patch> {
+        let patch = |face: &Face| {
+            let mut x = [Vec3::zero(); MAX_NODES];
+            x.iter_mut().zip(positions(&self.mesh, &self.dofs, &face.nodes, u)).for_each(|(x, here)| *x = here);
+            Patch::through(face.kind, x)
+        };
+        self.faces.iter().map(patch).collect()
+    }
+
+    /// The face whose nodes have the displacements `u`.
+    fn patch(&self, segment: usize, u: &[f64]) -> Patch {
+        let face = &self.faces[segment];
+        Patch::through(face.kind, face.moved(&self.mesh, u))
+    }
+
+    pub(super) fn meet(&self, segment: usize, u: &[f64], ray: &Ray, near: [f64; 2]) -> Option<Hit> {
+        let patch = self.patch(segment, u);
+        let place = patch.facet().follow(ray, near)?;
+        Some(Hit { facet: segment, s: place.s, u: place.u, normal: patch.facet().normal(place.s) })
+    }
+
+    pub(super) fn point(&self, segment: usize, s: [f64; 2], u: &[f64]) -> Vec3 {
+        self.patch(segment, u).facet().point(s)
+    }
+
+    pub(super) fn rates(&self, segment: usize, s: [f64; 2]) -> [Vec3; MAX_UNKNOWNS] {
+        let (n, _) = self.faces[segment].shape_at(s);
+        let mut rates = [Vec3::zero(); MAX_UNKNOWNS];
+        for (k, rate) in rates[..3 * self.nodes(segment).len()].iter_mut().enumerate() {
+            rate[k % 3] = n[k / 3];
+        }
+        rates
+    }
+
+    /// The force shared out by the shape functions where it acts: `N_k(s) f`, with `ds_a = g^a.(dx - dx_B)` the sliding
+    /// of the place over the face, `g^a` its two vectors along the dual of its tangents.
+    pub(super) fn receive<T: Scalar>(
+        &self,
+        (hit, u): (&Hit, &[f64]),
+        sliding: Vec3<T>,
+        force: Vec3<T>,
+    ) -> [T; MAX_UNKNOWNS] {
+        let [a, b] = self.patch(hit.facet, u).facet().tangents(hit.s);
+        let normal = a.cross(b);
+        let size = 1.0 / normal.dot(normal);
+        let ds = [b.cross(normal), normal.cross(a)].map(|along| sliding.dot((along * size).lift()));
+        let (n, dn) = self.faces[hit.facet].shape_at(hit.s);
+        let mut rows = [T::zero(); MAX_UNKNOWNS];
+        for (k, row) in rows[..3 * self.nodes(hit.facet).len()].iter_mut().enumerate() {
+            let [s, t] = dn[k / 3];
+            let moving = ds[0] * s + ds[1] * t;
+            *row = force[k % 3] * moving.chain(n[k / 3], 1.0);
+        }
+        rows
+    }
+}
+
+fn boxes(patches: &[Patch]) -> Vec<Bounds> {
+    patches.iter().map(|patch| patch.facet().bounds()).collect()
+}
+
+impl Standing<'_> {
+    /// What a ray meets by the rules against false contacts; what they reject is counted.
+    pub(super) fn select(&self, cast: &Cast, memory: &mut Memory) -> Option<Hit> {
+        self.cast(&cast.ray, cast.range(), &mut memory.hits);
+        cast.select(self.faces.size, memory)
+    }
+
+    /// All places with `u` in `range` where a ray meets the faces, by face and then by `u`.
+    fn cast(&self, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+        hits.clear();
+        self.tree.along(ray, range, &mut |segment| {
+            let facet = self.patches[segment].facet();
+            facet.cast(ray, &mut |place| {
+                if (range[0]..=range[1]).contains(&place.u) {
+                    hits.push(Hit { facet: segment, s: place.s, u: place.u, normal: facet.normal(place.s) });
+                }
+            });
+        });
+        hits.sort_unstable_by(|a, b| a.facet.cmp(&b.facet).then(a.u.total_cmp(&b.u)));
+    }
+}

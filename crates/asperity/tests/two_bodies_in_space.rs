@@ -1,0 +1,191 @@
+//! Contact of two bodies in space: tangents against central differences with Richardson's extrapolation on faces of every
+//! kind against faces of every kind, with one pass and with two; balance of the forces of one pass; a loaded pair that
+//! turns without slip.
+
+mod perturbed;
+
+use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
+use asperity::contact::{ContactOptions, Guard, Loads};
+use asperity::interface::{Law, laws::Coulomb};
+use asperity::mesh::generate::Block;
+use asperity::mesh::{Cell, Mesh};
+use asperity::system::{Attempt, Dofs, Local, State, Stencils, Term};
+use asperity::tensor::Vec3;
+use asperity::tool::space::Pose;
+use perturbed::{Random, check, commit, instant, state};
+use std::sync::Arc;
+
+/// Largest difference of an entry over the largest entry.
+const ALLOWED: f64 = 1e-7;
+/// A pressure of some steps of the differences, times the penalty.
+const LITTLE: f64 = 5e-3;
+
+/// Cells of the upper and of the lower block: all kinds of faces against each other.
+const PAIRS: [[&str; 2]; 7] = [
+    ["hex8", "hex8"],
+    ["tet4", "hex20"],
+    ["tet10", "tet4"],
+    ["hex20", "hex27"],
+    ["hex27", "tet10"],
+    ["hex20", "hex20"],
+    ["wedge15", "hex8"],
+];
+
+fn at(x: f64, y: f64, z: f64) -> Vec3 {
+    Vec3::new(x, y, z)
+}
+
+/// A small block above a large one, both with slightly bent faces.
+fn mesh([upper, lower]: [&str; 2]) -> Mesh {
+    let block = |from, to, cells, cell: &str, name: &str| {
+        Block::new(from, to, cells, Cell::named(cell).unwrap()).mesh(name).unwrap()
+    };
+    let mut mesh = block([-1.0, -1.0, -1.0], [2.0, 2.0, 0.0], [3, 2, 1], lower, "lower");
+    mesh.append(block([0.1, 0.05, 0.0], [0.9, 0.9, 1.0], [1, 1, 1], upper, "upper")).unwrap();
+    for x in &mut mesh.points {
+        let [a, b, c] = x.0;
+        *x += at(0.06 * a * b, 0.05 * b * a * a, 0.02 * (a * (1.0 - b) + 0.4 * a * a) * (1.0 - c.abs()));
+    }
+    mesh
+}
+
+fn contact(cells: [&str; 2], loads: Loads, friction: f64) -> (Contact, Dofs) {
+    let mesh = Arc::new(mesh(cells));
+    let dofs = Dofs::new(3, mesh.points.len(), 0);
+    let sides = |group: &str| mesh.groups[group].sides.as_slice();
+    // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
+    let options = ContactOptions {
+        penalty: 1.0,
+        tangential_penalty: 0.7,
+        thickness: 1.0,
+        modulus: 1e3,
+        loads,
+        coupling: true,
+        guard: Guard::Refuse,
+    };
+    let parts = Parts {
+        name: "c".into(),
+        surface: Surface::new(&mesh, sides("upper.back"), None),
+        boundary: mesh.boundary(&mesh.groups["upper"].cells),
+        target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides("lower.front"))),
+        law: Arc::new(Law(Coulomb::new(friction))),
+        options,
+        dofs: dofs.clone(),
+        mesh: mesh.clone(),
+    };
+    (Contact::new(parts), dofs)
+}
+
+/// Random motion: the small block by up to a tenth and downwards, all nodes by a little.
+fn motion(contact: &Contact, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
+    let by = [0.08 * random.next(), 0.08 * random.next(), -0.03 - 0.06 * random.next()];
+    let mut u = vec![0.0; dofs.count()];
+    for node in 0..dofs.nodes() {
+        let upper = contact.mesh().groups["upper"].nodes.contains(&node);
+        for (axis, by) in by.into_iter().enumerate() {
+            u[dofs.node(node) + axis] = if upper { by } else { 0.0 } + 0.012 * random.next();
+        }
+    }
+    u
+}
+
+/// Looks at random states, each after a random accepted one that itself follows another.
+fn states((contact, dofs): &(Contact, Dofs), count: usize, look: &mut dyn FnMut(&State, &dyn Attempt, &[f64])) {
+    let mut random = Random(11);
+    let start = state(vec![0.0; dofs.count()], contact.initial());
+    for _ in 0..count {
+        let first = commit(contact, &start, motion(contact, dofs, &mut random));
+        // A point that came to lie deep where nothing was refuses the increment.
+        let accepted = first.and_then(|first| commit(contact, &first, motion(contact, dofs, &mut random)));
+        let Ok(accepted) = accepted else { continue };
+        let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+        look(&accepted, attempt.as_ref(), &motion(contact, dofs, &mut random));
+    }
+}
+
+#[test]
+fn tangents_of_contact_between_bodies_are_exact() {
+    for cells in PAIRS {
+        for loads in [Loads::Own, Loads::Both] {
+            let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
+            let pair = contact(cells, loads, 0.4);
+            states(&pair, 120, &mut |accepted, attempt, u| {
+                let Ok(end) = commit(&pair.0, accepted, u.to_vec()) else { return };
+                let records = pair.0.records(u, &end.histories[0]);
+                for (result, record) in check(attempt, u).unwrap().into_iter().zip(records) {
+                    met[usize::from(result.branch)] += 1;
+                    // Where hardly anything is left of the pressure, the steps of the differences are not small.
+                    let smooth = result.smooth && (record.pressure == 0.0 || record.pressure > LITTLE);
+                    skipped += usize::from(!smooth);
+                    assert!(result.error.is_finite());
+                    worst = if smooth { worst.max(result.error) } else { worst };
+                }
+            });
+            let name = format!("{cells:?}, {loads:?}: {met:?} skipped {skipped} worst {worst:.1e}");
+            println!("{name}");
+            assert!(met.iter().all(|&met| met >= 8), "{name}");
+            assert!(10 * skipped <= met.iter().sum::<usize>(), "{name}");
+            assert!(worst < ALLOWED, "{name}");
+        }
+    }
+}
+
+/// The forces of one pass on the two bodies are opposite, and without friction so are their moments.
+#[test]
+fn forces_of_one_pass_balance() {
+    for (cells, friction) in [(["hex20", "tet10"], 0.0), (["hex27", "hex8"], 0.0), (["tet10", "hex20"], 0.4)] {
+        let (contact, dofs) = contact(cells, Loads::Both, friction);
+        let mut closed = 0;
+        states(&(contact, dofs), 60, &mut |_, attempt, u| {
+            let (mut stencils, mut local) = (Stencils::default(), Local::default());
+            attempt.stencils(u, &mut stencils).unwrap();
+            for (i, stencil) in stencils.list.iter().enumerate() {
+                local.u = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
+                local.reset(stencil.len);
+                if attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local).is_err() {
+                    continue;
+                }
+                let sum = |axis: usize| local.force.iter().skip(axis).step_by(3).sum::<f64>();
+                let size = local.force.iter().fold(0.0_f64, |size, force| size.max(force.abs()));
+                closed += usize::from(size > 0.0);
+                assert!((0..3).all(|axis| sum(axis).abs() <= 1e-13 * size), "{cells:?}");
+            }
+        });
+        assert!(closed > 100, "{closed}");
+    }
+}
+
+/// Pressed and sheared, then turned by 63 degrees in one increment with both bodies: nothing slips, no stress changes.
+#[test]
+fn a_loaded_pair_turns_without_slip() {
+    for cells in PAIRS {
+        let ((contact, dofs), mut random) = (contact(cells, Loads::Own, 0.4), Random(3));
+        let start = state(vec![0.0; dofs.count()], contact.initial());
+        let mut push = || {
+            let mut u = motion(&contact, &dofs, &mut random);
+            let upper = |node: &usize| contact.mesh().groups["upper"].nodes.contains(node);
+            (0..dofs.nodes()).filter(upper).for_each(|node| u[dofs.node(node) + 2] -= 0.06);
+            u
+        };
+        let pressed = commit(&contact, &start, push()).unwrap();
+        let loaded = commit(&contact, &pressed, push()).unwrap();
+        let axis = at(0.48, -0.6, 0.64) * 63.0_f64.to_radians();
+        let turn = Pose::new([0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
+        let mut u = loaded.u.clone();
+        for node in 0..dofs.nodes() {
+            let (first, x) = (dofs.node(node), contact.mesh().points[node]);
+            let now = turn.rotate(x + at(loaded.u[first], loaded.u[first + 1], loaded.u[first + 2])) - x;
+            (0..3).for_each(|axis| u[first + axis] = now[axis]);
+        }
+        let turned = commit(&contact, &loaded, u).unwrap();
+        let before = contact.records(&loaded.u, &loaded.histories[0]);
+        let after = contact.records(&turned.u, &turned.histories[0]);
+        let closed = before.iter().filter(|record| record.pressure > 0.0 && record.shear > 0.0).count();
+        assert!(2 * closed > before.len(), "{cells:?}: {closed} closed of {}", before.len());
+        for (a, b) in before.iter().zip(&after) {
+            assert!((a.slip - b.slip).abs() < 1e-12 && (a.slipped - b.slipped).abs() < 1e-12, "{cells:?} {a:?} {b:?}");
+            assert!((a.pressure - b.pressure).abs() < 1e-12 && (a.shear - b.shear).abs() < 1e-12, "{cells:?}");
+            assert!((turn.rotate(a.traction()) - b.traction()).norm() < 1e-12, "{cells:?}");
+        }
+    }
+}

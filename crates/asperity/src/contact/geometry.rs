@@ -61,9 +61,9 @@ impl OpenContact<'_> {
     fn layout(&self, index: usize, stencil: &Stencil, segment: usize) -> Layout {
         let contact = self.contact;
         let own = 2 * contact.surface.nodes(&contact.surface.points[index]).len();
-        let touched = self.touched_segment(index, stencil).map(|touched| {
-            (!contact.target.together(segment, touched)).then(|| contact.target.count(touched))
-        });
+        let touched = self
+            .touched_segment(index, stencil)
+            .map(|touched| (!contact.target.together(segment, touched)).then(|| contact.target.count(touched)));
         let ends = [0, 1].map(|k| if stencil.also[k] > 0 { 2 } else { 0 });
         Layout::new(own, contact.target.count(segment), touched, ends)
     }

@@ -50,9 +50,9 @@ impl OpenContact<'_> {
     fn layout(&self, index: usize, segment: usize) -> Layout {
         let parts = &self.contact.parts;
         let own = 3 * parts.surface.nodes(&parts.surface.points[index]).len();
-        let touched = self.touched(index).map(|(touched, _)| {
-            (!parts.target.together(segment, touched)).then(|| parts.target.count(touched))
-        });
+        let touched = self
+            .touched(index)
+            .map(|(touched, _)| (!parts.target.together(segment, touched)).then(|| parts.target.count(touched)));
         Layout::new(own, parts.target.count(segment), touched, [0; 2])
     }
 

@@ -2,7 +2,8 @@
 
 use super::Builder;
 use crate::contact::{
-    Contact, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets, second_name, space,
+    Contact, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets,
+    second_name, space,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -43,8 +44,7 @@ impl Builder<'_> {
 
     pub(super) fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {
         let tool = self.deck.tool.iter().position(|(tool, _)| tool.text == keys.target.text);
-        tool.map(Opposite::Tool)
-            .or_else(|| Some(Opposite::Sides(mesh.groups.get(&keys.target.text)?.sides.as_slice())))
+        tool.map(Opposite::Tool).or_else(|| Some(Opposite::Sides(mesh.groups.get(&keys.target.text)?.sides.as_slice())))
     }
 
     /// No two sides may touch by two contacts: they would do so twice as hard.

@@ -55,8 +55,8 @@ impl Builder<'_> {
                 vec![build(&name.text, sides, Target::tool(tools[number].clone(), number, &dofs))]
             }
             Opposite::Sides(others) => {
-                let second = is_double(&options, sides, others)
-                    .then(|| build(&second_name(&name.text), others, faces(sides)));
+                let second =
+                    is_double(&options, sides, others).then(|| build(&second_name(&name.text), others, faces(sides)));
                 std::iter::once(build(&name.text, sides, faces(others))).chain(second).collect()
             }
         })

@@ -3,6 +3,7 @@
 use crate::Size;
 use asperity::contact::PointRecord;
 use asperity::model::Model;
+use asperity::output::figure::Chart;
 use asperity::solve::{AttemptRecord, Observer, RunOptions};
 use asperity::system::State;
 use asperity::{Error, deck};
@@ -51,6 +52,18 @@ impl Bench {
     pub fn title(&self) -> Result<String, Error> {
         let text = read(&self.folder.join("README.md"))?;
         Ok(text.lines().next().unwrap_or_default().trim_start_matches(['#', ' ']).to_owned())
+    }
+
+    /// Writes a chart of a full run among the pictures of the book.
+    ///
+    /// # Errors
+    /// [`Error::File`] where it cannot be written.
+    pub fn draw(&self, name: &str, chart: &Chart) -> Result<(), Error> {
+        if self.size == Size::Quick {
+            return Ok(());
+        }
+        let path = self.folder.join("../../book/src/images").join(name).with_extension("svg");
+        std::fs::write(&path, chart.draw().to_svg()).map_err(|error| Error::file(&path, error))
     }
 
     /// The model of a deck with some of its values set.

@@ -13,6 +13,13 @@ pub fn line(points: &[(f64, f64)]) -> (f64, f64) {
     (y - xy / xx * x, xy / xx)
 }
 
+/// A curve of points `(x, y)` with growing x, at some x, by straight lines; the last y beyond its end.
+pub fn at(curve: &[(f64, f64)], x: f64) -> f64 {
+    let end = curve.last().map_or(f64::NAN, |point| point.1);
+    let piece = curve.windows(2).find(|two| two[0].0 <= x && x <= two[1].0);
+    piece.map_or(end, |two| two[0].1 + (two[1].1 - two[0].1) * (x - two[0].0) / (two[1].0 - two[0].0))
+}
+
 /// Order of convergence of errors on meshes of which each halves the cells of the one before.
 pub fn order(errors: &[f64]) -> f64 {
     line(&errors.iter().enumerate().map(|(level, error)| (-(level as f64), error.log2())).collect::<Vec<_>>()).1
@@ -46,6 +53,14 @@ mod tests {
     #[test]
     fn an_order_is_found_again() {
         assert!((order(&[0.4, 0.1, 0.025]) - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_curve_is_read_between_its_points() {
+        let curve = [(0.0, 1.0), (1.0, 3.0), (3.0, -1.0)];
+        assert!((at(&curve, 0.5) - 2.0).abs() < 1e-15 && (at(&curve, 2.0) - 1.0).abs() < 1e-15);
+        assert_eq!(at(&curve, 1.0), 3.0);
+        assert_eq!(at(&curve, 3.0 + 1e-12), -1.0);
     }
 
     #[test]

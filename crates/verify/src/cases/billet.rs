@@ -1,7 +1,8 @@
-//! Upsetting without friction, where a billet stays a cylinder: `F = sigma pi R^2 H/h`, `r = R sqrt(H/h)`.
+//! Upsetting without friction, where a billet stays a cylinder: `F = sigma pi R^2 H/h`, `r = R sqrt(H/h)`; and between
+//! plates that stick, onto which its side folds.
 
 use crate::bench::{Bench, points};
-use crate::{Case, Measured};
+use crate::{Case, Measured, fit};
 use asperity::Error;
 use asperity::model::Model;
 use asperity::system::State;
@@ -32,12 +33,35 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     measured.push(("order".into(), tight.order()));
     let viscous = bench.solve("viscous.toml", &fine[1..])?;
     measured.push(("viscous".into(), force_and_radius(&viscous.model, &viscous.state)[0] / 1e3));
+    sticking(bench, &mut measured)?;
     Ok(measured)
+}
+
+/// Force on plates that stick, and the part of it at the end that those cells carry that were on the side.
+fn sticking(bench: &Bench, measured: &mut Measured) -> Result<(), Error> {
+    let set = format!("step.upset.increments.count={}", bench.pick(60, 240));
+    let mut curve = Vec::new();
+    let run = bench.follow("sticking.toml", &[set], |model, state| {
+        let [end, side] = [0, 1].map(|contact| thrust(model, state, contact) / 1e3);
+        curve.push((60.0 * state.time / 9.0, end + side));
+    })?;
+    for at in [30.0, 50.0, 60.0] {
+        measured.push((format!("sticking_{at}"), fit::at(&curve, at)));
+    }
+    let [end, side] = [0, 1].map(|contact| thrust(&run.model, &run.state, contact));
+    measured.push(("folded".into(), side / (end + side)));
+    measured.push(("sticking_cuts".into(), run.cuts() as f64));
+    Ok(())
+}
+
+/// Axial force of a contact.
+fn thrust(model: &Model, state: &State, contact: usize) -> f64 {
+    points(model, state, contact).iter().map(|point| -point.force()[1]).sum()
 }
 
 /// Force on the plate, and the mean radius of the side.
 fn force_and_radius(model: &Model, state: &State) -> [f64; 2] {
-    let force = points(model, state, 0).iter().map(|point| point.force()[1].abs()).sum();
+    let force = thrust(model, state, 0);
     let side = &model.mesh.groups["billet.right"].nodes;
     let moved = side.iter().map(|&node| state.u[model.problem.dofs.node(node)]).sum::<f64>() / side.len() as f64;
     [force, RADIUS + moved]

@@ -13,6 +13,8 @@ mod inclined_block;
 mod interference_fit;
 mod partial_slip;
 mod pull_out;
+mod ring_compression;
+mod rolling;
 mod rotated_pair;
 mod shallow_ironing;
 mod strip_footing;
@@ -45,4 +47,6 @@ pub const ALL: &[&Case] = &[
     &strip_punch::CASE,
     &strip_footing::CASE,
     &billet::CASE,
+    &ring_compression::CASE,
+    &rolling::CASE,
 ];

@@ -1,0 +1,122 @@
+//! Rolling of strips in plane strain beside von Karman's theory of plane sections.
+
+use crate::bench::{Bench, points};
+use crate::{Case, Measured};
+use asperity::Error;
+use asperity::contact::PointRecord;
+use asperity::output::figure::Chart;
+
+/// The case.
+pub const CASE: Case = Case { name: "rolling", measure };
+
+/// A pass: thickness before and after, radius of the rolls, friction, and the neutral angle of the theory in degrees.
+struct Pass {
+    name: &'static str,
+    thickness: [f64; 2],
+    radius: f64,
+    friction: f64,
+    neutral: f64,
+}
+
+const PASSES: [Pass; 4] = [
+    Pass { name: "strip_20", thickness: [2.0, 1.6], radius: 65.0, friction: 0.1, neutral: 1.361 },
+    Pass { name: "strip_30", thickness: [2.0, 1.4], radius: 65.0, friction: 0.1, neutral: 1.422 },
+    Pass { name: "slab_20", thickness: [10.0, 8.0], radius: 100.0, friction: 0.2, neutral: 2.601 },
+    Pass { name: "slab_30", thickness: [10.0, 7.0], radius: 100.0, friction: 0.3, neutral: 3.471 },
+];
+
+/// Time at which the pass has become steady; the last step ends at 3.
+const STEADY: f64 = 2.4;
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let mut measured = Measured::new();
+    let mut chart = Chart::new("Contact stress in the roll gap", "place over radius", "stress over 2k");
+    for pass in &PASSES[..bench.pick(1, 4)] {
+        let (mean, arc) = pass.roll(bench)?;
+        for (what, value) in ["force", "torque", "neutral", "pressure"].into_iter().zip(mean) {
+            measured.push((format!("{}_{what}", pass.name), value));
+        }
+        let [before, after] = pass.thickness;
+        let place = |p: &PointRecord| p.position[0] / pass.radius;
+        chart.line(format!("{before} to {after}"), arc.iter().map(|p| [place(p), p.pressure]).collect());
+        let style = chart.series.len() - 1;
+        let shear = chart.line("", arc.iter().map(|p| [place(p), friction(p)]).collect());
+        (shear.style, shear.width) = (style, 0.8);
+    }
+    bench.draw("rolling", &chart)?;
+    Ok(measured)
+}
+
+impl Pass {
+    fn sets(&self, bench: &Bench) -> Vec<String> {
+        let [before, after] = self.thickness.map(|h| 0.5 * h);
+        let r = self.radius;
+        let arc = (2.0 * r * (before - after)).sqrt();
+        let turn: f64 = bench.pick(9.0, 16.0);
+        let (from, to) = (-turn.to_radians() * r - 1.5 * arc, 1.6 * arc);
+        let (fine, rows, increments) = bench.pick((16.0, 3, [0.04, 0.04]), (25.0, 5, [0.02, 0.01]));
+        let cells = ((to - from) / arc * fine).round();
+        let (centre, top) = (before + r, before + 2.0 * r);
+        let arcs = format!(
+            "[{{ arc = [[0.0, {before:?}], [{r:?}, {centre:?}], [0.0, {top:?}]] }}, \
+             {{ arc = [[0.0, {top:?}], [{:?}, {centre:?}], [0.0, {before:?}]] }}]",
+            -r
+        );
+        let set = after - before;
+        vec![
+            format!("mesh.part.strip.rectangle.from=[{from:?}, 0.0]"),
+            format!("mesh.part.strip.rectangle.to=[{to:?}, {before:?}]"),
+            format!("mesh.part.strip.rectangle.cells=[{cells}, {rows}]"),
+            format!("tool.roll.profile={arcs}"),
+            format!("tool.roll.reference=[0.0, {centre:?}]"),
+            format!("contact.nip.law.coulomb.friction={:?}", self.friction),
+            format!("contact.nip.penalty={:?}", 1e3 / before),
+            format!("contact.nip.tangential_penalty={:?}", 3e2 / before),
+            format!("step.touch.motion.roll.y={:?}", 0.2 * set),
+            format!("step.set.motion.roll.y={set:?}"),
+            format!("step.turn.motion.roll.y={set:?}"),
+            format!("step.set.increments={{ first = 0.005, largest = {} }}", increments[0]),
+            format!("step.turn.motion.roll.rotation={turn:?}"),
+            format!("step.turn.increments={{ first = {0}, largest = {0} }}", increments[1]),
+        ]
+    }
+
+    /// Means over the steady part of force, torque, neutral angle less that of the theory, and pressure there; and the
+    /// points of the arc at the end.
+    fn roll(&self, bench: &Bench) -> Result<([f64; 4], Vec<PointRecord>), Error> {
+        let (mut sum, mut count, mut arc) = ([0.0; 4], 0.0, Vec::new());
+        bench.follow("strip.toml", &self.sets(bench), |model, state| {
+            if state.time < STEADY {
+                return;
+            }
+            arc = points(model, state, 0).into_iter().filter(|p| p.pressure > 0.0).collect();
+            arc.sort_by(|a, b| a.position[0].total_cmp(&b.position[0]));
+            sum.iter_mut().zip(self.state(&arc)).for_each(|(sum, x)| *sum += x);
+            count += 1.0;
+        })?;
+        Ok((sum.map(|sum| sum / count), arc))
+    }
+
+    fn state(&self, arc: &[PointRecord]) -> [f64; 4] {
+        let force: f64 = arc.iter().map(|p| -p.force()[1]).sum();
+        // Only friction turns a circle about its centre.
+        let torque: f64 = arc.iter().map(|p| friction(p) * p.area * self.radius).sum();
+        let [place, pressure] = neutral(arc);
+        [force, torque, (-place / self.radius).asin().to_degrees() - self.neutral, pressure]
+    }
+}
+
+/// Friction on the strip along its way.
+fn friction(point: &PointRecord) -> f64 {
+    point.shear * point.along[0].signum()
+}
+
+/// Where friction changes its direction, from forwards to backwards, and the pressure there.
+fn neutral(arc: &[PointRecord]) -> [f64; 2] {
+    let Some(two) = arc.windows(2).find(|two| friction(&two[0]) > 0.0 && friction(&two[1]) <= 0.0) else {
+        return [f64::NAN; 2];
+    };
+    let part = friction(&two[0]) / (friction(&two[0]) - friction(&two[1]));
+    let between = |a: f64, b: f64| a + part * (b - a);
+    [between(two[0].position[0], two[1].position[0]), between(two[0].pressure, two[1].pressure)]
+}

@@ -41,11 +41,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 /// Decrease of the bore over the reduction, both in per cent.
 fn press(bench: &Bench, factor: f64) -> Result<Vec<(f64, f64)>, Error> {
     let (n, increments) = bench.pick((1, 60), (2, 300));
-    let law = if factor == 0.0 {
-        "={ frictionless = {} }".into()
-    } else {
-        format!(".shear_factor.factor={factor:?}")
-    };
+    let law = if factor == 0.0 { "={ frictionless = {} }".into() } else { format!(".shear_factor.factor={factor:?}") };
     let mut sets: Vec<String> = ["end", "bore", "rim"].map(|name| format!("contact.{name}.law{law}")).into();
     sets.push(format!("mesh.part.ring.rectangle.cells=[{}, {}]", 6 * n, 4 * n));
     sets.push(format!("step.press.increments.count={increments}"));

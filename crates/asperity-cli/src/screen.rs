@@ -125,6 +125,7 @@ fn figures(summary: &Summary) -> impl Iterator<Item = (&'static str, f64)> {
     let all = [
         ("largest penetration", c.max_penetration),
         ("  over the cell's size", c.max_penetration_relative),
+        ("  weighted, at nodes", c.nodal_penetration),
         ("equilibrium error", c.equilibrium_error),
         ("missing energy", c.energy_balance),
         ("excess over friction limit", c.coulomb_violation),

@@ -69,6 +69,7 @@ fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
         loads: Loads::Both,
         coupling: true,
         guard: Guard::Refuse,
+        augmentation: None,
     };
     let parts = Parts {
         name: "c".into(),

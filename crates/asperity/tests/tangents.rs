@@ -5,7 +5,7 @@
 mod perturbed;
 
 use asperity::Failure;
-use asperity::contact::{Contact, ContactOptions, Guard, Loads, Surface, Target};
+use asperity::contact::{Augmentation, Contact, ContactOptions, Guard, Loads, Surface, Target};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
@@ -73,6 +73,14 @@ fn body_is_exact(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, random: &
 
 /// A contact of the lower side of one cell with a target of one segment below it, its tool free to move.
 fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
+    contact_with(cell, shape, space, None)
+}
+
+fn augmented(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
+    contact_with(cell, shape, space, Some(Augmentation { penetration: 1e-9, slip: 1e-9, loops: 3 }))
+}
+
+fn contact_with(cell: &str, shape: &str, space: Space, augmentation: Option<Augmentation>) -> (Contact, Dofs) {
     let mesh = Rectangle::new([1.0, 0.0], [2.0, 1.0], [1; 2], Cell::named(cell).unwrap()).mesh("b").unwrap();
     let dofs = Dofs::new(2, mesh.points.len(), 1);
     let mesh = Arc::new(mesh);
@@ -95,6 +103,7 @@ fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
         loads,
         coupling,
         guard: Guard::Refuse,
+        augmentation,
     };
     let law = Arc::new(Law(Coulomb::new(0.4)));
     let parts = (mesh, dofs.clone(), space);
@@ -178,4 +187,26 @@ fn a_wrong_derivative_is_found() {
         }
     });
     assert!(found > 100);
+}
+
+/// With multipliers in play the tangent stays what it was: exact.
+#[test]
+fn tangents_of_augmented_contact_are_exact() {
+    for space in [Space::PlaneStrain, Space::Axisymmetric] {
+        let ((contact, dofs), mut random) = (augmented("quad8", "arc", space), Random(11));
+        let start = state(vec![0.0; dofs.count()], contact.initial());
+        let (mut met, mut worst, mut shifted) = ([0; 3], 0.0_f64, 0);
+        for _ in 0..300 {
+            let accepted = commit(&contact, &start, motion(&dofs, &mut random)).unwrap();
+            let mut attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+            let trial = motion(&dofs, &mut random);
+            let mut new = commit(&contact, &accepted, trial.clone()).unwrap().histories.remove(0);
+            shifted += usize::from(attempt.augment(&trial, &mut new).unwrap());
+            for result in check(attempt.as_ref(), &motion(&dofs, &mut random)).unwrap() {
+                met[usize::from(result.branch)] += 1;
+                worst = if result.smooth { worst.max(result.error) } else { worst };
+            }
+        }
+        assert!(shifted > 200 && met.iter().all(|&met| met >= 10) && worst < ALLOWED, "{shifted} {met:?} {worst:.1e}");
+    }
 }

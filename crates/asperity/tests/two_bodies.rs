@@ -53,6 +53,7 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
         loads,
         coupling: true,
         guard: Guard::Refuse,
+        augmentation: None,
     };
     let parts = (mesh.clone(), dofs.clone(), space);
     let law = Arc::new(Law(Coulomb::new(0.4)));

@@ -62,6 +62,7 @@ fn contact(cells: [&str; 2], loads: Loads, friction: f64) -> (Contact, Dofs) {
         loads,
         coupling: true,
         guard: Guard::Refuse,
+        augmentation: None,
     };
     let parts = Parts {
         name: "c".into(),

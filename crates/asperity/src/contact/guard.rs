@@ -135,6 +135,16 @@ impl Contact {
         })
     }
 
+    /// How far the edges that are closed in an accepted state stand off the curve they stand for, over their lengths.
+    pub fn facet_mismatch(&self, u: &[f64], history: &History) -> f64 {
+        let (edges, mut largest) = (&self.surface.edges, 0.0_f64);
+        let sagittas = sagittas(&self.mesh, &self.dofs, edges, u);
+        for point in self.records(u, history).filter(|point| point.status != PointStatus::Open) {
+            largest = largest.max(sagittas[point.edge] / edges[point.edge].chord(&self.mesh));
+        }
+        largest
+    }
+
     /// Whether the nodes of an edge and of the edge it faces coincide.
     fn matches(&self, edge: usize, other: &Edge, u: &[f64]) -> bool {
         let [a, b] = ends(&self.mesh, &self.dofs, &self.surface.edges[edge], u);

@@ -10,10 +10,10 @@ use crate::tensor::{Dual, Scalar};
 
 impl OpenContact<'_> {
     /// Adds the coordinates of a point at values `u` of its unknowns to the stencil begun last.
-    pub(super) fn bend(&self, (stencil, g): (&Stencil, &Geometry), u: &[f64], out: &mut Kinks) {
+    pub(super) fn bend(&self, (index, stencil): (usize, &Stencil), g: &Geometry, u: &[f64], out: &mut Kinks) {
         let (along, inward, _) = triad(seed::<D>(g.place.tangent, 2));
         let (a, b, normal) = (seed::<D>(g.place.a, 0), seed::<D>(g.place.b, 4), g.hit.normal.lift::<D>());
-        let penetration = normal.dot(b - a) / normal.dot(inward);
+        let penetration = normal.dot(b - a) / normal.dot(inward) + self.shift(index).closure;
         let slip = g.place.touched.map_or(D::zero(), |touched| along.dot(seed::<D>(touched, 6) - a));
         let area = self.contact.area(&g.spot, g.place.a, g.place.tangent);
         let columns = self.columns(g, u);

@@ -4,6 +4,7 @@
 //! slip from the place it hits, asks the interface law for pressure and shear, and loads its own nodes and the target.
 //! Bodies, laws and tools are known here; other terms of equilibrium are strangers.
 
+mod augment;
 mod before;
 mod capture;
 mod faces;
@@ -23,7 +24,9 @@ pub mod space;
 mod split;
 mod surface;
 mod target;
+mod uzawa;
 
+pub use augment::Augmentation;
 pub use faces::Faces;
 pub use guard::{Guard, has_facets};
 pub use pair::{Contact, ContactOptions, Loads, second_name};

@@ -1,5 +1,6 @@
 //! A contact during one attempt: its points as stencils, evaluated on the segments that the search found.
 
+use super::augment::Shift;
 use super::capture::refuse_jump;
 use super::geometry::{DIRECTIONS, Geometry};
 use super::kink::answer;
@@ -10,10 +11,10 @@ use super::seed::Seed;
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
 use crate::Failure;
-use crate::interface::Past;
+use crate::interface::{Past, Response};
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
-use crate::tensor::{Dual, Vec3};
+use crate::tensor::{Dual, Scalar, Vec3};
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -35,6 +36,10 @@ pub struct OpenContact<'a> {
     pub ahead: Vec<f64>,
     /// Pressure up to which the tangent is exact.
     pub ordinary: f64,
+    /// Multipliers of the corners; none without augmentation.
+    pub shifts: Vec<Shift>,
+    /// How often they were improved in the attempt.
+    pub augmented: usize,
     /// Length of the increment.
     pub dt: f64,
 }
@@ -94,7 +99,7 @@ impl Attempt for OpenContact<'_> {
 
     fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
         if let Some(geometry) = self.geometry(index, stencil, u)? {
-            self.bend((stencil, &geometry), u, out);
+            self.bend((index, stencil), &geometry, u, out);
         }
         Ok(())
     }
@@ -102,6 +107,10 @@ impl Attempt for OpenContact<'_> {
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let shear = self.history.slot(stencil)[entry::SHEAR];
         answer(&*self.contact.law, &self.past(stencil, shear), self.contact.least, y)
+    }
+
+    fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        self.improve(u, new)
     }
 }
 
@@ -130,12 +139,13 @@ impl OpenContact<'_> {
         let past = self.past(index, g.before.shear);
         let constants = Constants {
             normal: g.hit.normal,
-            before: old[entry::PENETRATION],
+            closure: self.shift(index).closure,
+            before: past.penetration,
             touch: contact.law.touch(&past),
             opens: contact.law.opens(&past, [g.place.slip(), 0.0]),
             least: contact.least,
             weight: g.spot.weight * contact.thickness(),
-            turning: contact.options.turning(g.hit.u, self.ordinary),
+            turning: contact.options.turning(g.hit.u + self.shift(index).closure, self.ordinary),
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
@@ -144,7 +154,7 @@ impl OpenContact<'_> {
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
         let Some(closed) = closed else {
             leave(&*self.contact.law, self.history.slot(index), new);
-            self.account(index, g, [0.0; 3], local);
+            self.account(index, g, Carried::default(), local);
             return Ok(0);
         };
         if g.place.touched.is_none() {
@@ -154,7 +164,7 @@ impl OpenContact<'_> {
         write(&closed.response, [closed.slip, T::zero()], old, new);
         self.add(g, &closed, local);
         let response = &closed.response;
-        self.account(index, g, [response.pressure.re(), response.shear[0].re(), response.closure], local);
+        self.account(index, g, Carried::of(response), local);
         Ok(response.status as Branch)
     }
 
@@ -164,9 +174,9 @@ impl OpenContact<'_> {
         Past {
             penalty: options.penalty,
             tangential_penalty: options.tangential_penalty,
-            penetration: old[entry::PENETRATION],
+            penetration: old[entry::PENETRATION] + self.closure_before(index),
             pressure: old[entry::PRESSURE],
-            shear: [shear, 0.0],
+            shear: [shear + options.tangential_penalty * self.shift(index).slip[0], 0.0],
             vars: &old[entry::COUNT..],
             dt: self.dt,
         }
@@ -175,16 +185,39 @@ impl OpenContact<'_> {
     /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
     /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
     /// A point that closes or opens takes part with half its stress, so that one which passes a peak of pressure within an
-    /// increment does not lose its work.
-    fn account(&self, index: usize, g: &Geometry, [pressure, shear, closure]: [f64; 3], local: &mut Local) {
+    /// increment does not lose its work. Where multipliers bear the stress nothing is stored by a slip, and all work is
+    /// that of the sliding.
+    fn account(&self, index: usize, g: &Geometry, now: Carried, local: &mut Local) {
         let (contact, old) = (self.contact, self.history.slot(index));
-        let before = g.before.shear;
-        let elastic = |stress: f64, penalty: f64| 0.5 * stress * stress / penalty;
-        let stored = |shear: f64| elastic(shear, contact.options.tangential_penalty);
+        let (options, before) = (&contact.options, g.before.shear);
         let area = contact.area(&g.spot, g.place.a, g.place.tangent);
-        let area = area * contact.options.loads.share();
-        local.stored = area * (elastic(pressure, contact.options.penalty) + stored(shear));
-        let friction = 0.5 * (before + shear) * g.place.slip() - (stored(shear) - stored(before));
-        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + pressure) * closure);
+        let area = area * options.loads.share();
+        let closure = if now.pressure == 0.0 { 0.0 } else { self.shift(index).closure };
+        local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - closure) * area;
+        let mean = 0.5 * (before + now.shear);
+        let friction = if options.augmentation.is_some() {
+            mean * now.slipped
+        } else {
+            let stored = |shear: f64| 0.5 * shear * shear / options.tangential_penalty;
+            local.stored += area * stored(now.shear);
+            mean * g.place.slip() - (stored(now.shear) - stored(before))
+        };
+        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + now.pressure) * now.closure);
+    }
+}
+
+/// What a point carries, for its energy; the slip has the sign of the shear.
+#[derive(Debug, Clone, Copy, Default)]
+struct Carried {
+    pressure: f64,
+    shear: f64,
+    slipped: f64,
+    closure: f64,
+}
+
+impl Carried {
+    fn of<T: Scalar>(response: &Response<T>) -> Self {
+        let (pressure, shear) = (response.pressure.re(), response.shear[0].re());
+        Self { pressure, shear, slipped: response.slipped.copysign(shear), closure: response.closure }
     }
 }

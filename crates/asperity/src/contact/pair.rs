@@ -1,5 +1,6 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
+use super::augment::{Augmentation, Corners, closures_alone};
 use super::capture::{depths, positions};
 use super::faces::Faces;
 use super::guard::{self, Guard};
@@ -33,12 +34,14 @@ pub struct ContactOptions {
     pub coupling: bool,
     /// What is done when the facets of a curved face bear too much of the pressure.
     pub guard: Guard,
+    /// How far penetration and elastic slip are taken out by multipliers, if they are.
+    pub augmentation: Option<Augmentation>,
 }
 
 impl ContactOptions {
     /// Pressure up to which the tangent is exact in the increment after a history.
-    pub(super) fn ordinary(&self, history: &History) -> f64 {
-        let pressures = (0..history.slots()).map(|i| history.slot(i)[entry::PRESSURE]);
+    pub(super) fn ordinary(&self, history: &History, points: usize) -> f64 {
+        let pressures = (0..points).map(|i| history.slot(i)[entry::PRESSURE]);
         (ORDINARY * self.modulus).max(GROWTH * pressures.fold(0.0, f64::max))
     }
 
@@ -99,6 +102,8 @@ pub struct Contact {
     pub(super) relatives: Vec<Vec<usize>>,
     /// The longest edge of both sides, a length.
     pub(super) longest: f64,
+    /// The corners that carry multipliers; none without augmentation.
+    pub(super) corners: Corners,
 }
 
 impl Contact {
@@ -113,8 +118,9 @@ impl Contact {
         let faces = target.as_faces().map_or(&[][..], Faces::edges);
         let relatives = relatives(surface.edges.iter().map(|edge| &edge.nodes), faces.iter().map(|edge| &edge.nodes));
         let (name, least, longest) = (name.into(), 0.0, 0.0);
+        let corners = Corners::default();
         let mut contact =
-            Self { name, mesh, dofs, space, surface, boundary, target, law, options, least, relatives, longest };
+            Self { name, mesh, dofs, space, surface, boundary, target, law, options, least, relatives, longest, corners };
         let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
         let opposite = contact.target.as_faces().map_or(Vec::new(), |faces| lengths(faces.edges()));
         contact.longest = lengths(&contact.surface.edges).into_iter().chain(opposite.clone()).fold(0.0, f64::max);
@@ -125,6 +131,9 @@ impl Contact {
             false => (0..contact.surface.points.len()).map(|i| contact.edge_length(i)).fold(f64::INFINITY, f64::min),
         };
         contact.least = CLOSED * shortest;
+        if options.augmentation.is_some() {
+            contact.corners = contact.corners_of_edges();
+        }
         contact
     }
 
@@ -238,7 +247,8 @@ impl Term for Contact {
 
     fn initial(&self) -> History {
         let vars: usize = self.law.variables().iter().map(|v| v.len()).sum();
-        let mut history = History::new(self.surface.points.iter().map(|_| entry::COUNT + vars));
+        let points = self.surface.points.iter().map(|_| entry::COUNT + vars);
+        let mut history = History::new(points.chain(self.options.augmentation.map(|_| self.corners.count())));
         let u = vec![0.0; self.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(&self.surface.points[i], hit, history.slot_mut(i));
@@ -264,7 +274,9 @@ impl Term for Contact {
             depths,
             reach,
             ahead: ahead(accepted, at.dt),
-            ordinary: self.options.ordinary(history),
+            ordinary: self.options.ordinary(history, self.surface.points.len()),
+            shifts: closures_alone(self.closures(history)),
+            augmented: 0,
             dt: at.dt,
         }))
     }

@@ -35,7 +35,9 @@ impl Place<f64> {
 pub struct Constants {
     /// Outward normal of the target at the hit.
     pub normal: Vec3,
-    /// Penetration at the last accepted state; negative for a gap.
+    /// What multipliers add to the penetration that the law sees.
+    pub closure: f64,
+    /// Penetration that the law saw at the last accepted state; negative for a gap.
     pub before: f64,
     /// Penetration at which the law closes the point: what dilation or a bond leaves of a gap.
     pub touch: f64,
@@ -80,18 +82,19 @@ pub fn evaluate<T: Scalar>(
     let (along, inward, length) = triad(soften(place.tangent, constants.turning));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
-    if penetration.re() <= constants.opens + constants.least {
+    let seen = penetration + constants.closure;
+    if seen.re() <= constants.opens + constants.least {
         return Ok((penetration, None));
     }
     // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.
-    let penetration = penetration - constants.least;
+    let (penetration, seen) = (penetration - constants.least, seen - constants.least);
     let slip = match place.touched {
         None => T::zero(),
         Some(touched) => {
-            along.dot(touched - place.a) * in_contact(penetration - constants.touch, constants.before - constants.touch)
+            along.dot(touched - place.a) * in_contact(seen - constants.touch, constants.before - constants.touch)
         }
     };
-    let response = law(&Motion { penetration, slip: [slip, T::zero()] })?;
+    let response = law(&Motion { penetration: seen, slip: [slip, T::zero()] })?;
     let mut area = length * constants.weight;
     if constants.axisymmetric {
         area = area * place.a[0] * std::f64::consts::TAU;

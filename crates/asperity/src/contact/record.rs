@@ -1,6 +1,7 @@
 //! History of a contact point, and what outputs may ask of it.
 
-use crate::interface::{Interface, Response};
+use super::ContactOptions;
+use crate::interface::{Interface, Past, Response};
 use crate::tensor::{Scalar, Vec3};
 
 /// Places of the values in a point's history; the law's own variables follow.
@@ -55,6 +56,19 @@ pub fn write<T: Scalar>(response: &Response<T>, slip: [T; 2], old: &[f64], new: 
     new[entry::STATUS] = f64::from(response.status as u8);
     new[entry::VIOLATION] = response.violation;
     new[entry::LAST_DISSIPATED] = response.dissipated;
+}
+
+/// The penetration from which a point that is open at the end of an increment would be closed.
+pub fn touch_after(law: &dyn Interface, options: &ContactOptions, new: &[f64]) -> f64 {
+    law.touch(&Past {
+        penalty: options.penalty,
+        tangential_penalty: options.tangential_penalty,
+        penetration: new[entry::PENETRATION],
+        pressure: 0.0,
+        shear: [0.0; 2],
+        vars: &new[entry::COUNT..],
+        dt: 0.0,
+    })
 }
 
 /// An open point keeps what has been, and of the law's own state what the law says.

@@ -10,6 +10,8 @@ pub struct Certificate {
     pub max_penetration: Option<f64>,
     /// The same over the size of the cell behind the point.
     pub max_penetration_relative: Option<f64>,
+    /// The largest weighted mean of the penetration around a node of an augmented contact, over the size of its elements.
+    pub nodal_penetration: Option<f64>,
     /// Largest unbalanced force over all reactions, contacts and loads, relative to the largest of them.
     pub equilibrium_error: Option<f64>,
     /// Largest magnitude of external work less stored and dissipated energy, over the largest energy of the run.
@@ -69,6 +71,7 @@ impl Certificate {
         Some(match (room, last) {
             ("contact", "max_penetration") => (&mut self.max_penetration, Worst::Largest),
             ("contact", "max_penetration_relative") => (&mut self.max_penetration_relative, Worst::Largest),
+            ("contact", "nodal_penetration") => (&mut self.nodal_penetration, Worst::Largest),
             ("contact", "coulomb_violation") => (&mut self.coulomb_violation, Worst::Largest),
             ("contact", "least_dissipation") => (&mut self.least_dissipation, Worst::Least),
             ("contact", "facet_ratio") => (&mut self.facet_ratio, Worst::Largest),

@@ -14,6 +14,7 @@ const INCREMENTS: &[&str] = &[
     "step_time",
     "dt",
     "iterations",
+    "augmentations",
     "residual",
     "changes",
     "open",
@@ -29,6 +30,7 @@ const ITERATIONS: &[&str] = &[
     "increment",
     "attempt",
     "iteration",
+    "augmentation",
     "residual",
     "tolerance",
     "rounding",
@@ -97,7 +99,8 @@ fn attempt_row(problem: &Problem, record: &AttemptRecord) -> Vec<Field> {
     let last = record.iterations.last();
     let changes: usize = record.iterations.iter().map(|i| i.changes).sum();
     let times = [record.time.into(), record.step_time.into(), record.dt.into()];
-    let solution = [record.solutions().into(), last.map(|i| i.residual).into(), changes.into()];
+    let solutions = [record.solutions(), record.augmentations()].map(Field::from);
+    let solution = solutions.into_iter().chain([last.map(|i| i.residual).into(), changes.into()]);
     let end = [
         record.order().into(),
         record.residual_order().into(),
@@ -112,6 +115,7 @@ fn iteration_row(problem: &Problem, record: &AttemptRecord, iteration: &Iteratio
     let changed = iteration.changed.and_then(|(term, stencil)| Some(problem.terms.get(term)?.name_of(stencil)));
     let numbers = [
         iteration.iteration.into(),
+        iteration.augmentation.into(),
         iteration.residual.into(),
         iteration.tolerance.into(),
         iteration.rounding.into(),

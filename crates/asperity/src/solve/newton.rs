@@ -184,24 +184,31 @@ impl<'a> Newton<'a> {
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.solver.begin();
         let mut before: Vec<Vec<(u8, u32)>> = Vec::new();
-        for iteration in 0..=options.iterations {
+        let (mut augmentation, mut begun) = (0, 0);
+        for iteration in 0.. {
             self.refresh_stiffness();
             let norms = self.measure();
             let mut line = self.describe(iteration, &norms, &before);
             (line.correction, line.step, line.factorised) = (correction, taken, factorised);
+            line.augmentation = augmentation;
             observer.iteration(record, &line);
             record.iterations.push(line);
             if missing.is_none() && norms.converged() {
                 self.stands(&u, norms.reference[0])?;
-                return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+                if !self.augment(&u)? {
+                    return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+                }
+                (augmentation, begun, self.bound) = (augmentation + 1, iteration + 1, SLOPE);
+                (correction, taken, factorised, ratio) = (0.0, 0.0, false, 0.0);
+                continue;
             }
             if !norms.ratio.is_finite() {
                 return Err(Failure::new("the forces are not finite").into());
             }
-            if iteration == options.iterations {
+            if iteration - begun == options.iterations {
                 break;
             }
-            if iteration >= PATIENCE {
+            if iteration - begun >= PATIENCE {
                 self.bound = STRICT;
             }
             before.clone_from(&self.evaluation.branches);
@@ -215,6 +222,18 @@ impl<'a> Newton<'a> {
             missing = missing.filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
         }
         Err(Failure::new(self.why_not(record)).into())
+    }
+
+    /// Lets the terms improve what they hold besides the unknowns, and evaluates anew if any did.
+    fn augment(&mut self, u: &[f64]) -> Result<bool, Failure> {
+        let (mut again, histories) = (false, &mut self.evaluation.histories);
+        for (attempt, new) in self.assembly.attempts.iter_mut().zip(histories) {
+            again |= attempt.augment(u, new)?;
+        }
+        if again {
+            self.evaluate(u, None, self.tangent())?;
+        }
+        Ok(again)
     }
 
     pub(super) fn tangent(&self) -> Tangent {

@@ -8,6 +8,8 @@ use crate::system::State;
 pub struct IterationRecord {
     /// Number within the attempt, from zero: the state before the first solution.
     pub iteration: usize,
+    /// How often multipliers had been improved before it.
+    pub augmentation: usize,
     /// Largest ratio of an unbalanced force to its yardstick.
     pub residual: f64,
     /// Ratio it must not exceed.
@@ -54,7 +56,23 @@ pub struct AttemptRecord {
 impl AttemptRecord {
     /// Number of solutions that were computed.
     pub fn solutions(&self) -> usize {
-        self.iterations.len().saturating_sub(1)
+        self.iterations.len().saturating_sub(1 + self.augmentations())
+    }
+
+    /// How often multipliers were improved.
+    pub fn augmentations(&self) -> usize {
+        self.iterations.last().map_or(0, |last| last.augmentation)
+    }
+
+    /// Number of solutions before multipliers were improved: what the increment itself asked for.
+    pub fn first_solutions(&self) -> usize {
+        self.iterations.iter().filter(|line| line.augmentation == 0).count().saturating_sub(1)
+    }
+
+    /// The iterations since multipliers were last improved, the last one first.
+    fn since_augmentation(&self) -> impl Iterator<Item = &IterationRecord> {
+        let last = self.augmentations();
+        self.iterations.iter().rev().take_while(move |line| line.augmentation == last)
     }
 
     /// Order of convergence at the end: a step of length `c` leaves a residual `r` of the order of `c^p`, hence
@@ -62,7 +80,7 @@ impl AttemptRecord {
     /// a branch or discrete choice changed. It needs no common measure of stiff and soft directions,
     /// which residuals alone lack: compare [`residual_order`](Self::residual_order).
     pub fn order(&self) -> Option<f64> {
-        let above = self.iterations.iter().rev().skip_while(|i| i.residual <= i.rounding).collect::<Vec<_>>();
+        let above = self.since_augmentation().skip_while(|i| i.residual <= i.rounding).collect::<Vec<_>>();
         let [second, first, ..] = above.as_slice() else { return None };
         let whole = first.step == 1.0 && second.step == 1.0;
         let falls = second.residual < first.residual && second.correction < first.correction;
@@ -74,7 +92,7 @@ impl AttemptRecord {
     /// Order of convergence, fitted on the last three residuals above `1e-12` over which no branch and no discrete
     /// choice changed: `ln(r3/r2) / ln(r2/r1)`. `None` where there are not three such.
     pub fn residual_order(&self) -> Option<f64> {
-        let above = self.iterations.iter().rev().skip_while(|i| i.residual <= 1e-12).collect::<Vec<_>>();
+        let above = self.since_augmentation().skip_while(|i| i.residual <= 1e-12).collect::<Vec<_>>();
         let [third, second, first, ..] = above.as_slice() else { return None };
         let steady = third.changes == 0 && second.changes == 0 && first.iteration > 0;
         let falls = third.residual < second.residual && second.residual < first.residual;

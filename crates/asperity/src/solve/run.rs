@@ -184,7 +184,7 @@ impl<'a> Run<'a> {
             match result {
                 Ok(converged) => {
                     observer.attempt(&record);
-                    self.accept(step, dt, wanted, record.solutions(), converged);
+                    self.accept(step, dt, wanted, record.first_solutions(), converged);
                     return Ok(record);
                 }
                 Err(Trouble::Error(error)) => {

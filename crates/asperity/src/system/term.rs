@@ -129,7 +129,7 @@ pub trait Term: Send + Sync {
     fn role(&self) -> Role {
         Role::Internal
     }
-    /// History before the first increment.
+    /// History before the first increment: a slot for each stencil, and perhaps some for the term as a whole behind them.
     fn initial(&self) -> History;
     /// Adds the forces that the term exerts before the first increment to those on all unknowns, and returns the energy
     /// that it stores then.
@@ -202,6 +202,14 @@ pub trait Attempt: Send + Sync {
     /// As [`evaluate`](Self::evaluate).
     fn kink(&self, _index: usize, _stencil: &Stencil, _u: &[f64], _out: &mut Kinks) -> Result<(), Failure> {
         Ok(())
+    }
+    /// Improves what the term holds besides the unknowns (multipliers) when the iterations have converged at `u`, and says
+    /// whether they must go on. `new` is the term's history there: what of it belongs to no stencil is written now.
+    ///
+    /// # Errors
+    /// A [`Failure`] when there is no more to improve and it does not suffice.
+    fn augment(&mut self, _u: &[f64], _new: &mut History) -> Result<bool, Failure> {
+        Ok(false)
     }
     /// Stresses of a stencil that bends, at coordinates `y`.
     ///

@@ -34,7 +34,31 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     if levels > 1 {
         measured.push(("order".into(), fit::order(&runs.iter().map(|run| run.error).collect::<Vec<_>>())));
     }
+    measured.extend(augmented(bench)?);
     Ok(measured)
+}
+
+/// With multipliers: the largest weighted penetration of a node in any increment, the most augmentations that took, and
+/// at the end the largest penetration of a point and how far the edges stand off a circle, all over the edges' lengths.
+fn augmented(bench: &Bench) -> Result<Measured, Error> {
+    let augmentation = "contact.foot.augmentation={ penetration = 1e-6, loops = 6 }".to_owned();
+    let (mut nodal, mut mismatch) = (0.0_f64, 0.0);
+    let run = bench.follow("roller.toml", &[augmentation], |model, state| {
+        let (contact, history) = (&model.contacts[0], &state.histories[model.first_contact()]);
+        nodal = nodal.max(contact.nodal_penetration(&state.u, history).unwrap_or(f64::NAN));
+        mismatch = contact.facet_mismatch(&state.u, history);
+    })?;
+    let loops = run.attempts.iter().map(|attempt| attempt.augmentations()).max().unwrap_or(0);
+    let edge = |point: &PointRecord| run.model.contacts[0].surface().edges[point.edge].chord(&run.model.mesh);
+    let points = run.points(0);
+    let closed = points.iter().filter(|point| point.pressure > 0.0);
+    let pointwise = closed.map(|point| point.penetration / edge(point)).fold(0.0, f64::max);
+    Ok(vec![
+        ("nodal_penetration".into(), nodal),
+        ("augmentations".into(), loops as f64),
+        ("pointwise_penetration".into(), pointwise),
+        ("facet_mismatch".into(), mismatch),
+    ])
 }
 
 /// Every cell of the deck cut into `n` by `n`; the error is the mean over the increments of the second half of the

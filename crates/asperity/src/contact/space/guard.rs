@@ -6,6 +6,7 @@ use super::pair::Contact;
 use super::surface::Face;
 use crate::contact::capture::positions;
 use crate::contact::guard::{CORNER, FLAT, MATCH, facet_ratio, said};
+use crate::contact::record::PointStatus;
 use crate::mesh::Mesh;
 use crate::system::History;
 use crate::tensor::Vec3;
@@ -98,6 +99,16 @@ impl Contact {
         facet_ratio(self.parts.options.penalty, self.records(u, history), |face, hit| {
             if matches(&here[face], &there[hit]) { 0.0 } else { own[face].max(other[hit]) }
         })
+    }
+
+    /// How far the faces that are closed in an accepted state stand off the surface they stand for, over their sizes.
+    pub fn facet_mismatch(&self, u: &[f64], history: &History) -> f64 {
+        let (faces, mut largest) = (&self.parts.surface.faces, 0.0_f64);
+        let sagittas = sagittas(&self.place(faces, u));
+        for point in self.records(u, history).iter().filter(|point| point.status != PointStatus::Open) {
+            largest = largest.max(sagittas[point.edge] / self.parts.length(&faces[point.edge]));
+        }
+        largest
     }
 
     /// What must be said of the facets in an accepted state, and whether the state may not stand.

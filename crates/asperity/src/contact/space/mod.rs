@@ -14,6 +14,7 @@ mod rigid;
 mod search;
 mod surface;
 mod target;
+mod uzawa;
 
 pub use faces::Faces;
 pub use guard::has_facets;

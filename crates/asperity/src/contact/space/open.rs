@@ -5,13 +5,14 @@ use super::pair::Contact;
 use super::point::{self, Closed, Constants, Place, Triad};
 use super::rigid;
 use crate::Failure;
+use crate::contact::augment::Shift;
 use crate::contact::capture::refuse_jump;
 use crate::contact::kink::answer;
 use crate::contact::record::{entry, leave, write};
 use crate::contact::seed::Seed;
-use crate::interface::Past;
+use crate::interface::{Past, Response};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
-use crate::tensor::{Dual, Vec3};
+use crate::tensor::{Dual, Scalar, Vec3};
 use crate::tool::space::Hit;
 use std::f64::consts::FRAC_PI_2;
 
@@ -33,6 +34,12 @@ pub struct OpenContact<'a> {
     pub ahead: Vec<f64>,
     /// Pressure up to which the tangent is exact.
     pub ordinary: f64,
+    /// Multipliers of the corners; none without augmentation.
+    pub shifts: Vec<Shift>,
+    /// Tangents of the points in the accepted state, with augmentation.
+    pub frames: Vec<[Vec3; 2]>,
+    /// How often multipliers were improved in the attempt.
+    pub augmented: usize,
     /// Length of the increment.
     pub dt: f64,
 }
@@ -101,6 +108,10 @@ impl Attempt for OpenContact<'_> {
         let parts = &self.contact.parts;
         answer(&*parts.law, &self.past(stencil), self.contact.least, y)
     }
+
+    fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        self.improve(u, new)
+    }
 }
 
 pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, first: usize) -> Vec3<T> {
@@ -128,7 +139,7 @@ impl OpenContact<'_> {
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
         let Some(closed) = closed else {
             leave(&*self.contact.parts.law, self.history.slot(index), new);
-            self.account(index, g, ([0.0; 2], 0.0, 0.0), local);
+            self.account(index, g, Carried::default(), local);
             return Ok(0);
         };
         if g.place.touched.is_none() {
@@ -139,7 +150,7 @@ impl OpenContact<'_> {
         write(&closed.response, closed.slip, old, new);
         self.add(index, g, &closed, local);
         let response = &closed.response;
-        self.account(index, g, (response.shear.map(T::re), response.pressure.re(), response.closure), local);
+        self.account(index, g, Carried::of(response), local);
         Ok(response.status as Branch)
     }
 
@@ -147,24 +158,27 @@ impl OpenContact<'_> {
         let parts = &self.contact.parts;
         Constants {
             normal: g.hit.normal,
+            closure: self.shift(index).0,
             before: past.penetration,
             touch: parts.law.touch(past),
             opens: parts.law.opens(past, g.place.slip()),
             least: self.contact.least,
             weight: parts.surface.points[index].weight,
-            turning: self.contact.parts.options.turning(g.hit.u, self.ordinary),
+            turning: self.contact.parts.options.turning(g.hit.u + self.shift(index).0, self.ordinary),
         }
     }
 
     /// What the law may know of a point.
     fn past(&self, index: usize) -> Past<'_> {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
+        let slips = self.shift(index).1;
+        let shear = |k: usize, entry: usize| old[entry] + options.tangential_penalty * slips[k];
         Past {
             penalty: options.penalty,
             tangential_penalty: options.tangential_penalty,
-            penetration: old[entry::PENETRATION],
+            penetration: old[entry::PENETRATION] + self.closure_before(index),
             pressure: old[entry::PRESSURE],
-            shear: [old[entry::SHEAR], old[entry::SHEAR2]],
+            shear: [shear(0, entry::SHEAR), shear(1, entry::SHEAR2)],
             vars: &old[entry::COUNT..],
             dt: self.dt,
         }
@@ -172,17 +186,24 @@ impl OpenContact<'_> {
 
     /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
     /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
-    /// A point that closes or opens takes part with half its stress.
-    fn account(&self, index: usize, g: &Geometry, (shear, pressure, closure): ([f64; 2], f64, f64), local: &mut Local) {
+    /// A point that closes or opens takes part with half its stress. Where multipliers bear the stress nothing is stored by
+    /// a slip, and all work is that of the sliding.
+    fn account(&self, index: usize, g: &Geometry, now: Carried, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
-        let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
-        let (slip, area) = (g.place.slip(), Triad::new(g.place.tangents).area);
-        let area = area * self.contact.parts.surface.points[index].weight * options.loads.share();
-        let work: f64 = (0..2).map(|i| 0.5 * (before[i] + shear[i]) * slip[i]).sum();
-        local.stored = area * (0.5 * pressure * pressure / options.penalty + stored(shear));
-        let friction = work - (stored(shear) - stored(before));
-        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + pressure) * closure);
+        let area = Triad::new(g.place.tangents).area * self.contact.parts.surface.points[index].weight;
+        let area = area * options.loads.share();
+        let closure = if now.pressure == 0.0 { 0.0 } else { self.shift(index).0 };
+        local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - closure) * area;
+        let work = |slip: [f64; 2]| (0..2).map(|i| 0.5 * (before[i] + now.shear[i]) * slip[i]).sum::<f64>();
+        let friction = if options.augmentation.is_some() {
+            work(now.slid)
+        } else {
+            let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
+            local.stored += area * stored(now.shear);
+            work(g.place.slip()) - (stored(now.shear) - stored(before))
+        };
+        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + now.pressure) * now.closure);
     }
 
     /// The slip is a chord: a tool that turns by half a turn brings what was touched to the other side, and none is seen.
@@ -196,5 +217,22 @@ impl OpenContact<'_> {
             return Err(Failure::new(format!("{name}: its tool turned by {degrees:.0} degrees in one increment")));
         }
         Ok(())
+    }
+}
+
+/// What a point carries, for its energy; the sliding is along the shear.
+#[derive(Debug, Clone, Copy, Default)]
+struct Carried {
+    pressure: f64,
+    shear: [f64; 2],
+    slid: [f64; 2],
+    closure: f64,
+}
+
+impl Carried {
+    fn of<T: Scalar>(response: &Response<T>) -> Self {
+        let shear = response.shear.map(T::re);
+        let part = response.slipped / shear[0].hypot(shear[1]).max(f64::MIN_POSITIVE);
+        Self { pressure: response.pressure.re(), shear, slid: shear.map(|s| s * part), closure: response.closure }
     }
 }

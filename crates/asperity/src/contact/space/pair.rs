@@ -7,6 +7,7 @@ use super::surface::{Face, Surface, SurfacePoint};
 use super::target::Target;
 use crate::contact::guard;
 use crate::contact::pair::{CLOSED, ahead};
+use crate::contact::augment::{Corners, closures_alone};
 use crate::contact::record::{PointRecord, PointStatus, entry};
 use crate::contact::search::relatives;
 use crate::contact::{ContactOptions, Loads};
@@ -47,11 +48,13 @@ pub struct Contact {
     pub(super) relatives: Vec<Vec<usize>>,
     /// Size of the largest face of both sides, a length.
     pub(super) longest: f64,
+    /// The corners that carry multipliers; none without augmentation.
+    pub(super) corners: Corners,
 }
 
 impl Parts {
     /// Size of an undeformed face, a length: the root of its area.
-    fn length(&self, face: &Face) -> f64 {
+    pub(super) fn length(&self, face: &Face) -> f64 {
         let Face { kind, nodes, .. } = face;
         CellView { kind, nodes }.extent(&self.mesh.points).sqrt()
     }
@@ -68,7 +71,11 @@ impl Contact {
         // Common to both sides: else one would be pressed a little harder than the other.
         let lengths = parts.surface.faces.iter().chain(opposite).map(|face| parts.length(face));
         let least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
-        Self { parts, least, relatives, longest }
+        let mut contact = Self { parts, least, relatives, longest, corners: Corners::default() };
+        if contact.parts.options.augmentation.is_some() {
+            contact.corners = contact.corners_of_faces();
+        }
+        contact
     }
 
     /// The mesh.
@@ -160,7 +167,9 @@ impl Term for Contact {
 
     fn initial(&self) -> History {
         let vars: usize = self.parts.law.variables().iter().map(|v| v.len()).sum();
-        let mut history = History::new(self.parts.surface.points.iter().map(|_| entry::COUNT + vars));
+        let points = self.parts.surface.points.iter().map(|_| entry::COUNT + vars);
+        let corners = self.parts.options.augmentation.map(|_| self.corners.count());
+        let mut history = History::new(points.chain(corners));
         let u = vec![0.0; self.parts.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(hit, history.slot_mut(i));
@@ -184,7 +193,10 @@ impl Term for Contact {
             rotation: parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pose(&accepted.u).rotation),
             reach: self.reach(&accepted.last_change),
             ahead: ahead(accepted, at.dt),
-            ordinary: parts.options.ordinary(history),
+            ordinary: parts.options.ordinary(history, parts.surface.points.len()),
+            shifts: closures_alone(self.closures(history)),
+            frames: self.frames(&accepted.u),
+            augmented: 0,
             dt: at.dt,
         }))
     }

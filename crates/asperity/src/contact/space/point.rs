@@ -40,7 +40,9 @@ impl Place<f64> {
 pub struct Constants {
     /// Outward normal of the target at the hit.
     pub normal: Vec3,
-    /// Penetration at the last accepted state; negative for a gap.
+    /// What multipliers add to the penetration that the law sees.
+    pub closure: f64,
+    /// Penetration that the law saw at the last accepted state; negative for a gap.
     pub before: f64,
     /// Penetration at which the law closes the point: what dilation or a bond leaves of a gap.
     pub touch: f64,
@@ -98,16 +100,17 @@ pub fn evaluate<T: Scalar>(
     let triad = Triad::new(place.tangents.map(|g| soften(g, constants.turning)));
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(triad.inward);
-    if penetration.re() <= constants.opens + constants.least {
+    let seen = penetration + constants.closure;
+    if seen.re() <= constants.opens + constants.least {
         return Ok((penetration, None));
     }
     // Counted from there, so that the pressure does not jump: a jump, however small, can keep Newton from its end.
-    let penetration = penetration - constants.least;
+    let (penetration, seen) = (penetration - constants.least, seen - constants.least);
     let slip = place.touched.map_or([T::zero(); 2], |touched| {
-        let part = in_contact(penetration - constants.touch, constants.before - constants.touch);
+        let part = in_contact(seen - constants.touch, constants.before - constants.touch);
         triad.along.map(|e| e.dot(touched - place.a) * part)
     });
-    let response = law(&Motion { penetration, slip })?;
+    let response = law(&Motion { penetration: seen, slip })?;
     let [tau_s, tau_t] = response.shear;
     let traction = triad.inward * response.pressure + triad.along[0] * tau_s + triad.along[1] * tau_t;
     let force = traction * (triad.area * constants.weight);

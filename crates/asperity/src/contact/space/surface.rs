@@ -46,6 +46,8 @@ impl Face {
 pub struct SurfacePoint {
     /// The face it lies on.
     pub face: usize,
+    /// Its place on it.
+    pub xi: [f64; 2],
     /// Shape functions there.
     pub n: [f64; MAX_NODES],
     /// Their derivatives along the two coordinates of the face.
@@ -89,7 +91,7 @@ impl Surface {
 fn point_at(kind: &Cell, xi: [f64; 3], weight: f64, face: usize) -> SurfacePoint {
     let (mut n, mut gradient) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
     (kind.shape)(xi, &mut n[..kind.nodes.len()], &mut gradient[..kind.nodes.len()]);
-    SurfacePoint { face, n, dn: gradient.map(|[a, b, _]| [a, b]), weight }
+    SurfacePoint { face, xi: [xi[0], xi[1]], n, dn: gradient.map(|[a, b, _]| [a, b]), weight }
 }
 
 impl SurfacePoint {

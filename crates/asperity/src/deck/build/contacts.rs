@@ -125,6 +125,7 @@ impl Builder<'_> {
             loads,
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
             guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
+            augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation()),
         }
     }
 
@@ -141,6 +142,7 @@ impl Builder<'_> {
         let two = match passes {
             Passes::One => false,
             Passes::Two => true,
+            Passes::Auto if keys.augmentation.is_some() => false,
             Passes::Auto => same_sides(surface, others) || !(facets(surface) || facets(others)),
         };
         if two { Loads::Own } else { Loads::Both }
@@ -180,6 +182,11 @@ impl Builder<'_> {
                 "a surface that touches itself carries the points of both sides: that is two passes",
                 passes.place,
             );
+        }
+        let two = shared || keys.passes.is_some_and(|passes| passes.value == Passes::Two);
+        if let Some(augmentation) = keys.augmentation.as_ref().filter(|_| two) {
+            let what = "augmentation works with one pass: with two, multipliers of both sides ask for the same";
+            self.refuse(what, augmentation.place);
         }
         let perturbed = self.deck.solver.tangent == keys::Tangent::Perturbation;
         if let Some(coupling) = keys.coupling.filter(|coupling| perturbed && !coupling.value) {

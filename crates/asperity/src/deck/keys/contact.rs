@@ -1,7 +1,7 @@
 //! Contacts.
 
 use super::UpdateKeys;
-use crate::contact::Guard;
+use crate::contact::{Augmentation, Guard};
 use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, table_of, whole, word, words};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
@@ -36,6 +36,27 @@ table! {
         coupling: Option<Spot<bool>> = flag().spot().computed("true"),
         /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
         guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
+        /// Multipliers that take out what the penalties leave of penetration and elastic slip: `augmentation = {}`.
+        augmentation: Option<Spot<AugmentationKeys>> = table_of().spot().unless_given("penetration and elastic slip stay"),
+    }
+}
+
+table! {
+    /// How far penetration and elastic slip are taken out. Both are weighted means around the nodes of the surface.
+    pub struct AugmentationKeys {
+        /// Largest penetration at a node, over the length of the shortest edge there, or the root of the area of the least face.
+        penetration: f64 = number(unit::NONE, Range::above_to(0.0, 1.0)).or("1e-6"),
+        /// Largest slip of an increment at a node where nothing slides, over the same length.
+        slip: f64 = number(unit::NONE, Range::above_to(0.0, 1.0)).or("1e-6"),
+        /// Most augmentations; an increment that needs more is cut.
+        loops: usize = whole(1..=1000).or("10"),
+    }
+}
+
+impl AugmentationKeys {
+    /// What the keys say.
+    pub fn augmentation(&self) -> Augmentation {
+        Augmentation { penetration: self.penetration, slip: self.slip, loops: self.loops }
     }
 }
 

@@ -42,6 +42,9 @@ pub(super) struct End<T> {
     pub work: f64,
 }
 
+/// By how much, as a ratio, a stress on the cone may exceed it by rounding.
+const OUTSIDE: f64 = 1e-9;
+
 fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
     a[0] * b[0] + a[1] * b[1]
 }
@@ -61,6 +64,10 @@ impl<T: Scalar> Path<T> {
         let trial = plus(self.start, self.step, T::one());
         if norm(trial).re() <= self.limit.1.re().max(0.0) {
             return End { shear: trial, slip: None, work: 0.0 };
+        }
+        // Multipliers of augmentation may begin outside of the cone: there is no path from there but straight back.
+        if norm(self.start).re() > self.limit.0.re() * (1.0 + OUTSIDE) {
+            return self.euler(1);
         }
         // Without a limit there is nothing to slide along.
         match scheme {

@@ -117,10 +117,14 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         frame.push(Quantity::new(name(what), unit, Place::Global, width, value.0.to_vec()))?;
     }
     scalars.into_iter().try_for_each(|(what, unit, value)| frame.push(Quantity::scalar(name(what), unit, value)))?;
-    match seen.contact.facet_ratio(&source.state.u, seen.history) {
-        Some(ratio) => frame.push(Quantity::scalar(name("facet_ratio"), Unit::One, ratio)),
-        None => Ok(()),
-    }
+    let (u, history) = (&source.state.u, seen.history);
+    let sometimes = [
+        ("facet_ratio", seen.contact.facet_ratio(u, history)),
+        ("nodal_penetration", seen.contact.nodal_penetration(u, history)),
+        ("facet_mismatch", seen.contact.facet_mismatch(u, history)),
+    ];
+    let mut present = sometimes.into_iter().filter_map(|(what, value)| Some((what, value?)));
+    present.try_for_each(|(what, value)| frame.push(Quantity::scalar(name(what), Unit::One, value)))
 }
 
 /// Present distance between the ends of an edge of the surface.

@@ -71,6 +71,20 @@ impl Touching<'_> {
         };
         said.map(|(text, _)| text)
     }
+    /// The largest penetration that augmentation leaves at a node, over the size of its elements, where there is any.
+    pub fn nodal_penetration(&self, u: &[f64], history: &History) -> Option<f64> {
+        match self {
+            Self::Plane(contact) => contact.nodal_penetration(u, history),
+            Self::Solid(contact) => contact.nodal_penetration(u, history),
+        }
+    }
+    /// How far the facets of the surface stand off a smooth one, over the size of their elements, where it is touched.
+    pub fn facet_mismatch(&self, u: &[f64], history: &History) -> Option<f64> {
+        match self {
+            Self::Plane(contact) => contact.options().augmentation.map(|_| contact.facet_mismatch(u, history)),
+            Self::Solid(contact) => contact.options().augmentation.map(|_| contact.facet_mismatch(u, history)),
+        }
+    }
     /// Nodes whose distance is the length of an edge, or of the first edge of a face.
     pub fn edge_ends(&self, edge: usize) -> Option<[usize; 2]> {
         let nodes = match self {

@@ -1,0 +1,125 @@
+//! What a contact in space gives to its augmentation: what its points report, and where its multipliers are kept.
+//!
+//! They stand at the corners of the surface's faces. Accepted closures are the last slot of the history; slips are kept
+//! as vectors, by the tangents that the points had in the accepted state.
+
+use super::open::OpenContact;
+use super::pair::Contact;
+use super::point::Triad;
+use crate::Failure;
+use crate::contact::augment::{Corners, Report, Shift, closures_alone};
+use crate::contact::record::{PointStatus, entry, touch_after};
+use crate::system::History;
+use crate::tensor::Vec3;
+
+impl Contact {
+    /// The corners of the surface.
+    pub(super) fn corners_of_faces(&self) -> Corners {
+        let surface = &self.parts.surface;
+        let faces = surface.faces.iter().map(|face| {
+            let corners = face.kind.linear.nodes.len();
+            (&face.nodes[..corners], self.parts.length(face))
+        });
+        Corners::new(faces, surface.points.iter().map(|point| (point.face, point.xi)))
+    }
+
+    /// Closures of the corners in an accepted state; none without augmentation.
+    pub(super) fn closures<'a>(&self, history: &'a History) -> &'a [f64] {
+        let augmented = self.parts.options.augmentation.is_some();
+        if augmented { history.slot(self.parts.surface.points.len()) } else { &[] }
+    }
+
+    /// The largest penetration that augmentation leaves at a node of an accepted state, over the size of its faces; none
+    /// without augmentation.
+    pub fn nodal_penetration(&self, u: &[f64], history: &History) -> Option<f64> {
+        self.parts.options.augmentation?;
+        let accepted = closures_alone(self.closures(history));
+        let reports = (0..self.parts.surface.points.len()).map(|i| {
+            let (values, still) = (history.slot(i), [Vec3::zero(); 2]);
+            self.report(u, (i, still), self.corners.at(i, &accepted), (values, values))
+        });
+        Some(self.corners.improve(&mut accepted.clone(), reports).penetration)
+    }
+
+    /// Tangents of all points, which slips refer to.
+    pub(super) fn frames(&self, u: &[f64]) -> Vec<[Vec3; 2]> {
+        let points = self.parts.surface.points.iter().filter(|_| self.parts.options.augmentation.is_some());
+        points.map(|point| Triad::new(self.locate(point, u).1).along).collect()
+    }
+
+    /// What a point with two tangents and its share of the multipliers reports, from its history before and after an
+    /// increment.
+    fn report(
+        &self,
+        u: &[f64],
+        (index, frame): (usize, [Vec3; 2]),
+        shift: Shift,
+        (old, new): (&[f64], &[f64]),
+    ) -> Option<Report> {
+        if new[entry::SEGMENT] < 0.0 {
+            return None;
+        }
+        let (parts, point) = (&self.parts, &self.parts.surface.points[index]);
+        let status = PointStatus::from_value(new[entry::STATUS]);
+        let borne = new[entry::PRESSURE] / parts.options.penalty;
+        let (closed, sticks) = (status != PointStatus::Open, status == PointStatus::Stick);
+        let touch = || touch_after(&*parts.law, &parts.options, new);
+        let [slip, borne_shear] = slips(old, new, parts.options.tangential_penalty);
+        let along = |[s, t]: [f64; 2]| frame[0] * s + frame[1] * t;
+        Some(Report {
+            area: point.weight * Triad::new(self.locate(point, u).1).area,
+            penetration: if closed { borne - shift.closure } else { new[entry::PENETRATION] - touch() },
+            closed,
+            sticks,
+            slip: along(slip),
+            raise: if sticks { along(slip) } else { along(borne_shear) - shift.slip },
+            least: borne.min(0.0),
+        })
+    }
+}
+
+/// Slip of an increment that is no sliding, and the slip that would bear the change of the shear stress.
+fn slips(old: &[f64], new: &[f64], penalty: f64) -> [[f64; 2]; 2] {
+    let shear = [new[entry::SHEAR], new[entry::SHEAR2]];
+    let (size, sliding) = (shear[0].hypot(shear[1]), new[entry::SLIPPED] - old[entry::SLIPPED]);
+    let slid = shear.map(|shear| if size > 0.0 { sliding * shear / size } else { 0.0 });
+    let change = |entry: usize| new[entry] - old[entry];
+    let slip = [change(entry::SLIP) - slid[0], change(entry::SLIP2) - slid[1]];
+    [slip, [change(entry::SHEAR) / penalty, change(entry::SHEAR2) / penalty]]
+}
+
+impl OpenContact<'_> {
+    /// What multipliers stand for at a point: a closure, and slips along its tangents.
+    pub(super) fn shift(&self, index: usize) -> (f64, [f64; 2]) {
+        if self.shifts.is_empty() {
+            return (0.0, [0.0; 2]);
+        }
+        let shift: Shift = self.contact.corners.at(index, &self.shifts);
+        (shift.closure, self.frames[index].map(|along| along.dot(shift.slip)))
+    }
+
+    /// The closure by multipliers at a point in the accepted state.
+    pub(super) fn closure_before(&self, index: usize) -> f64 {
+        let closures = self.contact.closures(self.history);
+        if closures.is_empty() { 0.0 } else { self.contact.corners.closure_at(index, closures) }
+    }
+
+    /// Improves the multipliers unless they suffice.
+    pub(super) fn improve(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        let parts = &self.contact.parts;
+        let Some(augmentation) = parts.options.augmentation else { return Ok(false) };
+        let (mut better, points) = (self.shifts.clone(), parts.surface.points.len());
+        let reports = (0..points).map(|i| {
+            let shift = self.contact.corners.at(i, &self.shifts);
+            self.contact.report(u, (i, self.frames[i]), shift, (self.history.slot(i), new.slot(i)))
+        });
+        let left = self.contact.corners.improve(&mut better, reports);
+        if !augmentation.goes_on(&left, self.augmented, &parts.name)? {
+            let closures = new.slot_mut(points).iter_mut().zip(&self.shifts);
+            closures.for_each(|(closure, shift)| *closure = shift.closure);
+            return Ok(false);
+        }
+        (self.shifts, self.augmented) = (better, self.augmented + 1);
+        Ok(true)
+    }
+}

@@ -1,0 +1,92 @@
+//! What a contact in the plane gives to its augmentation: what its points report, and where its multipliers are kept.
+//!
+//! They stand at the corners of the surface's edges. On an edge that the target covers in part they belong to the covered
+//! part, as the points do. Accepted closures are the last slot of the history.
+
+use super::augment::{Corners, Report, Shift, closures_alone};
+use super::open::OpenContact;
+use super::pair::Contact;
+use super::record::{PointStatus, entry, touch_after};
+use crate::Failure;
+use crate::system::History;
+use crate::tensor::Vec3;
+
+impl Contact {
+    /// The corners of the surface.
+    pub(super) fn corners_of_edges(&self) -> Corners {
+        let edges = self.surface.edges.iter().map(|edge| (&edge.nodes[..2], edge.chord(&self.mesh)));
+        Corners::new(edges, self.surface.points.iter().map(|point| (point.edge, [point.rule, 0.0])))
+    }
+
+    /// Closures of the corners in an accepted state; none without augmentation.
+    pub(super) fn closures<'a>(&self, history: &'a History) -> &'a [f64] {
+        if self.options.augmentation.is_some() { history.slot(self.surface.points.len()) } else { &[] }
+    }
+
+    /// The largest penetration that augmentation leaves at a node of an accepted state, over the length of its edges;
+    /// none without augmentation.
+    pub fn nodal_penetration(&self, u: &[f64], history: &History) -> Option<f64> {
+        self.options.augmentation?;
+        let accepted = closures_alone(self.closures(history));
+        let reports = (0..self.surface.points.len()).map(|i| {
+            let shift = self.corners.at(i, &accepted);
+            self.report(u, (i, shift), history.slot(i), history.slot(i))
+        });
+        Some(self.corners.improve(&mut accepted.clone(), reports).penetration)
+    }
+
+    /// What a point with its share of the multipliers reports, from its history before and after an increment.
+    fn report(&self, u: &[f64], (index, shift): (usize, Shift), old: &[f64], new: &[f64]) -> Option<Report> {
+        if new[entry::SEGMENT] < 0.0 {
+            return None;
+        }
+        let spot = self.spot(index, new);
+        let (a, tangent) = self.locate(&spot, u);
+        let status = PointStatus::from_value(new[entry::STATUS]);
+        let borne = new[entry::PRESSURE] / self.options.penalty;
+        let (closed, sticks) = (status != PointStatus::Open, status == PointStatus::Stick);
+        let touch = || touch_after(&*self.law, &self.options, new);
+        let sliding = (new[entry::SLIPPED] - old[entry::SLIPPED]).copysign(new[entry::SHEAR]);
+        let slip = new[entry::SLIP] - old[entry::SLIP] - sliding;
+        let borne_shear = (new[entry::SHEAR] - old[entry::SHEAR]) / self.options.tangential_penalty;
+        let along = |slip: f64| Vec3::new(slip, 0.0, 0.0);
+        Some(Report {
+            area: self.area(&spot, a, tangent),
+            penetration: if closed { borne - shift.closure } else { new[entry::PENETRATION] - touch() },
+            closed,
+            sticks,
+            slip: along(slip),
+            raise: if sticks { along(slip) } else { along(borne_shear) - shift.slip },
+            least: borne.min(0.0),
+        })
+    }
+}
+
+impl OpenContact<'_> {
+    /// What multipliers stand for at a point.
+    pub(super) fn shift(&self, index: usize) -> Shift {
+        if self.shifts.is_empty() { Shift::default() } else { self.contact.corners.at(index, &self.shifts) }
+    }
+
+    /// The closure by multipliers at a point in the accepted state.
+    pub(super) fn closure_before(&self, index: usize) -> f64 {
+        let closures = self.contact.closures(self.history);
+        if closures.is_empty() { 0.0 } else { self.contact.corners.closure_at(index, closures) }
+    }
+
+    /// Improves the multipliers unless they suffice.
+    pub(super) fn improve(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        let Some(augmentation) = self.contact.options.augmentation else { return Ok(false) };
+        let (mut better, points) = (self.shifts.clone(), self.contact.surface.points.len());
+        let report = |i| self.contact.report(u, (i, self.shift(i)), self.history.slot(i), new.slot(i));
+        let reports = (0..points).map(report);
+        let left = self.contact.corners.improve(&mut better, reports);
+        if !augmentation.goes_on(&left, self.augmented, self.contact.title())? {
+            let closures = new.slot_mut(points).iter_mut().zip(&self.shifts);
+            closures.for_each(|(closure, shift)| *closure = shift.closure);
+            return Ok(false);
+        }
+        (self.shifts, self.augmented) = (better, self.augmented + 1);
+        Ok(true)
+    }
+}

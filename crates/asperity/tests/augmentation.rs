@@ -99,7 +99,10 @@ fn the_penalty_no_longer_matters() {
 #[test]
 fn creep_is_taken_out() {
     let creep = |sets: &[&str]| {
-        let model = model(BLOCK, &[&["contact.base.law.coulomb.friction=9.0", "mesh.part.block.rectangle.cell=quad4"], sets].concat());
+        let model = model(
+            BLOCK,
+            &[&["contact.base.law.coulomb.friction=9.0", "mesh.part.block.rectangle.cell=quad4"], sets].concat(),
+        );
         let keep = go_on(&model, model.problem.initial_state(), Some(6));
         assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
         let slip = |state: &State| {

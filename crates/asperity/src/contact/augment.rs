@@ -229,7 +229,15 @@ mod tests {
     }
 
     fn report(penetration: f64) -> Option<Report> {
-        Some(Report { area: 1.0, penetration, closed: true, sticks: true, slip: Vec3::zero(), raise: Vec3::zero(), least: 0.0 })
+        Some(Report {
+            area: 1.0,
+            penetration,
+            closed: true,
+            sticks: true,
+            slip: Vec3::zero(),
+            raise: Vec3::zero(),
+            least: 0.0,
+        })
     }
 
     #[test]

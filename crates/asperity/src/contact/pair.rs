@@ -119,8 +119,21 @@ impl Contact {
         let relatives = relatives(surface.edges.iter().map(|edge| &edge.nodes), faces.iter().map(|edge| &edge.nodes));
         let (name, least, longest) = (name.into(), 0.0, 0.0);
         let corners = Corners::default();
-        let mut contact =
-            Self { name, mesh, dofs, space, surface, boundary, target, law, options, least, relatives, longest, corners };
+        let mut contact = Self {
+            name,
+            mesh,
+            dofs,
+            space,
+            surface,
+            boundary,
+            target,
+            law,
+            options,
+            least,
+            relatives,
+            longest,
+            corners,
+        };
         let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
         let opposite = contact.target.as_faces().map_or(Vec::new(), |faces| lengths(faces.edges()));
         contact.longest = lengths(&contact.surface.edges).into_iter().chain(opposite.clone()).fold(0.0, f64::max);

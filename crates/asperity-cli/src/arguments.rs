@@ -35,6 +35,9 @@ pub enum Command {
     Point(Point),
     /// List every law with its parameters.
     Laws,
+    /// Say what the penalties of contacts are worth.
+    #[command(subcommand)]
+    Penalty(PenaltyCommand),
     /// Print the JSON Schema of decks, for editors, or the manual's page of all keys.
     Schema(Schema),
     /// Print the completions of a shell.
@@ -110,6 +113,24 @@ pub struct Point {
     pub out: Option<PathBuf>,
 }
 
+/// What may be asked about penalties.
+#[derive(Debug, Subcommand)]
+pub enum PenaltyCommand {
+    /// Run a deck with its penalties and with softer ones, and print the forces of a rigid interface with their errors.
+    Study(Study),
+}
+
+/// Arguments of `penalty study`.
+#[derive(Debug, Args)]
+pub struct Study {
+    /// The deck.
+    #[command(flatten)]
+    pub deck: Deck,
+    /// How many times softer the softer penalties are, more than 1.
+    #[arg(long, value_name = "NUMBER", default_value_t = 4.0, value_parser = above_one)]
+    pub ratio: f64,
+}
+
 /// Arguments of `schema`.
 #[derive(Debug, Args)]
 pub struct Schema {
@@ -129,6 +150,13 @@ pub struct Schema {
 pub struct Completions {
     /// The shell.
     pub shell: Shell,
+}
+
+fn above_one(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 1.0 && number.is_finite() => Ok(number),
+        _ => Err("a number above 1 is needed".into()),
+    }
 }
 
 fn window(text: &str) -> Result<Window, String> {

@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Command::Schema(schema) => verbs::schema(&schema),
         Command::Point(point) => verbs::point(&point),
         Command::Laws => verbs::laws(),
+        Command::Penalty(command) => verbs::penalty(&command),
         Command::Completions(completions) => verbs::completions(&completions),
     };
     exit.unwrap_or_else(Exit::after).into()

@@ -205,3 +205,31 @@ fn every_law_of_an_interface_is_listed_with_its_numbers() {
         assert!(entry.parameters.iter().all(|p| own.contains(&format!("    {} ", p.key))), "{own}");
     }
 }
+
+/// The force of a rigid interface differs from that with the penalty of the deck by less than the error that is stated, and
+/// a penalty sixteen times stiffer is nearer to it.
+#[test]
+fn a_penalty_study_states_its_error() {
+    let folder = folder(DECK);
+    let few = ["--set", "step.push.increments={count=2}"];
+    let stiff = "contact.sole.penalty=2e8";
+    let study = asperity(folder.path(), &[&["penalty", "study", "block.toml"], &few[..]].concat());
+    assert_eq!(code(&study), 0, "{}", error(&study));
+    let numbers = |output: &Output| -> [f64; 4] {
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let line = text.lines().find(|line| line.contains("contact.sole.thrust")).expect("a line of the contact");
+        let numbers: Vec<f64> = line.split_whitespace().skip(1).map(|word| word.parse().unwrap()).collect();
+        numbers.try_into().unwrap()
+    };
+    let [soft, penalty, rigid, stated] = numbers(&study);
+    assert!(soft < penalty && penalty < rigid, "{soft} {penalty} {rigid}");
+    assert!(rigid - penalty < stated, "{rigid} {penalty} {stated}");
+    let [_, stiffer, ..] = numbers(&asperity(
+        folder.path(),
+        &[&["penalty", "study", "block.toml", "--set", stiff], &few[..]].concat(),
+    ));
+    assert!((stiffer - rigid).abs() < 0.2 * (penalty - rigid).abs(), "{stiffer} {rigid} {penalty}");
+    let refused = asperity(folder.path(), &["penalty", "study", "block.toml", "--ratio", "1"]);
+    assert_eq!(code(&refused), 2);
+    assert!(error(&refused).contains("above 1"), "{}", error(&refused));
+}

@@ -17,6 +17,7 @@ mod reader;
 mod review;
 pub mod schema;
 mod slide;
+mod softer;
 pub mod source;
 pub mod tree;
 

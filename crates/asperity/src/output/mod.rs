@@ -16,6 +16,7 @@ mod quantity;
 mod recorder;
 mod results;
 mod simulate;
+pub mod study;
 mod summary;
 mod table;
 pub mod vtk;

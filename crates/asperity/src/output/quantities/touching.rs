@@ -1,6 +1,6 @@
 //! Contacts of the plane and of space under one roof, for reports.
 
-use crate::contact::{Contact, PointRecord, space};
+use crate::contact::{Contact, ContactOptions, PointRecord, space};
 use crate::system::{History, Term};
 use crate::tensor::Vec3;
 
@@ -19,6 +19,13 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.name(),
             Self::Solid(contact) => contact.name(),
+        }
+    }
+    /// How it is computed.
+    pub fn options(&self) -> &ContactOptions {
+        match self {
+            Self::Plane(contact) => contact.options(),
+            Self::Solid(contact) => contact.options(),
         }
     }
     /// All points in an accepted state, with this term's lane of its history.

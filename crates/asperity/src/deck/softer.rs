@@ -1,0 +1,26 @@
+//! The same deck with softer penalties.
+
+use super::Loaded;
+use crate::Error;
+use crate::model::Model;
+use crate::output::Parts;
+
+impl Loaded {
+    /// The deck with the penalties of `model`, which was made from it, divided by `ratio`.
+    ///
+    /// # Errors
+    /// An error when the deck has no contact.
+    pub fn softened(mut self, model: &Model, ratio: f64) -> Result<Self, Error> {
+        let contacts = Parts::of(model).contacts;
+        for (name, keys) in &mut self.deck.contact {
+            let options = contacts.iter().find(|(_, other, _)| *other == name.text).map(|(_, _, c)| c.options());
+            let Some(options) = options else { continue };
+            keys.penalty = Some(options.penalty / ratio);
+            keys.tangential_penalty = Some(options.tangential_penalty / ratio);
+        }
+        if self.deck.contact.is_empty() {
+            return Err(Error::Input("there is no contact in this deck, and no penalty to study".into()));
+        }
+        Ok(self)
+    }
+}

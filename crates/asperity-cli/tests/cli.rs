@@ -224,10 +224,8 @@ fn a_penalty_study_states_its_error() {
     let [soft, penalty, rigid, stated] = numbers(&study);
     assert!(soft < penalty && penalty < rigid, "{soft} {penalty} {rigid}");
     assert!(rigid - penalty < stated, "{rigid} {penalty} {stated}");
-    let [_, stiffer, ..] = numbers(&asperity(
-        folder.path(),
-        &[&["penalty", "study", "block.toml", "--set", stiff], &few[..]].concat(),
-    ));
+    let [_, stiffer, ..] =
+        numbers(&asperity(folder.path(), &[&["penalty", "study", "block.toml", "--set", stiff], &few[..]].concat()));
     assert!((stiffer - rigid).abs() < 0.2 * (penalty - rigid).abs(), "{stiffer} {rigid} {penalty}");
     let refused = asperity(folder.path(), &["penalty", "study", "block.toml", "--ratio", "1"]);
     assert_eq!(code(&refused), 2);

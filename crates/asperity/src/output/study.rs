@@ -123,7 +123,8 @@ pub fn table(lines: &[Line]) -> String {
         // Writing into a String cannot fail.
         if step != Some(&line.step) {
             let _ = writeln!(text, "\nstep '{}'", line.step);
-            let _ = writeln!(text, "  {:width$}  {:>14}  {:>14}  {:>14}  {:>8}", "", "softer", "stiffer", "rigid", "+-");
+            let _ =
+                writeln!(text, "  {:width$}  {:>14}  {:>14}  {:>14}  {:>8}", "", "softer", "stiffer", "rigid", "+-");
             step = Some(&line.step);
         }
         let [soft, stiff] = line.values;

@@ -2,7 +2,7 @@
 
 use super::diagnose::{Diagnostic, Diagnostics};
 use super::form::{Law, Table};
-use super::keys::{PointCurve, PointDeck};
+use super::keys::{self, PointCurve, PointDeck};
 use super::reader::Name;
 use super::source::Spot;
 use super::{gathered, text_of, understood};
@@ -75,10 +75,7 @@ pub(super) fn refuse_name(name: &Name, found: &mut Vec<Diagnostic>) {
 
 fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Box<dyn Material>, String> {
     let material = law.build()?;
-    match &deck.update {
-        Some(keys) => material.with_update(keys.update()),
-        None => Ok(material),
-    }
+    Ok(keys::integrated(material.as_ref(), deck.rate, deck.update.as_ref())?.unwrap_or(material))
 }
 
 pub(super) fn curves(curves: &[PointCurve], names: &[String], found: &mut Vec<Diagnostic>) -> Vec<Curve> {

@@ -5,11 +5,23 @@ use crate::tensor::{Dual, Scalar, Tensor2};
 
 /// Strain increment of a deformation `f`, turned to its end, and rotation.
 pub fn hughes_winget<T: Scalar>(f: &Tensor2<T>) -> (Tensor2<T>, Tensor2<T>) {
-    let identity = Tensor2::<T>::identity();
-    let g = (*f - identity) * (*f + identity).inverse() * T::from(2.0);
+    let g = about_midpoint(f);
     let spin = g.skew() * T::from(0.5);
     let half = cayley(&(spin * halving(&spin).0));
     ((half * g.sym() * half.transpose()).sym(), cayley(&spin))
+}
+
+/// Gradient of the displacement increment about the midpoint configuration.
+pub(super) fn about_midpoint<T: Scalar>(f: &Tensor2<T>) -> Tensor2<T> {
+    let identity = Tensor2::<T>::identity();
+    (*f - identity) * (*f + identity).inverse() * T::from(2.0)
+}
+
+/// The rotation about the same axis by half the angle.
+pub(super) fn half<T: Scalar>(rotation: &Tensor2<T>) -> Tensor2<T> {
+    let identity = Tensor2::<T>::identity();
+    let spin = ((*rotation - identity) * (*rotation + identity).inverse()).skew();
+    cayley(&(spin * halving(&spin).0))
 }
 
 /// The rotation `(I - A)^-1 (I + A)` of a skew `A`, by twice the angle whose tangent is the length of its axis.

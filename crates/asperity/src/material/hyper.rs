@@ -59,7 +59,7 @@ impl<L: HyperLaw> Hyper<L> {
 }
 
 impl<L: HyperLaw> Material for Hyper<L> {
-    fn variables(&self) -> &'static [Variable] {
+    fn variables(&self) -> &[Variable] {
         VARIABLES
     }
 
@@ -74,6 +74,10 @@ impl<L: HyperLaw> Material for Hyper<L> {
 
     fn with_update(&self, _: Update) -> Result<Box<dyn Material>, String> {
         Err("the stress of a hyperelastic law follows from the deformation alone: there is nothing to sub-step".into())
+    }
+
+    fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String> {
+        Err("the stress of a hyperelastic law follows from the deformation alone: no objective rate enters it".into())
     }
 
     fn update(&self, f: &Tensor2, _dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {

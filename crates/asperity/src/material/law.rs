@@ -36,7 +36,7 @@ pub type Gradient = [[f64; 9]; 6];
 /// values) followed by its variables.
 pub trait Material: Send + Sync {
     /// History variables after the six stress components.
-    fn variables(&self) -> &'static [Variable];
+    fn variables(&self) -> &[Variable];
     /// Number of values of the state.
     fn state_len(&self) -> usize {
         6 + self.variables().iter().map(Variable::len).sum::<usize>()
@@ -55,6 +55,11 @@ pub trait Material: Send + Sync {
     /// # Errors
     /// In words, where the stress of a law follows from the deformation alone and nothing is integrated.
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String>;
+    /// The same law in the frame of Green and Naghdi in place of Jaumann's.
+    ///
+    /// # Errors
+    /// In words, where the stress of a law follows from the deformation alone and there is no frame to choose.
+    fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String>;
     /// The state at the end of an increment with deformation `f` relative to its beginning.
     ///
     /// # Errors

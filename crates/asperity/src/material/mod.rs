@@ -7,6 +7,7 @@
 //! To add a law: its file in `laws/`, its `mod` line and its line in [`laws::ALL`].
 
 mod frame;
+mod green_naghdi;
 mod hyper;
 mod integrated;
 mod law;
@@ -16,6 +17,7 @@ mod vars;
 
 pub use crate::declare::{Variable, VariableKind};
 pub use frame::hughes_winget;
+pub use green_naghdi::GreenNaghdi;
 pub use hyper::{Hyper, HyperLaw};
 pub use law::{Directions, Gradient, Material};
 pub use rate::{Rate, RateLaw};

@@ -8,7 +8,7 @@
 
 use super::frame::{Frame, hughes_winget};
 use super::integrated::Integrated;
-use super::{Directions, Gradient, Material, Variable, Vars};
+use super::{Directions, Gradient, GreenNaghdi, Material, Variable, Vars};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
@@ -108,7 +108,7 @@ impl<L: RateLaw> Rate<L> {
 }
 
 impl<L: RateLaw> Material for Rate<L> {
-    fn variables(&self) -> &'static [Variable] {
+    fn variables(&self) -> &[Variable] {
         L::VARIABLES
     }
 
@@ -129,6 +129,10 @@ impl<L: RateLaw> Material for Rate<L> {
 
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
         Ok(self.0.updated(update))
+    }
+
+    fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String> {
+        Ok(Box::new(GreenNaghdi::new(self.0.clone())))
     }
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {

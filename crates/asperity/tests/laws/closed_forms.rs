@@ -54,6 +54,28 @@ fn elastic_simple_shear() {
     }
 }
 
+/// With `tan b = g/2` the polar rotation is `b`, and the rate of Green and Naghdi gives (Dienes 1979)
+/// `s12 = 2 G cos 2b (2 b - 2 tan 2b ln cos b - tan b)`, `s11 = -s22 = 4 G (cos 2b ln cos b + b sin 2b - sin^2 b)`.
+/// The stress never turns back, as Jaumann's does from a shear of pi/2.
+#[test]
+fn elastic_simple_shear_in_the_polar_frame() {
+    let run = |n| run("elastic", &[&format!("step.1.increments={n}"), "rate=\"green-naghdi\""]);
+    let [coarse, fine] = [100, 200].map(run);
+    for g in [1.0_f64, 2.0, 3.0] {
+        let b = (0.5 * g).atan();
+        let (sin, cos) = (2.0 * b).sin_cos();
+        let along = 4.0 * (cos * b.cos().ln() + b * sin - b.sin().powi(2));
+        let shear = 2.0 * (cos * (2.0 * b - b.tan()) - 2.0 * sin * b.cos().ln());
+        for (column, exact) in [("stress_xy", shear), ("stress_xx", along), ("stress_yy", -along)] {
+            let [a, b] = [&coarse, &fine].map(|records| at(records, "elastic", ("strain_xy", g), column) - exact);
+            assert!(a.abs() < 3e-4, "{column} at {g} is off by {a}");
+            assert!((b - 0.25 * a).abs() < 0.02 * a.abs() + 1e-9, "{column} at {g}: {a}, then {b}");
+        }
+    }
+    let shear = |g| at(&fine, "elastic", ("strain_xy", g), "stress_xy");
+    assert!(shear(3.0) > shear(2.0) && shear(2.0) > shear(1.0));
+}
+
 /// Perfectly plastic under Jaumann's rate: `s11` tends to `k^2/G` and `s12` to `sqrt(k^2 - s11^2)`, extrapolated to
 /// increments of no length.
 #[test]

@@ -19,7 +19,7 @@ pub fn load(path: &Path, sets: &[&str]) -> LoadedPoint {
     load_point(path, &sets).unwrap_or_else(|error| panic!("{}", error.render(false)))
 }
 
-/// A law as a deck sets it, by plain backward Euler.
+/// A law as a deck sets it, by plain backward Euler, in Jaumann's frame and in that of Green and Naghdi.
 pub struct Sample {
     /// Name of the registered law and of the deck that sets it.
     pub name: String,
@@ -31,12 +31,16 @@ pub fn samples() -> Vec<Sample> {
     let of = |path: &PathBuf| {
         let deck = load(path, &[]).deck;
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let sample = move |(_, law): &(_, asperity::deck::form::Law<Box<dyn Material>>)| Sample {
-            name: format!("{} of {stem}", law.entry.name),
-            law: law.entry.name,
-            material: law.build().unwrap(),
+        let sample = move |(_, law): &(_, asperity::deck::form::Law<Box<dyn Material>>)| {
+            let (name, material) = (format!("{} of {stem}", law.entry.name), law.build().unwrap());
+            let polar = material.with_green_naghdi().ok().map(|material| Sample {
+                name: format!("{name}, Green-Naghdi"),
+                law: law.entry.name,
+                material,
+            });
+            [Sample { name, law: law.entry.name, material }].into_iter().chain(polar)
         };
-        deck.material.iter().map(sample).collect::<Vec<_>>()
+        deck.material.iter().flat_map(sample).collect::<Vec<_>>()
     };
     decks().iter().flat_map(of).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::Body as BodyKeys;
+use crate::deck::keys::{Body as BodyKeys, integrated};
 use crate::deck::reader::Name;
 use crate::material::Material;
 use crate::solid::{Body, BodyOptions, Heat};
@@ -31,13 +31,10 @@ impl Builder<'_> {
                     thickness: self.site.thickness,
                 };
                 let site = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
-                let material = match &keys.update {
-                    None => materials[number].clone(),
-                    Some(keys) => {
-                        let law = materials[number].with_update(keys.update()).map_err(crate::Error::input);
-                        Arc::from(self.keep(law, keys.place)?)
-                    }
-                };
+                let law = integrated(materials[number].as_ref(), *keys.rate, keys.update.as_ref());
+                let place = keys.update.as_ref().map_or(keys.rate.place, |update| update.place);
+                let law = self.keep(law.map_err(crate::Error::input), place)?;
+                let material = law.map_or_else(|| materials[number].clone(), Arc::from);
                 let body = Body::new(&name.text, site, cells, material, options);
                 let body = self.keep(body, name.place)?;
                 let body = self.heated(body, name, keys)?;

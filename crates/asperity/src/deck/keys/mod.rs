@@ -28,7 +28,7 @@ pub use solid_tool::{Extrude, FacetKeys, Revolve, StlKeys};
 pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
 pub use tool::{Segment, ToolKeys};
-pub use update::UpdateKeys;
+pub use update::{ObjectiveRate, UpdateKeys, integrated};
 
 use super::diagnose::Diagnostic;
 use super::form::{Form, Law, Words, defines, law, map, number, refers, table, table_of, text, whole, word};
@@ -86,6 +86,8 @@ table! {
         integration: Spot<Integration> = word().spot().or("\"full\""),
         /// How the law is integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
+        /// The objective rate of the stress, in whose frame the law is integrated.
+        rate: Spot<ObjectiveRate> = word().spot().or("\"jaumann\""),
         /// Mass of an undeformed unit of volume, on which gravity acts.
         density: Option<Spot<f64>> = number(unit::DENSITY, Range::POSITIVE).spot().unless_given("no weight"),
         /// Linear thermal expansion.

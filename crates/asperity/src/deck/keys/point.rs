@@ -1,8 +1,8 @@
 //! The deck of one material point: materials as in any deck, and the path along which they are driven.
 
-use super::update::UpdateKeys;
+use super::update::{ObjectiveRate, UpdateKeys};
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::form::{Form, Law, defines, law, list, map, number, table, table_of, text, whole};
+use crate::deck::form::{Form, Law, defines, law, list, map, number, table, table_of, text, whole, word};
 use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::Names;
 use crate::deck::source::Spot;
@@ -22,6 +22,8 @@ table! {
             map(defines(Names::Material), law(material::laws::ALL)).required(),
         /// How the laws are integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
+        /// The objective rate of the stress, in whose frame the laws are integrated.
+        rate: ObjectiveRate = word().or("\"jaumann\""),
         /// Stress at the beginning.
         initial_stress: Option<Stresses> = table_of().unless_given("that of the law"),
         /// The path, in order.

@@ -6,6 +6,7 @@ use crate::deck::reader::Reader;
 use crate::deck::source::Spot;
 use crate::declare::{Range, unit};
 use crate::integrate::{Scheme, Update};
+use crate::material::Material;
 
 table! {
     /// Sub-steps and scheme of a law.
@@ -35,6 +36,16 @@ words! {
     }
 }
 
+words! {
+    /// The objective rate of the stress, in whose frame a law is integrated.
+    pub enum ObjectiveRate {
+        /// Jaumann's, with the spin of the solid (Hughes and Winget)
+        Jaumann = "jaumann",
+        /// that of Green and Naghdi, with the spin of the polar rotation
+        GreenNaghdi = "green-naghdi",
+    }
+}
+
 fn parameter(keys: &UpdateKeys, reader: &mut Reader) {
     if let Some(theta) = keys.theta.filter(|_| keys.scheme != SchemeWord::Midpoint) {
         let what = format!("`{}.theta` is the parameter of the midpoint scheme", reader.path());
@@ -51,5 +62,21 @@ impl UpdateKeys {
             SchemeWord::TwoStep => Scheme::TwoStep,
         };
         Update { scheme, substeps: self.substeps, tolerance: self.tolerance }
+    }
+}
+
+/// A law as a body or a point wants it integrated; nothing where that is the law as it is.
+///
+/// # Errors
+/// In words, where the stress of a law follows from the deformation alone.
+pub fn integrated(
+    law: &dyn Material,
+    rate: ObjectiveRate,
+    update: Option<&UpdateKeys>,
+) -> Result<Option<Box<dyn Material>>, String> {
+    let updated = update.map(|keys| law.with_update(keys.update())).transpose()?;
+    match rate {
+        ObjectiveRate::Jaumann => Ok(updated),
+        ObjectiveRate::GreenNaghdi => updated.as_deref().unwrap_or(law).with_green_naghdi().map(Some),
     }
 }

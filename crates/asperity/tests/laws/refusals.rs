@@ -80,3 +80,10 @@ fn hyperelastic_laws_have_nothing_to_sub_step() {
     let Err(found) = read_point(text, "deck.toml", &[]) else { panic!("accepted") };
     assert!(found.render(false).contains("nothing to sub-step"));
 }
+
+#[test]
+fn hyperelastic_laws_have_no_rate() {
+    let text = "version = 1\nrate = \"green-naghdi\"\nmaterial.m.neo_hookean = { shear = 1.0, bulk = 1.0 }\n[[step]]\n";
+    let Err(found) = read_point(text, "deck.toml", &[]) else { panic!("accepted") };
+    assert!(found.render(false).contains("no objective rate enters it"));
+}

@@ -166,3 +166,31 @@ impl RateLaw for DruckerPrager {
         (0.5 * s.contract(s)).sqrt() * (new.1[0] - old.1[0]) + p * (new.1[1] - old.1[1])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three returns of a cone whose flow and yield surface have nothing to do with each other: friction 30 degrees by
+    /// the associated cone, dilatancy 10, `G = 1000`, `K = 2000`, cohesion 10.
+    #[test]
+    fn returns_with_the_associated_cone() {
+        let [eta, xi, _] = Cone::PlaneStrain.match_angles(30f64.to_radians(), 30f64.to_radians());
+        let eta_b = Cone::PlaneStrain.match_angles(30f64.to_radians(), 10f64.to_radians())[2];
+        let elastic = Elastic::new(9.0 * 2e6 / 7e3, 2.0 / 7.0);
+        let soil = DruckerPrager { elastic, eta, eta_b, strength: 10.0 * xi };
+        for ([p, root], wanted) in [
+            ([-20.0, 60.0], [-32.46866, 23.91794]),
+            ([5.0, 40.0], [-5.10058, 10.77074]),
+            ([60.0, 5.0], [17.3205081, 0.0]),
+        ] {
+            let trial = Tensor2::from_voigt([p + root, p - root, p, 0.0, 0.0, 0.0]);
+            let (stress, vars) = soil.update(Tensor2::zero(), trial, &[0.0; 2], 0.0).unwrap();
+            let s = stress.deviator();
+            for (found, wanted) in [stress.trace() / 3.0, (0.5 * s.contract(s)).sqrt()].into_iter().zip(wanted) {
+                assert!((found - wanted).abs() < 6e-6, "{found} instead of {wanted}");
+            }
+            assert!(p < 50.0 || (vars[1] - 0.0213397).abs() < 5e-8, "{}", vars[1]);
+        }
+    }
+}

@@ -21,7 +21,7 @@ pub(super) const POISSON: Parameter = Parameter {
 
 pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
     name: "elastic",
-    meaning: "isotropic linear elasticity, Jaumann rate",
+    meaning: "isotropic linear elasticity of an objective rate",
     parameters: &[YOUNG, POISSON],
     pairs: None,
     build: |v| Ok(rate(Elastic::new(v[0], v[1]))),

@@ -51,13 +51,7 @@ impl<L: RateLaw> GreenNaghdi<L> {
         self.state_len() - 6
     }
 
-    fn advance<T: Scalar>(
-        &self,
-        f: &Tensor2<T>,
-        dt: f64,
-        old: &[f64],
-        new: &mut [f64],
-    ) -> Result<Tensor2<T>, Failure> {
+    fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
         if f.det().re() <= 0.0 {
             return Err(Failure::new(INSIDE_OUT));
         }

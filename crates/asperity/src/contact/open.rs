@@ -82,6 +82,9 @@ impl Attempt for OpenContact<'_> {
 
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
+            if stencil.also[2] > 0 && self.history.slot(index)[entry::SEGMENT] >= 0.0 {
+                return Err(Failure::new(format!("the target came through at {}", self.contact.describe(index))));
+            }
             write_hit(&self.contact.surface.points[index], None, new);
             leave(&*self.contact.law, self.history.slot(index), new);
             return Ok(0);

@@ -106,7 +106,10 @@ impl OpenContact<'_> {
         let (origin, tangent) = spot.place(&placed.x[..placed.edge.nodes.len()]);
         let (_, direction, _) = triad(tangent);
         let cast = Cast { ray: Ray { origin, direction }, ..contact.bounds(index, self.depths[index], self.reach) };
-        let Some(hit) = standing.cast(&cast, memory) else { return Stencil::default() };
+        let Some(hit) = standing.cast(&cast, memory) else {
+            let also = [0, 0, u32::from(cast.lies_within(memory))];
+            return Stencil { also, ..Stencil::default() };
+        };
         let also = [vertices[0], vertices[1], self.recall(index, &spot, memory)];
         Stencil { choice: hit.segment as u32 + 1, near: hit.s, also, ..Stencil::default() }
     }

@@ -92,6 +92,22 @@ impl Surface {
         surface
     }
 
+    /// The same with the rule repeated on each of `parts` equal parts of an edge: for contact that is narrower than an edge,
+    /// which would else pass from one point to the next as over the teeth of a rack.
+    pub fn divided(mut self, parts: usize) -> Self {
+        let (half, whole) = (1.0 / parts as f64, std::mem::take(&mut self.points));
+        for edge in 0..self.edges.len() {
+            let rule = &whole[whole.partition_point(|p| p.edge < edge)..whole.partition_point(|p| p.edge <= edge)];
+            for point in (0..parts).flat_map(|part| rule.iter().map(move |point| (part, point))) {
+                let xi = half * (2.0 * point.0 as f64 + 1.0 + point.1.xi) - 1.0;
+                let (n, dn) = self.edges[edge].shape_at(xi);
+                let weight = half * point.1.weight;
+                self.points.push(SurfacePoint { edge, rule: xi, xi, half: 1.0, n, dn, weight });
+            }
+        }
+        self
+    }
+
     /// A point where it stands when the rule is laid on a part of its edge: at `xi`, on a part of half length `half`.
     pub fn moved(&self, point: usize, [xi, half]: [f64; 2]) -> SurfacePoint {
         let point = self.points[point];

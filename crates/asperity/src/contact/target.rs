@@ -79,6 +79,8 @@ impl<H> Default for Memory<H> {
     }
 }
 
+/// Depth, in units of the largest admissible one, up to which a face that is met is surely not the body's own far side.
+const WITHIN: f64 = 1.8;
 /// Least cosine between a ray and the normal of a face next to the one that the ray comes from: such faces are no
 /// contact unless a fold is closing.
 const FOLD: f64 = 0.5;
@@ -212,6 +214,14 @@ impl Cast<'_> {
     /// To the far side of the body: what lies beyond its middle is refused, and counted.
     pub(super) fn range(&self) -> [f64; 2] {
         [-self.reach, 2.0 * self.depth]
+    }
+
+    /// Whether a face that looks at the surface, among the hits in memory, lies deeper than is admissible and yet within the
+    /// body: the target has come through. The body's own far side, which self-contact sees, is not meant.
+    pub(super) fn lies_within<H: Met>(&self, memory: &Memory<H>) -> bool {
+        let looks = |hit: &H| self.ray.direction.dot(hit.normal()) > Rules::LEAST_COSINE;
+        let within = |hit: &H| hit.u() > self.depth && hit.u() < WITHIN * self.depth;
+        memory.hits.iter().any(|hit| looks(hit) && within(hit))
     }
 
     /// The contact among the hits in memory, on a target of the given size.

@@ -101,4 +101,10 @@ fn account(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
     summary.notes.extend(run.problem.newton.notes());
+    if run.state.jumps > 0 {
+        summary.notes.push(format!(
+            "{} increments ended beyond an instability; they set an energy of {:.4e} free",
+            run.state.jumps, run.state.released
+        ));
+    }
 }

@@ -7,6 +7,7 @@ mod linear;
 mod newton;
 mod observer;
 mod piecewise;
+mod relax;
 mod run;
 mod schedule;
 mod step;

@@ -7,6 +7,7 @@
 use super::convergence::{Norms, Yardstick};
 use super::linear::{Factors, LinearSolver};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
+use super::relax::Drag;
 use super::run::Problem;
 use super::schedule::Step;
 use super::step::forcing;
@@ -42,6 +43,9 @@ pub struct NewtonOptions {
     pub piecewise: bool,
     /// Whether steps are shortened that would make matters worse.
     pub line_search: bool,
+    /// Whether an increment of a model with contact that cutting does not help is relaxed to an equilibrium beyond an
+    /// instability.
+    pub relax: bool,
     /// Every attempt is made twice and the second kept, which must not change a bit. A check of the program itself.
     pub rehearse: bool,
 }
@@ -56,6 +60,7 @@ impl Default for NewtonOptions {
             iterations: 25,
             piecewise: true,
             line_search: true,
+            relax: true,
             rehearse: false,
         }
     }
@@ -130,6 +135,8 @@ pub struct Newton<'a> {
     pub(super) bound: f64,
     /// Motions that the last matrix was propped against, in words.
     pub(super) propped: Vec<String>,
+    /// What the unknowns are dragged through.
+    pub(super) medium: Option<Drag>,
 }
 
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
@@ -174,6 +181,7 @@ impl<'a> Newton<'a> {
             stiffness: 0.0,
             bound: SLOPE,
             propped: Vec::new(),
+            medium: None,
         })
     }
 
@@ -249,6 +257,7 @@ impl<'a> Newton<'a> {
         self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         self.step.constraints.gather(&unbalanced, &mut self.residual);
+        self.drag(u, tangent != Tangent::None);
         Ok(())
     }
 
@@ -270,7 +279,7 @@ impl<'a> Newton<'a> {
     }
 
     /// What prescribed unknowns miss at `u`; where that is rounding, it is put right in `u` at once.
-    fn missing(&self, u: &mut [f64]) -> Option<Vec<f64>> {
+    pub(super) fn missing(&self, u: &mut [f64]) -> Option<Vec<f64>> {
         let (mut missing, mut largest, mut motion) = (vec![0.0; u.len()], 0.0_f64, 0.0_f64);
         for p in &self.step.prescribed {
             let start = p.value(&self.state.step_start);
@@ -292,7 +301,7 @@ impl<'a> Newton<'a> {
         None
     }
 
-    fn measure(&self) -> Norms {
+    pub(super) fn measure(&self) -> Norms {
         let yardstick = Yardstick {
             past: self.state.reference,
             stiffness: self.stiffness,
@@ -315,7 +324,7 @@ impl<'a> Newton<'a> {
         self.stiffness = diagonal.map(|place| self.evaluation.values[place].abs()).fold(0.0, f64::max);
     }
 
-    fn describe(&self, iteration: usize, norms: &Norms, before: &[Vec<(u8, u32)>]) -> IterationRecord {
+    pub(super) fn describe(&self, iteration: usize, norms: &Norms, before: &[Vec<(u8, u32)>]) -> IterationRecord {
         let mut line = IterationRecord {
             iteration,
             residual: norms.ratio,

@@ -47,6 +47,8 @@ pub struct AttemptRecord {
     pub time: f64,
     /// Its length.
     pub dt: f64,
+    /// Whether it is a relaxation to an equilibrium beyond an instability.
+    pub relaxed: bool,
     /// Its iterations, beginning with the state before the first solution.
     pub iterations: Vec<IterationRecord>,
     /// Why it was given up, if it was.

@@ -55,6 +55,10 @@ pub struct Run<'a> {
     solver: Box<dyn LinearSolver>,
 }
 
+/// Part of a step's first increment from which on an increment that fails is relaxed, and what the next one is after that,
+/// at least.
+const RELAX: f64 = 0.125;
+const JUMPED: f64 = 0.25;
 /// Attempts at one increment before the run gives up.
 const ATTEMPTS: usize = 40;
 
@@ -108,6 +112,11 @@ impl Problem {
             Unknown::ToolTranslation(t, a) => format!("tool '{}' along {}", tool(t), axis(a)),
             Unknown::ToolRotation(t, a) => format!("tool '{}' about {}", tool(t), axis(a)),
         }
+    }
+
+    /// Whether increments that fail may be relaxed.
+    fn relaxes(&self) -> bool {
+        self.newton.relax && self.terms.iter().any(|term| term.bends())
     }
 
     /// How many contact points were open, stuck and slipping in an iteration, over all terms that know these words.
@@ -173,18 +182,18 @@ impl<'a> Run<'a> {
 
     /// Solves one increment, cutting it as often as needed, and accepts it.
     fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
-        let mut wanted = self.state.next_dt;
-        let smallest = step.increments.smallest * step.duration;
+        let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, !self.problem.relaxes());
+        let [first, smallest] = [step.increments.first, step.increments.smallest].map(|part| part * step.duration);
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
-            let mut record = self.begin(attempt, dt);
+            let mut record = self.begin(attempt, dt, relaxing);
             let result = self.attempt(dt, &mut record, observer);
             self.state.attempts += 1;
             self.state.iterations += record.solutions();
             match result {
                 Ok(converged) => {
                     observer.attempt(&record);
-                    self.accept(step, dt, wanted, record.first_solutions(), converged);
+                    self.accept(step, (&record, wanted), converged);
                     return Ok(record);
                 }
                 Err(Trouble::Error(error)) => {
@@ -195,7 +204,9 @@ impl<'a> Run<'a> {
                 Err(Trouble::Failure(failure)) => {
                     record.failure = Some(failure.reason.clone());
                     observer.attempt(&record);
-                    wanted = 0.5 * dt;
+                    relaxed |= relaxing;
+                    relaxing = !relaxed && dt <= RELAX * first;
+                    wanted = if relaxing { dt } else { 0.5 * dt };
                     if wanted < smallest {
                         return Err(self.give_up(step, dt, &failure.reason));
                     }
@@ -205,7 +216,7 @@ impl<'a> Run<'a> {
         Err(self.give_up(step, wanted, "too many attempts at one increment"))
     }
 
-    fn begin(&self, attempt: usize, dt: f64) -> AttemptRecord {
+    fn begin(&self, attempt: usize, dt: f64, relaxed: bool) -> AttemptRecord {
         AttemptRecord {
             step: self.state.step,
             increment: self.state.increment + 1,
@@ -213,6 +224,7 @@ impl<'a> Run<'a> {
             step_time: self.state.step_time + dt,
             time: self.state.time + dt,
             dt,
+            relaxed,
             ..AttemptRecord::default()
         }
     }
@@ -241,16 +253,40 @@ impl<'a> Run<'a> {
         record: &mut AttemptRecord,
         observer: &mut dyn Observer,
     ) -> Result<Converged, Trouble> {
+        let mut solve = |record: &mut AttemptRecord, observer: &mut dyn Observer| {
+            let newton = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut())?;
+            if record.relaxed { newton.relax(record, observer) } else { newton.solve(record, observer) }
+        };
         if self.problem.newton.rehearse {
-            let mut thrown_away = record.clone();
-            let rehearsal = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut())?;
-            let _ = rehearsal.solve(&mut thrown_away, &mut super::Silent);
+            let _ = solve(&mut record.clone(), &mut super::Silent);
         }
-        let newton = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut())?;
-        newton.solve(record, observer)
+        solve(record, observer)
     }
 
-    fn accept(&mut self, step: &Step, dt: f64, wanted: f64, iterations: usize, converged: Converged) {
+    fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
+        let before = balance(&self.state);
+        self.commit(converged);
+        let (state, dt) = (&mut self.state, record.dt);
+        state.last_dt = dt;
+        state.next_dt = step.after(dt, wanted, record.first_solutions());
+        if record.relaxed {
+            // What the jump did must not be carried on, nor its increment be the measure of the next.
+            state.last_dt = 0.0;
+            state.next_dt = dt.max(JUMPED * step.increments.first * step.duration);
+            state.released += balance(state) - before;
+            state.jumps += 1;
+        }
+        state.increment += 1;
+        state.step_increment += 1;
+        state.time += dt;
+        state.step_time += dt;
+        if state.step_time >= step.duration * (1.0 - 1e-9) {
+            self.begin_next_step();
+        }
+    }
+
+    /// Makes a converged evaluation the state.
+    fn commit(&mut self, converged: Converged) {
         let (state, mut evaluation) = (&mut self.state, converged.evaluation);
         for (i, (change, u)) in state.last_change.iter_mut().zip(&converged.u).enumerate() {
             *change = u - state.u[i];
@@ -269,20 +305,21 @@ impl<'a> Run<'a> {
         for (past, now) in state.reference.iter_mut().zip(converged.reference) {
             *past = past.max(now);
         }
-        state.last_dt = dt;
-        state.next_dt = step.after(dt, wanted, iterations);
-        state.increment += 1;
-        state.step_increment += 1;
-        state.time += dt;
-        state.step_time += dt;
-        if state.step_time >= step.duration * (1.0 - 1e-9) {
-            state.step += 1;
-            (state.step_increment, state.step_time) = (0, 0.0);
-            state.last_dt = 0.0;
-            state.step_start.clone_from(&state.u);
-            if let Some(next) = self.problem.steps.get(state.step) {
-                state.next_dt = next.increments.first * next.duration;
-            }
+    }
+
+    fn begin_next_step(&mut self) {
+        let state = &mut self.state;
+        state.step += 1;
+        (state.step_increment, state.step_time) = (0, 0.0);
+        state.last_dt = 0.0;
+        state.step_start.clone_from(&state.u);
+        if let Some(next) = self.problem.steps.get(state.step) {
+            state.next_dt = next.increments.first * next.duration;
         }
     }
+}
+
+/// Energy that came from outside and is neither stored nor dissipated.
+fn balance(state: &State) -> f64 {
+    state.external_work - state.energies.iter().map(|e| e.stored + e.dissipated - e.supplied).sum::<f64>()
 }

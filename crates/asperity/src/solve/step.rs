@@ -114,7 +114,7 @@ impl Newton<'_> {
             Variant::Modified => iteration > 0,
             Variant::Kept => iteration != 4,
         };
-        if keep && self.memory.factorised {
+        if keep && self.medium.is_none() && self.memory.factorised {
             return Ok(false);
         }
         self.memory.factorisations += 1;

@@ -84,6 +84,10 @@ pub struct State {
     pub energies: Vec<Energies>,
     /// Work of supports and loads since the start.
     pub external_work: f64,
+    /// Increments that ended beyond an instability,
+    pub jumps: usize,
+    /// and the energy that was set free in them.
+    pub released: f64,
     /// History of each term.
     pub histories: Vec<History>,
     /// Attempts and iterations spent so far.

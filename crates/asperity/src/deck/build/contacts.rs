@@ -82,6 +82,7 @@ impl Builder<'_> {
         let options = self.options(keys, (surface, opposite), moduli);
         let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
             let carrier = Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value));
+            let carrier = carrier.divided(keys.parts.map_or(1, |parts| parts.value));
             let boundary = boundary_behind(&mesh, sides, &self.deck.body);
             let site = (mesh.clone(), self.site.dofs.clone(), self.site.space);
             Contact::new(name, site, (carrier, boundary), target, (law.clone(), options))

@@ -36,6 +36,10 @@ impl Builder<'_> {
         if !self.check_passes(name, keys, (sides, opposite)) {
             return None;
         }
+        if let Some(parts) = keys.parts {
+            self.refuse("`parts` divides edges, which carry contact in the plane and in axial symmetry", parts.place);
+            return None;
+        }
         let options = self.options(keys, (sides, opposite), moduli);
         let build = |name: &str, sides: &[Side], target: Target| {
             Contact::new(Parts {

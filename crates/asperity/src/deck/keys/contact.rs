@@ -23,6 +23,8 @@ table! {
         /// Integration points along an edge; along each side of a quadrilateral face, and 1, 3 or 6 on a triangle.
         gauss: Option<Spot<usize>> =
             whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree"),
+        /// Equal parts of an edge that carry these points each: more than one where contact is narrower than an edge.
+        parts: Option<Spot<usize>> = whole(1..=64).spot().computed("1"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
             .computed("50 times the confined modulus over the depth of the cells behind the faces, the least of both sides; 10 times with two passes"),

@@ -22,6 +22,9 @@ table! {
         piecewise: bool = flag().or("true"),
         /// Whether a correction that does not lower the residual is shortened.
         line_search: bool = flag().or("true"),
+        /// Whether an increment that cutting does not help, as where a contact lets go, is relaxed at fixed load to the
+        /// equilibrium beyond; in models with contact.
+        relax: bool = flag().or("true"),
     }
 }
 
@@ -65,6 +68,7 @@ impl Solver {
             iterations: self.iterations,
             piecewise: self.piecewise,
             line_search: self.line_search,
+            relax: self.relax,
             rehearse: false,
         }
     }

@@ -1,5 +1,5 @@
 //! Energies: what is stored, what has been dissipated, what came from outside (with what was stored at the start and
-//! what heat supplied), and what is missing between them.
+//! what heat supplied), what was set free in instabilities, and what is missing between them.
 
 use super::Source;
 use crate::Error;
@@ -28,9 +28,11 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         ("energy.contact", contact(all.stored, bodies.stored, springs.stored)),
         ("energy.friction", contact(all.dissipated, bodies.dissipated, springs.dissipated)),
         ("energy.spring", springs.stored),
+        ("energy.released", source.state.released),
     ];
     for (name, value) in entries {
         frame.push(Quantity::scalar(name, Unit::Energy, value))?;
     }
-    frame.push(Quantity::scalar("energy.missing", Unit::Energy, external - all.stored - all.dissipated))
+    let missing = external - all.stored - all.dissipated - source.state.released;
+    frame.push(Quantity::scalar("energy.missing", Unit::Energy, missing))
 }

@@ -1,0 +1,145 @@
+//! Equilibria beyond an instability.
+//!
+//! Where a contact passes a notch or lets go, no equilibrium lies near the last one, however small the increment: what is
+//! held back springs free. At fixed load the unbalanced forces are then followed through a viscous medium,
+//! `c dq/ds = -r(q)`, by implicit Euler steps `r(q) + c (q - q_k) = 0` whose viscosity falls as they succeed and grows when
+//! one fails, until the forces balance without it (pseudo-transient continuation: Kelley & Keyes, SIAM J. Numer. Anal.
+//! 35, 1998). The equilibrium that is found is one that friction-laden, slow motion falls into, and not any solution.
+
+use super::newton::{Converged, Newton, Trouble};
+use super::observer::{AttemptRecord, IterationRecord, Observer};
+use super::step::forcing;
+use crate::Failure;
+
+/// First viscosity over the mean stiffness of an unknown.
+const START: f64 = 1e-2;
+/// What a step that took few iterations, or many, leaves of the viscosity, and what one that failed makes of it.
+const FAST: f64 = 0.25;
+const SLOW: f64 = 0.5;
+const BACK: f64 = 8.0;
+/// Iterations of a step, and up to which they are few.
+const ITERATIONS: usize = 10;
+const FEW: usize = 3;
+/// A step must lower the unbalanced forces to this part of what they are without the medium.
+const ENOUGH: f64 = 0.05;
+/// Most steps of one relaxation, and most solutions.
+const STEPS: usize = 100;
+
+/// A viscous medium.
+#[derive(Debug, Clone)]
+pub(super) struct Drag {
+    /// Its stiffness over one step.
+    coefficient: f64,
+    /// Free unknowns when the step began.
+    anchor: Vec<f64>,
+}
+
+impl Drag {
+    /// Force over motion of an unknown; a rotation sweeps through the medium at the size of the model.
+    fn at(&self, rotation: bool, size: f64) -> f64 {
+        self.coefficient * if rotation { size * size } else { 1.0 }
+    }
+}
+
+impl Newton<'_> {
+    /// Adds the drag to the residual at `u` and, where the matrix is new, to its diagonal.
+    pub(super) fn drag(&mut self, u: &[f64], matrix: bool) {
+        let Some(drag) = &self.medium else { return };
+        let (pattern, size) = (self.memory.workspace.pattern(), self.problem.size);
+        for (row, (&dof, anchor)) in self.step.constraints.free().iter().zip(&drag.anchor).enumerate() {
+            let c = drag.at(self.problem.dofs.is_rotation(dof), size);
+            self.residual[row] += c * (u[dof] - anchor);
+            if let Some(place) = pattern.position(row, row).filter(|_| matrix) {
+                self.evaluation.values[place] += c;
+            }
+        }
+    }
+
+    /// Follows the unbalanced forces from the accepted state to an equilibrium at the end of the increment.
+    pub fn relax(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, Trouble> {
+        let mut u = self.state.u.clone();
+        let mut missing = self.missing(&mut u);
+        self.evaluate(&u, missing.as_deref(), self.tangent())?;
+        self.solver.begin();
+        let mut coefficient = START * self.mean_stiffness();
+        for _ in 0..STEPS {
+            let free = self.step.constraints.free();
+            self.medium = Some(Drag { coefficient, anchor: free.iter().map(|&dof| u[dof]).collect() });
+            let mut trial = (u.clone(), missing.clone());
+            let taken = match self.creep(&mut trial, record, observer) {
+                Err(Trouble::Error(error)) => return Err(Trouble::Error(error)),
+                Err(Trouble::Failure(_)) => None,
+                Ok(taken) => taken,
+            };
+            self.medium = None;
+            match taken {
+                Some(iterations) => {
+                    (u, missing) = trial;
+                    coefficient *= if iterations <= FEW { FAST } else { SLOW };
+                }
+                None => coefficient *= BACK,
+            }
+            self.evaluate(&u, missing.as_deref(), self.tangent())?;
+            if missing.is_none() && self.measure().converged() {
+                self.polish(&mut u)?;
+                let norms = self.measure();
+                self.stands(&u, norms.reference[0])?;
+                return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+            }
+        }
+        Err(Failure::new("no equilibrium was found in a viscous medium either").into())
+    }
+
+    /// One more iteration: what the medium leaves, small at every node, all points the same way.
+    fn polish(&mut self, u: &mut Vec<f64>) -> Result<(), Trouble> {
+        let (rough, ratio) = (u.clone(), self.measure().ratio);
+        let motion = self.linearise((0, u), None, forcing(ratio, 1.0))?;
+        let better = self.advance(u, &motion, None).is_ok() && self.measure().ratio <= ratio;
+        if !better {
+            *u = rough;
+            self.evaluate(u, None, self.tangent())?;
+        }
+        Ok(())
+    }
+
+    /// One step in the medium: iterations to its end, None if it fails.
+    fn creep(
+        &mut self,
+        (u, missing): &mut (Vec<f64>, Option<Vec<f64>>),
+        record: &mut AttemptRecord,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<usize>, Trouble> {
+        let (mut goal, mut ratio) = (f64::INFINITY, 0.0);
+        self.evaluate(u, missing.as_deref(), self.tangent())?;
+        for iteration in 0..=ITERATIONS {
+            let norms = self.measure();
+            let line = IterationRecord { iteration, ..self.describe(iteration, &norms, &[]) };
+            observer.iteration(record, &line);
+            record.iterations.push(line);
+            if iteration == 0 {
+                goal = norms.allowed.max(ENOUGH * norms.ratio);
+            }
+            if iteration > 0 && missing.is_none() && norms.ratio <= goal {
+                return Ok(Some(iteration));
+            }
+            if iteration == ITERATIONS || !norms.ratio.is_finite() {
+                break;
+            }
+            let motion = self.linearise((iteration, u), missing.as_deref(), forcing(norms.ratio, ratio))?;
+            ratio = norms.ratio;
+            let taken = self.advance(u, &motion, missing.as_deref())?;
+            *missing = missing.take().filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
+        }
+        Ok(None)
+    }
+
+    /// Mean diagonal entry of a displacement.
+    fn mean_stiffness(&self) -> f64 {
+        let pattern = self.memory.workspace.pattern();
+        let free = self.step.constraints.free().iter().enumerate();
+        let places = free.filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
+        let places: Vec<usize> = places.filter_map(|(row, _)| pattern.position(row, row)).collect();
+        let sum: f64 = places.iter().map(|&place| self.evaluation.values[place].abs()).sum();
+        sum / places.len().max(1) as f64
+    }
+}

@@ -143,3 +143,28 @@ fn forces_of_one_pass_balance() {
     }
     assert!(closed > 500, "{closed}");
 }
+
+/// A block that has come more than half way through another stands in no contact that could push it back: a point that saw
+/// it coming says so.
+#[test]
+fn a_target_that_came_through_is_refused() {
+    let (contact, dofs) = contact("quad8", Carrier::Wide, Loads::Both, Space::PlaneStrain);
+    let mesh = mesh("quad8");
+    let accepted = state(vec![0.0; dofs.count()], contact.initial());
+    let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+    let refused = |down: f64| {
+        let mut u = vec![0.0; dofs.count()];
+        mesh.groups["narrow"].nodes.iter().for_each(|&node| u[dofs.node(node) + 1] = -down);
+        let mut stencils = Stencils::default();
+        attempt.stencils(&u, &mut stencils).unwrap();
+        let (mut local, mut refused) = (Local::default(), 0);
+        for (i, stencil) in stencils.list.iter().enumerate() {
+            local.u = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
+            local.reset(stencil.len);
+            refused += usize::from(attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local).is_err());
+        }
+        refused
+    };
+    assert_eq!(refused(0.3), 0);
+    assert!(refused(0.7) > 0);
+}

@@ -141,3 +141,34 @@ impl SurfacePoint {
         (a, tangent)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generate::Annulus;
+
+    /// Edges with more points have the same length and the same moment.
+    #[test]
+    fn a_divided_edge_is_as_long_as_the_whole() {
+        let ring = Annulus::new([0.0, 0.0], [2.0, 10.0], [0.0, 90.0], [2, 3], Cell::named("quad8").unwrap());
+        let mesh = ring.mesh("ring").unwrap();
+        let whole = Surface::new(&mesh, &mesh.groups["ring.outer"].sides, Some(3));
+        let moments = |surface: &Surface, edge: usize| {
+            let points = surface.points_of(edge).map(|i| surface.points[i]);
+            points.fold([0.0; 2], |[length, moment], point| {
+                let x: Vec<Vec3> = surface.nodes(&point).iter().map(|&node| mesh.points[node]).collect();
+                let (a, tangent) = point.place(&x);
+                let part = point.weight * tangent.norm();
+                [length + part, moment + part * a[0]]
+            })
+        };
+        for parts in [1, 2, 5] {
+            let divided = whole.clone().divided(parts);
+            assert_eq!(divided.points.len(), parts * whole.points.len());
+            for edge in 0..3 {
+                let (a, b) = (moments(&whole, edge), moments(&divided, edge));
+                assert!((0..2).all(|k| (a[k] / b[k] - 1.0).abs() < 1e-4), "{a:?} {b:?}");
+            }
+        }
+    }
+}

@@ -313,7 +313,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Largest diagonal entry of a displacement.
-    fn refresh_stiffness(&mut self) {
+    pub(super) fn refresh_stiffness(&mut self) {
         let pattern = self.memory.workspace.pattern();
         if self.evaluation.values.len() != pattern.columns.len() {
             return;

@@ -4,7 +4,8 @@
 //! held back springs free. At fixed load the unbalanced forces are then followed through a viscous medium,
 //! `c dq/ds = -r(q)`, by implicit Euler steps `r(q) + c (q - q_k) = 0` whose viscosity falls as they succeed and grows when
 //! one fails, until the forces balance without it (pseudo-transient continuation: Kelley & Keyes, SIAM J. Numer. Anal.
-//! 35, 1998). The equilibrium that is found is one that friction-laden, slow motion falls into, and not any solution.
+//! 35, 1998). The equilibrium that is found is the one into which a slow motion
+//! falls, and not any solution.
 
 use super::newton::{Converged, Newton, Trouble};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
@@ -16,14 +17,16 @@ const START: f64 = 1e-2;
 /// What a step that took few iterations, or many, leaves of the viscosity, and what one that failed makes of it.
 const FAST: f64 = 0.25;
 const SLOW: f64 = 0.5;
-const BACK: f64 = 8.0;
+const BACK: f64 = 4.0;
 /// Iterations of a step, and up to which they are few.
 const ITERATIONS: usize = 10;
 const FEW: usize = 3;
 /// A step must lower the unbalanced forces to this part of what they are without the medium.
 const ENOUGH: f64 = 0.05;
-/// Most steps of one relaxation, and most solutions.
-const STEPS: usize = 100;
+/// Part of the tolerance that iterations without the medium must reach at the end.
+const SETTLED: f64 = 1e-2;
+/// Most steps of one relaxation.
+const STEPS: usize = 150;
 
 /// A viscous medium.
 #[derive(Debug, Clone)]
@@ -61,27 +64,34 @@ impl Newton<'_> {
         let mut missing = self.missing(&mut u);
         self.evaluate(&u, missing.as_deref(), self.tangent())?;
         self.solver.begin();
-        let mut coefficient = START * self.mean_stiffness();
+        let (mut coefficient, mut failed) = (START * self.mean_stiffness(), false);
         for _ in 0..STEPS {
             let free = self.step.constraints.free();
             self.medium = Some(Drag { coefficient, anchor: free.iter().map(|&dof| u[dof]).collect() });
             let mut trial = (u.clone(), missing.clone());
             let taken = match self.creep(&mut trial, record, observer) {
-                Err(Trouble::Error(error)) => return Err(Trouble::Error(error)),
                 Err(Trouble::Failure(_)) => None,
-                Ok(taken) => taken,
+                taken => taken?,
             };
             self.medium = None;
             match taken {
                 Some(iterations) => {
                     (u, missing) = trial;
-                    coefficient *= if iterations <= FEW { FAST } else { SLOW };
+                    // After a step that failed the same viscosity is tried once more.
+                    coefficient *= if failed {
+                        1.0
+                    } else if iterations <= FEW {
+                        FAST
+                    } else {
+                        SLOW
+                    };
                 }
                 None => coefficient *= BACK,
             }
+            failed = taken.is_none();
             self.evaluate(&u, missing.as_deref(), self.tangent())?;
-            if missing.is_none() && self.measure().converged() {
-                self.polish(&mut u)?;
+            self.refresh_stiffness();
+            if missing.is_none() && self.measure().converged() && self.settles(&mut u)? {
                 let norms = self.measure();
                 self.stands(&u, norms.reference[0])?;
                 return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
@@ -90,16 +100,24 @@ impl Newton<'_> {
         Err(Failure::new("no equilibrium was found in a viscous medium either").into())
     }
 
-    /// One more iteration: what the medium leaves, small at every node, all points the same way.
-    fn polish(&mut self, u: &mut Vec<f64>) -> Result<(), Trouble> {
-        let (rough, ratio) = (u.clone(), self.measure().ratio);
-        let motion = self.linearise((0, u), None, forcing(ratio, 1.0))?;
-        let better = self.advance(u, &motion, None).is_ok() && self.measure().ratio <= ratio;
-        if !better {
-            *u = rough;
-            self.evaluate(u, None, self.tangent())?;
+    /// Whether iterations without the medium end close by. What it leaves, small at every node, all points the same way.
+    fn settles(&mut self, u: &mut Vec<f64>) -> Result<bool, Trouble> {
+        let (rough, mut ratio) = (u.clone(), self.measure().ratio);
+        for _ in 0..FEW {
+            let iterated =
+                self.linearise((0, u), None, forcing(ratio, 1.0)).and_then(|m| Ok(self.advance(u, &m, None)?));
+            let norms = self.measure();
+            if iterated.is_err() || norms.ratio > ratio.max(norms.allowed) {
+                break;
+            }
+            if norms.ratio <= (SETTLED * norms.allowed).max(norms.rounding) {
+                return Ok(true);
+            }
+            ratio = norms.ratio;
         }
-        Ok(())
+        *u = rough;
+        self.evaluate(u, None, self.tangent())?;
+        Ok(false)
     }
 
     /// One step in the medium: iterations to its end, None if it fails.
@@ -117,7 +135,7 @@ impl Newton<'_> {
             observer.iteration(record, &line);
             record.iterations.push(line);
             if iteration == 0 {
-                goal = norms.allowed.max(ENOUGH * norms.ratio);
+                goal = (SETTLED * norms.allowed).max(ENOUGH * norms.ratio);
             }
             if iteration > 0 && missing.is_none() && norms.ratio <= goal {
                 return Ok(Some(iteration));

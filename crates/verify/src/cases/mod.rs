@@ -2,6 +2,7 @@
 
 mod billet;
 mod capstan;
+mod claw;
 mod contact_patch;
 mod crushed_ring;
 mod dragged_ball;
@@ -42,6 +43,7 @@ pub const ALL: &[&Case] = &[
     &dragged_ball::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
+    &claw::CASE,
     &pull_out::CASE,
     &thick_shells::CASE,
     &strip_punch::CASE,

@@ -233,7 +233,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Lets the terms improve what they hold besides the unknowns, and evaluates anew if any did.
-    fn augment(&mut self, u: &[f64]) -> Result<bool, Failure> {
+    pub(super) fn augment(&mut self, u: &[f64]) -> Result<bool, Failure> {
         let (mut again, histories) = (false, &mut self.evaluation.histories);
         for (attempt, new) in self.assembly.attempts.iter_mut().zip(histories) {
             again |= attempt.augment(u, new)?;

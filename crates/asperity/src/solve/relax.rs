@@ -94,7 +94,9 @@ impl Newton<'_> {
             if missing.is_none() && self.measure().converged() && self.settles(&mut u)? {
                 let norms = self.measure();
                 self.stands(&u, norms.reference[0])?;
-                return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+                if !self.augment(&u)? {
+                    return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+                }
             }
         }
         Err(Failure::new("no equilibrium was found in a viscous medium either").into())

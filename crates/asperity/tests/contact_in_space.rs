@@ -4,7 +4,7 @@
 mod perturbed;
 
 use asperity::contact::space::{Contact, Parts, Rigid, Surface, Target};
-use asperity::contact::{ContactOptions, Guard, Loads};
+use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Overlap};
 use asperity::deck::{build, read};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::{Cell, generate::Block};
@@ -70,6 +70,9 @@ fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
         coupling: true,
         guard: Guard::Refuse,
         augmentation: None,
+        overlap: Overlap::Keep,
+        wear: None,
+        form: ContactForm::Traction,
     };
     let parts = Parts {
         name: "c".into(),

@@ -5,8 +5,11 @@
 mod perturbed;
 
 use asperity::Failure;
-use asperity::contact::{Augmentation, Contact, ContactOptions, Guard, Loads, Surface, Target};
-use asperity::interface::{Law, laws::Coulomb};
+use asperity::contact::{Augmentation, Contact, ContactForm, ContactOptions, Guard, Loads, Overlap, Surface, Target};
+use asperity::interface::{
+    Law,
+    laws::{Coulomb, OdenPires},
+};
 use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
@@ -73,14 +76,20 @@ fn body_is_exact(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, random: &
 
 /// A contact of the lower side of one cell with a target of one segment below it, its tool free to move.
 fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
-    contact_with(cell, shape, space, None)
+    contact_with((cell, shape), space, 0.4, |_| {})
 }
 
 fn augmented(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
-    contact_with(cell, shape, space, Some(Augmentation { penetration: 1e-9, slip: 1e-9, loops: 3 }))
+    let augmentation = Augmentation { penetration: 1e-9, slip: 1e-9, loops: 3 };
+    contact_with((cell, shape), space, 0.4, |options| options.augmentation = Some(augmentation))
 }
 
-fn contact_with(cell: &str, shape: &str, space: Space, augmentation: Option<Augmentation>) -> (Contact, Dofs) {
+fn contact_with(
+    (cell, shape): (&str, &str),
+    space: Space,
+    friction: f64,
+    change: impl FnOnce(&mut ContactOptions),
+) -> (Contact, Dofs) {
     let mesh = Rectangle::new([1.0, 0.0], [2.0, 1.0], [1; 2], Cell::named(cell).unwrap()).mesh("b").unwrap();
     let dofs = Dofs::new(2, mesh.points.len(), 1);
     let mesh = Arc::new(mesh);
@@ -95,7 +104,7 @@ fn contact_with(cell: &str, shape: &str, space: Space, augmentation: Option<Augm
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
     // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
     let (loads, coupling) = (Loads::Both, true);
-    let options = ContactOptions {
+    let mut options = ContactOptions {
         penalty: 1.0,
         tangential_penalty: 0.7,
         thickness: 0.8,
@@ -103,9 +112,13 @@ fn contact_with(cell: &str, shape: &str, space: Space, augmentation: Option<Augm
         loads,
         coupling,
         guard: Guard::Refuse,
-        augmentation,
+        augmentation: None,
+        overlap: Overlap::Keep,
+        wear: None,
+        form: ContactForm::Traction,
     };
-    let law = Arc::new(Law(Coulomb::new(0.4)));
+    change(&mut options);
+    let law = Arc::new(Law(Coulomb::new(friction)));
     let parts = (mesh, dofs.clone(), space);
     let target = Target::tool(tool, 0, &dofs);
     (Contact::new("c", parts, (surface, boundary), target, (law, options)), dofs)
@@ -209,4 +222,150 @@ fn tangents_of_augmented_contact_are_exact() {
         }
         assert!(shifted > 200 && met.iter().all(|&met| met >= 10) && worst < ALLOWED, "{shifted} {met:?} {worst:.1e}");
     }
+}
+
+/// The variational form: its tangent is exact too, on every shape of target, with friction.
+#[test]
+fn tangents_of_the_variational_form_are_exact() {
+    for shape in ["line", "parabola", "arc"] {
+        for space in [Space::PlaneStrain, Space::Axisymmetric] {
+            let variational = |options: &mut ContactOptions| options.form = ContactForm::Variational;
+            let ((contact, dofs), mut random) = (contact_with(("quad8", shape), space, 0.4, variational), Random(13));
+            let start = state(vec![0.0; dofs.count()], contact.initial());
+            let (mut met, mut worst) = ([0; 3], 0.0_f64);
+            for _ in 0..300 {
+                let accepted = commit(&contact, &start, motion(&dofs, &mut random)).unwrap();
+                let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+                for result in check(attempt.as_ref(), &motion(&dofs, &mut random)).unwrap() {
+                    met[usize::from(result.branch)] += 1;
+                    worst = if result.smooth { worst.max(result.error) } else { worst };
+                }
+            }
+            assert!(met.iter().all(|&met| met >= 10) && worst < ALLOWED, "{shape} {space:?}: {met:?} {worst:.1e}");
+        }
+    }
+}
+
+/// Without friction its forces are the gradient of the energy that it stores; those of the paper's form are not.
+#[test]
+fn the_variational_form_has_a_potential() {
+    for space in [Space::PlaneStrain, Space::Axisymmetric] {
+        let [potential, traction] = [ContactForm::Variational, ContactForm::Traction].map(|form| {
+            let frictionless = |options: &mut ContactOptions| options.form = form;
+            let ((contact, dofs), mut random) = (contact_with(("quad8", "arc"), space, 0.0, frictionless), Random(17));
+            let start = state(vec![0.0; dofs.count()], contact.initial());
+            let attempt = contact.attempt(&start, &start.histories[0], instant()).unwrap();
+            (0..200).map(|_| gradient_error(attempt.as_ref(), &motion(&dofs, &mut random))).fold(0.0, f64::max)
+        });
+        assert!(potential < ALLOWED && traction > 1e-3, "{space:?}: {potential:.1e} {traction:.1e}");
+    }
+}
+
+/// Largest difference of forces and central differences of the stored energy over the largest force, over all closed
+/// points without shear.
+fn gradient_error(attempt: &dyn Attempt, u: &[f64]) -> f64 {
+    let (mut stencils, mut worst) = (Stencils::default(), 0.0_f64);
+    attempt.stencils(u, &mut stencils).unwrap();
+    for (i, stencil) in stencils.list.iter().enumerate() {
+        let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
+        let (mut local, mut history) = (Local::default(), attempt.scratch(i));
+        let mut at = |u: Vec<f64>| {
+            local.u = u;
+            local.reset(stencil.len);
+            let branch = attempt.evaluate(i, stencil, &mut history, &mut local).unwrap();
+            (branch, local.stored, local.force.clone())
+        };
+        let (branch, _, force) = at(here.clone());
+        if branch == 0 {
+            continue;
+        }
+        let largest = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        for k in 0..stencil.len {
+            let mut slope = |h: f64| {
+                let moved = |h: f64| here.iter().enumerate().map(|(j, u)| u + if j == k { h } else { 0.0 }).collect();
+                let (one, other) = (at(moved(h)), at(moved(-h)));
+                (one.0 == branch && other.0 == branch).then(|| (one.1 - other.1) / (2.0 * h))
+            };
+            if let (Some(coarse), Some(fine)) = (slope(2e-4), slope(1e-4)) {
+                worst = worst.max(((4.0 * fine - coarse) / 3.0 - force[k]).abs() / largest);
+            }
+        }
+    }
+    worst
+}
+
+/// A strip of three cells on a slanted line, with friction by the mean pressure within a radius.
+fn nonlocal(radius: f64, space: Space) -> (Contact, Dofs) {
+    let mesh = Rectangle::new([1.0, 0.0], [2.0, 1.0], [3, 1], Cell::named("quad8").unwrap()).mesh("b").unwrap();
+    let dofs = Dofs::new(2, mesh.points.len(), 1);
+    let mesh = Arc::new(mesh);
+    let nodes = [Vec3::new(4.0, 0.1, 0.0), Vec3::new(-1.0, -0.1, 0.0)];
+    let profile = vec![shapes::find("line").unwrap().build(&nodes).unwrap()];
+    let tool = Arc::new(Tool::new("t", vec![profile], Vec3::new(1.5, -1.0, 0.0)));
+    let boundary = mesh.boundary(&[0, 1, 2]);
+    let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
+    let law = Arc::new(Law(OdenPires { friction: 0.4, length: 0.05, radius }));
+    let options = *contact("quad8", "line", space).0.options();
+    let target = Target::tool(tool, 0, &dofs);
+    (Contact::new("c", (mesh, dofs.clone(), space), (surface, boundary), target, (law, options)), dofs)
+}
+
+/// Pressed by enough to be closed everywhere: the mean has no other bends.
+fn pressed(dofs: &Dofs, random: &mut Random) -> Vec<f64> {
+    let mut u = motion(dofs, random);
+    (0..dofs.nodes()).for_each(|node| u[dofs.node(node) + 1] -= 0.12);
+    u
+}
+
+/// Friction by the mean pressure at the trial displacements: its tangent is exact along the unknowns of the neighbours.
+#[test]
+fn tangents_of_nonlocal_friction_are_exact() {
+    for space in [Space::PlaneStrain, Space::Axisymmetric] {
+        let ((contact, dofs), mut random) = (nonlocal(0.5, space), Random(19));
+        let start = state(vec![0.0; dofs.count()], contact.initial());
+        let (mut met, mut worst, mut most) = (0, 0.0_f64, 0);
+        for _ in 0..100 {
+            let accepted = commit(&contact, &start, pressed(&dofs, &mut random)).unwrap();
+            let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+            let trial = pressed(&dofs, &mut random);
+            let mut stencils = Stencils::default();
+            attempt.stencils(&trial, &mut stencils).unwrap();
+            most = stencils.list.iter().map(|stencil| stencil.len).max().unwrap();
+            for result in check(attempt.as_ref(), &trial).unwrap().iter().filter(|result| result.smooth) {
+                (met, worst) = (met + usize::from(result.branch > 0), worst.max(result.error));
+            }
+        }
+        // Three nodes of its own, the tool, three of each of the other two edges.
+        assert!(met > 300 && most == 6 + 3 + 12 && worst < ALLOWED, "{space:?}: {met} {most} {worst:.1e}");
+    }
+}
+
+/// The mean pressure is that of the points around by the weights that the law states; far ones do not count.
+#[test]
+fn nonlocal_friction_takes_the_mean() {
+    let ((wide, dofs), mut random) = (nonlocal(0.5, Space::PlaneStrain), Random(23));
+    let (narrow, _) = nonlocal(1e-3, Space::PlaneStrain);
+    let u = pressed(&dofs, &mut random);
+    let records = |contact: &Contact| {
+        let start = state(vec![0.0; dofs.count()], contact.initial());
+        let first = commit(contact, &start, pressed(&dofs, &mut Random(29))).unwrap();
+        let end = commit(contact, &first, u.clone()).unwrap();
+        contact.records(&end.u, &end.histories[0]).collect::<Vec<_>>()
+    };
+    let (mean, local) = (records(&wide), records(&narrow));
+    let rest = |i: usize| 1.0 + (i / 2) as f64 / 3.0 + (0.5 + [-0.5, 0.5][i % 2] / 3.0_f64.sqrt()) / 3.0;
+    let mut apart = 0.0_f64;
+    for i in 0..6 {
+        let weight = |j: usize| {
+            let part = ((rest(i) - rest(j)) / 0.5).powi(2);
+            if part < 1.0 { (1.0 / (part - 1.0)).exp() } else { 0.0 }
+        };
+        let sum = |of: &dyn Fn(usize) -> f64| (0..6).map(|j| weight(j) * of(j)).sum::<f64>();
+        let expected = sum(&|j| local[j].pressure) / sum(&|_| 1.0);
+        assert!((mean[i].pressure / local[i].pressure - 1.0).abs() < 1e-12);
+        let ratio = mean[i].shear / local[i].shear;
+        assert!((ratio * local[i].pressure / expected - 1.0).abs() < 1e-10, "{i}: {ratio} {expected}");
+        apart = apart.max((ratio - 1.0).abs());
+    }
+    assert!(apart > 0.01, "{apart}");
 }

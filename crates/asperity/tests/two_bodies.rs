@@ -4,7 +4,7 @@
 
 mod perturbed;
 
-use asperity::contact::{Contact, ContactOptions, Faces, Guard, Loads, Surface, Target};
+use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Overlap, Surface, Target};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
@@ -54,6 +54,9 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
         coupling: true,
         guard: Guard::Refuse,
         augmentation: None,
+        overlap: Overlap::Keep,
+        wear: None,
+        form: ContactForm::Traction,
     };
     let parts = (mesh.clone(), dofs.clone(), space);
     let law = Arc::new(Law(Coulomb::new(0.4)));

@@ -5,7 +5,7 @@
 mod perturbed;
 
 use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
-use asperity::contact::{ContactOptions, Guard, Loads};
+use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Overlap};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh};
@@ -63,6 +63,9 @@ fn contact(cells: [&str; 2], loads: Loads, friction: f64) -> (Contact, Dofs) {
         coupling: true,
         guard: Guard::Refuse,
         augmentation: None,
+        overlap: Overlap::Keep,
+        wear: None,
+        form: ContactForm::Traction,
     };
     let parts = Parts {
         name: "c".into(),

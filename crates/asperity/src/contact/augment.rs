@@ -145,11 +145,6 @@ impl Corners {
         here
     }
 
-    /// The same for closures alone.
-    pub fn closure_at(&self, point: usize, closures: &[f64]) -> f64 {
-        self.spreads[point].iter().map(|(corner, function)| function * closures[corner]).sum()
-    }
-
     /// Improves multipliers by what the points report, and says what was left. Points that see no target have none.
     pub fn improve(&self, shifts: &mut [Shift], reports: impl IntoIterator<Item = Option<Report>>) -> Left {
         let mut means = vec![Mean::default(); self.count()];
@@ -273,8 +268,6 @@ mod tests {
         }
         assert!((left.penetration - 0.125).abs() < 1e-15 && left.slip == 0.0, "{left:?}");
         assert!((corners.at(2, &shifts).closure - 0.5 * expected[1]).abs() < 1e-15);
-        let closures: Vec<f64> = shifts.iter().map(|shift| shift.closure).collect();
-        assert_eq!(corners.closure_at(0, &closures), corners.at(0, &shifts).closure);
     }
 
     /// Points that see nothing leave their corners without multipliers; a bond may pull; what slides asks for nothing.

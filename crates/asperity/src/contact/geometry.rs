@@ -7,7 +7,7 @@
 use super::before::Before;
 use super::layout::Layout;
 use super::open::OpenContact;
-use super::pair::Loads;
+use super::options::Loads;
 use super::point::{Closed, Place, triad};
 use super::seed::Seed;
 use super::split::{End, Placed};
@@ -40,6 +40,14 @@ pub struct Geometry {
     along: [Vec3; 2],
 }
 
+impl Layout {
+    /// Number of the unknowns that move the point itself.
+    pub fn count(&self) -> usize {
+        let ends = self.ends.iter().flatten().map(|end| end.end);
+        ends.chain(self.touched.as_ref().map(|touched| touched.end)).fold(self.hit.end, usize::max)
+    }
+}
+
 impl OpenContact<'_> {
     /// Appends the unknowns of a point, in the order of its [`Layout`].
     pub(super) fn unknowns(&self, index: usize, stencil: &Stencil, out: &mut Vec<usize>) {
@@ -56,6 +64,7 @@ impl OpenContact<'_> {
             stencil.also[..2].iter().filter(|&&vertex| vertex > 0).flat_map(|&vertex| faces.unknowns_of(vertex))
         });
         out.extend(ends);
+        contact.unknowns_around(index, out);
     }
 
     fn layout(&self, index: usize, stencil: &Stencil, segment: usize) -> Layout {
@@ -119,7 +128,7 @@ impl OpenContact<'_> {
 
     /// Adds the forces of a closed point and their derivatives by the chain rule.
     pub(super) fn add<T: Seed<DIRECTIONS>>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
-        let (n, b) = (local.force.len(), super::open::seed(g.place.b, 4));
+        let (n, count, b) = (local.force.len(), g.layout.count(), super::open::seed(g.place.b, 4));
         let rows = self.rows((g, &local.u), (closed.hit, b), closed.force);
         for (force, row) in local.force.iter_mut().zip(&rows) {
             *force += row.re();
@@ -128,9 +137,9 @@ impl OpenContact<'_> {
             return;
         }
         let columns = self.columns(g, &local.u);
-        for (i, row) in rows[..n].iter().enumerate() {
+        for (i, row) in rows[..count].iter().enumerate() {
             let slopes = row.slopes();
-            for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns[..n]) {
+            for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns[..count]) {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }

@@ -6,7 +6,8 @@
 //! about half of the pressure that is carried they no longer agree.
 
 use super::capture::positions;
-use super::pair::{Contact, Loads};
+use super::options::Loads;
+use super::pair::Contact;
 use super::record::{PointRecord, PointStatus};
 use super::surface::Edge;
 use crate::Error;

@@ -1,8 +1,9 @@
 //! Penetration and slip of a point as the coordinates over which its forces bend.
 
 use super::geometry::Geometry;
-use super::open::{D, OpenContact, seed};
+use super::open::OpenContact;
 use super::point::{in_contact, triad};
+use super::variational::ContactForm;
 use crate::Failure;
 use crate::interface::{Interface, MOST_VARIABLES, Motion, Past};
 use crate::system::{Answer, COORDINATES, Coordinates, Kinks, Stencil};
@@ -11,16 +12,20 @@ use crate::tensor::{Dual, Scalar};
 impl OpenContact<'_> {
     /// Adds the coordinates of a point at values `u` of its unknowns to the stencil begun last.
     pub(super) fn bend(&self, (index, stencil): (usize, &Stencil), g: &Geometry, u: &[f64], out: &mut Kinks) {
-        let (along, inward, _) = triad(seed::<D>(g.place.tangent, 2));
-        let (a, b, normal) = (seed::<D>(g.place.a, 0), seed::<D>(g.place.b, 4), g.hit.normal.lift::<D>());
-        let penetration = normal.dot(b - a) / normal.dot(inward) + self.shift(index).closure;
-        let slip = g.place.touched.map_or(D::zero(), |touched| along.dot(seed::<D>(touched, 6) - a));
-        let area = self.contact.area(&g.spot, g.place.a, g.place.tangent);
-        let columns = self.columns(g, u);
-        for (y, direction) in [(penetration, inward.re()), (slip, along.re())] {
-            let rate = |column: &[f64; 8]| y.du.iter().zip(column).map(|(s, c)| s * c).sum();
-            let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), direction * area);
-            out.coordinate(y.re(), columns[..stencil.len].iter().map(rate), rows.into_iter().take(stencil.len));
+        let ([penetration, slip], rates) = self.rates(g, u);
+        let (along, inward, _) = triad(g.place.tangent);
+        let present = self.contact.area(&g.spot, g.place.a, g.place.tangent);
+        let undeformed = self.contact.undeformed_area(index);
+        let coordinates = [(penetration + self.closure(index), inward), (slip, along)];
+        for ((y, direction), rates) in coordinates.into_iter().zip(&rates) {
+            let rates = rates.iter().take(stencil.len).copied();
+            match self.contact.options.form {
+                ContactForm::Traction => {
+                    let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), direction * present);
+                    out.coordinate(y, rates, rows.into_iter().take(stencil.len));
+                }
+                ContactForm::Variational => out.coordinate(y, rates.clone(), rates.map(|rate| rate * undeformed)),
+            }
         }
     }
 }

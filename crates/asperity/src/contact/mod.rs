@@ -4,6 +4,7 @@
 //! slip from the place it hits, asks the interface law for pressure and shear, and loads its own nodes and the target.
 //! Bodies, laws and tools are known here; other terms of equilibrium are strangers.
 
+mod adjust;
 mod augment;
 mod before;
 mod capture;
@@ -12,7 +13,10 @@ mod geometry;
 mod guard;
 mod kink;
 mod layout;
+mod nonlocal;
 mod open;
+mod options;
+mod overlap;
 mod pair;
 mod penalty;
 mod point;
@@ -25,13 +29,18 @@ mod split;
 mod surface;
 mod target;
 mod uzawa;
+mod variational;
 
+pub use adjust::Move;
 pub use augment::Augmentation;
 pub use faces::Faces;
 pub use guard::{Guard, has_facets};
-pub use pair::{Contact, ContactOptions, Loads, second_name};
+pub use options::{ContactOptions, Loads, second_name};
+pub use pair::Contact;
+pub use overlap::{Overlap, Wear};
 pub use penalty::{TWO_PASSES, default_penalty};
 pub use record::{PointRecord, PointStatus};
 pub use rigid::Rigid;
 pub use surface::{Edge, Surface};
 pub use target::{Hit, Target};
+pub use variational::ContactForm;

@@ -4,14 +4,16 @@ use super::augment::Shift;
 use super::capture::refuse_jump;
 use super::geometry::{DIRECTIONS, Geometry};
 use super::kink::answer;
+use super::nonlocal::with_pressure;
 use super::pair::Contact;
 use super::point::{self, Constants, Place};
 use super::record::{entry, leave, write};
 use super::seed::Seed;
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
+use super::variational::ContactForm;
 use crate::Failure;
-use crate::interface::{Past, Response};
+use crate::interface::{Interface, Motion, Past, Response};
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
@@ -40,6 +42,8 @@ pub struct OpenContact<'a> {
     pub shifts: Vec<Shift>,
     /// How often they were improved in the attempt.
     pub augmented: usize,
+    /// The part of the overlap that is removed at the beginning and at the end.
+    pub settled: [f64; 2],
     /// Length of the increment.
     pub dt: f64,
 }
@@ -90,18 +94,16 @@ impl Attempt for OpenContact<'_> {
             return Ok(0);
         };
         if local.wants_tangent {
-            self.evaluate_over::<D>(index, &geometry, new, local, |place, constants, past, vars| {
-                point::evaluate(place, constants, |m| self.contact.law.respond_plane(m, past, vars))
-            })
+            self.evaluate_over::<D>((index, stencil), &geometry, new, local)
         } else {
-            self.evaluate_over::<f64>(index, &geometry, new, local, |place, constants, past, vars| {
-                point::evaluate(place, constants, |m| self.contact.law.respond(m, past, vars))
-            })
+            self.evaluate_over::<f64>((index, stencil), &geometry, new, local)
         }
     }
 
     fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
-        if let Some(geometry) = self.geometry(index, stencil, u)? {
+        // What a mean pressure does over a step is known to no single point.
+        let local = self.contact.neighbours.is_empty();
+        if let Some(geometry) = self.geometry(index, stencil, u)?.filter(|_| local) {
             self.bend((index, stencil), &geometry, u, out);
         }
         Ok(())
@@ -121,16 +123,31 @@ pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, direction: usize) -> Vec3<T> {
     Vec3([T::seed(v[0], direction), T::seed(v[1], direction + 1), T::zero()])
 }
 
-type Evaluated<T> = Result<(T, Option<point::Closed<T>>), Failure>;
+/// Numbers that a law in the plane answers.
+trait Ask: Seed<DIRECTIONS> {
+    fn ask(law: &dyn Interface, motion: &Motion<Self>, past: &Past, vars: &mut [f64])
+    -> Result<Response<Self>, Failure>;
+}
+
+impl Ask for f64 {
+    fn ask(law: &dyn Interface, motion: &Motion<f64>, past: &Past, vars: &mut [f64]) -> Result<Response<f64>, Failure> {
+        law.respond(motion, past, vars)
+    }
+}
+
+impl Ask for D {
+    fn ask(law: &dyn Interface, motion: &Motion<D>, past: &Past, vars: &mut [f64]) -> Result<Response<D>, Failure> {
+        law.respond_plane(motion, past, vars)
+    }
+}
 
 impl OpenContact<'_> {
-    fn evaluate_over<T: Seed<DIRECTIONS>>(
+    fn evaluate_over<T: Ask>(
         &self,
-        index: usize,
+        (index, stencil): (usize, &Stencil),
         geometry: &Geometry,
         new: &mut [f64],
         local: &mut Local,
-        evaluate: impl FnOnce(&Place<T>, &Constants, &Past, &mut [f64]) -> Evaluated<T>,
     ) -> Result<Branch, Failure> {
         let (contact, old, g) = (self.contact, self.history.slot(index), geometry);
         let place = Place {
@@ -142,19 +159,27 @@ impl OpenContact<'_> {
         let past = self.past(index, g.before.shear);
         let constants = Constants {
             normal: g.hit.normal,
-            closure: self.shift(index).closure,
+            closure: self.closure(index),
             before: past.penetration,
             touch: contact.law.touch(&past),
             opens: contact.law.opens(&past, [g.place.slip(), 0.0]),
             least: contact.least,
             weight: g.spot.weight * contact.thickness(),
-            turning: contact.options.turning(g.hit.u + self.shift(index).closure, self.ordinary),
+            turning: self.turning(index, g),
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(&g.spot, Some(g.hit), new);
+        new[entry::CLOSURE] = constants.closure;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
-        let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
+        let mean = self.mean_pressure(index, g, &local.u);
+        let (_, closed) = point::evaluate(&place, &constants, |motion| {
+            let answer = T::ask(&*contact.law, motion, &past, &mut new[entry::COUNT..])?;
+            let Some(mean) = &mean else { return Ok(answer) };
+            let motion = Motion { penetration: T::from(mean.pressure / past.penalty), ..*motion };
+            let mean = T::ask(&*contact.law, &motion, &past, &mut new[entry::COUNT..])?;
+            Ok(with_pressure(answer, mean))
+        })?;
         let Some(closed) = closed else {
             leave(&*self.contact.law, self.history.slot(index), new);
             self.account(index, g, Carried::default(), local);
@@ -165,10 +190,25 @@ impl OpenContact<'_> {
         }
         new[entry::PENETRATION] -= constants.least;
         write(&closed.response, [closed.slip, T::zero()], old, new);
-        self.add(g, &closed, local);
+        match contact.options.form {
+            ContactForm::Traction => self.add(g, &closed, local),
+            ContactForm::Variational => self.add_variational((index, stencil), g, &closed, local)?,
+        }
+        if let Some(mean) = mean.filter(|_| local.wants_tangent) {
+            self.add_neighbours((g, closed.slip.re(), &past), &mean, local)?;
+        }
         let response = &closed.response;
         self.account(index, g, Carried::of(response), local);
         Ok(response.status as Branch)
+    }
+
+    /// Part of the triad's derivatives that the tangent keeps: all of a potential's.
+    fn turning(&self, index: usize, g: &Geometry) -> f64 {
+        let options = &self.contact.options;
+        match options.form {
+            ContactForm::Traction => options.turning(g.hit.u + self.closure(index), self.ordinary),
+            ContactForm::Variational => 1.0,
+        }
     }
 
     /// What the law may know of a point.
@@ -177,7 +217,7 @@ impl OpenContact<'_> {
         Past {
             penalty: options.penalty,
             tangential_penalty: options.tangential_penalty,
-            penetration: old[entry::PENETRATION] + self.closure_before(index),
+            penetration: old[entry::PENETRATION] + old[entry::CLOSURE],
             pressure: old[entry::PRESSURE],
             shear: [shear + options.tangential_penalty * self.shift(index).slip[0], 0.0],
             vars: &old[entry::COUNT..],
@@ -193,10 +233,10 @@ impl OpenContact<'_> {
     fn account(&self, index: usize, g: &Geometry, now: Carried, local: &mut Local) {
         let (contact, old) = (self.contact, self.history.slot(index));
         let (options, before) = (&contact.options, g.before.shear);
-        let area = contact.area(&g.spot, g.place.a, g.place.tangent);
+        let area = contact.acting_area(index, &g.spot, (g.place.a, g.place.tangent));
         let area = area * options.loads.share();
-        let closure = if now.pressure == 0.0 { 0.0 } else { self.shift(index).closure };
-        local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - closure) * area;
+        let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(index).closure };
+        local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - multiplied) * area;
         let mean = 0.5 * (before + now.shear);
         let friction = if options.augmentation.is_some() {
             mean * now.slipped
@@ -205,7 +245,9 @@ impl OpenContact<'_> {
             local.stored += area * stored(now.shear);
             mean * g.place.slip() - (stored(now.shear) - stored(before))
         };
-        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + now.pressure) * now.closure);
+        let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);
+        local.supplied = area * pressure * (self.settled[1] - self.settled[0]) * old[entry::OVERLAP];
+        local.dissipated = area * (friction + pressure * now.closure);
     }
 }
 

@@ -1,85 +1,25 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
-use super::augment::{Augmentation, Corners, closures_alone};
+use super::augment::{Corners, closures_alone};
 use super::capture::{depths, positions};
 use super::faces::Faces;
-use super::guard::{self, Guard};
+use super::guard;
+use super::nonlocal::{Neighbours, radius};
 use super::open::{OpenContact, write_hit};
 use super::point::triad;
-use super::record::{PointRecord, PointStatus, entry};
+use super::options::{ContactOptions, Loads};
+use super::record::{PointRecord, PointStatus, entry, variables};
 use super::search::relatives;
 use super::surface::{Edge, MAX_EDGE_NODES, Surface, SurfacePoint};
 use super::target::Target;
+use super::variational::ContactForm;
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
+use crate::tool::Ray;
 use crate::{Error, Failure};
 use std::sync::Arc;
-
-/// How a contact is computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactOptions {
-    /// Normal penalty, a stress per length.
-    pub penalty: f64,
-    /// Tangential penalty, a stress per length.
-    pub tangential_penalty: f64,
-    /// Thickness in the plane cases.
-    pub thickness: f64,
-    /// Least confined modulus of the solids in contact: the measure of a pressure that no solution has.
-    pub modulus: f64,
-    /// Which side a contact point loads.
-    pub loads: Loads,
-    /// Whether the tangent holds the coupling of the two sides.
-    pub coupling: bool,
-    /// What is done when the facets of a curved face bear too much of the pressure.
-    pub guard: Guard,
-    /// How far penetration and elastic slip are taken out by multipliers, if they are.
-    pub augmentation: Option<Augmentation>,
-}
-
-impl ContactOptions {
-    /// Pressure up to which the tangent is exact in the increment after a history.
-    pub(super) fn ordinary(&self, history: &History, points: usize) -> f64 {
-        let pressures = (0..points).map(|i| history.slot(i)[entry::PRESSURE]);
-        (ORDINARY * self.modulus).max(GROWTH * pressures.fold(0.0, f64::max))
-    }
-
-    /// Part of the triad's derivatives that the tangent keeps at a penetration.
-    pub(super) fn turning(&self, penetration: f64, ordinary: f64) -> f64 {
-        let pressure = self.penalty * penetration.abs();
-        if pressure > ordinary { ordinary / pressure } else { 1.0 }
-    }
-}
-
-/// Name of the second of two passes, whose points lie on what is the target of the first.
-pub fn second_name(name: &str) -> String {
-    format!("{name}.target")
-}
-
-/// Which side a contact point loads.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Loads {
-    /// The surface and its target: one pass.
-    Both,
-    /// The surface alone, since the target carries contact points of its own: one of two passes.
-    Own,
-}
-
-impl Loads {
-    /// Part of the energy of the interface that is counted here: with two passes each side counts half.
-    pub fn share(self) -> f64 {
-        match self {
-            Self::Both => 1.0,
-            Self::Own => 0.5,
-        }
-    }
-}
-
-/// Pressures up to this part of the confined modulus leave the tangent exact,
-const ORDINARY: f64 = 0.02;
-/// and so do those up to this multiple of the largest in the accepted state.
-const GROWTH: f64 = 4.0;
 
 /// A point counts as closed from this part of the shortest edge on. One depth for all points: a flat surface
 /// under uniform pressure then stays flat.
@@ -104,6 +44,8 @@ pub struct Contact {
     pub(super) longest: f64,
     /// The corners that carry multipliers; none without augmentation.
     pub(super) corners: Corners,
+    /// The points around each point, where the law is not local.
+    pub(super) neighbours: Neighbours,
 }
 
 impl Contact {
@@ -118,7 +60,7 @@ impl Contact {
         let faces = target.as_faces().map_or(&[][..], Faces::edges);
         let relatives = relatives(surface.edges.iter().map(|edge| &edge.nodes), faces.iter().map(|edge| &edge.nodes));
         let (name, least, longest) = (name.into(), 0.0, 0.0);
-        let corners = Corners::default();
+        let (corners, neighbours) = (Corners::default(), Neighbours::default());
         let mut contact = Self {
             name,
             mesh,
@@ -133,6 +75,7 @@ impl Contact {
             relatives,
             longest,
             corners,
+            neighbours,
         };
         let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
         let opposite = contact.target.as_faces().map_or(Vec::new(), |faces| lengths(faces.edges()));
@@ -147,11 +90,15 @@ impl Contact {
         if options.augmentation.is_some() {
             contact.corners = contact.corners_of_edges();
         }
+        if let Some(radius) = radius(&*contact.law) {
+            let area = |i| contact.undeformed_area(i);
+            contact.neighbours = Neighbours::new(&contact.mesh, &contact.surface, radius, area);
+        }
         contact
     }
 
     /// The user's name for it.
-    pub(super) fn title(&self) -> &str {
+    pub fn title(&self) -> &str {
         &self.name
     }
     /// The surface.
@@ -165,6 +112,10 @@ impl Contact {
     /// Whether its points load their own side alone: one of two passes.
     pub fn loads_itself(&self) -> bool {
         self.options.loads == Loads::Own
+    }
+    /// The law of the interface.
+    pub fn law(&self) -> &dyn Interface {
+        &*self.law
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
@@ -199,6 +150,35 @@ impl Contact {
         self.thickness() * point.weight * tangent.norm() * around
     }
 
+    /// The same before any motion.
+    pub(super) fn undeformed_area(&self, index: usize) -> f64 {
+        let point = &self.surface.points[index];
+        let x: Vec<Vec3> = self.surface.nodes(point).iter().map(|&node| self.mesh.points[node]).collect();
+        let (a, tangent) = point.place(&x);
+        self.area(point, a, tangent)
+    }
+
+    /// Area over which the stresses of a point act.
+    pub(super) fn acting_area(&self, index: usize, point: &SurfacePoint, (a, tangent): (Vec3, Vec3)) -> f64 {
+        match self.options.form {
+            ContactForm::Traction => self.area(point, a, tangent),
+            ContactForm::Variational => self.undeformed_area(index),
+        }
+    }
+
+    /// Direction in which a unit of pressure acts at a point in an accepted state.
+    fn thrust(&self, values: &[f64], u: &[f64], ray: Ray) -> Vec3 {
+        if self.options.form == ContactForm::Traction || values[entry::SEGMENT] < 0.0 {
+            return ray.direction;
+        }
+        let (segment, near) = (values[entry::SEGMENT] as usize, [values[entry::S], values[entry::S2]]);
+        let mut dofs = Vec::new();
+        self.target.unknowns(segment, &mut dofs);
+        let own: Vec<f64> = dofs.iter().map(|&dof| u[dof]).collect();
+        let normal = self.target.meet(segment, &own, &ray, near).map_or(ray.direction, |hit| hit.normal);
+        normal * normal.dot(ray.direction).recip()
+    }
+
     pub(super) fn thickness(&self) -> f64 {
         match self.space {
             Space::PlaneStrain | Space::PlaneStress => self.options.thickness,
@@ -218,7 +198,8 @@ impl Contact {
                 position: a,
                 inward,
                 along,
-                area: self.area(point, a, tangent),
+                thrust: self.thrust(values, u, Ray { origin: a, direction: inward }),
+                area: self.acting_area(i, point, (a, tangent)),
                 status: PointStatus::from_value(values[entry::STATUS]),
                 pressure: values[entry::PRESSURE],
                 shear: values[entry::SHEAR],
@@ -229,6 +210,7 @@ impl Contact {
                 last_dissipated: values[entry::LAST_DISSIPATED],
                 rubbed: values[entry::RUBBED],
                 violation: values[entry::VIOLATION],
+                vars: variables(values),
                 segment,
                 edge: point.edge,
             }
@@ -265,6 +247,7 @@ impl Term for Contact {
         let u = vec![0.0; self.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(&self.surface.points[i], hit, history.slot_mut(i));
+            self.options.overlap.begin(history.slot_mut(i), self.least);
             self.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
         history
@@ -290,6 +273,7 @@ impl Term for Contact {
             ordinary: self.options.ordinary(history, self.surface.points.len()),
             shifts: closures_alone(self.closures(history)),
             augmented: 0,
+            settled: self.options.overlap.settled(at),
             dt: at.dt,
         }))
     }

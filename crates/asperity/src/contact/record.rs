@@ -1,7 +1,7 @@
 //! History of a contact point, and what outputs may ask of it.
 
 use super::ContactOptions;
-use crate::interface::{Interface, Past, Response};
+use crate::interface::{Interface, MOST_VARIABLES, Past, Response};
 use crate::tensor::{Scalar, Vec3};
 
 /// Places of the values in a point's history; the law's own variables follow.
@@ -40,12 +40,17 @@ pub mod entry {
     pub const HALF: usize = 15;
     /// Pressure times irreversible slip, summed since the start.
     pub const RUBBED: usize = 16;
+    /// What was added to the penetration that the law saw: multipliers, overlap not yet removed, wear.
+    pub const CLOSURE: usize = 17;
+    /// Penetration before the first increment that is removed little by little.
+    pub const OVERLAP: usize = 18;
     /// Number of these values.
-    pub const COUNT: usize = 17;
+    pub const COUNT: usize = 19;
 }
 
 /// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.
 pub fn write<T: Scalar>(response: &Response<T>, slip: [T; 2], old: &[f64], new: &mut [f64]) {
+    new[entry::OVERLAP] = old[entry::OVERLAP];
     new[entry::PRESSURE] = response.pressure.re();
     [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear.map(T::re);
     new[entry::SLIP] = old[entry::SLIP] + slip[0].re();
@@ -73,7 +78,8 @@ pub fn touch_after(law: &dyn Interface, options: &ContactOptions, new: &[f64]) -
 
 /// An open point keeps what has been, and of the law's own state what the law says.
 pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
-    for kept in [entry::SLIP, entry::SLIP2, entry::SLIPPED, entry::DISSIPATED, entry::RUBBED] {
+    use entry::{DISSIPATED, OVERLAP, RUBBED, SLIP, SLIP2, SLIPPED};
+    for kept in [SLIP, SLIP2, SLIPPED, DISSIPATED, RUBBED, OVERLAP] {
         new[kept] = old[kept];
     }
     law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
@@ -100,6 +106,11 @@ impl PointStatus {
     }
 }
 
+/// The law's variables in the history of a point.
+pub fn variables(values: &[f64]) -> [f64; MOST_VARIABLES] {
+    std::array::from_fn(|i| values.get(entry::COUNT + i).copied().unwrap_or(0.0))
+}
+
 /// One contact point in an accepted state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointRecord {
@@ -107,6 +118,8 @@ pub struct PointRecord {
     pub position: Vec3,
     /// Unit normal into the solid.
     pub inward: Vec3,
+    /// Where a unit of pressure acts: along the normal, or so that it does its work on the penetration.
+    pub thrust: Vec3,
     /// Unit tangent, the solid on its left.
     pub along: Vec3,
     /// Area the point stands for; the full circumference when axisymmetric.
@@ -131,6 +144,8 @@ pub struct PointRecord {
     pub rubbed: f64,
     /// Relative violation of the yield surface.
     pub violation: f64,
+    /// The law's own variables; those that it does not have are zero.
+    pub vars: [f64; MOST_VARIABLES],
     /// Segment of the target that is hit.
     pub segment: Option<usize>,
     /// Edge of the surface it lies on.
@@ -140,7 +155,7 @@ pub struct PointRecord {
 impl PointRecord {
     /// Stress vector on the solid.
     pub fn traction(&self) -> Vec3 {
-        self.inward * self.pressure + self.along * self.shear
+        self.thrust * self.pressure + self.along * self.shear
     }
     /// Force on the solid.
     pub fn force(&self) -> Vec3 {

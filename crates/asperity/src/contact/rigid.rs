@@ -6,7 +6,7 @@ use crate::tool::{Pose, Tool};
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::target::MAX_UNKNOWNS;
+use super::target::{MAX_UNKNOWNS, Standing};
 
 /// A tool and the place of its unknowns.
 #[derive(Debug)]
@@ -46,6 +46,11 @@ impl Rigid {
     /// Present place of its reference point for unknowns `u`.
     pub fn pole(&self, u: &[f64]) -> Vec3 {
         self.pose(self.motion(u)).place(self.tool.reference(), self.tool.reference())
+    }
+
+    /// The tool in its place for values of its unknowns.
+    pub(super) fn standing(&self, motion: &[f64]) -> Standing<'_> {
+        Standing::Tool(self, self.pose(motion))
     }
 
     pub(super) fn rates(&self, motion: &[f64], at: Vec3) -> [Vec3; MAX_UNKNOWNS] {

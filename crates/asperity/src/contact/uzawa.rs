@@ -5,6 +5,7 @@
 
 use super::augment::{Corners, Report, Shift, closures_alone};
 use super::open::OpenContact;
+use super::overlap::recession;
 use super::pair::Contact;
 use super::record::{PointStatus, entry, touch_after};
 use crate::Failure;
@@ -45,14 +46,15 @@ impl Contact {
         let status = PointStatus::from_value(new[entry::STATUS]);
         let borne = new[entry::PRESSURE] / self.options.penalty;
         let (closed, sticks) = (status != PointStatus::Open, status == PointStatus::Stick);
-        let touch = || touch_after(&*self.law, &self.options, new);
+        let seen = || new[entry::PENETRATION] + new[entry::CLOSURE] - shift.closure;
+        let gap = || seen() - touch_after(&*self.law, &self.options, new);
         let sliding = (new[entry::SLIPPED] - old[entry::SLIPPED]).copysign(new[entry::SHEAR]);
         let slip = new[entry::SLIP] - old[entry::SLIP] - sliding;
         let borne_shear = (new[entry::SHEAR] - old[entry::SHEAR]) / self.options.tangential_penalty;
         let along = |slip: f64| Vec3::new(slip, 0.0, 0.0);
         Some(Report {
-            area: self.area(&spot, a, tangent),
-            penetration: if closed { borne - shift.closure } else { new[entry::PENETRATION] - touch() },
+            area: self.acting_area(index, &spot, (a, tangent)),
+            penetration: if closed { borne - shift.closure } else { gap() },
             closed,
             sticks,
             slip: along(slip),
@@ -68,10 +70,10 @@ impl OpenContact<'_> {
         if self.shifts.is_empty() { Shift::default() } else { self.contact.corners.at(index, &self.shifts) }
     }
 
-    /// The closure by multipliers at a point in the accepted state.
-    pub(super) fn closure_before(&self, index: usize) -> f64 {
-        let closures = self.contact.closures(self.history);
-        if closures.is_empty() { 0.0 } else { self.contact.corners.closure_at(index, closures) }
+    /// What is added to the penetration of a point before the law sees it.
+    pub(super) fn closure(&self, index: usize) -> f64 {
+        let (old, wear) = (self.history.slot(index), self.contact.options.wear);
+        self.shift(index).closure + recession(wear, self.settled[1], old)
     }
 
     /// Improves the multipliers unless they suffice.

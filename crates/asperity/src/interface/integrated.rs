@@ -67,6 +67,9 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
         self.law.opens(past, slip)
     }
+    fn radius(&self) -> f64 {
+        self.law.radius()
+    }
     /// Integrated once, not twice.
     fn updated(&self, update: Update) -> Box<dyn Interface> {
         self.law.updated(update)

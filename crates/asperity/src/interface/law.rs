@@ -93,6 +93,10 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
     fn opens(&self, past: &Past, _slip: [f64; 2]) -> f64 {
         self.touch(past)
     }
+    /// The radius on the undeformed surface over which friction takes the mean of the pressure; zero for that of the point.
+    fn radius(&self) -> f64 {
+        0.0
+    }
     /// The same law, its increments integrated as said.
     fn updated(&self, update: Update) -> Box<dyn Interface> {
         Box::new(Law(Integrated { law: self.clone(), update }))
@@ -139,6 +143,8 @@ pub trait Interface: Send + Sync {
         past: &Past,
         vars: &mut [f64],
     ) -> Result<Response<Dual<15>>, Failure>;
+    /// As [`InterfaceLaw::radius`].
+    fn radius(&self) -> f64;
     /// The same law, its increments integrated in another way.
     fn with_update(&self, update: Update) -> Box<dyn Interface>;
 }
@@ -197,6 +203,9 @@ impl<L: InterfaceLaw> Interface for Law<L> {
         vars: &mut [f64],
     ) -> Result<Response<Dual<8>>, Failure> {
         lifted(&self.0, motion, past, vars)
+    }
+    fn radius(&self) -> f64 {
+        self.0.radius()
     }
     fn with_update(&self, update: Update) -> Box<dyn Interface> {
         self.0.updated(update)

@@ -6,6 +6,7 @@ mod claw;
 mod contact_patch;
 mod crushed_ring;
 mod dragged_ball;
+mod energy_balance;
 mod flat_punch;
 mod hertz_ball;
 mod hertz_cylinder;
@@ -41,6 +42,7 @@ pub const ALL: &[&Case] = &[
     &hertz_sphere::CASE,
     &hertz_ball::CASE,
     &dragged_ball::CASE,
+    &energy_balance::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
     &claw::CASE,

@@ -26,12 +26,16 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let (pressure, slip) = mean(&end, |point| (point.pressure, point.slipped));
     let (shear, _) = mean(&end, |point| (point.shear.abs(), 0.0));
     let dilated = risen(run.model.contacts[0].options().penalty, [slipped, slip]);
+    let wedge = bench.solve("wedge.toml", std::slice::from_ref(&increments))?.points(0);
+    let (in_space, shear_in_space) = mean(&wedge, |point| (point.pressure, point.shear.abs()));
     let skin = bench.solve("skin.toml", &[increments])?;
     let (critical, last) = mean(&skin.points(0), |point| (point.pressure, point.shear.abs()));
     Ok(vec![
         ("pressure".into(), pressure / (before + dilated)),
         ("shear".into(), shear / (SKIN[0] * pressure + SKIN[1])),
         ("dilated".into(), (pressure - before) / dilated),
+        ("wedge_pressure".into(), in_space / pressure),
+        ("wedge_shear".into(), shear_in_space / shear),
         ("critical_pressure".into(), 2.0 * critical / 0.3),
         ("critical_shear".into(), last / (0.6 * critical)),
     ])

@@ -11,7 +11,7 @@ impl OpenContact<'_> {
     pub(super) fn bend(&self, index: usize, g: &Geometry, u: &[f64], out: &mut Kinks) {
         let place = Self::variable(g);
         let (triad, normal) = (Triad::new(place.tangents), g.hit.normal.lift::<D>());
-        let penetration = normal.dot(place.b - place.a) / normal.dot(triad.inward) + self.shift(index).0;
+        let penetration = normal.dot(place.b - place.a) / normal.dot(triad.inward) + self.closure(index);
         let slip = |e: Vec3<D>| place.touched.map_or(D::zero(), |touched| e.dot(touched - place.a));
         let area = triad.area.re() * self.contact.parts.surface.points[index].weight;
         let columns = self.columns(index, g, u);

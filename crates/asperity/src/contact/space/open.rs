@@ -40,6 +40,8 @@ pub struct OpenContact<'a> {
     pub frames: Vec<[Vec3; 2]>,
     /// How often multipliers were improved in the attempt.
     pub augmented: usize,
+    /// The part of the overlap that is removed at the beginning and at the end.
+    pub settled: [f64; 2],
     /// Length of the increment.
     pub dt: f64,
 }
@@ -135,6 +137,7 @@ impl OpenContact<'_> {
         let constants = self.constants(index, g, &past);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(Some(g.hit), new);
+        new[entry::CLOSURE] = constants.closure;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
         let Some(closed) = closed else {
@@ -158,13 +161,13 @@ impl OpenContact<'_> {
         let parts = &self.contact.parts;
         Constants {
             normal: g.hit.normal,
-            closure: self.shift(index).0,
+            closure: self.closure(index),
             before: past.penetration,
             touch: parts.law.touch(past),
             opens: parts.law.opens(past, g.place.slip()),
             least: self.contact.least,
             weight: parts.surface.points[index].weight,
-            turning: self.contact.parts.options.turning(g.hit.u + self.shift(index).0, self.ordinary),
+            turning: self.contact.parts.options.turning(g.hit.u + self.closure(index), self.ordinary),
         }
     }
 
@@ -176,7 +179,7 @@ impl OpenContact<'_> {
         Past {
             penalty: options.penalty,
             tangential_penalty: options.tangential_penalty,
-            penetration: old[entry::PENETRATION] + self.closure_before(index),
+            penetration: old[entry::PENETRATION] + old[entry::CLOSURE],
             pressure: old[entry::PRESSURE],
             shear: [shear(0, entry::SHEAR), shear(1, entry::SHEAR2)],
             vars: &old[entry::COUNT..],
@@ -193,8 +196,8 @@ impl OpenContact<'_> {
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
         let area = Triad::new(g.place.tangents).area * self.contact.parts.surface.points[index].weight;
         let area = area * options.loads.share();
-        let closure = if now.pressure == 0.0 { 0.0 } else { self.shift(index).0 };
-        local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - closure) * area;
+        let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(index).0 };
+        local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - multiplied) * area;
         let work = |slip: [f64; 2]| (0..2).map(|i| 0.5 * (before[i] + now.shear[i]) * slip[i]).sum::<f64>();
         let friction = if options.augmentation.is_some() {
             work(now.slid)
@@ -203,7 +206,9 @@ impl OpenContact<'_> {
             local.stored += area * stored(now.shear);
             work(g.place.slip()) - (stored(now.shear) - stored(before))
         };
-        local.dissipated = area * (friction + 0.5 * (old[entry::PRESSURE] + now.pressure) * now.closure);
+        let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);
+        local.supplied = area * pressure * (self.settled[1] - self.settled[0]) * old[entry::OVERLAP];
+        local.dissipated = area * (friction + pressure * now.closure);
     }
 
     /// The slip is a chord: a tool that turns by half a turn brings what was touched to the other side, and none is seen.

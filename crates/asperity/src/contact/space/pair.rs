@@ -8,7 +8,7 @@ use super::target::Target;
 use crate::contact::augment::{Corners, closures_alone};
 use crate::contact::guard;
 use crate::contact::pair::{CLOSED, ahead};
-use crate::contact::record::{PointRecord, PointStatus, entry};
+use crate::contact::record::{PointRecord, PointStatus, entry, variables};
 use crate::contact::search::relatives;
 use crate::contact::{ContactOptions, Loads};
 use crate::interface::Interface;
@@ -43,7 +43,7 @@ pub struct Parts {
 pub struct Contact {
     pub(super) parts: Parts,
     /// Penetration from which a point counts as closed.
-    pub(super) least: f64,
+    pub(in crate::contact) least: f64,
     /// For each face the segments of the target that share a node with it.
     pub(super) relatives: Vec<Vec<usize>>,
     /// Size of the largest face of both sides, a length.
@@ -78,6 +78,10 @@ impl Contact {
         contact
     }
 
+    /// The user's name for it.
+    pub fn title(&self) -> &str {
+        &self.parts.name
+    }
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.parts.mesh
@@ -93,6 +97,10 @@ impl Contact {
     /// Whether its points load their own side alone: one of two passes.
     pub fn loads_itself(&self) -> bool {
         self.parts.options.loads == Loads::Own
+    }
+    /// The law of the interface.
+    pub fn law(&self) -> &dyn Interface {
+        &*self.parts.law
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
@@ -130,6 +138,7 @@ impl Contact {
         PointRecord {
             position,
             inward,
+            thrust: inward,
             along: direction,
             area: point.weight * area,
             status: PointStatus::from_value(values[entry::STATUS]),
@@ -142,6 +151,7 @@ impl Contact {
             last_dissipated: values[entry::LAST_DISSIPATED],
             rubbed: values[entry::RUBBED],
             violation: values[entry::VIOLATION],
+            vars: variables(values),
             segment,
             edge: point.face,
         }
@@ -173,6 +183,7 @@ impl Term for Contact {
         let u = vec![0.0; self.parts.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(hit, history.slot_mut(i));
+            self.parts.options.overlap.begin(history.slot_mut(i), self.least);
             self.parts.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
         history
@@ -197,6 +208,7 @@ impl Term for Contact {
             shifts: closures_alone(self.closures(history)),
             frames: self.frames(&accepted.u),
             augmented: 0,
+            settled: parts.options.overlap.settled(at),
             dt: at.dt,
         }))
     }

@@ -7,7 +7,7 @@ use super::surface::SurfacePoint;
 use super::target::{Cast, Memory};
 use crate::contact::search;
 use crate::system::{Stencil, Stencils};
-use crate::tool::Rejected;
+use crate::tool::{Ray, Rejected};
 use crate::tool::space::Hit;
 use rayon::prelude::*;
 use std::cell::RefCell;
@@ -34,6 +34,25 @@ impl Contact {
     /// The ray of a point, along its inward normal, and what it may meet.
     fn ray_of(&self, point: &SurfacePoint, (depth, reach): (f64, f64), u: &[f64]) -> Cast<'_> {
         Cast { ray: self.ray(point, u), reach, depth, relatives: &self.relatives[point.face] }
+    }
+
+    /// The rays of all points of the undeformed surface.
+    pub(in crate::contact) fn rays(&self) -> Vec<Ray> {
+        let still = vec![0.0; self.parts.dofs.count()];
+        self.parts.surface.points.iter().map(|point| self.ray(point, &still)).collect()
+    }
+
+    /// How far the target is penetrated along rays, each from beside a point of the undeformed surface.
+    pub(in crate::contact) fn penetrations(&self, rays: &[(Ray, usize)]) -> Vec<Option<f64>> {
+        let (parts, still) = (&self.parts, vec![0.0; self.parts.dofs.count()]);
+        let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, &still);
+        let (standing, mut memory) = (parts.target.stand(&still), Memory::default());
+        let along = |&(ray, point): &(Ray, usize)| {
+            let relatives = &self.relatives[parts.surface.points[point].face];
+            let cast = Cast { ray, reach: f64::INFINITY, depth: depths[point], relatives };
+            standing.cast(&cast, &mut memory).map(|hit| hit.u)
+        };
+        rays.iter().map(along).collect()
     }
 
     /// The largest gap at which the target is seen in the increment after `last_change`: a tool at any distance.

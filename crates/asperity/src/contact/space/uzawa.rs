@@ -8,6 +8,7 @@ use super::pair::Contact;
 use super::point::Triad;
 use crate::Failure;
 use crate::contact::augment::{Corners, Report, Shift, closures_alone};
+use crate::contact::overlap::recession;
 use crate::contact::record::{PointStatus, entry, touch_after};
 use crate::system::History;
 use crate::tensor::Vec3;
@@ -63,12 +64,13 @@ impl Contact {
         let status = PointStatus::from_value(new[entry::STATUS]);
         let borne = new[entry::PRESSURE] / parts.options.penalty;
         let (closed, sticks) = (status != PointStatus::Open, status == PointStatus::Stick);
-        let touch = || touch_after(&*parts.law, &parts.options, new);
+        let seen = || new[entry::PENETRATION] + new[entry::CLOSURE] - shift.closure;
+        let gap = || seen() - touch_after(&*parts.law, &parts.options, new);
         let [slip, borne_shear] = slips(old, new, parts.options.tangential_penalty);
         let along = |[s, t]: [f64; 2]| frame[0] * s + frame[1] * t;
         Some(Report {
             area: point.weight * Triad::new(self.locate(point, u).1).area,
-            penetration: if closed { borne - shift.closure } else { new[entry::PENETRATION] - touch() },
+            penetration: if closed { borne - shift.closure } else { gap() },
             closed,
             sticks,
             slip: along(slip),
@@ -98,10 +100,10 @@ impl OpenContact<'_> {
         (shift.closure, self.frames[index].map(|along| along.dot(shift.slip)))
     }
 
-    /// The closure by multipliers at a point in the accepted state.
-    pub(super) fn closure_before(&self, index: usize) -> f64 {
-        let closures = self.contact.closures(self.history);
-        if closures.is_empty() { 0.0 } else { self.contact.corners.closure_at(index, closures) }
+    /// What is added to the penetration of a point before the law sees it.
+    pub(super) fn closure(&self, index: usize) -> f64 {
+        let (old, wear) = (self.history.slot(index), self.contact.parts.options.wear);
+        self.shift(index).0 + recession(wear, self.settled[1], old)
     }
 
     /// Improves the multipliers unless they suffice.

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::contact::{
-    Contact, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets,
+    Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets,
     second_name, space,
 };
 use crate::deck::diagnose::Diagnostic;
@@ -127,6 +127,9 @@ impl Builder<'_> {
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
             guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
             augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation()),
+            overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
+            form: keys.form.map_or(ContactForm::Traction, |form| form.value),
+            wear: keys.wear.as_ref().map(keys::WearKeys::wear),
         }
     }
 
@@ -157,6 +160,15 @@ impl Builder<'_> {
         (surface, opposite): (&[Side], Opposite),
     ) -> bool {
         let before = self.found.len();
+        let flat = self.plane() && matches!(opposite, Opposite::Tool(_));
+        let local = keys.law.build().is_ok_and(|law| law.radius() == 0.0);
+        if !local && (!flat || keys.form.is_some_and(|form| form.value == ContactForm::Variational)) {
+            let what = "a mean of the pressure is for tools in the plane spaces and the axisymmetric one, and form = \"traction\"";
+            self.refuse(what, keys.law.place);
+        }
+        if let Some(form) = keys.form.filter(|form| !flat && form.value == ContactForm::Variational) {
+            self.refuse("the variational form is for tools in the plane spaces and the axisymmetric one", form.place);
+        }
         let Opposite::Sides(others) = opposite else {
             let said = [
                 keys.passes.map(|spot| ("passes", spot.place)),

@@ -5,6 +5,7 @@
 mod bodies;
 mod contacts;
 mod loads;
+mod overlaps;
 mod solid_contacts;
 mod solid_tools;
 mod supports;
@@ -80,7 +81,7 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
     let site = Site { mesh: Arc::new(mesh), dofs, space, thickness };
     let mut builder = Builder { deck: &deck, site, folder: &folder, files: Vec::new(), found: Vec::new() };
-    let built = builder.everything();
+    let built = builder.settled();
     let input = InputHash::of(&prints.iter().chain(&builder.files).map(Vec::as_slice).collect::<Vec<_>>());
     diagnostics.list.append(&mut builder.found);
     diagnostics.sort();
@@ -104,7 +105,25 @@ fn prints(loaded: &Loaded) -> Vec<Vec<u8>> {
     texts.chain([points, cells, kinds.into_bytes(), groups.into_bytes()]).collect()
 }
 
+/// Rounds of moving nodes out of targets: a node of two contacts may need more than one.
+const ROUNDS: usize = 5;
+
 impl Builder<'_> {
+    /// Everything, with the nodes moved that are to be.
+    fn settled(&mut self) -> Option<ModelParts> {
+        let mut built = self.everything()?;
+        for _ in 0..ROUNDS {
+            if !self.adjust(&built) {
+                break;
+            }
+            self.found.clear();
+            self.files.clear();
+            built = self.everything()?;
+        }
+        self.refuse_overlaps(&built);
+        Some(built)
+    }
+
     fn everything(&mut self) -> Option<ModelParts> {
         self.check_mesh();
         let bodies = self.bodies();

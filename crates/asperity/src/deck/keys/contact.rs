@@ -1,7 +1,7 @@
 //! Contacts.
 
 use super::UpdateKeys;
-use crate::contact::{Augmentation, Guard};
+use crate::contact::{Augmentation, ContactForm, Guard, Overlap, Wear};
 use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, table_of, whole, word, words};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
@@ -38,8 +38,48 @@ table! {
         coupling: Option<Spot<bool>> = flag().spot().computed("true"),
         /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
         guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
+        /// How stresses become forces, with a tool in the plane spaces and the axisymmetric one.
+        form: Option<Spot<ContactForm>> = word().spot().computed("traction"),
+        /// What becomes of points that lie inside the target before the first increment.
+        overlap: Spot<OverlapWord> = word().spot().or("\"ramp\""),
+        /// Wear of the surface: reported as a depth, and felt as a gap if it recedes.
+        wear: Option<WearKeys> = table_of().unless_given("the surface does not wear"),
         /// Multipliers that take out what the penalties leave of penetration and elastic slip: `augmentation = {}`.
         augmentation: Option<Spot<AugmentationKeys>> = table_of().spot().unless_given("penetration and elastic slip stay"),
+    }
+}
+
+table! {
+    /// How the surface wears: Archard's depth, a coefficient times pressure times sliding.
+    pub struct WearKeys {
+        /// Depth for a unit of pressure times sliding.
+        coefficient: f64 = number("1/stress", Range::POSITIVE).required(),
+        /// Whether the surface recedes by what it has worn.
+        recedes: bool = flag().or("false"),
+    }
+}
+
+words! {
+    /// What becomes of points that lie inside the target before the first increment.
+    pub enum OverlapWord {
+        /// it is removed little by little over the first step
+        Ramp = "ramp",
+        /// it presses from the first increment on
+        Keep = "keep",
+        /// the nodes of the surface are moved out of the target, without strain; what is left between them is removed as by "ramp"
+        Adjust = "adjust",
+        /// the deck is refused
+        Refuse = "refuse",
+    }
+}
+
+impl OverlapWord {
+    /// What becomes of it, when the first step lasts so long.
+    pub fn overlap(self, step: f64) -> Overlap {
+        match self {
+            Self::Keep => Overlap::Keep,
+            Self::Ramp | Self::Adjust | Self::Refuse => Overlap::Ramp(step),
+        }
     }
 }
 
@@ -52,6 +92,13 @@ table! {
         slip: f64 = number(unit::NONE, Range::above_to(0.0, 1.0)).or("1e-6"),
         /// Most augmentations; an increment that needs more is cut.
         loops: usize = whole(1..=1000).or("10"),
+    }
+}
+
+impl WearKeys {
+    /// What the keys say.
+    pub fn wear(&self) -> Wear {
+        Wear { coefficient: self.coefficient, recedes: self.recedes }
     }
 }
 
@@ -71,6 +118,15 @@ words! {
         One = "one",
         /// Both, each for its own forces.
         Two = "two",
+    }
+}
+
+impl Words for ContactForm {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        vec![
+            (Self::Traction, "traction", "along the normal of the strained surface, over its present area"),
+            (Self::Variational, "variational", "as the gradient of a potential over the undeformed area"),
+        ]
     }
 }
 

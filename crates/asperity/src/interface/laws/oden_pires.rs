@@ -1,5 +1,6 @@
-//! Regularised friction of Oden and Pires (1983) in its local form, `tau = mu p tanh(|d| / e) d / |d|` with the slip `d`
-//! of the increment: smooth, without a stick branch and without memory.
+//! Regularised friction of Oden and Pires (1983), `tau = mu p tanh(|d| / e) d / |d|` with the slip `d` of the increment:
+//! smooth, without a stick branch and without memory. With a `radius` the contact puts the mean of the pressure around the
+//! point in the place of `p`; the law itself knows one point only.
 //!
 //! Below `e` the point creeps in proportion to the friction stress, so the answer depends on the length of the
 //! increments; `e` should be small beside the slip of an increment where the point slides.
@@ -19,12 +20,20 @@ const LENGTH: Parameter = Parameter {
     default: None,
 };
 
+const RADIUS: Parameter = Parameter {
+    key: "radius",
+    meaning: "distance on the surface over which friction takes the mean of the pressure, with a tool in the plane; zero for that of the point",
+    unit: unit::LENGTH,
+    range: Range::NOT_NEGATIVE,
+    default: Some(0.0),
+};
+
 pub(super) const ENTRY: Entry<Box<dyn Interface>> = Entry {
     name: "oden_pires",
-    meaning: "regularised friction of Oden and Pires, local: a smooth function of the slip of the increment",
-    parameters: &[FRICTION, LENGTH],
+    meaning: "regularised friction of Oden and Pires: a smooth function of the slip of the increment",
+    parameters: &[FRICTION, LENGTH, RADIUS],
     pairs: None,
-    build: |v| Ok(law(OdenPires { friction: v[0], length: v[1] })),
+    build: |v| Ok(law(OdenPires { friction: v[0], length: v[1], radius: v[2] })),
 };
 
 /// The law.
@@ -34,6 +43,8 @@ pub struct OdenPires {
     pub friction: f64,
     /// Slip of an increment at which friction is `tanh 1` of the whole.
     pub length: f64,
+    /// Distance over which the pressure is a mean.
+    pub radius: f64,
 }
 
 /// `tanh(x) / x` from `x^2`.
@@ -47,6 +58,10 @@ fn ratio<T: Scalar>(square: T) -> T {
 
 impl InterfaceLaw for OdenPires {
     const VARIABLES: &'static [Variable] = &[];
+
+    fn radius(&self) -> f64 {
+        self.radius
+    }
 
     fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, _: &mut [T]) -> Result<Response<T>, Failure> {
         let pressure = motion.penetration * past.penalty;
@@ -67,7 +82,7 @@ mod tests {
 
     #[test]
     fn friction_follows_the_slip_of_the_increment() {
-        let law = OdenPires { friction: 0.2, length: 1e-3 };
+        let law = OdenPires { friction: 0.2, length: 1e-3, radius: 0.0 };
         let past = Past {
             penalty: 1e3,
             tangential_penalty: 1e3,

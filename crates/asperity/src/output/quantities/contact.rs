@@ -3,6 +3,7 @@
 
 use super::{Source, Touching};
 use crate::Error;
+use crate::declare::Variable;
 use crate::contact::{PointRecord, PointStatus, second_name};
 use crate::output::{Frame, Place, Quantity, Unit, Width};
 use crate::system::History;
@@ -76,9 +77,46 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     frame.push(scalar("contact_slip_path", Unit::Length, &|r| r.slipped))?;
     frame.push(scalar("contact_heat", Unit::EnergyDensity, &|r| r.dissipated))?;
     frame.push(scalar("contact_rubbing", Unit::EnergyDensity, &|r| r.rubbed))?;
+ if let Some(wear) = wear_of(all) {
+        frame.push(Quantity::new("contact_wear", Unit::Length, Place::Contact, Width::Scalar, wear))?;
+    }
+    variables(all).into_iter().try_for_each(|variable| frame.push(values_of(variable, all)))?;
     frame.push(scalar("contact_area", Unit::Area, &|r| r.area))?;
     frame.push(vector("contact_normal", Unit::One, &|r| r.inward))?;
     frame.push(vector("contact_force", Unit::Force, &PointRecord::force))
+}
+
+/// Depth of wear at all points; not a number in contacts that do not wear. None where none does.
+fn wear_of(all: &[Seen]) -> Option<Vec<f64>> {
+    let coefficient = |seen: &Seen| seen.contact.options().wear.map(|wear| wear.coefficient);
+    all.iter().find_map(coefficient)?;
+    let depth = |seen| {
+        let coefficient = coefficient(seen).unwrap_or(f64::NAN);
+        seen.records.iter().map(move |record| coefficient * record.rubbed)
+    };
+    Some(all.iter().flat_map(depth).collect())
+}
+
+/// The variables of all laws, each name once.
+fn variables(all: &[Seen]) -> Vec<&'static Variable> {
+    let mut found: Vec<&Variable> = Vec::new();
+    for variable in all.iter().flat_map(|seen| seen.contact.variables()) {
+        if found.iter().all(|known| known.name != variable.name) {
+            found.push(variable);
+        }
+    }
+    found
+}
+
+/// A variable at all points; not a number where the law has none of that name.
+fn values_of(variable: &Variable, all: &[Seen]) -> Quantity {
+    let of = |seen| {
+        let seen: &Seen = seen;
+        let place = seen.contact.variables().iter().position(|known| known.name == variable.name);
+        seen.records.iter().map(move |record| place.map_or(f64::NAN, |place| record.vars[place]))
+    };
+    let values = all.iter().flat_map(of).collect();
+    Quantity::new(format!("contact_{}", variable.name), Unit::One, Place::Contact, Width::Scalar, values)
 }
 
 fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(), Error> {

@@ -1,6 +1,7 @@
 //! Contacts of the plane and of space under one roof, for reports.
 
 use crate::contact::{Contact, ContactOptions, PointRecord, space};
+use crate::declare::Variable;
 use crate::system::{History, Term};
 use crate::tensor::Vec3;
 
@@ -26,6 +27,13 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.options(),
             Self::Solid(contact) => contact.options(),
+        }
+    }
+    /// Variables of its law.
+    pub fn variables(&self) -> &'static [Variable] {
+        match self {
+            Self::Plane(contact) => contact.law().variables(),
+            Self::Solid(contact) => contact.law().variables(),
         }
     }
     /// All points in an accepted state, with this term's lane of its history.

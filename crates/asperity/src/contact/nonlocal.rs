@@ -1,0 +1,188 @@
+//! Friction by a pressure that is a mean over the neighbourhood of a point (Oden and Pires, J. Appl. Mech. 50, 1983), with
+//! a tool in the plane: `S = sum_j w_j A_j p_j / sum_j w_j A_j`, `w = exp(1 / ((r / rho)^2 - 1))` within the radius `rho`
+//! on the undeformed surface.
+//!
+//! The pressures `p_j = K_p <u_j>` are those at the trial displacements, never those of the last iterate: a point casts
+//! the rays of its neighbours too, their nodes are unknowns of its stencil behind its own, and the derivatives of the
+//! mean along them are in the tangent. Its own pressure and the place of its forces stay local.
+
+use super::geometry::Geometry;
+use super::open::OpenContact;
+use super::pair::Contact;
+use super::point::triad;
+use super::surface::{MAX_EDGE_NODES, Surface};
+use super::target::{Cast, Memory};
+use crate::Failure;
+use crate::interface::{Interface, Motion, Past, Response};
+use crate::mesh::Mesh;
+use crate::system::Local;
+use crate::tensor::{Dual, Vec3};
+use crate::tool::Ray;
+use std::ops::Range;
+
+/// The points around each point of a surface.
+#[derive(Debug, Clone, Default)]
+pub struct Neighbours {
+    /// For each point its neighbours, itself among them, and their parts of the mean.
+    parts: Vec<Vec<(usize, f64)>>,
+    /// For each point the other edges on which they lie.
+    edges: Vec<Vec<usize>>,
+}
+
+/// A mean pressure and its derivatives along all unknowns of a stencil.
+pub struct Mean {
+    /// The mean.
+    pub pressure: f64,
+    /// Its derivatives.
+    pub slopes: Vec<f64>,
+}
+
+impl Neighbours {
+    /// Within `radius` on an undeformed surface.
+    pub fn new(mesh: &Mesh, surface: &Surface, radius: f64, area: impl Fn(usize) -> f64) -> Self {
+        let place = |i: usize| {
+            let point = &surface.points[i];
+            let x: Vec<Vec3> = surface.nodes(point).iter().map(|&node| mesh.points[node]).collect();
+            point.place(&x).0
+        };
+        let places: Vec<Vec3> = (0..surface.points.len()).map(place).collect();
+        let weight = |i: usize, j: usize| {
+            let part = ((places[i] - places[j]).norm() / radius).powi(2);
+            if part < 1.0 { (1.0 / (part - 1.0)).exp() * area(j) } else { 0.0 }
+        };
+        let mut neighbours = Self::default();
+        for i in 0..places.len() {
+            let near: Vec<_> = (0..places.len()).map(|j| (j, weight(i, j))).filter(|(_, w)| *w > 0.0).collect();
+            let sum: f64 = near.iter().map(|(_, w)| w).sum();
+            let mut edges: Vec<usize> = near.iter().map(|&(j, _)| surface.points[j].edge).collect();
+            edges.dedup();
+            edges.retain(|&edge| edge != surface.points[i].edge);
+            neighbours.parts.push(near.into_iter().map(|(j, w)| (j, w / sum)).collect());
+            neighbours.edges.push(edges);
+        }
+        neighbours
+    }
+
+    /// Whether there are any.
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+}
+
+impl Contact {
+    /// Appends the unknowns of the edges around a point.
+    pub(super) fn unknowns_around(&self, index: usize, out: &mut Vec<usize>) {
+        for &edge in self.neighbours.edges.get(index).into_iter().flatten() {
+            let nodes = &self.surface.edges[edge].nodes;
+            out.extend(nodes.iter().flat_map(|&node| [0, 1].map(|axis| self.dofs.node(node) + axis)));
+        }
+    }
+}
+
+impl OpenContact<'_> {
+    /// The mean pressure around a point for values `u` of its unknowns; none where friction is local.
+    pub(super) fn mean_pressure(&self, index: usize, g: &Geometry, u: &[f64]) -> Option<Mean> {
+        let contact = self.contact;
+        let parts = contact.neighbours.parts.get(index)?;
+        let mut mean = Mean { pressure: 0.0, slopes: vec![0.0; u.len()] };
+        let mut memory = Memory::default();
+        for &(point, part) in parts {
+            let nodes = self.nodes_of(index, point, g);
+            self.add_pressure((point, part), (nodes, g.layout.hit.clone()), u, (&mut mean, &mut memory));
+        }
+        Some(mean)
+    }
+
+    /// Where the unknowns of a neighbour's nodes stand in the stencil of a point.
+    fn nodes_of(&self, index: usize, neighbour: usize, g: &Geometry) -> Range<usize> {
+        let (surface, mut start) = (&self.contact.surface, g.layout.count());
+        let edge = surface.points[neighbour].edge;
+        if edge == surface.points[index].edge {
+            return 0..g.layout.own;
+        }
+        for &other in &self.contact.neighbours.edges[index] {
+            let len = 2 * surface.edges[other].nodes.len();
+            if other == edge {
+                return start..start + len;
+            }
+            start += len;
+        }
+        start..start
+    }
+
+    /// Adds what one neighbour gives to the mean.
+    fn add_pressure(
+        &self,
+        (point, part): (usize, f64),
+        (nodes, tool): (Range<usize>, Range<usize>),
+        u: &[f64],
+        (mean, memory): (&mut Mean, &mut Memory),
+    ) {
+        let (contact, spot) = (self.contact, &self.contact.surface.points[point]);
+        let Some(rigid) = contact.target.as_tool() else { return };
+        let mut x = [Vec3::zero(); MAX_EDGE_NODES];
+        for ((x, u), &node) in x.iter_mut().zip(u[nodes.clone()].chunks_exact(2)).zip(contact.surface.nodes(spot)) {
+            *x = contact.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
+        }
+        let (a, tangent) = spot.place(&x[..nodes.len() / 2]);
+        let (along, inward, length) = triad(tangent);
+        let motion = &u[tool.clone()];
+        let cast = Cast {
+            ray: Ray { origin: a, direction: inward },
+            ..contact.bounds(point, self.depths[point], self.reach)
+        };
+        let Some(hit) = rigid.standing(motion).cast(&cast, memory) else { return };
+        let seen = hit.u + self.closure(point) - contact.least;
+        if seen <= 0.0 {
+            return;
+        }
+        let (stiffness, cosine) = (part * contact.options.penalty, hit.normal.dot(inward));
+        mean.pressure += stiffness * seen;
+        for (k, column) in nodes.enumerate() {
+            let mut axis = Vec3::zero();
+            axis[k % 2] = 1.0;
+            let turned = along * (-inward.dot(axis) * spot.dn[k / 2] / length);
+            let rate = -hit.normal.dot(axis * spot.n[k / 2] + turned * hit.u) / cosine;
+            mean.slopes[column] += stiffness * rate;
+        }
+        for (rate, column) in rigid.rates(motion, a + inward * hit.u).iter().zip(tool) {
+            mean.slopes[column] += stiffness * hit.normal.dot(*rate) / cosine;
+        }
+    }
+
+    /// Adds to the tangent what the mean pressure does to the friction of a point that slips by `slip`.
+    ///
+    /// # Errors
+    /// As the law.
+    pub(super) fn add_neighbours(
+        &self,
+        (g, slip, past): (&Geometry, f64, &Past),
+        mean: &Mean,
+        local: &mut Local,
+    ) -> Result<(), Failure> {
+        let (contact, n) = (self.contact, local.force.len());
+        let penetration = Dual::<8>::variable(mean.pressure / past.penalty, 0);
+        let motion = Motion { penetration, slip: [Dual::from(slip), Dual::from(0.0)] };
+        let mut vars = past.vars.to_vec();
+        let slope = contact.law.respond_plane(&motion, past, &mut vars)?.shear[0].du[0] / past.penalty;
+        let (along, _, _) = triad(g.place.tangent);
+        let area = contact.area(&g.spot, g.place.a, g.place.tangent);
+        let rows = self.rows::<f64>((g, &local.u), (g.place.b, g.place.b), along * area);
+        for (i, row) in rows[..g.layout.count()].iter().enumerate() {
+            for (entry, change) in local.tangent[i * n..(i + 1) * n].iter_mut().zip(&mean.slopes) {
+                *entry += row * slope * change;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The pressure of one answer of a law, all else of another.
+pub fn with_pressure<T>(local: Response<T>, mean: Response<T>) -> Response<T> {
+    Response { pressure: local.pressure, closure: local.closure, ..mean }
+}
+
+/// The radius of a law, if it is not local.
+pub fn radius(law: &dyn Interface) -> Option<f64> {
+    Some(law.radius()).filter(|radius| *radius > 0.0)
+}

@@ -1,0 +1,107 @@
+//! The variational form of contact with a tool in the plane: forces that are the gradient of a potential.
+//!
+//! The paper's force `p e_R` along the normal of the strained surface is not conservative. Here pressure and shear do
+//! their work on the rates of penetration and slip themselves, over the undeformed area: `F = A_0 (p du/dq + tau ds/dq)`.
+//! Without friction this is the gradient of `A_0 p^2 / 2 K`, the pressure acts along `n_B / (n_B.e_R)` with a couple that
+//! turns the normal, and the tangent is symmetric. Both forms agree to first order in penetration and in the angle
+//! between the two normals. The second derivatives of penetration and slip, which hold the curvature of the target, are
+//! central differences of their rates; they are multiplied by the stresses, not by the penalty, so that their error is
+//! far below rounding of the rest.
+
+use super::geometry::{Geometry, MAX_DOFS};
+use super::open::{D, OpenContact, seed};
+use super::point::{Closed, triad};
+use super::seed::Seed;
+use crate::Failure;
+use crate::system::{Local, Stencil};
+use crate::tensor::Scalar;
+
+/// How the stresses of a point become forces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactForm {
+    /// Along the triad of the strained surface, over the present area.
+    Traction,
+    /// As the gradient of a potential over the undeformed area.
+    Variational,
+}
+
+/// Step of the differences, as a part of the edge's length or in radians.
+const STEP: f64 = 1e-5;
+
+/// Rates of penetration and slip along the unknowns of a stencil.
+pub type Rates = [[f64; MAX_DOFS]; 2];
+
+impl OpenContact<'_> {
+    /// Penetration and slip of a point, with their rates along its unknowns `u`.
+    pub(super) fn rates(&self, g: &Geometry, u: &[f64]) -> ([f64; 2], Rates) {
+        let (along, inward, _) = triad(seed::<D>(g.place.tangent, 2));
+        let (a, b, normal) = (seed::<D>(g.place.a, 0), seed::<D>(g.place.b, 4), g.hit.normal.lift::<D>());
+        let penetration = normal.dot(b - a) / normal.dot(inward);
+        let slip = g.place.touched.map_or(D::zero(), |touched| along.dot(seed::<D>(touched, 6) - a));
+        let columns = self.columns(g, u);
+        let rates = [penetration, slip].map(|y| {
+            let rate = |column: &[f64; 8]| y.du.iter().zip(column).map(|(s, c)| s * c).sum();
+            columns.each_ref().map(rate)
+        });
+        ([penetration.re(), slip.re()], rates)
+    }
+
+    /// Adds the forces of a closed point and their derivatives.
+    ///
+    /// # Errors
+    /// As [`geometry`](Self::geometry), beside the point.
+    pub(super) fn add_variational<T: Seed<8>>(
+        &self,
+        (index, stencil): (usize, &Stencil),
+        g: &Geometry,
+        closed: &Closed<T>,
+        local: &mut Local,
+    ) -> Result<(), Failure> {
+        let (n, area) = (local.force.len(), self.contact.undeformed_area(index));
+        let (_, rates) = self.rates(g, &local.u);
+        let stresses = [closed.response.pressure, closed.response.shear[0]];
+        for (rates, stress) in rates.iter().zip(stresses) {
+            local.force.iter_mut().zip(rates).for_each(|(force, rate)| *force += area * stress.re() * rate);
+        }
+        if !local.wants_tangent {
+            return Ok(());
+        }
+        let columns = self.columns(g, &local.u);
+        for (rates, stress) in rates.iter().zip(stresses) {
+            let slopes = stress.slopes();
+            for (j, column) in columns[..n].iter().enumerate() {
+                let slope: f64 = slopes.iter().zip(column).map(|(s, c)| s * c).sum();
+                (0..n).for_each(|i| local.tangent[i * n + j] += area * rates[i] * slope);
+            }
+        }
+        self.bend_forces((index, stencil), stresses.map(|stress| area * stress.re()), local)
+    }
+
+    /// What the second derivatives of penetration and slip add to the tangent.
+    fn bend_forces(
+        &self,
+        (index, stencil): (usize, &Stencil),
+        loads: [f64; 2],
+        local: &mut Local,
+    ) -> Result<(), Failure> {
+        let (n, mut u) = (local.force.len(), local.u.clone());
+        for j in 0..n {
+            for sign in [1.0, -1.0] {
+                let step = self.step_of(index, stencil, j);
+                u[j] = local.u[j] + sign * step;
+                let Some(beside) = self.geometry(index, stencil, &u)? else { continue };
+                let (_, rates) = self.rates(&beside, &u);
+                for (rates, load) in rates.iter().zip(loads) {
+                    (0..n).for_each(|i| local.tangent[i * n + j] += sign * load * rates[i] / (2.0 * step));
+                }
+            }
+            u[j] = local.u[j];
+        }
+        Ok(())
+    }
+
+    /// Step of an unknown of a stencil: the last one of a tool is its rotation.
+    fn step_of(&self, index: usize, stencil: &Stencil, unknown: usize) -> f64 {
+        if unknown + 1 == stencil.len { STEP } else { STEP * self.contact.edge_length(index) }
+    }
+}

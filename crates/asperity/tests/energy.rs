@@ -1,0 +1,34 @@
+//! The balance of energy of contact without friction: what the work of the supports misses of the energy that is stored,
+//! by the form of the contact and by the law of the solid.
+
+mod support;
+
+use support::{columns, model, run};
+
+const BLOCK: &str = include_str!("../../../cases/energy-balance/block.toml");
+
+/// Missing energy over the stored one, with so many times more increments.
+fn missing(sets: &[&str], times: usize) -> f64 {
+    let count = format!("step.1.increments.count={}", 10 * times);
+    let then = format!("step.2.increments.count={}", 10 * times);
+    let model = model(BLOCK, &[sets, &[&count, &then]].concat());
+    let columns = columns(&model, &run(&model));
+    let last = |name: &str| *columns[name].last().unwrap();
+    last("energy.missing") / last("energy.strain")
+}
+
+/// Value for infinitely many increments, and the order at which it is approached.
+fn limit(sets: &[&str]) -> (f64, f64) {
+    let [a, b, c] = [1, 2, 4].map(|times| missing(sets, times));
+    (c + (c - b) / 3.0, ((b - a) / (c - b)).log2())
+}
+
+#[test]
+fn the_variational_form_keeps_the_energy() {
+    let (left, order) = limit(&[]);
+    assert!(left.abs() < 1e-6 && order > 1.8, "{left:.2e} {order}");
+    let (traction, _) = limit(&["contact.base.form=traction"]);
+    assert!(traction.abs() > 1e-5, "{traction:.2e}");
+    let rate = limit(&["material.rubber={ elastic = { young = 7.5, poisson = 0.25 } }"]).0;
+    assert!(rate.abs() > 1e-5, "{rate:.2e}");
+}

@@ -127,10 +127,8 @@ impl OpenContact<'_> {
         let (a, tangent) = spot.place(&x[..nodes.len() / 2]);
         let (along, inward, length) = triad(tangent);
         let motion = &u[tool.clone()];
-        let cast = Cast {
-            ray: Ray { origin: a, direction: inward },
-            ..contact.bounds(point, self.depths[point], self.reach)
-        };
+        let cast =
+            Cast { ray: Ray { origin: a, direction: inward }, ..contact.bounds(point, self.depths[point], self.reach) };
         let Some(hit) = rigid.standing(motion).cast(&cast, memory) else { return };
         let seen = hit.u + self.closure(point) - contact.least;
         if seen <= 0.0 {

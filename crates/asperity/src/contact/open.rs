@@ -125,8 +125,12 @@ pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, direction: usize) -> Vec3<T> {
 
 /// Numbers that a law in the plane answers.
 trait Ask: Seed<DIRECTIONS> {
-    fn ask(law: &dyn Interface, motion: &Motion<Self>, past: &Past, vars: &mut [f64])
-    -> Result<Response<Self>, Failure>;
+    fn ask(
+        law: &dyn Interface,
+        motion: &Motion<Self>,
+        past: &Past,
+        vars: &mut [f64],
+    ) -> Result<Response<Self>, Failure>;
 }
 
 impl Ask for f64 {

@@ -213,8 +213,12 @@ impl<'a> Seen<'a> {
         let closed = self.found.iter().filter(|(u, _)| *u > 0.0).count();
         let what = format!("{closed} points of contact `{name}` lie inside the target before the first increment");
         let help = match self.deforms {
-            true => "for an interference fit that is as it should be; else move the bodies apart, or say overlap = \"adjust\"",
-            false => "move the tool or the body apart, or say overlap = \"adjust\"; else it is removed over the first step",
+            true => {
+                "for an interference fit that is as it should be; else move the bodies apart, or say overlap = \"adjust\""
+            }
+            false => {
+                "move the tool or the body apart, or say overlap = \"adjust\"; else it is removed over the first step"
+            }
         };
         let label = format!("the deepest by {u:.3e}, {part:.1e} of its edge");
         (*part > OVERLAP).then(|| Diagnostic::warning(what).at(name.place).label(label).help(help))

@@ -7,8 +7,8 @@ use super::surface::SurfacePoint;
 use super::target::{Cast, Memory};
 use crate::contact::search;
 use crate::system::{Stencil, Stencils};
-use crate::tool::{Ray, Rejected};
 use crate::tool::space::Hit;
+use crate::tool::{Ray, Rejected};
 use rayon::prelude::*;
 use std::cell::RefCell;
 

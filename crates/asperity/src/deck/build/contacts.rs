@@ -2,8 +2,8 @@
 
 use super::Builder;
 use crate::contact::{
-    Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty, has_facets,
-    second_name, space,
+    Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty,
+    has_facets, second_name, space,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};

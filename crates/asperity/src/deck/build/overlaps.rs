@@ -19,7 +19,8 @@ fn penetrations(parts: &ModelParts) -> Vec<Found> {
     let still = vec![0.0; parts.dofs.count()];
     let plane = parts.contacts.iter().map(|contact| {
         let hits = contact.search(&still).0.into_iter().enumerate();
-        let part = |(i, hit): (usize, Option<crate::contact::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.edge_length(i)));
+        let part =
+            |(i, hit): (usize, Option<crate::contact::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.edge_length(i)));
         (contact.title().to_owned(), hits.filter_map(part).collect())
     });
     let solid = parts.solid_contacts.iter().map(|contact| {

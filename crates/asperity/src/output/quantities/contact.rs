@@ -3,8 +3,8 @@
 
 use super::{Source, Touching};
 use crate::Error;
-use crate::declare::Variable;
 use crate::contact::{PointRecord, PointStatus, second_name};
+use crate::declare::Variable;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
 use crate::system::History;
 use crate::tensor::Vec3;
@@ -77,7 +77,7 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     frame.push(scalar("contact_slip_path", Unit::Length, &|r| r.slipped))?;
     frame.push(scalar("contact_heat", Unit::EnergyDensity, &|r| r.dissipated))?;
     frame.push(scalar("contact_rubbing", Unit::EnergyDensity, &|r| r.rubbed))?;
- if let Some(wear) = wear_of(all) {
+    if let Some(wear) = wear_of(all) {
         frame.push(Quantity::new("contact_wear", Unit::Length, Place::Contact, Width::Scalar, wear))?;
     }
     variables(all).into_iter().try_for_each(|variable| frame.push(values_of(variable, all)))?;

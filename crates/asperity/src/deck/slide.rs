@@ -71,13 +71,17 @@ pub fn read_interface(text: &str, name: &str, sets: &[String]) -> Result<LoadedI
 
 fn laws(deck: &InterfaceDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<dyn Interface>)> {
     let mut laws = Vec::new();
-    for (name, law) in &deck.interface {
-        match law.build() {
+    for (name, law_keys) in &deck.interface {
+        match law_keys.build() {
+            Ok(law) if law.radius() > 0.0 => {
+                let what = "a single point has no neighbours over which `radius` could take the mean of the pressure";
+                found.push(Diagnostic::error(what).at(law_keys.place));
+            }
             Ok(law) => {
                 let update = deck.update.as_ref().map(|keys| law.with_update(keys.update()));
                 laws.push((name.text.clone(), update.unwrap_or(law)));
             }
-            Err(why) => found.push(Diagnostic::error(why).at(law.place)),
+            Err(why) => found.push(Diagnostic::error(why).at(law_keys.place)),
         }
         refuse_name(name, found);
     }

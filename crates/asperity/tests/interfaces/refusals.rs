@@ -37,6 +37,7 @@ fn impossible_numbers_are_refused_by_name_line_and_range() {
         (format!("rate_and_state = {{ {fault}, direct = 0.0 }}"), "rate_and_state.direct` must be positive, not 0"),
         (format!("rate_and_state_slip = {{ {fault}, direct = -0.1 }}"), "must be positive, not -0.1"),
         ("oden_pires = { friction = 0.3, length = 0.0 }".into(), "must be positive, not 0"),
+        ("oden_pires = { friction = 0.3, length = 1.0, radius = 0.5 }".into(), "a single point has no neighbours"),
         (
             "velocity_dependent = { static = 0.3, kinetic = 0.2, velocity = inf }".into(),
             "is infinite, or too large for a number; it must be positive",

@@ -131,6 +131,8 @@ fn figures(summary: &Summary) -> impl Iterator<Item = (&'static str, f64)> {
         ("excess over friction limit", c.coulomb_violation),
         ("least dissipation", c.least_dissipation),
         ("false contacts refused", c.rejected_false_contacts),
+        ("largest leap over the size", c.leap.filter(|leap| *leap > 0.0)),
+        ("unresisted part of motion", c.hourglass),
     ];
     all.into_iter().filter_map(|(name, value)| Some((name, value?)))
 }

@@ -233,3 +233,28 @@ fn the_tangent_of_a_heated_body_is_exact() {
         }
     }
 }
+
+/// A bar that yields under a growing load leaps where its increments are long, and says so; short ones do not.
+#[test]
+fn an_increment_that_leaps_is_told() {
+    let leap = |count: usize| {
+        let deck = format!(
+            "version = 1
+            space = \"plane-stress\"
+            mesh.part.bar.rectangle = {{ from = [0.0, 0.0], to = [4.0, 1.0], cells = [1, 1], cell = \"quad4\" }}
+            material.steel.von_mises = {{ young = 1e4, poisson = 0.3, yield_stress = 1.0, hardening = 4.0 }}
+            body.bar.material = \"steel\"
+            [[step]]
+            increments.count = {count}
+            symmetry = [\"bar.left\", \"bar.bottom\"]
+            traction.\"bar.right\" = {{ x = 1.5 }}"
+        );
+        let keep = run(&model(&deck, &[]));
+        assert_eq!(keep.states.len(), count);
+        keep.states.iter().fold(0.0, |most: f64, state| most.max(state.leap))
+    };
+    // A true stress of 1 + 4 e over an area of exp(-e) bears 1.5 at e = 0.215; the last of three increments goes there.
+    let one = leap(3);
+    assert!((0.2..0.26).contains(&one), "{one}");
+    assert_eq!(leap(300), 0.0);
+}

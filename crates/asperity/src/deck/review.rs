@@ -87,6 +87,14 @@ impl Page {
             let law = &made.deck.material[*material].1;
             let cells = body.cells().len();
             self.line(format!("body {}: {cells} cells of {} ({law:?})", body.name(), made.model.materials[*material]));
+            if body.unseen() > 0 {
+                self.line(format!(
+                    "  {} motions of each of its cells of first degree meet no stiffness with reduced integration \
+                     (hourglass); hourglass.{} of the history is their part of the motion",
+                    body.unseen(),
+                    body.name()
+                ));
+            }
         }
     }
 

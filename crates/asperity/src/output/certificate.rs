@@ -27,6 +27,11 @@ pub struct Certificate {
     pub mismatch: Option<f64>,
     /// Hits of a ray that the rules against false contact turned away, summed over the increments.
     pub rejected_false_contacts: Option<f64>,
+    /// Largest motion of an increment over the size of the model, of those increments that moved many times as fast as
+    /// the one before: beyond a limit load the next equilibrium may be far away.
+    pub leap: Option<f64>,
+    /// Largest part of the motion of cells with reduced integration that they do not resist.
+    pub hourglass: Option<f64>,
     /// The largest energy of the run and the largest that was missing.
     #[serde(skip)]
     energies: [f64; 2],
@@ -78,6 +83,8 @@ impl Certificate {
             ("contact", "mismatch") => (&mut self.mismatch, Worst::Largest),
             ("contact", "false_contacts") => (&mut self.rejected_false_contacts, Worst::Sum),
             ("equilibrium", "error") => (&mut self.equilibrium_error, Worst::Largest),
+            ("equilibrium", "leap") => (&mut self.leap, Worst::Largest),
+            ("hourglass", _) => (&mut self.hourglass, Worst::Largest),
             _ => return None,
         })
     }
@@ -114,6 +121,8 @@ mod tests {
             ("contact.bore.false_contacts", 3.0),
             ("energy.external", 40.0),
             ("energy.missing", 1.0),
+            ("equilibrium.leap", 0.2),
+            ("hourglass.block", 0.1),
             ("time", 9.0),
         ]);
         let expected = Certificate {
@@ -121,6 +130,8 @@ mod tests {
             energy_balance: Some(0.05),
             least_dissipation: Some(-1e-18),
             rejected_false_contacts: Some(5.0),
+            leap: Some(0.2),
+            hourglass: Some(0.1),
             energies: [40.0, 2.0],
             ..Certificate::default()
         };

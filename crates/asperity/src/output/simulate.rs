@@ -56,6 +56,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     let ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
     account(&mut results.summary, &run, seconds);
     results.summary.notes.extend(facets(model, &run.state));
+    results.summary.notes.extend(leap(&results.summary));
     results.finish(&ended)?;
     Ok((results.summary, ended))
 }
@@ -88,6 +89,15 @@ impl Job<'_> {
         };
         Ok((results, log))
     }
+}
+
+/// What an increment that leaps means.
+fn leap(summary: &Summary) -> Option<String> {
+    let far = summary.certificate.leap.filter(|far| *far > 0.0)?;
+    Some(format!(
+        "an increment moved the model by {far:.2} of its size, more than 20 times as fast as the increment before: past \
+         a limit load that may be a remote equilibrium; prescribed displacements, or smaller increments, can tell"
+    ))
 }
 
 /// What contacts say of their facets in the last accepted state.

@@ -8,6 +8,7 @@ mod attempt;
 mod body;
 mod gradient;
 mod heat;
+mod hourglass;
 mod initial_stress;
 mod operator;
 mod plane_stress;

@@ -62,6 +62,24 @@ const JUMPED: f64 = 0.25;
 /// Attempts at one increment before the run gives up.
 const ATTEMPTS: usize = 40;
 
+/// An increment leaps that moves this many times as fast as the one before,
+const LEAP: f64 = 20.0;
+/// by more than this multiple of what is prescribed,
+const DRIVEN: f64 = 3.0;
+/// and by more than this part of the model's size.
+const FAR: f64 = 0.05;
+
+/// How far an increment leapt, over the size of the model: what it moved where that is far more than at the speed of the
+/// increment before and than what it was driven.
+fn leap([before, driven, moved]: [f64; 3], size: f64) -> f64 {
+    let leaps = before > 0.0 && moved > LEAP * before && moved > DRIVEN * driven && moved > FAR * size;
+    if leaps { moved / size } else { 0.0 }
+}
+
+fn largest(motion: &[f64]) -> f64 {
+    motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
 impl Problem {
     /// The state before the first increment.
     pub fn initial_state(&self) -> State {
@@ -288,10 +306,15 @@ impl<'a> Run<'a> {
     /// Makes a converged evaluation the state.
     fn commit(&mut self, converged: Converged) {
         let (state, mut evaluation) = (&mut self.state, converged.evaluation);
+        let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
+        let before = if state.last_dt > 0.0 { largest(&state.last_change[..nodes]) / state.last_dt } else { 0.0 };
         for (i, (change, u)) in state.last_change.iter_mut().zip(&converged.u).enumerate() {
             *change = u - state.u[i];
             state.external_work += 0.5 * (state.internal[i] + evaluation.internal[i]) * *change;
         }
+        let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
+        let moved = largest(&state.last_change[..nodes]);
+        state.leap = leap([before * dt, driven, moved], self.problem.size);
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
             total.supplied += new.supplied;

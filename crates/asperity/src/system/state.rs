@@ -72,6 +72,9 @@ pub struct State {
     pub last_dt: f64,
     /// Size the controller wants for the next increment.
     pub next_dt: f64,
+    /// Motion of the last increment over the size of the model where it was many times as fast as that of the increment
+    /// before, else zero.
+    pub leap: f64,
     /// Unknowns at the beginning of the step, from which prescribed values ramp.
     pub step_start: Vec<f64>,
     /// Forces of all internal terms on all unknowns: reactions and applied loads together.

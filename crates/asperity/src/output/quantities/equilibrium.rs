@@ -24,6 +24,7 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         largest = largest.max(along(axis).map(forces).sum());
     }
     let error = if largest > 0.0 { left / largest } else { 0.0 };
+    frame.push(Quantity::scalar("equilibrium.leap", Unit::One, source.state.leap))?;
     frame.push(Quantity::scalar("equilibrium.error", Unit::One, error))
 }
 

@@ -4,6 +4,7 @@
 mod contact;
 mod energy;
 mod equilibrium;
+mod hourglass;
 mod nodes;
 mod reactions;
 mod stress;
@@ -72,6 +73,7 @@ static ALL: &[Report] = &[
     tools::report,
     energy::report,
     equilibrium::report,
+    hourglass::report,
 ];
 
 impl Source<'_> {

@@ -1,0 +1,15 @@
+//! What cells of first degree with reduced integration move without resistance.
+
+use super::Source;
+use crate::Error;
+use crate::output::{Frame, Quantity, Unit};
+use crate::system::Term;
+
+pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
+    for (_, body) in &source.parts.bodies {
+        if let Some(part) = body.hourglass(&source.state.u) {
+            frame.push(Quantity::scalar(format!("hourglass.{}", body.name()), Unit::One, part))?;
+        }
+    }
+    Ok(())
+}

@@ -76,10 +76,6 @@ fn leap([before, driven, moved]: [f64; 3], size: f64) -> f64 {
     if leaps { moved / size } else { 0.0 }
 }
 
-fn largest(motion: &[f64]) -> f64 {
-    motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
-}
-
 impl Problem {
     /// The state before the first increment.
     pub fn initial_state(&self) -> State {
@@ -283,8 +279,14 @@ impl<'a> Run<'a> {
 
     fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
         let before = balance(&self.state);
+        let moved_before = self.moved();
+        let last_dt = self.state.last_dt;
         self.commit(converged);
+        let moved = self.moved();
         let (state, dt) = (&mut self.state, record.dt);
+        let expected = if last_dt > 0.0 { moved_before * dt / last_dt } else { 0.0 };
+        let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
+        state.leap = leap([expected, driven, moved], self.problem.size);
         state.last_dt = dt;
         state.next_dt = step.after(dt, wanted, record.first_solutions());
         if record.relaxed {
@@ -303,18 +305,19 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// The largest motion of a node in the last increment.
+    fn moved(&self) -> f64 {
+        let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
+        self.state.last_change[..nodes].iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+    }
+
     /// Makes a converged evaluation the state.
     fn commit(&mut self, converged: Converged) {
         let (state, mut evaluation) = (&mut self.state, converged.evaluation);
-        let nodes = self.problem.dofs.nodes() * self.problem.dofs.per_node();
-        let before = if state.last_dt > 0.0 { largest(&state.last_change[..nodes]) / state.last_dt } else { 0.0 };
         for (i, (change, u)) in state.last_change.iter_mut().zip(&converged.u).enumerate() {
             *change = u - state.u[i];
             state.external_work += 0.5 * (state.internal[i] + evaluation.internal[i]) * *change;
         }
-        let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
-        let moved = largest(&state.last_change[..nodes]);
-        state.leap = leap([before * dt, driven, moved], self.problem.size);
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
             total.supplied += new.supplied;

@@ -19,6 +19,8 @@ use std::sync::Arc;
 const ALLOWED: f64 = 1e-7;
 /// A pressure of some steps of the differences, times the penalty.
 const LITTLE: f64 = 5e-3;
+/// A small part of the smallest face.
+const SLIVER: f64 = 0.02;
 
 /// Cells of the upper and of the lower block: all kinds of faces against each other.
 const PAIRS: [[&str; 2]; 7] = [
@@ -49,8 +51,21 @@ fn mesh([upper, lower]: [&str; 2]) -> Mesh {
     mesh
 }
 
-fn contact(cells: [&str; 2], loads: Loads, friction: f64) -> (Contact, Dofs) {
+/// Which of the two blocks carries the points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Carrier {
+    /// The small one, which the large one covers.
+    Small,
+    /// The large one, whose faces the small one covers in part.
+    Large,
+}
+
+fn contact(cells: [&str; 2], carrier: Carrier, loads: Loads, friction: f64) -> (Contact, Dofs) {
     let mesh = Arc::new(mesh(cells));
+    let (own, other) = match carrier {
+        Carrier::Small => ("upper.back", "lower.front"),
+        Carrier::Large => ("lower.front", "upper.back"),
+    };
     let dofs = Dofs::new(3, mesh.points.len(), 0);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
     // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
@@ -69,9 +84,9 @@ fn contact(cells: [&str; 2], loads: Loads, friction: f64) -> (Contact, Dofs) {
     };
     let parts = Parts {
         name: "c".into(),
-        surface: Surface::new(&mesh, sides("upper.back"), None),
-        boundary: mesh.boundary(&mesh.groups["upper"].cells),
-        target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides("lower.front"))),
+        surface: Surface::new(&mesh, sides(own), None),
+        boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
+        target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides(other))),
         law: Arc::new(Law(Coulomb::new(friction))),
         options,
         dofs: dofs.clone(),
@@ -109,36 +124,49 @@ fn states((contact, dofs): &(Contact, Dofs), count: usize, look: &mut dyn FnMut(
 
 #[test]
 fn tangents_of_contact_between_bodies_are_exact() {
+    let carriers = [(Carrier::Small, Loads::Own), (Carrier::Small, Loads::Both), (Carrier::Large, Loads::Both)];
+    let (mut good, mut found) = (true, Vec::new());
     for cells in PAIRS {
-        for loads in [Loads::Own, Loads::Both] {
-            let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
-            let pair = contact(cells, loads, 0.4);
-            states(&pair, 120, &mut |accepted, attempt, u| {
+        for (carrier, loads) in carriers {
+            let (mut met, mut cut, mut skipped, mut worst) = ([0; 3], 0, 0, 0.0_f64);
+            let pair = contact(cells, carrier, loads, 0.4);
+            // As many points of each pair, whatever their number on a face.
+            let points = pair.0.surface().points.len();
+            let count = if carrier == Carrier::Large { 900 / points } else { 60 + 120 / points };
+            states(&pair, count, &mut |accepted, attempt, u| {
+                let mut stencils = Stencils::default();
+                attempt.stencils(u, &mut stencils).unwrap();
+                cut += stencils.list.iter().filter(|stencil| stencil.border[0] > 0).count();
                 let Ok(end) = commit(&pair.0, accepted, u.to_vec()) else { return };
                 let records = pair.0.records(u, &end.histories[0]);
                 for (result, record) in check(attempt, u).unwrap().into_iter().zip(records) {
                     met[usize::from(result.branch)] += 1;
-                    // Where hardly anything is left of the pressure, the steps of the differences are not small.
-                    let smooth = result.smooth && (record.pressure == 0.0 || record.pressure > LITTLE);
+                    // Where hardly anything is left of the pressure or of the face, the steps of the differences are
+                    // not small.
+                    let little = (record.pressure > 0.0 && record.pressure < LITTLE) || record.area < SLIVER;
+                    let smooth = result.smooth && !little;
                     skipped += usize::from(!smooth);
                     assert!(result.error.is_finite());
                     worst = if smooth { worst.max(result.error) } else { worst };
                 }
             });
-            let name = format!("{cells:?}, {loads:?}: {met:?} skipped {skipped} worst {worst:.1e}");
-            println!("{name}");
-            assert!(met.iter().all(|&met| met >= 8), "{name}");
-            assert!(10 * skipped <= met.iter().sum::<usize>(), "{name}");
-            assert!(worst < ALLOWED, "{name}");
+            let name =
+                format!("{cells:?}, {carrier:?}, {loads:?}: {met:?} cut {cut} skipped {skipped} worst {worst:.1e}");
+            good &= met.iter().all(|&met| met >= 4)
+                && 5 * skipped <= met.iter().sum::<usize>()
+                && (cut > 50) == (carrier == Carrier::Large)
+                && worst < ALLOWED;
+            found.push(name);
         }
     }
+    assert!(good, "{}", found.join("\n"));
 }
 
 /// The forces of one pass on the two bodies are opposite, and without friction so are their moments.
 #[test]
 fn forces_of_one_pass_balance() {
     for (cells, friction) in [(["hex20", "tet10"], 0.0), (["hex27", "hex8"], 0.0), (["tet10", "hex20"], 0.4)] {
-        let (contact, dofs) = contact(cells, Loads::Both, friction);
+        let (contact, dofs) = contact(cells, Carrier::Small, Loads::Both, friction);
         let mut closed = 0;
         states(&(contact, dofs), 60, &mut |_, attempt, u| {
             let (mut stencils, mut local) = (Stencils::default(), Local::default());
@@ -163,7 +191,7 @@ fn forces_of_one_pass_balance() {
 #[test]
 fn a_loaded_pair_turns_without_slip() {
     for cells in PAIRS {
-        let ((contact, dofs), mut random) = (contact(cells, Loads::Own, 0.4), Random(3));
+        let ((contact, dofs), mut random) = (contact(cells, Carrier::Small, Loads::Own, 0.4), Random(3));
         let start = state(vec![0.0; dofs.count()], contact.initial());
         let mut push = || {
             let mut u = motion(&contact, &dofs, &mut random);

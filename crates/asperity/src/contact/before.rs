@@ -29,9 +29,9 @@ pub struct Before {
 }
 
 /// The stencil's third choice: the history says what was touched,
-const AS_BEFORE: u32 = 0;
+pub(super) const AS_BEFORE: u32 = 0;
 /// or nothing was; anything else is a segment and one.
-const NOTHING: u32 = u32::MAX;
+pub(super) const NOTHING: u32 = u32::MAX;
 
 impl OpenContact<'_> {
     /// The stencil's choice of what a point at `spot` touched.

@@ -34,9 +34,9 @@ pub mod entry {
     pub const SHEAR2: usize = 12;
     /// Slip along the second tangent, accumulated with its sign since the start, in space.
     pub const SLIP2: usize = 13;
-    /// Place on the edge of the surface, from -1 to 1.
+    /// Place on the edge of the surface, from -1 to 1, or first coordinate on its face.
     pub const XI: usize = 14;
-    /// Half of the length, from -1 to 1, of the part of the edge on which the points stand.
+    /// Half of the length, from -1 to 1, of the part of the edge on which the points stand, or the root of that of the face.
     pub const HALF: usize = 15;
     /// Pressure times irreversible slip, summed since the start.
     pub const RUBBED: usize = 16;
@@ -44,8 +44,10 @@ pub mod entry {
     pub const CLOSURE: usize = 17;
     /// Penetration before the first increment that is removed little by little.
     pub const OVERLAP: usize = 18;
+    /// Second coordinate on the face, in space.
+    pub const XI2: usize = 19;
     /// Number of these values.
-    pub const COUNT: usize = 19;
+    pub const COUNT: usize = 20;
 }
 
 /// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.

@@ -42,6 +42,8 @@ pub struct Stencil {
     pub near: [f64; 2],
     /// Further discrete choices, whose meaning belongs to the term.
     pub also: [u32; 3],
+    /// Nodes of a target's border, as the term writes them.
+    pub border: [u32; 4],
 }
 
 /// The stencils of a term, owned by the assembly for one iteration.

@@ -13,7 +13,9 @@ mod hertz_cylinder;
 mod hertz_sphere;
 mod inclined_block;
 mod interference_fit;
+mod ironing_3d;
 mod partial_slip;
+mod partial_slip_3d;
 mod pull_out;
 mod ring_compression;
 mod rolling;
@@ -34,8 +36,10 @@ pub const ALL: &[&Case] = &[
     &two_body_patch::CASE,
     &interference_fit::CASE,
     &partial_slip::CASE,
+    &partial_slip_3d::CASE,
     &crushed_ring::CASE,
     &shallow_ironing::CASE,
+    &ironing_3d::CASE,
     &rotated_pair::CASE,
     &inclined_block::CASE,
     &hertz_cylinder::CASE,

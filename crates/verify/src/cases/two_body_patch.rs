@@ -33,8 +33,23 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("punch_quad8".into(), error(&bench.solve("punch8.toml", &[])?)),
         ("one_pass".into(), error(&one)),
         ("one_pass_quad8".into(), error(&with(meshed("quad8", "quad8"), &["contact.joint.passes=one"])?)),
+        ("flush_hex8".into(), error(&bench.solve("flush_box.toml", &boxes(bench, "hex8", "hex8"))?)),
+        ("flush_hex20".into(), error(&bench.solve("flush_box.toml", &boxes(bench, "hex20", "hex20"))?)),
+        ("flush_tet10".into(), error(&bench.solve("flush_box.toml", &boxes(bench, "tet10", "hex8"))?)),
+        ("punch_hex8".into(), error(&bench.solve("punch_box.toml", &[])?)),
         ("mismatch".into(), mean_pressure(&flush, 0) / mean_pressure(&flush, 1) - 1.0),
     ])
+}
+
+/// The meshes of two blocks in space.
+fn boxes(bench: &Bench, foundation: &str, punch: &str) -> Vec<String> {
+    let (low, high) = bench.pick(([3, 2, 2], [2, 1, 3]), ([7, 3, 5], [5, 2, 4]));
+    vec![
+        format!("mesh.part.foundation.box.cells={low:?}"),
+        format!("mesh.part.punch.box.cells={high:?}"),
+        format!("mesh.part.foundation.box.cell={foundation}"),
+        format!("mesh.part.punch.box.cell={punch}"),
+    ]
 }
 
 /// Largest deviation of the vertical stress from the pressure, over the pressure.

@@ -2,7 +2,7 @@
 //! point's own body, in the accepted state. A face of second degree counts as the triangles between its nodes.
 
 use super::point::Triad;
-use super::surface::{MAX_NODES, Surface, SurfacePoint};
+use super::surface::{Surface, SurfacePoint};
 use crate::contact::capture::positions;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
@@ -65,9 +65,8 @@ impl Boundary {
 
 /// Position and tangents of a point of the surface at displacements `u`.
 pub fn locate(surface: &Surface, point: &SurfacePoint, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> (Vec3, [Vec3; 2]) {
-    let (nodes, mut x) = (surface.nodes(point), [Vec3::zero(); MAX_NODES]);
-    x.iter_mut().zip(positions(mesh, dofs, nodes, u)).for_each(|(x, here)| *x = here);
-    point.place(&x[..nodes.len()])
+    let face = &surface.faces[point.face];
+    point.place(&face.placed((mesh, dofs), u)[..face.nodes.len()])
 }
 
 /// The largest admissible penetration at each point of a surface; infinite where the ray never leaves the body.

@@ -3,14 +3,14 @@
 //! A tree of boxes, fitted anew for each search, keeps a ray from being tried against every face.
 
 use super::patch::Patch;
-use super::surface::{Face, MAX_NODES};
+use super::surface::Face;
 use super::target::{Cast, MAX_UNKNOWNS, Memory};
-use crate::contact::capture::positions;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::{Scalar, Vec3};
 use crate::tool::space::Hit;
 use crate::tool::{Bounds, Ray, Tree};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Faces of bodies.
@@ -19,6 +19,8 @@ pub struct Faces {
     mesh: Arc<Mesh>,
     dofs: Dofs,
     faces: Vec<Face>,
+    /// The face beyond each edge of a face.
+    neighbours: Vec<Vec<Option<usize>>>,
     tree: Tree,
     size: f64,
 }
@@ -38,7 +40,8 @@ impl Faces {
     pub fn new(mesh: Arc<Mesh>, dofs: Dofs, sides: &[Side]) -> Self {
         let list: Vec<Face> = sides.iter().map(|&side| Face::new(&mesh, side)).collect();
         let still = vec![0.0; dofs.count()];
-        let mut faces = Self { mesh, dofs, faces: list, tree: Tree::new(&[], 0.0), size: 0.0 };
+        let neighbours = neighbours(&list);
+        let mut faces = Self { mesh, dofs, faces: list, neighbours, tree: Tree::new(&[], 0.0), size: 0.0 };
         let boxes = boxes(&faces.patches(&still));
         faces.size = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b)).size();
         faces.tree = Tree::new(&boxes, MARGIN * faces.size);
@@ -67,12 +70,8 @@ impl Faces {
     }
 
     fn patches(&self, u: &[f64]) -> Vec<Patch> {
-        let patch = |face: &Face| {
-            let mut x = [Vec3::zero(); MAX_NODES];
-            x.iter_mut().zip(positions(&self.mesh, &self.dofs, &face.nodes, u)).for_each(|(x, here)| *x = here);
-            Patch::through(face.kind, x)
-        };
-        self.faces.iter().map(patch).collect()
+        let sites = (&*self.mesh, &self.dofs);
+        self.faces.iter().map(|face| Patch::through(face.kind, face.placed(sites, u))).collect()
     }
 
     /// The face whose nodes have the displacements `u`.
@@ -123,11 +122,60 @@ impl Faces {
     }
 }
 
+/// The faces that share an edge with each, edge by edge.
+fn neighbours(faces: &[Face]) -> Vec<Vec<Option<usize>>> {
+    let edges = |face: &Face| face.edges().collect::<Vec<_>>();
+    let runs: BTreeMap<[usize; 2], usize> =
+        faces.iter().enumerate().flat_map(|(i, face)| edges(face).into_iter().map(move |ends| (ends, i))).collect();
+    let beyond = |face: &Face| face.edges().map(|[a, b]| runs.get(&[b, a]).copied()).collect();
+    faces.iter().map(beyond).collect()
+}
+
+impl Faces {
+    /// Place of a node for its displacements `u`.
+    pub(super) fn place_of(&self, node: usize, u: &[f64]) -> Vec3 {
+        self.mesh.points[node] + Vec3::new(u[0], u[1], u[2])
+    }
+    /// The unknowns of a node.
+    pub(super) fn unknowns_of(&self, node: usize) -> [usize; 3] {
+        [0, 1, 2].map(|axis| self.dofs.node(node) + axis)
+    }
+    /// Values of the unknowns of a segment among all unknowns.
+    pub(super) fn values(&self, segment: usize, u: &[f64]) -> [f64; MAX_UNKNOWNS] {
+        let mut here = [0.0; MAX_UNKNOWNS];
+        self.unknowns(segment).zip(&mut here).for_each(|(dof, value)| *value = u[dof]);
+        here
+    }
+    /// `dx_B/ds` at `s` on a segment whose unknowns are `u`.
+    pub(super) fn tangents(&self, segment: usize, s: [f64; 2], u: &[f64]) -> [Vec3; 2] {
+        self.patch(segment, u).facet().tangents(s)
+    }
+}
+
 fn boxes(patches: &[Patch]) -> Vec<Bounds> {
     patches.iter().map(|patch| patch.facet().bounds()).collect()
 }
 
 impl Standing<'_> {
+    /// Edges near a box of faces that look, beyond which there is none that does: the face, and the ends by node and
+    /// position.
+    pub(super) fn borders_near(
+        &self,
+        around: &Bounds,
+        looks: &dyn Fn(Vec3) -> bool,
+        found: &mut dyn FnMut(usize, [(usize, Vec3); 2]),
+    ) {
+        let looks = |segment: usize| looks(self.patches[segment].normal());
+        self.tree.near(around, &mut |segment| {
+            let (face, patch) = (&self.faces.faces[segment], &self.patches[segment]);
+            for (k, beyond) in self.faces.neighbours[segment].iter().enumerate() {
+                if !beyond.is_some_and(looks) && looks(segment) {
+                    found(segment, [k, (k + 1) % face.corners()].map(|k| (face.nodes[k], patch.corner(k))));
+                }
+            }
+        });
+    }
+
     /// What a ray meets by the rules against false contacts; what they reject is counted.
     pub(super) fn select(&self, cast: &Cast, memory: &mut Memory) -> Option<Hit> {
         self.cast(&cast.ray, cast.range(), &mut memory.hits);

@@ -1,15 +1,16 @@
 //! Where everything is at one contact point in space, which unknowns that depends on, and the chain rule from its fifteen
-//! directions to those unknowns: those of its own nodes, of the segment it hits, and of the segment touched at the last
-//! accepted state where that is another one.
+//! directions to those unknowns: those of its own nodes, of the segment it hits, of the segment touched at the last accepted
+//! state where that is another one, and of the border of the target over its face.
 
+use super::before::Before;
 use super::open::{D, OpenContact, seed};
 use super::point::{Closed, Place, Triad};
-use super::surface::MAX_NODES;
+use super::split::{self, Border, Placed, RATES, VERTICES};
+use super::surface::{MAX_NODES, SurfacePoint};
 use super::target::MAX_UNKNOWNS;
 use crate::Failure;
 use crate::contact::Loads;
 use crate::contact::layout::Layout;
-use crate::contact::record::entry;
 use crate::contact::seed::Seed;
 use crate::system::{Local, Stencil};
 use crate::tensor::{Scalar, Vec3};
@@ -19,18 +20,31 @@ use crate::tool::space::Hit;
 /// Directions in which a contact point is differentiated: five vectors.
 pub const DIRECTIONS: usize = 15;
 /// Most unknowns of a stencil.
-pub const MAX_DOFS: usize = 3 * MAX_NODES + 2 * MAX_UNKNOWNS;
+pub const MAX_DOFS: usize = 3 * MAX_NODES + 2 * MAX_UNKNOWNS + 3 * VERTICES;
 
 /// Where everything is at one point, in plain numbers.
 pub struct Geometry {
+    /// Where the point stands on its face.
+    pub spot: SurfacePoint,
     /// Positions.
     pub place: Place<f64>,
     /// Where the target is hit.
     pub hit: Hit,
-    /// Segment touched at the last accepted state, and where.
-    pub touched: Option<(usize, [f64; 2])>,
+    /// What it touched at the last accepted state.
+    pub before: Before,
     /// Which unknowns they depend on.
     pub layout: Layout,
+    moving: Option<Box<Moving>>,
+}
+
+/// How a point moves that stands on a part of its face.
+struct Moving {
+    /// Derivatives of its two coordinates and of the root of the part.
+    rates: [[f64; RATES]; 3],
+    /// Tangents of the whole face.
+    tangents: [Vec3; 2],
+    /// Their derivatives.
+    bend: [[Vec3; 2]; 2],
 }
 
 impl OpenContact<'_> {
@@ -41,57 +55,85 @@ impl OpenContact<'_> {
         out.extend(nodes.iter().flat_map(|&node| [0, 1, 2].map(|axis| parts.dofs.node(node) + axis)));
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return };
         parts.target.unknowns(segment, out);
-        match self.touched(index) {
-            Some((touched, _)) if !parts.target.together(segment, touched) => parts.target.unknowns(touched, out),
+        match self.touched_segment(index, stencil) {
+            Some(touched) if !parts.target.together(segment, touched) => parts.target.unknowns(touched, out),
             _ => {}
+        }
+        if let Some(faces) = parts.target.as_faces() {
+            out.extend(Border::of(stencil).list().flat_map(|node| faces.unknowns_of(node)));
         }
     }
 
-    fn layout(&self, index: usize, segment: usize) -> Layout {
+    fn layout(&self, index: usize, stencil: &Stencil, segment: usize) -> Layout {
         let parts = &self.contact.parts;
         let own = 3 * parts.surface.nodes(&parts.surface.points[index]).len();
         let touched = self
-            .touched(index)
-            .map(|(touched, _)| (!parts.target.together(segment, touched)).then(|| parts.target.count(touched)));
-        Layout::new(own, parts.target.count(segment), touched, [0; 2])
+            .touched_segment(index, stencil)
+            .map(|touched| (!parts.target.together(segment, touched)).then(|| parts.target.count(touched)));
+        Layout::new(own, parts.target.count(segment), touched, [3 * Border::of(stencil).list().count(), 0])
     }
 
-    /// Where everything is for values `u` of a stencil's unknowns; None where it hits nothing.
-    pub(super) fn geometry(&self, index: usize, stencil: &Stencil, u: &[f64]) -> Result<Option<Geometry>, Failure> {
+    /// Where everything is for values `u` of a stencil's unknowns, and how it moves if those rates are wanted; None where it
+    /// hits nothing.
+    pub(super) fn geometry(
+        &self,
+        index: usize,
+        (stencil, rates): (&Stencil, bool),
+        u: &[f64],
+    ) -> Result<Option<Geometry>, Failure> {
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return Ok(None) };
-        let (contact, parts, layout) = (self.contact, &self.contact.parts, self.layout(index, segment));
-        let point = &parts.surface.points[index];
-        let face = &parts.surface.faces[point.face];
-        let x = face.moved(&parts.mesh, u);
-        let (a, tangents) = point.place(&x[..face.nodes.len()]);
-        let inward = Triad::new(tangents).inward;
+        let (contact, parts, layout) = (self.contact, &self.contact.parts, self.layout(index, stencil, segment));
         let lost = || Failure::new(format!("{}: its ray runs along the target", contact.describe(index)));
+        let face = &parts.surface.faces[parts.surface.points[index].face];
+        let placed = Placed { face, x: face.moved(&parts.mesh, u) };
+        let border = layout.ends[0].clone().map(|range| &u[range]);
+        let (spot, moving) = self.spot((index, stencil), &placed, border, rates).ok_or_else(lost)?;
+        let (a, tangents) = spot.place(&placed.x[..face.nodes.len()]);
+        let inward = Triad::new(tangents).inward;
         let ray = Ray { origin: a, direction: inward };
         let hit = parts.target.meet(segment, &u[layout.hit.clone()], &ray, stencil.near).ok_or_else(lost)?;
-        let before = self.touched(index);
-        let touched = before.zip(layout.touched.clone()).map(|((on, s), range)| parts.target.point(on, s, &u[range]));
+        let before = self.before(index, stencil, &spot);
+        let of_touched = before.touched.zip(layout.touched.clone());
+        let touched = of_touched.map(|((on, s), range)| parts.target.point(on, s, &u[range]));
         let place = Place { a, tangents, b: a + inward * hit.u, touched };
-        Ok(Some(Geometry { place, hit, touched: before, layout }))
+        Ok(Some(Geometry { spot, place, hit, before, layout, moving }))
     }
 
-    /// The segment touched at the last accepted state, and where.
-    fn touched(&self, index: usize) -> Option<(usize, [f64; 2])> {
-        let old = self.history.slot(index);
-        (old[entry::SEGMENT] >= 0.0).then(|| (old[entry::SEGMENT] as usize, [old[entry::S], old[entry::S2]]))
+    /// Where a point stands on its face, and how it moves there with its nodes and those of the border, whose unknowns
+    /// are `u`.
+    fn spot(
+        &self,
+        (index, stencil): (usize, &Stencil),
+        placed: &Placed,
+        u: Option<&[f64]>,
+        rates: bool,
+    ) -> Option<(SurfacePoint, Option<Box<Moving>>)> {
+        let (surface, border) = (&self.contact.parts.surface, Border::of(stencil));
+        let (Some(faces), Some(u)) = (self.contact.parts.target.as_faces(), u) else {
+            return Some((surface.points[index], None));
+        };
+        let vertices: Vec<Vec3> =
+            border.list().zip(u.chunks_exact(3)).map(|(node, u)| faces.place_of(node, u)).collect();
+        let (xi, scale) = split::laid(placed, border, &vertices, &surface.points[index])?;
+        let moving = || {
+            let rates = split::rates(placed, border, &vertices, &surface.points[index])?;
+            Some(Box::new(Moving { rates, tangents: placed.at(xi).1, bend: placed.bend(xi) }))
+        };
+        let moving = if rates { Some(moving()?) } else { None };
+        Some((surface.moved(index, xi, scale), moving))
     }
 
     /// What a force at a point does to each unknown of its stencil: `-N_L f` to its own nodes, and to the target its
     /// work along the target's rates, unless the target loads itself.
     pub(super) fn rows<T: Scalar>(
         &self,
-        (index, g, u): (usize, &Geometry, &[f64]),
+        (g, u): (&Geometry, &[f64]),
         (at, b): (Vec3<T>, Vec3<T>),
         force: Vec3<T>,
     ) -> [T; MAX_DOFS] {
         let (parts, mut rows) = (&self.contact.parts, [T::zero(); MAX_DOFS]);
-        let shapes = &parts.surface.points[index].n;
         for (k, row) in rows[..g.layout.own].iter_mut().enumerate() {
-            *row = -force[k % 3] * shapes[k / 3];
+            *row = -force[k % 3] * g.spot.n[k / 3];
         }
         if parts.options.loads == Loads::Both {
             let hit = g.layout.hit.clone();
@@ -102,16 +144,16 @@ impl OpenContact<'_> {
     }
 
     /// Adds the forces of a closed point and their derivatives by the chain rule.
-    pub(super) fn add<T: Seed<DIRECTIONS>>(&self, index: usize, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
+    pub(super) fn add<T: Seed<DIRECTIONS>>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
         let (n, hit) = (local.force.len(), g.layout.hit.clone());
-        let rows = self.rows((index, g, &local.u), (closed.hit, seed(g.place.b, 9)), closed.force);
+        let rows = self.rows((g, &local.u), (closed.hit, seed(g.place.b, 9)), closed.force);
         for (force, row) in local.force.iter_mut().zip(&rows) {
             *force += row.re();
         }
         if !local.wants_tangent {
             return;
         }
-        let columns = self.columns(index, g, &local.u);
+        let columns = self.columns(g, &local.u);
         // Nothing acts on what was touched.
         for (i, row) in rows[..hit.end].iter().enumerate() {
             let slopes = row.slopes();
@@ -119,33 +161,73 @@ impl OpenContact<'_> {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }
-        if self.contact.parts.options.loads == Loads::Both {
-            let load = (closed.hit.re(), closed.force.re());
-            self.contact.parts.target.stiffen(&local.u[hit.clone()], load, &mut |row, column, value| {
+        self.add_fixed_rates(g, (closed.hit.re(), closed.force.re()), local);
+    }
+
+    /// What the forces' own places on the nodes add: the rates of a tool move with its reference point, and the shape
+    /// functions with a point that moves over its face.
+    fn add_fixed_rates(&self, g: &Geometry, load: (Vec3, Vec3), local: &mut Local) {
+        let (n, hit, parts) = (local.force.len(), g.layout.hit.clone(), &self.contact.parts);
+        if parts.options.loads == Loads::Both {
+            parts.target.stiffen(&local.u[hit.clone()], load, &mut |row, column, value| {
                 local.tangent[(hit.start + row) * n + hit.start + column] += value;
             });
         }
+        self.each_rate(g, |_, column, [xi, eta, _]| {
+            for k in 0..g.layout.own {
+                let [p, q] = g.spot.dn[k / 3].map(|slope| slope / g.spot.scale);
+                local.tangent[k * n + column] -= load.1[k % 3] * (p * xi + q * eta);
+            }
+        });
+    }
+
+    /// For each unknown that moves a point over its face: the derivatives of its coordinates and of the root of the part.
+    fn each_rate(&self, g: &Geometry, mut act: impl FnMut(&Moving, usize, [f64; 3])) {
+        let Some((moving, ends)) = g.moving.as_ref().zip(g.layout.ends[0].clone()) else { return };
+        let coupled = if self.contact.parts.options.coupling { ends } else { 0..0 };
+        let columns = (0..g.layout.own).map(|k| (k, k)).chain(coupled.zip(3 * MAX_NODES..));
+        columns.for_each(|(column, rate)| act(moving, column, moving.rates.map(|rates| rates[rate])));
     }
 
     /// Derivatives of the fifteen directions along each unknown of the stencil.
-    pub(super) fn columns(&self, index: usize, g: &Geometry, u: &[f64]) -> [[f64; DIRECTIONS]; MAX_DOFS] {
+    pub(super) fn columns(&self, g: &Geometry, u: &[f64]) -> [[f64; DIRECTIONS]; MAX_DOFS] {
         let (parts, mut columns) = (&self.contact.parts, [[0.0; DIRECTIONS]; MAX_DOFS]);
-        let point = &parts.surface.points[index];
         for (k, column) in columns[..g.layout.own].iter_mut().enumerate() {
-            column[k % 3] = point.n[k / 3];
-            column[3 + k % 3] = point.dn[k / 3][0];
-            column[6 + k % 3] = point.dn[k / 3][1];
+            column[k % 3] = g.spot.n[k / 3];
+            column[3 + k % 3] = g.spot.dn[k / 3][0];
+            column[6 + k % 3] = g.spot.dn[k / 3][1];
         }
+        let sliding = self.sliding(g, u);
+        self.each_rate(g, |moving, column, [xi, eta, stretch]| {
+            let along = |[p, q]: [Vec3; 2]| p * xi + q * eta;
+            let tangent = |a: usize| along(moving.bend[a]) * g.spot.scale + moving.tangents[a] * stretch;
+            let changes = [along(moving.tangents), tangent(0), tangent(1), Vec3::zero(), along(sliding)];
+            for (direction, change) in columns[column].iter_mut().zip(changes.iter().flat_map(|change| change.0)) {
+                *direction += change;
+            }
+        });
         if !parts.options.coupling {
             return columns;
         }
         let hit = g.layout.hit.clone();
         let rates = parts.target.rates(g.hit.facet, g.hit.s, &u[hit.clone()], g.place.b);
         spread(&mut columns[hit], &rates, 9);
-        if let Some((((segment, s), range), at)) = g.touched.zip(g.layout.touched.clone()).zip(g.place.touched) {
+        let touched = g.before.touched.zip(g.layout.touched.clone()).zip(g.place.touched);
+        if let Some((((segment, s), range), at)) = touched {
             spread(&mut columns[range.clone()], &parts.target.rates(segment, s, &u[range], at), 12);
         }
         columns
+    }
+
+    /// Motion of the touched point along both coordinates of the face.
+    fn sliding(&self, g: &Geometry, u: &[f64]) -> [Vec3; 2] {
+        let (parts, before) = (&self.contact.parts, &g.before);
+        let segment = before.touched.zip(g.layout.touched.clone()).zip(parts.target.as_faces());
+        let Some((((segment, s), range), faces)) = segment.filter(|_| g.moving.is_some()) else {
+            return [Vec3::zero(); 2];
+        };
+        let [t, v] = faces.tangents(segment, s, &u[range]);
+        before.sliding.map(|[p, q]| t * p + v * q)
     }
 
     /// The seeds of a place.

@@ -20,7 +20,7 @@ struct Placed<'a> {
 
 impl Placed<'_> {
     fn corners(&self) -> usize {
-        self.face.kind.linear.nodes.len()
+        self.face.corners()
     }
     /// Ends of its edges, as positions among its nodes.
     fn edges(&self) -> impl Iterator<Item = [usize; 2]> {

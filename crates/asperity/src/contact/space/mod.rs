@@ -1,6 +1,8 @@
 //! Contact in space between the faces of bodies, and with rigid tools: the same element as in the plane, with two
 //! tangents.
 
+mod before;
+mod border;
 mod capture;
 mod faces;
 mod geometry;
@@ -10,8 +12,10 @@ mod open;
 mod pair;
 mod patch;
 mod point;
+mod polygon;
 mod rigid;
 mod search;
+mod split;
 mod surface;
 mod target;
 mod uzawa;

@@ -4,6 +4,8 @@ use super::geometry::{DIRECTIONS, Geometry};
 use super::pair::Contact;
 use super::point::{self, Closed, Constants, Place, Triad};
 use super::rigid;
+use super::surface::SurfacePoint;
+use super::target::Standing;
 use crate::Failure;
 use crate::contact::augment::Shift;
 use crate::contact::capture::refuse_jump;
@@ -24,6 +26,10 @@ pub struct OpenContact<'a> {
     pub contact: &'a Contact,
     /// Its history in the accepted state.
     pub history: &'a History,
+    /// Accepted unknowns.
+    pub accepted: &'a [f64],
+    /// The target in the accepted configuration, where it deforms.
+    pub standing: Option<Standing<'a>>,
     /// Largest admissible penetration at each point.
     pub depths: Vec<f64>,
     /// Rotation vector of the tool in the accepted state; zero where there is none.
@@ -47,8 +53,9 @@ pub struct OpenContact<'a> {
 }
 
 /// Begins the new history of a point with what the search found.
-pub fn write_hit(hit: Option<Hit>, values: &mut [f64]) {
+pub fn write_hit(spot: &SurfacePoint, hit: Option<Hit>, values: &mut [f64]) {
     values.fill(0.0);
+    ([values[entry::XI], values[entry::XI2]], values[entry::HALF]) = (spot.xi, spot.scale);
     match hit {
         Some(hit) => {
             values[entry::PENETRATION] = hit.u;
@@ -82,8 +89,8 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
-        let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
-            write_hit(None, new);
+        let Some(geometry) = self.geometry(index, (stencil, local.wants_tangent), &local.u)? else {
+            write_hit(&self.contact.parts.surface.points[index], None, new);
             leave(&*self.contact.parts.law, self.history.slot(index), new);
             return Ok(0);
         };
@@ -100,7 +107,7 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
-        if let Some(geometry) = self.geometry(index, stencil, u)? {
+        if let Some(geometry) = self.geometry(index, (stencil, true), u)? {
             self.bend(index, &geometry, u, out);
         }
         Ok(())
@@ -136,7 +143,7 @@ impl OpenContact<'_> {
         let past = self.past(index);
         let constants = self.constants(index, g, &past);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
-        write_hit(Some(g.hit), new);
+        write_hit(&g.spot, Some(g.hit), new);
         new[entry::CLOSURE] = constants.closure;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
@@ -151,7 +158,7 @@ impl OpenContact<'_> {
         self.refuse_turn(index, (g, &local.u))?;
         new[entry::PENETRATION] -= constants.least;
         write(&closed.response, closed.slip, old, new);
-        self.add(index, g, &closed, local);
+        self.add(g, &closed, local);
         let response = &closed.response;
         self.account(index, g, Carried::of(response), local);
         Ok(response.status as Branch)
@@ -166,7 +173,7 @@ impl OpenContact<'_> {
             touch: parts.law.touch(past),
             opens: parts.law.opens(past, g.place.slip()),
             least: self.contact.least,
-            weight: parts.surface.points[index].weight,
+            weight: g.spot.weight,
             turning: self.contact.parts.options.turning(g.hit.u + self.closure(index), self.ordinary),
         }
     }
@@ -194,7 +201,7 @@ impl OpenContact<'_> {
     fn account(&self, index: usize, g: &Geometry, now: Carried, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
-        let area = Triad::new(g.place.tangents).area * self.contact.parts.surface.points[index].weight;
+        let area = Triad::new(g.place.tangents).area * g.spot.weight;
         let area = area * options.loads.share();
         let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(index).0 };
         local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - multiplied) * area;

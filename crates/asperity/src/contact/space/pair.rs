@@ -124,8 +124,11 @@ impl Contact {
     /// All points in an accepted state, with this term's lane of its history. Their `along` is the direction of the
     /// shear stress, and `shear` and `slip` are lengths of vectors.
     pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
-        let points = self.parts.surface.points.iter().enumerate();
-        points.map(|(i, point)| self.record(point, history.slot(i), u)).collect()
+        let record = |i: usize| {
+            let values = history.slot(i);
+            self.record(&self.spot(i, values), values, u)
+        };
+        (0..self.parts.surface.points.len()).map(record).collect()
     }
 
     fn record(&self, point: &SurfacePoint, values: &[f64], u: &[f64]) -> PointRecord {
@@ -157,6 +160,11 @@ impl Contact {
         }
     }
 
+    /// Where a point stands on its face in an accepted state.
+    pub(super) fn spot(&self, index: usize, values: &[f64]) -> SurfacePoint {
+        self.parts.surface.moved(index, [values[entry::XI], values[entry::XI2]], values[entry::HALF])
+    }
+
     /// The ray of a point, along its inward normal.
     pub(super) fn ray(&self, point: &SurfacePoint, u: &[f64]) -> Ray {
         let (origin, tangents) = self.locate(point, u);
@@ -182,7 +190,7 @@ impl Term for Contact {
         let mut history = History::new(points.chain(corners));
         let u = vec![0.0; self.parts.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
-            write_hit(hit, history.slot_mut(i));
+            write_hit(&self.parts.surface.points[i], hit, history.slot_mut(i));
             self.parts.options.overlap.begin(history.slot_mut(i), self.least);
             self.parts.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
@@ -200,6 +208,8 @@ impl Term for Contact {
         Ok(Box::new(OpenContact {
             contact: self,
             history,
+            accepted: &accepted.u,
+            standing: parts.target.deforms().then(|| parts.target.stand(&accepted.u)),
             depths,
             rotation: parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pose(&accepted.u).rotation),
             reach: self.reach(&accepted.last_change),

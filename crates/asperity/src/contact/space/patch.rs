@@ -4,7 +4,7 @@
 //! Across a ray two equations are left for the two coordinates; Newton's method solves them from the middle of the face
 //! and of its quarters, each being so little bent that it finds what is near. The coordinates `s` run from 0 to 1.
 
-use super::surface::{Face, MAX_NODES};
+use super::surface::{Face, MAX_NODES, natural};
 use crate::mesh::cells::Cell;
 use crate::tensor::Vec3;
 use crate::tool::space::{Facet, Meeting, Quad, Triangle};
@@ -45,6 +45,23 @@ impl Patch {
             _ => Self::Curved(Curved { kind, x }),
         }
     }
+    /// Where corner number `k` is.
+    pub fn corner(&self, k: usize) -> Vec3 {
+        match self {
+            Self::Triangle(Triangle(x)) => x[k],
+            Self::Quad(Quad(x)) => x[k],
+            Self::Curved(curved) => curved.x[k],
+        }
+    }
+    /// Outward unit normal at its middle.
+    pub fn normal(&self) -> Vec3 {
+        let middle = match self {
+            Self::Triangle(_) => [1.0 / 3.0; 2],
+            Self::Quad(_) => [0.5; 2],
+            Self::Curved(curved) => curved.middle(),
+        };
+        self.facet().normal(middle)
+    }
     /// What it is to a ray.
     pub fn facet(&self) -> &dyn Facet {
         match self {
@@ -69,13 +86,15 @@ impl Face {
 
 fn shape(kind: &Cell, s: [f64; 2]) -> ([f64; MAX_NODES], [[f64; 2]; MAX_NODES]) {
     let (scale, from) = if is_triangle(kind) { (1.0, 0.0) } else { (2.0, -1.0) };
-    let (mut n, mut gradient) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
-    let count = kind.nodes.len();
-    (kind.shape)([from + scale * s[0], from + scale * s[1], 0.0], &mut n[..count], &mut gradient[..count]);
-    (n, gradient.map(|[a, b, _]| [scale * a, scale * b]))
+    let (n, dn) = natural(kind, s.map(|s| from + scale * s));
+    (n, dn.map(|dn| dn.map(|slope| scale * slope)))
 }
 
 impl Curved {
+    fn middle(&self) -> [f64; 2] {
+        if is_triangle(self.kind) { [1.0 / 3.0; 2] } else { [0.5; 2] }
+    }
+
     fn sum(&self, weights: impl Iterator<Item = f64>) -> Vec3 {
         self.x.iter().zip(weights).fold(Vec3::zero(), |sum, (&x, weight)| sum + x * weight)
     }

@@ -1,12 +1,17 @@
-//! The search in space: which segments the rays of a surface meet.
+//! The search in space: which segments the rays of a surface meet, and which border of the target runs over
+//! its faces.
 
+use super::border::Seeker;
 use super::capture::depths;
 use super::open::OpenContact;
 use super::pair::Contact;
+use super::point::Triad;
+use super::split::{self, Border, Placed};
 use super::surface::SurfacePoint;
-use super::target::{Cast, Memory};
+use super::target::{Cast, Memory, Standing};
 use crate::contact::search;
 use crate::system::{Stencil, Stencils};
+use crate::tensor::Vec3;
 use crate::tool::space::Hit;
 use crate::tool::{Ray, Rejected};
 use rayon::prelude::*;
@@ -26,14 +31,23 @@ impl Contact {
         let parts = &self.parts;
         let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, u);
         let (standing, mut memory) = (parts.target.stand(u), Memory::default());
-        let points = parts.surface.points.iter().zip(depths);
-        let hits = points.map(|(point, depth)| standing.cast(&self.ray_of(point, (depth, reach), u), &mut memory));
+        let points = parts.surface.points.iter().zip(depths).enumerate();
+        let hits = points.map(|(i, (point, depth))| {
+            standing.cast(&Cast { ray: self.ray(point, u), ..self.bounds(i, depth, reach) }, &mut memory)
+        });
         (hits.collect(), memory.rejected)
     }
 
-    /// The ray of a point, along its inward normal, and what it may meet.
-    fn ray_of(&self, point: &SurfacePoint, (depth, reach): (f64, f64), u: &[f64]) -> Cast<'_> {
-        Cast { ray: self.ray(point, u), reach, depth, relatives: &self.relatives[point.face] }
+    /// What rays of a point may meet; the ray itself is yet to be given.
+    pub(super) fn bounds(&self, point: usize, depth: f64, reach: f64) -> Cast<'_> {
+        let ray = Ray { origin: Vec3::zero(), direction: Vec3::zero() };
+        Cast { ray, reach, depth, relatives: &self.relatives[self.parts.surface.points[point].face] }
+    }
+
+    /// A face of the surface with its nodes in place.
+    pub(super) fn placed(&self, face: usize, u: &[f64]) -> Placed<'_> {
+        let (parts, face) = (&self.parts, &self.parts.surface.faces[face]);
+        Placed { face, x: face.placed((&parts.mesh, &parts.dofs), u) }
     }
 
     /// The rays of all points of the undeformed surface.
@@ -64,20 +78,64 @@ impl Contact {
 impl OpenContact<'_> {
     /// Lists the stencils of all points at unknowns `u`.
     pub(super) fn list(&self, u: &[f64], out: &mut Stencils) {
-        let parts = &self.contact.parts;
-        let (standing, points) = (parts.target.stand(u), &parts.surface.points);
-        let cast = |index: usize| {
-            let cast = self.contact.ray_of(&points[index], (self.depths[index], self.reach), u);
-            MEMORY.with_borrow_mut(|memory| standing.cast(&cast, memory))
-        };
-        // Each ray for itself: the order of the threads decides nothing.
-        let hits: Vec<Option<Hit>> = (0..points.len()).into_par_iter().with_min_len(64).map(cast).collect();
-        for (index, hit) in hits.into_iter().enumerate() {
+        let surface = &self.contact.parts.surface;
+        let standing = self.contact.parts.target.stand(u);
+        let seek = |face: usize| MEMORY.with_borrow_mut(|memory| self.seek(face, &standing, u, memory));
+        // Each face for itself: the order of the threads decides nothing.
+        let found: Vec<Vec<Stencil>> = (0..surface.faces.len()).into_par_iter().with_min_len(16).map(seek).collect();
+        for (index, stencil) in found.into_iter().flatten().enumerate() {
             let start = out.dofs.len();
-            let (choice, near) = hit.map_or((0, [0.0; 2]), |hit| (hit.facet as u32 + 1, hit.s));
-            let stencil = Stencil { choice, near, ..Stencil::default() };
             self.unknowns(index, &stencil, &mut out.dofs);
             out.close(start, stencil);
         }
+    }
+
+    /// The choices of the points of a face.
+    fn seek(&self, face: usize, standing: &Standing, u: &[f64], memory: &mut Memory) -> Vec<Stencil> {
+        let (contact, placed) = (self.contact, self.contact.placed(face, u));
+        let border = self.border(face, placed, standing, memory);
+        let one = |index: usize| {
+            let spot = self.spot_within(index, &placed, border, |node| self.corner(node, u))?;
+            let (origin, tangents) = spot.place(&placed.x[..placed.face.nodes.len()]);
+            let ray = Ray { origin, direction: Triad::new(tangents).inward };
+            let hit = standing.cast(&Cast { ray, ..contact.bounds(index, self.depths[index], self.reach) }, memory)?;
+            let (nodes, [first, closed]) = border.choices();
+            let also = [first, closed, self.recall(index, &spot, memory)];
+            Some(Stencil { choice: hit.facet as u32 + 1, near: hit.s, also, border: nodes, ..Stencil::default() })
+        };
+        contact.parts.surface.points_of(face).map(one).map(Option::unwrap_or_default).collect()
+    }
+
+    /// The border of a target that deforms over a face.
+    fn border(&self, face: usize, placed: Placed, standing: &Standing, memory: &mut Memory) -> Border {
+        let (contact, Standing::Faces(standing)) = (self.contact, standing) else { return Border::default() };
+        let points = contact.parts.surface.points_of(face);
+        let Some(index) = points.clone().next() else { return Border::default() };
+        let depth = self.depths[points].iter().copied().fold(0.0, f64::max);
+        let cast = contact.bounds(index, depth, self.reach);
+        Seeker { standing, placed, cast }.border(memory).unwrap_or_default()
+    }
+
+    /// Place of a node of the target at unknowns `u`.
+    fn corner(&self, node: usize, u: &[f64]) -> Vec3 {
+        let faces = self.contact.parts.target.as_faces();
+        faces.map_or(Vec3::zero(), |faces| faces.place_of(node, &faces.unknowns_of(node).map(|dof| u[dof])))
+    }
+
+    /// A point with the rule laid within a border whose nodes are where `corner` says.
+    fn spot_within(
+        &self,
+        index: usize,
+        placed: &Placed,
+        border: Border,
+        corner: impl Fn(usize) -> Vec3,
+    ) -> Option<SurfacePoint> {
+        let surface = &self.contact.parts.surface;
+        if border == Border::default() {
+            return Some(surface.points[index]);
+        }
+        let vertices: Vec<Vec3> = border.list().map(corner).collect();
+        let (xi, scale) = split::laid(placed, border, &vertices, &surface.points[index])?;
+        Some(surface.moved(index, xi, scale))
     }
 }

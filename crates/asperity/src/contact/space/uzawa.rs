@@ -17,10 +17,7 @@ impl Contact {
     /// The corners of the surface.
     pub(super) fn corners_of_faces(&self) -> Corners {
         let surface = &self.parts.surface;
-        let faces = surface.faces.iter().map(|face| {
-            let corners = face.kind.linear.nodes.len();
-            (&face.nodes[..corners], self.parts.length(face))
-        });
+        let faces = surface.faces.iter().map(|face| (&face.nodes[..face.corners()], self.parts.length(face)));
         Corners::new(faces, surface.points.iter().map(|point| (point.face, point.xi)))
     }
 
@@ -60,7 +57,7 @@ impl Contact {
         if new[entry::SEGMENT] < 0.0 {
             return None;
         }
-        let (parts, point) = (&self.parts, &self.parts.surface.points[index]);
+        let (parts, point) = (&self.parts, self.spot(index, new));
         let status = PointStatus::from_value(new[entry::STATUS]);
         let borne = new[entry::PRESSURE] / parts.options.penalty;
         let (closed, sticks) = (status != PointStatus::Open, status == PointStatus::Stick);
@@ -69,7 +66,7 @@ impl Contact {
         let [slip, borne_shear] = slips(old, new, parts.options.tangential_penalty);
         let along = |[s, t]: [f64; 2]| frame[0] * s + frame[1] * t;
         Some(Report {
-            area: point.weight * Triad::new(self.locate(point, u).1).area,
+            area: point.weight * Triad::new(self.locate(&point, u).1).area,
             penetration: if closed { borne - shift.closure } else { gap() },
             closed,
             sticks,

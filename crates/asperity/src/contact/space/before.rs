@@ -1,0 +1,88 @@
+//! What a contact point in space touched at the last accepted state: as in the plane, a point that the rule on a part of
+//! its face has moved finds that in the accepted configuration. It is a function of the place, and its slope is part of the
+//! tangent. The friction stress stays with the number of the point: a law integrates it along the slip of the increment,
+//! and what it would answer to another one is not known as a derivative.
+
+use super::open::OpenContact;
+use super::point::Triad;
+use super::split::Placed;
+use super::surface::SurfacePoint;
+use super::target::{Cast, Memory, Standing};
+use crate::contact::before::{AS_BEFORE, NOTHING};
+use crate::contact::record::entry;
+use crate::system::Stencil;
+use crate::tensor::Vec3;
+use crate::tool::Ray;
+
+/// See the module.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Before {
+    /// Segment and place on it that was touched.
+    pub touched: Option<(usize, [f64; 2])>,
+    /// `ds_b / d xi_a` at `[a][b]`: its motion over that segment per motion of the point over its face.
+    pub sliding: [[f64; 2]; 2],
+}
+
+impl OpenContact<'_> {
+    /// The stencil's choice of what a point at `spot` touched.
+    pub(super) fn recall(&self, index: usize, spot: &SurfacePoint, memory: &mut Memory) -> u32 {
+        let Some(Standing::Faces(standing)) = &self.standing else { return AS_BEFORE };
+        let old = self.history.slot(index);
+        if spot.scale == 1.0 && spot.xi == [old[entry::XI], old[entry::XI2]] {
+            return AS_BEFORE;
+        }
+        let ray = self.ray_before(spot).1;
+        let cast = Cast { ray, ..self.contact.bounds(index, self.depths[index], self.reach) };
+        standing.select(&cast, memory).map_or(NOTHING, |hit| hit.facet as u32 + 1)
+    }
+
+    /// The segment touched at the last accepted state.
+    pub(super) fn touched_segment(&self, index: usize, stencil: &Stencil) -> Option<usize> {
+        match stencil.also[2] {
+            AS_BEFORE => {
+                let segment = self.history.slot(index)[entry::SEGMENT];
+                (segment >= 0.0).then_some(segment as usize)
+            }
+            NOTHING => None,
+            other => Some(other as usize - 1),
+        }
+    }
+
+    /// What a point at `spot` was.
+    pub(super) fn before(&self, index: usize, stencil: &Stencil, spot: &SurfacePoint) -> Before {
+        let old = self.history.slot(index);
+        let Some(segment) = self.touched_segment(index, stencil) else { return Before::default() };
+        if stencil.also[2] == AS_BEFORE {
+            let touched = Some((segment, [old[entry::S], old[entry::S2]]));
+            return Before { touched, ..Before::default() };
+        }
+        let Some((s, sliding)) = self.slide(segment, spot) else { return Before::default() };
+        Before { touched: Some((segment, s)), sliding }
+    }
+
+    /// Face and ray of a point in the accepted configuration.
+    fn ray_before(&self, spot: &SurfacePoint) -> (Placed<'_>, Ray) {
+        let placed = self.contact.placed(spot.face, self.accepted);
+        let (origin, tangents) = placed.at(spot.xi);
+        (placed, Ray { origin, direction: Triad::new(tangents).inward })
+    }
+
+    /// Where a point at `spot` met a segment in the accepted configuration, and how that moves over the segment per
+    /// motion of the point: `t_b ds_b = g_a dxi_a + u de_R` across the ray.
+    fn slide(&self, segment: usize, spot: &SurfacePoint) -> Option<([f64; 2], [[f64; 2]; 2])> {
+        let faces = self.contact.parts.target.as_faces()?;
+        let (u, (placed, ray)) = (faces.values(segment, self.accepted), self.ray_before(spot));
+        let hit = faces.meet(segment, &u, &ray, [0.5; 2])?;
+        let [t, v] = faces.tangents(segment, hit.s, &u);
+        let ((_, g), bend, e) = (placed.at(spot.xi), placed.bend(spot.xi), ray.direction);
+        let area = g[1].cross(g[0]).norm();
+        let span = t.cross(v).dot(e);
+        let sliding = [0, 1].map(|a| {
+            // Change of the normal g_2 x g_1 along xi_a; what is along the ray does not count.
+            let turning = (bend[1][a].cross(g[0]) + g[1].cross(bend[0][a])) * (hit.u / area);
+            let to: Vec3 = g[a] + turning - e * e.dot(turning);
+            [to.cross(v).dot(e) / span, t.cross(to).dot(e) / span]
+        });
+        Some((hit.s, sliding))
+    }
+}

@@ -7,6 +7,7 @@ use crate::Failure;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
+use std::f64::consts::FRAC_PI_2;
 
 /// Chords of the body's boundary in the accepted state.
 pub struct Boundary {
@@ -77,6 +78,16 @@ pub fn depths(surface: &Surface, mesh: &Mesh, dofs: &Dofs, boundary: &[Side], u:
 pub fn refuse_jump(penetration: f64, depth: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
     if penetration > 0.25 * depth {
         return Err(Failure::new(format!("{} came to lie {penetration:.3e} deep in one increment", name())));
+    }
+    Ok(())
+}
+
+/// Refuses a touching tool that turned by more than a quarter of a turn, in radians: the slip is a chord, and half a turn
+/// brings what was touched to the other side, where none is seen.
+pub fn refuse_turn(turned: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
+    if turned.abs() > FRAC_PI_2 {
+        let degrees = turned.abs().to_degrees();
+        return Err(Failure::new(format!("{}: its tool turned by {degrees:.0} degrees in one increment", name())));
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! A contact during one attempt: its points as stencils, evaluated on the segments that the search found.
 
 use super::augment::Shift;
-use super::capture::refuse_jump;
+use super::capture::{refuse_jump, refuse_turn};
 use super::geometry::{DIRECTIONS, Geometry};
 use super::kink::answer;
 use super::nonlocal::with_pressure;
@@ -191,6 +191,9 @@ impl OpenContact<'_> {
         };
         if g.place.touched.is_none() {
             refuse_jump(g.hit.u, self.depths[index], || self.contact.describe(index))?;
+        } else if let Some(rigid) = contact.target.as_tool() {
+            let turned = local.u[g.layout.hit.end - 1] - self.accepted[rigid.unknowns().end - 1];
+            refuse_turn(turned, || contact.describe(index))?;
         }
         new[entry::PENETRATION] -= constants.least;
         write(&closed.response, [closed.slip, T::zero()], old, new);

@@ -17,7 +17,7 @@ struct Pull {
     run: Solved,
     /// Largest force along the pull.
     peak: f64,
-    /// Largest missing energy over the external work until then.
+    /// Largest energy missing until then, over the work done.
     missing: f64,
 }
 
@@ -48,10 +48,10 @@ fn pull(bench: &Bench, friction: f64, more: &[&str]) -> Result<Pull, Error> {
     let sets: Vec<String> = more.iter().map(|set| (*set).to_owned()).chain([law]).collect();
     let (mut peak, mut missing, mut worst) = (0.0_f64, 0.0_f64, 0.0_f64);
     let run = bench.follow("claw.toml", &sets, |model, state| {
-        worst = worst.max(lost(state).abs() / state.external_work.max(f64::MIN_POSITIVE));
+        worst = worst.max(lost(state).abs());
         let force = reaction(model, state, "right_grip")[0];
         if force > peak {
-            (peak, missing) = (force, worst);
+            (peak, missing) = (force, worst / state.external_work);
         }
     })?;
     Ok(Pull { run, peak, missing })

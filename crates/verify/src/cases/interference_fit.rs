@@ -1,7 +1,7 @@
 //! A ring pressed into another: Lame's pressure on both sides of the joint, and the guard that says when facets of the
 //! mesh bear it instead.
 
-use crate::bench::{Bench, Solved};
+use crate::bench::{Bench, Solved, reaction};
 use crate::{Case, Measured};
 use asperity::Error;
 
@@ -55,7 +55,22 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("linear_contacts".into(), auto.model.contacts.len() as f64),
         ("linear_one_pass".into(), pressure(&auto, 0)),
         ("linear_refused".into(), f64::from(refused.is_err())),
+        ("extraction".into(), extraction(bench)?),
     ])
+}
+
+/// Largest force that draws the shaft out of the hub.
+fn extraction(bench: &Bench) -> Result<f64, Error> {
+    let sets = ["shaft", "hub"].map(|part| {
+        let (across, along) = if part == "shaft" { (4, 20) } else { (6, 23) };
+        let n = bench.pick(1, 2);
+        format!("mesh.part.{part}.rectangle.cells=[{}, {}]", n * across, n * along)
+    });
+    let mut largest = 0.0_f64;
+    bench.follow("extraction.toml", &sets, |model, state| {
+        largest = largest.max(reaction(model, state, "shaft.top")[1]);
+    })?;
+    Ok(largest)
 }
 
 /// What one iteration leaves of the residual, over the last ten.

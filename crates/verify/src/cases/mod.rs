@@ -11,6 +11,7 @@ mod flat_punch;
 mod hertz_ball;
 mod hertz_cylinder;
 mod hertz_sphere;
+mod hertz_spheres;
 mod inclined_block;
 mod interference_fit;
 mod ironing_3d;
@@ -44,6 +45,7 @@ pub const ALL: &[&Case] = &[
     &inclined_block::CASE,
     &hertz_cylinder::CASE,
     &hertz_sphere::CASE,
+    &hertz_spheres::CASE,
     &hertz_ball::CASE,
     &dragged_ball::CASE,
     &energy_balance::CASE,

@@ -8,7 +8,7 @@ use super::surface::SurfacePoint;
 use super::target::Standing;
 use crate::Failure;
 use crate::contact::augment::Shift;
-use crate::contact::capture::refuse_jump;
+use crate::contact::capture::{refuse_jump, refuse_turn};
 use crate::contact::kink::answer;
 use crate::contact::record::{entry, leave, write};
 use crate::contact::seed::Seed;
@@ -16,7 +16,6 @@ use crate::interface::{Past, Response};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
 use crate::tool::space::Hit;
-use std::f64::consts::FRAC_PI_2;
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -218,17 +217,13 @@ impl OpenContact<'_> {
         local.dissipated = area * (friction + pressure * now.closure);
     }
 
-    /// The slip is a chord: a tool that turns by half a turn brings what was touched to the other side, and none is seen.
+    /// Refuses a touching tool that turned too far.
     fn refuse_turn(&self, index: usize, (g, u): (&Geometry, &[f64])) -> Result<(), Failure> {
         if self.contact.parts.target.deforms() || g.place.touched.is_none() {
             return Ok(());
         }
         let turned = (rigid::pose(&u[g.layout.hit.clone()]).rotation - self.rotation).norm();
-        if turned > FRAC_PI_2 {
-            let (name, degrees) = (self.contact.describe(index), turned.to_degrees());
-            return Err(Failure::new(format!("{name}: its tool turned by {degrees:.0} degrees in one increment")));
-        }
-        Ok(())
+        refuse_turn(turned, || self.contact.describe(index))
     }
 }
 

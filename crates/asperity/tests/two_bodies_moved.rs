@@ -97,7 +97,8 @@ fn sliding_over_edges_drags_evenly() {
         for drag in names.map(|name| &columns[name][5..]) {
             let limit = 0.2 * 5.0 * 0.7;
             for two in drag.windows(2) {
-                assert!((two[0].abs() / limit - 1.0).abs() < 0.01, "{passes}: {} of {limit}", two[0]);
+                // The block leans a little, so that its pressure has a part along the slab.
+                assert!((two[0].abs() / limit - 1.0).abs() < 0.03, "{passes}: {} of {limit}", two[0]);
                 assert!((two[1] - two[0]).abs() < 0.01 * limit, "{passes}: {two:?} of {limit}");
             }
         }

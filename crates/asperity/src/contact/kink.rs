@@ -1,6 +1,6 @@
 //! Penetration and slip of a point as the coordinates over which its forces bend.
 
-use super::geometry::Geometry;
+use super::geometry::{Geometry, MAX_DOFS};
 use super::open::OpenContact;
 use super::point::{in_contact, triad};
 use super::variational::ContactForm;
@@ -18,16 +18,42 @@ impl OpenContact<'_> {
         let undeformed = self.contact.undeformed_area(index);
         let coordinates = [(penetration + self.closure(index), inward), (slip, along)];
         for ((y, direction), rates) in coordinates.into_iter().zip(&rates) {
-            let rates = rates.iter().take(stencil.len).copied();
+            let beyond = std::iter::repeat_n(0.0, stencil.len.saturating_sub(MAX_DOFS));
+            let rates = rates.iter().take(stencil.len).copied().chain(beyond.clone());
             match self.contact.options.form {
                 ContactForm::Traction => {
                     let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), direction * present);
-                    out.coordinate(y, rates, rows.into_iter().take(stencil.len));
+                    out.coordinate(y, rates, rows.into_iter().take(stencil.len).chain(beyond));
                 }
                 ContactForm::Variational => out.coordinate(y, rates.clone(), rates.map(|rate| rate * undeformed)),
             }
         }
+        if let Some(mean) = self.mean_pressure(index, g, u) {
+            let penalty = self.contact.options.penalty;
+            let rates = mean.slopes.iter().map(|slope| slope / penalty);
+            out.coordinate(mean.pressure / penalty, rates, std::iter::repeat_n(0.0, stencil.len));
+        }
     }
+}
+
+/// The same where friction goes by the mean pressure around the point: over penetration, slip, and the penetration that
+/// the mean stands for, to which no stress of its own belongs.
+pub(super) fn answer_by_mean(law: &dyn Interface, past: &Past, least: f64, y: &Coordinates) -> Result<Answer, Failure> {
+    let mut whole = answer(law, past, least, &[y[0], y[1], 0.0])?;
+    if y[0] <= law.opens(past, [y[1], 0.0]) + least {
+        return Ok(whole);
+    }
+    let touch = law.touch(past);
+    let part = in_contact(Dual::<8>::variable(y[0] - least, 0) - touch, past.penetration - touch);
+    let slip = Dual::variable(y[1], 1) * part;
+    let motion = Motion { penetration: Dual::variable(y[2], 2), slip: [slip, Dual::zero()] };
+    let past = Past { penetration: past.penetration.max(touch), ..*past };
+    let mut vars = past.vars.to_vec();
+    let shear = law.respond_plane(&motion, &past, &mut vars)?.shear[0];
+    (whole.stress[1], whole.stress[2]) = (shear.re(), 0.0);
+    whole.slopes[1].copy_from_slice(&shear.du[..COORDINATES]);
+    whole.slopes[2] = [0.0; COORDINATES];
+    Ok(whole)
 }
 
 /// Pressure and shear over penetration and slip `y`, for what `past` is before the increment; a point that is farther

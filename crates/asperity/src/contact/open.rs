@@ -3,7 +3,7 @@
 use super::augment::Shift;
 use super::capture::{refuse_jump, refuse_turn};
 use super::geometry::{DIRECTIONS, Geometry};
-use super::kink::answer;
+use super::kink::{answer, answer_by_mean};
 use super::nonlocal::with_pressure;
 use super::pair::Contact;
 use super::point::{self, Constants, Place};
@@ -101,9 +101,7 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
-        // What a mean pressure does over a step is known to no single point.
-        let local = self.contact.neighbours.is_empty();
-        if let Some(geometry) = self.geometry(index, stencil, u)?.filter(|_| local) {
+        if let Some(geometry) = self.geometry(index, stencil, u)? {
             self.bend((index, stencil), &geometry, u, out);
         }
         Ok(())
@@ -111,7 +109,11 @@ impl Attempt for OpenContact<'_> {
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let shear = self.history.slot(stencil)[entry::SHEAR];
-        answer(&*self.contact.law, &self.past(stencil, shear), self.contact.least, y)
+        let (law, past) = (&*self.contact.law, self.past(stencil, shear));
+        if self.contact.neighbours.is_empty() {
+            return answer(law, &past, self.contact.least, y);
+        }
+        answer_by_mean(law, &past, self.contact.least, y)
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {

@@ -21,7 +21,7 @@ increments.count = 2
 displacement."block.top" = { x = 0.0, y = -0.2 }
 [[step]]
 increments.count = 10
-displacement."block.top" = { x = 1.0, y = -0.2 }
+displacement."block.top" = { x = 0.3, y = -0.2 }
 "#;
 
 #[test]
@@ -29,7 +29,8 @@ fn neighbours_are_in_the_matrix() {
     let [mean, local] = ["1.2", "0.0"].map(|radius| {
         let model = model(BLOCK, &[&format!("contact.base.law.oden_pires.radius={radius}")]);
         let keep = run(&model);
-        assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()), "{radius}");
+        let cut: Vec<_> = keep.attempts.iter().filter_map(|attempt| attempt.failure.as_deref()).collect();
+        assert!(cut.is_empty(), "{radius}: {cut:#?}");
         let solutions: usize = keep.attempts.iter().map(|attempt| attempt.solutions()).sum();
         (solutions, columns(&model, &keep))
     });

@@ -280,14 +280,14 @@ fn gradient_error(attempt: &dyn Attempt, u: &[f64]) -> f64 {
             continue;
         }
         let largest = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        for k in 0..stencil.len {
+        for (k, force) in force.iter().enumerate() {
             let mut slope = |h: f64| {
                 let moved = |h: f64| here.iter().enumerate().map(|(j, u)| u + if j == k { h } else { 0.0 }).collect();
                 let (one, other) = (at(moved(h)), at(moved(-h)));
                 (one.0 == branch && other.0 == branch).then(|| (one.1 - other.1) / (2.0 * h))
             };
             if let (Some(coarse), Some(fine)) = (slope(2e-4), slope(1e-4)) {
-                worst = worst.max(((4.0 * fine - coarse) / 3.0 - force[k]).abs() / largest);
+                worst = worst.max(((4.0 * fine - coarse) / 3.0 - force).abs() / largest);
             }
         }
     }

@@ -97,11 +97,11 @@ impl<T: Scalar> Polygon<T> {
         for edge in self.edges() {
             let [p, q] = edge.map(|p| [p[0] - T::from(o[0]), p[1] - T::from(o[1])]);
             let cross = p[0] * q[1] - p[1] * q[0];
-            area = area + cross * 0.5;
-            (0..2).for_each(|i| first[i] = first[i] + cross * (p[i] + q[i]) * (1.0 / 6.0));
+            area += cross * 0.5;
+            (0..2).for_each(|i| first[i] += cross * (p[i] + q[i]) * (1.0 / 6.0));
             for (k, (i, j)) in [(0, 0), (0, 1), (1, 1)].into_iter().enumerate() {
                 let product = p[i] * p[j] + q[i] * q[j] + (p[i] + q[i]) * (p[j] + q[j]);
-                second[k] = second[k] + cross * product * (1.0 / 24.0);
+                second[k] += cross * product * (1.0 / 24.0);
             }
         }
         let c = first.map(|f| f / area);

@@ -51,6 +51,23 @@ fn mesh([upper, lower]: [&str; 2]) -> Mesh {
     mesh
 }
 
+/// A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
+fn options(loads: Loads) -> ContactOptions {
+    ContactOptions {
+        penalty: 1.0,
+        tangential_penalty: 0.7,
+        thickness: 1.0,
+        modulus: 1e3,
+        loads,
+        coupling: true,
+        guard: Guard::Refuse,
+        augmentation: None,
+        overlap: Overlap::Keep,
+        wear: None,
+        form: ContactForm::Traction,
+    }
+}
+
 /// Which of the two blocks carries the points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Carrier {
@@ -68,27 +85,13 @@ fn contact(cells: [&str; 2], carrier: Carrier, loads: Loads, friction: f64) -> (
     };
     let dofs = Dofs::new(3, mesh.points.len(), 0);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
-    // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
-    let options = ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 1.0,
-        modulus: 1e3,
-        loads,
-        coupling: true,
-        guard: Guard::Refuse,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-    };
     let parts = Parts {
         name: "c".into(),
         surface: Surface::new(&mesh, sides(own), None),
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides(other))),
         law: Arc::new(Law(Coulomb::new(friction))),
-        options,
+        options: options(loads),
         dofs: dofs.clone(),
         mesh: mesh.clone(),
     };
@@ -219,5 +222,47 @@ fn a_loaded_pair_turns_without_slip() {
             assert!((a.pressure - b.pressure).abs() < 1e-12 && (a.shear - b.shear).abs() < 1e-12, "{cells:?}");
             assert!((turn.rotate(a.traction()) - b.traction()).norm() < 1e-12, "{cells:?}");
         }
+    }
+}
+
+/// A ring with a slit whose faces are one group, surface and target: closed a little too far, they press on each other
+/// alike.
+#[test]
+fn a_ring_that_closes_touches_itself() {
+    for cell in ["hex8", "hex20", "tet10"] {
+        let mut mesh = Block::new([0.0; 3], [1.0; 3], [16, 1, 1], Cell::named(cell).unwrap()).mesh("ring").unwrap();
+        let bent = |x: Vec3, part: f64| {
+            let (sin, cos) = (std::f64::consts::TAU * part * x[0]).sin_cos();
+            at((2.0 - x[1]) * cos, (2.0 - x[1]) * sin, x[2])
+        };
+        let straight = mesh.points.clone();
+        mesh.points.iter_mut().for_each(|x| *x = bent(*x, 0.97));
+        let dofs = Dofs::new(3, mesh.points.len(), 0);
+        let mut sides = mesh.groups["ring.left"].sides.clone();
+        sides.extend_from_slice(&mesh.groups["ring.right"].sides);
+        let mesh = Arc::new(mesh);
+        let options = options(Loads::Own);
+        let contact = Contact::new(Parts {
+            name: "slit".into(),
+            surface: Surface::new(&mesh, &sides, None),
+            boundary: mesh.boundary(&mesh.groups["ring"].cells),
+            target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), &sides)),
+            law: Arc::new(Law(Coulomb::new(0.4))),
+            options,
+            dofs: dofs.clone(),
+            mesh: mesh.clone(),
+        });
+        let mut u = vec![0.0; dofs.count()];
+        for (node, x) in straight.iter().enumerate() {
+            let moved = bent(*x, 1.003) - mesh.points[node];
+            (0..3).for_each(|axis| u[dofs.node(node) + axis] = moved[axis]);
+        }
+        let start = state(vec![0.0; dofs.count()], contact.initial());
+        let closed = commit(&contact, &start, u).unwrap();
+        let records = contact.records(&closed.u, &closed.histories[0]);
+        let sum = |size: &dyn Fn(Vec3) -> f64| records.iter().map(|record| size(record.force())).sum::<f64>();
+        assert!(records.iter().all(|record| record.pressure > 0.01), "{cell}");
+        let (one, all) = (sum(&|force| force[1]), sum(&|force| force.norm()));
+        assert!(one.abs() < 1e-3 * all && all > 0.01, "{cell}: {one} of {all}");
     }
 }

@@ -33,6 +33,15 @@ pub(super) const AS_BEFORE: u32 = 0;
 /// or nothing was; anything else is a segment and one.
 pub(super) const NOTHING: u32 = u32::MAX;
 
+/// The segment touched at the last accepted state, by a stencil's choice and the history of its point.
+pub(super) fn touched_segment(choice: u32, old: &[f64]) -> Option<usize> {
+    match choice {
+        AS_BEFORE => (old[entry::SEGMENT] >= 0.0).then_some(old[entry::SEGMENT] as usize),
+        NOTHING => None,
+        other => Some(other as usize - 1),
+    }
+}
+
 impl OpenContact<'_> {
     /// The stencil's choice of what a point at `spot` touched.
     pub(super) fn recall(&self, index: usize, spot: &SurfacePoint, memory: &mut Memory) -> u32 {
@@ -47,14 +56,7 @@ impl OpenContact<'_> {
 
     /// The segment touched at the last accepted state.
     pub(super) fn touched_segment(&self, index: usize, stencil: &Stencil) -> Option<usize> {
-        match stencil.also[2] {
-            AS_BEFORE => {
-                let segment = self.history.slot(index)[entry::SEGMENT];
-                (segment >= 0.0).then_some(segment as usize)
-            }
-            NOTHING => None,
-            other => Some(other as usize - 1),
-        }
+        touched_segment(stencil.also[2], self.history.slot(index))
     }
 
     /// What a point at `spot` was.

@@ -17,6 +17,8 @@ struct Level {
     pressed: f64,
     down: f64,
     along: f64,
+    /// Difference of the forces down of the two sides over their mean, pressed and while all slides.
+    apart: [f64; 2],
     iterations: f64,
     cuts: f64,
 }
@@ -27,6 +29,8 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("pressed".into(), coarse.pressed),
         ("down".into(), coarse.down),
         ("along".into(), coarse.along),
+        ("apart_pressed".into(), coarse.apart[0]),
+        ("apart".into(), coarse.apart[1]),
         ("iterations".into(), coarse.iterations),
         ("cuts".into(), coarse.cuts),
     ];
@@ -43,20 +47,21 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 }
 
 fn level(bench: &Bench, sets: &[String]) -> Result<Level, Error> {
-    let (mut pressed, mut sliding) = (0.0, Vec::new());
+    let (mut pressed, mut sliding) = ([0.0; 2], Vec::new());
     let steps = bench.pick(20, 40);
     let sets: Vec<String> = sets.iter().cloned().chain([format!("step.2.increments.count={steps}")]).collect();
     let run = bench.follow("ironing.toml", &sets, |model, state| {
-        let force = points(model, state, 0).iter().fold([0.0; 2], |[down, along], point| {
-            let force = point.force();
-            [down - force[2], along + force[0]]
-        });
+        let on = |side: usize, axis: usize| points(model, state, side).iter().map(|p| p.force()[axis]).sum::<f64>();
+        // The mean of what the points of the two sides bear, down and along, and how far they differ.
+        let [down, along] = [2, 0].map(|axis| 0.5 * (on(0, axis) - on(1, axis)));
+        let (down, apart) = (-down, (on(0, 2) + on(1, 2)).abs() / down.abs());
         if state.time < 1.0 + 1e-9 {
-            pressed = force[0];
+            pressed = [down, apart];
         } else if state.time > SLIDING {
-            sliding.push(force);
+            sliding.push([down, along, apart]);
         }
     })?;
-    let mean = |k: usize| sliding.iter().map(|force: &[f64; 2]| force[k]).sum::<f64>() / sliding.len() as f64;
-    Ok(Level { pressed, down: mean(0), along: mean(1), iterations: run.iterations(), cuts: run.cuts() as f64 })
+    let mean = |k: usize| sliding.iter().map(|force: &[f64; 3]| force[k]).sum::<f64>() / sliding.len() as f64;
+    let (pressed, apart) = (pressed[0], [pressed[1], mean(2)]);
+    Ok(Level { pressed, down: mean(0), along: mean(1), apart, iterations: run.iterations(), cuts: run.cuts() as f64 })
 }

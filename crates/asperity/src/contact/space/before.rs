@@ -8,7 +8,7 @@ use super::point::Triad;
 use super::split::Placed;
 use super::surface::SurfacePoint;
 use super::target::{Cast, Memory, Standing};
-use crate::contact::before::{AS_BEFORE, NOTHING};
+use crate::contact::before::{AS_BEFORE, NOTHING, touched_segment};
 use crate::contact::record::entry;
 use crate::system::Stencil;
 use crate::tensor::Vec3;
@@ -38,14 +38,7 @@ impl OpenContact<'_> {
 
     /// The segment touched at the last accepted state.
     pub(super) fn touched_segment(&self, index: usize, stencil: &Stencil) -> Option<usize> {
-        match stencil.also[2] {
-            AS_BEFORE => {
-                let segment = self.history.slot(index)[entry::SEGMENT];
-                (segment >= 0.0).then_some(segment as usize)
-            }
-            NOTHING => None,
-            other => Some(other as usize - 1),
-        }
+        touched_segment(stencil.also[2], self.history.slot(index))
     }
 
     /// What a point at `spot` was.

@@ -17,6 +17,7 @@ mod interference_fit;
 mod ironing_3d;
 mod partial_slip;
 mod partial_slip_3d;
+mod pile;
 mod pull_out;
 mod ring_compression;
 mod rolling;
@@ -59,4 +60,5 @@ pub const ALL: &[&Case] = &[
     &billet::CASE,
     &ring_compression::CASE,
     &rolling::CASE,
+    &pile::CASE,
 ];

@@ -62,8 +62,8 @@ impl Bench {
         if self.size == Size::Quick {
             return Ok(());
         }
-        let path = self.folder.join("../../book/src/images").join(name).with_extension("png");
-        std::fs::write(&path, chart.draw().to_png(1.5)?).map_err(|error| Error::file(&path, error))
+        let path = self.folder.join("../../book/src/images").join(name).with_extension("svg");
+        std::fs::write(&path, chart.draw().to_svg()).map_err(|error| Error::file(&path, error))
     }
 
     /// The model of a deck with some of its values set.

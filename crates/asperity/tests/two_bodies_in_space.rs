@@ -111,8 +111,11 @@ fn motion(contact: &Contact, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
     u
 }
 
+/// What looks at an accepted state, the attempt that follows it and the unknowns tried in it.
+type Look<'a> = dyn FnMut(&State, &dyn Attempt, &[f64]) + 'a;
+
 /// Looks at random states, each after a random accepted one that itself follows another.
-fn states((contact, dofs): &(Contact, Dofs), count: usize, look: &mut dyn FnMut(&State, &dyn Attempt, &[f64])) {
+fn states((contact, dofs): &(Contact, Dofs), count: usize, look: &mut Look) {
     let mut random = Random(11);
     let start = state(vec![0.0; dofs.count()], contact.initial());
     for _ in 0..count {

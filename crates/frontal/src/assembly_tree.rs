@@ -136,6 +136,20 @@ impl AssemblyTree {
         Ok(tree)
     }
 
+    /// Which fronts hold a pivot among these positions or lie above one that does.
+    pub fn above(&self, positions: &[u32]) -> Vec<bool> {
+        let mut marked = vec![false; self.order.len()];
+        positions.iter().for_each(|&position| marked[position as usize] = true);
+        let above = |front: &Front| {
+            let above = marked[front.pivot_range()].contains(&true);
+            if above {
+                self.rows(front).iter().for_each(|&row| marked[row as usize] = true);
+            }
+            above
+        };
+        self.fronts.iter().map(above).collect()
+    }
+
     pub fn children(&self, front: usize) -> &[u32] {
         &self.child_list[self.child_starts[front]..self.child_starts[front + 1]]
     }

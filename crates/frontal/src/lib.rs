@@ -38,6 +38,7 @@ mod factor;
 #[cfg(feature = "feral")]
 mod feral;
 mod graph;
+mod influence;
 mod krylov;
 pub mod market;
 #[cfg(feature = "metis")]

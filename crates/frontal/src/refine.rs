@@ -9,8 +9,6 @@ use crate::solve::Workspace;
 
 /// A solution with a larger backward error than this is refused.
 const ACCEPTABLE: f64 = 1e-10;
-/// Right-hand sides substituted together.
-const TOGETHER: usize = 16;
 /// What is tried when refinement does not converge because pivots were perturbed.
 const LAST_RESORT: Krylov = Krylov { tolerance: 1e-13, iterations: 90, restart: 30 };
 
@@ -79,28 +77,6 @@ impl Factor {
     /// Those of [`Factor::solve`].
     pub fn solve_transposed(&self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
         self.solve_all(rhs, Side::Transposed)
-    }
-
-    /// Substitutes in place without refinement, for one or many right-hand sides as in [`Factor::solve`]: several times
-    /// as fast, with the accuracy of the factor, perturbed pivots included.
-    ///
-    /// # Errors
-    /// [`Error::NotFactorised`]; [`Error::WrongLength`] unless the length is a multiple of `n`.
-    pub fn apply(&self, rhs: &mut [f64]) -> Result<(), Error> {
-        self.check_ready()?;
-        let n = self.symbolic.pattern.len();
-        if n == 0 || !rhs.len().is_multiple_of(n) {
-            return check_length("rhs", n, rhs.len());
-        }
-        let scale = |b: &mut [f64], by: &[f64]| {
-            b.chunks_exact_mut(n).for_each(|b| b.iter_mut().zip(by).for_each(|(b, scale)| *b *= scale));
-        };
-        for b in rhs.chunks_mut(n * TOGETHER) {
-            scale(b, &self.scaling.rows);
-            self.substitute(b, &mut Workspace::with_room_for(self, b.len() / n));
-            scale(b, &self.scaling.columns);
-        }
-        Ok(())
     }
 
     fn solve_all(&self, rhs: &mut [f64], side: Side) -> Result<Accuracy, Error> {

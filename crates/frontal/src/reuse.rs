@@ -175,11 +175,11 @@ impl Solver {
         self.factor.solve(rhs)
     }
 
-    /// [`Factor::apply`] with the factor there is.
+    /// [`Factor::influence`] with the factor there is.
     ///
     /// # Errors
-    /// Those of [`Factor::apply`].
-    pub fn apply(&self, rhs: &mut [f64]) -> Result<(), Error> {
-        self.factor.apply(rhs)
+    /// Those of [`Factor::influence`].
+    pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
+        self.factor.influence(loads, at, x)
     }
 }

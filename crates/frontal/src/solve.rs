@@ -23,25 +23,40 @@ impl Workspace {
         let one = Self::new(factor);
         Workspace { x: vec![0.0; one.x.len() * count], ..one }
     }
+
+    /// The vectors, one after the other.
+    pub fn vectors(&mut self) -> &mut [f64] {
+        &mut self.x
+    }
 }
 
 impl Factor {
-    /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included; for one vector or
-    /// several, one after the other, for all of which each front is then fetched once.
+    /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included.
     pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
         self.permuted(x, work, |factor, work| {
             for front in &factor.symbolic.tree.fronts {
-                // What reaches no pivot of a front goes past it: a sparse right-hand side costs its path to the root.
-                factor.at_front(front, work, |panels, x| {
-                    if x[..panels.p].iter().any(|x| *x != 0.0) {
-                        forward(panels, x);
-                    }
-                });
+                factor.at_front(front, work, forward);
             }
             for front in factor.symbolic.tree.fronts.iter().rev() {
                 factor.at_front(front, work, backward);
             }
         });
+    }
+
+    /// [`substitute`](Self::substitute) for several vectors at once, one after the other in elimination order, passing the
+    /// fronts that none of the entries `from` reaches and those that none of the entries `to` needs.
+    pub(crate) fn substitute_between(&self, from: &[u32], to: &[u32], work: &mut Workspace) {
+        let fronts = &self.symbolic.tree.fronts;
+        for (front, _) in fronts.iter().zip(self.symbolic.tree.above(from)).filter(|(_, reached)| *reached) {
+            self.at_front(front, work, |panels, x| {
+                if x[..panels.p].iter().any(|x| *x != 0.0) {
+                    forward(panels, x);
+                }
+            });
+        }
+        for (front, _) in fronts.iter().zip(self.symbolic.tree.above(to)).rev().filter(|(_, needed)| *needed) {
+            self.at_front(front, work, backward);
+        }
     }
 
     /// `x <- A^-T x`.
@@ -57,14 +72,10 @@ impl Factor {
     }
 
     fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&Self, &mut Workspace)) {
-        let (order, n) = (&self.symbolic.tree.order, self.symbolic.pattern.len());
-        for (permuted, x) in work.x.chunks_exact_mut(n.max(1)).zip(x.chunks_exact(n.max(1))) {
-            permuted.iter_mut().zip(order).for_each(|(permuted, &unknown)| *permuted = x[unknown as usize]);
-        }
+        let order = &self.symbolic.tree.order;
+        work.x.iter_mut().zip(order).for_each(|(permuted, &unknown)| *permuted = x[unknown as usize]);
         solve(self, work);
-        for (permuted, x) in work.x.chunks_exact(n.max(1)).zip(x.chunks_exact_mut(n.max(1))) {
-            permuted.iter().zip(order).for_each(|(permuted, &unknown)| x[unknown as usize] = *permuted);
-        }
+        work.x.iter().zip(order).for_each(|(permuted, &unknown)| x[unknown as usize] = *permuted);
     }
 
     /// Gathers the unknowns of a front, pivots first, lets `step` work on them and scatters them.

@@ -69,22 +69,26 @@ fn the_transposed_system_and_many_right_hand_sides() {
 }
 
 #[test]
-fn many_sparse_right_hand_sides_are_substituted_without_refinement() {
+fn some_entries_of_the_inverse_are_found_without_the_others() {
     let matrix = grid([9, 11, 2], 3, 5);
     let n = matrix.len();
     let symbolic = Symbolic::analyse(&matrix.pattern, &Options::default()).expect("a good pattern");
     let mut factor = symbolic.new_factor();
-    assert_eq!(factor.apply(&mut vec![0.0; n]), Err(Error::NotFactorised));
+    let at = [n - 1, 0, n / 2, 17];
+    let loads: Vec<_> = (0..37).map(|k| vec![((k * 29) % n, 1.0 + k as f64), (k, -0.5), (k, 0.25)]).collect();
+    let mut x = vec![0.0; loads.len() * at.len()];
+    assert_eq!(factor.influence(&loads, &at, &mut x), Err(Error::NotFactorised));
     symbolic.factorise(&matrix.values, &mut factor).expect("a regular matrix");
-    let columns = 37;
-    let mut b = vec![0.0; columns * n];
-    (0..columns).for_each(|k| b[k * n + (k * 29) % n] = 1.0 + k as f64);
-    let (mut applied, mut solved) = (b.clone(), b);
-    factor.apply(&mut applied).expect("a factor");
-    factor.solve(&mut solved).expect("a regular matrix");
-    let largest = solved.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    assert!(applied.iter().zip(&solved).all(|(a, s)| (a - s).abs() < 1e-12 * largest));
-    assert!(matches!(factor.apply(&mut applied[..n - 1]), Err(Error::WrongLength { .. })));
+    factor.influence(&loads, &at, &mut x).expect("a factor");
+    for (load, x) in loads.iter().zip(x.chunks_exact(at.len())) {
+        let mut solved = vec![0.0; n];
+        load.iter().for_each(|&(unknown, value)| solved[unknown] += value);
+        factor.solve(&mut solved).expect("a regular matrix");
+        let largest = solved.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        assert!(x.iter().zip(at).all(|(x, unknown)| (x - solved[unknown]).abs() < 1e-12 * largest));
+    }
+    assert!(matches!(factor.influence(&loads, &at[..3], &mut x), Err(Error::WrongLength { .. })));
+    factor.influence(&[], &at, &mut []).expect("nothing to do");
 }
 
 #[test]

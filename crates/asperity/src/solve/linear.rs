@@ -69,12 +69,12 @@ pub trait LinearSolver: Send {
     /// # Errors
     /// When nothing is factorised or the solution cannot be trusted.
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
-    /// Replaces each of many right-hand sides, one after the other, by the solution with the factor there is, to the
-    /// accuracy of that factor.
+    /// Solves for many loads, each given by unknowns and values that are added, with the factor there is and to the
+    /// accuracy of that factor, and writes the solutions at the unknowns `at`, load after load.
     ///
     /// # Errors
     /// When nothing is factorised.
-    fn apply(&self, rhs: &mut [f64]) -> Result<(), LinearError>;
+    fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError>;
     /// Begins a sequence of related matrices, such as those of an attempt: what was factorised before is not to show in
     /// its solutions.
     fn begin(&mut self) {}
@@ -156,9 +156,9 @@ impl LinearSolver for Frontal {
         self.solver()?.solve_directly(rhs).map(drop).map_err(translate)
     }
 
-    fn apply(&self, rhs: &mut [f64]) -> Result<(), LinearError> {
+    fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError> {
         let solver = self.solver.as_ref().ok_or_else(|| LinearError::Other("nothing is analysed".into()))?;
-        solver.apply(rhs).map_err(translate)
+        solver.influence(loads, at, x).map_err(translate)
     }
 
     fn begin(&mut self) {

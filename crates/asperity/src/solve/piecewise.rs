@@ -10,7 +10,7 @@
 
 use super::linear::LinearSolver;
 use crate::Failure;
-use crate::system::{Answer, Attempt, COORDINATES, Constraints, Coordinates, Kinks};
+use crate::system::{Answer, Attempt, Constraints, Coordinates, Kinks};
 use crate::tensor::dense::eliminate;
 
 /// Stresses that the linear system leaves count from this part of the largest stress on.
@@ -39,16 +39,19 @@ pub(super) struct Piecewise<'a> {
     active: Vec<Stress>,
     /// `S`: change of the coordinates of all kinks for a unit of each active stress.
     influence: Vec<Vec<Coordinates>>,
-    /// `w`, active stress by active stress.
+    /// `w`, active stress by active stress, and `y` of each kink with it.
     left: Vec<f64>,
+    y: Vec<Coordinates>,
 }
 
 /// The small problem at some `w`.
 struct Problem {
+    left: Vec<f64>,
+    y: Vec<Coordinates>,
     /// `w - w(y)`.
     error: Vec<f64>,
-    /// Its derivative along `w`, by rows with room for a right-hand side.
-    rows: Vec<Vec<f64>>,
+    /// Slopes of each active stress along the coordinates of its kink.
+    slopes: Vec<Coordinates>,
     /// Largest stress.
     size: f64,
 }
@@ -59,13 +62,48 @@ impl Problem {
     }
 }
 
+/// The unknowns of all kinks.
+struct Surface {
+    dofs: Vec<usize>,
+    /// The free unknowns that they follow.
+    free: Vec<usize>,
+}
+
+impl Surface {
+    fn new(kinks: &Kinks, constraints: &Constraints) -> Self {
+        let distinct = |mut of: Vec<usize>| {
+            of.sort_unstable();
+            of.dedup();
+            of
+        };
+        let dofs = distinct(kinks.dofs().to_vec());
+        let free = dofs.iter().flat_map(|&dof| constraints.followed(dof)).map(|(i, _)| i);
+        let free = distinct(free.collect());
+        Self { dofs, free }
+    }
+
+    /// Their motions from those of the free unknowns.
+    fn expand(&self, motion: &[f64], constraints: &Constraints, full: &mut [f64]) {
+        let of = |i: usize| self.free.binary_search(&i).map_or(0.0, |place| motion[place]);
+        for &dof in &self.dofs {
+            full[dof] = constraints.followed(dof).map(|(i, c)| c * of(i)).sum();
+        }
+    }
+}
+
+/// Adds a multiple of a motion of all kinks.
+fn add(y: &mut [Coordinates], factor: f64, motion: &[Coordinates]) {
+    y.as_flattened_mut().iter_mut().zip(motion.as_flattened()).for_each(|(y, motion)| *y += factor * motion);
+}
+
 impl<'a> Piecewise<'a> {
     /// For the linear step `direction`, on all unknowns.
     pub fn new(attempts: &'a [Box<dyn Attempt + 'a>], kinks: &'a Kinks, direction: &[f64]) -> Result<Self, Failure> {
         let start = kinks.list().iter().map(|kink| attempts[kink.term].answer(kink.stencil, &kink.y));
-        let along = kinks.list().iter().map(|kink| kinks.along(kink, direction)).collect();
         let start = start.collect::<Result<_, _>>()?;
-        Ok(Self { attempts, kinks, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new() })
+        let along = kinks.list().iter().map(|kink| kinks.along(kink, direction)).collect();
+        let y = kinks.list().iter().map(|kink| kink.y).collect();
+        Ok(Self { attempts, kinks, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new(), y })
     }
 
     /// Puts the step right and returns the part of it for which that could be done, following the path of solutions from
@@ -96,7 +134,7 @@ impl<'a> Piecewise<'a> {
         constraints: &Constraints,
     ) -> Result<bool, Failure> {
         while self.solve(part)? {
-            let woken = self.awake(part)?;
+            let woken = self.awake()?;
             if woken.is_empty() {
                 return Ok(true);
             }
@@ -105,14 +143,11 @@ impl<'a> Piecewise<'a> {
         Ok(false)
     }
 
-    /// Coordinates of a kink at the end of the step.
-    fn coordinates(&self, number: usize, part: f64, left: &[f64]) -> Coordinates {
-        let (start, along) = (&self.kinks.list()[number].y, &self.along[number]);
-        let mut y: Coordinates = std::array::from_fn(|c| start[c] + part * along[c]);
-        for (w, influence) in left.iter().zip(&self.influence) {
-            let change = &influence[number];
-            (0..COORDINATES).for_each(|c| y[c] -= w * change[c]);
-        }
+    /// `y0 + part G d - S w` of all kinks.
+    fn coordinates(&self, part: f64) -> Vec<Coordinates> {
+        let mut y: Vec<Coordinates> = self.kinks.list().iter().map(|kink| kink.y).collect();
+        add(&mut y, part, &self.along);
+        self.left.iter().zip(&self.influence).for_each(|(w, influence)| add(&mut y, -w, influence));
         y
     }
 
@@ -131,10 +166,10 @@ impl<'a> Piecewise<'a> {
     }
 
     /// Stresses that the step leaves and that are not yet put right.
-    fn awake(&self, part: f64) -> Result<Vec<Stress>, Failure> {
+    fn awake(&self) -> Result<Vec<Stress>, Failure> {
         let (mut found, mut largest) = (Vec::new(), 0.0_f64);
-        for number in 0..self.kinks.list().len() {
-            let (bent, size) = self.bend(number, &self.coordinates(number, part, &self.left))?;
+        for (number, y) in self.y.iter().enumerate() {
+            let (bent, size) = self.bend(number, y)?;
             largest = largest.max(size);
             let left = bent.stress.into_iter().enumerate().filter(|(_, w)| *w != 0.0);
             found.extend(left.map(|(coordinate, w)| ((number, coordinate), w.abs())));
@@ -151,17 +186,16 @@ impl<'a> Piecewise<'a> {
         solver: &dyn LinearSolver,
         constraints: &Constraints,
     ) -> Result<(), Failure> {
-        let (n, mut full) = (constraints.free_count(), vec![0.0; constraints.count()]);
-        let mut motions = vec![0.0; n * woken.len()];
-        for (&(kink, coordinate), motion) in woken.iter().zip(motions.chunks_exact_mut(n.max(1))) {
-            full.fill(0.0);
-            self.kinks.push(&self.kinks.list()[kink], coordinate, 1.0, &mut full);
-            constraints.gather(&full, motion);
-        }
-        solver.apply(&mut motions).map_err(|error| Failure::new(error.to_string()))?;
-        for (&stress, motion) in woken.iter().zip(motions.chunks_exact(n.max(1))) {
-            full.fill(0.0);
-            constraints.expand(motion, &mut full);
+        let surface = Surface::new(self.kinks, constraints);
+        let load = |&(kink, coordinate): &Stress| {
+            let forces = self.kinks.forces(&self.kinks.list()[kink], coordinate);
+            forces.flat_map(|(dof, force)| constraints.followed(dof).map(move |(i, c)| (i, c * force))).collect()
+        };
+        let loads: Vec<Vec<(usize, f64)>> = woken.iter().map(load).collect();
+        let (mut motions, mut full) = (vec![0.0; loads.len() * surface.free.len()], vec![0.0; constraints.count()]);
+        solver.influence(&loads, &surface.free, &mut motions).map_err(|error| Failure::new(error.to_string()))?;
+        for (&stress, motion) in woken.iter().zip(motions.chunks_exact(surface.free.len().max(1))) {
+            surface.expand(motion, constraints, &mut full);
             self.active.push(stress);
             self.influence.push(self.kinks.list().iter().map(|kink| self.kinks.along(kink, &full)).collect());
             self.left.push(0.0);
@@ -179,46 +213,58 @@ impl<'a> Piecewise<'a> {
 
     /// Solves the small problem for the active stresses, by Newton's method with a line search on the error.
     fn solve(&mut self, part: f64) -> Result<bool, Failure> {
-        let mut at = self.problem(part, &self.left)?;
+        let mut at = self.problem(self.left.clone(), self.coordinates(part))?;
         for _ in 0..ITERATIONS {
-            let norm = at.norm();
-            if norm <= NOTHING * at.size {
+            if at.norm() <= NOTHING * at.size {
+                (self.left, self.y) = (at.left, at.y);
                 return Ok(true);
             }
-            for (row, error) in at.rows.iter_mut().zip(&at.error) {
-                row.push(*error);
-            }
-            let Some(step) = eliminate(&mut at.rows) else { return Ok(false) };
-            let mut length = 1.0;
-            loop {
-                let next: Vec<f64> = self.left.iter().zip(&step).map(|(w, d)| w - length * d).collect();
-                at = self.problem(part, &next)?;
-                if at.norm() <= (1.0 - DESCENT * length) * norm {
-                    self.left = next;
-                    break;
-                }
-                if length < SHORTEST {
-                    return Ok(false);
-                }
-                length *= 0.5;
-            }
+            let Some(step) = eliminate(&mut self.rows(&at)) else { return Ok(false) };
+            let Some(next) = self.search(&at, &step)? else { return Ok(false) };
+            at = next;
         }
         Ok(false)
     }
 
-    fn problem(&self, part: f64, left: &[f64]) -> Result<Problem, Failure> {
-        let mut problem = Problem { error: Vec::new(), rows: Vec::new(), size: 0.0 };
-        for (row, &(kink, coordinate)) in self.active.iter().enumerate() {
-            let (bent, size) = self.bend(kink, &self.coordinates(kink, part, left))?;
+    /// Goes along a step as far as that lowers the error.
+    fn search(&self, at: &Problem, step: &[f64]) -> Result<Option<Problem>, Failure> {
+        let (norm, mut motion) = (at.norm(), vec![Coordinates::default(); at.y.len()]);
+        step.iter().zip(&self.influence).for_each(|(d, influence)| add(&mut motion, *d, influence));
+        let mut length = 1.0;
+        while length >= SHORTEST {
+            let left = at.left.iter().zip(step).map(|(w, d)| w - length * d).collect();
+            let mut y = at.y.clone();
+            add(&mut y, length, &motion);
+            let next = self.problem(left, y)?;
+            if next.norm() <= (1.0 - DESCENT * length) * norm {
+                return Ok(Some(next));
+            }
+            length *= 0.5;
+        }
+        Ok(None)
+    }
+
+    fn problem(&self, left: Vec<f64>, y: Vec<Coordinates>) -> Result<Problem, Failure> {
+        let mut problem = Problem { left, y, error: Vec::new(), slopes: Vec::new(), size: 0.0 };
+        for (left, &(kink, coordinate)) in problem.left.iter().zip(&self.active) {
+            let (bent, size) = self.bend(kink, &problem.y[kink])?;
             problem.size = problem.size.max(size);
-            problem.error.push(left[row] - bent.stress[coordinate]);
-            let slopes = &bent.slopes[coordinate];
+            problem.error.push(left - bent.stress[coordinate]);
+            problem.slopes.push(bent.slopes[coordinate]);
+        }
+        Ok(problem)
+    }
+
+    /// Derivative of the error along `w` by rows, the error last.
+    fn rows(&self, at: &Problem) -> Vec<Vec<f64>> {
+        let row = |(row, (slopes, &(kink, _))): (usize, (&Coordinates, &Stress))| {
             let along = |change: &Coordinates| slopes.iter().zip(change).map(|(slope, c)| slope * c).sum::<f64>();
             let mut entries = Vec::with_capacity(self.active.len() + 1);
             entries.extend(self.influence.iter().map(|influence| along(&influence[kink])));
             entries[row] += 1.0;
-            problem.rows.push(entries);
-        }
-        Ok(problem)
+            entries.push(at.error[row]);
+            entries
+        };
+        at.slopes.iter().zip(&self.active).enumerate().map(row).collect()
     }
 }

@@ -63,6 +63,15 @@ impl Constraints {
     pub fn row(&self, dof: usize) -> &Row {
         &self.rows[dof]
     }
+    /// The free unknowns that an unknown follows, with their coefficients.
+    pub fn followed(&self, dof: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let (free, combined): (Option<usize>, &[_]) = match &self.rows[dof] {
+            Row::Free(i) => (Some(*i), &[]),
+            Row::Fixed => (None, &[]),
+            Row::Combined(terms) => (None, terms),
+        };
+        free.map(|i| (i, 1.0)).into_iter().chain(combined.iter().copied())
+    }
     /// Adds the homogeneous part of a change `dq` of the free unknowns to `du`.
     pub fn expand(&self, dq: &[f64], du: &mut [f64]) {
         for (row, du) in self.rows.iter().zip(du) {

@@ -89,11 +89,19 @@ impl Kinks {
         }
         y
     }
-    /// Adds to `forces` on all unknowns those of stress `t` at one coordinate.
-    pub fn push(&self, kink: &Kink, coordinate: usize, t: f64, forces: &mut [f64]) {
+    /// The unknowns of all stencils, as often as they occur.
+    pub fn dofs(&self) -> &[usize] {
+        &self.dofs
+    }
+    /// Forces of a unit of stress at one coordinate, unknown by unknown.
+    pub fn forces(&self, kink: &Kink, coordinate: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let dofs = &self.dofs[kink.dofs.clone()];
         let column = &self.forces[kink.first + coordinate * dofs.len()..];
-        dofs.iter().zip(column).for_each(|(&dof, force)| forces[dof] += t * force);
+        dofs.iter().copied().zip(column.iter().copied())
+    }
+    /// Adds to `forces` on all unknowns those of stress `t` at one coordinate.
+    pub fn push(&self, kink: &Kink, coordinate: usize, t: f64, forces: &mut [f64]) {
+        self.forces(kink, coordinate).for_each(|(dof, force)| forces[dof] += t * force);
     }
 }
 

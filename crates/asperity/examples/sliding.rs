@@ -39,8 +39,8 @@ impl LinearSolver for Clocked {
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         self.add(2, |solver| solver.solve(rhs))
     }
-    fn apply(&self, rhs: &mut [f64]) -> Result<(), LinearError> {
-        self.solver.apply(rhs)
+    fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError> {
+        self.solver.influence(loads, at, x)
     }
     fn begin(&mut self) {
         self.solver.begin();

@@ -65,7 +65,6 @@ fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
         penalty: 1.0,
         tangential_penalty: 0.7,
         thickness: 1.0,
-        modulus: 1e3,
         loads: Loads::Both,
         coupling: true,
         guard: Guard::Refuse,

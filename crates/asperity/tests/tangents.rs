@@ -108,7 +108,6 @@ fn contact_with(
         penalty: 1.0,
         tangential_penalty: 0.7,
         thickness: 0.8,
-        modulus: 1e3,
         loads,
         coupling,
         guard: Guard::Refuse,

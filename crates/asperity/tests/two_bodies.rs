@@ -49,7 +49,6 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
         penalty: 1.0,
         tangential_penalty: 0.7,
         thickness: 0.8,
-        modulus: 1e3,
         loads,
         coupling: true,
         guard: Guard::Refuse,

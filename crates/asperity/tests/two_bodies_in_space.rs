@@ -57,7 +57,6 @@ fn options(loads: Loads) -> ContactOptions {
         penalty: 1.0,
         tangential_penalty: 0.7,
         thickness: 1.0,
-        modulus: 1e3,
         loads,
         coupling: true,
         guard: Guard::Refuse,

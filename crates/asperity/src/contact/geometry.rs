@@ -129,13 +129,12 @@ impl OpenContact<'_> {
     /// Adds the forces of a closed point and their derivatives by the chain rule.
     pub(super) fn add<T: Seed<DIRECTIONS>>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
         let (n, count, b) = (local.force.len(), g.layout.count(), super::open::seed(g.place.b, 4));
-        let rows = self.rows((g, &local.u), (closed.hit, b), closed.force);
-        for (force, row) in local.force.iter_mut().zip(&rows) {
-            *force += row.re();
-        }
+        let forces = self.rows::<f64>((g, &local.u), (closed.hit.re(), g.place.b), closed.force);
+        local.force.iter_mut().zip(&forces).for_each(|(force, row)| *force += row);
         if !local.wants_tangent {
             return;
         }
+        let rows = self.rows((g, &local.u), (closed.hit, b), closed.linear);
         let columns = self.columns(g, &local.u);
         for (i, row) in rows[..count].iter().enumerate() {
             let slopes = row.slopes();
@@ -143,7 +142,7 @@ impl OpenContact<'_> {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }
-        self.add_fixed_rates(g, closed.force.re(), local);
+        self.add_fixed_rates(g, closed.linear.re(), local);
     }
 
     /// What the forces' own places on the nodes add: the shape functions move with the ends of the covered part, and the

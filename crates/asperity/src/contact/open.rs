@@ -7,7 +7,7 @@ use super::kink::{answer, answer_by_mean};
 use super::nonlocal::with_pressure;
 use super::pair::Contact;
 use super::point::{self, Constants, Place};
-use super::record::{entry, leave, write};
+use super::record::{entry, leave, stresses, write};
 use super::seed::Seed;
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
@@ -36,8 +36,6 @@ pub struct OpenContact<'a> {
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
     pub ahead: Vec<f64>,
-    /// Pressure up to which the tangent is exact.
-    pub ordinary: f64,
     /// Multipliers of the corners; none without augmentation.
     pub shifts: Vec<Shift>,
     /// How often they were improved in the attempt.
@@ -107,6 +105,10 @@ impl Attempt for OpenContact<'_> {
         Ok(())
     }
 
+    fn before(&self, stencil: usize) -> Coordinates {
+        stresses(self.history.slot(stencil))
+    }
+
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let shear = self.history.slot(stencil)[entry::SHEAR];
         let (law, past) = (&*self.contact.law, self.past(stencil, shear));
@@ -171,7 +173,7 @@ impl OpenContact<'_> {
             opens: contact.law.opens(&past, [g.place.slip(), 0.0]),
             least: contact.least,
             weight: g.spot.weight * contact.thickness(),
-            turning: self.turning(index, g),
+            acting: local.acting,
             axisymmetric: contact.space == Space::Axisymmetric,
         };
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
@@ -209,15 +211,6 @@ impl OpenContact<'_> {
         let response = &closed.response;
         self.account(index, g, Carried::of(response), local);
         Ok(response.status as Branch)
-    }
-
-    /// Part of the triad's derivatives that the tangent keeps: all of a potential's.
-    fn turning(&self, index: usize, g: &Geometry) -> f64 {
-        let options = &self.contact.options;
-        match options.form {
-            ContactForm::Traction => options.turning(g.hit.u + self.closure(index), self.ordinary),
-            ContactForm::Variational => 1.0,
-        }
     }
 
     /// What the law may know of a point.

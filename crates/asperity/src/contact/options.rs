@@ -3,9 +3,7 @@
 use super::augment::Augmentation;
 use super::guard::Guard;
 use super::overlap::{Overlap, Wear};
-use super::record::entry;
 use super::variational::ContactForm;
-use crate::system::History;
 
 /// How a contact is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,8 +14,6 @@ pub struct ContactOptions {
     pub tangential_penalty: f64,
     /// Thickness in the plane cases.
     pub thickness: f64,
-    /// Least confined modulus of the solids in contact: the measure of a pressure that no solution has.
-    pub modulus: f64,
     /// Which side a contact point loads.
     pub loads: Loads,
     /// Whether the tangent holds the coupling of the two sides.
@@ -32,20 +28,6 @@ pub struct ContactOptions {
     pub wear: Option<Wear>,
     /// How stresses become forces.
     pub form: ContactForm,
-}
-
-impl ContactOptions {
-    /// Pressure up to which the tangent is exact in the increment after a history.
-    pub(super) fn ordinary(&self, history: &History, points: usize) -> f64 {
-        let pressures = (0..points).map(|i| history.slot(i)[entry::PRESSURE]);
-        (ORDINARY * self.modulus).max(GROWTH * pressures.fold(0.0, f64::max))
-    }
-
-    /// Part of the triad's derivatives that the tangent keeps at a penetration.
-    pub(super) fn turning(&self, penetration: f64, ordinary: f64) -> f64 {
-        let pressure = self.penalty * penetration.abs();
-        if pressure > ordinary { ordinary / pressure } else { 1.0 }
-    }
 }
 
 /// Name of the second of two passes, whose points lie on what is the target of the first.
@@ -71,8 +53,3 @@ impl Loads {
         }
     }
 }
-
-/// Pressures up to this part of the confined modulus leave the tangent exact,
-const ORDINARY: f64 = 0.02;
-/// and so do those up to this multiple of the largest in the accepted state.
-const GROWTH: f64 = 4.0;

@@ -270,7 +270,6 @@ impl Term for Contact {
             depths,
             reach,
             ahead: ahead(accepted, at.dt),
-            ordinary: self.options.ordinary(history, self.surface.points.len()),
             shifts: closures_alone(self.closures(history)),
             augmented: 0,
             settled: self.options.overlap.settled(at),

@@ -7,6 +7,7 @@
 
 use crate::Failure;
 use crate::interface::{Motion, Response};
+use crate::system::Coordinates;
 use crate::tensor::{Scalar, Vec3};
 
 /// What a contact point depends on.
@@ -47,8 +48,8 @@ pub struct Constants {
     pub least: f64,
     /// Quadrature weight times thickness.
     pub weight: f64,
-    /// Part of the triad's derivatives that is kept, from 0 to 1.
-    pub turning: f64,
+    /// Stresses with which the tangent turns and moves; none for those of the trial state.
+    pub acting: Option<Coordinates>,
     /// Whether the weight is per radian and the circumference has to be added.
     pub axisymmetric: bool,
 }
@@ -57,7 +58,9 @@ pub struct Constants {
 #[derive(Debug, Clone, Copy)]
 pub struct Closed<T> {
     /// Force on the solid.
-    pub force: Vec3<T>,
+    pub force: Vec3,
+    /// The force whose derivatives are the tangent: that of the stresses which act in it.
+    pub linear: Vec3<T>,
     /// Where the target is touched.
     pub hit: Vec3<T>,
     /// Slip of the increment.
@@ -79,7 +82,7 @@ pub fn evaluate<T: Scalar>(
     constants: &Constants,
     law: impl FnOnce(&Motion<T>) -> Result<Response<T>, Failure>,
 ) -> Result<(T, Option<Closed<T>>), Failure> {
-    let (along, inward, length) = triad(soften(place.tangent, constants.turning));
+    let (along, inward, length) = triad(place.tangent);
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(inward);
     let seen = penetration + constants.closure;
@@ -99,13 +102,15 @@ pub fn evaluate<T: Scalar>(
     if constants.axisymmetric {
         area = area * place.a[0] * std::f64::consts::TAU;
     }
-    let force = (inward * response.pressure + along * response.shear[0]) * area;
-    Ok((penetration, Some(Closed { force, hit: place.a + inward * penetration, slip, response })))
+    let force = |[p, s, _]: [T; 3]| (inward * p + along * s) * area;
+    let stress = [response.pressure, response.shear[0], response.shear[1]];
+    let (force, linear) = (force(stress).re(), force(acting(stress, constants.acting)));
+    Ok((penetration, Some(Closed { force, linear, hit: place.a + inward * penetration, slip, response })))
 }
 
-/// The same vector with its derivatives scaled by `part`.
-pub fn soften<T: Scalar>(v: Vec3<T>, part: f64) -> Vec3<T> {
-    Vec3(v.0.map(|x| x.chain(x.re(), part)))
+/// Stresses of other values, where some are given, with the same derivatives.
+pub fn acting<T: Scalar>(stress: [T; 3], given: Option<Coordinates>) -> [T; 3] {
+    given.map_or(stress, |given| std::array::from_fn(|i| stress[i].chain(given[i], 1.0)))
 }
 
 /// The part of the increment during which a point that began open is in contact, at constant speed of approach.

@@ -50,6 +50,11 @@ pub mod entry {
     pub const COUNT: usize = 20;
 }
 
+/// Pressure and shear stresses.
+pub fn stresses(values: &[f64]) -> [f64; 3] {
+    [entry::PRESSURE, entry::SHEAR, entry::SHEAR2].map(|place| values[place])
+}
+
 /// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.
 pub fn write<T: Scalar>(response: &Response<T>, slip: [T; 2], old: &[f64], new: &mut [f64]) {
     new[entry::OVERLAP] = old[entry::OVERLAP];

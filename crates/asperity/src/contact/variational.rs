@@ -10,7 +10,7 @@
 
 use super::geometry::{Geometry, MAX_DOFS};
 use super::open::{D, OpenContact, seed};
-use super::point::{Closed, triad};
+use super::point::{Closed, acting, triad};
 use super::seed::Seed;
 use crate::Failure;
 use crate::system::{Local, Stencil};
@@ -74,7 +74,8 @@ impl OpenContact<'_> {
                 (0..n).for_each(|i| local.tangent[i * n + j] += area * rates[i] * slope);
             }
         }
-        self.bend_forces((index, stencil), stresses.map(|stress| area * stress.re()), local)
+        let [p, s, _] = acting([stresses[0], stresses[1], T::zero()], local.acting);
+        self.bend_forces((index, stencil), [p, s].map(|stress| area * stress.re()), local)
     }
 
     /// What the second derivatives of penetration and slip add to the tangent.

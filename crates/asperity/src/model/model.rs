@@ -3,7 +3,7 @@
 use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
-use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
+use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step, Whole};
 use crate::system::{Dofs, State, Term};
 use crate::tool::{self, Tool};
 use std::sync::Arc;
@@ -99,6 +99,7 @@ impl Model {
         terms.extend(contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(solid_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
+        let cells = bodies.iter().flat_map(|(body, _)| body.cells());
         let problem = Problem {
             terms,
             dofs,
@@ -106,6 +107,7 @@ impl Model {
             newton,
             size: mesh.size(),
             cell_size: smallest_cell(&mesh),
+            wholes: Whole::all(cells.map(|&cell| mesh.cell(cell).nodes), &mesh.points, space),
             tools: tools
                 .iter()
                 .map(|tool| tool.name())

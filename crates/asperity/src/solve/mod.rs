@@ -1,9 +1,11 @@
 //! The procedure: increments, attempts, Newton's iterations. It sees the discrete system and the linear solver only;
 //! it knows neither mechanics nor contact.
 
+mod carry;
 mod convergence;
 mod free;
 mod linear;
+mod mixed;
 mod newton;
 mod observer;
 mod piecewise;
@@ -12,6 +14,7 @@ mod run;
 mod schedule;
 mod step;
 
+pub use carry::Whole;
 pub use convergence::{Norms, Worst};
 pub use linear::{Factors, Frontal, LinearError, LinearSolver};
 pub use newton::{NewtonOptions, Variant};

@@ -6,6 +6,7 @@
 
 use super::convergence::{Norms, Yardstick};
 use super::linear::{Factors, LinearSolver};
+use super::mixed::Mixed;
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::relax::Drag;
 use super::run::Problem;
@@ -86,6 +87,7 @@ pub struct Memory {
     pub(super) factorised: bool,
     /// Stencils that bend.
     pub(super) kinks: Kinks,
+    pub(super) mixed: Mixed,
     /// The evaluation of the last accepted increment: room for the next.
     pub spare: Option<Evaluation>,
     /// Analyses of the solver so far.
@@ -139,6 +141,11 @@ pub struct Newton<'a> {
     pub(super) medium: Option<Drag>,
 }
 
+/// A first guess, and what prescribed unknowns miss there.
+type Start = (Vec<f64>, Option<Vec<f64>>);
+
+/// Unbalanced forces of a first guess below which no other is tried.
+const GOOD_GUESS: f64 = 0.1;
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
 const ROUNDING: f64 = 1e-12;
 /// The line search takes a step at whose end the slope is at most this multiple of the initial one: a point that
@@ -166,6 +173,7 @@ impl<'a> Newton<'a> {
         let assembly =
             Assembly { terms: &problem.terms, attempts, dofs: &problem.dofs, constraints: &step.constraints };
         memory.workspace.prepare(&assembly, state)?;
+        memory.mixed.begin(&assembly, &memory.workspace);
         let evaluation = memory.spare.take().unwrap_or_else(|| Evaluation::new(&problem.terms, state));
         let residual = vec![0.0; step.constraints.free_count()];
         Ok(Self {
@@ -253,7 +261,7 @@ impl<'a> Newton<'a> {
     }
 
     pub(super) fn evaluate(&mut self, u: &[f64], missing: Option<&[f64]>, tangent: Tangent) -> Result<(), Failure> {
-        let trial = Trial { u, missing, tangent };
+        let trial = Trial { u, missing, tangent, acting: self.memory.mixed.acting() };
         self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         self.step.constraints.gather(&unbalanced, &mut self.residual);
@@ -261,21 +269,50 @@ impl<'a> Newton<'a> {
         Ok(())
     }
 
-    /// First guess, evaluated, and what the prescribed unknowns still miss there.
-    fn predict(&mut self) -> Result<(Vec<f64>, Option<Vec<f64>>), Trouble> {
-        let tangent = self.tangent();
-        if self.state.last_dt > 0.0 {
-            let part = self.at.dt / self.state.last_dt;
-            let mut u: Vec<f64> = self.state.u.iter().zip(&self.state.last_change).map(|(u, d)| u + part * d).collect();
-            let missing = self.missing(&mut u);
-            if self.evaluate(&u, missing.as_deref(), tangent).is_ok() {
-                return Ok((u, missing));
-            }
+    /// First guess, evaluated, and what the prescribed unknowns still miss there: the motion of the last increment carried
+    /// on, node by node or, where that leaves much and this leaves less, with each whole as a rigid body.
+    fn predict(&mut self) -> Result<Start, Trouble> {
+        if self.state.last_dt == 0.0 {
+            return Ok(self.guess(self.state.u.clone())?.0);
         }
-        let mut u = self.state.u.clone();
+        let part = self.at.dt / self.state.last_dt;
+        let nodal: Vec<f64> = self.state.u.iter().zip(&self.state.last_change).map(|(u, d)| u + part * d).collect();
+        let first = self.guess(nodal.clone());
+        if matches!(first, Ok((_, unbalanced)) if unbalanced <= GOOD_GUESS) {
+            return Ok(first?.0);
+        }
+        let spare = Evaluation::new(&self.problem.terms, self.state);
+        let kept = (std::mem::replace(&mut self.evaluation, spare), self.residual.clone());
+        let second = self.guess(self.problem.wholes.iter().fold(nodal, |mut u, whole| {
+            whole.carry(&self.problem.dofs, self.state, part, &mut u);
+            u
+        }));
+        let left =
+            |guess: &Result<(Start, f64), Failure>| guess.as_ref().map_or(f64::INFINITY, |(_, unbalanced)| *unbalanced);
+        if left(&second) < left(&first) {
+            return Ok(second?.0);
+        }
+        (self.evaluation, self.residual) = kept;
+        match first {
+            Ok((start, _)) => Ok(start),
+            Err(_) => Ok(self.guess(self.state.u.clone())?.0),
+        }
+    }
+
+    /// Evaluates a first guess and measures the unbalanced forces, with those of the motion that prescribed unknowns still
+    /// miss.
+    fn guess(&mut self, mut u: Vec<f64>) -> Result<(Start, f64), Failure> {
         let missing = self.missing(&mut u);
-        self.evaluate(&u, missing.as_deref(), tangent)?;
-        Ok((u, missing))
+        self.evaluate(&u, missing.as_deref(), self.tangent())?;
+        let residual = self.residual.clone();
+        if missing.is_some() {
+            let mut carried = vec![0.0; residual.len()];
+            self.step.constraints.gather(&self.evaluation.carried, &mut carried);
+            self.residual.iter_mut().zip(&carried).for_each(|(r, c)| *r += c);
+        }
+        let unbalanced = self.measure().ratio;
+        self.residual = residual;
+        Ok(((u, missing), unbalanced))
     }
 
     /// What prescribed unknowns miss at `u`; where that is rounding, it is put right in `u` at once.

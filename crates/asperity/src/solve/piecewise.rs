@@ -17,7 +17,7 @@ use crate::tensor::dense::eliminate;
 const NOTHING: f64 = 1e-9;
 /// Iterations for the small problem.
 const ITERATIONS: usize = 40;
-/// Shortest step of its line search and along its path, and what a step must lower the error by, over its length.
+/// Shortest step of its line search and along its path, and what a searched step must lower the error by, over its length.
 const SHORTEST: f64 = 0.01;
 const DESCENT: f64 = 0.1;
 /// Part of a step below which the whole linear step does better: what bends has met its limit, and only another geometry
@@ -42,6 +42,15 @@ pub(super) struct Piecewise<'a> {
     /// `w`, active stress by active stress, and `y` of each kink with it.
     left: Vec<f64>,
     y: Vec<Coordinates>,
+}
+
+/// How far the steps of the small problem go.
+#[derive(Clone, Copy)]
+enum Steps {
+    /// All the way.
+    Whole,
+    /// As far as they lower the error.
+    Searched,
 }
 
 /// The small problem at some `w`.
@@ -106,16 +115,21 @@ impl<'a> Piecewise<'a> {
         Ok(Self { attempts, kinks, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new(), y })
     }
 
-    /// Puts the step right and returns the part of it for which that could be done, following the path of solutions from
-    /// where the step begins; None if for too little of it.
+    /// Puts the step right and returns the part of it for which that could be done; None if for too little of it. Whole
+    /// steps of the small problem, each of which finds anew what is open, sticks and slips, mostly lead to its end; where
+    /// they do not, the path of solutions is followed from where the step begins.
     ///
     /// # Errors
     /// When a law cannot answer, or a solution with the factor fails.
     pub fn settle(&mut self, solver: &dyn LinearSolver, constraints: &Constraints) -> Result<Option<f64>, Failure> {
+        if self.settle_part((1.0, Steps::Whole), solver, constraints)? {
+            return Ok(Some(1.0));
+        }
+        self.left.fill(0.0);
         let (mut part, mut stride) = (0.0, 1.0_f64);
         while part < 1.0 && stride >= SHORTEST {
             let (mut before, next) = (self.left.clone(), 1.0_f64.min(part + stride));
-            if self.settle_part(next, solver, constraints)? {
+            if self.settle_part((next, Steps::Searched), solver, constraints)? {
                 (part, stride) = (next, 2.0 * stride);
             } else {
                 before.resize(self.left.len(), 0.0);
@@ -129,11 +143,11 @@ impl<'a> Piecewise<'a> {
     /// Solves for the active stresses until no other wakes.
     fn settle_part(
         &mut self,
-        part: f64,
+        (part, steps): (f64, Steps),
         solver: &dyn LinearSolver,
         constraints: &Constraints,
     ) -> Result<bool, Failure> {
-        while self.solve(part)? {
+        while self.solve(part, steps)? {
             let woken = self.awake()?;
             if woken.is_empty() {
                 return Ok(true);
@@ -211,8 +225,8 @@ impl<'a> Piecewise<'a> {
         !self.active.is_empty()
     }
 
-    /// Solves the small problem for the active stresses, by Newton's method with a line search on the error.
-    fn solve(&mut self, part: f64) -> Result<bool, Failure> {
+    /// Solves the small problem for the active stresses by Newton's method.
+    fn solve(&mut self, part: f64, steps: Steps) -> Result<bool, Failure> {
         let mut at = self.problem(self.left.clone(), self.coordinates(part))?;
         for _ in 0..ITERATIONS {
             if at.norm() <= NOTHING * at.size {
@@ -220,28 +234,37 @@ impl<'a> Piecewise<'a> {
                 return Ok(true);
             }
             let Some(step) = eliminate(&mut self.rows(&at)) else { return Ok(false) };
-            let Some(next) = self.search(&at, &step)? else { return Ok(false) };
+            let mut motion = vec![Coordinates::default(); at.y.len()];
+            step.iter().zip(&self.influence).for_each(|(d, influence)| add(&mut motion, *d, influence));
+            let next = match steps {
+                Steps::Whole => Some(self.along(&at, (&step, &motion), 1.0)?),
+                Steps::Searched => self.search(&at, (&step, &motion))?,
+            };
+            let Some(next) = next else { return Ok(false) };
             at = next;
         }
         Ok(false)
     }
 
     /// Goes along a step as far as that lowers the error.
-    fn search(&self, at: &Problem, step: &[f64]) -> Result<Option<Problem>, Failure> {
-        let (norm, mut motion) = (at.norm(), vec![Coordinates::default(); at.y.len()]);
-        step.iter().zip(&self.influence).for_each(|(d, influence)| add(&mut motion, *d, influence));
-        let mut length = 1.0;
+    fn search(&self, at: &Problem, step: (&[f64], &[Coordinates])) -> Result<Option<Problem>, Failure> {
+        let (norm, mut length) = (at.norm(), 1.0);
         while length >= SHORTEST {
-            let left = at.left.iter().zip(step).map(|(w, d)| w - length * d).collect();
-            let mut y = at.y.clone();
-            add(&mut y, length, &motion);
-            let next = self.problem(left, y)?;
+            let next = self.along(at, step, length)?;
             if next.norm() <= (1.0 - DESCENT * length) * norm {
                 return Ok(Some(next));
             }
             length *= 0.5;
         }
         Ok(None)
+    }
+
+    /// The problem at the end of a step of this length.
+    fn along(&self, at: &Problem, step: (&[f64], &[Coordinates]), length: f64) -> Result<Problem, Failure> {
+        let left = at.left.iter().zip(step.0).map(|(w, d)| w - length * d).collect();
+        let mut y = at.y.clone();
+        add(&mut y, length, step.1);
+        self.problem(left, y)
     }
 
     fn problem(&self, left: Vec<f64>, y: Vec<Coordinates>) -> Result<Problem, Failure> {

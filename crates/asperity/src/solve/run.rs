@@ -1,5 +1,6 @@
 //! Steps and increments: the loop around the attempts.
 
+use super::carry::Whole;
 use super::linear::LinearSolver;
 use super::newton::{Converged, Memory, Newton, NewtonOptions, Trouble};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
@@ -22,6 +23,8 @@ pub struct Problem {
     pub size: f64,
     /// Size of its smallest cell, a length: the measure of perturbations.
     pub cell_size: f64,
+    /// What of the mesh hangs together.
+    pub wholes: Vec<Whole>,
     /// Names of the tools.
     pub tools: Vec<String>,
     /// Names a node in messages: its number and group.

@@ -48,19 +48,19 @@ impl Newton<'_> {
         let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
         constraints.expand(&rhs, &mut du);
         let mut motion = Motion { du, part: 1.0, factorised };
+        self.memory.workspace.kinks(&self.assembly, u, &mut self.memory.kinks)?;
         if self.problem.newton.piecewise {
             self.bend(u, &mut motion, forcing)?;
         }
         self.limit(u, missing, &mut motion);
+        self.memory.mixed.aim(&self.assembly, &self.memory.kinks, &motion.du)?;
         Ok(motion)
     }
 
     /// Puts the linear step right for the stencils that bend over it.
     fn bend(&mut self, u: &[f64], motion: &mut Motion, forcing: f64) -> Result<(), Trouble> {
-        let (workspace, kinks) = (&self.memory.workspace, &mut self.memory.kinks);
-        workspace.kinks(&self.assembly, u, kinks)?;
         let (constraints, mut full) = (&self.step.constraints, vec![0.0; u.len()]);
-        let mut piecewise = Piecewise::new(&self.assembly.attempts, kinks, &motion.du)?;
+        let mut piecewise = Piecewise::new(&self.assembly.attempts, &self.memory.kinks, &motion.du)?;
         let settled = piecewise.settle(self.solver, constraints)?;
         let Some(part) = settled.filter(|_| piecewise.push(&mut full)) else { return Ok(()) };
         let mut rhs = vec![0.0; self.residual.len()];
@@ -156,6 +156,7 @@ impl Newton<'_> {
         let rest = |part: f64| missing.filter(|_| part < 1.0).map(|m| m.iter().map(|m| m * (1.0 - part)).collect());
         let mut part = 1.0;
         loop {
+            self.memory.mixed.follow(part);
             *u = along(part);
             let missing: Option<Vec<f64>> = rest(part * motion.part);
             match self.evaluate(u, missing.as_deref(), self.tangent()) {
@@ -172,6 +173,7 @@ impl Newton<'_> {
             return Ok(motion.part);
         }
         part = self.search(&along, &motion.du, (slope, end))?;
+        self.memory.mixed.follow(part);
         *u = along(part);
         self.evaluate(u, None, self.tangent())?;
         Ok(part * motion.part)

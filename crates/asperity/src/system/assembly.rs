@@ -5,7 +5,9 @@
 
 use super::chunk::{CHUNK, Chunk, Pass, lanes};
 use super::sink::{Miss, Sink, places};
-use super::{Attempt, Branch, Constraints, Couplings, Csr, Dofs, Energies, History, Kinks, State, Stencils, Term};
+use super::{
+    Attempt, Branch, Constraints, Coordinates, Couplings, Csr, Dofs, Energies, History, Kinks, State, Stencils, Term,
+};
 use crate::Failure;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -31,6 +33,9 @@ pub struct Trial<'a> {
     pub missing: Option<&'a [f64]>,
     /// Whether and how the matrix is to be found.
     pub tangent: Tangent,
+    /// Stresses with which the tangents of stencils that bend turn and move, term by term and stencil by stencil; those of
+    /// the trial state where none are given.
+    pub acting: &'a [Vec<Coordinates>],
 }
 
 /// Result of one evaluation.
@@ -89,6 +94,10 @@ impl Workspace {
     /// Changes whenever the pattern changes.
     pub fn analysis(&self) -> usize {
         self.analysis
+    }
+    /// Number of the stencils of a term.
+    pub fn stencils(&self, term: usize) -> usize {
+        self.stencils[term].list.len()
     }
     /// How often a pattern had to be enlarged inside an attempt.
     pub fn enlarged(&self) -> usize {
@@ -198,7 +207,7 @@ impl Workspace {
         (history, out): (&mut History, &mut Evaluation),
     ) -> Result<Result<(), Miss>, Failure> {
         let (stencils, dofs) = (&self.stencils[t], assembly.dofs);
-        let pass = Pass { attempt: assembly.attempts[t].as_ref(), stencils, dofs, trial };
+        let pass = Pass { attempt: assembly.attempts[t].as_ref(), term: t, stencils, dofs, trial };
         let places = self.places.get(t).filter(|p| !p.is_empty()).map(Vec::as_slice);
         let role = assembly.terms[t].role();
         let mut sink = Sink::new((out, t), (assembly.constraints, &self.pattern), (trial, role), places);

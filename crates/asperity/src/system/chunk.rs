@@ -28,6 +28,8 @@ pub struct Chunk {
 pub struct Pass<'a> {
     /// The term.
     pub attempt: &'a dyn Attempt,
+    /// Its number.
+    pub term: usize,
     /// Its stencils.
     pub stencils: &'a Stencils,
     /// Numbering.
@@ -86,6 +88,7 @@ impl Chunk {
             perturb(pass.attempt, index, stencil, (step, &is_rotation), local, &mut self.tangents);
         }
         local.wants_tangent = tangent == Tangent::Exact;
+        local.acting = pass.trial.acting.get(pass.term).and_then(|acting| acting.get(index)).copied();
         local.reset(stencil.len);
         let branch = pass.attempt.evaluate(index, stencil, new, local)?;
         self.branches.push((branch, stencil.choice));

@@ -88,6 +88,9 @@ pub struct Local {
     pub tangent: Vec<f64>,
     /// Whether the tangent is wanted.
     pub wants_tangent: bool,
+    /// Stresses over the coordinates of a stencil that bends with which its tangent turns and moves; none for those of the
+    /// trial state, with which the tangent is the derivative of the forces.
+    pub acting: Option<Coordinates>,
     /// Energy stored in the stencil at the trial state.
     pub stored: f64,
     /// Energy dissipated over the increment.
@@ -103,6 +106,7 @@ impl Default for Local {
             force: Vec::new(),
             tangent: Vec::new(),
             wants_tangent: false,
+            acting: None,
             stored: 0.0,
             dissipated: 0.0,
             supplied: 0.0,
@@ -212,6 +216,10 @@ pub trait Attempt: Send + Sync {
     /// A [`Failure`] when there is no more to improve and it does not suffice.
     fn augment(&mut self, _u: &[f64], _new: &mut History) -> Result<bool, Failure> {
         Ok(false)
+    }
+    /// Stresses of a stencil that bends in the accepted state.
+    fn before(&self, _stencil: usize) -> Coordinates {
+        Coordinates::default()
     }
     /// Stresses of a stencil that bends, at coordinates `y`.
     ///

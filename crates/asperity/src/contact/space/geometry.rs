@@ -146,13 +146,12 @@ impl OpenContact<'_> {
     /// Adds the forces of a closed point and their derivatives by the chain rule.
     pub(super) fn add<T: Seed<DIRECTIONS>>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
         let (n, hit) = (local.force.len(), g.layout.hit.clone());
-        let rows = self.rows((g, &local.u), (closed.hit, seed(g.place.b, 9)), closed.force);
-        for (force, row) in local.force.iter_mut().zip(&rows) {
-            *force += row.re();
-        }
+        let forces = self.rows::<f64>((g, &local.u), (closed.hit.re(), g.place.b), closed.force);
+        local.force.iter_mut().zip(&forces).for_each(|(force, row)| *force += row);
         if !local.wants_tangent {
             return;
         }
+        let rows = self.rows((g, &local.u), (closed.hit, seed(g.place.b, 9)), closed.linear);
         let columns = self.columns(g, &local.u);
         // Nothing acts on what was touched.
         for (i, row) in rows[..hit.end].iter().enumerate() {
@@ -161,7 +160,7 @@ impl OpenContact<'_> {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }
-        self.add_fixed_rates(g, (closed.hit.re(), closed.force.re()), local);
+        self.add_fixed_rates(g, (closed.hit.re(), closed.linear.re()), local);
     }
 
     /// What the forces' own places on the nodes add: the rates of a tool move with its reference point, and the shape

@@ -10,7 +10,7 @@ use crate::Failure;
 use crate::contact::augment::Shift;
 use crate::contact::capture::{refuse_jump, refuse_turn};
 use crate::contact::kink::answer;
-use crate::contact::record::{entry, leave, write};
+use crate::contact::record::{entry, leave, stresses, write};
 use crate::contact::seed::Seed;
 use crate::interface::{Past, Response};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
@@ -37,8 +37,6 @@ pub struct OpenContact<'a> {
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
     pub ahead: Vec<f64>,
-    /// Pressure up to which the tangent is exact.
-    pub ordinary: f64,
     /// Multipliers of the corners; none without augmentation.
     pub shifts: Vec<Shift>,
     /// Tangents of the points in the accepted state, with augmentation.
@@ -112,6 +110,10 @@ impl Attempt for OpenContact<'_> {
         Ok(())
     }
 
+    fn before(&self, stencil: usize) -> Coordinates {
+        stresses(self.history.slot(stencil))
+    }
+
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let parts = &self.contact.parts;
         answer(&*parts.law, &self.past(stencil), self.contact.least, y)
@@ -140,7 +142,7 @@ impl OpenContact<'_> {
         let old = self.history.slot(index);
         let place = Self::seeded(g);
         let past = self.past(index);
-        let constants = self.constants(index, g, &past);
+        let constants = self.constants(index, g, &past, local.acting);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(&g.spot, Some(g.hit), new);
         new[entry::CLOSURE] = constants.closure;
@@ -163,7 +165,7 @@ impl OpenContact<'_> {
         Ok(response.status as Branch)
     }
 
-    fn constants(&self, index: usize, g: &Geometry, past: &Past) -> Constants {
+    fn constants(&self, index: usize, g: &Geometry, past: &Past, acting: Option<Coordinates>) -> Constants {
         let parts = &self.contact.parts;
         Constants {
             normal: g.hit.normal,
@@ -173,7 +175,7 @@ impl OpenContact<'_> {
             opens: parts.law.opens(past, g.place.slip()),
             least: self.contact.least,
             weight: g.spot.weight,
-            turning: self.contact.parts.options.turning(g.hit.u + self.closure(index), self.ordinary),
+            acting,
         }
     }
 

@@ -214,7 +214,6 @@ impl Term for Contact {
             rotation: parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pose(&accepted.u).rotation),
             reach: self.reach(&accepted.last_change),
             ahead: ahead(accepted, at.dt),
-            ordinary: parts.options.ordinary(history, parts.surface.points.len()),
             shifts: closures_alone(self.closures(history)),
             frames: self.frames(&accepted.u),
             augmented: 0,

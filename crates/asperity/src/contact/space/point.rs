@@ -9,8 +9,9 @@
 //! state, which is objective under any common rigid motion. The traction on the solid is `p e_R + tau_S e_S + tau_T e_T`.
 
 use crate::Failure;
-use crate::contact::point::{in_contact, soften};
+use crate::contact::point::{acting, in_contact};
 use crate::interface::{Motion, Response};
+use crate::system::Coordinates;
 use crate::tensor::{Scalar, Vec3};
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -52,15 +53,17 @@ pub struct Constants {
     pub least: f64,
     /// Quadrature weight.
     pub weight: f64,
-    /// Part of the triad's derivatives that is kept, from 0 to 1.
-    pub turning: f64,
+    /// Stresses with which the tangent turns and moves; none for those of the trial state.
+    pub acting: Option<Coordinates>,
 }
 
 /// The result at a closed point.
 #[derive(Debug, Clone, Copy)]
 pub struct Closed<T> {
     /// Force on the solid.
-    pub force: Vec3<T>,
+    pub force: Vec3,
+    /// The force whose derivatives are the tangent: that of the stresses which act in it.
+    pub linear: Vec3<T>,
     /// Where the target is touched.
     pub hit: Vec3<T>,
     /// Slip of the increment along the two tangents.
@@ -97,7 +100,7 @@ pub fn evaluate<T: Scalar>(
     constants: &Constants,
     law: impl FnOnce(&Motion<T>) -> Result<Response<T>, Failure>,
 ) -> Result<(T, Option<Closed<T>>), Failure> {
-    let triad = Triad::new(place.tangents.map(|g| soften(g, constants.turning)));
+    let triad = Triad::new(place.tangents);
     let normal = constants.normal.lift::<T>();
     let penetration = normal.dot(place.b - place.a) / normal.dot(triad.inward);
     let seen = penetration + constants.closure;
@@ -111,10 +114,12 @@ pub fn evaluate<T: Scalar>(
         triad.along.map(|e| e.dot(touched - place.a) * part)
     });
     let response = law(&Motion { penetration: seen, slip })?;
-    let [tau_s, tau_t] = response.shear;
-    let traction = triad.inward * response.pressure + triad.along[0] * tau_s + triad.along[1] * tau_t;
-    let force = traction * (triad.area * constants.weight);
-    Ok((penetration, Some(Closed { force, hit: place.a + triad.inward * penetration, slip, response })))
+    let force = |[p, s, t]: [T; 3]| {
+        (triad.inward * p + triad.along[0] * s + triad.along[1] * t) * (triad.area * constants.weight)
+    };
+    let stress = [response.pressure, response.shear[0], response.shear[1]];
+    let (force, linear) = (force(stress).re(), force(acting(stress, constants.acting)));
+    Ok((penetration, Some(Closed { force, linear, hit: place.a + triad.inward * penetration, slip, response })))
 }
 
 #[cfg(test)]

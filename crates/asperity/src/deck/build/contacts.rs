@@ -113,7 +113,6 @@ impl Builder<'_> {
         if let Opposite::Sides(others) = opposite {
             sides.extend_from_slice(others);
         }
-        let modulus = sides.iter().map(|side| moduli[side.cell]).fold(f64::INFINITY, f64::min);
         let loads = self.carried(keys, (surface, opposite));
         let part = if loads == Loads::Own { TWO_PASSES } else { 1.0 };
         let computed = || part * default_penalty(&self.site.mesh, &sides, |cell| moduli[cell]);
@@ -122,7 +121,6 @@ impl Builder<'_> {
             penalty,
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             thickness: self.site.thickness,
-            modulus,
             loads,
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
             guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),

@@ -45,8 +45,9 @@ impl Whole {
         if self.space == Space::Axisymmetric {
             (shift, turn) = (Vec3::new(0.0, shift[1], 0.0), Vec3::zero());
         }
+        let along = carried(shift, turn, part);
         for (&(node, x), &arm) in self.nodes.iter().zip(&arms) {
-            let to = now + shift * part + rotated(arm, turn * part);
+            let to = now + along + rotated(arm, turn * part);
             (0..dofs.per_node()).for_each(|axis| u[dofs.node(node) + axis] = to[axis] - x[axis]);
         }
     }
@@ -89,6 +90,19 @@ fn rotation(before: &[Vec3], now: &[Vec3]) -> Vec3 {
     let tangent = Vec3::new(twice[0], twice[1], twice[2]) * 0.5;
     let size = tangent.norm();
     if size == 0.0 { tangent } else { tangent * (2.0 * size.atan() / size) }
+}
+
+/// How far a point goes in `part` of the time in which it went by `shift`, when its motion turns on: the chord of the arc that
+/// follows the one which it has gone.
+fn carried(shift: Vec3, turn: Vec3, part: f64) -> Vec3 {
+    let angle = turn.norm();
+    if angle == 0.0 {
+        return shift * part;
+    }
+    let axis = turn * angle.recip();
+    let along = axis * axis.dot(shift);
+    let chord = (0.5 * part * angle).sin() / (0.5 * angle).sin();
+    along * part + rotated(shift - along, turn * (0.5 * (part + 1.0))) * chord
 }
 
 /// `v` turned by a rotation vector (Rodrigues).

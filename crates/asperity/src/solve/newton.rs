@@ -281,7 +281,7 @@ impl<'a> Newton<'a> {
         if matches!(first, Ok((_, unbalanced)) if unbalanced <= GOOD_GUESS) {
             return Ok(first?.0);
         }
-        let spare = Evaluation::new(&self.problem.terms, self.state);
+        let (spare, pattern) = (Evaluation::new(&self.problem.terms, self.state), self.memory.workspace.analysis());
         let kept = (std::mem::replace(&mut self.evaluation, spare), self.residual.clone());
         let second = self.guess(self.problem.wholes.iter().fold(nodal, |mut u, whole| {
             whole.carry(&self.problem.dofs, self.state, part, &mut u);
@@ -292,9 +292,12 @@ impl<'a> Newton<'a> {
         if left(&second) < left(&first) {
             return Ok(second?.0);
         }
-        (self.evaluation, self.residual) = kept;
         match first {
-            Ok((start, _)) => Ok(start),
+            Ok((start, _)) if self.memory.workspace.analysis() == pattern => {
+                (self.evaluation, self.residual) = kept;
+                Ok(start)
+            }
+            Ok(((u, _), _)) => Ok(self.guess(u)?.0),
             Err(_) => Ok(self.guess(self.state.u.clone())?.0),
         }
     }

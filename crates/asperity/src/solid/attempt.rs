@@ -4,7 +4,7 @@ use super::body::Body;
 use super::gradient::{self, PointGradient, Shapes};
 use super::operator::{FEW_DOFS, MAX_DOFS, add_center, add_forces, add_tangent};
 use super::plane_stress;
-use super::point::PointLaw;
+use super::point::{PointLaw, PointStress};
 use crate::Failure;
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
@@ -71,16 +71,15 @@ impl Body {
 }
 
 impl OpenBody<'_> {
-    fn increment(&self, index: usize, u: &[f64]) -> [f64; MAX_DOFS] {
+    /// Displacements of a cell's nodes over the increment.
+    fn increment(&self, index: usize, u: &[f64], du: &mut [f64]) {
         let (dofs, dim) = (&self.body.dofs, self.body.dofs.per_node());
-        let mut du = [0.0; MAX_DOFS];
         for (k, &node) in self.body.mesh.cell(self.body.cells[index]).nodes.iter().enumerate() {
             let first = dofs.node(node);
             for c in 0..dim {
                 du[k * dim + c] = u[k * dim + c] - self.accepted.u[first + c];
             }
         }
-        du
     }
 
     fn evaluate_cell<const DIM: usize, const D: usize>(
@@ -90,7 +89,9 @@ impl OpenBody<'_> {
         local: &mut Local,
     ) -> Result<(), Failure> {
         let (body, cell) = (self.body, &self.cells[index]);
-        let du = &self.increment(index, &local.u)[..local.u.len()];
+        let mut du = [0.0; MAX_DOFS];
+        let du = &mut du[..local.u.len()];
+        self.increment(index, &local.u, du);
         let center = cell.center.as_ref().map(|c| (c, c.deformation(du, DIM)));
         let len = body.point_len();
         // A body has one temperature, and with it one stretch.
@@ -106,17 +107,18 @@ impl OpenBody<'_> {
         if let (Some((c, f0)), true) = (&center, local.wants_tangent) {
             c.volume_gradient(f0, DIM, &mut center_gradient[..du.len()]);
         }
+        let mut s = PointStress::default();
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in cell.points.iter().zip(lanes).enumerate() {
             let here = |f: Failure| Failure::new(format!("integration point {}: {}", number + 1, f.reason));
             let f = point.deformation(du, DIM);
             let volume = point.volume * self.thickness(old);
             let det = if local.wants_tangent {
-                let s = if body.space == Space::PlaneStress {
-                    plane_stress::stress_with_tangent(&law, &f, old, new).map_err(here)?
+                if body.space == Space::PlaneStress {
+                    plane_stress::stress_with_tangent(&law, &f, old, new, &mut s).map_err(here)?;
                 } else {
-                    law.stress_with_tangent(&f, old, new).map_err(here)?
-                };
+                    law.stress_with_tangent(&f, old, new, &mut s).map_err(here)?;
+                }
                 add_forces::<DIM>(point, &s.p, volume, &mut local.force);
                 if du.len() <= FEW_DOFS {
                     add_tangent::<DIM, D, FEW_DOFS>(point, &s.tangent, volume, &mut local.tangent);

@@ -39,10 +39,16 @@ pub fn stress(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Resu
     Ok((p, f.det()))
 }
 
-/// New state, `P` and its derivatives with the thickness following.
-pub fn stress_with_tangent(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<PointStress, Failure> {
+/// New state, and in `s` `P` and its derivatives with the thickness following.
+pub fn stress_with_tangent(
+    law: &PointLaw,
+    f: &Tensor2,
+    old: &[f64],
+    new: &mut [f64],
+    s: &mut PointStress,
+) -> Result<(), Failure> {
     let f = solve(law, f, old, new)?;
-    let mut s = law.stress_with_tangent(&f, old, new)?;
+    law.stress_with_tangent(&f, old, new, s)?;
     // P_33 is det(f) / f33 times sigma_33 = 0, so its row of the tangent is the condition's own derivative.
     let condition = s.tangent[4];
     for row in &mut s.tangent {
@@ -53,5 +59,5 @@ pub fn stress_with_tangent(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [
     }
     s.p[4] = 0.0;
     finish(law, &f, old, new);
-    Ok(s)
+    Ok(())
 }

@@ -11,6 +11,7 @@ use crate::mesh::Space;
 use crate::tensor::Tensor2;
 
 /// `P` and its derivatives along the `directions` of f and along `ln det f0`.
+#[derive(Default)]
 pub struct PointStress {
     /// Components of `P` in the order of the directions.
     pub p: [f64; 9],
@@ -78,8 +79,14 @@ impl PointLaw<'_> {
         out
     }
 
-    /// New state, `P` and its derivatives.
-    pub fn stress_with_tangent(&self, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<PointStress, Failure> {
+    /// New state, and in `out` `P` and its derivatives.
+    pub fn stress_with_tangent(
+        &self,
+        f: &Tensor2,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut PointStress,
+    ) -> Result<(), Failure> {
         self.admissible(f)?;
         let (bar, power) = self.bar(f);
         let mut c = self.material.update_with_gradient(&(bar * self.free), self.dt, old, new, self.directions())?;
@@ -88,8 +95,9 @@ impl PointLaw<'_> {
         let center = if power > 0.0 { self.unbar(&mut c, f, &bar, power) } else { [0.0; 6] };
         let p = first_piola(f, new);
         let places = self.directions().components();
-        let mut out = PointStress { p: self.components(&p), tangent: [[0.0; 9]; 9], along_center: [0.0; 9], det };
+        (out.p, out.det) = (self.components(&p), det);
         for (a, &(i, j)) in places.iter().enumerate() {
+            (out.tangent[a], out.along_center[a]) = ([0.0; 9], 0.0);
             // det(f) f^-1_jk C_ik,mn: three rows of C, weighted.
             for k in 0..3 {
                 let (weight, v) = (det * inverse[(j, k)], voigt(i, k));
@@ -100,7 +108,7 @@ impl PointLaw<'_> {
                 out.tangent[a][b] += p[(i, j)] * inverse[(n, m)] - p[(i, n)] * inverse[(j, m)];
             }
         }
-        Ok(out)
+        Ok(())
     }
 
     /// Turns the derivative along fbar into the one along f at fixed `det f0`, and returns the derivative of the

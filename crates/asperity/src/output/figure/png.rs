@@ -26,7 +26,7 @@ impl Drawing {
         for item in &self.items {
             canvas.draw(item);
         }
-        canvas.pixels.encode_png().map_err(|error| Error::Internal(format!("a picture cannot be encoded: {error}")))
+        canvas.encode().map_err(|error| Error::Internal(format!("a picture cannot be encoded: {error}")))
     }
 }
 
@@ -38,6 +38,18 @@ impl Canvas {
             pixels.ok_or_else(|| Error::Internal(format!("a picture of {width} by {height} pixels cannot be made")))?;
         pixels.fill(tiny_skia::Color::WHITE);
         Ok(Self { pixels, transform: Transform::from_scale(scale as f32, scale as f32), clip: None })
+    }
+    /// The page is opaque, so that colours alone are written; packing them tighter would take as long as drawing them.
+    fn encode(&self) -> Result<Vec<u8>, png::EncodingError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.pixels.width(), self.pixels.height());
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_compression(png::Compression::Fast);
+        let colors = self.pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&colors.collect::<Vec<u8>>())?;
+        writer.finish()?;
+        Ok(bytes)
     }
     fn draw(&mut self, item: &Item) {
         match item {

@@ -58,10 +58,9 @@ impl Whole {
             (0..dofs.per_node()).for_each(|axis| x[axis] += u(dofs.node(node) + axis));
             x
         };
-        let mut arms: Vec<Vec3> = self.nodes.iter().map(at).collect();
-        let mean = arms.iter().fold(Vec3::zero(), |sum, &x| sum + x) * (arms.len() as f64).recip();
-        arms.iter_mut().for_each(|arm| *arm = *arm - mean);
-        (mean, arms)
+        let places: Vec<Vec3> = self.nodes.iter().map(at).collect();
+        let mean = places.iter().fold(Vec3::zero(), |sum, &x| sum + x) * (places.len() as f64).recip();
+        (mean, places.into_iter().map(|x| x - mean).collect())
     }
 }
 
@@ -133,8 +132,8 @@ mod tests {
         let (dofs, turn) = (Dofs::new(2, 7, 0), Vec3::new(0.0, 0.0, 0.7));
         // The first is turned about the origin, the second shifted and stretched.
         let mut state = State { u: vec![0.0; dofs.count()], ..State::default() };
-        for node in 0..3 {
-            let moved = rotated(points[node], turn) - points[node];
+        for (node, &x) in points[..3].iter().enumerate() {
+            let moved = rotated(x, turn) - x;
             (0..2).for_each(|axis| state.u[2 * node + axis] = moved[axis]);
         }
         (4..7).for_each(|node| state.u[2 * node] = 0.5);
@@ -143,8 +142,8 @@ mod tests {
         state.u[10] += 0.1;
         let mut u = vec![7.0; dofs.count()];
         wholes.iter().for_each(|whole| whole.carry(&dofs, &state, 2.0, &mut u));
-        for node in 0..3 {
-            let to = rotated(points[node], turn * 3.0) - points[node];
+        for (node, &x) in points[..3].iter().enumerate() {
+            let to = rotated(x, turn * 3.0) - x;
             (0..2).for_each(|axis| assert!((u[2 * node + axis] - to[axis]).abs() < 1e-14));
         }
         assert_eq!(u[6..8], [7.0, 7.0]);

@@ -7,11 +7,12 @@
 //! of about one half: Jaumann's goes on turning, this one tends to a quarter turn.
 
 use super::frame::{about_midpoint, half};
+use super::law::{self, Differentiate};
 use super::rate::{INSIDE_OUT, stress_of};
 use super::{Directions, Gradient, Material, Rate, RateLaw, Variable, VariableKind, Vars};
 use crate::Failure;
 use crate::integrate::Update;
-use crate::tensor::{Dual, Scalar, Tensor2};
+use crate::tensor::{Scalar, Tensor2};
 
 /// A [`RateLaw`] as a [`Material`] in the frame of Green and Naghdi.
 #[derive(Debug, Clone)]
@@ -68,7 +69,9 @@ impl<L: RateLaw> GreenNaghdi<L> {
         new[at..at + 6].copy_from_slice(&(a * q.transpose()).sym().re().to_voigt());
         Ok(stress)
     }
+}
 
+impl<L: RateLaw> Differentiate for GreenNaghdi<L> {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
@@ -77,14 +80,8 @@ impl<L: RateLaw> GreenNaghdi<L> {
         new: &mut [f64],
         directions: Directions,
     ) -> Result<Gradient, Failure> {
-        let mut dual = f.lift::<Dual<N>>();
-        for (d, &place) in directions.components().iter().enumerate() {
-            dual[place] = Dual::variable(f[place], d);
-        }
-        let stress = self.advance(&dual, dt, old, new)?.to_voigt();
-        let mut gradient = [[0.0; 9]; 6];
-        gradient.iter_mut().zip(&stress).for_each(|(row, s)| row[..N].copy_from_slice(&s.du));
-        Ok(gradient)
+        let stress = self.advance(&law::seeded::<N>(f, directions.components()), dt, old, new)?;
+        Ok(law::slopes(&stress.to_voigt()))
     }
 }
 
@@ -124,11 +121,7 @@ impl<L: RateLaw> Material for GreenNaghdi<L> {
         new: &mut [f64],
         directions: Directions,
     ) -> Result<Gradient, Failure> {
-        match directions {
-            Directions::Plane => self.advance_dual::<4>(f, dt, old, new, directions),
-            Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, new, directions),
-            Directions::Space => self.advance_dual::<9>(f, dt, old, new, directions),
-        }
+        self.advance_along(f, dt, old, new, directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {
@@ -144,6 +137,7 @@ impl<L: RateLaw> Material for GreenNaghdi<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tensor::Dual;
 
     #[test]
     fn a_rotation_is_found_with_its_derivative() {
@@ -153,9 +147,7 @@ mod tests {
             moved[(0, 1)] += h;
             rotation(&moved).unwrap()
         };
-        let mut dual = f.lift::<Dual<1>>();
-        dual[(0, 1)] = Dual::variable(f[(0, 1)], 0);
-        let (q, h) = (rotation(&dual).unwrap(), 1e-5);
+        let (q, h): (Tensor2<Dual<1>>, _) = (rotation(&law::seeded(&f, &[(0, 1)])).unwrap(), 1e-5);
         let (up, down) = (turn(h), turn(-h));
         let product = q.re() * q.re().transpose() - Tensor2::identity();
         assert!(product.contract(product) < 1e-28 && q.re().det() > 0.0);

@@ -1,11 +1,12 @@
 //! Hyperelastic laws: the Cauchy stress follows from the left Cauchy-Green tensor `b = F F^T`, which is the only
 //! history and is carried by `b = f b_n f^T`; nothing is integrated, and closed cycles give all energy back.
 
+use super::law::{self, Differentiate};
 use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Material, Variable, VariableKind};
 use crate::Failure;
 use crate::integrate::Update;
-use crate::tensor::{Dual, Scalar, Tensor2};
+use crate::tensor::{Scalar, Tensor2};
 
 /// An isotropic law between `b` and the Cauchy stress.
 pub trait HyperLaw: Clone + Send + Sync + 'static {
@@ -39,22 +40,18 @@ impl<L: HyperLaw> Hyper<L> {
         new[6..12].copy_from_slice(&b.re().to_voigt());
         Ok(stress)
     }
+}
 
+impl<L: HyperLaw> Differentiate for Hyper<L> {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
+        _dt: f64,
         old: &[f64],
         new: &mut [f64],
         directions: Directions,
     ) -> Result<Gradient, Failure> {
-        let mut dual = f.lift::<Dual<N>>();
-        for (d, &place) in directions.components().iter().enumerate() {
-            dual[place] = Dual::variable(f[place], d);
-        }
-        let stress = self.advance(&dual, old, new)?;
-        let mut gradient = [[0.0; 9]; 6];
-        gradient.iter_mut().zip(&stress).for_each(|(row, s)| row[..N].copy_from_slice(&s.du));
-        Ok(gradient)
+        Ok(law::slopes(&self.advance(&law::seeded::<N>(f, directions.components()), old, new)?))
     }
 }
 
@@ -87,16 +84,12 @@ impl<L: HyperLaw> Material for Hyper<L> {
     fn update_with_gradient(
         &self,
         f: &Tensor2,
-        _dt: f64,
+        dt: f64,
         old: &[f64],
         new: &mut [f64],
         directions: Directions,
     ) -> Result<Gradient, Failure> {
-        match directions {
-            Directions::Plane => self.advance_dual::<4>(f, old, new, directions),
-            Directions::PlaneAndNormal => self.advance_dual::<5>(f, old, new, directions),
-            Directions::Space => self.advance_dual::<9>(f, old, new, directions),
-        }
+        self.advance_along(f, dt, old, new, directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

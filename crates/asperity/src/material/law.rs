@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::declare::Variable;
 use crate::integrate::Update;
-use crate::tensor::Tensor2;
+use crate::tensor::{Dual, Tensor2};
 
 /// The components of the deformation gradient along which a derivative is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +31,49 @@ impl Directions {
 
 /// Derivative of the six stress components (XX YY ZZ XY YZ XZ) along the components of [`Directions`].
 pub type Gradient = [[f64; 9]; 6];
+
+/// A deformation as the independent variables along the components `places`.
+pub(super) fn seeded<const N: usize>(f: &Tensor2, places: &[(usize, usize)]) -> Tensor2<Dual<N>> {
+    let mut dual = f.lift();
+    places.iter().enumerate().for_each(|(d, &place)| dual[place] = Dual::variable(f[place], d));
+    dual
+}
+
+/// The derivatives that six stress components carry.
+pub(super) fn slopes<const N: usize>(stress: &[Dual<N>; 6]) -> Gradient {
+    let mut gradient = [[0.0; 9]; 6];
+    gradient.iter_mut().zip(stress).for_each(|(row, s)| row[..N].copy_from_slice(&s.du));
+    gradient
+}
+
+/// What finds the derivative of an update along any number of components with dual numbers.
+pub(super) trait Differentiate {
+    /// The state at the end of an increment, and the derivative of its stress along the `N` components.
+    fn advance_dual<const N: usize>(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        new: &mut [f64],
+        directions: Directions,
+    ) -> Result<Gradient, Failure>;
+
+    /// The same along as many components as there are.
+    fn advance_along(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        new: &mut [f64],
+        directions: Directions,
+    ) -> Result<Gradient, Failure> {
+        match directions {
+            Directions::Plane => self.advance_dual::<4>(f, dt, old, new, directions),
+            Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, new, directions),
+            Directions::Space => self.advance_dual::<9>(f, dt, old, new, directions),
+        }
+    }
+}
 
 /// A law of a solid at one point, driven by the deformation `f` of the increment. Its state is the Cauchy stress (six
 /// values) followed by its variables.

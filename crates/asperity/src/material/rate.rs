@@ -8,6 +8,7 @@
 
 use super::frame::{Frame, hughes_winget};
 use super::integrated::Integrated;
+use super::law::{self, Differentiate};
 use super::{Directions, Gradient, GreenNaghdi, Material, Variable, Vars};
 use crate::Failure;
 use crate::integrate::Update;
@@ -73,7 +74,9 @@ impl<L: RateLaw> Rate<L> {
         let stress = q * stress_of(old) * q.transpose();
         self.0.update(de, stress, &L::Vars::<f64>::read(&old[6..]).rotate(&q), dt)
     }
+}
 
+impl<L: RateLaw> Differentiate for Rate<L> {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
@@ -97,13 +100,9 @@ impl<L: RateLaw> Rate<L> {
         let vars = L::Vars::<Dual<N>>::read(&old[6..]).rotate(&frame.q);
         let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, dt)?;
         let stress = stress.to_voigt();
-        let mut gradient = [[0.0; 9]; 6];
-        for (row, s) in gradient.iter_mut().zip(&stress) {
-            row[..N].copy_from_slice(&s.du);
-        }
         new[..6].copy_from_slice(&stress.map(Scalar::re));
         vars.write(&mut new[6..]);
-        Ok(gradient)
+        Ok(law::slopes(&stress))
     }
 }
 
@@ -150,11 +149,7 @@ impl<L: RateLaw> Material for Rate<L> {
         new: &mut [f64],
         directions: Directions,
     ) -> Result<Gradient, Failure> {
-        match directions {
-            Directions::Plane => self.advance_dual::<4>(f, dt, old, new, directions),
-            Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, new, directions),
-            Directions::Space => self.advance_dual::<9>(f, dt, old, new, directions),
-        }
+        self.advance_along(f, dt, old, new, directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

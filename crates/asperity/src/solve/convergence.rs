@@ -45,6 +45,8 @@ pub struct Yardstick {
 
 /// Part of the past yardstick that still counts: after unloading, equilibrium is asked to a tolerance of this.
 const MEMORY: f64 = 1e-3;
+/// By what factor an iteration makes unbalanced forces smaller that are not yet rounding.
+const FALLING: f64 = 10.0;
 
 impl Norms {
     /// Measures an evaluation whose unbalanced forces on the free unknowns are `residual`.
@@ -77,5 +79,26 @@ impl Norms {
     /// Whether it is good enough.
     pub fn converged(&self) -> bool {
         self.ratio <= self.allowed
+    }
+
+    /// The same after an iteration that began with the ratio `before`, zero if there was none: unbalanced forces below
+    /// what rounding may leave are not rounding yet as long as iterations make them much smaller.
+    pub fn converged_from(&self, before: f64) -> bool {
+        let falling = self.ratio > 0.0 && before > FALLING * self.ratio;
+        self.converged() && !(falling && self.rounding >= self.allowed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_still_falls_is_not_rounding() {
+        let norms = |ratio, rounding| Norms { ratio, rounding, allowed: 1e-13, ..Norms::default() };
+        assert!(!norms(0.9e-13, 1e-13).converged_from(1e-8), "rounding's bound, but on the way down");
+        assert!(norms(0.9e-13, 1e-13).converged_from(5e-13) && norms(0.9e-13, 1e-13).converged_from(0.0));
+        assert!(norms(0.9e-13, 0.5e-13).converged_from(1e-8), "the tolerance itself is met");
+        assert!(norms(0.0, 1e-13).converged_from(1e-8) && !norms(2e-13, 1e-13).converged_from(2e-13));
     }
 }

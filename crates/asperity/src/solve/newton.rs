@@ -209,7 +209,7 @@ impl<'a> Newton<'a> {
             line.augmentation = augmentation;
             observer.iteration(record, &line);
             record.iterations.push(line);
-            if missing.is_none() && norms.converged() {
+            if missing.is_none() && norms.converged_from(ratio) {
                 self.stands(&u, norms.reference[0])?;
                 if !self.augment(&u)? {
                     return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });

@@ -87,16 +87,57 @@ increments.count = 60
 displacement."block.top" = { x = 1.4 }
 "#;
 
-/// With one pass. With two, what the slab's own points carry depends on how the block's corners lie in its edges.
+/// The drag on the block: in no increment does it change by a hundredth, whichever edges its corners cross and whether
+/// the rule lies on a whole edge or on its covered part.
 #[test]
 fn sliding_over_edges_drags_evenly() {
-    let model = model(BLOCK, &["contact.sole.passes=one"]);
-    let keep: Keep = run(&model);
-    let (columns, limit) = (columns(&model, &keep), 0.2 * 5.0 * 0.7);
-    let drag = &columns["contact.sole.force.x"][6..];
-    for two in drag.windows(2) {
-        // The block leans a little, so that its pressure has a part along the slab.
-        assert!((two[0].abs() / limit - 1.0).abs() < 0.03, "{} of {limit}", two[0]);
-        assert!((two[1] - two[0]).abs() < 0.01 * limit, "{two:?} of {limit}");
+    for sets in [&["contact.sole.passes=one"][..], &["contact.sole.passes=two", "contact.sole.gauss=3"]] {
+        let model = model(BLOCK, sets);
+        let keep: Keep = run(&model);
+        let (columns, limit) = (columns(&model, &keep), 0.2 * 5.0 * 0.7);
+        let drag = &columns["contact.sole.force.x"][6..];
+        for two in drag.windows(2) {
+            // The block leans a little, so that its pressure has a part along the slab.
+            assert!((two[0].abs() / limit - 1.0).abs() < 0.03, "{sets:?}: {} of {limit}", two[0]);
+            assert!((two[1] - two[0]).abs() < 0.01 * limit, "{sets:?}: {two:?} of {limit}");
+        }
     }
 }
+
+/// The slab's own points rub as much as they bear, those too that the block has come over from the side in the same
+/// increment.
+#[test]
+fn what_a_block_slides_onto_rubs_at_once() {
+    rubs(BLOCK, &["contact.sole.passes=two"], 6);
+    rubs(SLED, &[], 3);
+}
+
+fn rubs(deck: &str, sets: &[&str], from: usize) {
+    let model = model(deck, sets);
+    let keep: Keep = run(&model);
+    let columns = columns(&model, &keep);
+    let [along, down] = ["x", "y"].map(|axis| &columns[&format!("contact.sole.target.force.{axis}")][from..]);
+    for (along, down) in along.iter().zip(down) {
+        assert!(down.abs() > 1.0 && (along / down + 0.2).abs() < 0.002, "{along} of {down}");
+    }
+}
+
+/// The same in space, with corners of the block inside faces of the slab.
+const SLED: &str = r#"
+version = 1
+space = "solid"
+mesh.part.slab.box = { from = [0.0, -0.5, 0.0], to = [1.8, 0.0, 1.0], cells = [6, 2, 3], cell = "hex20" }
+mesh.part.block.box = { from = [0.32, 0.0, 0.17], to = [0.87, 0.3, 0.84], cells = [3, 1, 3], cell = "hex20" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.slab.material = "rubber"
+body.block.material = "rubber"
+contact.sole = { surface = "block.bottom", target = "slab.top", law.coulomb = { friction = 0.2 }, passes = "two" }
+[[step]]
+increments.count = 1
+displacement."slab.bottom" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."block.top" = { x = 0.0, z = 0.0 }
+pressure."block.top" = { value = 5.0, kind = "dead" }
+[[step]]
+increments.count = 20
+displacement."block.top" = { x = 0.5, z = 0.0 }
+"#;

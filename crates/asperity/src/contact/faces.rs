@@ -226,6 +226,12 @@ impl Standing<'_> {
         (self.curves[segment].shape().point(end as f64), look(segment, end), beyond)
     }
 
+    /// The edge beyond a vertex.
+    pub(super) fn beyond(&self, vertex: Vertex) -> Option<usize> {
+        let (segment, end) = parts(vertex);
+        self.faces.neighbours[segment][end]
+    }
+
     /// All places with `u` in `range` where a ray meets the edges, by edge and then by `u`.
     pub(super) fn cast(&self, ray: &Ray, range: [f64; 2], hits: &mut Vec<tool::Hit>) {
         hits.clear();

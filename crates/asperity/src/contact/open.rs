@@ -164,7 +164,10 @@ impl OpenContact<'_> {
             b: seed(g.place.b, 4),
             touched: g.place.touched.map(|x| seed(x, 6)),
         };
-        let past = self.past(index, g.before.shear);
+        let mut past = self.past(index, g.before.shear);
+        if g.before.entered {
+            past.penetration = contact.law.touch(&past);
+        }
         let constants = Constants {
             normal: g.hit.normal,
             closure: self.closure(index),
@@ -193,7 +196,7 @@ impl OpenContact<'_> {
             self.account(index, g, Carried::default(), local);
             return Ok(0);
         };
-        if g.place.touched.is_none() {
+        if g.place.touched.is_none() || g.before.entered {
             refuse_jump(g.hit.u, self.depths[index], || self.contact.describe(index))?;
         } else if let Some(rigid) = contact.target.as_tool() {
             let turned = local.u[g.layout.hit.end - 1] - self.accepted[rigid.unknowns().end - 1];

@@ -110,7 +110,7 @@ impl OpenContact<'_> {
             let also = [0, 0, u32::from(cast.lies_within(memory))];
             return Stencil { also, ..Stencil::default() };
         };
-        let also = [vertices[0], vertices[1], self.recall(index, &spot, memory)];
+        let also = [vertices[0], vertices[1], self.recall(index, (&spot, hit.segment), memory)];
         Stencil { choice: hit.segment as u32 + 1, near: hit.s, also, ..Stencil::default() }
     }
 }

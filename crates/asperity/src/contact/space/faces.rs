@@ -176,6 +176,19 @@ impl Standing<'_> {
         });
     }
 
+    /// A face.
+    pub(super) fn patch(&self, segment: usize) -> &Patch {
+        &self.patches[segment]
+    }
+    /// Number of its corners.
+    pub(super) fn corners(&self, segment: usize) -> usize {
+        self.faces.faces[segment].corners()
+    }
+    /// The face beyond one of its edges.
+    pub(super) fn beyond(&self, segment: usize, edge: usize) -> Option<usize> {
+        self.faces.neighbours[segment][edge]
+    }
+
     /// What a ray meets by the rules against false contacts; what they reject is counted.
     pub(super) fn select(&self, cast: &Cast, memory: &mut Memory) -> Option<Hit> {
         self.cast(&cast.ray, cast.range(), &mut memory.hits);

@@ -4,6 +4,7 @@
 mod before;
 mod border;
 mod capture;
+mod exit;
 mod faces;
 mod geometry;
 mod guard;

@@ -141,7 +141,10 @@ impl OpenContact<'_> {
     ) -> Result<Branch, Failure> {
         let old = self.history.slot(index);
         let place = Self::seeded(g);
-        let past = self.past(index);
+        let mut past = self.past(index);
+        if g.before.entered {
+            past.penetration = self.contact.parts.law.touch(&past);
+        }
         let constants = self.constants(index, g, &past, local.acting);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(&g.spot, Some(g.hit), new);
@@ -153,7 +156,7 @@ impl OpenContact<'_> {
             self.account(index, g, Carried::default(), local);
             return Ok(0);
         };
-        if g.place.touched.is_none() {
+        if g.place.touched.is_none() || g.before.entered {
             refuse_jump(g.hit.u, self.depths[index], || self.contact.describe(index))?;
         }
         self.refuse_turn(index, (g, &local.u))?;

@@ -100,7 +100,7 @@ impl OpenContact<'_> {
             let ray = Ray { origin, direction: Triad::new(tangents).inward };
             let hit = standing.cast(&Cast { ray, ..contact.bounds(index, self.depths[index], self.reach) }, memory)?;
             let (nodes, [first, closed]) = border.choices();
-            let also = [first, closed, self.recall(index, &spot, memory)];
+            let also = [first, closed, self.recall(index, (&spot, &hit), memory)];
             Some(Stencil { choice: hit.facet as u32 + 1, near: hit.s, also, border: nodes, ..Stencil::default() })
         };
         contact.parts.surface.points_of(face).map(one).map(Option::unwrap_or_default).collect()

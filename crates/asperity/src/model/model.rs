@@ -3,8 +3,8 @@
 use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
-use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step, Whole};
-use crate::system::{Dofs, State, Term};
+use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
+use crate::system::{Dofs, State, Term, Whole};
 use crate::tool::{self, Tool};
 use std::sync::Arc;
 

@@ -1,7 +1,6 @@
 //! The procedure: increments, attempts, Newton's iterations. It sees the discrete system and the linear solver only;
 //! it knows neither mechanics nor contact.
 
-mod carry;
 mod convergence;
 mod free;
 mod linear;
@@ -9,12 +8,12 @@ mod mixed;
 mod newton;
 mod observer;
 mod piecewise;
+mod predict;
 mod relax;
 mod run;
 mod schedule;
 mod step;
 
-pub use carry::Whole;
 pub use convergence::{Norms, Worst};
 pub use linear::{Factors, Frontal, LinearError, LinearSolver};
 pub use newton::{NewtonOptions, Variant};

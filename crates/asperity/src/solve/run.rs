@@ -1,12 +1,11 @@
 //! Steps and increments: the loop around the attempts.
 
-use super::carry::Whole;
 use super::linear::LinearSolver;
 use super::newton::{Converged, Memory, Newton, NewtonOptions, Trouble};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::schedule::Step;
 use crate::Error;
-use crate::system::{Dofs, Energies, History, State, Term, Unknown};
+use crate::system::{Dofs, Energies, History, State, Term, Unknown, Whole};
 use std::sync::Arc;
 
 /// What is to be solved: terms, numbering, steps.

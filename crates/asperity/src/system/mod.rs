@@ -14,6 +14,7 @@ mod pattern;
 mod sink;
 mod state;
 mod term;
+mod whole;
 
 pub use assembly::{Assembly, Evaluation, Tangent, Trial, Workspace};
 pub use check::{TangentCheck, check_tangent};
@@ -23,3 +24,4 @@ pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};
 pub use pattern::{Couplings, Csr};
 pub use state::{Energies, History, State};
 pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};
+pub use whole::Whole;

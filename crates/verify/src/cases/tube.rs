@@ -13,6 +13,8 @@ const TRAVEL: f64 = 100.0;
 const BEGIN: f64 = 40.0;
 /// and ends before this.
 const END: f64 = 90.0;
+/// Length of the coarsest cells. The ridge is as long, so that only finer ones see it.
+const PITCH: f64 = 4.0;
 
 /// An element of the tube.
 struct Element {
@@ -28,6 +30,28 @@ const ELEMENTS: [Element; 2] = [
 /// Travel and force along the axis after each increment.
 type Curve = Vec<(f64, f64)>;
 
+/// Cells of a length of `PITCH` over `n`, pushed so far in so many increments.
+#[derive(Clone, Copy)]
+struct Course {
+    n: usize,
+    travel: f64,
+    increments: usize,
+}
+
+impl Course {
+    /// The whole travel.
+    fn whole(n: usize, increments: usize) -> Self {
+        Self { n, travel: TRAVEL, increments }
+    }
+
+    /// Eight increments a pitch; the finest cells go no further than the coarsest pitch in the steady range.
+    fn eighths(level: usize) -> Self {
+        let n = 1 << level;
+        let travel = if level < 3 { TRAVEL } else { BEGIN + PITCH };
+        Self { n, travel, increments: (8.0 * travel / PITCH) as usize * n }
+    }
+}
+
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Measured::new();
     for element in &ELEMENTS {
@@ -38,14 +62,9 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     Ok(measured)
 }
 
-/// Mesh and increments: cells of a length of 4 mm over `n`, at least four through the wall. A tube of 152 mm makes their
-/// number whole.
-fn run(
-    bench: &Bench,
-    element: &Element,
-    (n, increments): (usize, usize),
-    more: &[&str],
-) -> Result<(Solved, Curve), Error> {
+/// At least four cells through the wall. A tube of 152 mm makes their number whole.
+fn run(bench: &Bench, element: &Element, course: Course, more: &[&str]) -> Result<(Solved, Curve), Error> {
+    let Course { n, travel, increments } = course;
     let part = "mesh.part.tube.rectangle";
     let [cell, formulation, integration] = element.sets;
     let mut sets = vec![
@@ -55,18 +74,20 @@ fn run(
         format!("body.tube.{formulation}"),
         format!("body.tube.{integration}"),
         format!("step.push.increments.count={increments}"),
+        format!("step.push.displacement.\"tube.top\".y=-{travel:?}"),
     ];
     sets.extend(more.iter().map(|set| (*set).to_string()));
     let mut curve = Curve::new();
     let solved = bench.follow("tube.toml", &sets, |model, state| {
-        curve.push((TRAVEL * state.time, points(model, state, 0).iter().map(|point| point.force()[1]).sum()));
+        curve.push((travel * state.time, points(model, state, 0).iter().map(|point| point.force()[1]).sum()));
     })?;
     Ok((solved, curve))
 }
 
 /// Mean, and half the range, of the force over as many whole pitches as the steady range holds.
-fn steady(curve: &Curve, pitch: f64) -> (f64, f64) {
-    let end = BEGIN + ((END - BEGIN) / pitch).floor() * pitch;
+fn steady(curve: &Curve, course: Course) -> (f64, f64) {
+    let pitch = PITCH / course.n as f64;
+    let end = BEGIN + ((END.min(course.travel) - BEGIN) / pitch).floor() * pitch;
     let samples = 2000;
     let at = |i: usize| force_at(curve, BEGIN + (end - BEGIN) * (i as f64 + 0.5) / samples as f64);
     let forces: Vec<f64> = (0..samples).map(at).collect();
@@ -82,27 +103,31 @@ fn force_at(curve: &Curve, travel: f64) -> f64 {
     f0 + (f1 - f0) * (travel - t0) / (t1 - t0)
 }
 
-/// Eight increments a pitch; the ripple on the meshes of both sizes, and the pressures of the finer.
+/// The ripple on all meshes, the force on the finest, and the pressures of the finest that is pushed the whole way.
 fn frictionless(bench: &Bench, element: &Element, measured: &mut Measured) -> Result<(), Error> {
     let mut add = |key: &str, value: f64| measured.push((format!("{}-{key}", element.name), value));
-    let (mut ripples, mut last) = (Vec::new(), None);
-    for level in 0..bench.pick(1, 3) {
-        let n = 1 << level;
-        let slides = ["contact.bore.law.coulomb.friction=0.0"];
-        let (solved, curve) = run(bench, element, (n, 200 * n), &slides)?;
-        let (mean, ripple) = steady(&curve, 4.0 / n as f64);
+    let slides = ["contact.bore.law.coulomb.friction=0.0"];
+    let mut ripples = Vec::new();
+    for level in 0..bench.pick(1, 4) {
+        let course = Course::eighths(level);
+        let (solved, curve) = run(bench, element, course, &slides)?;
+        let (mean, ripple) = steady(&curve, course);
         ripples.push(ripple / mean);
-        last = Some((solved, mean));
+        if level == bench.pick(0, 3) {
+            add("force", mean / 1e3);
+        }
+        if level == bench.pick(0, 2) {
+            let (plateau, end) = pressures(&solved.points(0));
+            add("plateau", plateau);
+            add("end", end / plateau);
+        }
     }
-    let Some((solved, mean)) = last else { return Ok(()) };
-    add("force", mean / 1e3);
     add("ripple", ripples[ripples.len() - 1]);
-    if ripples.len() > 1 {
-        add("ripple-ratio", ripples[ripples.len() - 1] / ripples[0]);
+    if let [coarsest, middle @ .., finest] = &ripples[..] {
+        add("ripple-coarsest", *coarsest);
+        add("ripple-most", middle.iter().fold(*coarsest, |a, &b| a.max(b)));
+        add("ripple-ratio", finest / coarsest);
     }
-    let (plateau, end) = pressures(&solved.points(0));
-    add("plateau", plateau);
-    add("end", end / plateau);
     Ok(())
 }
 
@@ -121,11 +146,11 @@ fn pressures(points: &[PointRecord]) -> (f64, f64) {
 fn with_friction(bench: &Bench, element: &Element, measured: &mut Measured) -> Result<(), Error> {
     let mut add = |key: &str, value: f64| measured.push((format!("{}-{key}", element.name), value));
     let (n, increments) = bench.pick((1, 100), (2, 200));
-    let (_, curve) = run(bench, element, (n, increments), &[])?;
+    let (_, curve) = run(bench, element, Course::whole(n, increments), &[])?;
     let growth = (force_at(&curve, 79.8) - force_at(&curve, 39.8)) / 1e3;
     add("growth", growth);
     add("growth-small", growth);
-    let (_, halved) = run(bench, element, (n, 2 * increments), &[])?;
+    let (_, halved) = run(bench, element, Course::whole(n, 2 * increments), &[])?;
     let common: Vec<f64> = curve.iter().map(|point| point.0).filter(|&travel| travel >= BEGIN).collect();
     let mean = |curve: &Curve| common.iter().map(|&t| force_at(curve, t)).sum::<f64>() / common.len() as f64;
     add("halved", mean(&halved) / mean(&curve) - 1.0);
@@ -138,14 +163,14 @@ fn newton(bench: &Bench, measured: &mut Measured) -> Result<(), Error> {
     let (n, mut most, mut cuts) = (bench.pick(1, 2), 0.0_f64, 0);
     for (element, friction) in ELEMENTS.iter().flat_map(|element| [(element, 0.0), (element, 0.2)]) {
         let law = format!("contact.bore.law.coulomb.friction={friction}");
-        let (solved, curve) = run(bench, element, (n, 70), &[&law])?;
+        let (solved, curve) = run(bench, element, Course::whole(n, 70), &[&law])?;
         let solutions: usize = solved.attempts.iter().map(|attempt| attempt.solutions()).sum();
         most = most.max(solutions as f64 / curve.len() as f64);
         cuts += solved.attempts.len() - curve.len();
     }
     measured.push(("iterations".into(), most));
     measured.push(("cuts".into(), cuts as f64));
-    let (solved, _) = run(bench, &ELEMENTS[0], (n, 100), &[])?;
+    let (solved, _) = run(bench, &ELEMENTS[0], Course::whole(n, 100), &[])?;
     let orders: Vec<f64> = solved.attempts.iter().filter_map(|attempt| attempt.residual_order()).collect();
     measured.push(("orders".into(), orders.len() as f64));
     let high = orders.iter().filter(|&&order| order > 1.8).count();

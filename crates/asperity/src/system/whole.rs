@@ -4,10 +4,11 @@
 //! past something, its nodes follow each other: what one did last its neighbour does next, and a body bent as it was bent
 //! last is strained. Carried on as a whole it is not.
 
+use super::{Dofs, State};
 use crate::mesh::Space;
-use crate::system::{Dofs, State};
 use crate::tensor::Vec3;
 use crate::tensor::dense::eliminate;
+use crate::tool::space::Pose;
 
 /// Nodes that hang together by cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,15 +105,9 @@ fn carried(shift: Vec3, turn: Vec3, part: f64) -> Vec3 {
     along * part + rotated(shift - along, turn * (0.5 * (part + 1.0))) * chord
 }
 
-/// `v` turned by a rotation vector (Rodrigues).
-fn rotated(v: Vec3, turn: Vec3) -> Vec3 {
-    let angle = turn.norm();
-    if angle == 0.0 {
-        return v;
-    }
-    let axis = turn * angle.recip();
-    let across = axis.cross(v);
-    v + across * angle.sin() + axis.cross(across) * (1.0 - angle.cos())
+/// `v` turned by a rotation vector.
+fn rotated(v: Vec3, rotation: Vec3) -> Vec3 {
+    Pose { rotation, ..Pose::default() }.rotate(v)
 }
 
 #[cfg(test)]

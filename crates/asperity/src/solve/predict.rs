@@ -1,0 +1,91 @@
+//! The first guess of an attempt.
+//!
+//! The predictor carries all unknowns on with the last accepted increment. What prescribed unknowns still miss enters
+//! the first solution as known motion (`K_ff dq = -(r + K_fc missing)`), so that a driven row takes the elements
+//! behind it along instead of turning them inside out.
+
+use super::newton::{Newton, Trouble};
+use crate::Failure;
+use crate::system::Evaluation;
+
+/// A first guess, and what prescribed unknowns miss there.
+type Start = (Vec<f64>, Option<Vec<f64>>);
+
+/// Unbalanced forces of a first guess below which no other is tried.
+const GOOD_GUESS: f64 = 0.1;
+/// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
+const ROUNDING: f64 = 1e-12;
+
+impl Newton<'_> {
+    /// First guess, evaluated, and what the prescribed unknowns still miss there: the motion of the last increment carried
+    /// on, node by node or, where that leaves much and this leaves less, with each whole as a rigid body.
+    pub(super) fn predict(&mut self) -> Result<Start, Trouble> {
+        if self.state.last_dt == 0.0 {
+            return Ok(self.guess(self.state.u.clone())?.0);
+        }
+        let part = self.at.dt / self.state.last_dt;
+        let nodal: Vec<f64> = self.state.u.iter().zip(&self.state.last_change).map(|(u, d)| u + part * d).collect();
+        let first = self.guess(nodal.clone());
+        if matches!(first, Ok((_, unbalanced)) if unbalanced <= GOOD_GUESS) {
+            return Ok(first?.0);
+        }
+        let (spare, pattern) = (Evaluation::new(&self.problem.terms, self.state), self.memory.workspace.analysis());
+        let kept = (std::mem::replace(&mut self.evaluation, spare), self.residual.clone());
+        let second = self.guess(self.problem.wholes.iter().fold(nodal, |mut u, whole| {
+            whole.carry(&self.problem.dofs, self.state, part, &mut u);
+            u
+        }));
+        let left =
+            |guess: &Result<(Start, f64), Failure>| guess.as_ref().map_or(f64::INFINITY, |(_, unbalanced)| *unbalanced);
+        if left(&second) < left(&first) {
+            return Ok(second?.0);
+        }
+        match first {
+            Ok((start, _)) if self.memory.workspace.analysis() == pattern => {
+                (self.evaluation, self.residual) = kept;
+                Ok(start)
+            }
+            Ok(((u, _), _)) => Ok(self.guess(u)?.0),
+            Err(_) => Ok(self.guess(self.state.u.clone())?.0),
+        }
+    }
+
+    /// Evaluates a first guess and measures the unbalanced forces, with those of the motion that prescribed unknowns still
+    /// miss.
+    fn guess(&mut self, mut u: Vec<f64>) -> Result<(Start, f64), Failure> {
+        let missing = self.missing(&mut u);
+        self.evaluate(&u, missing.as_deref(), self.tangent())?;
+        let residual = self.residual.clone();
+        if missing.is_some() {
+            let mut carried = vec![0.0; residual.len()];
+            self.step.constraints.gather(&self.evaluation.carried, &mut carried);
+            self.residual.iter_mut().zip(&carried).for_each(|(r, c)| *r += c);
+        }
+        let unbalanced = self.measure().ratio;
+        self.residual = residual;
+        Ok(((u, missing), unbalanced))
+    }
+
+    /// What prescribed unknowns miss at `u`; where that is rounding, it is put right in `u` at once.
+    pub(super) fn missing(&self, u: &mut [f64]) -> Option<Vec<f64>> {
+        let (mut missing, mut largest, mut motion) = (vec![0.0; u.len()], 0.0_f64, 0.0_f64);
+        for p in &self.step.prescribed {
+            let start = p.value(&self.state.step_start);
+            let target = p.course.at(start, self.at.step_time, self.step.duration);
+            missing[p.dof] = target - p.value(u);
+            largest = largest.max(missing[p.dof].abs());
+            motion = motion.max((target - p.value(&self.state.u)).abs()).max(target.abs());
+        }
+        // A combination also misses what its prescribed partners do; those are simple and already known.
+        for p in self.step.prescribed.iter().filter(|p| !p.others.is_empty()) {
+            missing[p.dof] += p.others.iter().map(|&(other, c)| c * missing[other]).sum::<f64>();
+        }
+        if largest > ROUNDING * motion {
+            return Some(missing);
+        }
+        for p in &self.step.prescribed {
+            u[p.dof] += missing[p.dof];
+        }
+        None
+    }
+}

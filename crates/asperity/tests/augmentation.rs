@@ -4,7 +4,7 @@
 mod support;
 
 use asperity::system::State;
-use support::{Keep, columns, go_on, model, run};
+use support::{all_bytes, bytes, columns, go_on, model, run};
 
 const ROLLER: &str = include_str!("../../../cases/hertz-cylinder/roller.toml");
 const COARSE: [&str; 4] = [
@@ -57,10 +57,6 @@ fn coarse<'a>(more: &[&'a str]) -> Vec<&'a str> {
 
 fn last(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> f64 {
     *columns[name].last().unwrap_or_else(|| panic!("{name}"))
-}
-
-fn bytes(keep: &Keep) -> Vec<Vec<u8>> {
-    keep.states.iter().map(|state| postcard::to_stdvec(state).unwrap()).collect()
 }
 
 /// Hertz: weighted penetrations at the nodes below 1e-6 of the edges after at most six augmentations, in every increment.
@@ -138,15 +134,15 @@ fn sliding_is_as_without_multipliers() {
 #[test]
 fn multipliers_are_part_of_the_state() {
     let model = model(BLOCK, &[]);
-    let whole = bytes(&run(&model));
+    let whole = all_bytes(&run(&model));
     for k in [1, 3, 6] {
         let begun = go_on(&model, model.problem.initial_state(), Some(k));
-        let state: State = postcard::from_bytes(&bytes(&begun)[k - 1]).unwrap();
-        assert!(whole[k..] == bytes(&go_on(&model, state, None))[..], "{k}");
+        let state: State = postcard::from_bytes(&bytes(&begun.states[k - 1])).unwrap();
+        assert!(whole[k..] == all_bytes(&go_on(&model, state, None))[..], "{k}");
     }
     let mut twice = model;
     twice.problem.newton.rehearse = true;
-    assert!(whole == bytes(&run(&twice)));
+    assert!(whole == all_bytes(&run(&twice)));
 }
 
 /// In space.

@@ -60,7 +60,6 @@ fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
     let tool = Arc::new(Tool::new("t", target(kind), at(0.5, 0.3, -1.0)));
     let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
     let lower = mesh.groups["b.back"].sides.clone();
-    // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
     let options = ContactOptions {
         penalty: 1.0,
         tangential_penalty: 0.7,

@@ -4,7 +4,7 @@
 mod support;
 
 use asperity::system::State;
-use support::{columns, go_on, model, run};
+use support::{all_bytes, bytes, columns, go_on, model, run};
 
 /// A block is pressed onto a plate and drawn along it.
 const BLOCK: &str = r#"
@@ -52,9 +52,8 @@ fn keep_up(iterations: usize) -> usize {
 #[test]
 fn a_restart_changes_nothing() {
     let model = model(BLOCK, &[]);
-    let bytes = |states: &[State]| states.iter().map(|s| postcard::to_stdvec(s).unwrap()).collect::<Vec<_>>();
-    let whole = bytes(&run(&model).states);
+    let whole = all_bytes(&run(&model));
     let begun = go_on(&model, model.problem.initial_state(), Some(5));
-    let state: State = postcard::from_bytes(&bytes(&begun.states)[4]).unwrap();
-    assert!(whole[5..] == bytes(&go_on(&model, state, None).states)[..]);
+    let state: State = postcard::from_bytes(&bytes(&begun.states[4])).unwrap();
+    assert!(whole[5..] == all_bytes(&go_on(&model, state, None))[..]);
 }

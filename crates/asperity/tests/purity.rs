@@ -8,7 +8,7 @@ use asperity::output::{CHECKPOINT, Job, ResultOptions, Start, simulate};
 use asperity::solve::{Frontal, LinearError, LinearSolver, Run, RunOptions, Silent};
 use asperity::system::{Csr, State};
 use proptest::prelude::*;
-use support::{Keep, go_on, model, run};
+use support::{all_bytes, bytes, go_on, model, run};
 
 const DECK: &str = include_str!("../../../cases/tube/tube.toml");
 const COARSE: [&str; 3] = [
@@ -21,14 +21,6 @@ const QUAD4: [&str; 3] =
 
 fn coarse(more: &[&'static str]) -> Vec<&'static str> {
     [&COARSE, more].concat()
-}
-
-fn bytes(state: &State) -> Vec<u8> {
-    postcard::to_stdvec(state).unwrap()
-}
-
-fn all_bytes(keep: &Keep) -> Vec<Vec<u8>> {
-    keep.states.iter().map(bytes).collect()
 }
 
 fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {

@@ -102,7 +102,6 @@ fn contact_with(
     let tool = Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)));
     let boundary = (0..mesh.kinds[0].faces.len()).map(|face| Side { cell: 0, face }).collect();
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
-    // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
     let (loads, coupling) = (Loads::Both, true);
     let mut options = ContactOptions {
         penalty: 1.0,

@@ -44,7 +44,6 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
     let surface = Surface::new(&mesh, sides(own), None);
     let body = own.split('.').next().unwrap();
     let boundary = mesh.boundary(&mesh.groups[body].cells);
-    // A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
     let options = ContactOptions {
         penalty: 1.0,
         tangential_penalty: 0.7,

@@ -51,7 +51,6 @@ fn mesh([upper, lower]: [&str; 2]) -> Mesh {
     mesh
 }
 
-/// A modulus far above the pressures: beyond a part of it the tangent is not meant to be exact.
 fn options(loads: Loads) -> ContactOptions {
     ContactOptions {
         penalty: 1.0,

@@ -13,6 +13,7 @@ mod relax;
 mod run;
 mod schedule;
 mod step;
+mod trail;
 
 pub use convergence::{Norms, Worst};
 pub use linear::{Factors, Frontal, LinearError, LinearSolver};

@@ -8,6 +8,7 @@ use super::relax::Drag;
 use super::run::Problem;
 use super::schedule::Step;
 use super::step::forcing;
+use super::trail::{Cycle, Trail};
 use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace};
 use crate::{Error, Failure};
 
@@ -145,6 +146,8 @@ const SLOPE: f64 = 10.0;
 const PATIENCE: usize = 8;
 /// to this part of the initial one. Points that slip to and fro in turn are held by it.
 const STRICT: f64 = 0.5;
+/// Points of a cycle that a message names.
+const NAMED: usize = 3;
 
 impl<'a> Newton<'a> {
     /// Opens all terms at the accepted state.
@@ -188,12 +191,13 @@ impl<'a> Newton<'a> {
         let (mut u, mut missing) = self.predict()?;
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.solver.begin();
-        let mut before: Vec<Vec<(u8, u32)>> = Vec::new();
+        let mut trail = Trail::default();
         let (mut augmentation, mut begun) = (0, 0);
         for iteration in 0.. {
             self.refresh_stiffness();
             let norms = self.measure();
-            let mut line = self.describe(iteration, &norms, &before);
+            trail.push(&self.evaluation.branches);
+            let mut line = self.describe(iteration, &norms, &trail);
             (line.correction, line.step, line.factorised) = (correction, taken, factorised);
             line.augmentation = augmentation;
             observer.iteration(record, &line);
@@ -216,7 +220,6 @@ impl<'a> Newton<'a> {
             if iteration - begun >= PATIENCE {
                 self.bound = STRICT;
             }
-            before.clone_from(&self.evaluation.branches);
             let motion = self.linearise((iteration, &u), missing.as_deref(), forcing(norms.ratio, ratio))?;
             (factorised, ratio) = (motion.factorised, norms.ratio);
             let from = u.clone();
@@ -226,7 +229,7 @@ impl<'a> Newton<'a> {
             correction = largest(&mut u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);
             missing = missing.filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
         }
-        Err(Failure::new(self.why_not(record)).into())
+        Err(Failure::new(self.why_not(record, &trail)).into())
     }
 
     /// Lets the terms improve what they hold besides the unknowns, and evaluates anew if any did.
@@ -281,33 +284,29 @@ impl<'a> Newton<'a> {
         self.stiffness = diagonal.map(|place| self.evaluation.values[place].abs()).fold(0.0, f64::max);
     }
 
-    pub(super) fn describe(&self, iteration: usize, norms: &Norms, before: &[Vec<(u8, u32)>]) -> IterationRecord {
-        let mut line = IterationRecord {
+    pub(super) fn describe(&self, iteration: usize, norms: &Norms, trail: &Trail) -> IterationRecord {
+        let changes = || trail.changed();
+        let counts = self.problem.terms.iter().zip(&self.evaluation.branches).map(|(term, branches)| {
+            let mut counts = vec![0; term.branches().len()];
+            if !counts.is_empty() {
+                branches.iter().for_each(|(branch, _)| counts[usize::from(*branch)] += 1);
+            }
+            counts
+        });
+        IterationRecord {
             iteration,
             residual: norms.ratio,
             tolerance: norms.allowed,
             rounding: norms.rounding,
             worst: norms.worst,
+            branches: counts.collect(),
+            changes: changes().count(),
+            changed: changes().last(),
             ..IterationRecord::default()
-        };
-        for (t, (term, branches)) in self.problem.terms.iter().zip(&self.evaluation.branches).enumerate() {
-            let mut counts = vec![0; term.branches().len()];
-            if !counts.is_empty() {
-                branches.iter().for_each(|(branch, _)| counts[usize::from(*branch)] += 1);
-            }
-            line.branches.push(counts);
-            if let Some(before) = before.get(t) {
-                let changed = branches.iter().zip(before).enumerate().filter(|(_, (now, then))| now != then);
-                for (stencil, _) in changed {
-                    line.changes += 1;
-                    line.changed = Some((t, stencil));
-                }
-            }
         }
-        line
     }
 
-    fn why_not(&self, record: &AttemptRecord) -> String {
+    fn why_not(&self, record: &AttemptRecord, trail: &Trail) -> String {
         let Some(last) = record.iterations.last() else { return "no iteration was made".into() };
         let mut text = format!(
             "the largest unbalanced force is {:.1e} of the forces in play after {} iterations (at most {:.0e}), at {}",
@@ -316,9 +315,30 @@ impl<'a> Newton<'a> {
             last.tolerance,
             self.problem.name_of(last.worst.dof)
         );
-        if let Some((term, stencil)) = last.changed {
+        if let Some(cycle) = trail.cycle() {
+            text += &format!("; contact states repeat every {} iterations: {}", cycle.period, self.name_cycle(&cycle));
+        } else if let Some((term, stencil)) = last.changed {
             let name = self.problem.terms[term].name_of(stencil);
             text += &format!("; {} contact states still changed, the last at {name}", last.changes);
+        }
+        text
+    }
+
+    /// The first stencils of a cycle, and what they go through.
+    fn name_cycle(&self, cycle: &Cycle) -> String {
+        let named = cycle.stencils.iter().take(NAMED).map(|(term, stencil, through)| {
+            let term = &self.problem.terms[*term];
+            // A choice counts from one; zero is none.
+            let state = |&(branch, choice): &(u8, u32)| {
+                let word = term.branches().get(usize::from(branch)).copied().unwrap_or_default();
+                if choice == 0 { word.to_owned() } else { format!("{word} on segment {choice}") }
+            };
+            let states: Vec<String> = through.iter().map(state).collect();
+            format!("{} ({})", term.name_of(*stencil), states.join(", "))
+        });
+        let mut text = named.collect::<Vec<_>>().join("; ");
+        if cycle.stencils.len() > NAMED {
+            text += &format!("; and {} more", cycle.stencils.len() - NAMED);
         }
         text
     }

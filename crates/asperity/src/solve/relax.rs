@@ -10,6 +10,7 @@
 use super::newton::{Converged, Newton, Trouble};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::step::forcing;
+use super::trail::Trail;
 use crate::Failure;
 
 /// First viscosity over the mean stiffness of an unknown.
@@ -133,7 +134,7 @@ impl Newton<'_> {
         self.evaluate(u, missing.as_deref(), self.tangent())?;
         for iteration in 0..=ITERATIONS {
             let norms = self.measure();
-            let line = IterationRecord { iteration, ..self.describe(iteration, &norms, &[]) };
+            let line = IterationRecord { iteration, ..self.describe(iteration, &norms, &Trail::default()) };
             observer.iteration(record, &line);
             record.iterations.push(line);
             if iteration == 0 {

@@ -38,6 +38,16 @@ impl Observer for Keep {
     }
 }
 
+/// A state as it is written to a checkpoint.
+pub fn bytes(state: &State) -> Vec<u8> {
+    postcard::to_stdvec(state).unwrap()
+}
+
+/// All accepted states, likewise.
+pub fn all_bytes(keep: &Keep) -> Vec<Vec<u8>> {
+    keep.states.iter().map(bytes).collect()
+}
+
 /// Runs from the start to the end.
 pub fn run(model: &Model) -> Keep {
     go_on(model, model.problem.initial_state(), None)

@@ -3,6 +3,7 @@
 
 mod support;
 
+use asperity::solve::RunOptions;
 use asperity::tensor::Vec3;
 use asperity::tool::Pose;
 use support::{Keep, model, run};
@@ -65,5 +66,22 @@ fn the_tangent_agrees_with_perturbation() {
     assert_eq!(a.len(), b.len());
     for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
         assert!((a - b).abs() < 1e-6, "{a} {b}");
+    }
+}
+
+/// Bare of what settles contact, a stiff film lets points close and open in turn: the message says which, and on what.
+#[test]
+fn points_that_go_round_in_circles_are_named() {
+    let bare = ["relax=false", "piecewise=false", "line_search=false"].map(|key| format!("solver.{key}"));
+    let stiff = ["penalty", "tangential_penalty"].map(|key| format!("contact.nip.{key}=1e4"));
+    let sets: Vec<&str> = bare.iter().chain(&stiff).map(String::as_str).collect();
+    let (model, mut keep) = (model(DECK, &sets), Keep::default());
+    let ended = model.run(model.problem.initial_state()).run(&RunOptions::default(), &mut keep);
+    assert!(ended.is_err(), "the run is meant to give up");
+    let failures = || keep.attempts.iter().filter_map(|attempt| attempt.failure.as_deref());
+    let named = failures().filter(|failure| failure.contains("contact states repeat every 2 iterations: point "));
+    assert!(named.clone().count() > 0, "{:?}", failures().collect::<Vec<_>>());
+    for failure in named {
+        assert!(failure.contains("of contact 'nip'") && failure.contains("on segment 1"), "{failure}");
     }
 }

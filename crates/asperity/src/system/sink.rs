@@ -64,19 +64,21 @@ impl<'a> Sink<'a> {
         if here.first() == Some(&LONG_WAY) {
             return self.add_long_way(dofs, matrix, sign);
         }
+        let values = self.out.values.as_mut_slice();
         for (&place, &value) in here.iter().zip(matrix) {
             if place != NOWHERE {
-                self.out.values[place as usize] += sign * value;
+                values[place as usize] += sign * value;
             }
         }
         Ok(())
     }
 
     fn add_forces(&mut self, dofs: &[usize], forces: &[f64]) {
-        let sum = if self.role == Role::Load { &mut self.out.load } else { &mut self.out.internal };
+        let Evaluation { load, internal, magnitude, .. } = &mut *self.out;
+        let sum = if self.role == Role::Load { load } else { internal }.as_mut_slice();
         for (&dof, &force) in dofs.iter().zip(forces) {
             sum[dof] += force;
-            self.out.magnitude[dof] += force.abs();
+            magnitude[dof] += force.abs();
         }
     }
 

@@ -77,11 +77,12 @@ impl<L: RateLaw> Differentiate for GreenNaghdi<L> {
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure> {
+    ) -> Result<(), Failure> {
         let stress = self.advance(&law::seeded::<N>(f, directions.components()), dt, old, new)?;
-        Ok(law::slopes(&stress.to_voigt()))
+        law::write_slopes(&stress.to_voigt(), gradient);
+        Ok(())
     }
 }
 
@@ -113,15 +114,15 @@ impl<L: RateLaw> Material for GreenNaghdi<L> {
         self.advance(f, dt, old, new).map(|_| ())
     }
 
-    fn update_with_gradient(
+    fn differentiate(
         &self,
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure> {
-        self.advance_along(f, dt, old, new, directions)
+    ) -> Result<(), Failure> {
+        self.advance_along(f, dt, old, (new, gradient), directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

@@ -48,10 +48,11 @@ impl<L: HyperLaw> Differentiate for Hyper<L> {
         f: &Tensor2,
         _dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure> {
-        Ok(law::slopes(&self.advance(&law::seeded::<N>(f, directions.components()), old, new)?))
+    ) -> Result<(), Failure> {
+        law::write_slopes(&self.advance(&law::seeded::<N>(f, directions.components()), old, new)?, gradient);
+        Ok(())
     }
 }
 
@@ -81,15 +82,15 @@ impl<L: HyperLaw> Material for Hyper<L> {
         self.advance(f, old, new).map(|_| ())
     }
 
-    fn update_with_gradient(
+    fn differentiate(
         &self,
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure> {
-        self.advance_along(f, dt, old, new, directions)
+    ) -> Result<(), Failure> {
+        self.advance_along(f, dt, old, (new, gradient), directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

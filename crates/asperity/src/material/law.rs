@@ -39,24 +39,22 @@ pub(super) fn seeded<const N: usize>(f: &Tensor2, places: &[(usize, usize)]) -> 
     dual
 }
 
-/// The derivatives that six stress components carry.
-pub(super) fn slopes<const N: usize>(stress: &[Dual<N>; 6]) -> Gradient {
-    let mut gradient = [[0.0; 9]; 6];
+/// Writes the derivatives that six stress components carry.
+pub(super) fn write_slopes<const N: usize>(stress: &[Dual<N>; 6], gradient: &mut Gradient) {
     gradient.iter_mut().zip(stress).for_each(|(row, s)| row[..N].copy_from_slice(&s.du));
-    gradient
 }
 
 /// What finds the derivative of an update along any number of components with dual numbers.
 pub(super) trait Differentiate {
-    /// The state at the end of an increment, and the derivative of its stress along the `N` components.
+    /// The state at the end of an increment, and the derivative of its stress along the `N` components, written to `out`.
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        out: (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure>;
+    ) -> Result<(), Failure>;
 
     /// The same along as many components as there are.
     fn advance_along(
@@ -64,13 +62,13 @@ pub(super) trait Differentiate {
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        out: (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure> {
+    ) -> Result<(), Failure> {
         match directions {
-            Directions::Plane => self.advance_dual::<4>(f, dt, old, new, directions),
-            Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, new, directions),
-            Directions::Space => self.advance_dual::<9>(f, dt, old, new, directions),
+            Directions::Plane => self.advance_dual::<4>(f, dt, old, out, directions),
+            Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, out, directions),
+            Directions::Space => self.advance_dual::<9>(f, dt, old, out, directions),
         }
     }
 }
@@ -108,7 +106,20 @@ pub trait Material: Send + Sync {
     /// # Errors
     /// A [`Failure`] when the deformation is inadmissible or a local iteration does not converge.
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure>;
-    /// The same, with the derivative of the stress along the components of `f`.
+    /// The same, and the derivative of the stress along the components of `f`; what of the gradient belongs to no direction
+    /// stays as it is.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    fn differentiate(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        out: (&mut [f64], &mut Gradient),
+        directions: Directions,
+    ) -> Result<(), Failure>;
+    /// [`differentiate`](Self::differentiate) with a gradient of its own.
     ///
     /// # Errors
     /// As [`update`](Self::update).
@@ -119,7 +130,11 @@ pub trait Material: Send + Sync {
         old: &[f64],
         new: &mut [f64],
         directions: Directions,
-    ) -> Result<Gradient, Failure>;
+    ) -> Result<Gradient, Failure> {
+        let mut gradient = Gradient::default();
+        self.differentiate(f, dt, old, (new, &mut gradient), directions)?;
+        Ok(gradient)
+    }
     /// Recoverable energy per current volume.
     fn stored_energy(&self, state: &[f64]) -> f64;
     /// Energy per current volume dissipated between two states.

@@ -6,7 +6,7 @@
 //! that drives the law; it belongs to the midpoint and is turned to the end by the second half of the rotation,
 //! `H = sqrt(Q)`, without which the stress of a shear would be of first order only.
 
-use super::frame::{Frame, hughes_winget};
+use super::frame::{Frame, InPlane, InSpace, Turning};
 use super::integrated::Integrated;
 use super::law::{self, Differentiate};
 use super::{Directions, Gradient, GreenNaghdi, Material, Variable, Vars};
@@ -70,9 +70,36 @@ impl<L: RateLaw> Rate<L> {
         if f.det() <= 0.0 {
             return Err(Failure::new(INSIDE_OUT));
         }
-        let (de, q) = hughes_winget(f);
-        let stress = q * stress_of(old) * q.transpose();
-        self.0.update(de, stress, &L::Vars::<f64>::read(&old[6..]).rotate(&q), dt)
+        let frame = Frame::of(f, &stress_of(old));
+        self.0.update(frame.de, frame.stress, &L::Vars::<f64>::read(&old[6..]).rotate(&frame.q), dt)
+    }
+
+    /// The end of an increment seen in `turning`, and its derivatives along `N` components of the deformation.
+    fn advance_in<const N: usize>(
+        &self,
+        turning: &impl Turning,
+        dt: f64,
+        old: &[f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
+        places: &[(usize, usize)],
+    ) -> Result<(), Failure> {
+        let frame = turning.values();
+        let vars = L::Vars::<f64>::read(&old[6..]).rotate(&frame.q);
+        if let Some(lame) = self.0.elastic_step(&frame.de, &frame.stress, &vars) {
+            let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, dt)?;
+            new[..6].copy_from_slice(&stress.to_voigt());
+            vars.write(&mut new[6..]);
+            turning.elastic_gradient(lame, places, gradient);
+            return Ok(());
+        }
+        let frame = turning.duals::<N>(places);
+        let vars = L::Vars::<Dual<N>>::read(&old[6..]).rotate(&frame.q);
+        let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, dt)?;
+        let stress = stress.to_voigt();
+        new[..6].copy_from_slice(&stress.map(Scalar::re));
+        vars.write(&mut new[6..]);
+        law::write_slopes(&stress, gradient);
+        Ok(())
     }
 }
 
@@ -82,27 +109,18 @@ impl<L: RateLaw> Differentiate for Rate<L> {
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        out: (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure> {
+    ) -> Result<(), Failure> {
         if f.det() <= 0.0 {
             return Err(Failure::new(INSIDE_OUT));
         }
-        let frame = Frame::<Dual<N>>::new(f, &stress_of(old), directions.components());
-        let (de, stress) = (frame.de.re(), frame.stress.re());
-        let vars = L::Vars::<f64>::read(&old[6..]).rotate(&frame.q.re());
-        if let Some(lame) = self.0.elastic_step(&de, &stress, &vars) {
-            let (stress, vars) = self.0.update(de, stress, &vars, dt)?;
-            new[..6].copy_from_slice(&stress.to_voigt());
-            vars.write(&mut new[6..]);
-            return Ok(frame.elastic_gradient(lame));
+        let (stress, places) = (stress_of(old), directions.components());
+        if N == 9 {
+            self.advance_in::<N>(&InSpace::new(f, &stress), dt, old, out, places)
+        } else {
+            self.advance_in::<N>(&InPlane::new(f, &stress), dt, old, out, places)
         }
-        let vars = L::Vars::<Dual<N>>::read(&old[6..]).rotate(&frame.q);
-        let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, dt)?;
-        let stress = stress.to_voigt();
-        new[..6].copy_from_slice(&stress.map(Scalar::re));
-        vars.write(&mut new[6..]);
-        Ok(law::slopes(&stress))
     }
 }
 
@@ -141,15 +159,15 @@ impl<L: RateLaw> Material for Rate<L> {
         Ok(())
     }
 
-    fn update_with_gradient(
+    fn differentiate(
         &self,
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        new: &mut [f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
-    ) -> Result<Gradient, Failure> {
-        self.advance_along(f, dt, old, new, directions)
+    ) -> Result<(), Failure> {
+        self.advance_along(f, dt, old, (new, gradient), directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {
@@ -162,6 +180,7 @@ impl<L: RateLaw> Material for Rate<L> {
     }
 }
 
+#[inline]
 pub(super) fn stress_of(state: &[f64]) -> Tensor2 {
     Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]])
 }

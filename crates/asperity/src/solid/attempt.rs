@@ -1,8 +1,8 @@
 //! A body during one attempt: its cells' gradients at the accepted state, and the forces of each cell.
 
-use super::body::Body;
-use super::gradient::{self, PointGradient, Shapes};
-use super::operator::{FEW_DOFS, MAX_DOFS, add_center, add_forces, add_tangent};
+use super::body::{Body, Formulation};
+use super::gradient::{Gradients, PointGradient};
+use super::operator::{MAX_DOFS, add_center, add_forces, add_tangent};
 use super::plane_stress;
 use super::point::{PointLaw, PointStress};
 use crate::Failure;
@@ -10,18 +10,13 @@ use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
 
-/// Gradients of one cell during one attempt.
-pub(super) struct CellGradients {
-    points: Vec<PointGradient>,
-    center: Option<PointGradient>,
-}
-
 /// A body during one attempt.
 pub(super) struct OpenBody<'a> {
     pub body: &'a Body,
     pub accepted: &'a State,
     pub history: &'a History,
-    pub cells: Vec<CellGradients>,
+    /// Gradients at the points of each cell and, with F-bar, at its centre behind them.
+    pub gradients: Gradients,
     pub dt: f64,
     /// Thermal stretch at the end of the increment, where the body has a temperature.
     pub stretch: Option<f64>,
@@ -43,8 +38,8 @@ impl Attempt for OpenBody<'_> {
 
     fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let done = match self.body.space {
-            Space::PlaneStrain | Space::PlaneStress => self.evaluate_cell::<2, 4>(index, new, local),
-            Space::Axisymmetric => self.evaluate_cell::<2, 5>(index, new, local),
+            Space::PlaneStrain => self.evaluate_cell::<2, 4>(index, new, local),
+            Space::PlaneStress | Space::Axisymmetric => self.evaluate_cell::<2, 5>(index, new, local),
             Space::Solid => self.evaluate_cell::<3, 9>(index, new, local),
         };
         done.map_err(|f| Failure::new(format!("{}: {}", self.body.name_of(index), f.reason)))?;
@@ -53,7 +48,16 @@ impl Attempt for OpenBody<'_> {
 }
 
 impl Body {
-    pub(super) fn open(&self, cell: usize, u: &[f64]) -> Result<CellGradients, Failure> {
+    /// The gradients of all cells at displacements `u`.
+    pub(super) fn gradients(&self, u: &[f64]) -> Result<Gradients, Failure> {
+        let mut gradients = Gradients::with_capacity(self.cells.len(), self.most_points(), self.most_nodes());
+        for &cell in &self.cells {
+            self.open(cell, u, &mut gradients)?;
+        }
+        Ok(gradients)
+    }
+
+    fn open(&self, cell: usize, u: &[f64], gradients: &mut Gradients) -> Result<(), Failure> {
         let view = self.mesh.cell(cell);
         let mut x = [[0.0; 3]; MAX_NODES];
         for (x, &node) in x.iter_mut().zip(view.nodes) {
@@ -62,11 +66,14 @@ impl Body {
             x.iter_mut().zip(&u[first..first + self.dofs.per_node()]).for_each(|(x, u)| *x += u);
         }
         let x = &x[..view.nodes.len()];
-        let at = |shapes: &Shapes| gradient::at(shapes, x, self.space).ok_or_else(|| Failure::new(self.inverted(cell)));
         let shapes = self.shapes(view.kind);
-        let points = shapes.points.iter().map(at).collect::<Result<_, _>>()?;
-        let center = shapes.center.as_ref().map(at).transpose()?;
-        Ok(CellGradients { points, center })
+        for shapes in shapes.points.iter().chain(&shapes.center) {
+            if !gradients.push(shapes, x, self.space) {
+                return Err(Failure::new(self.inverted(cell)));
+            }
+        }
+        gradients.close();
+        Ok(())
     }
 }
 
@@ -88,11 +95,14 @@ impl OpenBody<'_> {
         new: &mut [f64],
         local: &mut Local,
     ) -> Result<(), Failure> {
-        let (body, cell) = (self.body, &self.cells[index]);
+        let body = self.body;
         let mut du = [0.0; MAX_DOFS];
         let du = &mut du[..local.u.len()];
         self.increment(index, &local.u, du);
-        let center = cell.center.as_ref().map(|c| (c, c.deformation(du, DIM)));
+        let mut points = self.gradients.cell(index);
+        let barred = body.options.formulation == Formulation::FBar;
+        let center = if barred { points.next_back() } else { None };
+        let center = center.map(|c| (c, c.deformation::<DIM>(du)));
         let len = body.point_len();
         // A body has one temperature, and with it one stretch.
         let growth = self.stretch.map_or(1.0, |stretch| stretch / self.history.slot(index)[len - 1]);
@@ -103,41 +113,17 @@ impl OpenBody<'_> {
             center: center.as_ref().map(|(_, f0)| f0.det()),
             free: growth.recip(),
         };
-        let mut center_gradient = [0.0; MAX_DOFS];
-        if let (Some((c, f0)), true) = (&center, local.wants_tangent) {
-            c.volume_gradient(f0, DIM, &mut center_gradient[..du.len()]);
+        let mut sums = Sums { du, center_gradient: [0.0; MAX_DOFS], local, s: PointStress::<D>::default() };
+        if let (Some((c, f0)), true) = (&center, sums.local.wants_tangent) {
+            c.volume_gradient::<DIM>(f0, &mut sums.center_gradient[..sums.du.len()]);
         }
-        let mut s = PointStress::default();
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
-        for (number, (point, (old, new))) in cell.points.iter().zip(lanes).enumerate() {
-            let here = |f: Failure| Failure::new(format!("integration point {}: {}", number + 1, f.reason));
-            let f = point.deformation(du, DIM);
+        for (number, (point, (old, new))) in points.zip(lanes).enumerate() {
             let volume = point.volume * self.thickness(old);
-            let det = if local.wants_tangent {
-                if body.space == Space::PlaneStress {
-                    plane_stress::stress_with_tangent(&law, &f, old, new, &mut s).map_err(here)?;
-                } else {
-                    law.stress_with_tangent(&f, old, new, &mut s).map_err(here)?;
-                }
-                add_forces::<DIM>(point, &s.p, volume, &mut local.force);
-                if du.len() <= FEW_DOFS {
-                    add_tangent::<DIM, D, FEW_DOFS>(point, &s.tangent, volume, &mut local.tangent);
-                } else {
-                    add_tangent::<DIM, D, MAX_DOFS>(point, &s.tangent, volume, &mut local.tangent);
-                }
-                if cell.center.is_some() {
-                    add_center::<DIM>(point, &s.along_center, volume, &center_gradient, &mut local.tangent);
-                }
-                s.det
-            } else {
-                let (p, det) = if body.space == Space::PlaneStress {
-                    plane_stress::stress(&law, &f, old, new).map_err(here)?
-                } else {
-                    (law.stress(&f, old, new).map_err(here)?, f.det())
-                };
-                add_forces::<DIM>(point, &p, volume, &mut local.force);
-                det
-            };
+            let det = sums
+                .add::<DIM>(&law, (&point, volume), (old, new))
+                .map_err(|f| Failure::new(format!("integration point {}: {}", number + 1, f.reason)))?;
+            let local = &mut *sums.local;
             local.stored += body.material.stored_energy(new) * det * volume;
             local.dissipated += body.material.dissipation(old, new) * det * volume;
             if let Some(stretch) = self.stretch {
@@ -155,6 +141,43 @@ impl OpenBody<'_> {
             Space::PlaneStress => self.body.options.thickness * old[self.body.material.state_len()],
             Space::Axisymmetric | Space::Solid => 1.0,
         }
+    }
+}
+
+/// Forces and tangent of a cell while its points are added up.
+struct Sums<'a, const D: usize> {
+    /// Displacements of the nodes over the increment.
+    du: &'a [f64],
+    /// Derivative of `ln det f0` along them, with F-bar.
+    center_gradient: [f64; MAX_DOFS],
+    local: &'a mut Local,
+    /// Stress of the present point.
+    s: PointStress<D>,
+}
+
+impl<const D: usize> Sums<'_, D> {
+    /// Adds a point of this volume and returns the determinant of its deformation.
+    fn add<const DIM: usize>(
+        &mut self,
+        law: &PointLaw,
+        (point, volume): (&PointGradient, f64),
+        (old, new): (&[f64], &mut [f64]),
+    ) -> Result<f64, Failure> {
+        let (f, s, local) = (point.deformation::<DIM>(self.du), &mut self.s, &mut *self.local);
+        match (law.space, local.wants_tangent) {
+            (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
+            (Space::PlaneStress, false) => plane_stress::stress(law, &f, old, new, s)?,
+            (_, true) => law.stress_with_tangent(&f, old, new, s)?,
+            (_, false) => law.stress(&f, old, new, s)?,
+        }
+        add_forces::<DIM, D>(point, &s.p, volume, &mut local.force);
+        if local.wants_tangent {
+            add_tangent::<DIM, D>(point, &s.tangent, volume, &mut local.tangent);
+            if law.center.is_some() {
+                add_center::<DIM, D>(point, &s.along_center, volume, &self.center_gradient, &mut local.tangent);
+            }
+        }
+        Ok(s.det)
     }
 }
 

@@ -112,6 +112,16 @@ impl Body {
         &self.shapes[place.unwrap_or(0)]
     }
 
+    /// Most points of a cell, the centre among them.
+    pub(super) fn most_points(&self) -> usize {
+        self.shapes.iter().map(|kind| kind.points.len() + usize::from(kind.center.is_some())).max().unwrap_or(0)
+    }
+
+    /// Most nodes of a cell.
+    pub(super) fn most_nodes(&self) -> usize {
+        self.shapes.iter().map(|kind| kind.kind.nodes.len()).max().unwrap_or(0)
+    }
+
     /// The body with stresses before the first increment.
     ///
     /// # Errors
@@ -245,9 +255,9 @@ impl Term for Body {
         history: &'a History,
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let cells = self.cells.iter().map(|&cell| self.open(cell, &accepted.u)).collect::<Result<_, _>>()?;
+        let gradients = self.gradients(&accepted.u)?;
         let stretch = self.heat.as_ref().map(|heat| heat.stretch(at)).transpose()?;
-        Ok(Box::new(OpenBody { body: self, accepted, history, cells, dt: at.dt, stretch }))
+        Ok(Box::new(OpenBody { body: self, accepted, history, gradients, dt: at.dt, stretch }))
     }
 
     fn name_of(&self, stencil: usize) -> String {

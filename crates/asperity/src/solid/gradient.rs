@@ -5,23 +5,70 @@ use crate::mesh::Space;
 use crate::mesh::cells::{Cell, MAX_NODES};
 use crate::tensor::Tensor2;
 
-/// Gradient operator of one point of a cell with a given number of nodes.
-#[derive(Debug, Clone)]
-pub struct PointGradient {
-    /// Gradient of each shape function.
-    pub grad: Vec<[f64; 3]>,
-    /// `N_L / r` in the axisymmetric case, else zero.
-    pub hoop: Vec<f64>,
+/// Gradient of one shape function, and behind it `N_L / r` in the axisymmetric case, else zero.
+pub type NodeGradient = [f64; 4];
+
+/// Gradient operator of one point of a cell.
+#[derive(Debug, Clone, Copy)]
+pub struct PointGradient<'a> {
+    /// Of each node.
+    pub nodes: &'a [NodeGradient],
     /// Volume the point stands for: determinant times weight, times the circumference when axisymmetric (not times
     /// the thickness).
     pub volume: f64,
 }
 
+/// The gradient operators of many points, one cell after another.
+#[derive(Debug, Clone, Default)]
+pub struct Gradients {
+    nodes: Vec<NodeGradient>,
+    volumes: Vec<f64>,
+    /// Where each cell ends among nodes and volumes.
+    ends: Vec<[usize; 2]>,
+}
+
+impl Gradients {
+    /// Room for so many cells of so many points and nodes.
+    pub fn with_capacity(cells: usize, points: usize, nodes: usize) -> Self {
+        Self {
+            nodes: Vec::with_capacity(cells * points * nodes),
+            volumes: Vec::with_capacity(cells * points),
+            ends: Vec::with_capacity(cells),
+        }
+    }
+
+    /// Adds the next point of the present cell, whose nodes are at `x`; says no if the cell is inside out there, or not to
+    /// the right of the axis.
+    #[must_use]
+    pub fn push(&mut self, shapes: &Shapes, x: &[[f64; 3]], space: Space) -> bool {
+        let volume = at(shapes, x, space, &mut self.nodes);
+        self.volumes.extend(volume);
+        volume.is_some()
+    }
+
+    /// Ends the present cell.
+    pub fn close(&mut self) {
+        self.ends.push([self.nodes.len(), self.volumes.len()]);
+    }
+
+    /// The points of a cell, in the order in which they were added.
+    pub fn cell(&self, index: usize) -> impl DoubleEndedIterator<Item = PointGradient<'_>> + ExactSizeIterator + Clone {
+        let [first, from] = index.checked_sub(1).map_or([0, 0], |before| self.ends[before]);
+        let [last, to] = self.ends[index];
+        let (nodes, volumes) = (&self.nodes[first..last], &self.volumes[from..to]);
+        let count = (nodes.len() / volumes.len().max(1)).max(1);
+        nodes.chunks_exact(count).zip(volumes).map(|(nodes, &volume)| PointGradient { nodes, volume })
+    }
+}
+
 /// The shape functions at one reference point, with its weight: the same for all cells of a kind.
 pub struct Shapes {
-    n: [f64; MAX_NODES],
-    dn: [[f64; 3]; MAX_NODES],
-    weight: f64,
+    /// Values.
+    pub n: [f64; MAX_NODES],
+    /// Derivatives along the reference coordinates.
+    pub dn: [[f64; 3]; MAX_NODES],
+    /// The weight.
+    pub weight: f64,
 }
 
 impl Shapes {
@@ -33,11 +80,10 @@ impl Shapes {
     }
 }
 
-/// Gradients at one point of a cell with nodes at `x`; `None` if the cell is inside out there, or not to the right of
-/// the axis.
-pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space) -> Option<PointGradient> {
-    let count = x.len();
-    let Shapes { n, dn, weight } = shapes;
+/// Adds to `out` the gradients at one point of a cell with nodes at `x` and returns the point's volume; `None` if the cell
+/// is inside out there, or not to the right of the axis.
+pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space, out: &mut Vec<NodeGradient>) -> Option<f64> {
+    let (n, dn) = (&shapes.n[..x.len()], &shapes.dn[..x.len()]);
     let mut jacobian = Tensor2::zero();
     for (x, dn) in x.iter().zip(dn) {
         for i in 0..3 {
@@ -57,35 +103,40 @@ pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space) -> Option<PointGradient
         return None;
     }
     let inverse = jacobian.inverse();
-    let grad = dn[..count].iter().map(|dn| std::array::from_fn(|i| (0..3).map(|a| dn[a] * inverse[(a, i)]).sum()));
-    let around = if axisymmetric { std::f64::consts::TAU * radius } else { 1.0 };
-    let hoop = n[..count].iter().map(|n| if axisymmetric { n / radius } else { 0.0 });
-    Some(PointGradient { grad: grad.collect(), hoop: hoop.collect(), volume: det * weight * around })
+    let (around, hoop) = if axisymmetric { (std::f64::consts::TAU * radius, radius.recip()) } else { (1.0, 0.0) };
+    out.extend(n.iter().zip(dn).map(|(n, dn)| {
+        let along = |i: usize| dn[0] * inverse[(0, i)] + dn[1] * inverse[(1, i)] + dn[2] * inverse[(2, i)];
+        [along(0), along(1), along(2), n * hoop]
+    }));
+    Some(det * shapes.weight * around)
 }
 
-impl PointGradient {
-    /// Deformation `I + grad(du)` for nodal displacements with `dim` components each.
-    pub fn deformation(&self, du: &[f64], dim: usize) -> Tensor2 {
+impl PointGradient<'_> {
+    /// Deformation `I + grad(du)` for nodal displacements with `DIM` components each.
+    #[inline]
+    pub fn deformation<const DIM: usize>(&self, du: &[f64]) -> Tensor2 {
         let mut f = Tensor2::identity();
-        for ((du, grad), hoop) in du.chunks_exact(dim).zip(&self.grad).zip(&self.hoop) {
-            for i in 0..dim {
-                for j in 0..dim {
+        for (du, grad) in du.as_chunks::<DIM>().0.iter().zip(self.nodes) {
+            for i in 0..DIM {
+                for j in 0..DIM {
                     f[(i, j)] += du[i] * grad[j];
                 }
             }
-            f[(2, 2)] += du[0] * hoop;
+            if DIM == 2 {
+                f[(2, 2)] += du[0] * grad[3];
+            }
         }
         f
     }
 
     /// Derivative of `ln det` of the deformation `f` along each nodal displacement.
-    pub fn volume_gradient(&self, f: &Tensor2, dim: usize, out: &mut [f64]) {
+    pub fn volume_gradient<const DIM: usize>(&self, f: &Tensor2, out: &mut [f64]) {
         let inverse = f.inverse();
-        for ((out, grad), hoop) in out.chunks_exact_mut(dim).zip(&self.grad).zip(&self.hoop) {
+        for (out, grad) in out.as_chunks_mut::<DIM>().0.iter_mut().zip(self.nodes) {
             for (m, out) in out.iter_mut().enumerate() {
-                *out = (0..dim).map(|n| inverse[(n, m)] * grad[n]).sum();
+                *out = (0..DIM).map(|n| inverse[(n, m)] * grad[n]).sum();
             }
-            out[0] += inverse[(2, 2)] * hoop;
+            out[0] += inverse[(2, 2)] * grad[3];
         }
     }
 }

@@ -58,7 +58,8 @@ impl Body {
         let x: Vec<[f64; 3]> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
         // The gradient of the reference configuration; that around the axis is no matter of the cell's plane.
         let space = if axes == 3 { Space::Solid } else { Space::PlaneStrain };
-        let at = gradient::at(&Shapes::new(view.kind, view.kind.center(), 1.0), &x, space)?;
+        let mut gradients = Vec::with_capacity(count);
+        gradient::at(&Shapes::new(view.kind, view.kind.center(), 1.0), &x, space, &mut gradients)?;
         let mut sums = [0.0; 2];
         for axis in 0..axes {
             let v: Vec<f64> = view.nodes.iter().map(|&node| u[self.dofs.node(node) + axis]).collect();
@@ -69,7 +70,7 @@ impl Body {
                 h.iter_mut().zip(view.kind.nodes).for_each(|(h, &xi)| *h = product(number, xi));
                 let linear = |i: usize| h.iter().zip(&x).map(|(h, x)| h * x[i]).sum::<f64>();
                 let slope = [0, 1, 2].map(linear);
-                let along = |k: usize| h[k] - (0..axes).map(|i| slope[i] * at.grad[k][i]).sum::<f64>();
+                let along = |k: usize| h[k] - (0..axes).map(|i| slope[i] * gradients[k][i]).sum::<f64>();
                 let moved: f64 = v.iter().enumerate().map(|(k, v)| along(k) * v).sum();
                 sums[0] += moved * moved / count as f64;
             }

@@ -1,78 +1,100 @@
-//! What the gradients of a cell make of a stress and its derivatives: nodal forces and the cell's tangent.
+//! What the gradients of a cell make of a stress and its derivatives: nodal forces and the cell's tangent. `D` components
+//! of the gradient vary: those of `DIM` axes by rows, and the hoop's behind them where the circumference counts.
 
 use super::gradient::PointGradient;
 use crate::mesh::cells::MAX_NODES;
 
 /// Most unknowns of a cell.
 pub const MAX_DOFS: usize = 3 * MAX_NODES;
-/// Unknowns of most cells, for which less memory is cleared.
-pub const FEW_DOFS: usize = 24;
 
 /// `F_Li += P_ij dN_L/dx_j dv`, and the hoop part on the radial component.
 #[inline]
-pub fn add_forces<const DIM: usize>(point: &PointGradient, p: &[f64; 9], volume: f64, force: &mut [f64]) {
-    for ((force, grad), hoop) in force.chunks_exact_mut(DIM).zip(&point.grad).zip(&point.hoop) {
+pub fn add_forces<const DIM: usize, const D: usize>(
+    point: &PointGradient,
+    p: &[f64; D],
+    volume: f64,
+    force: &mut [f64],
+) {
+    let p = p.map(|p| p * volume);
+    for (force, grad) in force.as_chunks_mut::<DIM>().0.iter_mut().zip(point.nodes) {
         for i in 0..DIM {
-            let mut sum = 0.0;
             for j in 0..DIM {
-                sum += p[i * DIM + j] * grad[j];
+                force[i] += p[i * DIM + j] * grad[j];
             }
-            force[i] += volume * sum;
         }
-        if DIM == 2 {
-            force[0] += volume * p[4] * hoop;
+        if D == DIM * DIM + 1 {
+            force[0] += p[DIM * DIM] * grad[3];
         }
     }
 }
 
-/// `K += B^T A B dv` with `B` the map from nodal displacements, at most `M`, to the components of the gradient.
+/// `K += B^T A B dv` with `B` the map from nodal displacements to the components of the gradient.
 #[inline]
-pub fn add_tangent<const DIM: usize, const D: usize, const M: usize>(
+pub fn add_tangent<const DIM: usize, const D: usize>(
     point: &PointGradient,
-    a: &[[f64; 9]; 9],
+    a: &[[f64; D]; D],
     volume: f64,
     tangent: &mut [f64],
 ) {
-    let n = DIM * point.grad.len();
-    let mut ab = [[0.0; M]; D];
-    for (row, a) in ab.iter_mut().zip(a) {
-        for ((out, grad), hoop) in row.chunks_exact_mut(DIM).zip(&point.grad).zip(&point.hoop) {
+    match point.nodes.len() {
+        4 => add_product::<DIM, D, 4>(point, a, volume, tangent),
+        8 => add_product::<DIM, D, 8>(point, a, volume, tangent),
+        _ => add_product::<DIM, D, MAX_NODES>(point, a, volume, tangent),
+    }
+}
+
+/// The same for a cell of at most `MOST` nodes: where it has as many, all lengths are known when this is compiled.
+#[inline(always)]
+fn add_product<const DIM: usize, const D: usize, const MOST: usize>(
+    point: &PointGradient,
+    a: &[[f64; D]; D],
+    volume: f64,
+    tangent: &mut [f64],
+) {
+    let nodes = &point.nodes[..point.nodes.len().min(MOST)];
+    let mut ab = [[[0.0; DIM]; MOST]; D];
+    for (ab, a) in ab.iter_mut().zip(a) {
+        let a = a.map(|a| a * volume);
+        for (ab, grad) in ab.iter_mut().zip(nodes) {
             for m in 0..DIM {
                 for k in 0..DIM {
-                    out[m] += a[m * DIM + k] * grad[k];
+                    ab[m] += a[m * DIM + k] * grad[k];
                 }
-                out[m] *= volume;
             }
             if D == DIM * DIM + 1 {
-                out[0] += volume * a[DIM * DIM] * hoop;
+                ab[0] += a[DIM * DIM] * grad[3];
             }
         }
     }
-    for (l, (grad, hoop)) in point.grad.iter().zip(&point.hoop).enumerate() {
-        for i in 0..DIM {
-            let row = &mut tangent[(l * DIM + i) * n..][..n];
-            for j in 0..DIM {
-                let (g, ab) = (grad[j], &ab[i * DIM + j]);
-                row.iter_mut().zip(ab).for_each(|(k, ab)| *k += g * ab);
-            }
-            if i == 0 && D == DIM * DIM + 1 {
-                row.iter_mut().zip(&ab[DIM * DIM]).for_each(|(k, ab)| *k += hoop * ab);
+    let mut rows = tangent.chunks_exact_mut(DIM * nodes.len());
+    for grad in nodes {
+        for (i, row) in rows.by_ref().take(DIM).enumerate() {
+            let hoop = if i == 0 && D == DIM * DIM + 1 { grad[3] } else { 0.0 };
+            for (r, k) in row.as_chunks_mut::<DIM>().0.iter_mut().enumerate() {
+                for m in 0..DIM {
+                    for j in 0..DIM {
+                        k[m] += grad[j] * ab[i * DIM + j][r][m];
+                    }
+                    if i == 0 && D == DIM * DIM + 1 {
+                        k[m] += hoop * ab[DIM * DIM][r][m];
+                    }
+                }
             }
         }
     }
 }
 
 /// The rank-one part of F-bar: forces along `ln det f0`, times its gradient.
-pub fn add_center<const DIM: usize>(
+pub fn add_center<const DIM: usize, const D: usize>(
     point: &PointGradient,
-    along: &[f64; 9],
+    along: &[f64; D],
     volume: f64,
     gradient: &[f64],
     tangent: &mut [f64],
 ) {
-    let n = DIM * point.grad.len();
+    let n = DIM * point.nodes.len();
     let mut force = [0.0; MAX_DOFS];
-    add_forces::<DIM>(point, along, volume, &mut force[..n]);
+    add_forces::<DIM, D>(point, along, volume, &mut force[..n]);
     for (row, f) in tangent.chunks_exact_mut(n).zip(force) {
         row.iter_mut().zip(gradient).for_each(|(k, g)| *k += f * g);
     }

@@ -5,16 +5,19 @@
 
 use super::point::{PointLaw, PointStress};
 use crate::Failure;
-use crate::material::Directions;
+use crate::material::{Directions, Gradient};
 use crate::tensor::Tensor2;
 
 const LIMIT: usize = 30;
+/// Place of the normal among the components that vary.
+const NORMAL: usize = 4;
 
 /// Solves for f33 starting from `f`; returns the deformation with the stretch in it.
 fn solve(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<Tensor2, Failure> {
-    let mut f = *f;
+    let (mut f, mut c) = (*f, Gradient::default());
     for _ in 0..LIMIT {
-        let c = law.material.update_with_gradient(&(f * law.free), law.dt, old, new, Directions::PlaneAndNormal)?;
+        let (seen, out) = (f * law.free, (&mut *new, &mut c));
+        law.material.differentiate(&seen, law.dt, old, out, Directions::PlaneAndNormal)?;
         let change = -new[2] / (c[2][4] * law.free);
         f[(2, 2)] += change.clamp(-0.5 * f[(2, 2)], f[(2, 2)]);
         if change.abs() <= 4.0 * f64::EPSILON {
@@ -30,34 +33,40 @@ fn finish(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) {
     new[place] = old[place] * f[(2, 2)];
 }
 
-/// New state, `P` and `det f`.
-pub fn stress(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<([f64; 9], f64), Failure> {
-    let f = solve(law, f, old, new)?;
-    let mut p = law.stress(&f, old, new)?;
-    p[4] = 0.0;
-    finish(law, &f, old, new);
-    Ok((p, f.det()))
-}
-
-/// New state, and in `s` `P` and its derivatives with the thickness following.
-pub fn stress_with_tangent(
+/// New state, and in `s` `P` and `det f`.
+pub fn stress<const D: usize>(
     law: &PointLaw,
     f: &Tensor2,
     old: &[f64],
     new: &mut [f64],
-    s: &mut PointStress,
+    s: &mut PointStress<D>,
+) -> Result<(), Failure> {
+    let f = solve(law, f, old, new)?;
+    law.stress(&f, old, new, s)?;
+    s.p[NORMAL] = 0.0;
+    finish(law, &f, old, new);
+    Ok(())
+}
+
+/// New state, and in `s` `P` and its derivatives with the thickness following.
+pub fn stress_with_tangent<const D: usize>(
+    law: &PointLaw,
+    f: &Tensor2,
+    old: &[f64],
+    new: &mut [f64],
+    s: &mut PointStress<D>,
 ) -> Result<(), Failure> {
     let f = solve(law, f, old, new)?;
     law.stress_with_tangent(&f, old, new, s)?;
     // P_33 is det(f) / f33 times sigma_33 = 0, so its row of the tangent is the condition's own derivative.
-    let condition = s.tangent[4];
+    let condition = s.tangent[NORMAL];
     for row in &mut s.tangent {
-        let along_stretch = row[4];
+        let along_stretch = row[NORMAL];
         for (value, condition_d) in row.iter_mut().zip(condition) {
-            *value -= along_stretch * condition_d / condition[4];
+            *value -= along_stretch * condition_d / condition[NORMAL];
         }
     }
-    s.p[4] = 0.0;
+    s.p[NORMAL] = 0.0;
     finish(law, &f, old, new);
     Ok(())
 }

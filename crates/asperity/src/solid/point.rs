@@ -10,17 +10,38 @@ use crate::material::{Directions, Gradient, Material};
 use crate::mesh::Space;
 use crate::tensor::Tensor2;
 
-/// `P` and its derivatives along the `directions` of f and along `ln det f0`.
-#[derive(Default)]
-pub struct PointStress {
-    /// Components of `P` in the order of the directions.
-    pub p: [f64; 9],
+/// `P` and its derivatives along the `D` components of f that vary and along `ln det f0`.
+pub struct PointStress<const D: usize> {
+    /// Components of `P`.
+    pub p: [f64; D],
     /// Their derivatives.
-    pub tangent: [[f64; 9]; 9],
+    pub tangent: [[f64; D]; D],
     /// Their derivatives along `ln det f0`; zero without F-bar.
-    pub along_center: [f64; 9],
+    pub along_center: [f64; D],
     /// `det f`.
     pub det: f64,
+    /// Those of the law.
+    law: Gradient,
+}
+
+impl<const D: usize> Default for PointStress<D> {
+    fn default() -> Self {
+        Self { p: [0.0; D], tangent: [[0.0; D]; D], along_center: [0.0; D], det: 1.0, law: Gradient::default() }
+    }
+}
+
+/// Row and column of the component of `f` that is number `d` of `D`, as [`Directions`] have them.
+const fn place<const D: usize>(d: usize) -> (usize, usize) {
+    match D {
+        9 => (d / 3, d % 3),
+        _ if d < 4 => (d / 2, d % 2),
+        _ => (2, 2),
+    }
+}
+
+/// Whether component (i, j) can be other than zero where `D` components of `f` vary.
+const fn varies<const D: usize>(i: usize, j: usize) -> bool {
+    D == 9 || (i == 2) == (j == 2)
 }
 
 /// What a point needs besides its deformation.
@@ -48,94 +69,122 @@ impl PointLaw<'_> {
     }
 
     /// Deformation the law sees but for heat, the power of F-bar, and which components it scales.
-    fn bar(&self, f: &Tensor2) -> (Tensor2, f64) {
+    fn bar(&self, f: &Tensor2, det: f64) -> (Tensor2, f64) {
         let Some(center) = self.center else { return (*f, 0.0) };
         let in_plane = self.space == Space::PlaneStrain;
-        let ratio = center / f.det();
+        let ratio = center / det;
         let (scale, power) = if in_plane { (ratio.sqrt(), 0.5) } else { (ratio.cbrt(), 1.0 / 3.0) };
         let scaled = |i: usize, j: usize| !in_plane || (i < 2 && j < 2);
         (Tensor2::from_fn(|i, j| if scaled(i, j) { f[(i, j)] * scale } else { f[(i, j)] }), power)
     }
 
-    /// New state and `P` without derivatives.
-    pub fn stress(&self, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<[f64; 9], Failure> {
-        self.admissible(f)?;
-        self.material.update(&(self.bar(f).0 * self.free), self.dt, old, new)?;
-        let p = first_piola(f, new);
-        Ok(self.components(&p))
-    }
-
-    fn admissible(&self, f: &Tensor2) -> Result<(), Failure> {
-        let fine = f.det() > 0.0 && self.center.is_none_or(|c| c > 0.0);
-        if fine { Ok(()) } else { Err(Failure::new("a cell is turned inside out")) }
-    }
-
-    /// The components of a tensor along the directions.
-    fn components(&self, tensor: &Tensor2) -> [f64; 9] {
-        let mut out = [0.0; 9];
-        for (out, &place) in out.iter_mut().zip(self.directions().components()) {
-            *out = tensor[place];
-        }
-        out
-    }
-
-    /// New state, and in `out` `P` and its derivatives.
-    pub fn stress_with_tangent(
+    /// New state, and in `out` `P` without derivatives.
+    pub fn stress<const D: usize>(
         &self,
         f: &Tensor2,
         old: &[f64],
         new: &mut [f64],
-        out: &mut PointStress,
+        out: &mut PointStress<D>,
     ) -> Result<(), Failure> {
-        self.admissible(f)?;
-        let (bar, power) = self.bar(f);
-        let mut c = self.material.update_with_gradient(&(bar * self.free), self.dt, old, new, self.directions())?;
-        let (inverse, det) = (f.inverse(), f.det());
-        c.iter_mut().flatten().for_each(|c| *c *= self.free);
-        let center = if power > 0.0 { self.unbar(&mut c, f, &bar, power) } else { [0.0; 6] };
-        let p = first_piola(f, new);
-        let places = self.directions().components();
-        (out.p, out.det) = (self.components(&p), det);
-        for (a, &(i, j)) in places.iter().enumerate() {
-            (out.tangent[a], out.along_center[a]) = ([0.0; 9], 0.0);
-            // det(f) f^-1_jk C_ik,mn: three rows of C, weighted.
-            for k in 0..3 {
-                let (weight, v) = (det * inverse[(j, k)], voigt(i, k));
-                out.along_center[a] += weight * center[v];
-                out.tangent[a].iter_mut().zip(&c[v]).for_each(|(t, c)| *t += weight * c);
+        out.det = self.admissible(f)?;
+        self.material.update(&(self.bar(f, out.det).0 * self.free), self.dt, old, new)?;
+        let p = first_piola::<D>(new, &(f.inverse() * out.det));
+        out.p = std::array::from_fn(|d| p[place::<D>(d)]);
+        Ok(())
+    }
+
+    /// `det f`.
+    fn admissible(&self, f: &Tensor2) -> Result<f64, Failure> {
+        let det = f.det();
+        let fine = det > 0.0 && self.center.is_none_or(|c| c > 0.0);
+        if fine { Ok(det) } else { Err(Failure::new("a cell is turned inside out")) }
+    }
+
+    /// New state, and in `out` `P` and its derivatives.
+    pub fn stress_with_tangent<const D: usize>(
+        &self,
+        f: &Tensor2,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut PointStress<D>,
+    ) -> Result<(), Failure> {
+        let det = self.admissible(f)?;
+        let (bar, power) = self.bar(f, det);
+        self.material.differentiate(&(bar * self.free), self.dt, old, (&mut *new, &mut out.law), self.directions())?;
+        if self.free != 1.0 {
+            out.law.iter_mut().for_each(|row| row[..D].iter_mut().for_each(|c| *c *= self.free));
+        }
+        let inverse = f.inverse();
+        let adjugate = inverse * det;
+        out.det = det;
+        out.along_center = [0.0; D];
+        if power > 0.0 {
+            self.unbar((f, &inverse), (&bar, power), (&adjugate, out));
+        }
+        let p = first_piola::<D>(new, &adjugate);
+        for a in 0..D {
+            let (i, j) = place::<D>(a);
+            let mut row = [0.0; D];
+            out.p[a] = p[(i, j)];
+            // det(f) f^-1_jk C_ik,mn: rows of C, weighted.
+            for k in (0..3).filter(|&k| varies::<D>(j, k)) {
+                let (weight, c) = (adjugate[(j, k)], &out.law[voigt(i, k)]);
+                row.iter_mut().zip(c).for_each(|(t, c)| *t += weight * c);
             }
-            for (b, &(m, n)) in places.iter().enumerate() {
-                out.tangent[a][b] += p[(i, j)] * inverse[(n, m)] - p[(i, n)] * inverse[(j, m)];
+            for (b, t) in row.iter_mut().enumerate() {
+                let (m, n) = place::<D>(b);
+                if varies::<D>(i, n) {
+                    *t += p[(i, j)] * inverse[(n, m)] - p[(i, n)] * inverse[(j, m)];
+                } else {
+                    *t += p[(i, j)] * inverse[(n, m)];
+                }
             }
+            out.tangent[a] = row;
         }
         Ok(())
     }
 
-    /// Turns the derivative along fbar into the one along f at fixed `det f0`, and returns the derivative of the
-    /// stress along `ln det f0`.
-    fn unbar(&self, c: &mut Gradient, f: &Tensor2, bar: &Tensor2, power: f64) -> [f64; 6] {
-        let places = self.directions().components();
+    /// Turns the law's derivative along fbar into the one along f at fixed `det f0`, and finds that of `P` along
+    /// `ln det f0`.
+    fn unbar<const D: usize>(
+        &self,
+        (f, inverse): (&Tensor2, &Tensor2),
+        (bar, power): (&Tensor2, f64),
+        (adjugate, out): (&Tensor2, &mut PointStress<D>),
+    ) {
         let in_plane = self.space == Space::PlaneStrain;
         let scaled = |(i, j): (usize, usize)| !in_plane || (i < 2 && j < 2);
-        let (scale, inverse) = (bar[(0, 0)] / f[(0, 0)], f.inverse());
+        let scale = bar[(0, 0)] / f[(0, 0)];
         let scale = if scale.is_finite() { scale } else { (self.center.unwrap_or(1.0) / f.det()).powf(power) };
         let mut center = [0.0; 6];
-        for (row, center) in c.iter_mut().zip(&mut center) {
-            let radial: f64 =
-                places.iter().zip(row.iter()).filter(|(p, _)| scaled(**p)).map(|(&p, c)| c * bar[p]).sum();
+        for (row, center) in out.law.iter_mut().zip(&mut center) {
+            let of = |d: usize| if scaled(place::<D>(d)) { row[d] * bar[place::<D>(d)] } else { 0.0 };
+            let radial: f64 = (0..D).map(of).sum();
             *center = power * radial;
-            for (value, &(m, n)) in row.iter_mut().zip(places) {
+            for (d, value) in row[..D].iter_mut().enumerate() {
+                let (m, n) = place::<D>(d);
                 *value = if scaled((m, n)) { *value * scale } else { *value } - power * inverse[(n, m)] * radial;
             }
         }
-        center
+        for (d, along) in out.along_center.iter_mut().enumerate() {
+            let (i, j) = place::<D>(d);
+            *along = (0..3).map(|k| adjugate[(j, k)] * center[voigt(i, k)]).sum();
+        }
     }
 }
 
-/// `det(f) sigma f^-T`.
-fn first_piola(f: &Tensor2, state: &[f64]) -> Tensor2 {
-    let sigma = Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]]);
-    sigma * f.inverse().transpose() * f.det()
+fn stress_of(state: &[f64]) -> Tensor2 {
+    Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]])
+}
+
+/// `P = sigma (det(f) f^-1)^T` where it can be other than zero.
+#[inline]
+fn first_piola<const D: usize>(state: &[f64], adjugate: &Tensor2) -> Tensor2 {
+    let sigma = stress_of(state);
+    Tensor2::from_fn(|i, j| {
+        let terms = (0..3).filter(|&k| varies::<D>(i, j) && varies::<D>(j, k));
+        terms.fold(0.0, |sum, k| sum + sigma[(i, k)] * adjugate[(j, k)])
+    })
 }
 
 /// Place of component (i, j) among XX YY ZZ XY YZ XZ.

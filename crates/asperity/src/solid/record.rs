@@ -1,8 +1,8 @@
 //! The integration points of a body in an accepted state: what outputs may ask of them.
 
 use super::Body;
+use super::gradient::Shapes;
 use crate::mesh::Space;
-use crate::mesh::cells::MAX_NODES;
 use crate::system::History;
 use crate::tensor::{Tensor2, Vec3};
 
@@ -35,18 +35,18 @@ impl Body {
 
     fn record<'a>(&self, cell: usize, point: usize, u: &[f64], state: &'a [f64]) -> PointRecord<'a> {
         let view = self.mesh.cell(cell);
-        let rule = self.rule(view.kind);
-        let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
-        (view.kind.shape)(rule.points[point], &mut n, &mut dn);
+        let Shapes { n, dn, weight } = &self.shapes(view.kind).points[point];
         let (mut reference, mut position, mut jacobian) = (Vec3::zero(), Vec3::zero(), Tensor2::zero());
-        for (&node, (n, dn)) in view.nodes.iter().zip(n.iter().zip(&dn)) {
+        for (&node, (n, dn)) in view.nodes.iter().zip(n.iter().zip(dn)) {
             let x = self.mesh.points[node];
             let first = self.dofs.node(node);
             let mut present = x;
             (0..self.dofs.per_node()).for_each(|a| present[a] += u[first + a]);
             reference += x * *n;
             position += present * *n;
-            jacobian = jacobian + Tensor2::from_fn(|i, a| present[i] * dn[a]);
+            for (row, x) in jacobian.0.iter_mut().zip(present.0) {
+                row.iter_mut().zip(dn).for_each(|(entry, dn)| *entry += x * dn);
+            }
         }
         if self.space != Space::Solid {
             jacobian[(2, 2)] = 1.0;
@@ -58,7 +58,7 @@ impl Body {
             Space::Axisymmetric => std::f64::consts::TAU * position[0],
             Space::Solid => 1.0,
         };
-        let volume = jacobian.det() * rule.weights[point] * extent;
+        let volume = jacobian.det() * weight * extent;
         PointRecord { cell, point, reference, position, volume, state: law }
     }
 }

@@ -79,6 +79,7 @@ pub trait Turning {
     }
 
     /// Derivatives of the rotated stress and the elastic stress `lambda tr(de) I + 2 G de` together.
+    #[inline]
     fn elastic_gradient(&self, [lambda, shear]: [f64; 2], places: &[(usize, usize)], gradient: &mut Gradient) {
         for (d, &place) in places.iter().enumerate() {
             let Frame { de, stress, .. } = self.slope(place);
@@ -134,7 +135,7 @@ impl Turning for InPlane {
     }
 
     /// With `A = (f + I)^-1`, `dG = 4 A df A`.
-    #[inline]
+    #[inline(always)]
     fn slope(&self, (m, n): (usize, usize)) -> Frame<f64> {
         if m == 2 {
             let stretch = Flat { normal: 4.0 * self.normal * self.normal, ..Flat::default() };

@@ -167,8 +167,8 @@ impl<const D: usize> Sums<'_, D> {
         match (law.space, local.wants_tangent) {
             (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
             (Space::PlaneStress, false) => plane_stress::stress(law, &f, old, new, s)?,
-            (_, true) => law.stress_with_tangent(&f, old, new, s)?,
-            (_, false) => law.stress(&f, old, new, s)?,
+            (_, true) => law.stress_with_tangent::<DIM, D>(&f, old, new, s)?,
+            (_, false) => law.stress::<DIM, D>(&f, old, new, s)?,
         }
         add_forces::<DIM, D>(point, &s.p, volume, &mut local.force);
         if local.wants_tangent {

@@ -42,7 +42,7 @@ pub fn stress<const D: usize>(
     s: &mut PointStress<D>,
 ) -> Result<(), Failure> {
     let f = solve(law, f, old, new)?;
-    law.stress(&f, old, new, s)?;
+    law.stress::<2, D>(&f, old, new, s)?;
     s.p[NORMAL] = 0.0;
     finish(law, &f, old, new);
     Ok(())
@@ -57,7 +57,7 @@ pub fn stress_with_tangent<const D: usize>(
     s: &mut PointStress<D>,
 ) -> Result<(), Failure> {
     let f = solve(law, f, old, new)?;
-    law.stress_with_tangent(&f, old, new, s)?;
+    law.stress_with_tangent::<2, D>(&f, old, new, s)?;
     // P_33 is det(f) / f33 times sigma_33 = 0, so its row of the tangent is the condition's own derivative.
     let condition = s.tangent[NORMAL];
     for row in &mut s.tangent {

@@ -39,11 +39,6 @@ const fn place<const D: usize>(d: usize) -> (usize, usize) {
     }
 }
 
-/// Whether component (i, j) can be other than zero where `D` components of `f` vary.
-const fn varies<const D: usize>(i: usize, j: usize) -> bool {
-    D == 9 || (i == 2) == (j == 2)
-}
-
 /// What a point needs besides its deformation.
 pub struct PointLaw<'a> {
     /// The law.
@@ -79,7 +74,7 @@ impl PointLaw<'_> {
     }
 
     /// New state, and in `out` `P` without derivatives.
-    pub fn stress<const D: usize>(
+    pub fn stress<const DIM: usize, const D: usize>(
         &self,
         f: &Tensor2,
         old: &[f64],
@@ -88,7 +83,7 @@ impl PointLaw<'_> {
     ) -> Result<(), Failure> {
         out.det = self.admissible(f)?;
         self.material.update(&(self.bar(f, out.det).0 * self.free), self.dt, old, new)?;
-        let p = first_piola::<D>(new, &(f.inverse() * out.det));
+        let p = first_piola::<DIM>(new, &(f.inverse() * out.det));
         out.p = std::array::from_fn(|d| p[place::<D>(d)]);
         Ok(())
     }
@@ -101,7 +96,7 @@ impl PointLaw<'_> {
     }
 
     /// New state, and in `out` `P` and its derivatives.
-    pub fn stress_with_tangent<const D: usize>(
+    pub fn stress_with_tangent<const DIM: usize, const D: usize>(
         &self,
         f: &Tensor2,
         old: &[f64],
@@ -116,31 +111,13 @@ impl PointLaw<'_> {
         }
         let inverse = f.inverse();
         let adjugate = inverse * det;
-        out.det = det;
-        out.along_center = [0.0; D];
+        (out.det, out.along_center) = (det, [0.0; D]);
         if power > 0.0 {
             self.unbar((f, &inverse), (&bar, power), (&adjugate, out));
         }
-        let p = first_piola::<D>(new, &adjugate);
-        for a in 0..D {
-            let (i, j) = place::<D>(a);
-            let mut row = [0.0; D];
-            out.p[a] = p[(i, j)];
-            // det(f) f^-1_jk C_ik,mn: rows of C, weighted.
-            for k in (0..3).filter(|&k| varies::<D>(j, k)) {
-                let (weight, c) = (adjugate[(j, k)], &out.law[voigt(i, k)]);
-                row.iter_mut().zip(c).for_each(|(t, c)| *t += weight * c);
-            }
-            for (b, t) in row.iter_mut().enumerate() {
-                let (m, n) = place::<D>(b);
-                if varies::<D>(i, n) {
-                    *t += p[(i, j)] * inverse[(n, m)] - p[(i, n)] * inverse[(j, m)];
-                } else {
-                    *t += p[(i, j)] * inverse[(n, m)];
-                }
-            }
-            out.tangent[a] = row;
-        }
+        let p = first_piola::<DIM>(new, &adjugate);
+        out.p = std::array::from_fn(|d| p[place::<D>(d)]);
+        out.differentiate::<DIM>(&p, &inverse, &adjugate);
         Ok(())
     }
 
@@ -168,27 +145,68 @@ impl PointLaw<'_> {
         }
         for (d, along) in out.along_center.iter_mut().enumerate() {
             let (i, j) = place::<D>(d);
-            *along = (0..3).map(|k| adjugate[(j, k)] * center[voigt(i, k)]).sum();
+            *along = (0..3).map(|k| adjugate[(j, k)] * center[VOIGT[i][k]]).sum();
         }
     }
 }
 
+#[inline]
 fn stress_of(state: &[f64]) -> Tensor2 {
     Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]])
 }
 
-/// `P = sigma (det(f) f^-1)^T` where it can be other than zero.
-#[inline]
-fn first_piola<const D: usize>(state: &[f64], adjugate: &Tensor2) -> Tensor2 {
-    let sigma = stress_of(state);
-    Tensor2::from_fn(|i, j| {
-        let terms = (0..3).filter(|&k| varies::<D>(i, j) && varies::<D>(j, k));
-        terms.fold(0.0, |sum, k| sum + sigma[(i, k)] * adjugate[(j, k)])
-    })
+impl<const D: usize> PointStress<D> {
+    /// The derivatives of `P` from those of the law; in the plane nothing couples the normal with the axes but volume.
+    #[inline]
+    fn differentiate<const DIM: usize>(&mut self, p: &Tensor2, inverse: &Tensor2, adjugate: &Tensor2) {
+        let ([p, inverse, adjugate], block) = ([p.0, inverse.0, adjugate.0], DIM * DIM);
+        for i in 0..DIM {
+            for j in 0..DIM {
+                let mut row = [0.0; D];
+                // det(f) f^-1_jk C_ik,mn: rows of C, weighted.
+                for k in 0..DIM {
+                    let (weight, c) = (adjugate[j][k], &self.law[VOIGT[i][k]]);
+                    row.iter_mut().zip(c).for_each(|(t, c)| *t += weight * c);
+                }
+                for m in 0..DIM {
+                    for n in 0..DIM {
+                        row[DIM * m + n] += p[i][j] * inverse[n][m] - p[i][n] * inverse[j][m];
+                    }
+                }
+                if D > block {
+                    row[block] += p[i][j] * inverse[2][2];
+                }
+                self.tangent[DIM * i + j] = row;
+            }
+        }
+        if D > block {
+            let row = &mut self.tangent[block];
+            row.iter_mut().zip(&self.law[2]).for_each(|(t, c)| *t = adjugate[2][2] * c);
+            for m in 0..DIM {
+                for n in 0..DIM {
+                    row[DIM * m + n] += p[2][2] * inverse[n][m];
+                }
+            }
+        }
+    }
 }
 
-/// Place of component (i, j) among XX YY ZZ XY YZ XZ.
-fn voigt(i: usize, j: usize) -> usize {
-    const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
-    PLACE[i][j]
+/// `P = sigma (det(f) f^-1)^T`; in the plane nothing couples the normal with the axes.
+#[inline]
+fn first_piola<const DIM: usize>(state: &[f64], adjugate: &Tensor2) -> Tensor2 {
+    let (sigma, mut p) = (stress_of(state), Tensor2::zero());
+    for i in 0..DIM {
+        for j in 0..DIM {
+            for k in 0..DIM {
+                p[(i, j)] += sigma[(i, k)] * adjugate[(j, k)];
+            }
+        }
+    }
+    if DIM == 2 {
+        p[(2, 2)] = sigma[(2, 2)] * adjugate[(2, 2)];
+    }
+    p
 }
+
+/// Place of each component among XX YY ZZ XY YZ XZ.
+const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];

@@ -128,6 +128,8 @@ pub struct Newton<'a> {
     pub(super) memory: &'a mut Memory,
     pub(super) solver: &'a mut dyn LinearSolver,
     pub(super) evaluation: Evaluation,
+    /// Whether the matrix belongs to the state that was evaluated last.
+    pub(super) linearised: bool,
     pub(super) residual: Vec<f64>,
     pub(super) stiffness: f64,
     /// Multiple of the initial slope that the line search allows at the end of a step.
@@ -177,6 +179,7 @@ impl<'a> Newton<'a> {
             memory,
             solver,
             evaluation,
+            linearised: false,
             residual,
             stiffness: 0.0,
             bound: SLOPE,
@@ -220,10 +223,12 @@ impl<'a> Newton<'a> {
             if iteration - begun >= PATIENCE {
                 self.bound = STRICT;
             }
+            self.complete(&u, missing.as_deref())?;
             let motion = self.linearise((iteration, &u), missing.as_deref(), forcing(norms.ratio, ratio))?;
+            let tangent = self.wanted(&norms, ratio);
             (factorised, ratio) = (motion.factorised, norms.ratio);
             let from = u.clone();
-            taken = self.advance(&mut u, &motion, missing.as_deref())?;
+            taken = self.advance(&mut u, (&motion, tangent), missing.as_deref())?;
             let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0_f64, |m, x| m.max(x.abs()));
             let change = largest(&mut u.iter().zip(&self.state.u).map(|(a, b)| a - b));
             correction = largest(&mut u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);
@@ -252,7 +257,20 @@ impl<'a> Newton<'a> {
         }
     }
 
+    /// What the end of a step is to be evaluated with, from the unbalanced forces at its beginning and an iteration before:
+    /// nothing but forces where they will have converged if they fall as fast again.
+    fn wanted(&self, norms: &Norms, before: f64) -> Tangent {
+        let last = self.propped.is_empty() && norms.ratio * norms.ratio < before * norms.allowed;
+        if last { Tangent::None } else { self.tangent() }
+    }
+
+    /// Finds the matrix at `u`, where the terms were evaluated last, if it was not found there.
+    pub(super) fn complete(&mut self, u: &[f64], missing: Option<&[f64]>) -> Result<(), Failure> {
+        if self.linearised { Ok(()) } else { self.evaluate(u, missing, self.tangent()) }
+    }
+
     pub(super) fn evaluate(&mut self, u: &[f64], missing: Option<&[f64]>, tangent: Tangent) -> Result<(), Failure> {
+        self.linearised = tangent != Tangent::None;
         let trial = Trial { u, missing, tangent, acting: self.memory.mixed.acting() };
         self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
@@ -272,10 +290,10 @@ impl<'a> Newton<'a> {
         Norms::measure(&self.evaluation, &self.residual, numbering, &yardstick)
     }
 
-    /// Largest diagonal entry of a displacement.
+    /// Largest diagonal entry of a displacement, where the matrix was found.
     pub(super) fn refresh_stiffness(&mut self) {
         let pattern = self.memory.workspace.pattern();
-        if self.evaluation.values.len() != pattern.columns.len() {
+        if !self.linearised {
             return;
         }
         let free = self.step.constraints.free().iter().enumerate();

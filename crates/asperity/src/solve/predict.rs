@@ -6,7 +6,7 @@
 
 use super::newton::{Newton, Trouble};
 use crate::Failure;
-use crate::system::Evaluation;
+use crate::system::Tangent;
 
 /// A first guess, and what prescribed unknowns miss there.
 type Start = (Vec<f64>, Option<Vec<f64>>);
@@ -21,16 +21,16 @@ impl Newton<'_> {
     /// on, node by node or, where that leaves much and this leaves less, with each whole as a rigid body.
     pub(super) fn predict(&mut self) -> Result<Start, Trouble> {
         if self.state.last_dt == 0.0 {
-            return Ok(self.guess(self.state.u.clone())?.0);
+            return Ok(self.begin(self.state.u.clone())?);
         }
         let part = self.at.dt / self.state.last_dt;
         let nodal: Vec<f64> = self.state.u.iter().zip(&self.state.last_change).map(|(u, d)| u + part * d).collect();
         let first = self.guess(nodal.clone());
-        if matches!(first, Ok((_, unbalanced)) if unbalanced <= GOOD_GUESS) {
-            return Ok(first?.0);
+        if let Ok((start, unbalanced)) = &first
+            && *unbalanced <= GOOD_GUESS
+        {
+            return Ok(self.settle(start.clone())?);
         }
-        let (spare, pattern) = (Evaluation::new(&self.problem.terms, self.state), self.memory.workspace.analysis());
-        let kept = (std::mem::replace(&mut self.evaluation, spare), self.residual.clone());
         let second = self.guess(self.problem.wholes.iter().fold(nodal, |mut u, whole| {
             whole.carry(&self.problem.dofs, self.state, part, &mut u);
             u
@@ -38,23 +38,30 @@ impl Newton<'_> {
         let left =
             |guess: &Result<(Start, f64), Failure>| guess.as_ref().map_or(f64::INFINITY, |(_, unbalanced)| *unbalanced);
         if left(&second) < left(&first) {
-            return Ok(second?.0);
+            return Ok(self.settle(second?.0)?);
         }
-        match first {
-            Ok((start, _)) if self.memory.workspace.analysis() == pattern => {
-                (self.evaluation, self.residual) = kept;
-                Ok(start)
-            }
-            Ok(((u, _), _)) => Ok(self.guess(u)?.0),
-            Err(_) => Ok(self.guess(self.state.u.clone())?.0),
-        }
+        Ok(self.begin(first.map_or_else(|_| self.state.u.clone(), |((u, _), _)| u))?)
+    }
+
+    /// A first guess at `u`.
+    fn begin(&mut self, mut u: Vec<f64>) -> Result<Start, Failure> {
+        let missing = self.missing(&mut u);
+        self.evaluate(&u, missing.as_deref(), self.tangent())?;
+        Ok((u, missing))
+    }
+
+    /// The first guess that was measured last.
+    fn settle(&mut self, (u, missing): Start) -> Result<Start, Failure> {
+        self.complete(&u, missing.as_deref())?;
+        Ok((u, missing))
     }
 
     /// Evaluates a first guess and measures the unbalanced forces, with those of the motion that prescribed unknowns still
-    /// miss.
+    /// miss: for them alone the matrix is needed.
     fn guess(&mut self, mut u: Vec<f64>) -> Result<(Start, f64), Failure> {
         let missing = self.missing(&mut u);
-        self.evaluate(&u, missing.as_deref(), self.tangent())?;
+        let tangent = if missing.is_some() { self.tangent() } else { Tangent::None };
+        self.evaluate(&u, missing.as_deref(), tangent)?;
         let residual = self.residual.clone();
         if missing.is_some() {
             let mut carried = vec![0.0; residual.len()];

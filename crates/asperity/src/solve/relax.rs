@@ -107,8 +107,9 @@ impl Newton<'_> {
     fn settles(&mut self, u: &mut Vec<f64>) -> Result<bool, Trouble> {
         let (rough, mut ratio) = (u.clone(), self.measure().ratio);
         for _ in 0..FEW {
-            let iterated =
-                self.linearise((0, u), None, forcing(ratio, 1.0)).and_then(|m| Ok(self.advance(u, &m, None)?));
+            let iterated = self
+                .linearise((0, u), None, forcing(ratio, 1.0))
+                .and_then(|m| Ok(self.advance(u, (&m, self.tangent()), None)?));
             let norms = self.measure();
             if iterated.is_err() || norms.ratio > ratio.max(norms.allowed) {
                 break;
@@ -148,7 +149,7 @@ impl Newton<'_> {
             }
             let motion = self.linearise((iteration, u), missing.as_deref(), forcing(norms.ratio, ratio))?;
             ratio = norms.ratio;
-            let taken = self.advance(u, &motion, missing.as_deref())?;
+            let taken = self.advance(u, (&motion, self.tangent()), missing.as_deref())?;
             *missing = missing.take().filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
         }
         Ok(None)

@@ -144,11 +144,12 @@ impl Newton<'_> {
         Ok(factorised)
     }
 
-    /// Moves `u` along a step, evaluates there, and returns the part of the whole step that was taken.
+    /// Moves `u` along a step, evaluates there, with no more than the `tangent` where nothing is missing any more, and
+    /// returns the part of the whole step that was taken.
     pub(super) fn advance(
         &mut self,
         u: &mut Vec<f64>,
-        motion: &Motion,
+        (motion, tangent): (&Motion, Tangent),
         missing: Option<&[f64]>,
     ) -> Result<f64, Failure> {
         let (begin, slope) = (u.clone(), self.slope(&motion.du));
@@ -159,7 +160,8 @@ impl Newton<'_> {
             self.memory.mixed.follow(part);
             *u = along(part);
             let missing: Option<Vec<f64>> = rest(part * motion.part);
-            match self.evaluate(u, missing.as_deref(), self.tangent()) {
+            let tangent = if missing.is_some() { self.tangent() } else { tangent };
+            match self.evaluate(u, missing.as_deref(), tangent) {
                 Ok(()) => break,
                 Err(failure) if part <= SHORTEST => return Err(failure),
                 Err(_) => part *= 0.5,

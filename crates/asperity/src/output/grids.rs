@@ -42,29 +42,25 @@ impl BodyGrid {
             cell_masks: with_cells.map(|(name, group)| mask(name, mesh.cell_count(), &group.cells)).collect(),
         })
     }
-    /// The grid with the nodal and cell quantities of a frame.
-    pub fn at(&self, frame: &Frame) -> Grid {
-        let arrays = |place, masks: &[DataArray]| frame.at(place).map(array).chain(masks.iter().cloned()).collect();
-        Grid {
-            time: frame.time,
-            points: self.points.clone(),
-            cells: self.cells.clone(),
-            point_data: arrays(Place::Node, &self.point_masks),
-            cell_data: arrays(Place::Cell, &self.cell_masks),
-        }
+    /// The grid with the nodal and cell quantities of a frame, which are taken out of it.
+    pub fn at(&self, frame: &mut Frame) -> Grid {
+        let mut arrays =
+            |place, masks: &[DataArray]| frame.take(place).map(array).chain(masks.iter().cloned()).collect();
+        let (point_data, cell_data) = (arrays(Place::Node, &self.point_masks), arrays(Place::Cell, &self.cell_masks));
+        Grid { time: frame.time, points: self.points.clone(), cells: self.cells.clone(), point_data, cell_data }
     }
 }
 
-/// One vertex for each integration point of a place, with the quantities there.
-pub fn cloud(frame: &Frame, place: Place) -> Grid {
+/// One vertex for each integration point of a place, with the quantities there, which are taken out of the frame.
+pub fn cloud(frame: &mut Frame, place: Place) -> Grid {
     const POSITION: &str = "reference_position";
-    let points = frame.get(place, POSITION).map_or(vec![], |q| q.values.as_chunks().0.to_vec());
-    let others = frame.at(place).filter(|q| q.name != POSITION);
+    let (positions, others): (Vec<_>, Vec<_>) = frame.take(place).partition(|q| q.name == POSITION);
+    let points = positions.first().map_or(vec![], |q| q.values.as_chunks().0.to_vec());
     Grid {
         time: frame.time,
         cells: Cells::vertices(points.len()),
         points,
-        point_data: others.map(array).collect(),
+        point_data: others.into_iter().map(array).collect(),
         cell_data: Vec::new(),
     }
 }
@@ -111,11 +107,11 @@ fn solid_tool(source: &Source, index: usize, grid: &mut Grid, (displacement, num
 }
 
 /// A quantity as an array.
-fn array(quantity: &Quantity) -> DataArray {
+fn array(quantity: Quantity) -> DataArray {
     let values = match quantity.number {
-        Number::Real => Values::Real(quantity.values.clone()),
+        Number::Real => Values::Real(quantity.values),
         Number::Integer => Values::Integer(quantity.values.iter().map(|&x| x as i64).collect()),
         Number::Byte => Values::Byte(quantity.values.iter().map(|&x| x as u8).collect()),
     };
-    DataArray::new(quantity.name.clone(), quantity.width.size(), values)
+    DataArray::new(quantity.name, quantity.width.size(), values)
 }

@@ -198,6 +198,10 @@ impl Frame {
     pub fn at(&self, place: Place) -> impl Iterator<Item = &Quantity> {
         self.quantities.iter().filter(move |quantity| quantity.place == place)
     }
+    /// Takes the quantities of one place out of the frame, in the order in which they were added.
+    pub fn take(&mut self, place: Place) -> impl Iterator<Item = Quantity> {
+        self.quantities.extract_if(.., move |quantity| quantity.place == place)
+    }
     /// How many places of this kind there are; none when nothing is reported there.
     pub fn count(&self, place: Place) -> Option<usize> {
         self.at(place).next().map(Quantity::count)

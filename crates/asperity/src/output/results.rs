@@ -147,7 +147,7 @@ impl Results {
         (self.summary.attempts, self.summary.iterations) = (source.state.attempts, source.state.iterations);
         self.summary.steps = source.state.step;
         if last || increment % self.options.every == 0 {
-            self.write_grids(source, &frame)?;
+            self.write_grids(source, frame)?;
         }
         if increment % self.options.checkpoint_every == 0 {
             self.checkpoint(source.state)?;
@@ -185,15 +185,15 @@ impl Results {
     }
 
     fn write_frame(&mut self, source: &Source) -> Result<(), Error> {
-        self.write_grids(source, &source.gather()?)
+        self.write_grids(source, source.gather()?)
     }
-    fn write_grids(&mut self, source: &Source, frame: &super::Frame) -> Result<(), Error> {
+    fn write_grids(&mut self, source: &Source, mut frame: super::Frame) -> Result<(), Error> {
         for (fields, series) in &mut self.series {
             series.push(&match fields {
-                Fields::Bodies => self.grid.at(frame),
-                Fields::Points => cloud(frame, Place::Gauss),
-                Fields::Contacts => cloud(frame, Place::Contact),
-                Fields::Tools => tools(source, frame),
+                Fields::Bodies => self.grid.at(&mut frame),
+                Fields::Points => cloud(&mut frame, Place::Gauss),
+                Fields::Contacts => cloud(&mut frame, Place::Contact),
+                Fields::Tools => tools(source, &frame),
             })?;
         }
         Ok(())

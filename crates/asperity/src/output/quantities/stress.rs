@@ -6,7 +6,7 @@ use crate::Error;
 use crate::material::{Variable, VariableKind};
 use crate::output::average::NodalMean;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
-use crate::solid::PointRecord;
+use crate::solid::{Body, PointRecord};
 
 /// One integration point with the numbers of its body and material.
 struct Point<'a> {
@@ -15,7 +15,8 @@ struct Point<'a> {
 }
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    let mut points = Vec::new();
+    let count = |(term, solid): &(usize, &Body)| Ok(source.history(*term)?.data.len() / solid.point_len());
+    let mut points = Vec::with_capacity(source.parts.bodies.iter().map(count).sum::<Result<_, Error>>()?);
     for (body, (term, solid)) in source.parts.bodies.iter().enumerate() {
         let records = solid.records(&source.state.u, source.history(*term)?);
         points.extend(records.map(|record| Point { record, body }));
@@ -27,16 +28,23 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
 
 fn report_points(source: &Source, points: &[Point], frame: &mut Frame) -> Result<(), Error> {
     let gauss = |name: &str, unit, width, values| Quantity::new(name, unit, Place::Gauss, width, values);
-    let vector = |of: &dyn Fn(&PointRecord) -> [f64; 3]| points.iter().flat_map(|p| of(&p.record)).collect::<Vec<_>>();
+    let vector = |of: fn(&PointRecord) -> [f64; 3]| gathered(points, |p| of(&p.record));
     let number = |of: &dyn Fn(&Point) -> usize| points.iter().map(|p| of(p) as f64).collect::<Vec<_>>();
-    frame.push(gauss("reference_position", Unit::Length, Width::Vector, vector(&|r| r.reference.0)))?;
-    frame.push(gauss("displacement", Unit::Length, Width::Vector, vector(&|r| (r.position - r.reference).0)))?;
+    frame.push(gauss("reference_position", Unit::Length, Width::Vector, vector(|r| r.reference.0)))?;
+    frame.push(gauss("displacement", Unit::Length, Width::Vector, vector(|r| (r.position - r.reference).0)))?;
     frame.push(gauss("volume", Unit::Volume, Width::Scalar, points.iter().map(|p| p.record.volume).collect()))?;
     frame.push(Quantity::integer("cell", Place::Gauss, number(&|p| p.record.cell)))?;
     frame.push(Quantity::integer("body", Place::Gauss, number(&|p| p.body)))?;
-    let stress: Vec<f64> = points.iter().flat_map(|p| p.record.state[..6].iter().copied()).collect();
+    let stress = gathered(points, |p| std::array::from_fn::<_, 6, _>(|i| p.record.state[i]));
     push_stress(frame, Place::Gauss, "", stress)?;
     variables(source).into_iter().try_for_each(|variable| frame.push(values_of(variable, source, points)))
+}
+
+/// So many numbers of each point, one after another.
+fn gathered<const N: usize>(points: &[Point], of: impl Fn(&Point) -> [f64; N]) -> Vec<f64> {
+    let mut values = vec![0.0; N * points.len()];
+    values.as_chunks_mut::<N>().0.iter_mut().zip(points).for_each(|(values, point)| *values = of(point));
+    values
 }
 
 /// The variables of all laws, each name once.
@@ -87,12 +95,13 @@ fn report_cells(source: &Source, points: &[Point], frame: &mut Frame) -> Result<
 }
 
 fn report_nodes(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    let mut mean = NodalMean::new(source.parts.mesh, 6);
+    let (mut mean, mut stress) = (NodalMean::new(source.parts.mesh, 6), Vec::new());
     for (term, body) in &source.parts.bodies {
         let (history, len) = (source.history(*term)?, body.point_len());
         for (slot, &cell) in body.cells().iter().enumerate() {
             let states = history.slot(slot).chunks_exact(len);
-            let stress: Vec<f64> = states.flat_map(|state| state[..6].iter().copied()).collect();
+            stress.clear();
+            states.for_each(|state| stress.extend_from_slice(&state[..6]));
             mean.add(cell, body.rule(source.parts.mesh.cell(cell).kind), &stress)?;
         }
     }

@@ -31,12 +31,23 @@ impl Values {
             Self::Byte(_) => "UInt8",
         }
     }
-    /// The bytes, little-endian.
-    pub(super) fn to_bytes(&self) -> Vec<u8> {
+    /// Number of bytes.
+    pub(super) fn size(&self) -> usize {
         match self {
-            Self::Real(values) => values.iter().flat_map(|x| x.to_le_bytes()).collect(),
-            Self::Integer(values) => values.iter().flat_map(|x| x.to_le_bytes()).collect(),
-            Self::Byte(values) => values.clone(),
+            Self::Real(_) | Self::Integer(_) => 8 * self.len(),
+            Self::Byte(values) => values.len(),
+        }
+    }
+    /// Adds the bytes, little-endian.
+    pub(super) fn append_to(&self, out: &mut Vec<u8>) {
+        let start = out.len();
+        out.resize(start + self.size(), 0);
+        let bytes = &mut out[start..];
+        let words = bytes.as_chunks_mut::<8>().0.iter_mut();
+        match self {
+            Self::Real(values) => words.zip(values).for_each(|(word, x)| *word = x.to_le_bytes()),
+            Self::Integer(values) => words.zip(values).for_each(|(word, x)| *word = x.to_le_bytes()),
+            Self::Byte(values) => bytes.copy_from_slice(values),
         }
     }
     /// From bytes; none for a type that we do not write, or a length that is no whole number of values.

@@ -34,33 +34,34 @@ impl Grid {
     /// # Errors
     /// [`Error::Internal`] when an array does not fit the grid, or a block cannot be compressed.
     pub fn to_bytes(&self, encoding: Encoding) -> Result<Vec<u8>, Error> {
+        let (coordinates, cells) = ([self.coordinates()], self.cell_arrays());
+        let (count, cell_count) = (Some(self.points.len()), Some(self.cells.len()));
+        let sections = [
+            Section { name: "PointData", arrays: &self.point_data, count },
+            Section { name: "CellData", arrays: &self.cell_data, count: cell_count },
+            Section { name: "Points", arrays: &coordinates, count },
+            Section { name: "Cells", arrays: &cells, count: None },
+        ];
         let mut appended = Appended { encoding, bytes: Vec::new() };
-        let body = self.piece(&mut appended)?;
-        let compressor = if encoding.compress { " compressor=\"vtkZLibDataCompressor\"" } else { "" };
+        let mut head = self.head(encoding);
+        appended.bytes.reserve(sections.iter().map(Section::size).sum());
+        sections.iter().try_for_each(|section| section.write(&mut head, &mut appended))?;
         let form = if encoding.base64 { "base64" } else { "raw" };
-        let time = self.time;
-        let mut bytes = format!(
+        let _ = write!(head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"{form}\">\n_");
+        let tail = b"\n</AppendedData>\n</VTKFile>\n";
+        Ok([head.as_bytes(), &appended.bytes, tail].concat())
+    }
+
+    fn head(&self, encoding: Encoding) -> String {
+        let compressor = if encoding.compress { " compressor=\"vtkZLibDataCompressor\"" } else { "" };
+        let (time, points, cells) = (self.time, self.points.len(), self.cells.len());
+        format!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>\n\
              <UnstructuredGrid>\n<FieldData>\n\
              <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time}</DataArray>\n\
-             </FieldData>\n{body}</UnstructuredGrid>\n<AppendedData encoding=\"{form}\">\n_"
+             </FieldData>\n<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
         )
-        .into_bytes();
-        bytes.append(&mut appended.bytes);
-        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
-        Ok(bytes)
-    }
-
-    fn piece(&self, appended: &mut Appended) -> Result<String, Error> {
-        let (points, cells) = (self.points.len(), self.cells.len());
-        let mut text = format!("<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n");
-        section(&mut text, appended, "PointData", &self.point_data, Some(points))?;
-        section(&mut text, appended, "CellData", &self.cell_data, Some(cells))?;
-        section(&mut text, appended, "Points", &[self.coordinates()], Some(points))?;
-        section(&mut text, appended, "Cells", &self.cell_arrays(), None)?;
-        text.push_str("</Piece>\n");
-        Ok(text)
     }
 
     fn cell_arrays(&self) -> [DataArray; 3] {
@@ -72,23 +73,33 @@ impl Grid {
     }
 }
 
-fn section(
-    text: &mut String,
-    appended: &mut Appended,
-    name: &str,
-    arrays: &[DataArray],
+/// The arrays of one part of a grid, one tuple for each of `count` things where that is said.
+struct Section<'a> {
+    name: &'static str,
+    arrays: &'a [DataArray],
     count: Option<usize>,
-) -> Result<(), Error> {
-    let _ = writeln!(text, "<{name}>");
-    for array in arrays {
-        let (found, width) = (array.values.len(), array.components);
-        if count.is_some_and(|count| count * width != found) {
-            return Err(Error::Internal(format!("array '{}' has {found} numbers on a grid of {count:?}", array.name)));
-        }
-        let _ = writeln!(text, "{}", tag(array, appended.push(&array.values.to_bytes())?));
+}
+
+impl Section<'_> {
+    /// Bytes of the arrays and of their lengths as they are laid down plainly.
+    fn size(&self) -> usize {
+        self.arrays.iter().map(|array| array.values.size() + 8).sum()
     }
-    let _ = writeln!(text, "</{name}>");
-    Ok(())
+
+    fn write(&self, head: &mut String, appended: &mut Appended) -> Result<(), Error> {
+        let Self { name, arrays, count } = self;
+        let _ = writeln!(head, "<{name}>");
+        for array in *arrays {
+            let (found, width) = (array.values.len(), array.components);
+            if count.is_some_and(|count| count * width != found) {
+                let text = format!("array '{}' has {found} numbers on a grid of {count:?}", array.name);
+                return Err(Error::Internal(text));
+            }
+            let _ = writeln!(head, "{}", tag(array, appended.push(&array.values)?));
+        }
+        let _ = writeln!(head, "</{name}>");
+        Ok(())
+    }
 }
 
 fn tag(array: &DataArray, offset: usize) -> String {
@@ -107,14 +118,24 @@ fn tag(array: &DataArray, offset: usize) -> String {
 
 impl Appended {
     /// Adds an array and returns its offset.
-    fn push(&mut self, data: &[u8]) -> Result<usize, Error> {
+    fn push(&mut self, values: &Values) -> Result<usize, Error> {
         let offset = self.bytes.len();
-        let (head, body) = if self.encoding.compress { compressed(data)? } else { plain(data) };
-        match (self.encoding.base64, self.encoding.compress) {
-            (false, _) => self.bytes.extend(head.into_iter().chain(body)),
-            // A compressed array is two texts, its table of blocks and its blocks; an uncompressed one is a single text.
-            (true, true) => self.push_text(&[&head[..], &body[..]]),
-            (true, false) => self.push_text(&[&[head, body].concat()]),
+        if self.encoding == Encoding::default() {
+            add_plain(values, &mut self.bytes);
+            return Ok(offset);
+        }
+        let mut data = Vec::with_capacity(values.size() + 8);
+        if self.encoding.compress {
+            values.append_to(&mut data);
+            let (head, body) = compressed(&data)?;
+            match self.encoding.base64 {
+                false => self.bytes.extend(head.into_iter().chain(body)),
+                // A compressed array is two texts, its table of blocks and its blocks; an uncompressed one is a single text.
+                true => self.push_text(&[&head[..], &body[..]]),
+            }
+        } else {
+            add_plain(values, &mut data);
+            self.push_text(&[&data]);
         }
         Ok(offset)
     }
@@ -125,8 +146,10 @@ impl Appended {
     }
 }
 
-fn plain(data: &[u8]) -> (Vec<u8>, Vec<u8>) {
-    ((data.len() as u64).to_le_bytes().to_vec(), data.to_vec())
+/// The length and the bytes.
+fn add_plain(values: &Values, out: &mut Vec<u8>) {
+    out.extend_from_slice(&(values.size() as u64).to_le_bytes());
+    values.append_to(out);
 }
 
 /// The table of blocks (how many, their size, the size of a shorter last one, the compressed sizes) and the blocks.

@@ -85,6 +85,13 @@ pub enum Item {
         /// The line.
         stroke: Option<Stroke>,
     },
+    /// A filled path without a seam between it and its neighbours.
+    Tile {
+        /// The path.
+        path: Vec<Segment>,
+        /// Colour inside.
+        color: Color,
+    },
     /// A line of text.
     Label(Label),
     /// Show only what lies in the rectangle, until the next [`Item::Unclip`].
@@ -173,9 +180,9 @@ impl Drawing {
     pub fn fill(&mut self, path: Vec<Segment>, color: Color) {
         self.items.push(Item::Path { path, fill: Some(color), stroke: None });
     }
-    /// A filled path with a line of its own colour, so that no seam shows beside its neighbour.
+    /// A filled path without a seam between it and its neighbours.
     pub fn tile(&mut self, path: Vec<Segment>, color: Color) {
-        self.items.push(Item::Path { path, fill: Some(color), stroke: Some(Stroke::full(color, 0.4)) });
+        self.items.push(Item::Tile { path, color });
     }
     /// A label; one without words leaves no trace.
     pub fn label(&mut self, label: Label) {
@@ -208,6 +215,7 @@ impl Item {
             Self::Path { path, fill, stroke } => {
                 Self::Path { path: path.into_iter().map(segment).collect(), fill, stroke }
             }
+            Self::Tile { path, color } => Self::Tile { path: path.into_iter().map(segment).collect(), color },
             Self::Label(label) => Self::Label(Label { at: shift(label.at), ..label }),
             Self::Clip(r) => Self::Clip(Rect { x: r.x + by[0], y: r.y + by[1], ..r }),
             Self::Unclip => Self::Unclip,

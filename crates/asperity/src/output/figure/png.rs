@@ -13,7 +13,13 @@ const LARGEST: f64 = 20_000.0;
 struct Canvas {
     pixels: Pixmap,
     transform: Transform,
-    clip: Option<Mask>,
+    clip: Option<Clip>,
+}
+
+/// What is shown: the inside of a rectangle of the page.
+struct Clip {
+    rect: Rect,
+    mask: Mask,
 }
 
 impl Drawing {
@@ -54,8 +60,14 @@ impl Canvas {
     fn draw(&mut self, item: &Item) {
         match item {
             Item::Path { path, fill, stroke } => self.path(path, *fill, *stroke),
+            Item::Tile { path, color } => {
+                // Pixels belong to the tile that holds their middle: neighbours leave no seam.
+                if let Some(path) = build(path) {
+                    self.fill(&path, &paint(*color, false));
+                }
+            }
             Item::Label(label) => self.label(label),
-            Item::Clip(rect) => self.clip = self.mask(rect),
+            Item::Clip(rect) => self.clip = self.mask(rect).map(|mask| Clip { rect: *rect, mask }),
             Item::Unclip => self.clip = None,
         }
     }
@@ -67,7 +79,7 @@ impl Canvas {
     fn path(&mut self, segments: &[Segment], fill: Option<Color>, stroke: Option<Stroke>) {
         let Some(path) = build(segments) else { return };
         if let Some(color) = fill {
-            self.fill(&path, color);
+            self.fill(&path, &paint(color, true));
         }
         if let Some(stroke) = stroke {
             let line = tiny_skia::Stroke {
@@ -77,25 +89,38 @@ impl Canvas {
                 dash: StrokeDash::new(stroke.dash.iter().map(|&d| d as f32).collect(), 0.0),
                 ..tiny_skia::Stroke::default()
             };
-            self.pixels.stroke_path(&path, &paint(stroke.color), &line, self.transform, self.clip.as_ref());
+            // However thin, a line takes pixels on either side.
+            let width = stroke.width.max(2.0 / f64::from(self.transform.sx));
+            let mask = mask_of(&self.clip, &path, width);
+            self.pixels.stroke_path(&path, &paint(stroke.color, true), &line, self.transform, mask);
         }
     }
-    fn fill(&mut self, path: &Path, color: Color) {
-        self.pixels.fill_path(path, &paint(color), FillRule::Winding, self.transform, self.clip.as_ref());
+    fn fill(&mut self, path: &Path, paint: &Paint) {
+        self.pixels.fill_path(path, paint, FillRule::Winding, self.transform, mask_of(&self.clip, path, 0.0));
     }
     fn label(&mut self, label: &Label) {
         let mut sink = Outlines(PathBuilder::new());
         text::outline(label, &mut sink);
         if let Some(path) = sink.0.finish() {
-            self.fill(&path, label.color);
+            self.fill(&path, &paint(label.color, true));
         }
     }
 }
 
-fn paint(Color([r, g, b]): Color) -> Paint<'static> {
+/// The mask, where a path drawn with a line of this width leaves what is shown.
+fn mask_of<'a>(clip: &'a Option<Clip>, path: &Path, width: f64) -> Option<&'a Mask> {
+    let Clip { rect, mask } = clip.as_ref()?;
+    let (bounds, reach) = (path.bounds(), 0.5 * width);
+    let [left, top, right, bottom] = [bounds.left(), bounds.top(), bounds.right(), bounds.bottom()].map(f64::from);
+    let across = rect.x + reach < left && right < rect.right() - reach;
+    let down = rect.y + reach < top && bottom < rect.bottom() - reach;
+    (!(across && down)).then_some(mask)
+}
+
+fn paint(Color([r, g, b]): Color, smooth: bool) -> Paint<'static> {
     let mut paint = Paint::default();
     paint.set_color_rgba8(r, g, b, 255);
-    paint.anti_alias = true;
+    paint.anti_alias = smooth;
     paint
 }
 

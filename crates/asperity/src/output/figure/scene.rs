@@ -34,9 +34,13 @@ pub(super) fn draw_mesh(drawing: &mut Drawing, scene: &Scene, view: &View, range
         let near = |facet: &Facet| facet.nearness(view, &scene.points);
         facets.sort_by(|a, b| near(a).total_cmp(&near(b)));
     }
+    if scene.field.is_none() && !solid {
+        drawing.tile(facets.iter().flat_map(|facet| facet.outline(at)).collect(), Color::BODY);
+    }
     for facet in &facets {
         match &scene.field {
-            None => drawing.tile(facet.outline(at), Color::BODY),
+            None if solid => drawing.tile(facet.outline(at), Color::BODY),
+            None => {}
             Some(field) => {
                 for (tile, value) in facet.tiles(at, field, 4.0) {
                     let t = (value - range[0]) / (range[1] - range[0]);
@@ -52,11 +56,8 @@ pub(super) fn draw_mesh(drawing: &mut Drawing, scene: &Scene, view: &View, range
         return;
     }
     let (inner, outer): (Vec<_>, Vec<_>) = edges(&facets).into_iter().partition(|(_, count)| *count > 1);
-    for (edge, _) in inner {
-        drawing.stroke(edge_path(&edge, at), Stroke::full(Color::CELLS, 0.5));
-    }
-    for (edge, _) in outer {
-        drawing.stroke(edge_path(&edge, at), Stroke::full(Color::BLACK, 1.0));
+    for (edges, stroke) in [(inner, Stroke::full(Color::CELLS, 0.5)), (outer, Stroke::full(Color::BLACK, 1.0))] {
+        drawing.stroke(edges.iter().flat_map(|(edge, _)| edge_path(edge, at)).collect(), stroke);
     }
 }
 

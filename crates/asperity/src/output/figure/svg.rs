@@ -1,6 +1,6 @@
 //! A drawing as SVG.
 
-use super::drawing::{Anchor, Drawing, Item, Label, Segment, Stroke};
+use super::drawing::{Anchor, Drawing, Item, Label, Point, Segment, Stroke};
 use super::palette::Color;
 use super::text::{FAMILIES, runs};
 use std::fmt::Write;
@@ -17,6 +17,8 @@ impl Drawing {
         for item in &self.items {
             match item {
                 Item::Path { path, fill, stroke } => write_path(&mut svg, path, *fill, *stroke),
+                // A line of its own colour covers the seam beside a neighbour.
+                Item::Tile { path, color } => write_path(&mut svg, path, Some(*color), Some(Stroke::full(*color, 0.4))),
                 Item::Label(label) => write_label(&mut svg, label),
                 Item::Clip(rect) => {
                     let (x, y, w, h) = (number(rect.x), number(rect.y), number(rect.width), number(rect.height));
@@ -36,7 +38,9 @@ impl Drawing {
 }
 
 fn write_path(svg: &mut String, path: &[Segment], fill: Option<Color>, stroke: Option<Stroke>) {
-    let _ = write!(svg, "<path d=\"{}\" fill=\"{}\"", data(path), fill.map_or("none".into(), hex));
+    svg.push_str("<path d=\"");
+    write_data(svg, path);
+    let _ = write!(svg, "\" fill=\"{}\"", fill.map_or("none".into(), hex));
     if let Some(Stroke { color, width, dash }) = stroke {
         let _ = write!(svg, " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"", hex(color), number(width));
         if !dash.is_empty() {
@@ -47,19 +51,22 @@ fn write_path(svg: &mut String, path: &[Segment], fill: Option<Color>, stroke: O
     svg.push_str("/>\n");
 }
 
-fn data(path: &[Segment]) -> String {
-    let mut text = String::new();
+fn write_data(svg: &mut String, path: &[Segment]) {
     for segment in path {
-        let _ = match segment {
-            Segment::Move(p) => write!(text, "M{} {}", number(p[0]), number(p[1])),
-            Segment::Line(p) => write!(text, "L{} {}", number(p[0]), number(p[1])),
-            Segment::Quad(c, p) => {
-                write!(text, "Q{} {} {} {}", number(c[0]), number(c[1]), number(p[0]), number(p[1]))
-            }
-            Segment::Close => write!(text, "Z"),
+        let (letter, points): (char, &[&Point]) = match segment {
+            Segment::Move(p) => ('M', &[p]),
+            Segment::Line(p) => ('L', &[p]),
+            Segment::Quad(c, p) => ('Q', &[c, p]),
+            Segment::Close => ('Z', &[]),
         };
+        svg.push(letter);
+        for (i, x) in points.iter().flat_map(|p| p.iter()).enumerate() {
+            if i > 0 {
+                svg.push(' ');
+            }
+            write_number(svg, *x);
+        }
     }
-    text
 }
 
 fn write_label(svg: &mut String, label: &Label) {
@@ -94,11 +101,34 @@ fn hex(Color([r, g, b]): Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Hundredths of a point are finer than any screen or press.
 fn number(x: f64) -> String {
-    let text = format!("{x:.2}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".into() } else { short.into() }
+    let mut text = String::new();
+    write_number(&mut text, x);
+    text
+}
+
+/// Writes hundredths of a point, which are finer than any screen or press. A page has tens of thousands of numbers, so that
+/// they are written as whole numbers are.
+fn write_number(text: &mut String, x: f64) {
+    let hundredths = (100.0 * x).round();
+    if !(hundredths.abs() < 1e15) {
+        let _ = write!(text, "{x}");
+        return;
+    }
+    let (whole, part) = ((hundredths.abs() / 100.0) as u64, (hundredths.abs() % 100.0) as u64);
+    if hundredths < 0.0 {
+        text.push('-');
+    }
+    let _ = write!(text, "{whole}");
+    match (part / 10, part % 10) {
+        (0, 0) => {}
+        (tenths, 0) => text.extend(['.', digit(tenths)]),
+        (tenths, rest) => text.extend(['.', digit(tenths), digit(rest)]),
+    }
+}
+
+fn digit(value: u64) -> char {
+    char::from(b'0' + value as u8)
 }
 
 fn escape(text: &str) -> String {
@@ -109,6 +139,12 @@ fn escape(text: &str) -> String {
 mod tests {
     use super::super::drawing::{Rect, polyline};
     use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let numbers = [0.0, -0.004, 0.05, -0.1, 12.0, 3.456, -7.999, 1e17].map(number);
+        assert_eq!(numbers, ["0", "0", "0.05", "-0.1", "12", "3.46", "-8", "100000000000000000"]);
+    }
 
     #[test]
     fn a_drawing_is_written_whole() {

@@ -28,7 +28,8 @@ fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
     let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
     let job = Job { directory: &directory, options: made.deck.output.options(), input: made.input, start };
     let mut screen = Screen::new(&made.model.problem, stop);
-    let simulated = simulate(&made.model, &job, &mut screen);
+    // On a thread of the pool: from outside, every parallel loop would hand over to it and wait.
+    let simulated = rayon::scope(|_| simulate(&made.model, &job, &mut screen));
     screen.close();
     let (summary, ended) = simulated?;
     print(&farewell(&summary, &directory))?;

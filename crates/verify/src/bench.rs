@@ -7,6 +7,7 @@ use asperity::output::figure::Chart;
 use asperity::solve::{AttemptRecord, Observer, RunOptions};
 use asperity::system::State;
 use asperity::{Error, deck};
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 /// The folder and the size of a case.
@@ -14,6 +15,37 @@ pub struct Bench {
     folder: PathBuf,
     /// The size to run.
     pub size: Size,
+    effort: Cell<Effort>,
+}
+
+/// What all runs of a case took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Accepted increments.
+    pub increments: usize,
+    /// Increments that were cut.
+    pub cuts: usize,
+    /// Solved linear systems, those of increments that were cut too.
+    pub iterations: usize,
+}
+
+impl Effort {
+    /// Together with the attempts of one more run.
+    fn and(self, attempts: &[AttemptRecord]) -> Self {
+        let cuts = attempts.iter().filter(|attempt| attempt.failure.is_some()).count();
+        Self {
+            increments: self.increments + attempts.len() - cuts,
+            cuts: self.cuts + cuts,
+            iterations: self.iterations + attempts.iter().map(AttemptRecord::solutions).sum::<usize>(),
+        }
+    }
+}
+
+impl std::fmt::Display for Effort {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mean = self.iterations as f64 / self.increments.max(1) as f64;
+        write!(f, "{} increments of {mean:.2} iterations, {} cut", self.increments, self.cuts)
+    }
 }
 
 /// A model and its last state.
@@ -29,12 +61,21 @@ pub struct Solved {
 impl Bench {
     /// The bench of the case in `cases/NAME`.
     pub fn new(name: &str, size: Size) -> Self {
-        Self { folder: Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name), size }
+        Self {
+            folder: Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name),
+            size,
+            effort: Cell::default(),
+        }
     }
 
     /// The folder of the case.
     pub fn folder(&self) -> &Path {
         &self.folder
+    }
+
+    /// What the runs so far took.
+    pub fn effort(&self) -> Effort {
+        self.effort.get()
     }
 
     /// One value for each size.
@@ -115,6 +156,7 @@ impl Bench {
         let mut run = model.run(model.problem.initial_state());
         let end = run.run(&RunOptions::default(), &mut follower).map(|_| ());
         let (state, attempts) = (run.state, follower.attempts);
+        self.effort.set(self.effort().and(&attempts));
         Ok((Solved { model, state, attempts }, end))
     }
 }

@@ -12,9 +12,10 @@ pub mod cases;
 pub mod expect;
 pub mod fit;
 pub mod table;
+pub mod von_karman;
 
 use asperity::Error;
-use bench::Bench;
+use bench::{Bench, Effort};
 use expect::{Expectations, Line};
 use std::time::Instant;
 
@@ -48,6 +49,8 @@ pub struct Report {
     pub lines: Vec<Line>,
     /// Seconds that it took.
     pub seconds: f64,
+    /// What its runs took.
+    pub effort: Effort,
 }
 
 impl Report {
@@ -67,6 +70,7 @@ impl Case {
         let bench = Bench::new(self.name, size);
         let expectations = Expectations::read(&bench.folder().join("expect.toml"))?;
         let lines = expectations.compare(&(self.measure)(&bench)?, size)?;
-        Ok(Report { name: self.name, title: bench.title()?, lines, seconds: start.elapsed().as_secs_f64() })
+        let (title, seconds, effort) = (bench.title()?, start.elapsed().as_secs_f64(), bench.effort());
+        Ok(Report { name: self.name, title, lines, seconds, effort })
     }
 }

@@ -61,7 +61,7 @@ fn run(chosen: &[&Case], size: Size) -> ExitCode {
 }
 
 fn show(report: &Report) {
-    println!("{} ({}, {:.1} s)", report.title, report.name, report.seconds);
+    println!("{} ({}, {:.1} s, {})", report.title, report.name, report.seconds, report.effort);
     report.lines.iter().for_each(|line| println!("{}", table::printed(line)));
     println!();
 }

@@ -43,7 +43,8 @@ fn rounded(value: f64, digits: usize) -> String {
 
 /// The section of a case.
 fn section(report: &Report) -> String {
-    let mut text = format!("## {}\n\n`cases/{}`, {:.1} s\n\n{COLUMNS}", report.title, report.name, report.seconds);
+    let Report { name, title, seconds, effort, .. } = report;
+    let mut text = format!("## {title}\n\n`cases/{name}`, {seconds:.1} s, {effort}\n\n{COLUMNS}");
     for line in &report.lines {
         let error = line.error.map_or("-".into(), |error| amount(error, line.relative));
         let allowed = line.allowed.map_or("-".into(), |allowed| amount(allowed, line.relative));

@@ -31,7 +31,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         chart.line(format!("m = {factor}"), curve.iter().map(|&(x, y)| [x, y]).collect());
         let row = table.iter().enumerate().map(|(i, &y)| [10.0 * (i + 1) as f64, y]).collect();
         let style = chart.series.len() - 1;
-        let line = chart.line(if factor == 0.0 { "table" } else { "" }, row);
+        let line = chart.line(if factor == 0.4 { "Avitzur" } else { "" }, row);
         (line.marks, line.width, line.style) = (true, 0.0, style);
     }
     bench.draw("ring-compression", &chart)?;

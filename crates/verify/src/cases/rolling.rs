@@ -1,6 +1,7 @@
 //! Rolling of strips in plane strain beside von Karman's theory of plane sections.
 
 use crate::bench::{Bench, points};
+use crate::von_karman::Gap;
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::contact::PointRecord;
@@ -9,20 +10,22 @@ use asperity::output::figure::Chart;
 /// The case.
 pub const CASE: Case = Case { name: "rolling", measure };
 
-/// A pass: thickness before and after, radius of the rolls, friction, and the neutral angle of the theory in degrees.
+/// A pass, and the neutral angle of the theory in degrees.
 struct Pass {
     name: &'static str,
-    thickness: [f64; 2],
-    radius: f64,
-    friction: f64,
+    gap: Gap,
     neutral: f64,
 }
 
+const fn pass(name: &'static str, thickness: [f64; 2], [radius, friction, neutral]: [f64; 3]) -> Pass {
+    Pass { name, gap: Gap { thickness, radius, friction }, neutral }
+}
+
 const PASSES: [Pass; 4] = [
-    Pass { name: "strip_20", thickness: [2.0, 1.6], radius: 65.0, friction: 0.1, neutral: 1.361 },
-    Pass { name: "strip_30", thickness: [2.0, 1.4], radius: 65.0, friction: 0.1, neutral: 1.422 },
-    Pass { name: "slab_20", thickness: [10.0, 8.0], radius: 100.0, friction: 0.2, neutral: 2.601 },
-    Pass { name: "slab_30", thickness: [10.0, 7.0], radius: 100.0, friction: 0.3, neutral: 3.471 },
+    pass("strip_20", [2.0, 1.6], [65.0, 0.1, 1.361]),
+    pass("strip_30", [2.0, 1.4], [65.0, 0.1, 1.422]),
+    pass("slab_20", [10.0, 8.0], [100.0, 0.2, 2.601]),
+    pass("slab_30", [10.0, 7.0], [100.0, 0.3, 3.471]),
 ];
 
 /// Time at which the pass has become steady; the last step ends at 3.
@@ -30,27 +33,24 @@ const STEADY: f64 = 2.4;
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Measured::new();
-    let mut chart = Chart::new("Contact stress in the roll gap", "place over radius", "stress over 2k");
-    for pass in &PASSES[..bench.pick(1, 4)] {
-        let (mean, arc) = pass.roll(bench)?;
-        for (what, value) in ["force", "torque", "neutral", "pressure"].into_iter().zip(mean) {
-            measured.push((format!("{}_{what}", pass.name), value));
+    for (picture, passes) in [("rolling-strips", &PASSES[..2]), ("rolling-slabs", &PASSES[2..])] {
+        let mut chart = Chart::new("In the roll gap", "angle before the exit in degrees", "over 2k");
+        for pass in &passes[..bench.pick(usize::from(picture == "rolling-strips"), 2)] {
+            let (mean, arc) = pass.roll(bench)?;
+            for (what, value) in ["force", "torque", "neutral", "pressure"].into_iter().zip(mean) {
+                measured.push((format!("{}_{what}", pass.name), value));
+            }
+            pass.draw(&mut chart, &arc);
         }
-        let [before, after] = pass.thickness;
-        let place = |p: &PointRecord| p.position[0] / pass.radius;
-        chart.line(format!("{before} to {after}"), arc.iter().map(|p| [place(p), p.pressure]).collect());
-        let style = chart.series.len() - 1;
-        let shear = chart.line("", arc.iter().map(|p| [place(p), friction(p)]).collect());
-        (shear.style, shear.width) = (style, 0.8);
+        bench.draw(picture, &chart)?;
     }
-    bench.draw("rolling", &chart)?;
     Ok(measured)
 }
 
 impl Pass {
     fn sets(&self, bench: &Bench) -> Vec<String> {
-        let [before, after] = self.thickness.map(|h| 0.5 * h);
-        let r = self.radius;
+        let [before, after] = self.gap.thickness.map(|h| 0.5 * h);
+        let r = self.gap.radius;
         let arc = (2.0 * r * (before - after)).sqrt();
         let turn: f64 = bench.pick(9.0, 16.0);
         let (from, to) = (-turn.to_radians() * r - 1.5 * arc, 1.6 * arc);
@@ -69,7 +69,7 @@ impl Pass {
             format!("mesh.part.strip.rectangle.cells=[{cells}, {rows}]"),
             format!("tool.roll.profile={arcs}"),
             format!("tool.roll.reference=[0.0, {centre:?}]"),
-            format!("contact.nip.law.coulomb.friction={:?}", self.friction),
+            format!("contact.nip.law.coulomb.friction={:?}", self.gap.friction),
             format!("contact.nip.penalty={:?}", 1e3 / before),
             format!("contact.nip.tangential_penalty={:?}", 3e2 / before),
             format!("step.touch.motion.roll.y={:?}", 0.2 * set),
@@ -97,12 +97,28 @@ impl Pass {
         Ok((sum.map(|sum| sum / count), arc))
     }
 
+    /// Degrees from the line through the axes of the rolls to the place of a point, against the way of the strip.
+    fn angle(&self, place: f64) -> f64 {
+        (-place / self.gap.radius).asin().to_degrees()
+    }
+
+    /// Draws pressure and friction, and the pressure of the theory in thin lines.
+    fn draw(&self, chart: &mut Chart, arc: &[PointRecord]) {
+        let ([before, after], style) = (self.gap.thickness, chart.series.len());
+        let at = |y: &dyn Fn(&PointRecord) -> f64| arc.iter().map(|p| [self.angle(p.position[0]), y(p)]).collect();
+        chart.line(format!("{before} to {after}: pressure"), at(&|p| p.pressure)).styled(style);
+        let theory = self.gap.theory().pressure;
+        let theory = theory.iter().map(|&[a, p]| [a.to_degrees(), p]).collect();
+        chart.line("von Karman", theory).styled(style).thin();
+        chart.line("friction", at(&friction)).styled(style + 2);
+    }
+
     fn state(&self, arc: &[PointRecord]) -> [f64; 4] {
         let force: f64 = arc.iter().map(|p| -p.force()[1]).sum();
         // Only friction turns a circle about its centre.
-        let torque: f64 = arc.iter().map(|p| friction(p) * p.area * self.radius).sum();
+        let torque: f64 = arc.iter().map(|p| friction(p) * p.area * self.gap.radius).sum();
         let [place, pressure] = neutral(arc);
-        [force, torque, (-place / self.radius).asin().to_degrees() - self.neutral, pressure]
+        [force, torque, self.angle(place) - self.neutral, pressure]
     }
 }
 

@@ -24,8 +24,9 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     if bench.pick(false, true) {
         for friction in [20, 30] {
             let [mean, range] = without_dilatancy(bench, friction)?;
-            measured.push((format!("nc_{friction}_psi_0"), mean));
-            measured.push((format!("nc_{friction}_psi_0_range"), range));
+            for (what, value) in [("", mean), ("_davis", mean), ("_range", range)] {
+                measured.push((format!("nc_{friction}_psi_0{what}"), value));
+            }
         }
     }
     Ok(measured)

@@ -82,6 +82,21 @@ fn returns_of_drucker_and_prager() {
     near(apex[7], 0.0213397, 5e-8);
 }
 
+/// The hydrostatic strength of a porous metal, `p/sy = 2/(3 q2) acosh((1 + q3 f^2)/(2 q1 f))`, which is `-2/3 ln f` where all
+/// `q` are one. So stiff that the porosity stays what it was.
+#[test]
+fn hydrostatic_strength_of_porous_metals() {
+    let strength = |f: f64, [q1, q2, q3]: [f64; 3]| {
+        let metal = law("gurson", &[3e9, 0.3, 1.0, 0.0, 0.0, 0.0, f, q1, q2, q3, 0.0, 0.3, 0.1, 0.15, 0.25]);
+        let p = 1.2 * 2.0 / 3.0 * ((1.0 + q3 * f * f) / (2.0 * q1 * f)).acosh() / q2;
+        invariants(&after(metal.as_ref(), [p, p, p, 0.0, 0.0, 0.0], 1.0))[0]
+    };
+    for (f, p) in [(0.001, 4.33486), (0.005, 3.26190), (0.01, 2.79980), (0.05, 1.72684), (0.1, 1.26475)] {
+        near(strength(f, [1.5, 1.0, 2.25]), p, 6e-6);
+        near(strength(f, [1.0; 3]), -2.0 / 3.0 * f.ln(), 1e-6);
+    }
+}
+
 /// Of stresses that the matrix and the joints refuse together, the return bears both.
 #[test]
 fn matrix_and_joint_agree() {

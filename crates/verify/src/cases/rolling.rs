@@ -31,10 +31,12 @@ const PASSES: [Pass; 4] = [
 /// Time at which the pass has become steady; the last step ends at 3.
 const STEADY: f64 = 2.4;
 
+const TITLE: &str = "Pressure, and friction below; thin: von Karman";
+
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Measured::new();
     for (picture, passes) in [("rolling-strips", &PASSES[..2]), ("rolling-slabs", &PASSES[2..])] {
-        let mut chart = Chart::new("In the roll gap", "angle before the exit in degrees", "over 2k");
+        let mut chart = Chart::new(TITLE, "angle beyond the exit in degrees", "stress over 2k");
         for pass in &passes[..bench.pick(usize::from(picture == "rolling-strips"), 2)] {
             let (mean, arc) = pass.roll(bench)?;
             for (what, value) in ["force", "torque", "neutral", "pressure"].into_iter().zip(mean) {
@@ -102,15 +104,14 @@ impl Pass {
         (-place / self.gap.radius).asin().to_degrees()
     }
 
-    /// Draws pressure and friction, and the pressure of the theory in thin lines.
+    /// Draws pressure and friction along the way of the strip, and the pressure of the theory in thin lines.
     fn draw(&self, chart: &mut Chart, arc: &[PointRecord]) {
-        let ([before, after], style) = (self.gap.thickness, chart.series.len());
-        let at = |y: &dyn Fn(&PointRecord) -> f64| arc.iter().map(|p| [self.angle(p.position[0]), y(p)]).collect();
-        chart.line(format!("{before} to {after}: pressure"), at(&|p| p.pressure)).styled(style);
-        let theory = self.gap.theory().pressure;
-        let theory = theory.iter().map(|&[a, p]| [a.to_degrees(), p]).collect();
-        chart.line("von Karman", theory).styled(style).thin();
-        chart.line("friction", at(&friction)).styled(style + 2);
+        let ([before, after], style) = (self.gap.thickness, chart.series.len() / 3);
+        let at = |y: &dyn Fn(&PointRecord) -> f64| arc.iter().map(|p| [-self.angle(p.position[0]), y(p)]).collect();
+        chart.line(format!("{before} to {after}"), at(&|p| p.pressure)).styled(style);
+        chart.line("", at(&friction)).styled(style);
+        let theory = self.gap.theory().pressure.iter().map(|&[a, p]| [-a.to_degrees(), p]).collect();
+        chart.line("", theory).styled(style).thin();
     }
 
     fn state(&self, arc: &[PointRecord]) -> [f64; 4] {

@@ -93,6 +93,10 @@ impl<L: HyperLaw> Material for Hyper<L> {
         self.advance_along(f, dt, old, (new, gradient), directions)
     }
 
+    fn is_conservative(&self) -> bool {
+        true
+    }
+
     fn stored_energy(&self, state: &[f64]) -> f64 {
         let b = left_cauchy_green(state);
         self.0.energy(&b) / b.det().sqrt()

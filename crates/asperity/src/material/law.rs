@@ -141,6 +141,11 @@ pub trait Material: Send + Sync {
     fn dissipation(&self, _old: &[f64], _new: &[f64]) -> f64 {
         0.0
     }
+    /// Whether the stored energy follows from the deformation, so that a closed cycle of it costs nothing. The stress of
+    /// a rate law belongs to no such energy.
+    fn is_conservative(&self) -> bool {
+        false
+    }
     /// Confined modulus `lambda + 2 G` of the undeformed solid, which scales contact penalties.
     fn confined_modulus(&self) -> f64 {
         let mut state = vec![0.0; self.state_len()];

@@ -16,6 +16,8 @@ pub struct Certificate {
     pub equilibrium_error: Option<f64>,
     /// Largest magnitude of external work less stored and dissipated energy, over the largest energy of the run.
     pub energy_balance: Option<f64>,
+    /// Largest magnitude of the work that rate laws neither store nor dissipate, over the largest energy of the run.
+    pub hypoelastic_residue: Option<f64>,
     /// Largest excess of the shear stress over the friction limit, relative to that limit.
     pub coulomb_violation: Option<f64>,
     /// Least frictional dissipation of a point in an increment; below zero would be energy from nowhere.
@@ -32,9 +34,9 @@ pub struct Certificate {
     pub leap: Option<f64>,
     /// Largest part of the motion of cells with reduced integration that they do not resist.
     pub hourglass: Option<f64>,
-    /// The largest energy of the run and the largest that was missing.
+    /// The largest energy of the run, the largest that was missing, and the largest residue of rate laws.
     #[serde(skip)]
-    energies: [f64; 2],
+    energies: [f64; 3],
 }
 
 /// How the figures of several frames become one.
@@ -60,12 +62,14 @@ impl Certificate {
     fn observe_energy(&mut self, name: &str, value: f64) {
         let place = match name {
             "energy.missing" => 1,
+            "energy.residue" => 2,
             _ if name.starts_with("energy.") => 0,
             _ => return,
         };
         self.energies[place] = self.energies[place].max(value.abs());
-        let [largest, missing] = self.energies;
-        self.energy_balance = Some(if largest > 0.0 { missing / largest } else { 0.0 });
+        let [largest, missing, residue] = self.energies;
+        let part = |energy: f64| if largest > 0.0 { energy / largest } else { 0.0 };
+        (self.energy_balance, self.hypoelastic_residue) = (Some(part(missing)), Some(part(residue)));
     }
     /// The figure that a column of the history belongs to.
     fn figure(&mut self, column: &str) -> Option<(&mut Option<f64>, Worst)> {
@@ -112,6 +116,7 @@ mod tests {
             ("contact.a.b.max_penetration", 2e-3),
             ("energy.external", 10.0),
             ("energy.missing", -2.0),
+            ("energy.residue", 0.5),
         ]);
         certificate.observe([
             ("contact.bore.max_penetration", 5e-4),
@@ -128,11 +133,12 @@ mod tests {
         let expected = Certificate {
             max_penetration: Some(2e-3),
             energy_balance: Some(0.05),
+            hypoelastic_residue: Some(0.0125),
             least_dissipation: Some(-1e-18),
             rejected_false_contacts: Some(5.0),
             leap: Some(0.2),
             hourglass: Some(0.1),
-            energies: [40.0, 2.0],
+            energies: [40.0, 2.0, 0.5],
             ..Certificate::default()
         };
         assert_eq!(certificate, expected);

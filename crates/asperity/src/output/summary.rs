@@ -256,6 +256,7 @@ mod tests {
             "max_penetration_relative",
             "equilibrium_error",
             "energy_balance",
+            "hypoelastic_residue",
             "coulomb_violation",
             "least_dissipation",
             "rejected_false_contacts",

@@ -124,14 +124,26 @@ impl OpenBody<'_> {
                 .add::<DIM>(&law, (&point, volume), (old, new))
                 .map_err(|f| Failure::new(format!("integration point {}: {}", number + 1, f.reason)))?;
             let local = &mut *sums.local;
-            local.stored += body.material.stored_energy(new) * det * volume;
-            local.dissipated += body.material.dissipation(old, new) * det * volume;
+            self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
                 local.supplied -= 0.5 * (trace(old) + trace(new) * det) * volume * growth.ln();
             }
         }
         Ok(())
+    }
+
+    /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
+    /// `e V` exceeds the power `sigma:D V` less the dissipation by `e tr(D) V`: so much is left over of the work. The mean
+    /// of `e` makes that exact for an elastic increment, in which `e` grows by the mean stress on the strain.
+    fn account(&self, (old, new): (&[f64], &[f64]), (volume, det): (f64, f64), local: &mut Local) {
+        let material = &self.body.material;
+        let stored = material.stored_energy(new);
+        local.stored += stored * det * volume;
+        local.dissipated += material.dissipation(old, new) * det * volume;
+        if !material.is_conservative() {
+            local.residue += 0.5 * (material.stored_energy(old) + stored) * (1.0 - det) * volume;
+        }
     }
 
     /// Thickness at the beginning of the increment; one in space and in the axisymmetric case.

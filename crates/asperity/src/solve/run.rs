@@ -323,6 +323,7 @@ impl<'a> Run<'a> {
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;
             total.supplied += new.supplied;
+            total.residue += new.residue;
             total.dissipated += new.dissipated;
         }
         state.u = converged.u;
@@ -347,7 +348,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Energy that came from outside and is neither stored nor dissipated.
+/// Energy that came from outside and that no term has taken up.
 fn balance(state: &State) -> f64 {
-    state.external_work - state.energies.iter().map(|e| e.stored + e.dissipated - e.supplied).sum::<f64>()
+    state.external_work - state.energies.iter().map(Energies::taken).sum::<f64>()
 }

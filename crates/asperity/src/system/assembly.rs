@@ -53,7 +53,7 @@ pub struct Evaluation {
     pub values: Vec<f64>,
     /// History of each term at the trial state.
     pub histories: Vec<History>,
-    /// Energy stored in each term now, and dissipated by it or supplied by heat over the increment.
+    /// Energy stored in each term now, and over the increment what it dissipated, heat supplied, and a rate law left over.
     pub energies: Vec<Energies>,
     /// Branch and discrete choice of each stencil of each term.
     pub branches: Vec<Vec<(Branch, u32)>>,

@@ -99,6 +99,7 @@ impl Chunk {
         self.energies.stored += local.stored;
         self.energies.dissipated += local.dissipated;
         self.energies.supplied += local.supplied;
+        self.energies.residue += local.residue;
         Ok(())
     }
 }

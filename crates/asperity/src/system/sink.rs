@@ -50,6 +50,7 @@ impl<'a> Sink<'a> {
         energies.stored += chunk.energies.stored;
         energies.dissipated += chunk.energies.dissipated;
         energies.supplied += chunk.energies.supplied;
+        energies.residue += chunk.energies.residue;
         result
     }
 

@@ -49,6 +49,15 @@ pub struct Energies {
     pub dissipated: f64,
     /// Energy that heat supplied, accumulated likewise.
     pub supplied: f64,
+    /// Work that a rate law neither stores nor dissipates, accumulated likewise.
+    pub residue: f64,
+}
+
+impl Energies {
+    /// Work that the term has taken up: in equilibrium that of supports and loads.
+    pub fn taken(&self) -> f64 {
+        self.stored + self.dissipated + self.residue - self.supplied
+    }
 }
 
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.

@@ -97,6 +97,8 @@ pub struct Local {
     pub dissipated: f64,
     /// Energy that heat supplied over the increment.
     pub supplied: f64,
+    /// Work over the increment that a rate law neither stores nor dissipates.
+    pub residue: f64,
 }
 
 impl Default for Local {
@@ -110,6 +112,7 @@ impl Default for Local {
             stored: 0.0,
             dissipated: 0.0,
             supplied: 0.0,
+            residue: 0.0,
         }
     }
 }
@@ -123,7 +126,7 @@ impl Local {
             self.tangent.clear();
             self.tangent.resize(len * len, 0.0);
         }
-        (self.stored, self.dissipated, self.supplied) = (0.0, 0.0, 0.0);
+        (self.stored, self.dissipated, self.supplied, self.residue) = (0.0, 0.0, 0.0, 0.0);
     }
 }
 

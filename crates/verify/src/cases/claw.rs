@@ -4,7 +4,7 @@
 use crate::bench::{Bench, Solved, reaction};
 use crate::{Case, Measured};
 use asperity::Error;
-use asperity::system::State;
+use asperity::system::{Energies, State};
 
 /// The case.
 pub const CASE: Case = Case { name: "claw", measure };
@@ -57,9 +57,9 @@ fn pull(bench: &Bench, friction: f64, more: &[&str]) -> Result<Pull, Error> {
     Ok(Pull { run, peak, missing })
 }
 
-/// Work that is neither stored, nor dissipated, nor was set free.
+/// Work that nothing has taken up, nor was set free.
 fn lost(state: &State) -> f64 {
-    let kept: f64 = state.energies.iter().map(|energies| energies.stored + energies.dissipated).sum();
+    let kept: f64 = state.energies.iter().map(Energies::taken).sum();
     state.external_work - kept - state.released
 }
 

@@ -1,5 +1,5 @@
 //! Energies: what is stored, what has been dissipated, what came from outside (with what was stored at the start and
-//! what heat supplied), what was set free in instabilities, and what is missing between them.
+//! what heat supplied), what was set free in instabilities, what rate laws leave over, and what is missing between them.
 
 use super::Source;
 use crate::Error;
@@ -14,6 +14,7 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
             stored: sum.stored + e.stored,
             dissipated: sum.dissipated + e.dissipated,
             supplied: sum.supplied + e.supplied,
+            residue: sum.residue + e.residue,
         })
     };
     let bodies = of(&mut source.parts.bodies.iter().map(|(term, _)| *term));
@@ -29,10 +30,11 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         ("energy.friction", contact(all.dissipated, bodies.dissipated, springs.dissipated)),
         ("energy.spring", springs.stored),
         ("energy.released", source.state.released),
+        ("energy.residue", all.residue),
     ];
     for (name, value) in entries {
         frame.push(Quantity::scalar(name, Unit::Energy, value))?;
     }
-    let missing = external - all.stored - all.dissipated - source.state.released;
+    let missing = source.state.external_work - all.taken() - source.state.released;
     frame.push(Quantity::scalar("energy.missing", Unit::Energy, missing))
 }

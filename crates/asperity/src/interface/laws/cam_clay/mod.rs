@@ -5,20 +5,22 @@
 //! `tau^2 - phi p (p + a)`, is an open hyperbola; with one sign turned it is this one, `M^2 = phi`, `p_c = a`,
 //! `p_t = 0`.
 //!
-//! The return with the dimensionless multiplier `g` is `tau = tau_trial / (1 + k g)`, `p = h + (p_trial - h) / (1 + M^2 g)`,
-//! `k = K_t / K_p`, and `S(g) = sqrt(|tau|^2 + M^2 (p - h)^2) = M r`. Newton's method on `1 / S - 1 / (M r)` climbs to
-//! the root from below (the secular equation). With `chi` the ellipse hardens by closure and softens by dilation,
-//! `p_c = p_c0 exp(w / chi)`, down to a part of its first size: two unknowns. A point opens where the trial pressure
-//! reaches `-p_t`, which is then lost; what has closed or dilated is kept but for the part `reset_dilation`.
+//! With `chi` the ellipse hardens by closure and softens by dilation, `p_c = p_c0 exp(w / chi)`, down to a part of its first
+//! size. A point opens where the trial pressure reaches `-p_t`, which is then lost; what has closed or dilated is kept but
+//! for the part `reset_dilation`.
+
+mod ellipse;
+#[cfg(test)]
+mod random;
 
 use super::dilatant::RESET;
 use super::law;
 use super::trial::Trial;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, VariableKind, unit};
-use crate::integrate::{System, solve};
 use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
 use crate::tensor::Scalar;
+use ellipse::Shape;
 
 const fn needed(key: &'static str, meaning: &'static str, unit: &'static str) -> Parameter {
     Parameter { key, meaning, unit, range: Range::POSITIVE, default: None }
@@ -98,149 +100,10 @@ pub struct CamClay {
 const BROKEN: usize = 0;
 const CLOSURE: usize = 1;
 
-/// Shape of a return: the ratio of the penalties, the tensile strength, and a growth that is large in it.
-#[derive(Debug, Clone, Copy)]
-struct Shape<'a> {
-    law: &'a CamClay,
-    ratio: f64,
-    penalty: f64,
-    tension: f64,
-    scale: f64,
-}
-
-/// Where a return ends for a multiplier and a preconsolidation.
-struct End<S> {
-    shear: S,
-    pressure: S,
-    /// `S(g)` and `M r`.
-    size: S,
-    wanted: S,
-}
-
-impl Shape<'_> {
-    fn end<S: Scalar>(&self, g: S, last: S, [shear, pressure]: [S; 2]) -> End<S> {
-        let slope = self.law.slope;
-        let (centre, axis) = ((last - self.tension) * 0.5, (last + self.tension) * 0.5);
-        let shear = shear / (g * self.ratio + 1.0);
-        let away = (pressure - centre) / (g * (slope * slope) + 1.0);
-        let size = (shear * shear + away * away * (slope * slope)).sqrt();
-        End { shear, pressure: centre + away, size, wanted: axis * slope }
-    }
-
-    /// Logarithm of the preconsolidation over the first one, after the closure `w` since the beginning.
-    fn grown<S: Scalar>(&self, w: S) -> S {
-        let grown = if self.law.hardening > 0.0 { w / self.law.hardening } else { S::zero() };
-        grown.max(S::from(self.law.least.ln()))
-    }
-
-    fn preconsolidation<S: Scalar>(&self, grown: S) -> S {
-        grown.exp() * self.law.preconsolidation
-    }
-
-    /// The multiplier for a fixed ellipse, and the number of iterations.
-    fn secular(&self, last: f64, [shear, pressure]: [f64; 2]) -> Option<(f64, usize)> {
-        let squared = self.law.slope * self.law.slope;
-        let (k, m) = (self.ratio, squared);
-        let (mut g, mut before) = (0.0, f64::INFINITY);
-        for iteration in 0..60 {
-            let end = self.end(g, last, [shear, pressure]);
-            let miss = end.size / end.wanted - 1.0;
-            if miss <= 1e-14 || miss >= before {
-                return Some((g, iteration));
-            }
-            before = miss;
-            let away = end.pressure - (last - self.tension) * 0.5;
-            let slope = (k * end.shear * end.shear / (1.0 + k * g) + m * m * away * away / (1.0 + m * g)) / end.size;
-            g += miss * end.size / slope;
-            if !g.is_finite() {
-                return None;
-            }
-        }
-        None
-    }
-
-    /// The growth that belongs to a multiplier: the root of a rising function.
-    fn consistent(&self, g: f64, trial: [f64; 2], before: f64) -> f64 {
-        let miss = |grown: f64| {
-            let end = self.end(g, self.preconsolidation(grown), trial);
-            grown - self.grown(before + (trial[1] - end.pressure) / self.penalty)
-        };
-        let (mut low, mut high, mut step) = (self.grown(f64::NEG_INFINITY), self.grown(before), 1.0);
-        while miss(high) < 0.0 && step < 1e3 {
-            (low, high, step) = (high, high + step, 2.0 * step);
-        }
-        halved(low, high, |grown| miss(grown) < 0.0)
-    }
-
-    /// Multiplier and growth of an ellipse that hardens.
-    fn bracketed(&self, trial: [f64; 2], before: f64) -> [f64; 2] {
-        let outside = |g: f64| {
-            let end = self.end(g, self.preconsolidation(self.consistent(g, trial, before)), trial);
-            end.size > end.wanted
-        };
-        let (mut low, mut high) = (0.0, 1e-3);
-        while outside(high) && high < 1e30 {
-            (low, high) = (high, 4.0 * high);
-        }
-        let g = halved(low, high, outside);
-        [g, self.consistent(g, trial, before)]
-    }
-}
-
-/// Where a condition that holds at `low` ceases to.
-fn halved(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        *(if holds(middle) { &mut low } else { &mut high }) = middle;
-    }
-    0.5 * (low + high)
-}
-
-/// In the multiplier; data are the sizes of the trial stress and the preconsolidation.
-impl System<1, 3> for Shape<'_> {
-    fn residual<S: Scalar>(&self, &[g]: &[S; 1], &[shear, pressure, last]: &[S; 3]) -> [S; 1] {
-        let end = self.end(g, last, [shear, pressure]);
-        [end.size / end.wanted - 1.0]
-    }
-}
-
-/// In the multiplier and the growth; data are the sizes of the trial stress and the old closure.
-impl System<2, 3> for Shape<'_> {
-    fn residual<S: Scalar>(&self, &[g, grown]: &[S; 2], &[shear, pressure, before]: &[S; 3]) -> [S; 2] {
-        let end = self.end(g, self.preconsolidation(grown), [shear, pressure]);
-        let closure = before + (pressure - end.pressure) / self.penalty;
-        [end.size / end.wanted - 1.0, (grown - self.grown(closure)) / self.scale]
-    }
-}
-
 impl CamClay {
     /// An ellipse of a fixed size.
     pub fn perfect(slope: f64, preconsolidation: f64, tension: f64) -> Self {
         Self { slope, preconsolidation, tension, hardening: 0.0, least: 1.0, reset: 0.0 }
-    }
-
-    /// Shear and pressure on the surface.
-    fn returned<T: Scalar>(&self, shape: &Shape, trial: [T; 2], before: T) -> Result<[T; 2], Failure> {
-        const WHAT: &str = "Cam-clay of the interface";
-        let plain = trial.map(T::re);
-        let failed = || Failure::new(format!("{WHAT}: the return does not converge"));
-        let end = if self.hardening > 0.0 {
-            let (data, grown) = ([trial[0], trial[1], before], shape.grown(before.re()));
-            let (first, _) = shape.secular(shape.preconsolidation(grown), plain).ok_or_else(failed)?;
-            let from = |start| solve::<_, _, 2, 3>(shape, start, &data, WHAT).ok().filter(|[g, _]| g.re() > 0.0);
-            let found = from([first, grown]).or_else(|| from(shape.bracketed(plain, before.re())));
-            let [g, grown] = found.ok_or_else(failed)?;
-            shape.end(g, shape.preconsolidation(grown), trial)
-        } else {
-            let last = self.preconsolidation;
-            let (g, _) = shape.secular(last, plain).ok_or_else(failed)?;
-            let [g] = solve::<_, _, 1, 3>(shape, [g], &[trial[0], trial[1], T::from(last)], WHAT)?;
-            shape.end(g, T::from(last), trial)
-        };
-        Ok([end.shear, end.pressure])
     }
 }
 
@@ -256,15 +119,14 @@ impl InterfaceLaw for CamClay {
         let pressure = (motion.penetration - before) * past.penalty;
         let tension = if past.vars[BROKEN].re() > 0.0 { 0.0 } else { self.tension };
         let (ratio, penalty) = (past.tangential_penalty / past.penalty, past.penalty);
-        let mut shape = Shape { law: self, ratio, penalty, tension, scale: 1.0 };
+        let shape = Shape { law: self, ratio, penalty, tension };
         let last = shape.preconsolidation(shape.grown(before.re()));
         let at = [trial.size, pressure];
         let here = shape.end(0.0, last, at.map(T::re));
         if here.size <= here.wanted {
             return Ok(trial.stick(pressure));
         }
-        shape.scale = 1.0 + at[1].re().abs() / (penalty * self.hardening.max(f64::MIN_POSITIVE));
-        let [shear, pressure] = self.returned(&shape, at, before)?;
+        let [shear, pressure] = shape.returned(at, before)?;
         let closure = (at[1] - pressure) / penalty;
         vars[CLOSURE] = before + closure;
         let response = trial.slide(pressure, shear);
@@ -291,59 +153,8 @@ impl InterfaceLaw for CamClay {
 
 #[cfg(test)]
 mod tests {
+    use super::random::Random;
     use super::*;
-
-    /// Random numbers in (0, 1) (splitmix64).
-    struct Random(u64);
-
-    impl Random {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-        }
-        /// Between 10^-a and 10^a.
-        fn decades(&mut self, a: f64) -> f64 {
-            10_f64.powf(a * (2.0 * self.next() - 1.0))
-        }
-    }
-
-    /// Returns of trial stresses up to 10^6 times the ellipse, ratios of penalties over six decades.
-    fn returns(count: usize) -> (usize, f64) {
-        let (mut random, mut most, mut sum, mut outside) = (Random(1), 0, 0, 0);
-        while outside < count {
-            let law = CamClay::perfect(random.decades(0.7), 1.0, random.next());
-            let shape = Shape { law: &law, ratio: random.decades(3.0), penalty: 1.0, tension: law.tension, scale: 1.0 };
-            let trial = [random.decades(6.0), random.decades(6.0) * (2.0 * random.next() - 1.0)];
-            let here = shape.end(0.0, 1.0, trial);
-            if here.size <= here.wanted {
-                continue;
-            }
-            outside += 1;
-            let (g, iterations) = shape.secular(1.0, trial).unwrap();
-            let end = shape.end(g, 1.0, trial);
-            assert!((end.size / end.wanted - 1.0).abs() < 1e-12, "{trial:?} {law:?}");
-            (most, sum) = (most.max(iterations), sum + iterations);
-        }
-        (most, sum as f64 / count as f64)
-    }
-
-    #[test]
-    fn returns_take_few_iterations() {
-        let (most, mean) = returns(20_000);
-        assert!(most <= 12 && mean < 4.0, "{most} at most, {mean} in the mean");
-    }
-
-    /// `cargo test --release -p asperity --lib two_hundred_thousand_returns -- --ignored --nocapture`
-    #[test]
-    #[ignore = "long"]
-    fn two_hundred_thousand_returns() {
-        let (most, mean) = returns(200_000);
-        eprintln!("{most} iterations at most, {mean:.2} in the mean");
-        assert!(most <= 12);
-    }
 
     fn past(vars: &[f64]) -> Past<'_> {
         let (penalty, tangential_penalty) = (1e3, 700.0);

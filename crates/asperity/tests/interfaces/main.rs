@@ -6,4 +6,3 @@ mod conformance;
 mod refusals;
 mod samples;
 mod schemes;
-mod slider;

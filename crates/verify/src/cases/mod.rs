@@ -13,6 +13,7 @@ mod hertz_cylinder;
 mod hertz_sphere;
 mod hertz_spheres;
 mod inclined_block;
+mod interface;
 mod interference_fit;
 mod ironing_3d;
 mod partial_slip;
@@ -53,6 +54,7 @@ pub const ALL: &[&Case] = &[
     &flat_punch::CASE,
     &capstan::CASE,
     &claw::CASE,
+    &interface::CASE,
     &pull_out::CASE,
     &thick_shells::CASE,
     &strip_punch::CASE,

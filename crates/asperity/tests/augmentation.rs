@@ -7,6 +7,10 @@ use asperity::system::State;
 use support::{all_bytes, bytes, columns, go_on, model, run};
 
 const ROLLER: &str = include_str!("../../../cases/hertz-cylinder/roller.toml");
+const FLUSH: &str = include_str!("../../../cases/two-body-patch/flush.toml");
+const FLUSH_BOX: &str = include_str!("../../../cases/two-body-patch/flush_box.toml");
+const RING: &str = include_str!("../../../cases/crushed-ring/ring.toml");
+const HALF: &str = include_str!("../../../cases/crushed-ring/half.toml");
 const COARSE: [&str; 4] = [
     "mesh.part.roller.annulus.along_radius=[{ to = 49.0, cells = 6, ratio = 0.01 }, { to = 50.0, cells = 5 }]",
     "mesh.part.roller.annulus.along_angle=[{ to = -89.0, cells = 5 }, { to = 0.0, cells = 8, smooth = true }]",
@@ -143,6 +147,74 @@ fn multipliers_are_part_of_the_state() {
     let mut twice = model;
     twice.problem.newton.rehearse = true;
     assert!(whole == all_bytes(&run(&twice)));
+}
+
+/// Penetrations at the nodes of every increment, and the largest difference of the mean pressures of both sides.
+fn nodal(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> [f64; 2] {
+    let column = |what: &str| columns.get(&format!("contact.{name}.{what}"));
+    let most = |what: &str| column(what).into_iter().flatten().copied().fold(0.0, f64::max);
+    [most("nodal_penetration"), most("mismatch")]
+}
+
+/// Two passes, in the plane and in space: the target's side follows the surface's multipliers, so that pressure and
+/// counter-pressure stay equal where they were.
+#[test]
+fn two_passes_share_their_multipliers() {
+    for deck in [FLUSH, FLUSH_BOX] {
+        let model = model(deck, &["contact.joint.augmentation={}", "contact.joint.penalty=2e3"]);
+        let keep = run(&model);
+        assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none() && attempt.augmentations() > 0));
+        let [left, mismatch] = nodal(&columns(&model, &keep), "joint");
+        assert!(left <= 1e-6 && mismatch < 1e-9, "{left} {mismatch}");
+    }
+}
+
+/// Pressed and sheared between rough plates, where stresses peak at the corners: the penalty no longer matters, and two
+/// passes bear what one bears.
+#[test]
+fn two_passes_do_without_their_penalty() {
+    let step = r#"
+[[step]]
+increments.count = 2
+displacement."foundation.bottom" = { x = 0.0, y = 0.0 }
+displacement."punch.top" = { x = 0.002, y = -0.01 }
+"#;
+    let deck = FLUSH.split("[[step]]").next().unwrap_or_default().to_owned() + step;
+    let pressed = |passes: &str, penalty: &str| {
+        let augmented = "contact.joint.augmentation={ penetration = 1e-4, slip = 1e-4, loops = 60 }";
+        let more = ["contact.joint.law.coulomb.friction=0.3", "solver.tolerance=1e-8", augmented, passes, penalty];
+        let model = model(&deck, &more);
+        let keep = run(&model);
+        assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
+        columns(&model, &keep)
+    };
+    let (two, soft) = (
+        pressed("contact.joint.passes=two", "contact.joint.penalty=1e4"),
+        pressed("contact.joint.passes=two", "contact.joint.penalty=3e3"),
+    );
+    let one = pressed("contact.joint.passes=one", "contact.joint.penalty=1e4");
+    let [left, mismatch] = nodal(&two, "joint");
+    assert!(left <= 1e-4 && mismatch < 0.02, "{left} {mismatch}");
+    let thrust = |columns| last(columns, "contact.joint.thrust");
+    let (of_soft, of_one) = (thrust(&soft) / thrust(&two) - 1.0, thrust(&one) / thrust(&two) - 1.0);
+    assert!(of_soft.abs() < 5e-3 && of_one.abs() < 1e-2, "{of_soft} {of_one}");
+}
+
+/// A ring that touches itself is twice its half on a plane, with multipliers as without, and whatever the penalty.
+#[test]
+fn a_surface_that_touches_itself_is_augmented() {
+    let crushed = |deck: &str, sets: [&str; 2]| {
+        let model = model(deck, &["contact.bore.augmentation={ loops = 60 }", sets[0], sets[1]]);
+        let keep = run(&model);
+        assert!(keep.attempts.iter().any(|attempt| attempt.augmentations() > 0));
+        columns(&model, &keep)
+    };
+    let ring = |penalty: &str| crushed(RING, ["mesh.part.ring.annulus.cells=[1, 192]", penalty]);
+    let (stiff, soft) = (ring("contact.bore.penalty=1e4"), ring("contact.bore.penalty=3e3"));
+    assert!([&stiff, &soft].into_iter().all(|columns| nodal(columns, "bore")[0] <= 1e-6));
+    let half = crushed(HALF, ["mesh.part.ring.annulus.cells=[1, 96]", "contact.bore.penalty=2e4"]);
+    let [force, soft, half] = [&stiff, &soft, &half].map(|columns| last(columns, "reaction.top.y"));
+    assert!((force / half - 1.0).abs() < 1e-4 && (soft / force - 1.0).abs() < 2e-3, "{force} {half} {soft}");
 }
 
 /// In space.

@@ -1,106 +1,36 @@
 //! Contact points in space: their tangents against differences on faces of every kind over targets of every kind, and
 //! their indifference to a rotation of everything.
 
+mod cubes;
 mod perturbed;
 
-use asperity::contact::space::{Contact, Parts, Rigid, Surface, Target};
-use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Overlap};
+use asperity::contact::ContactForm;
+use asperity::contact::space::{Contact, Rigid};
 use asperity::deck::{build, read};
-use asperity::interface::{Law, laws::Coulomb};
-use asperity::mesh::{Cell, generate::Block};
+use asperity::interface::laws::Coulomb;
 use asperity::output::{Job, Start, simulate};
 use asperity::solve::{RunOptions, Silent, Stop};
 use asperity::system::{Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
-use asperity::tool::shapes;
-use asperity::tool::space::solids::{Facets, cone, extruded, polygons, sphere, torus};
-use asperity::tool::space::{Frame, Pose, Tool};
+use asperity::tool::space::Pose;
+use cubes::{at, motion};
 use perturbed::{Random, check, commit, instant, state};
 use std::path::Path;
-use std::sync::Arc;
 
 /// Largest difference of an entry over the largest entry.
 const ALLOWED: f64 = 1e-7;
 
-fn at(x: f64, y: f64, z: f64) -> Vec3 {
-    Vec3::new(x, y, z)
-}
-
-/// Something of the target's kind whose highest place is near the middle of the unit square `z = 0`.
-fn target(kind: &str) -> Facets {
-    let corners = [at(-3.0, -3.0, -0.2), at(4.0, -3.0, 0.1), at(4.0, 4.0, -0.1), at(-3.0, 4.0, 0.2)];
-    match kind {
-        "triangle" => polygons([vec![at(-4.0, -4.0, -0.1), at(6.0, -4.0, 0.1), at(0.5, 7.0, 0.0)]]).unwrap(),
-        "quad" => polygons([corners.to_vec()]).unwrap(),
-        "sphere" => sphere(at(0.5, 0.4, -4.0), 4.0).unwrap(),
-        "cone" => cone(at(-5.0, 0.5, -3.0), at(6.0, 0.6, -3.0), [2.8, 3.2], 0.0).unwrap(),
-        "torus" => torus(at(0.5, 0.4, -5.0), at(0.1, 1.0, 0.1), 3.0, 2.0).unwrap(),
-        _ => {
-            let nodes = [at(4.0, -0.3, 0.0), at(0.5, -0.02, 0.0), at(-3.0, -0.3, 0.0)];
-            let shape = shapes::find(kind).unwrap().build(&nodes).unwrap();
-            let frame = Frame::across(at(0.0, 4.0, 0.0), at(0.0, -1.0, 0.01), at(1.0, 0.0, 0.0)).unwrap();
-            extruded(vec![shape], frame, 8.0)
-        }
-    }
-}
-
-/// A contact of the lower faces of a bent unit cube with a target below it, its tool free to move.
+/// A contact of a single cell with Coulomb friction.
 fn contact(cell: &str, kind: &str) -> (Contact, Dofs) {
     with_friction(cell, kind, 0.4)
 }
 
 fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
-    let mut mesh = Block::new([0.0; 3], [1.0; 3], [1; 3], Cell::named(cell).unwrap()).mesh("b").unwrap();
-    for x in &mut mesh.points {
-        let [a, b, c] = x.0;
-        *x += at(0.1 * a * b, 0.15 * b * (1.0 - a), 0.04 * a * (1.0 - b) * (1.0 - c));
-    }
-    let dofs = Dofs::new(3, mesh.points.len(), 1);
-    let mesh = Arc::new(mesh);
-    let tool = Arc::new(Tool::new("t", target(kind), at(0.5, 0.3, -1.0)));
-    let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
-    let lower = mesh.groups["b.back"].sides.clone();
-    let options = ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 1.0,
-        loads: Loads::Both,
-        coupling: true,
-        guard: Guard::Refuse,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-    };
-    let parts = Parts {
-        name: "c".into(),
-        surface: Surface::new(&mesh, &lower, None),
-        mesh,
-        dofs: dofs.clone(),
-        boundary,
-        target: Target::tool(tool, 0, &dofs),
-        law: Arc::new(Law(Coulomb::new(friction))),
-        options,
-    };
-    (Contact::new(parts), dofs)
+    cubes::contact((cell, 1), kind, Coulomb::new(friction), ContactForm::Traction)
 }
 
 fn rigid(contact: &Contact) -> &Rigid {
     contact.target().as_tool().unwrap()
-}
-
-/// Random motion: the cube by up to a tenth and downwards, its nodes and the tool by a little.
-fn motion(dofs: &Dofs, random: &mut Random) -> Vec<f64> {
-    let (right, back, down) = (0.06 * random.next(), 0.06 * random.next(), -0.08 - 0.1 * random.next());
-    let mut u = vec![0.0; dofs.count()];
-    for node in 0..dofs.nodes() {
-        for (axis, by) in [right, back, down].into_iter().enumerate() {
-            u[dofs.node(node) + axis] = by + 0.01 * random.next();
-        }
-    }
-    let tool = dofs.tool(0);
-    (tool..tool + 6).for_each(|dof| u[dof] = 0.03 * random.next());
-    u
 }
 
 /// A pressure of some steps of the differences, times the penalty.

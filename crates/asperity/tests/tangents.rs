@@ -5,7 +5,9 @@
 mod perturbed;
 
 use asperity::Failure;
-use asperity::contact::{Augmentation, Contact, ContactForm, ContactOptions, Guard, Loads, Overlap, Surface, Target};
+use asperity::contact::{
+    Augmentation, Contact, ContactForm, ContactOptions, Guard, Loads, Overlap, Role, Surface, Target,
+};
 use asperity::declare::find;
 use asperity::interface::{
     Law,
@@ -19,7 +21,7 @@ use asperity::solid::{Body, BodyOptions, Formulation, Integration};
 use asperity::system::{Attempt, Branch, Dofs, Local, Stencil, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::{Tool, shapes};
-use perturbed::{Random, check, commit, instant, state};
+use perturbed::{Random, check, commit, gradient_error, instant, state};
 use std::sync::Arc;
 
 /// Largest difference of an entry over the largest entry.
@@ -99,7 +101,7 @@ fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
 }
 
 fn augmented(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
-    let augmentation = Augmentation { penetration: 1e-9, slip: 1e-9, loops: 3 };
+    let augmentation = Augmentation { penetration: 1e-9, slip: 1e-9, loops: 3, role: Role::Leads };
     contact_with((cell, shape), space, 0.4, |options| options.augmentation = Some(augmentation))
 }
 
@@ -276,39 +278,6 @@ fn the_variational_form_has_a_potential() {
         });
         assert!(potential < ALLOWED && traction > 1e-3, "{space:?}: {potential:.1e} {traction:.1e}");
     }
-}
-
-/// Largest difference of forces and central differences of the stored energy over the largest force, over all closed
-/// points without shear.
-fn gradient_error(attempt: &dyn Attempt, u: &[f64]) -> f64 {
-    let (mut stencils, mut worst) = (Stencils::default(), 0.0_f64);
-    attempt.stencils(u, &mut stencils).unwrap();
-    for (i, stencil) in stencils.list.iter().enumerate() {
-        let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
-        let (mut local, mut history) = (Local::default(), attempt.scratch(i));
-        let mut at = |u: Vec<f64>| {
-            local.u = u;
-            local.reset(stencil.len);
-            let branch = attempt.evaluate(i, stencil, &mut history, &mut local).unwrap();
-            (branch, local.stored, local.force.clone())
-        };
-        let (branch, _, force) = at(here.clone());
-        if branch == 0 {
-            continue;
-        }
-        let largest = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        for (k, force) in force.iter().enumerate() {
-            let mut slope = |h: f64| {
-                let moved = |h: f64| here.iter().enumerate().map(|(j, u)| u + if j == k { h } else { 0.0 }).collect();
-                let (one, other) = (at(moved(h)), at(moved(-h)));
-                (one.0 == branch && other.0 == branch).then(|| (one.1 - other.1) / (2.0 * h))
-            };
-            if let (Some(coarse), Some(fine)) = (slope(2e-4), slope(1e-4)) {
-                worst = worst.max(((4.0 * fine - coarse) / 3.0 - force).abs() / largest);
-            }
-        }
-    }
-    worst
 }
 
 /// A strip of three cells on a slanted line, with friction by the mean pressure within a radius.

@@ -8,6 +8,7 @@
 //! exceeds its tolerance (Hestenes 1969; Simo & Laursen, Comput. Struct. 42, 1992). A law never learns of it.
 //! The closures last from increment to increment. The slips begin at zero, since the shear stress itself is remembered.
 
+use super::partner::Role;
 use crate::Failure;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -21,6 +22,8 @@ pub struct Augmentation {
     pub slip: f64,
     /// Most augmentations of an attempt.
     pub loops: usize,
+    /// Whose multipliers these are.
+    pub role: Role,
 }
 
 /// Most corners of a face.
@@ -29,8 +32,10 @@ const MOST: usize = 4;
 /// The corners of a surface, numbered among themselves.
 #[derive(Debug, Clone, Default)]
 pub struct Corners {
-    sizes: Vec<f64>,
-    spreads: Vec<Spread>,
+    pub(super) sizes: Vec<f64>,
+    pub(super) spreads: Vec<Spread>,
+    /// The corners of each face, and how many there are.
+    places: Vec<([usize; MOST], usize)>,
 }
 
 /// The corners around a contact point and their functions there; of an edge the last two are none.
@@ -122,12 +127,15 @@ impl Corners {
             }
             places.push((corners, nodes.len()));
         }
-        let spread = |(face, at): (usize, [f64; 2])| {
-            let (corners, count) = places[face];
-            Spread { corners, functions: functions(count, at) }
-        };
-        let spreads = points.map(spread).collect();
-        Self { sizes, spreads }
+        let mut all = Self { sizes, spreads: Vec::new(), places };
+        all.spreads = points.map(|(face, at)| all.spread(face, at)).collect();
+        all
+    }
+
+    /// The corners around a place of a face, and their functions there.
+    pub(super) fn spread(&self, face: usize, at: [f64; 2]) -> Spread {
+        let (corners, count) = self.places[face];
+        Spread { corners, functions: functions(count, at) }
     }
 
     /// Number of corners.
@@ -137,12 +145,7 @@ impl Corners {
 
     /// What multipliers stand for at a point.
     pub fn at(&self, point: usize, shifts: &[Shift]) -> Shift {
-        let mut here = Shift::default();
-        for (corner, function) in self.spreads[point].iter() {
-            here.closure += function * shifts[corner].closure;
-            here.slip += shifts[corner].slip * function;
-        }
-        here
+        self.spreads[point].of(shifts)
     }
 
     /// Improves multipliers by what the points report, and says what was left. Points that see no target have none.
@@ -163,7 +166,17 @@ impl Corners {
 }
 
 impl Spread {
-    fn iter(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    /// What multipliers of the corners stand for.
+    pub(super) fn of(&self, shifts: &[Shift]) -> Shift {
+        let mut here = Shift::default();
+        for (corner, function) in self.iter() {
+            here.closure += function * shifts[corner].closure;
+            here.slip += shifts[corner].slip * function;
+        }
+        here
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.corners.into_iter().zip(self.functions).filter(|(_, function)| *function != 0.0)
     }
 }

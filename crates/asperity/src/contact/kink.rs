@@ -36,23 +36,32 @@ impl OpenContact<'_> {
     }
 }
 
-/// The same where friction goes by the mean pressure around the point: over penetration, slip, and the penetration that
-/// the mean stands for, to which no stress of its own belongs.
-pub(super) fn answer_by_mean(law: &dyn Interface, past: &Past, least: f64, y: &Coordinates) -> Result<Answer, Failure> {
-    let mut whole = answer(law, past, least, &[y[0], y[1], 0.0])?;
-    if y[0] <= law.opens(past, [y[1], 0.0]) + least {
+/// The same where friction goes by the mean pressure around the point: over penetration, `slips` slips, and the
+/// penetration that the mean stands for, to which no stress of its own belongs.
+pub(in crate::contact) fn answer_by_mean(
+    law: &dyn Interface,
+    past: &Past,
+    (least, slips): (f64, usize),
+    y: &Coordinates,
+) -> Result<Answer, Failure> {
+    let (mut local, mean) = (*y, slips + 1);
+    local[mean] = 0.0;
+    let mut whole = answer(law, past, least, &local)?;
+    if y[0] <= law.opens(past, [local[1], local[2]]) + least {
         return Ok(whole);
     }
     let touch = law.touch(past);
     let part = in_contact(Dual::<8>::variable(y[0] - least, 0) - touch, past.penetration - touch);
-    let slip = Dual::variable(y[1], 1) * part;
-    let motion = Motion { penetration: Dual::variable(y[2], 2), slip: [slip, Dual::zero()] };
+    let slip = [1, 2].map(|i| Dual::variable(local[i], i) * part);
+    let motion = Motion { penetration: Dual::variable(y[mean], mean), slip };
     let past = Past { penetration: past.penetration.max(touch), ..*past };
     let mut vars = past.vars.to_vec();
-    let shear = law.respond_plane(&motion, &past, &mut vars)?.shear[0];
-    (whole.stress[1], whole.stress[2]) = (shear.re(), 0.0);
-    whole.slopes[1].copy_from_slice(&shear.du[..COORDINATES]);
-    whole.slopes[2] = [0.0; COORDINATES];
+    let shear = law.respond_plane(&motion, &past, &mut vars)?.shear;
+    for (i, shear) in shear.iter().enumerate().take(slips) {
+        whole.stress[i + 1] = shear.re();
+        whole.slopes[i + 1].copy_from_slice(&shear.du[..COORDINATES]);
+    }
+    (whole.stress[mean], whole.slopes[mean]) = (0.0, [0.0; COORDINATES]);
     Ok(whole)
 }
 

@@ -1,5 +1,5 @@
 //! Friction by a pressure that is a mean over the neighbourhood of a point (Oden and Pires, J. Appl. Mech. 50, 1983), with
-//! a tool in the plane: `S = sum_j w_j A_j p_j / sum_j w_j A_j`, `w = exp(1 / ((r / rho)^2 - 1))` within the radius `rho`
+//! a tool: `S = sum_j w_j A_j p_j / sum_j w_j A_j`, `w = exp(1 / ((r / rho)^2 - 1))` within the radius `rho`
 //! on the undeformed surface.
 //!
 //! The pressures `p_j = K_p <u_j>` are those at the trial displacements, never those of the last iterate: a point casts
@@ -10,11 +10,11 @@ use super::geometry::Geometry;
 use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::triad;
-use super::surface::{MAX_EDGE_NODES, Surface};
+use super::seed::Ask;
+use super::surface::MAX_EDGE_NODES;
 use super::target::{Cast, Memory};
 use crate::Failure;
 use crate::interface::{Interface, Motion, Past, Response};
-use crate::mesh::Mesh;
 use crate::system::Local;
 use crate::tensor::{Dual, Vec3};
 use crate::tool::Ray;
@@ -25,8 +25,8 @@ use std::ops::Range;
 pub struct Neighbours {
     /// For each point its neighbours, itself among them, and their parts of the mean.
     parts: Vec<Vec<(usize, f64)>>,
-    /// For each point the other edges on which they lie.
-    edges: Vec<Vec<usize>>,
+    /// For each point the other edges or faces on which they lie.
+    others: Vec<Vec<usize>>,
 }
 
 /// A mean pressure and its derivatives along all unknowns of a stencil.
@@ -38,14 +38,8 @@ pub struct Mean {
 }
 
 impl Neighbours {
-    /// Within `radius` on an undeformed surface.
-    pub fn new(mesh: &Mesh, surface: &Surface, radius: f64, area: impl Fn(usize) -> f64) -> Self {
-        let place = |i: usize| {
-            let point = &surface.points[i];
-            let x: Vec<Vec3> = surface.nodes(point).iter().map(|&node| mesh.points[node]).collect();
-            point.place(&x).0
-        };
-        let places: Vec<Vec3> = (0..surface.points.len()).map(place).collect();
+    /// Within `radius` of points with these places on the undeformed surface, each on one of its edges or faces.
+    pub fn new(places: &[Vec3], on: impl Fn(usize) -> usize, radius: f64, area: impl Fn(usize) -> f64) -> Self {
         let weight = |i: usize, j: usize| {
             let part = ((places[i] - places[j]).norm() / radius).powi(2);
             if part < 1.0 { (1.0 / (part - 1.0)).exp() * area(j) } else { 0.0 }
@@ -54,11 +48,10 @@ impl Neighbours {
         for i in 0..places.len() {
             let near: Vec<_> = (0..places.len()).map(|j| (j, weight(i, j))).filter(|(_, w)| *w > 0.0).collect();
             let sum: f64 = near.iter().map(|(_, w)| w).sum();
-            let mut edges: Vec<usize> = near.iter().map(|&(j, _)| surface.points[j].edge).collect();
-            edges.dedup();
-            edges.retain(|&edge| edge != surface.points[i].edge);
+            let mut others: Vec<usize> = near.iter().map(|&(j, _)| on(j)).filter(|&other| other != on(i)).collect();
+            others.dedup();
             neighbours.parts.push(near.into_iter().map(|(j, w)| (j, w / sum)).collect());
-            neighbours.edges.push(edges);
+            neighbours.others.push(others);
         }
         neighbours
     }
@@ -67,12 +60,22 @@ impl Neighbours {
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
+
+    /// The neighbours of a point and their parts of the mean; none where friction is local.
+    pub fn of(&self, point: usize) -> Option<&[(usize, f64)]> {
+        self.parts.get(point).map(Vec::as_slice)
+    }
+
+    /// The edges or faces of a point's neighbours, but for its own.
+    pub fn others(&self, point: usize) -> &[usize] {
+        self.others.get(point).map_or(&[], Vec::as_slice)
+    }
 }
 
 impl Contact {
     /// Appends the unknowns of the edges around a point.
     pub(super) fn unknowns_around(&self, index: usize, out: &mut Vec<usize>) {
-        for &edge in self.neighbours.edges.get(index).into_iter().flatten() {
+        for &edge in self.neighbours.others(index) {
             let nodes = &self.surface.edges[edge].nodes;
             out.extend(nodes.iter().flat_map(|&node| [0, 1].map(|axis| self.dofs.node(node) + axis)));
         }
@@ -82,8 +85,7 @@ impl Contact {
 impl OpenContact<'_> {
     /// The mean pressure around a point for values `u` of its unknowns; none where friction is local.
     pub(super) fn mean_pressure(&self, index: usize, g: &Geometry, u: &[f64]) -> Option<Mean> {
-        let contact = self.contact;
-        let parts = contact.neighbours.parts.get(index)?;
+        let parts = self.contact.neighbours.of(index)?;
         let mut mean = Mean { pressure: 0.0, slopes: vec![0.0; u.len()] };
         let mut memory = Memory::default();
         for &(point, part) in parts {
@@ -100,7 +102,7 @@ impl OpenContact<'_> {
         if edge == surface.points[index].edge {
             return 0..g.layout.own;
         }
-        for &other in &self.contact.neighbours.edges[index] {
+        for &other in self.contact.neighbours.others(index) {
             let len = 2 * surface.edges[other].nodes.len();
             if other == edge {
                 return start..start + len;
@@ -175,9 +177,20 @@ impl OpenContact<'_> {
     }
 }
 
-/// The pressure of one answer of a law, all else of another.
-pub fn with_pressure<T>(local: Response<T>, mean: Response<T>) -> Response<T> {
-    Response { pressure: local.pressure, closure: local.closure, ..mean }
+/// The answer of a law, its friction that of the mean pressure `by` where there is one.
+///
+/// # Errors
+/// As the law.
+pub fn ask<const N: usize, T: Ask<N>>(
+    (law, by): (&dyn Interface, Option<f64>),
+    motion: &Motion<T>,
+    past: &Past,
+    vars: &mut [f64],
+) -> Result<Response<T>, Failure> {
+    let local = T::ask(law, motion, past, vars)?;
+    let Some(mean) = by else { return Ok(local) };
+    let mean = T::ask(law, &Motion { penetration: T::from(mean / past.penalty), ..*motion }, past, vars)?;
+    Ok(Response { pressure: local.pressure, closure: local.closure, ..mean })
 }
 
 /// The radius of a law, if it is not local.

@@ -4,16 +4,16 @@ use super::augment::Shift;
 use super::capture::{refuse_jump, refuse_turn};
 use super::geometry::{DIRECTIONS, Geometry};
 use super::kink::{answer, answer_by_mean};
-use super::nonlocal::with_pressure;
+use super::nonlocal;
 use super::pair::Contact;
 use super::point::{self, Constants, Place};
 use super::record::{entry, leave, stresses, write};
-use super::seed::Seed;
+use super::seed::{Ask, Seed};
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
 use super::variational::ContactForm;
 use crate::Failure;
-use crate::interface::{Interface, Motion, Past, Response};
+use crate::interface::{Past, Response};
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
@@ -115,11 +115,19 @@ impl Attempt for OpenContact<'_> {
         if self.contact.neighbours.is_empty() {
             return answer(law, &past, self.contact.least, y);
         }
-        answer_by_mean(law, &past, self.contact.least, y)
+        answer_by_mean(law, &past, (self.contact.least, 1), y)
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
         self.improve(u, new)
+    }
+
+    fn multipliers(&self) -> Vec<[f64; 4]> {
+        self.shifts.iter().map(Shift::numbers).collect()
+    }
+
+    fn follow(&mut self, leading: &[[f64; 4]], u: &[f64], new: &History) -> bool {
+        self.take_up(leading, u, new)
     }
 }
 
@@ -127,30 +135,8 @@ pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, direction: usize) -> Vec3<T> {
     Vec3([T::seed(v[0], direction), T::seed(v[1], direction + 1), T::zero()])
 }
 
-/// Numbers that a law in the plane answers.
-trait Ask: Seed<DIRECTIONS> {
-    fn ask(
-        law: &dyn Interface,
-        motion: &Motion<Self>,
-        past: &Past,
-        vars: &mut [f64],
-    ) -> Result<Response<Self>, Failure>;
-}
-
-impl Ask for f64 {
-    fn ask(law: &dyn Interface, motion: &Motion<f64>, past: &Past, vars: &mut [f64]) -> Result<Response<f64>, Failure> {
-        law.respond(motion, past, vars)
-    }
-}
-
-impl Ask for D {
-    fn ask(law: &dyn Interface, motion: &Motion<D>, past: &Past, vars: &mut [f64]) -> Result<Response<D>, Failure> {
-        law.respond_plane(motion, past, vars)
-    }
-}
-
 impl OpenContact<'_> {
-    fn evaluate_over<T: Ask>(
+    fn evaluate_over<T: Ask<DIRECTIONS>>(
         &self,
         (index, stencil): (usize, &Stencil),
         geometry: &Geometry,
@@ -184,12 +170,9 @@ impl OpenContact<'_> {
         new[entry::CLOSURE] = constants.closure;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let mean = self.mean_pressure(index, g, &local.u);
+        let by = mean.as_ref().map(|mean| mean.pressure);
         let (_, closed) = point::evaluate(&place, &constants, |motion| {
-            let answer = T::ask(&*contact.law, motion, &past, &mut new[entry::COUNT..])?;
-            let Some(mean) = &mean else { return Ok(answer) };
-            let motion = Motion { penetration: T::from(mean.pressure / past.penalty), ..*motion };
-            let mean = T::ask(&*contact.law, &motion, &past, &mut new[entry::COUNT..])?;
-            Ok(with_pressure(answer, mean))
+            nonlocal::ask((&*contact.law, by), motion, &past, &mut new[entry::COUNT..])
         })?;
         let Some(closed) = closed else {
             leave(&*self.contact.law, self.history.slot(index), new);

@@ -1,6 +1,6 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
-use super::augment::{Corners, closures_alone};
+use super::augment::Corners;
 use super::capture::{depths, positions};
 use super::faces::Faces;
 use super::guard;
@@ -12,7 +12,6 @@ use super::record::{PointRecord, PointStatus, entry, variables};
 use super::search::relatives;
 use super::surface::{Edge, MAX_EDGE_NODES, Surface, SurfacePoint};
 use super::target::Target;
-use super::variational::ContactForm;
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
@@ -44,6 +43,8 @@ pub struct Contact {
     pub(super) longest: f64,
     /// The corners that carry multipliers; none without augmentation.
     pub(super) corners: Corners,
+    /// Those of a target that deforms.
+    pub(super) opposite: Corners,
     /// The points around each point, where the law is not local.
     pub(super) neighbours: Neighbours,
 }
@@ -60,7 +61,7 @@ impl Contact {
         let faces = target.as_faces().map_or(&[][..], Faces::edges);
         let relatives = relatives(surface.edges.iter().map(|edge| &edge.nodes), faces.iter().map(|edge| &edge.nodes));
         let (name, least, longest) = (name.into(), 0.0, 0.0);
-        let (corners, neighbours) = (Corners::default(), Neighbours::default());
+        let (corners, opposite, neighbours) = (Corners::default(), Corners::default(), Neighbours::default());
         let mut contact = Self {
             name,
             mesh,
@@ -75,6 +76,7 @@ impl Contact {
             relatives,
             longest,
             corners,
+            opposite,
             neighbours,
         };
         let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
@@ -89,10 +91,11 @@ impl Contact {
         contact.least = CLOSED * shortest;
         if options.augmentation.is_some() {
             contact.corners = contact.corners_of_edges();
+            contact.opposite = contact.corners_of_target();
         }
         if let Some(radius) = radius(&*contact.law) {
-            let area = |i| contact.undeformed_area(i);
-            contact.neighbours = Neighbours::new(&contact.mesh, &contact.surface, radius, area);
+            let (places, edge) = (contact.undeformed_places(), |i: usize| contact.surface.points[i].edge);
+            contact.neighbours = Neighbours::new(&places, edge, radius, |i| contact.undeformed_area(i));
         }
         contact
     }
@@ -150,33 +153,10 @@ impl Contact {
         self.thickness() * point.weight * tangent.norm() * around
     }
 
-    /// The same before any motion.
-    pub(super) fn undeformed_area(&self, index: usize) -> f64 {
-        let point = &self.surface.points[index];
-        let x: Vec<Vec3> = self.surface.nodes(point).iter().map(|&node| self.mesh.points[node]).collect();
-        let (a, tangent) = point.place(&x);
-        self.area(point, a, tangent)
-    }
-
-    /// Area over which the stresses of a point act.
-    pub(super) fn acting_area(&self, index: usize, point: &SurfacePoint, (a, tangent): (Vec3, Vec3)) -> f64 {
-        match self.options.form {
-            ContactForm::Traction => self.area(point, a, tangent),
-            ContactForm::Variational => self.undeformed_area(index),
-        }
-    }
-
-    /// Direction in which a unit of pressure acts at a point in an accepted state.
-    fn thrust(&self, values: &[f64], u: &[f64], ray: Ray) -> Vec3 {
-        if self.options.form == ContactForm::Traction || values[entry::SEGMENT] < 0.0 {
-            return ray.direction;
-        }
-        let (segment, near) = (values[entry::SEGMENT] as usize, [values[entry::S], values[entry::S2]]);
-        let mut dofs = Vec::new();
-        self.target.unknowns(segment, &mut dofs);
-        let own: Vec<f64> = dofs.iter().map(|&dof| u[dof]).collect();
-        let normal = self.target.meet(segment, &own, &ray, near).map_or(ray.direction, |hit| hit.normal);
-        normal * normal.dot(ray.direction).recip()
+    /// Places of all points before any motion.
+    fn undeformed_places(&self) -> Vec<Vec3> {
+        let still = vec![0.0; self.dofs.count()];
+        self.surface.points.iter().map(|point| self.locate(point, &still).0).collect()
     }
 
     pub(super) fn thickness(&self) -> f64 {
@@ -270,7 +250,7 @@ impl Term for Contact {
             depths,
             reach,
             ahead: ahead(accepted, at.dt),
-            shifts: closures_alone(self.closures(history)),
+            shifts: self.begun(&accepted.u, history),
             augmented: 0,
             settled: self.options.overlap.settled(at),
             dt: at.dt,

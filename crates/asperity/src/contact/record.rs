@@ -2,6 +2,7 @@
 
 use super::ContactOptions;
 use crate::interface::{Interface, MOST_VARIABLES, Past, Response};
+use crate::system::Coordinates;
 use crate::tensor::{Scalar, Vec3};
 
 /// Places of the values in a point's history; the law's own variables follow.
@@ -50,9 +51,9 @@ pub mod entry {
     pub const COUNT: usize = 20;
 }
 
-/// Pressure and shear stresses.
-pub fn stresses(values: &[f64]) -> [f64; 3] {
-    [entry::PRESSURE, entry::SHEAR, entry::SHEAR2].map(|place| values[place])
+/// Pressure and shear stresses over the coordinates of a point; the last of these has none.
+pub fn stresses(values: &[f64]) -> Coordinates {
+    [values[entry::PRESSURE], values[entry::SHEAR], values[entry::SHEAR2], 0.0]
 }
 
 /// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.

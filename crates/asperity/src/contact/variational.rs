@@ -1,4 +1,4 @@
-//! The variational form of contact with a tool in the plane: forces that are the gradient of a potential.
+//! The variational form of contact with a tool, here in the plane: forces that are the gradient of a potential.
 //!
 //! The paper's force `p e_R` along the normal of the strained surface is not conservative. Here pressure and shear do
 //! their work on the rates of penetration and slip themselves, over the undeformed area: `F = A_0 (p du/dq + tau ds/dq)`.
@@ -10,11 +10,15 @@
 
 use super::geometry::{Geometry, MAX_DOFS};
 use super::open::{D, OpenContact, seed};
+use super::pair::Contact;
 use super::point::{Closed, acting, triad};
+use super::record::entry;
 use super::seed::Seed;
+use super::surface::SurfacePoint;
 use crate::Failure;
 use crate::system::{Local, Stencil};
-use crate::tensor::Scalar;
+use crate::tensor::{Scalar, Vec3};
+use crate::tool::Ray;
 
 /// How the stresses of a point become forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,10 +30,41 @@ pub enum ContactForm {
 }
 
 /// Step of the differences, as a part of the edge's length or in radians.
-const STEP: f64 = 1e-5;
+pub const STEP: f64 = 1e-5;
 
 /// Rates of penetration and slip along the unknowns of a stencil.
 pub type Rates = [[f64; MAX_DOFS]; 2];
+
+impl Contact {
+    /// Area that a point stands for before any motion.
+    pub(super) fn undeformed_area(&self, index: usize) -> f64 {
+        let point = &self.surface.points[index];
+        let x: Vec<Vec3> = self.surface.nodes(point).iter().map(|&node| self.mesh.points[node]).collect();
+        let (a, tangent) = point.place(&x);
+        self.area(point, a, tangent)
+    }
+
+    /// Area over which the stresses of a point act.
+    pub(super) fn acting_area(&self, index: usize, point: &SurfacePoint, (a, tangent): (Vec3, Vec3)) -> f64 {
+        match self.options.form {
+            ContactForm::Traction => self.area(point, a, tangent),
+            ContactForm::Variational => self.undeformed_area(index),
+        }
+    }
+
+    /// Direction in which a unit of pressure acts at a point in an accepted state.
+    pub(super) fn thrust(&self, values: &[f64], u: &[f64], ray: Ray) -> Vec3 {
+        if self.options.form == ContactForm::Traction || values[entry::SEGMENT] < 0.0 {
+            return ray.direction;
+        }
+        let (segment, near) = (values[entry::SEGMENT] as usize, [values[entry::S], values[entry::S2]]);
+        let mut dofs = Vec::new();
+        self.target.unknowns(segment, &mut dofs);
+        let own: Vec<f64> = dofs.iter().map(|&dof| u[dof]).collect();
+        let normal = self.target.meet(segment, &own, &ray, near).map_or(ray.direction, |hit| hit.normal);
+        normal * normal.dot(ray.direction).recip()
+    }
+}
 
 impl OpenContact<'_> {
     /// Penetration and slip of a point, with their rates along its unknowns `u`.

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 /// Most coordinates of a stencil.
-pub const COORDINATES: usize = 3;
+pub const COORDINATES: usize = 4;
 
 /// Coordinates, or stresses over them; those that a stencil does not have are zero.
 pub type Coordinates = [f64; COORDINATES];
@@ -121,8 +121,8 @@ mod tests {
         kinks.end();
         kinks.end();
         let [_, kink] = kinks.list() else { panic!("two have coordinates") };
-        assert_eq!((kink.stencil, kink.count, kink.y), (9, 2, [0.1, 0.2, 0.0]));
-        assert_eq!(kinks.along(kink, &[0.0, 3.0, 0.0, 2.0, 0.0]), [1.0, 1.5, 0.0]);
+        assert_eq!((kink.stencil, kink.count, kink.y), (9, 2, [0.1, 0.2, 0.0, 0.0]));
+        assert_eq!(kinks.along(kink, &[0.0, 3.0, 0.0, 2.0, 0.0]), [1.0, 1.5, 0.0, 0.0]);
         let mut forces = [0.0; 5];
         kinks.push(kink, 1, 2.0, &mut forces);
         assert_eq!(forces, [0.0, 60.0, 0.0, 80.0, 0.0]);

@@ -220,6 +220,15 @@ pub trait Attempt: Send + Sync {
     fn augment(&mut self, _u: &[f64], _new: &mut History) -> Result<bool, Failure> {
         Ok(false)
     }
+    /// Multipliers that the term behind this one may follow: a closure and a slip each.
+    fn multipliers(&self) -> Vec<[f64; 4]> {
+        Vec::new()
+    }
+    /// Takes up the multipliers of the term before this one when the iterations have converged at `u`, and says whether
+    /// they must go on. `new` is the term's history there.
+    fn follow(&mut self, _leading: &[[f64; 4]], _u: &[f64], _new: &History) -> bool {
+        false
+    }
     /// Stresses of a stencil that bends in the accepted state.
     fn before(&self, _stencil: usize) -> Coordinates {
         Coordinates::default()

@@ -62,6 +62,7 @@ impl OpenContact<'_> {
         if let Some(faces) = parts.target.as_faces() {
             out.extend(Border::of(stencil).list().flat_map(|node| faces.unknowns_of(node)));
         }
+        self.contact.unknowns_around(index, out);
     }
 
     fn layout(&self, index: usize, stencil: &Stencil, segment: usize) -> Layout {
@@ -145,7 +146,7 @@ impl OpenContact<'_> {
 
     /// Adds the forces of a closed point and their derivatives by the chain rule.
     pub(super) fn add<T: Seed<DIRECTIONS>>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
-        let (n, hit) = (local.force.len(), g.layout.hit.clone());
+        let (n, hit, count) = (local.force.len(), g.layout.hit.clone(), g.layout.count());
         let forces = self.rows::<f64>((g, &local.u), (closed.hit.re(), g.place.b), closed.force);
         local.force.iter_mut().zip(&forces).for_each(|(force, row)| *force += row);
         if !local.wants_tangent {
@@ -156,7 +157,7 @@ impl OpenContact<'_> {
         // Nothing acts on what was touched.
         for (i, row) in rows[..hit.end].iter().enumerate() {
             let slopes = row.slopes();
-            for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns[..n]) {
+            for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns[..count]) {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }

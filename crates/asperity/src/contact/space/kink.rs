@@ -1,25 +1,36 @@
 //! Penetration and the two slips of a point in space as the coordinates over which its forces bend.
 
-use super::geometry::{DIRECTIONS, Geometry};
-use super::open::{D, OpenContact};
+use super::geometry::{Geometry, MAX_DOFS};
+use super::open::OpenContact;
 use super::point::Triad;
-use crate::system::Kinks;
-use crate::tensor::{Scalar, Vec3};
+use crate::contact::ContactForm;
+use crate::system::{Kinks, Stencil};
 
 impl OpenContact<'_> {
     /// Adds the coordinates of a point at values `u` of its unknowns to the stencil begun last.
-    pub(super) fn bend(&self, index: usize, g: &Geometry, u: &[f64], out: &mut Kinks) {
-        let place = Self::variable(g);
-        let (triad, normal) = (Triad::new(place.tangents), g.hit.normal.lift::<D>());
-        let penetration = normal.dot(place.b - place.a) / normal.dot(triad.inward) + self.closure(index);
-        let slip = |e: Vec3<D>| place.touched.map_or(D::zero(), |touched| e.dot(touched - place.a));
-        let area = triad.area.re() * g.spot.weight;
-        let columns = self.columns(g, u);
-        let coordinates = [(penetration, triad.inward)].into_iter().chain(triad.along.map(|e| (slip(e), e)));
-        for (y, direction) in coordinates {
-            let rate = |column: &[f64; DIRECTIONS]| y.du.iter().zip(column).map(|(s, c)| s * c).sum();
-            let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), direction.re() * area);
-            out.coordinate(y.re(), columns[..u.len()].iter().map(rate), rows.into_iter().take(u.len()));
+    pub(super) fn bend(&self, (index, stencil): (usize, &Stencil), g: &Geometry, u: &[f64], out: &mut Kinks) {
+        let ([penetration, s, t], rates) = self.rates(g, u);
+        let Triad { inward, along, area } = Triad::new(g.place.tangents);
+        let coordinates = [(penetration + self.closure(index), inward), (s, along[0]), (t, along[1])];
+        for ((y, direction), rates) in coordinates.into_iter().zip(&rates) {
+            let beyond = std::iter::repeat_n(0.0, stencil.len.saturating_sub(MAX_DOFS));
+            let rates = rates.iter().take(stencil.len).copied().chain(beyond.clone());
+            match self.contact.parts.options.form {
+                ContactForm::Traction => {
+                    let force = direction * (area * g.spot.weight);
+                    let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), force);
+                    out.coordinate(y, rates, rows.into_iter().take(stencil.len).chain(beyond));
+                }
+                ContactForm::Variational => {
+                    let undeformed = self.contact.undeformed_area(index);
+                    out.coordinate(y, rates.clone(), rates.map(|rate| rate * undeformed));
+                }
+            }
+        }
+        if let Some(mean) = self.mean_pressure(index, g, u) {
+            let penalty = self.contact.parts.options.penalty;
+            let rates = mean.slopes.iter().map(|slope| slope / penalty);
+            out.coordinate(mean.pressure / penalty, rates, std::iter::repeat_n(0.0, stencil.len));
         }
     }
 }

@@ -9,6 +9,7 @@ mod faces;
 mod geometry;
 mod guard;
 mod kink;
+mod nonlocal;
 mod open;
 mod pair;
 mod patch;
@@ -20,6 +21,7 @@ mod split;
 mod surface;
 mod target;
 mod uzawa;
+mod variational;
 
 pub use faces::Faces;
 pub use guard::has_facets;

@@ -2,16 +2,18 @@
 
 use super::geometry::{DIRECTIONS, Geometry};
 use super::pair::Contact;
-use super::point::{self, Closed, Constants, Place, Triad};
+use super::point::{self, Constants};
 use super::rigid;
 use super::surface::SurfacePoint;
 use super::target::Standing;
 use crate::Failure;
+use crate::contact::ContactForm;
 use crate::contact::augment::Shift;
 use crate::contact::capture::{refuse_jump, refuse_turn};
-use crate::contact::kink::answer;
+use crate::contact::kink::{answer, answer_by_mean};
+use crate::contact::nonlocal;
 use crate::contact::record::{entry, leave, stresses, write};
-use crate::contact::seed::Seed;
+use crate::contact::seed::{Ask, Seed};
 use crate::interface::{Past, Response};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Scalar, Vec3};
@@ -91,21 +93,16 @@ impl Attempt for OpenContact<'_> {
             leave(&*self.contact.parts.law, self.history.slot(index), new);
             return Ok(0);
         };
-        let law = &self.contact.parts.law;
         if local.wants_tangent {
-            self.evaluate_over::<D>(index, &geometry, new, local, |place, constants, past, vars| {
-                point::evaluate(place, constants, |m| law.respond_space(m, past, vars))
-            })
+            self.evaluate_over::<D>((index, stencil), &geometry, new, local)
         } else {
-            self.evaluate_over::<f64>(index, &geometry, new, local, |place, constants, past, vars| {
-                point::evaluate(place, constants, |m| law.respond(m, past, vars))
-            })
+            self.evaluate_over::<f64>((index, stencil), &geometry, new, local)
         }
     }
 
     fn kink(&self, index: usize, stencil: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
         if let Some(geometry) = self.geometry(index, (stencil, true), u)? {
-            self.bend(index, &geometry, u, out);
+            self.bend((index, stencil), &geometry, u, out);
         }
         Ok(())
     }
@@ -115,12 +112,23 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        let parts = &self.contact.parts;
-        answer(&*parts.law, &self.past(stencil), self.contact.least, y)
+        let (law, past, least) = (&*self.contact.parts.law, self.past(stencil), self.contact.least);
+        if self.contact.neighbours.is_empty() {
+            return answer(law, &past, least, y);
+        }
+        answer_by_mean(law, &past, (least, 2), y)
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
         self.improve(u, new)
+    }
+
+    fn multipliers(&self) -> Vec<[f64; 4]> {
+        self.shifts.iter().map(Shift::numbers).collect()
+    }
+
+    fn follow(&mut self, leading: &[[f64; 4]], u: &[f64], new: &History) -> bool {
+        self.take_up(leading, u, new)
     }
 }
 
@@ -128,19 +136,16 @@ pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, first: usize) -> Vec3<T> {
     Vec3(std::array::from_fn(|i| T::seed(v[i], first + i)))
 }
 
-type Evaluated<T> = Result<(T, Option<Closed<T>>), Failure>;
-
 impl OpenContact<'_> {
-    fn evaluate_over<T: Seed<DIRECTIONS>>(
+    fn evaluate_over<T: Ask<DIRECTIONS>>(
         &self,
-        index: usize,
+        (index, stencil): (usize, &Stencil),
         g: &Geometry,
         new: &mut [f64],
         local: &mut Local,
-        evaluate: impl FnOnce(&Place<T>, &Constants, &Past, &mut [f64]) -> Evaluated<T>,
     ) -> Result<Branch, Failure> {
         let old = self.history.slot(index);
-        let place = Self::seeded(g);
+        let place = Self::seeded::<T>(g);
         let mut past = self.past(index);
         if g.before.entered {
             past.penetration = self.contact.parts.law.touch(&past);
@@ -150,7 +155,10 @@ impl OpenContact<'_> {
         write_hit(&g.spot, Some(g.hit), new);
         new[entry::CLOSURE] = constants.closure;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
-        let (_, closed) = evaluate(&place, &constants, &past, &mut new[entry::COUNT..])?;
+        let mean = self.mean_pressure(index, g, &local.u);
+        let law = (&*self.contact.parts.law, mean.as_ref().map(|mean| mean.pressure));
+        let (_, closed) =
+            point::evaluate(&place, &constants, |motion| nonlocal::ask(law, motion, &past, &mut new[entry::COUNT..]))?;
         let Some(closed) = closed else {
             leave(&*self.contact.parts.law, self.history.slot(index), new);
             self.account(index, g, Carried::default(), local);
@@ -162,7 +170,13 @@ impl OpenContact<'_> {
         self.refuse_turn(index, (g, &local.u))?;
         new[entry::PENETRATION] -= constants.least;
         write(&closed.response, closed.slip, old, new);
-        self.add(g, &closed, local);
+        match self.contact.parts.options.form {
+            ContactForm::Traction => self.add(g, &closed, local),
+            ContactForm::Variational => self.add_variational((index, stencil), g, &closed, local)?,
+        }
+        if let Some(mean) = mean.filter(|_| local.wants_tangent) {
+            self.add_neighbours((g, closed.slip.map(|slip| slip.re()), &past), &mean, local)?;
+        }
         let response = &closed.response;
         self.account(index, g, Carried::of(response), local);
         Ok(response.status as Branch)
@@ -205,8 +219,7 @@ impl OpenContact<'_> {
     fn account(&self, index: usize, g: &Geometry, now: Carried, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
-        let area = Triad::new(g.place.tangents).area * g.spot.weight;
-        let area = area * options.loads.share();
+        let area = self.contact.acting_area(index, &g.spot, g.place.tangents) * options.loads.share();
         let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(index).0 };
         local.stored = 0.5 * now.pressure * (now.pressure / options.penalty - multiplied) * area;
         let work = |slip: [f64; 2]| (0..2).map(|i| 0.5 * (before[i] + now.shear[i]) * slip[i]).sum::<f64>();

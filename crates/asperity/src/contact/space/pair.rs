@@ -5,8 +5,9 @@ use super::open::{OpenContact, write_hit};
 use super::point::Triad;
 use super::surface::{Face, Surface, SurfacePoint};
 use super::target::Target;
-use crate::contact::augment::{Corners, closures_alone};
+use crate::contact::augment::Corners;
 use crate::contact::guard;
+use crate::contact::nonlocal::{Neighbours, radius};
 use crate::contact::pair::{CLOSED, ahead};
 use crate::contact::record::{PointRecord, PointStatus, entry, variables};
 use crate::contact::search::relatives;
@@ -50,6 +51,10 @@ pub struct Contact {
     pub(super) longest: f64,
     /// The corners that carry multipliers; none without augmentation.
     pub(super) corners: Corners,
+    /// Those of a target that deforms.
+    pub(super) opposite: Corners,
+    /// The points around each point, where the law is not local.
+    pub(super) neighbours: Neighbours,
 }
 
 impl Parts {
@@ -71,9 +76,16 @@ impl Contact {
         // Common to both sides: else one would be pressed a little harder than the other.
         let lengths = parts.surface.faces.iter().chain(opposite).map(|face| parts.length(face));
         let least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
-        let mut contact = Self { parts, least, relatives, longest, corners: Corners::default() };
+        let (corners, opposite, neighbours) = (Corners::default(), Corners::default(), Neighbours::default());
+        let mut contact = Self { parts, least, relatives, longest, corners, opposite, neighbours };
         if contact.parts.options.augmentation.is_some() {
             contact.corners = contact.corners_of_faces();
+            contact.opposite = contact.corners_of_target();
+        }
+        if let Some(radius) = radius(&*contact.parts.law) {
+            let places: Vec<Vec3> = contact.rays().iter().map(|ray| ray.origin).collect();
+            let face = |i: usize| contact.parts.surface.points[i].face;
+            contact.neighbours = Neighbours::new(&places, face, radius, |i| contact.undeformed_area(i));
         }
         contact
     }
@@ -126,14 +138,14 @@ impl Contact {
     pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
         let record = |i: usize| {
             let values = history.slot(i);
-            self.record(&self.spot(i, values), values, u)
+            self.record((i, &self.spot(i, values)), values, u)
         };
         (0..self.parts.surface.points.len()).map(record).collect()
     }
 
-    fn record(&self, point: &SurfacePoint, values: &[f64], u: &[f64]) -> PointRecord {
+    fn record(&self, (index, point): (usize, &SurfacePoint), values: &[f64], u: &[f64]) -> PointRecord {
         let (position, tangents) = self.locate(point, u);
-        let Triad { inward, along, area } = Triad::new(tangents);
+        let Triad { inward, along, .. } = Triad::new(tangents);
         let [s, t] = [values[entry::SHEAR], values[entry::SHEAR2]];
         let shear = s.hypot(t);
         let direction = if shear > 0.0 { (along[0] * s + along[1] * t) * shear.recip() } else { along[0] };
@@ -141,9 +153,9 @@ impl Contact {
         PointRecord {
             position,
             inward,
-            thrust: inward,
+            thrust: self.thrust(values, u, Ray { origin: position, direction: inward }),
             along: direction,
-            area: point.weight * area,
+            area: self.acting_area(index, point, tangents),
             status: PointStatus::from_value(values[entry::STATUS]),
             pressure: values[entry::PRESSURE],
             shear,
@@ -214,7 +226,7 @@ impl Term for Contact {
             rotation: parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pose(&accepted.u).rotation),
             reach: self.reach(&accepted.last_change),
             ahead: ahead(accepted, at.dt),
-            shifts: closures_alone(self.closures(history)),
+            shifts: self.begun(&accepted.u, history),
             frames: self.frames(&accepted.u),
             augmented: 0,
             settled: parts.options.overlap.settled(at),

@@ -84,6 +84,13 @@ impl Face {
     }
 }
 
+impl Face {
+    /// A place given by `s`, each from 0 to 1, in the face's own coordinates.
+    pub fn own_place(&self, s: [f64; 2]) -> [f64; 2] {
+        if is_triangle(self.kind) { s } else { s.map(|s| 2.0 * s - 1.0) }
+    }
+}
+
 fn shape(kind: &Cell, s: [f64; 2]) -> ([f64; MAX_NODES], [[f64; 2]; MAX_NODES]) {
     let (scale, from) = if is_triangle(kind) { (1.0, 0.0) } else { (2.0, -1.0) };
     let (n, dn) = natural(kind, s.map(|s| from + scale * s));

@@ -7,8 +7,9 @@ use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::Triad;
 use crate::Failure;
-use crate::contact::augment::{Corners, Report, Shift, closures_alone};
+use crate::contact::augment::{Corners, Left, Report, Shift, closures_alone};
 use crate::contact::overlap::recession;
+use crate::contact::partner::{Role, Touch, between, changed, changes};
 use crate::contact::record::{PointStatus, entry, touch_after};
 use crate::system::History;
 use crate::tensor::Vec3;
@@ -21,6 +22,44 @@ impl Contact {
         Corners::new(faces, surface.points.iter().map(|point| (point.face, point.xi)))
     }
 
+    /// Those of its target, where it follows them.
+    pub(super) fn corners_of_target(&self) -> Corners {
+        let faces = self.parts.target.as_faces().map_or(&[][..], |faces| faces.list());
+        let faces = faces.iter().map(|face| (&face.nodes[..face.corners()], self.parts.length(face)));
+        Corners::new(faces, std::iter::empty())
+    }
+
+    /// Where the points touch their target, and the areas they stand for.
+    fn touches<'a>(&'a self, u: &'a [f64], history: &'a History) -> impl Iterator<Item = Option<Touch>> + 'a {
+        (0..self.parts.surface.points.len()).map(move |i| {
+            let values = history.slot(i);
+            let face = (values[entry::SEGMENT] >= 0.0).then_some(values[entry::SEGMENT] as usize)?;
+            let other = self.parts.target.as_faces()?.list().get(face)?;
+            let spot = self.spot(i, values);
+            let area = self.acting_area(i, &spot, self.locate(&spot, u).1);
+            Some(Touch { face, at: other.own_place([values[entry::S], values[entry::S2]]), area })
+        })
+    }
+
+    /// What both sides of a surface that touches itself make of multipliers and of better ones, and how far its corners
+    /// have moved.
+    fn shared(&self, (from, to): (&[Shift], &[Shift]), (u, history): (&[f64], &History)) -> (Vec<Shift>, f64) {
+        let own = changes(from, to);
+        let found = self.corners.found((&self.corners, &own), self.touches(u, history), -1.0);
+        let better = changed(from, &between(&own, &found));
+        let moved = self.corners.moved(from, &better).penetration;
+        (better, moved)
+    }
+
+    /// The multipliers at the beginning of an increment.
+    pub(super) fn begun(&self, u: &[f64], history: &History) -> Vec<Shift> {
+        let accepted = closures_alone(self.closures(history));
+        if self.parts.options.augmentation.is_none_or(|augmentation| augmentation.role != Role::Itself) {
+            return accepted;
+        }
+        between(&accepted, &self.corners.found((&self.corners, &accepted), self.touches(u, history), -1.0))
+    }
+
     /// Closures of the corners in an accepted state; none without augmentation.
     pub(super) fn closures<'a>(&self, history: &'a History) -> &'a [f64] {
         let augmented = self.parts.options.augmentation.is_some();
@@ -30,13 +69,16 @@ impl Contact {
     /// The largest penetration that augmentation leaves at a node of an accepted state, over the size of its faces; none
     /// without augmentation.
     pub fn nodal_penetration(&self, u: &[f64], history: &History) -> Option<f64> {
-        self.parts.options.augmentation?;
+        let augmentation = self.parts.options.augmentation.filter(|augmentation| augmentation.role != Role::Follows)?;
         let accepted = closures_alone(self.closures(history));
         let reports = (0..self.parts.surface.points.len()).map(|i| {
             let (values, still) = (history.slot(i), [Vec3::zero(); 2]);
             self.report(u, (i, still), self.corners.at(i, &accepted), (values, values))
         });
-        Some(self.corners.improve(&mut accepted.clone(), reports).penetration)
+        let mut better = accepted.clone();
+        let left = self.corners.improve(&mut better, reports);
+        let itself = augmentation.role == Role::Itself;
+        Some(if itself { self.shared((&accepted, &better), (u, history)).1 } else { left.penetration })
     }
 
     /// Tangents of all points, which slips refer to.
@@ -66,7 +108,7 @@ impl Contact {
         let [slip, borne_shear] = slips(old, new, parts.options.tangential_penalty);
         let along = |[s, t]: [f64; 2]| frame[0] * s + frame[1] * t;
         Some(Report {
-            area: point.weight * Triad::new(self.locate(&point, u).1).area,
+            area: self.acting_area(index, &point, self.locate(&point, u).1),
             penetration: if closed { borne - shift.closure } else { gap() },
             closed,
             sticks,
@@ -103,16 +145,21 @@ impl OpenContact<'_> {
         self.shift(index).0 + recession(wear, self.settled[1], old)
     }
 
-    /// Improves the multipliers unless they suffice.
+    /// Improves the multipliers unless they suffice; those that follow others are kept as they are.
     pub(super) fn improve(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
-        let parts = &self.contact.parts;
+        let (contact, parts) = (self.contact, &self.contact.parts);
         let Some(augmentation) = parts.options.augmentation else { return Ok(false) };
-        let (mut better, points) = (self.shifts.clone(), parts.surface.points.len());
-        let reports = (0..points).map(|i| {
-            let shift = self.contact.corners.at(i, &self.shifts);
-            self.contact.report(u, (i, self.frames[i]), shift, (self.history.slot(i), new.slot(i)))
-        });
-        let left = self.contact.corners.improve(&mut better, reports);
+        let (mut better, mut left, points) = (self.shifts.clone(), Left::default(), parts.surface.points.len());
+        if augmentation.role != Role::Follows {
+            let reports = (0..points).map(|i| {
+                let shift = contact.corners.at(i, &self.shifts);
+                contact.report(u, (i, self.frames[i]), shift, (self.history.slot(i), new.slot(i)))
+            });
+            left = contact.corners.improve(&mut better, reports);
+        }
+        if augmentation.role == Role::Itself {
+            (better, left.penetration) = contact.shared((&self.shifts, &better), (u, new));
+        }
         if !augmentation.goes_on(&left, self.augmented, &parts.name)? {
             let closures = new.slot_mut(points).iter_mut().zip(&self.shifts);
             closures.for_each(|(closure, shift)| *closure = shift.closure);
@@ -120,5 +167,19 @@ impl OpenContact<'_> {
         }
         (self.shifts, self.augmented) = (better, self.augmented + 1);
         Ok(true)
+    }
+
+    /// Takes up the multipliers of the other side at `u`, whose slips point the other way, and says whether that changes
+    /// anything.
+    pub(super) fn take_up(&mut self, leading: &[[f64; 4]], u: &[f64], new: &History) -> bool {
+        let (contact, augmentation) = (self.contact, self.contact.parts.options.augmentation);
+        let Some(augmentation) = augmentation.filter(|a| a.role == Role::Follows) else { return false };
+        let leading: Vec<Shift> = leading.iter().copied().map(Shift::of).collect();
+        let found = contact.corners.found((&contact.opposite, &leading), contact.touches(u, new), -1.0);
+        let felt = augmentation.is_felt(&contact.corners.moved(&self.shifts, &found));
+        if felt {
+            self.shifts = found;
+        }
+        felt
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use crate::contact::{
-    Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Surface, TWO_PASSES, Target, default_penalty,
-    has_facets, second_name, space,
+    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES, Target,
+    default_penalty, has_facets, second_name, space,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -96,7 +96,7 @@ impl Builder<'_> {
             Opposite::Sides(sides) => {
                 let first = build(&name.text, surface, faces(sides), options);
                 let second = is_double(&options, surface, sides)
-                    .then(|| build(&second_name(&name.text), sides, faces(surface), options));
+                    .then(|| build(&second_name(&name.text), sides, faces(surface), following(options)));
                 std::iter::once(first).chain(second).collect()
             }
         };
@@ -117,6 +117,8 @@ impl Builder<'_> {
         let part = if loads == Loads::Own { TWO_PASSES } else { 1.0 };
         let computed = || part * default_penalty(&self.site.mesh, &sides, |cell| moduli[cell]);
         let penalty = keys.penalty.unwrap_or_else(computed);
+        let itself = matches!(opposite, Opposite::Sides(others) if same_sides(surface, others));
+        let role = if itself { Role::Itself } else { Role::Leads };
         ContactOptions {
             penalty,
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
@@ -124,7 +126,7 @@ impl Builder<'_> {
             loads,
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
             guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
-            augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation()),
+            augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation(role)),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
             form: keys.form.map_or(ContactForm::Traction, |form| form.value),
             wear: keys.wear.as_ref().map(keys::WearKeys::wear),
@@ -144,8 +146,9 @@ impl Builder<'_> {
         let two = match passes {
             Passes::One => false,
             Passes::Two => true,
+            Passes::Auto if same_sides(surface, others) => true,
             Passes::Auto if keys.augmentation.is_some() => false,
-            Passes::Auto => same_sides(surface, others) || !(facets(surface) || facets(others)),
+            Passes::Auto => !(facets(surface) || facets(others)),
         };
         if two { Loads::Own } else { Loads::Both }
     }
@@ -158,14 +161,14 @@ impl Builder<'_> {
         (surface, opposite): (&[Side], Opposite),
     ) -> bool {
         let before = self.found.len();
-        let flat = self.plane() && matches!(opposite, Opposite::Tool(_));
+        let rigid = matches!(opposite, Opposite::Tool(_));
         let local = keys.law.build().is_ok_and(|law| law.radius() == 0.0);
-        if !local && (!flat || keys.form.is_some_and(|form| form.value == ContactForm::Variational)) {
-            let what = "a mean of the pressure is for tools in the plane spaces and the axisymmetric one, and form = \"traction\"";
+        if !local && (!rigid || keys.form.is_some_and(|form| form.value == ContactForm::Variational)) {
+            let what = "a mean of the pressure is for contact with a tool, and form = \"traction\"";
             self.refuse(what, keys.law.place);
         }
-        if let Some(form) = keys.form.filter(|form| !flat && form.value == ContactForm::Variational) {
-            self.refuse("the variational form is for tools in the plane spaces and the axisymmetric one", form.place);
+        if let Some(form) = keys.form.filter(|form| !rigid && form.value == ContactForm::Variational) {
+            self.refuse("the variational form is for contact with a tool", form.place);
         }
         let Opposite::Sides(others) = opposite else {
             let said = [
@@ -194,11 +197,6 @@ impl Builder<'_> {
                 passes.place,
             );
         }
-        let two = shared || keys.passes.is_some_and(|passes| passes.value == Passes::Two);
-        if let Some(augmentation) = keys.augmentation.as_ref().filter(|_| two) {
-            let what = "augmentation works with one pass: with two, multipliers of both sides ask for the same";
-            self.refuse(what, augmentation.place);
-        }
         let perturbed = self.deck.solver.tangent == keys::Tangent::Perturbation;
         if let Some(coupling) = keys.coupling.filter(|coupling| perturbed && !coupling.value) {
             self.refuse(
@@ -213,6 +211,12 @@ impl Builder<'_> {
 /// Whether the target of a contact carries points of its own, in a second pass.
 pub(super) fn is_double(options: &ContactOptions, surface: &[Side], target: &[Side]) -> bool {
     options.loads == Loads::Own && !same_sides(surface, target)
+}
+
+/// The options of the second of two passes.
+pub(super) fn following(options: ContactOptions) -> ContactOptions {
+    let augmentation = options.augmentation.map(|augmentation| Augmentation { role: Role::Follows, ..augmentation });
+    ContactOptions { augmentation, ..options }
 }
 
 /// Whether two lists hold the same sides; those of a group are sorted.

@@ -1,7 +1,7 @@
 //! Contacts of a model in space.
 
 use super::Builder;
-use super::contacts::{Opposite, boundary_behind, is_double, moduli};
+use super::contacts::{Opposite, boundary_behind, following, is_double, moduli};
 use crate::contact::second_name;
 use crate::contact::space::{Contact, Faces, Parts, Surface, Target};
 use crate::deck::keys;
@@ -41,7 +41,7 @@ impl Builder<'_> {
             return None;
         }
         let options = self.options(keys, (sides, opposite), moduli);
-        let build = |name: &str, sides: &[Side], target: Target| {
+        let build = |name: &str, sides: &[Side], target: Target, options| {
             Contact::new(Parts {
                 name: name.into(),
                 dofs: dofs.clone(),
@@ -56,12 +56,12 @@ impl Builder<'_> {
         let faces = |sides: &[Side]| Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides));
         Some(match opposite {
             Opposite::Tool(number) => {
-                vec![build(&name.text, sides, Target::tool(tools[number].clone(), number, &dofs))]
+                vec![build(&name.text, sides, Target::tool(tools[number].clone(), number, &dofs), options)]
             }
             Opposite::Sides(others) => {
-                let second =
-                    is_double(&options, sides, others).then(|| build(&second_name(&name.text), others, faces(sides)));
-                std::iter::once(build(&name.text, sides, faces(others))).chain(second).collect()
+                let second = is_double(&options, sides, others)
+                    .then(|| build(&second_name(&name.text), others, faces(sides), following(options)));
+                std::iter::once(build(&name.text, sides, faces(others), options)).chain(second).collect()
             }
         })
     }

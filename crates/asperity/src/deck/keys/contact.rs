@@ -1,7 +1,7 @@
 //! Contacts.
 
 use super::UpdateKeys;
-use crate::contact::{Augmentation, ContactForm, Guard, Overlap, Wear};
+use crate::contact::{Augmentation, ContactForm, Guard, Overlap, Role, Wear};
 use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, table_of, whole, word, words};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
@@ -38,7 +38,7 @@ table! {
         coupling: Option<Spot<bool>> = flag().spot().computed("true"),
         /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
         guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
-        /// How stresses become forces, with a tool in the plane spaces and the axisymmetric one.
+        /// How stresses become forces, with a tool.
         form: Option<Spot<ContactForm>> = word().spot().computed("traction"),
         /// What becomes of points that lie inside the target before the first increment.
         overlap: Spot<OverlapWord> = word().spot().or("\"ramp\""),
@@ -103,9 +103,9 @@ impl WearKeys {
 }
 
 impl AugmentationKeys {
-    /// What the keys say.
-    pub fn augmentation(&self) -> Augmentation {
-        Augmentation { penetration: self.penetration, slip: self.slip, loops: self.loops }
+    /// What the keys say, for a contact of that role.
+    pub fn augmentation(&self, role: Role) -> Augmentation {
+        Augmentation { penetration: self.penetration, slip: self.slip, loops: self.loops, role }
     }
 }
 

@@ -1,0 +1,129 @@
+//! Friction by a mean pressure on faces in space, with a tool: as in the plane (`contact::nonlocal`), with two tangents.
+
+use super::geometry::Geometry;
+use super::open::OpenContact;
+use super::pair::Contact;
+use super::point::Triad;
+use super::rigid;
+use super::surface::{MAX_NODES, SurfacePoint};
+use super::target::{Cast, Memory, Standing};
+use crate::Failure;
+use crate::contact::nonlocal::Mean;
+use crate::interface::{Motion, Past};
+use crate::system::Local;
+use crate::tensor::{Dual, Vec3};
+use crate::tool::Ray;
+use std::ops::Range;
+
+impl Contact {
+    /// Appends the unknowns of the faces around a point.
+    pub(super) fn unknowns_around(&self, index: usize, out: &mut Vec<usize>) {
+        for &face in self.neighbours.others(index) {
+            let nodes = &self.parts.surface.faces[face].nodes;
+            out.extend(nodes.iter().flat_map(|&node| [0, 1, 2].map(|axis| self.parts.dofs.node(node) + axis)));
+        }
+    }
+}
+
+impl OpenContact<'_> {
+    /// The mean pressure around a point for values `u` of its unknowns; none where friction is local.
+    pub(super) fn mean_pressure(&self, index: usize, g: &Geometry, u: &[f64]) -> Option<Mean> {
+        let (parts, rigid) = (self.contact.neighbours.of(index)?, self.contact.parts.target.as_tool()?);
+        let mut mean = Mean { pressure: 0.0, slopes: vec![0.0; u.len()] };
+        let (tool, mut memory) = (g.layout.hit.clone(), Memory::default());
+        let standing = Standing::Tool(rigid, rigid::pose(&u[tool.clone()]));
+        for &(point, part) in parts {
+            let nodes = self.nodes_of(index, point, g);
+            self.add_pressure((point, part), (nodes, tool.clone()), u, (&standing, &mut mean, &mut memory));
+        }
+        Some(mean)
+    }
+
+    /// Where the unknowns of a neighbour's nodes stand in the stencil of a point.
+    fn nodes_of(&self, index: usize, neighbour: usize, g: &Geometry) -> Range<usize> {
+        let (surface, mut start) = (&self.contact.parts.surface, g.layout.count());
+        let face = surface.points[neighbour].face;
+        if face == surface.points[index].face {
+            return 0..g.layout.own;
+        }
+        for &other in self.contact.neighbours.others(index) {
+            let len = 3 * surface.faces[other].nodes.len();
+            if other == face {
+                return start..start + len;
+            }
+            start += len;
+        }
+        start..start
+    }
+
+    /// Adds what one neighbour gives to the mean.
+    fn add_pressure(
+        &self,
+        (point, part): (usize, f64),
+        (nodes, tool): (Range<usize>, Range<usize>),
+        u: &[f64],
+        (standing, mean, memory): (&Standing, &mut Mean, &mut Memory),
+    ) {
+        let (contact, parts) = (self.contact, &self.contact.parts);
+        let spot = &parts.surface.points[point];
+        let x: [Vec3; MAX_NODES] = parts.surface.faces[spot.face].moved(&parts.mesh, &u[nodes.clone()]);
+        let (a, tangents) = spot.place(&x[..nodes.len() / 3]);
+        let inward = Triad::new(tangents).inward;
+        let ray = Ray { origin: a, direction: inward };
+        let cast = Cast { ray, ..contact.bounds(point, self.depths[point], self.reach) };
+        let Some(hit) = standing.cast(&cast, memory) else { return };
+        let seen = hit.u + self.closure(point) - contact.least;
+        if seen <= 0.0 {
+            return;
+        }
+        let (stiffness, cosine) = (part * parts.options.penalty, hit.normal.dot(inward));
+        mean.pressure += stiffness * seen;
+        for (k, column) in nodes.enumerate() {
+            let moved = axis(k % 3) * spot.n[k / 3] + turned(spot, tangents, k) * hit.u;
+            mean.slopes[column] -= stiffness * hit.normal.dot(moved) / cosine;
+        }
+        let rates = parts.target.rates(hit.facet, hit.s, &u[tool.clone()], a + inward * hit.u);
+        for (rate, column) in rates.iter().zip(tool) {
+            mean.slopes[column] += stiffness * hit.normal.dot(*rate) / cosine;
+        }
+    }
+
+    /// Adds to the tangent what the mean pressure does to the friction of a point that slips by `slip`.
+    ///
+    /// # Errors
+    /// As the law.
+    pub(super) fn add_neighbours(
+        &self,
+        (g, slip, past): (&Geometry, [f64; 2], &Past),
+        mean: &Mean,
+        local: &mut Local,
+    ) -> Result<(), Failure> {
+        let (parts, n) = (&self.contact.parts, local.force.len());
+        let penetration = Dual::<8>::variable(mean.pressure / past.penalty, 0);
+        let motion = Motion { penetration, slip: slip.map(Dual::from) };
+        let mut vars = past.vars.to_vec();
+        let [s, t] = parts.law.respond_plane(&motion, past, &mut vars)?.shear.map(|shear| shear.du[0] / past.penalty);
+        let triad = Triad::new(g.place.tangents);
+        let force = (triad.along[0] * s + triad.along[1] * t) * (triad.area * g.spot.weight);
+        let rows = self.rows::<f64>((g, &local.u), (g.place.b, g.place.b), force);
+        for (i, row) in rows[..g.layout.count()].iter().enumerate() {
+            for (entry, change) in local.tangent[i * n..(i + 1) * n].iter_mut().zip(&mean.slopes) {
+                *entry += row * change;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn axis(i: usize) -> Vec3 {
+    Vec3(std::array::from_fn(|k| f64::from(u8::from(k == i))))
+}
+
+/// How the inward normal of a point turns with one of its face's unknowns.
+fn turned(spot: &SurfacePoint, [g1, g2]: [Vec3; 2], unknown: usize) -> Vec3 {
+    let (axis, [first, second]) = (axis(unknown % 3), spot.dn[unknown / 3]);
+    let normal = g2.cross(g1);
+    let (length, change) = (normal.norm(), (axis * second).cross(g1) + g2.cross(axis * first));
+    let inward = normal * length.recip();
+    (change - inward * inward.dot(change)) * length.recip()
+}

@@ -2,21 +2,34 @@
 //! back from a gap; and that every law is described, has an example and is tested.
 
 use super::samples::*;
-use asperity::deck::schema::{interface_manual, manual};
-use asperity::declare::Entry;
+use asperity::deck::schema::{interface_json_schema, interface_manual, json_schema, manual};
+use asperity::declare::{Entry, Parameter};
 use asperity::interface::laws::ALL;
 use asperity::interface::{Motion, Past, Response};
 use asperity::tensor::Dual;
+use serde_json::Value;
 
 /// States of a law at which it is looked at; `cargo test --release -p asperity --test interfaces -- --ignored` takes
 /// ten thousand.
 const STATES: usize = 500;
 
+/// Whether a JSON schema knows a table of this name with these keys.
+fn knows(schema: &Value, name: &str, keys: &[Parameter]) -> bool {
+    let properties = |schema: &Value| schema.get("properties").and_then(Value::as_object).cloned();
+    let here = properties(schema).and_then(|all| properties(all.get(name)?));
+    here.is_some_and(|table| keys.iter().all(|parameter| table.contains_key(parameter.key)))
+        || schema.as_object().is_some_and(|all| all.values().any(|inner| knows(inner, name, keys)))
+        || schema.as_array().is_some_and(|all| all.iter().any(|inner| knows(inner, name, keys)))
+}
+
 #[test]
-fn every_law_has_an_example_and_stands_in_the_manual() {
+fn every_law_has_an_example_and_stands_in_the_schema_and_the_manual() {
     let samples = samples();
     let (manual, point) = (manual(), interface_manual());
     for Entry { name, parameters, .. } in ALL {
+        for schema in [json_schema(), interface_json_schema()] {
+            assert!(knows(&schema, name, parameters), "a schema lacks `{name}`");
+        }
         assert!(samples.iter().any(|sample| sample.law == *name), "no deck of cases/interface names `{name}`");
         for (page, head) in [(&manual, "contact.CONTACT.law"), (&point, "interface.INTERFACE")] {
             let section = page.split_once(&format!("## `{head}.{name}`")).map(|(_, rest)| rest);

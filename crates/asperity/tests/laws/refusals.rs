@@ -30,6 +30,10 @@ fn impossible_sets_are_refused_by_name() {
         (format!("von_mises = {{ {steel}, saturation = 1.0 }}"), "`saturation_rate`"),
         (format!("von_mises = {{ {steel}, recovery = 1.0 }}"), "`recovery` has nothing to recover"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.1, 1.0]] }".into(), "plastic strain 0"),
+        (
+            "von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 1.0], [0.1, nan]] }".into(),
+            "finite number, not NaN",
+        ),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 1.0], [0.0, 2.0]] }".into(), "must rise"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 0.0]] }".into(), "positive, not 0"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 9.0], [0.1, 1.0]] }".into(), "steeper"),

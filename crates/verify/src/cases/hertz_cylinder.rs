@@ -5,6 +5,8 @@ use crate::bench::{Bench, points};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 use asperity::contact::PointRecord;
+use asperity::output::study::{extrapolate, forces};
+use asperity::solve::Silent;
 use std::f64::consts::PI;
 
 /// The case.
@@ -35,6 +37,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         measured.push(("order".into(), fit::order(&runs.iter().map(|run| run.error).collect::<Vec<_>>())));
     }
     measured.extend(augmented(bench)?);
+    measured.extend(study(bench)?);
     Ok(measured)
 }
 
@@ -59,6 +62,27 @@ fn augmented(bench: &Bench) -> Result<Measured, Error> {
         ("pointwise_penetration".into(), pointwise),
         ("facet_mismatch".into(), mismatch),
     ])
+}
+
+/// The penalty study of the deck with its computed penalty: how far the approach that it extrapolates is from that with
+/// sixteen times the penalty, over the error that it states, and that error over the approach.
+fn study(bench: &Bench) -> Result<Measured, Error> {
+    let model = bench.model("roller.toml", &[])?;
+    let computed = model.contacts[0].options().penalty;
+    let ends = |times: f64| {
+        let penalty = format!("contact.foot.penalty={:e}", times * computed);
+        forces(&bench.model("roller.toml", &[penalty])?, &mut Silent)
+    };
+    let lines = extrapolate(&ends(0.25)?, &ends(1.0)?, 4.0, model.problem.newton.tolerance);
+    let nearly_rigid = ends(16.0)?;
+    let approach = |name: &str| name == "tool.plane.translation.y";
+    let line = lines.iter().rfind(|line| approach(&line.name));
+    let last = nearly_rigid.steps.last().and_then(|(_, columns)| columns.iter().find(|(name, _)| approach(name)));
+    let (Some(line), Some((_, value))) = (line, last) else {
+        return Err(Error::input("the study does not list the approach of the plane"));
+    };
+    let (off, size) = ((line.extrapolated - value).abs(), line.values[1].abs());
+    Ok(vec![("study".into(), off / line.error), ("study_error".into(), line.error / size)])
 }
 
 /// Every cell of the deck cut into `n` by `n`; the error is the mean over the increments of the second half of the

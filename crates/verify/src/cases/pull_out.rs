@@ -28,14 +28,21 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let dilated = risen(run.model.contacts[0].options().penalty, [slipped, slip]);
     let wedge = bench.solve("wedge.toml", std::slice::from_ref(&increments))?.points(0);
     let (in_space, shear_in_space) = mean(&wedge, |point| (point.pressure, point.shear.abs()));
-    let skin = bench.solve("skin.toml", &[increments])?;
+    let skin = bench.solve("skin.toml", std::slice::from_ref(&increments))?;
     let (critical, last) = mean(&skin.points(0), |point| (point.pressure, point.shear.abs()));
+    let like_skin = [
+        "contact.skin.law={ cam_clay = { critical_slope = 0.6, preconsolidation = 0.3 } }",
+        "step.draw.motion.pile.z=60.0",
+    ];
+    let sets: Vec<String> = like_skin.map(String::from).into_iter().chain([increments]).collect();
+    let (skin_in_space, _) = mean(&bench.solve("wedge.toml", &sets)?.points(0), |point| (point.pressure, 0.0));
     Ok(vec![
         ("pressure".into(), pressure / (before + dilated)),
         ("shear".into(), shear / (SKIN[0] * pressure + SKIN[1])),
         ("dilated".into(), (pressure - before) / dilated),
         ("wedge_pressure".into(), in_space / pressure),
         ("wedge_shear".into(), shear_in_space / shear),
+        ("wedge_critical".into(), skin_in_space / critical),
         ("critical_pressure".into(), 2.0 * critical / 0.3),
         ("critical_shear".into(), last / (0.6 * critical)),
     ])

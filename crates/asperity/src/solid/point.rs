@@ -64,6 +64,7 @@ impl PointLaw<'_> {
     }
 
     /// Deformation the law sees but for heat, the power of F-bar, and which components it scales.
+    #[inline]
     fn bar(&self, f: &Tensor2, det: f64) -> (Tensor2, f64) {
         let Some(center) = self.center else { return (*f, 0.0) };
         let in_plane = self.space == Space::PlaneStrain;

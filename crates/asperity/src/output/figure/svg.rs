@@ -111,7 +111,7 @@ fn number(x: f64) -> String {
 /// they are written as whole numbers are.
 fn write_number(text: &mut String, x: f64) {
     let hundredths = (100.0 * x).round();
-    if !(hundredths.abs() < 1e15) {
+    if !hundredths.is_finite() || hundredths.abs() > 1e15 {
         let _ = write!(text, "{x}");
         return;
     }

@@ -1,19 +1,23 @@
 //! A ball slides with friction over a block in space: every matrix factorised against one factor an attempt, in one run.
-//! `cargo run --release -p asperity --example sliding -- 21` (cells along an edge).
+//! `cargo run --release -p asperity --example sliding -- 21` (cells along an edge), or with a deck and what is set over
+//! it: `... --example sliding -- cases/dragged-ball/slab.toml "mesh.part.slab.box.cells=[48,18,12]"`.
 
 #[path = "../tests/support/ball.rs"]
 mod ball;
 #[path = "../../frontal/benches/measure/mod.rs"]
 mod measure;
 
+use asperity::model::Model;
 use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run};
 use asperity::system::Csr;
-use ball::{Attempts, model};
+use ball::Attempts;
+use frontal::Change;
 use measure::timed;
+use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-/// Processor time of analyses, factorisations, direct and iterative solutions.
-type Times = Arc<Mutex<[f64; 4]>>;
+/// Processor time of analyses, factorisations, direct and iterative solutions, entries of the inverse.
+type Times = Arc<Mutex<[f64; 5]>>;
 
 /// The solver with a clock beside it.
 struct Clocked {
@@ -40,10 +44,27 @@ impl LinearSolver for Clocked {
         self.add(2, |solver| solver.solve(rhs))
     }
     fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError> {
-        self.solver.influence(loads, at, x)
+        let (result, time) = timed(|| self.solver.influence(loads, at, x));
+        self.times.lock().expect("no panic")[4] += time.processor;
+        if std::env::var_os("VERBOSE").is_some() {
+            println!("    {} loads, {} unknowns, {:.3} s", loads.len(), at.len(), time.processor);
+        }
+        result
     }
     fn begin(&mut self) {
         self.solver.begin();
+    }
+    fn refuse(&mut self) {
+        self.solver.refuse();
+    }
+    fn iterates(&self) -> bool {
+        self.solver.iterates()
+    }
+    fn change(&mut self, change: Option<Change>) {
+        if let (Some(change), true) = (&change, std::env::var_os("VERBOSE").is_some()) {
+            println!("    change of rank {}", change.rank());
+        }
+        self.solver.change(change);
     }
     fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
         let before = self.solver.counts().iterations;
@@ -56,9 +77,18 @@ impl LinearSolver for Clocked {
     }
 }
 
+/// The model that the arguments ask for.
+fn model(arguments: &[String]) -> Model {
+    let first = arguments.first().map_or("21", String::as_str);
+    if let Ok(cells) = first.parse() {
+        return ball::model(cells, Factors::Auto);
+    }
+    let made = asperity::deck::load(Path::new(first), &arguments[1..]).and_then(asperity::deck::build);
+    made.map_err(|found| found.render(false)).unwrap_or_else(|text| panic!("{text}")).model
+}
+
 /// Runs, prints what it took, and returns the whole processor time and that of the linear solver.
-fn slide(cells: usize, factors: Factors) -> [f64; 2] {
-    let model = model(cells, factors);
+fn slide(model: &Model, factors: Factors) -> [f64; 2] {
     let (times, mut attempts) = (Times::default(), Attempts::default());
     let solver = Clocked { solver: Frontal::new(factors), times: times.clone() };
     let mut run = Run::new(&model.problem, model.problem.initial_state(), Box::new(solver));
@@ -72,14 +102,15 @@ fn slide(cells: usize, factors: Factors) -> [f64; 2] {
     }
     println!("  {iterations} iterations, {factorised} factorisations, {} analyses", run.memory.analyses);
     println!(
-        "  analyses {:.2} s, factorisations {:.2} s, solutions {:.2} s, by FGMRES {:.2} s; run {:.2} s",
-        times[0], times[1], times[2], times[3], time.processor
+        "  analyses {:.2} s, factorisations {:.2} s, solutions {:.2} s, by FGMRES {:.2} s, of the inverse {:.2} s; run {:.2} s",
+        times[0], times[1], times[2], times[3], times[4], time.processor
     );
     [time.processor, times.iter().sum()]
 }
 
 fn main() {
-    let cells = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(21);
-    let [fresh, auto] = [Factors::Fresh, Factors::Auto].map(|factors| slide(cells, factors));
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let model = model(&arguments);
+    let [fresh, auto] = [Factors::Fresh, Factors::Auto].map(|factors| slide(&model, factors));
     println!("auto / fresh: run {:.2}, linear solver {:.2}", auto[0] / fresh[0], auto[1] / fresh[1]);
 }

@@ -6,7 +6,7 @@ use crate::pattern::check_length;
 use crate::solve::Workspace;
 
 /// Loads substituted together.
-const TOGETHER: usize = 16;
+const TOGETHER: usize = 32;
 
 impl Factor {
     /// Solves `A x = b` for many sparse `b`, each given by unknowns and values that are added, and writes the `x` at the

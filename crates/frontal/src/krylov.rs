@@ -1,5 +1,6 @@
 //! FGMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by a factor, within a recycled outer space.
 
+use crate::change::Change;
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
@@ -46,13 +47,14 @@ impl Factor {
     /// # Errors
     /// [`Error::NotFactorised`], [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, Error> {
-        self.solve_recycling(values, rhs, krylov, &mut Recycled::default())
+        self.solve_recycling((values, None), rhs, krylov, &mut Recycled::default())
     }
 
-    /// The same, beginning in the space of the directions of earlier solutions, to which its own are added.
+    /// The same with a preconditioner put right for a change, beginning in the space of the directions of earlier
+    /// solutions, to which its own are added.
     pub(crate) fn solve_recycling(
         &self,
-        values: &[f64],
+        (values, change): (&[f64], Option<&Change>),
         rhs: &mut [f64],
         krylov: &Krylov,
         recycled: &mut Recycled,
@@ -66,7 +68,7 @@ impl Factor {
         }
         pattern.check_finite(values)?;
         check_finite(rhs, pattern.len())?;
-        let mut system = OtherValues { factor: self, values, work: Workspace::new(self), scaled: rhs.to_vec() };
+        let mut system = OtherValues { factor: self, values, change, work: Workspace::new(self), scaled: rhs.to_vec() };
         let mut x = vec![0.0; rhs.len()];
         scale(rhs, &self.scaling.rows);
         let convergence = fgmres(&mut system, rhs, &mut x, krylov, recycled);
@@ -88,6 +90,7 @@ pub(crate) trait System {
 struct OtherValues<'a> {
     factor: &'a Factor,
     values: &'a [f64],
+    change: Option<&'a Change>,
     work: Workspace,
     scaled: Vec<f64>,
 }
@@ -101,7 +104,10 @@ impl System for OtherValues<'_> {
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
-        self.factor.substitute(x, &mut self.work);
+        match self.change {
+            Some(change) => self.factor.substitute_changed(change, x, &mut self.work),
+            None => self.factor.substitute(x, &mut self.work),
+        }
     }
 }
 

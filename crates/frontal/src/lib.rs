@@ -28,6 +28,7 @@
 #![warn(missing_docs)]
 
 mod assembly_tree;
+mod change;
 mod dense;
 mod diagnose;
 mod error;
@@ -55,8 +56,10 @@ mod scaling;
 mod solve;
 mod supernode;
 mod symbolic;
+mod together;
 mod vector;
 
+pub use change::{Change, Sparse};
 pub use diagnose::{NullVector, Singular};
 pub use error::Error;
 pub use factor::{Factor, Report};

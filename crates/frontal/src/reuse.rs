@@ -1,5 +1,6 @@
 //! Not factorising at all when an old factor will do.
 
+use crate::change::Change;
 use crate::error::Error;
 use crate::factor::{Factor, Report};
 use crate::krylov::{Convergence, Krylov};
@@ -83,6 +84,8 @@ pub struct Solver {
     usable: bool,
     /// Directions of the solutions since the factorisation.
     recycled: Recycled,
+    /// What is known to have changed since.
+    change: Option<Change>,
     counts: Counts,
 }
 
@@ -91,7 +94,7 @@ impl Solver {
     pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
         let factor = symbolic.new_factor();
         let (recycled, counts) = (Recycled::default(), Counts::default());
-        Solver { symbolic, factor, policy, usable: false, recycled, counts }
+        Solver { symbolic, factor, policy, usable: false, recycled, change: None, counts }
     }
 
     /// The analysis.
@@ -113,6 +116,22 @@ impl Solver {
     /// reuses factors across sequences.
     pub fn begin(&mut self) {
         self.usable &= self.policy.reuse == Reuse::AcrossSequences;
+    }
+
+    /// Has the next matrix factorised, whatever the policy.
+    pub fn refuse(&mut self) {
+        self.usable = false;
+    }
+
+    /// Iterations with the factor there is that the next solution may take; none if a fresh factor comes first.
+    pub fn affordable_iterations(&self) -> usize {
+        if self.usable { self.policy.affordable_iterations(&self.symbolic.prediction()) } else { 0 }
+    }
+
+    /// Says by what the matrices to come differ from the one that was factorised, besides small changes: the factor is
+    /// put right for that until the next factorisation or the next change.
+    pub fn change(&mut self, change: Option<Change>) {
+        self.change = change;
     }
 
     /// Solves `A x = b` in place. With an old factor the residual is brought below `tolerance` times the right-hand
@@ -137,13 +156,19 @@ impl Solver {
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Option<Convergence>, Error> {
-        let iterations = self.policy.affordable_iterations(&self.symbolic.prediction());
-        if !self.usable || iterations == 0 {
+        let iterations = self.affordable_iterations();
+        if iterations == 0 {
             return Ok(None);
         }
         let mut x = rhs.to_vec();
         let krylov = Krylov { tolerance, iterations, restart: iterations };
-        let convergence = self.factor.solve_recycling(values, &mut x, &krylov, &mut self.recycled)?;
+        let convergence = match &self.change {
+            // A few iterations do then, of which each takes less than the products with all earlier directions.
+            Some(change) => {
+                self.factor.solve_recycling((values, Some(change)), &mut x, &krylov, &mut Recycled::default())?
+            }
+            None => self.factor.solve_recycling((values, None), &mut x, &krylov, &mut self.recycled)?,
+        };
         self.counts.iterations += convergence.iterations;
         if !convergence.converged {
             return Ok(None);
@@ -160,6 +185,7 @@ impl Solver {
     pub fn factorise(&mut self, values: &[f64]) -> Result<Report, Error> {
         self.usable = false;
         self.recycled.clear();
+        self.change = None;
         self.counts.factorisations += 1;
         let report = self.symbolic.factorise(values, &mut self.factor)?;
         self.usable = true;

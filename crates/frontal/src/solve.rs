@@ -21,7 +21,17 @@ impl Workspace {
     /// Room for `count` vectors at once.
     pub fn with_room_for(factor: &Factor, count: usize) -> Self {
         let one = Self::new(factor);
-        Workspace { x: vec![0.0; one.x.len() * count], ..one }
+        Workspace { x: vec![0.0; one.x.len() * count], local: vec![0.0; one.local.len() * count] }
+    }
+
+    /// How many vectors it holds.
+    pub fn count(&self, factor: &Factor) -> usize {
+        self.x.len() / factor.symbolic.pattern.len().max(1)
+    }
+
+    /// The vectors, and room for the gathered unknowns of a front.
+    pub fn vectors_and_local(&mut self) -> (&mut [f64], &mut [f64]) {
+        (&mut self.x, &mut self.local)
     }
 
     /// The vectors, one after the other.
@@ -34,27 +44,37 @@ impl Factor {
     /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included.
     pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
         self.permuted(x, work, |factor, work| {
-            for front in &factor.symbolic.tree.fronts {
-                factor.at_front(front, work, forward);
-            }
-            for front in factor.symbolic.tree.fronts.iter().rev() {
-                factor.at_front(front, work, backward);
-            }
+            factor.forward(work);
+            factor.backward(work);
         });
     }
 
-    /// [`substitute`](Self::substitute) for several vectors at once, one after the other in elimination order, passing the
-    /// fronts that none of the entries `from` reaches and those that none of the entries `to` needs.
-    pub(crate) fn substitute_between(&self, from: &[u32], to: &[u32], work: &mut Workspace) {
-        let fronts = &self.symbolic.tree.fronts;
-        for (front, _) in fronts.iter().zip(self.symbolic.tree.above(from)).filter(|(_, reached)| *reached) {
+    /// The first half of a substitution, in elimination order.
+    pub(crate) fn forward(&self, work: &mut Workspace) {
+        self.symbolic.tree.fronts.iter().for_each(|front| self.at_front(front, work, forward));
+    }
+
+    /// The second half.
+    pub(crate) fn backward(&self, work: &mut Workspace) {
+        self.symbolic.tree.fronts.iter().rev().for_each(|front| self.at_front(front, work, backward));
+    }
+
+    /// The first half where only the entries `from` are not zero.
+    pub(crate) fn forward_from(&self, from: &[u32], work: &mut Workspace) {
+        let fronts = self.symbolic.tree.fronts.iter().zip(self.symbolic.tree.above(from));
+        for (front, _) in fronts.filter(|(_, reached)| *reached) {
             self.at_front(front, work, |panels, x| {
                 if x[..panels.p].iter().any(|x| *x != 0.0) {
                     forward(panels, x);
                 }
             });
         }
-        for (front, _) in fronts.iter().zip(self.symbolic.tree.above(to)).rev().filter(|(_, needed)| *needed) {
+    }
+
+    /// The second half where only the entries `to` are needed.
+    pub(crate) fn backward_to(&self, to: &[u32], work: &mut Workspace) {
+        let fronts = self.symbolic.tree.fronts.iter().zip(self.symbolic.tree.above(to));
+        for (front, _) in fronts.rev().filter(|(_, needed)| *needed) {
             self.at_front(front, work, backward);
         }
     }
@@ -71,19 +91,24 @@ impl Factor {
         });
     }
 
-    fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&Self, &mut Workspace)) {
+    pub(crate) fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&Self, &mut Workspace)) {
         let order = &self.symbolic.tree.order;
         work.x.iter_mut().zip(order).for_each(|(permuted, &unknown)| *permuted = x[unknown as usize]);
         solve(self, work);
         work.x.iter().zip(order).for_each(|(permuted, &unknown)| x[unknown as usize] = *permuted);
     }
 
-    /// Gathers the unknowns of a front, pivots first, lets `step` work on them and scatters them.
-    fn at_front(&self, front: &Front, work: &mut Workspace, step: impl Fn(&Panels, &mut [f64])) {
-        let tree = &self.symbolic.tree;
+    /// The factors of a front.
+    pub(crate) fn panels(&self, front: &Front) -> Panels<'_> {
         let (left, right) = self.factors[front.factor_range()].split_at(front.size() * front.pivots);
         let pivots = &self.pivots[front.pivot_range()];
-        let panels = Panels { left, right, pivots, m: front.size(), p: front.pivots, symmetric: front.symmetric };
+        Panels { left, right, pivots, m: front.size(), p: front.pivots, symmetric: front.symmetric }
+    }
+
+    /// Gathers the unknowns of a front, pivots first, lets `step` work on them and scatters them.
+    pub(crate) fn at_front(&self, front: &Front, work: &mut Workspace, step: impl Fn(&Panels, &mut [f64])) {
+        let tree = &self.symbolic.tree;
+        let panels = self.panels(front);
         for x in work.x.chunks_exact_mut(self.symbolic.pattern.len()) {
             let local = &mut work.local[..front.size()];
             let (top, border) = local.split_at_mut(front.pivots);
@@ -103,13 +128,13 @@ impl Factor {
 
 /// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) has `m - p` rows and is missing if
 /// the matrix is symmetric.
-struct Panels<'a> {
-    left: &'a [f64],
-    right: &'a [f64],
-    pivots: &'a [crate::dense::Pivot],
-    m: usize,
-    p: usize,
-    symmetric: bool,
+pub(crate) struct Panels<'a> {
+    pub left: &'a [f64],
+    pub right: &'a [f64],
+    pub pivots: &'a [crate::dense::Pivot],
+    pub m: usize,
+    pub p: usize,
+    pub symmetric: bool,
 }
 
 impl Panels<'_> {
@@ -132,7 +157,7 @@ const WIDTH: usize = 4;
 
 /// `[L11; L21]` downwards.
 #[inline(always)]
-fn forward(panels: &Panels, x: &mut [f64]) {
+pub(crate) fn forward(panels: &Panels, x: &mut [f64]) {
     for (k, pivot) in panels.pivots.iter().enumerate() {
         x.swap(k, pivot.row as usize);
     }
@@ -149,7 +174,7 @@ fn forward(panels: &Panels, x: &mut [f64]) {
 
 /// `[U11 U12]` upwards.
 #[inline(always)]
-fn backward(panels: &Panels, x: &mut [f64]) {
+pub(crate) fn backward(panels: &Panels, x: &mut [f64]) {
     let (x, border) = x.split_at_mut(panels.p);
     for start in (0..panels.p).step_by(WIDTH) {
         let end = (start + WIDTH).min(panels.p);

@@ -3,7 +3,7 @@
 #[path = "../benches/models/mod.rs"]
 mod models;
 
-use frontal::{Krylov, Options, Outcome, Policy, Reuse, Solver, Symbolic};
+use frontal::{Change, Krylov, Options, Outcome, Policy, Reuse, Solver, Symbolic};
 
 /// A body with stiff springs on some nodes of its top, as where a rigid body touches it.
 fn with_patch(model: &models::Model, first_node: usize) -> Vec<f64> {
@@ -98,4 +98,45 @@ fn directions_of_earlier_solutions_save_iterations() {
     };
     assert!(recycling.iterations + 2 < alone, "{} against {alone}", recycling.iterations);
     assert!(residual(&model, &values, &x, &b) < SCALES * 1e-9);
+}
+
+/// What springs that many times as stiff as the body change between two places, with the entries of the inverse it takes.
+fn leap(solver: &Solver, patches: [&[f64]; 2]) -> Change {
+    let pattern = solver.symbolic().pattern().clone();
+    let (starts, columns) = (pattern.starts(), pattern.columns());
+    let rows = (0..pattern.len()).filter_map(|row| {
+        let range = starts[row]..starts[row + 1];
+        let changes = range.map(|at| (columns[at], patches[1][at] - patches[0][at]));
+        let changes: Vec<_> = changes.filter(|(_, change)| *change != 0.0).collect();
+        (!changes.is_empty()).then_some((row, changes))
+    });
+    let (at, rows): (Vec<usize>, Vec<_>) = rows.unzip();
+    let loads: Vec<_> = at.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
+    let mut inverse = vec![0.0; at.len() * at.len()];
+    solver.influence(&loads, &at, &mut inverse).expect("a factor");
+    let entry = |i: usize, j: usize| inverse[j * at.len() + at.iter().position(|&u| u == i).expect("a changed row")];
+    let along = |i: usize, j: usize| rows[i].iter().map(|&(unknown, value)| value * entry(unknown, j)).sum::<f64>();
+    let all = (0..at.len()).flat_map(|i| (0..at.len()).map(move |j| (i, j)));
+    let capacitance = all.map(|(i, j)| f64::from(u8::from(i == j)) + along(i, j)).collect();
+    Change::new(loads, rows, capacitance).expect("a regular matrix")
+}
+
+#[test]
+fn a_factor_put_right_for_a_leap_solves_at_once() {
+    let model = models::hex8([10, 10, 10]);
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    let mut solver = Solver::new(symbolic, Policy { share: 10.0, ..Policy::default() });
+    let [then, now] = [0, 6].map(|node| with_patch(&model, node));
+    solver.factorise(&then).expect("a regular matrix");
+    let b = (0..model.pattern.len()).map(|k| (k as f64).cos()).collect::<Vec<_>>();
+    let mut solve = |change: Option<Change>| {
+        solver.change(change);
+        let mut x = b.clone();
+        let done = solver.iterate(&now, &mut x, 1e-9).expect("good input").expect("an old factor would do");
+        assert!(residual(&model, &now, &x, &b) < SCALES * 1e-9);
+        (done.iterations, leap(&solver, [&then, &now]))
+    };
+    let (alone, change) = solve(None);
+    assert!(alone > 6, "{alone} iterations");
+    assert!(change.rank() > 30 && solve(Some(change)).0 <= 1);
 }

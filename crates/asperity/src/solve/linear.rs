@@ -1,7 +1,7 @@
 //! Solving the linear system of an iteration: the trait, and the multifrontal solver behind it.
 
 use crate::system::Csr;
-use frontal::{Options, Pattern, Policy, Reuse, Solver, Symbolic};
+use frontal::{Change, Options, Pattern, Policy, Reuse, Solver, Symbolic};
 use std::fmt;
 
 /// Why a linear system was not solved.
@@ -78,6 +78,14 @@ pub trait LinearSolver: Send {
     /// Begins a sequence of related matrices, such as those of an attempt: what was factorised before is not to show in
     /// its solutions.
     fn begin(&mut self) {}
+    /// Whether [`iterate`](Self::iterate) will try with the factor there is.
+    fn iterates(&self) -> bool {
+        false
+    }
+    /// Says by what the matrices to come differ from the one that was factorised, besides small changes.
+    fn change(&mut self, _change: Option<Change>) {}
+    /// Lets the factor there is not serve for the next matrix.
+    fn refuse(&mut self) {}
     /// Replaces the right-hand side by the solution with the matrix of these values, to a residual of `tolerance` times
     /// the right-hand side, without factorising it; `false`, with the right-hand side as it was, where that does not
     /// pay.
@@ -163,6 +171,20 @@ impl LinearSolver for Frontal {
 
     fn begin(&mut self) {
         self.solver.iter_mut().for_each(Solver::begin);
+    }
+
+    fn refuse(&mut self) {
+        self.solver.iter_mut().for_each(Solver::refuse);
+    }
+
+    fn iterates(&self) -> bool {
+        self.solver.as_ref().is_some_and(|solver| solver.affordable_iterations() > 0)
+    }
+
+    fn change(&mut self, change: Option<Change>) {
+        if let Some(solver) = &mut self.solver {
+            solver.change(change);
+        }
     }
 
     fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {

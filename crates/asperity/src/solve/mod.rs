@@ -3,6 +3,7 @@
 
 mod convergence;
 mod free;
+mod influences;
 mod linear;
 mod mixed;
 mod newton;

@@ -1,6 +1,7 @@
 //! One attempt at an increment: Newton's iterations from the first guess of the predictor.
 
 use super::convergence::{Norms, Yardstick};
+use super::influences::Influences;
 use super::linear::{Factors, LinearSolver};
 use super::mixed::Mixed;
 use super::observer::{AttemptRecord, IterationRecord, Observer};
@@ -85,6 +86,7 @@ pub struct Memory {
     /// Stencils that bend.
     pub(super) kinks: Kinks,
     pub(super) mixed: Mixed,
+    pub(super) influences: Influences,
     /// The evaluation of the last accepted increment: room for the next.
     pub spare: Option<Evaluation>,
     /// Analyses of the solver so far.
@@ -144,6 +146,10 @@ pub struct Newton<'a> {
 /// closes over the step raises it a little and is dealt with by the next iteration; only what goes far astray is
 /// shortened.
 const SLOPE: f64 = 10.0;
+/// An iteration with an old factor stalls that leaves more than this part of the unbalanced forces; so many in a row, and
+/// the next has a fresh one.
+const STALLED: f64 = 0.5;
+const STALLS: usize = 2;
 /// Iterations after which the line search turns strict: a step must then lower the slope,
 const PATIENCE: usize = 8;
 /// to this part of the initial one. Points that slip to and fro in turn are held by it.
@@ -195,7 +201,7 @@ impl<'a> Newton<'a> {
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.solver.begin();
         let mut trail = Trail::default();
-        let (mut augmentation, mut begun) = (0, 0);
+        let (mut augmentation, mut begun, mut stalls) = (0, 0, 0);
         for iteration in 0.. {
             self.refresh_stiffness();
             let norms = self.measure();
@@ -222,6 +228,10 @@ impl<'a> Newton<'a> {
             }
             if iteration - begun >= PATIENCE {
                 self.bound = STRICT;
+            }
+            stalls = if factorised || norms.ratio <= STALLED * ratio { 0 } else { stalls + 1 };
+            if stalls == STALLS {
+                (stalls, _) = (0, self.solver.refuse());
             }
             self.complete(&u, missing.as_deref())?;
             let motion = self.linearise((iteration, &u), missing.as_deref(), forcing(norms.ratio, ratio))?;

@@ -8,9 +8,10 @@
 //! method for B-differentiable functions (Pang, Math. Oper. Res. 15, 1990), taking less of it a search along its path
 //! (Ralph, Math. Oper. Res. 19, 1994).
 
+use super::influences::{Influences, Site};
 use super::linear::LinearSolver;
 use crate::Failure;
-use crate::system::{Answer, Attempt, Constraints, Coordinates, Kinks};
+use crate::system::{Answer, Coordinates};
 use crate::tensor::dense::eliminate;
 
 /// Stresses that the linear system leaves count from this part of the largest stress on.
@@ -26,13 +27,15 @@ const ENOUGH: f64 = 0.25;
 /// Most stresses that are put right: more cost as much as a new matrix.
 const MOST: usize = 512;
 
+/// The columns of the factor there is, and the solver that holds it.
+type Factored<'s> = (&'s mut Influences, &'s dyn LinearSolver);
+
 /// A stress: kink and coordinate.
 type Stress = (usize, usize);
 
 /// The stencils that bend over a linear step.
 pub(super) struct Piecewise<'a> {
-    attempts: &'a [Box<dyn Attempt + 'a>],
-    kinks: &'a Kinks,
+    site: Site<'a>,
     start: Vec<Answer>,
     /// `G d` of each kink.
     along: Vec<Coordinates>,
@@ -42,6 +45,8 @@ pub(super) struct Piecewise<'a> {
     /// `w`, active stress by active stress, and `y` of each kink with it.
     left: Vec<f64>,
     y: Vec<Coordinates>,
+    /// What the coordinates are beyond those that `S` leads to, which is that of an old factor put right.
+    beyond: Vec<Coordinates>,
 }
 
 /// How far the steps of the small problem go.
@@ -71,35 +76,6 @@ impl Problem {
     }
 }
 
-/// The unknowns of all kinks.
-struct Surface {
-    dofs: Vec<usize>,
-    /// The free unknowns that they follow.
-    free: Vec<usize>,
-}
-
-impl Surface {
-    fn new(kinks: &Kinks, constraints: &Constraints) -> Self {
-        let distinct = |mut of: Vec<usize>| {
-            of.sort_unstable();
-            of.dedup();
-            of
-        };
-        let dofs = distinct(kinks.dofs().to_vec());
-        let free = dofs.iter().flat_map(|&dof| constraints.followed(dof)).map(|(i, _)| i);
-        let free = distinct(free.collect());
-        Self { dofs, free }
-    }
-
-    /// Their motions from those of the free unknowns.
-    fn expand(&self, motion: &[f64], constraints: &Constraints, full: &mut [f64]) {
-        let of = |i: usize| self.free.binary_search(&i).map_or(0.0, |place| motion[place]);
-        for &dof in &self.dofs {
-            full[dof] = constraints.followed(dof).map(|(i, c)| c * of(i)).sum();
-        }
-    }
-}
-
 /// Adds a multiple of a motion of all kinks.
 fn add(y: &mut [Coordinates], factor: f64, motion: &[Coordinates]) {
     y.as_flattened_mut().iter_mut().zip(motion.as_flattened()).for_each(|(y, motion)| *y += factor * motion);
@@ -107,12 +83,14 @@ fn add(y: &mut [Coordinates], factor: f64, motion: &[Coordinates]) {
 
 impl<'a> Piecewise<'a> {
     /// For the linear step `direction`, on all unknowns.
-    pub fn new(attempts: &'a [Box<dyn Attempt + 'a>], kinks: &'a Kinks, direction: &[f64]) -> Result<Self, Failure> {
+    pub fn new(site: Site<'a>, direction: &[f64]) -> Result<Self, Failure> {
+        let Site { attempts, kinks, .. } = site;
         let start = kinks.list().iter().map(|kink| attempts[kink.term].answer(kink.stencil, &kink.y));
         let start = start.collect::<Result<_, _>>()?;
         let along = kinks.list().iter().map(|kink| kinks.along(kink, direction)).collect();
-        let y = kinks.list().iter().map(|kink| kink.y).collect();
-        Ok(Self { attempts, kinks, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new(), y })
+        let y: Vec<Coordinates> = kinks.list().iter().map(|kink| kink.y).collect();
+        let beyond = vec![Coordinates::default(); y.len()];
+        Ok(Self { site, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new(), y, beyond })
     }
 
     /// Puts the step right and returns the part of it for which that could be done; None if for too little of it. Whole
@@ -121,15 +99,15 @@ impl<'a> Piecewise<'a> {
     ///
     /// # Errors
     /// When a law cannot answer, or a solution with the factor fails.
-    pub fn settle(&mut self, solver: &dyn LinearSolver, constraints: &Constraints) -> Result<Option<f64>, Failure> {
-        if self.settle_part((1.0, Steps::Whole), solver, constraints)? {
+    pub fn settle(&mut self, (influences, solver): Factored) -> Result<Option<f64>, Failure> {
+        if self.settle_part((1.0, Steps::Whole), (influences, solver))? {
             return Ok(Some(1.0));
         }
         self.left.fill(0.0);
         let (mut part, mut stride) = (0.0, 1.0_f64);
         while part < 1.0 && stride >= SHORTEST {
             let (mut before, next) = (self.left.clone(), 1.0_f64.min(part + stride));
-            if self.settle_part((next, Steps::Searched), solver, constraints)? {
+            if self.settle_part((next, Steps::Searched), (influences, solver))? {
                 (part, stride) = (next, 2.0 * stride);
             } else {
                 before.resize(self.left.len(), 0.0);
@@ -140,35 +118,61 @@ impl<'a> Piecewise<'a> {
         Ok((part >= ENOUGH).then_some(part))
     }
 
+    /// Puts the same part of the step right again, now that the step is known to be `du`; false where that fails.
+    ///
+    /// # Errors
+    /// As those of [`settle`](Self::settle).
+    pub fn settle_again(&mut self, part: f64, du: &[f64], factored: Factored) -> Result<bool, Failure> {
+        for ((kink, beyond), y) in self.site.kinks.list().iter().zip(&mut self.beyond).zip(&self.y) {
+            let change = self.site.kinks.along(kink, du);
+            (0..kink.count).for_each(|c| beyond[c] += kink.y[c] + change[c] - y[c]);
+        }
+        self.settle_part((part, Steps::Whole), factored)
+    }
+
+    /// The forces that the step `du` leaves because its stresses are not those that were put right.
+    ///
+    /// # Errors
+    /// When a law cannot answer.
+    pub fn miss(&self, du: &[f64]) -> Result<Vec<f64>, Failure> {
+        let mut forces = vec![0.0; du.len()];
+        let mut known = vec![Coordinates::default(); self.y.len()];
+        self.active.iter().zip(&self.left).for_each(|(&(kink, coordinate), w)| known[kink][coordinate] = *w);
+        for (number, kink) in self.site.kinks.list().iter().enumerate() {
+            let change = self.site.kinks.along(kink, du);
+            let (bent, _) = self.bend(number, &std::array::from_fn(|c| kink.y[c] + change[c]))?;
+            for c in 0..kink.count {
+                self.site.kinks.push(kink, c, bent.stress[c] - known[number][c], &mut forces);
+            }
+        }
+        Ok(forces)
+    }
+
     /// Solves for the active stresses until no other wakes.
-    fn settle_part(
-        &mut self,
-        (part, steps): (f64, Steps),
-        solver: &dyn LinearSolver,
-        constraints: &Constraints,
-    ) -> Result<bool, Failure> {
+    fn settle_part(&mut self, (part, steps): (f64, Steps), (influences, solver): Factored) -> Result<bool, Failure> {
         while self.solve(part, steps)? {
             let woken = self.awake()?;
             if woken.is_empty() {
                 return Ok(true);
             }
-            self.activate(&woken, solver, constraints)?;
+            self.activate(&woken, (influences, solver))?;
         }
         Ok(false)
     }
 
     /// `y0 + part G d - S w` of all kinks.
     fn coordinates(&self, part: f64) -> Vec<Coordinates> {
-        let mut y: Vec<Coordinates> = self.kinks.list().iter().map(|kink| kink.y).collect();
+        let mut y: Vec<Coordinates> = self.site.kinks.list().iter().map(|kink| kink.y).collect();
         add(&mut y, part, &self.along);
+        add(&mut y, 1.0, &self.beyond);
         self.left.iter().zip(&self.influence).for_each(|(w, influence)| add(&mut y, -w, influence));
         y
     }
 
     /// `w(y)` of a kink, its slopes, and the size of its stresses.
     fn bend(&self, number: usize, y: &Coordinates) -> Result<(Answer, f64), Failure> {
-        let (kink, start) = (&self.kinks.list()[number], &self.start[number]);
-        let mut now = self.attempts[kink.term].answer(kink.stencil, y)?;
+        let (kink, start) = (&self.site.kinks.list()[number], &self.start[number]);
+        let mut now = self.site.attempts[kink.term].answer(kink.stencil, y)?;
         let largest = |t: &Coordinates| t.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
         let size = largest(&now.stress).max(largest(&start.stress));
         for i in 0..kink.count {
@@ -194,35 +198,28 @@ impl<'a> Piecewise<'a> {
     }
 
     /// Puts stresses right from now on.
-    fn activate(
-        &mut self,
-        woken: &[Stress],
-        solver: &dyn LinearSolver,
-        constraints: &Constraints,
-    ) -> Result<(), Failure> {
-        let surface = Surface::new(self.kinks, constraints);
-        let load = |&(kink, coordinate): &Stress| {
-            let forces = self.kinks.forces(&self.kinks.list()[kink], coordinate);
-            forces.flat_map(|(dof, force)| constraints.followed(dof).map(move |(i, c)| (i, c * force))).collect()
-        };
-        let loads: Vec<Vec<(usize, f64)>> = woken.iter().map(load).collect();
-        let (mut motions, mut full) = (vec![0.0; loads.len() * surface.free.len()], vec![0.0; constraints.count()]);
-        solver.influence(&loads, &surface.free, &mut motions).map_err(|error| Failure::new(error.to_string()))?;
-        for (&stress, motion) in woken.iter().zip(motions.chunks_exact(surface.free.len().max(1))) {
-            surface.expand(motion, constraints, &mut full);
-            self.active.push(stress);
-            self.influence.push(self.kinks.list().iter().map(|kink| self.kinks.along(kink, &full)).collect());
-            self.left.push(0.0);
-        }
+    fn activate(&mut self, woken: &[Stress], (influences, solver): Factored) -> Result<(), Failure> {
+        let (kinks, columns) = (self.site.kinks, &mut self.influence);
+        let take = |motion: &[f64]| columns.push(kinks.list().iter().map(|kink| kinks.along(kink, motion)).collect());
+        let responded = influences.respond(woken, (self.site, solver), take);
+        responded.map_err(|error| Failure::new(error.to_string()))?;
+        self.active.extend_from_slice(woken);
+        self.left.resize(self.active.len(), 0.0);
         Ok(())
     }
 
-    /// Adds the forces of what was put right, and says whether there are any.
-    pub fn push(&self, forces: &mut [f64]) -> bool {
-        for (&(kink, coordinate), &w) in self.active.iter().zip(&self.left) {
-            self.kinks.push(&self.kinks.list()[kink], coordinate, w, forces);
-        }
+    /// Whether there is anything to put right.
+    pub fn bends(&self) -> bool {
         !self.active.is_empty()
+    }
+
+    /// The forces of what was put right, on so many unknowns.
+    pub fn forces(&self, unknowns: usize) -> Vec<f64> {
+        let mut forces = vec![0.0; unknowns];
+        for (&(kink, coordinate), &w) in self.active.iter().zip(&self.left) {
+            self.site.kinks.push(&self.site.kinks.list()[kink], coordinate, w, &mut forces);
+        }
+        forces
     }
 
     /// Solves the small problem for the active stresses by Newton's method.

@@ -1,16 +1,22 @@
 //! One step of Newton's method: the linear system, what bends over its solution, and how far to go along it.
 
-use super::linear::LinearError;
+use super::influences::{Matrix, Site};
+use super::linear::{LinearError, LinearSolver};
 use super::newton::{Newton, Trouble, Variant};
 use super::piecewise::Piecewise;
 use crate::Failure;
-use crate::system::{Dofs, Tangent};
+use crate::system::{Constraints, Dofs, Tangent};
 
 /// Slope, as a part of the initial one, at which the search for a shorter step ends.
 const GOOD: f64 = 0.8;
 /// Bounds of what an iterative solution may leave of its right-hand side.
 const LOOSEST: f64 = 1e-3;
 const TIGHTEST: f64 = 1e-8;
+/// The same where forces are much smaller than the unbalanced ones.
+const LOOSE: f64 = 0.1;
+/// Part of the unbalanced forces that stencils which bend may leave, and what asking them again must lower that to.
+const LEFT: f64 = 0.02;
+const GAIN: f64 = 0.5;
 /// Shortest step of the line search.
 const SHORTEST: f64 = 0.01;
 /// A step is at most a cell long, or this multiple of what was moved in the increment so far and what is still missing,
@@ -26,6 +32,51 @@ pub(super) struct Motion {
     pub part: f64,
     /// Whether a matrix was factorised for it.
     pub factorised: bool,
+}
+
+/// The linear system of an iteration, to be solved to a part `forcing` of the unbalanced forces of this `size`, or by the
+/// factor alone where that is its own.
+struct Loose<'a> {
+    constraints: &'a Constraints,
+    values: &'a [f64],
+    size: f64,
+    forcing: Option<f64>,
+}
+
+impl Loose<'_> {
+    fn gather(&self, forces: &[f64]) -> Vec<f64> {
+        let mut free = vec![0.0; self.constraints.free_count()];
+        self.constraints.gather(forces, &mut free);
+        free
+    }
+
+    /// Size of forces on the free unknowns.
+    fn size_of(&self, forces: &[f64]) -> f64 {
+        norm(&self.gather(forces))
+    }
+
+    /// Takes out of a step what forces do, with a fresh factor where the old one does not serve.
+    fn push(&self, forces: &[f64], solver: &mut dyn LinearSolver, motion: &mut Motion) -> Result<(), LinearError> {
+        let mut rhs = self.gather(forces);
+        let iterated = match self.forcing {
+            Some(forcing) => {
+                let tolerance = (forcing * self.size / norm(&rhs).max(f64::MIN_POSITIVE)).clamp(TIGHTEST, LOOSE);
+                let iterated = solver.iterate(self.values, &mut rhs, tolerance)?;
+                if !iterated {
+                    solver.factorise(self.values)?;
+                    motion.factorised = true;
+                }
+                iterated
+            }
+            None => false,
+        };
+        if !iterated {
+            solver.solve(&mut rhs)?;
+        }
+        rhs.iter_mut().for_each(|dq| *dq = -*dq);
+        self.constraints.expand(&rhs, &mut motion.du);
+        Ok(())
+    }
 }
 
 impl Newton<'_> {
@@ -45,36 +96,60 @@ impl Newton<'_> {
             du.copy_from_slice(missing);
         }
         rhs.iter_mut().zip(&self.residual).for_each(|(rhs, r)| *rhs = -(*rhs + r));
+        self.memory.workspace.kinks(&self.assembly, u, &mut self.memory.kinks)?;
+        let size = norm(&rhs);
         let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
         constraints.expand(&rhs, &mut du);
         let mut motion = Motion { du, part: 1.0, factorised };
-        self.memory.workspace.kinks(&self.assembly, u, &mut self.memory.kinks)?;
-        if self.problem.newton.piecewise {
-            self.bend(u, &mut motion, forcing)?;
+        if self.problem.newton.piecewise && !self.bend(size, &mut motion, forcing)? {
+            self.solver.refuse();
+            return self.linearise((iteration, u), missing, forcing);
         }
         self.limit(u, missing, &mut motion);
         self.memory.mixed.aim(&self.assembly, &self.memory.kinks, &motion.du)?;
         Ok(motion)
     }
 
-    /// Puts the linear step right for the stencils that bend over it.
-    fn bend(&mut self, u: &[f64], motion: &mut Motion, forcing: f64) -> Result<(), Trouble> {
-        let (constraints, mut full) = (&self.step.constraints, vec![0.0; u.len()]);
-        let mut piecewise = Piecewise::new(&self.assembly.attempts, &self.memory.kinks, &motion.du)?;
-        let settled = piecewise.settle(self.solver, constraints)?;
-        let Some(part) = settled.filter(|_| piecewise.push(&mut full)) else { return Ok(()) };
-        let mut rhs = vec![0.0; self.residual.len()];
-        constraints.gather(&full, &mut rhs);
-        let iterates = !motion.factorised && self.problem.newton.variant == Variant::Full;
-        let iterated = iterates && self.solver.iterate(&self.evaluation.values, &mut rhs, forcing).unwrap_or(false);
-        if !iterated {
-            self.solver.solve(&mut rhs).map_err(|e| self.explain(e, 1))?;
-        }
-        rhs.iter_mut().for_each(|dq| *dq = -*dq);
+    /// Puts the linear step right for the stencils that bend over it. What they do by an old factor is known roughly; the
+    /// solution with the matrix then tells what they do, until they leave little of the unbalanced forces of this `size`.
+    /// False where that does not come about.
+    fn bend(&mut self, size: f64, motion: &mut Motion, forcing: f64) -> Result<bool, Trouble> {
+        let (constraints, memory) = (&self.step.constraints, &mut *self.memory);
+        let site = Site { attempts: &self.assembly.attempts, kinks: &memory.kinks, constraints };
+        let mut piecewise = Piecewise::new(site, &motion.du)?;
+        let settled = piecewise.settle((&mut memory.influences, self.solver))?;
+        let Some(part) = settled.filter(|_| piecewise.bends()) else { return Ok(true) };
         motion.du.iter_mut().for_each(|du| *du *= part);
-        constraints.expand(&rhs, &mut motion.du);
         motion.part = part;
-        Ok(())
+        let exact = motion.factorised || self.problem.newton.variant != Variant::Full;
+        let system = Loose { constraints, values: &self.evaluation.values, size, forcing: (!exact).then_some(forcing) };
+        let (mut before, mut missed) = (vec![0.0; motion.du.len()], f64::INFINITY);
+        loop {
+            let forces = piecewise.forces(before.len());
+            let more: Vec<f64> = forces.iter().zip(&before).map(|(now, before)| now - before).collect();
+            if let Err(error) = system.push(&more, self.solver, motion) {
+                return Err(self.explain(error, 1));
+            }
+            if exact {
+                return Ok(true);
+            }
+            if motion.factorised {
+                memory.influences.forget();
+                memory.factorisations += 1;
+                return Ok(true);
+            }
+            let now = system.size_of(&piecewise.miss(&motion.du)?);
+            if now <= LEFT * size {
+                return Ok(true);
+            }
+            (before, missed) = match now <= GAIN * missed {
+                true => (forces, now),
+                false => return Ok(false),
+            };
+            if !piecewise.settle_again(part, &motion.du, (&mut memory.influences, self.solver))? {
+                return Ok(false);
+            }
+        }
     }
 
     /// Shortens a step that leads far beyond what the increment moves: something is then free that a shorter step may
@@ -102,6 +177,7 @@ impl Newton<'_> {
             let pattern = self.memory.workspace.pattern();
             self.solver.analyse(pattern, nodes).map_err(|e| self.explain(e, iteration))?;
             (self.memory.analysed, self.memory.factorised) = (analysis, false);
+            self.memory.influences.forget();
             self.memory.analyses += 1;
         }
         Ok(())
@@ -130,16 +206,42 @@ impl Newton<'_> {
         Ok(true)
     }
 
+    /// Forgets what an earlier factor said of the unknowns near contact.
+    fn begin_influences(&mut self) -> Result<(), Failure> {
+        let (terms, memory) = (self.assembly.terms, &mut *self.memory);
+        let stays = self.problem.newton.variant == Variant::Full && self.solver.iterates();
+        let dofs = memory.kinks.dofs();
+        let near = if stays { memory.workspace.around(dofs, |t| terms[t].bends()) } else { dofs.to_vec() };
+        let site =
+            Site { attempts: &self.assembly.attempts, kinks: &memory.kinks, constraints: &self.step.constraints };
+        let matrix = Matrix { pattern: memory.workspace.pattern(), values: &self.evaluation.values };
+        memory.influences.begin((site, matrix), near, stays)
+    }
+
+    /// Puts the factor right for what has changed near contact.
+    fn put_right(&mut self) -> Result<(), Failure> {
+        let memory = &mut *self.memory;
+        let site =
+            Site { attempts: &self.assembly.attempts, kinks: &memory.kinks, constraints: &self.step.constraints };
+        let matrix = Matrix { pattern: memory.workspace.pattern(), values: &self.evaluation.values };
+        memory.influences.cover(site);
+        let change = memory.influences.change((site, matrix), self.solver)?;
+        self.solver.change(change);
+        Ok(())
+    }
+
     /// Solves with the present matrix or that of the variant, and says whether a matrix was factorised.
     fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, Trouble> {
         self.analyse(iteration)?;
-        if self.problem.newton.variant == Variant::Full {
+        if self.problem.newton.variant == Variant::Full && self.solver.iterates() {
+            self.put_right()?;
             let solved = self.solver.iterate(&self.evaluation.values, rhs, forcing);
             if solved.map_err(|e| self.explain(e, 1))? {
                 return Ok(false);
             }
         }
         let factorised = self.factorise(iteration)?;
+        self.begin_influences()?;
         self.solver.solve(rhs).map_err(|e| self.explain(e, 1))?;
         Ok(factorised)
     }
@@ -218,6 +320,10 @@ impl Newton<'_> {
         }
         Ok(best.1)
     }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Residual of an iterative solution over its right-hand side, from the unbalanced forces now and an iteration before:

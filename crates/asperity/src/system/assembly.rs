@@ -10,6 +10,7 @@ use super::{
 };
 use crate::Failure;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// How the matrix is to be found.
@@ -122,6 +123,17 @@ impl Workspace {
             }
         }
         Ok(())
+    }
+
+    /// The unknowns of all stencils of the terms that bend which share one with `dofs`, and those themselves.
+    pub fn around(&self, dofs: &[usize], bends: impl Fn(usize) -> bool) -> Vec<usize> {
+        let marked: BTreeSet<usize> = dofs.iter().copied().collect();
+        let mut found: Vec<usize> = marked.iter().copied().collect();
+        for (_, stencils) in self.stencils.iter().enumerate().filter(|(t, _)| bends(*t)) {
+            let all = stencils.list.iter().map(|stencil| stencils.dofs(stencil));
+            found.extend(all.filter(|dofs| dofs.iter().any(|dof| marked.contains(dof))).flatten());
+        }
+        found
     }
 
     /// Prepares the pattern of an attempt: a function of the accepted state alone.

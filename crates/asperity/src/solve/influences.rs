@@ -1,0 +1,228 @@
+//! What forces on the unknowns near contact do there, by the factor there is, and what has changed of the matrix near
+//! contact since it was factorised.
+//!
+//! Column `p` is `K0^-1 e_p` at the unknowns of the stencils that bend, found when it is first asked for and kept as long
+//! as the factor of `K0`. Where stencils bend the matrix jumps, elsewhere it changes little; with the columns of the
+//! unknowns of closed stencils at hand the factor is put right for the jumps (see [`frontal::Change`]), and so is what the
+//! columns say.
+
+use super::linear::{LinearError, LinearSolver};
+use crate::Failure;
+use crate::system::{Attempt, Constraints, Csr, Kink, Kinks};
+use frontal::{Change, Sparse};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most unknowns for which the factor is put right.
+const MOST: usize = 1024;
+
+/// Columns of the inverse of the matrix that was factorised last, and its rows, near contact.
+#[derive(Debug, Default)]
+pub(super) struct Influences {
+    /// Unknowns of the stencils near contact, and the free ones that they follow, ascending.
+    dofs: Vec<usize>,
+    at: Vec<usize>,
+    /// Free unknowns of closed stencils when it was factorised, and its rows `at` them.
+    closed: BTreeSet<usize>,
+    rows: BTreeMap<usize, Vec<f64>>,
+    /// Motions `at` all under a unit of force.
+    columns: BTreeMap<usize, Vec<f64>>,
+    /// Unknowns whose rows have changed, and how.
+    change: Option<(Vec<usize>, Change)>,
+    /// Whether the factor is to serve for more than one matrix.
+    stays: bool,
+}
+
+/// What the factor and the stencils are asked with.
+#[derive(Clone, Copy)]
+pub(super) struct Site<'a> {
+    pub attempts: &'a [Box<dyn Attempt + 'a>],
+    pub kinks: &'a Kinks,
+    pub constraints: &'a Constraints,
+}
+
+impl Site<'_> {
+    /// Forces of a unit of stress on free unknowns.
+    fn forces(&self, kink: &Kink, coordinate: usize) -> Sparse {
+        let forces = self.kinks.forces(kink, coordinate);
+        forces.flat_map(|(dof, force)| self.constraints.followed(dof).map(move |(i, c)| (i, c * force))).collect()
+    }
+
+    /// Free unknowns of the stencils whose stresses have slopes.
+    fn closed(&self) -> Result<BTreeSet<usize>, Failure> {
+        let mut closed = BTreeSet::new();
+        for kink in self.kinks.list() {
+            let slopes = self.attempts[kink.term].answer(kink.stencil, &kink.y)?.slopes;
+            if slopes.as_flattened().iter().any(|slope| *slope != 0.0) {
+                closed.extend(self.forces(kink, 0).into_iter().map(|(unknown, _)| unknown));
+            }
+        }
+        Ok(closed)
+    }
+}
+
+/// The matrix at hand.
+#[derive(Clone, Copy)]
+pub(super) struct Matrix<'a> {
+    pub pattern: &'a Csr,
+    pub values: &'a [f64],
+}
+
+impl Matrix<'_> {
+    fn row(&self, row: usize) -> (&[usize], &[f64]) {
+        let range = self.pattern.starts[row]..self.pattern.starts[row + 1];
+        (&self.pattern.columns[range.clone()], &self.values[range])
+    }
+}
+
+impl Influences {
+    /// Begins with the factor of a matrix, which is to serve for more than that one if it `stays`.
+    ///
+    /// # Errors
+    /// When a law cannot answer.
+    pub fn begin(&mut self, (site, matrix): (Site, Matrix), near: Vec<usize>, stays: bool) -> Result<(), Failure> {
+        *self = Self { dofs: near, stays, ..Self::default() };
+        self.find_free(site.constraints);
+        if stays {
+            self.closed = site.closed()?;
+            self.rows = self.at.iter().map(|&row| (row, matrix.row(row).1.to_vec())).collect();
+        }
+        Ok(())
+    }
+
+    /// Forgets all: the unknowns may be numbered anew.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    fn find_free(&mut self, constraints: &Constraints) {
+        self.dofs.sort_unstable();
+        self.dofs.dedup();
+        self.at = self.dofs.iter().flat_map(|&dof| constraints.followed(dof)).map(|(i, _)| i).collect();
+        self.at.sort_unstable();
+        self.at.dedup();
+    }
+
+    /// Sees to it that the columns reach all stencils.
+    pub fn cover(&mut self, site: Site) {
+        if site.kinks.dofs().iter().any(|dof| self.dofs.binary_search(dof).is_err()) {
+            self.dofs.extend_from_slice(site.kinks.dofs());
+            self.find_free(site.constraints);
+            self.columns.clear();
+            self.change = None;
+        }
+    }
+
+    /// Finds the columns that are missing.
+    fn find(&mut self, unknowns: &BTreeSet<usize>, solver: &dyn LinearSolver) -> Result<(), LinearError> {
+        let missing = unknowns.iter().copied().filter(|unknown| !self.columns.contains_key(unknown));
+        let missing: Vec<usize> = missing.collect();
+        let loads: Vec<Sparse> = missing.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
+        let motions = self.solve(&loads, solver)?;
+        self.columns.extend(missing.into_iter().zip(motions));
+        Ok(())
+    }
+
+    /// Motions under loads, by the factor.
+    fn solve(&self, loads: &[Sparse], solver: &dyn LinearSolver) -> Result<Vec<Vec<f64>>, LinearError> {
+        let (count, mut motions) = (self.at.len(), vec![0.0; loads.len() * self.at.len()]);
+        solver.influence(loads, &self.at, &mut motions)?;
+        Ok((0..loads.len()).map(|k| motions[k * count..(k + 1) * count].to_vec()).collect())
+    }
+
+    /// Where a free unknown stands among [`at`](Self::at).
+    fn place(&self, unknown: usize) -> usize {
+        self.at.binary_search(&unknown).expect("the columns reach all stencils")
+    }
+
+    /// Calls `take` with the motion of all unknowns near contact under a unit of each stress, given by kink and coordinate.
+    ///
+    /// # Errors
+    /// When a solution with the factor fails.
+    pub fn respond(
+        &mut self,
+        stresses: &[(usize, usize)],
+        (site, solver): (Site, &dyn LinearSolver),
+        mut take: impl FnMut(&[f64]),
+    ) -> Result<(), LinearError> {
+        let load = |&(kink, coordinate): &(usize, usize)| site.forces(&site.kinks.list()[kink], coordinate);
+        let loads: Vec<Sparse> = stresses.iter().map(load).collect();
+        let mut full = vec![0.0; site.constraints.count()];
+        for motions in self.motions(&loads, solver)? {
+            for &dof in &self.dofs {
+                full[dof] = site.constraints.followed(dof).map(|(i, c)| c * motions[self.place(i)]).sum();
+            }
+            take(&full);
+        }
+        Ok(())
+    }
+
+    /// Motions under loads, by the columns where those serve again.
+    fn motions(&mut self, loads: &[Sparse], solver: &dyn LinearSolver) -> Result<Vec<Vec<f64>>, LinearError> {
+        let unknowns: BTreeSet<usize> = loads.iter().flatten().map(|&(unknown, _)| unknown).collect();
+        if !self.stays || unknowns.len() > MOST {
+            return Ok(self.solve(loads, solver)?.into_iter().map(|motions| self.put_right(motions)).collect());
+        }
+        self.find(&unknowns, solver)?;
+        let motion = |load: &Sparse| {
+            let mut sum = vec![0.0; self.at.len()];
+            for (unknown, force) in load {
+                sum.iter_mut().zip(&self.columns[unknown]).for_each(|(sum, motion)| *sum += force * motion);
+            }
+            self.put_right(sum)
+        };
+        Ok(loads.iter().map(motion).collect())
+    }
+
+    /// Motions by the changed matrix from those by the factorised one.
+    fn put_right(&self, mut motions: Vec<f64>) -> Vec<f64> {
+        if let Some((unknowns, change)) = &self.change {
+            let weights = change.weights(|unknown| motions[self.place(unknown)]);
+            for (unknown, weight) in unknowns.iter().zip(weights) {
+                motions.iter_mut().zip(&self.columns[unknown]).for_each(|(m, c)| *m -= weight * c);
+            }
+        }
+        motions
+    }
+
+    /// What has changed of the matrix among the unknowns of stencils that are closed or were; None if that is nothing, or
+    /// too much.
+    ///
+    /// # Errors
+    /// When a law cannot answer, or a solution with the factor fails.
+    pub fn change(&mut self, (site, matrix): (Site, Matrix), solver: &dyn LinearSolver) -> Result<Option<Change>, Failure> {
+        self.change = None;
+        let mut unknowns: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
+        unknowns.retain(|unknown| self.rows.contains_key(unknown));
+        if unknowns.is_empty() || unknowns.len() > MOST {
+            return Ok(None);
+        }
+        self.find(&unknowns, solver).map_err(|error| Failure::new(error.to_string()))?;
+        let rows: Vec<Sparse> = unknowns.iter().map(|&row| self.row(row, &unknowns, matrix)).collect();
+        let unknowns: Vec<usize> = unknowns.into_iter().collect();
+        let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
+        let capacitance = self.capacitance(&rows, &unknowns);
+        let change = Change::new(forces, rows, capacitance);
+        self.change = change.clone().map(|change| (unknowns, change));
+        Ok(change)
+    }
+
+    /// What has changed of a row among these unknowns.
+    fn row(&self, row: usize, among: &BTreeSet<usize>, matrix: Matrix) -> Sparse {
+        let (columns, now) = matrix.row(row);
+        let entries = columns.iter().zip(now.iter().zip(&self.rows[&row]));
+        let entries = entries.filter(|(column, (now, then))| now != then && among.contains(*column));
+        entries.map(|(&column, (now, then))| (column, now - then)).collect()
+    }
+
+    /// `I + V^T K0^-1 U` by rows.
+    fn capacitance(&self, rows: &[Sparse], unknowns: &[usize]) -> Vec<f64> {
+        let columns: Vec<&Vec<f64>> = unknowns.iter().map(|unknown| &self.columns[unknown]).collect();
+        let mut entries = Vec::with_capacity(rows.len() * rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            let places: Vec<_> = row.iter().map(|&(unknown, value)| (self.place(unknown), value)).collect();
+            let along = |column: &[f64]| places.iter().map(|&(p, value)| value * column[p]).sum::<f64>();
+            entries.extend(columns.iter().enumerate().map(|(j, column)| f64::from(i == j) + along(column)));
+        }
+        entries
+    }
+}

@@ -189,7 +189,11 @@ impl Influences {
     ///
     /// # Errors
     /// When a law cannot answer, or a solution with the factor fails.
-    pub fn change(&mut self, (site, matrix): (Site, Matrix), solver: &dyn LinearSolver) -> Result<Option<Change>, Failure> {
+    pub fn change(
+        &mut self,
+        (site, matrix): (Site, Matrix),
+        solver: &dyn LinearSolver,
+    ) -> Result<Option<Change>, Failure> {
         self.change = None;
         let mut unknowns: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
         unknowns.retain(|unknown| self.rows.contains_key(unknown));

@@ -13,13 +13,13 @@ use asperity::system::State;
 pub const CASE: Case = Case { name: "partial-slip-3d", measure };
 
 const FRICTION: f64 = 0.2;
-const RADIUS: f64 = 8.0;
+const RADIUS: f64 = 32.0;
 const YOUNG: f64 = 200.0;
 const NU: f64 = 0.3;
 
 /// Travel of the deck, and of the run without slip.
-const TRAVEL: f64 = 0.018;
-const STUCK: f64 = 1e-4;
+const TRAVEL: f64 = 0.0045;
+const STUCK: f64 = 2.5e-5;
 
 /// An accepted state.
 #[derive(Clone, Copy)]
@@ -29,6 +29,8 @@ struct Moment {
     normal: f64,
     tangential: f64,
     dissipated: f64,
+    /// Difference of the tangential forces that the two sides bear, over what friction could bear.
+    apart: f64,
     /// Of the contact, and of what sticks.
     radii: [f64; 2],
 }
@@ -40,7 +42,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let (moments, run) = follow(bench, &[&mesh[..], &sets[..]].concat())?;
     let (to, back) = (end(&moments, 2.0)?, end(&moments, 4.0)?);
     // What sticks wholly moves in proportion.
-    let stick = ["contact.spot.law.coulomb.friction=20.0", "step.2.displacement.\"upper.base\".x=1e-4"];
+    let stick = ["contact.spot.law.coulomb.friction=20.0", "step.2.displacement.\"upper.base\".x=2.5e-5"];
     let mut stick: Vec<String> = stick.map(str::to_owned).into();
     stick.extend([3, 4].map(|step| format!("step.{step}.increments.count=1")));
     let sticking = end(&follow(bench, &[mesh, stick].concat())?.0, 2.0)?;
@@ -54,6 +56,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("c".into(), to.radii[1] / to.radii[0] / (1.0 - contact.ratio).cbrt()),
         ("shift".into(), (slip + stuck) / contact.shift()),
         ("loop".into(), (back.dissipated - to.dissipated) / contact.cycle()),
+        ("apart".into(), moments.iter().filter(|m| m.time > 1.5).fold(0.0, |most, m| m.apart.max(most))),
         ("iterations".into(), run.iterations()),
     ])
 }
@@ -76,8 +79,8 @@ impl Moment {
         let sides = [points(model, state, 0), points(model, state, 1)];
         let all = || sides.iter().flatten();
         // Each side is half of a sphere and bears half of what is asked for.
-        let along =
-            |axis: usize| sides.iter().map(|side| side.iter().map(|p| p.force()[axis]).sum::<f64>().abs()).sum();
+        let along = |axis: usize| [0, 1].map(|k| sides[k].iter().map(|p| p.force()[axis]).sum::<f64>());
+        let both = |axis: usize| along(axis).iter().map(|force| force.abs()).sum::<f64>();
         let radius = |stress: &dyn Fn(f64, f64) -> f64| {
             let sum = |power: i32| -> f64 {
                 all()
@@ -89,7 +92,9 @@ impl Moment {
         // What friction could bear and does not is Hertz's pressure within the circle that sticks.
         let radii = [radius(&|p, _| p), radius(&|p, q| FRICTION * p - q)];
         let dissipated = 2.0 * 0.5 * all().map(|p| p.dissipated * p.area).sum::<f64>();
-        Self { time: state.time, normal: along(2), tangential: along(0), dissipated, radii }
+        let (normal, apart) = (both(2), along(0).iter().sum::<f64>().abs());
+        let apart = 2.0 * apart / (FRICTION * normal);
+        Self { time: state.time, normal, tangential: both(0), dissipated, apart, radii }
     }
 }
 

@@ -15,6 +15,7 @@ pub fn point(arguments: &Point) -> Outcome {
     let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
     make_directory(&directory)?;
     let mut written = write(&records, &directory)?;
-    written.extend(draw(&records, loaded.curves(), loaded.title(), &directory)?);
+    let drawn = [&records[..], &loaded.surfaces(&records)].concat();
+    written.extend(draw(&drawn, loaded.curves(), loaded.title(), &directory)?);
     print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }

@@ -9,6 +9,7 @@
 //! The closures last from increment to increment. The slips begin at zero, since the shear stress itself is remembered.
 
 use super::partner::Role;
+use super::spread::{MOST, Spread};
 use crate::Failure;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -26,9 +27,6 @@ pub struct Augmentation {
     pub role: Role,
 }
 
-/// Most corners of a face.
-const MOST: usize = 4;
-
 /// The corners of a surface, numbered among themselves.
 #[derive(Debug, Clone, Default)]
 pub struct Corners {
@@ -36,13 +34,6 @@ pub struct Corners {
     pub(super) spreads: Vec<Spread>,
     /// The corners of each face, and how many there are.
     places: Vec<([usize; MOST], usize)>,
-}
-
-/// The corners around a contact point and their functions there; of an edge the last two are none.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spread {
-    corners: [usize; MOST],
-    functions: [f64; MOST],
 }
 
 /// Closure and slip that multipliers stand for, at a corner or at a point; in the plane the slip has one component.
@@ -135,7 +126,7 @@ impl Corners {
     /// The corners around a place of a face, and their functions there.
     pub(super) fn spread(&self, face: usize, at: [f64; 2]) -> Spread {
         let (corners, count) = self.places[face];
-        Spread { corners, functions: functions(count, at) }
+        Spread::new((corners, count), at)
     }
 
     /// Number of corners.
@@ -162,32 +153,6 @@ impl Corners {
             left.slip = left.slip.max(slip / size);
         }
         left
-    }
-}
-
-impl Spread {
-    /// What multipliers of the corners stand for.
-    pub(super) fn of(&self, shifts: &[Shift]) -> Shift {
-        let mut here = Shift::default();
-        for (corner, function) in self.iter() {
-            here.closure += function * shifts[corner].closure;
-            here.slip += shifts[corner].slip * function;
-        }
-        here
-    }
-
-    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        self.corners.into_iter().zip(self.functions).filter(|(_, function)| *function != 0.0)
-    }
-}
-
-/// Linear functions of the corners of a face with so many.
-fn functions(count: usize, [x, y]: [f64; 2]) -> [f64; MOST] {
-    let side = |sign: f64, x: f64| 0.5 * (1.0 + sign * x);
-    match count {
-        2 => [side(-1.0, x), side(1.0, x), 0.0, 0.0],
-        3 => [1.0 - x - y, x, y, 0.0],
-        _ => [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(a, b)| side(a, x) * side(b, y)),
     }
 }
 
@@ -246,26 +211,6 @@ mod tests {
             raise: Vec3::zero(),
             least: 0.0,
         })
-    }
-
-    #[test]
-    fn functions_sum_to_one_and_are_one_at_their_corners() {
-        for (count, corners) in [
-            (2, &[[-1.0, 0.0], [1.0, 0.0]][..]),
-            (3, &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
-            (4, &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]),
-        ] {
-            for (i, &corner) in corners.iter().enumerate() {
-                assert_eq!(functions(count, corner)[i], 1.0);
-            }
-            assert!((functions(count, [0.3, 0.2]).iter().sum::<f64>() - 1.0).abs() < 1e-15);
-        }
-        for name in ["tri3", "quad4"] {
-            let cell = crate::mesh::Cell::named(name).unwrap();
-            let (mut n, mut gradient) = ([0.0; 4], [[0.0; 3]; 4]);
-            (cell.shape)([0.3, 0.2, 0.0], &mut n[..cell.nodes.len()], &mut gradient[..cell.nodes.len()]);
-            assert_eq!(functions(cell.nodes.len(), [0.3, 0.2]), n, "{name}");
-        }
     }
 
     /// A corner takes in the mean of what its points penetrate; one whose points stand off gives up no more than it has.

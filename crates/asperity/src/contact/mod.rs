@@ -27,6 +27,7 @@ mod search;
 mod seed;
 pub mod space;
 mod split;
+mod spread;
 mod surface;
 mod target;
 mod uzawa;

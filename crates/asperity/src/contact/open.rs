@@ -135,6 +135,16 @@ pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, direction: usize) -> Vec3<T> {
     Vec3([T::seed(v[0], direction), T::seed(v[1], direction + 1), T::zero()])
 }
 
+/// A place with its directions.
+fn seeded<T: Seed<DIRECTIONS>>(g: &Geometry) -> Place<T> {
+    Place {
+        a: seed(g.place.a, 0),
+        tangent: seed(g.place.tangent, 2),
+        b: seed(g.place.b, 4),
+        touched: g.place.touched.map(|x| seed(x, 6)),
+    }
+}
+
 impl OpenContact<'_> {
     fn evaluate_over<T: Ask<DIRECTIONS>>(
         &self,
@@ -144,27 +154,11 @@ impl OpenContact<'_> {
         local: &mut Local,
     ) -> Result<Branch, Failure> {
         let (contact, old, g) = (self.contact, self.history.slot(index), geometry);
-        let place = Place {
-            a: seed(g.place.a, 0),
-            tangent: seed(g.place.tangent, 2),
-            b: seed(g.place.b, 4),
-            touched: g.place.touched.map(|x| seed(x, 6)),
-        };
         let mut past = self.past(index, g.before.shear);
         if g.before.entered {
             past.penetration = contact.law.touch(&past);
         }
-        let constants = Constants {
-            normal: g.hit.normal,
-            closure: self.closure(index),
-            before: past.penetration,
-            touch: contact.law.touch(&past),
-            opens: contact.law.opens(&past, [g.place.slip(), 0.0]),
-            least: contact.least,
-            weight: g.spot.weight * contact.thickness(),
-            acting: local.acting,
-            axisymmetric: contact.space == Space::Axisymmetric,
-        };
+        let (place, constants) = (seeded(g), self.constants(index, g, &past, local.acting));
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(&g.spot, Some(g.hit), new);
         new[entry::CLOSURE] = constants.closure;
@@ -179,12 +173,7 @@ impl OpenContact<'_> {
             self.account(index, g, Carried::default(), local);
             return Ok(0);
         };
-        if g.place.touched.is_none() || g.before.entered {
-            refuse_jump(g.hit.u, self.depths[index], || self.contact.describe(index))?;
-        } else if let Some(rigid) = contact.target.as_tool() {
-            let turned = local.u[g.layout.hit.end - 1] - self.accepted[rigid.unknowns().end - 1];
-            refuse_turn(turned, || contact.describe(index))?;
-        }
+        self.refuse_leap(index, (g, &local.u))?;
         new[entry::PENETRATION] -= constants.least;
         write(&closed.response, [closed.slip, T::zero()], old, new);
         match contact.options.form {
@@ -197,6 +186,31 @@ impl OpenContact<'_> {
         let response = &closed.response;
         self.account(index, g, Carried::of(response), local);
         Ok(response.status as Branch)
+    }
+
+    fn constants(&self, index: usize, g: &Geometry, past: &Past, acting: Option<Coordinates>) -> Constants {
+        let contact = self.contact;
+        Constants {
+            normal: g.hit.normal,
+            closure: self.closure(index),
+            before: past.penetration,
+            touch: contact.law.touch(past),
+            opens: contact.law.opens(past, [g.place.slip(), 0.0]),
+            least: contact.least,
+            weight: g.spot.weight * contact.thickness(),
+            acting,
+            axisymmetric: contact.space == Space::Axisymmetric,
+        }
+    }
+
+    /// Refuses a point that closes too deep, and a touching tool that turned too far.
+    fn refuse_leap(&self, index: usize, (g, u): (&Geometry, &[f64])) -> Result<(), Failure> {
+        let name = || self.contact.describe(index);
+        if g.place.touched.is_none() || g.before.entered {
+            return refuse_jump(g.hit.u, self.depths[index], name);
+        }
+        let Some(rigid) = self.contact.target.as_tool() else { return Ok(()) };
+        refuse_turn(u[g.layout.hit.end - 1] - self.accepted[rigid.unknowns().end - 1], name)
     }
 
     /// What the law may know of a point.

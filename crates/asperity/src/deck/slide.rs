@@ -8,7 +8,7 @@ use super::tree::{self, Value};
 use super::{gathered, text_of, understood};
 use crate::Error;
 use crate::interface::Interface;
-use crate::point::{Curve, Record, Slide, drive, slider_columns};
+use crate::point::{Curve, Record, Slide, drive, slider_columns, yield_surface};
 use std::path::Path;
 
 /// A deck of a point of an interface that was read, with its laws.
@@ -97,6 +97,16 @@ impl LoadedInterface {
         let penalties = [self.deck.penalty, self.deck.tangential_penalty.unwrap_or(self.deck.penalty)];
         self.laws.iter().map(|(name, law)| drive(name, law.as_ref(), penalties, &self.stages)).collect()
     }
+
+    /// The yield surfaces of the laws before any motion, up to twice the pressure of their records; of those that have one.
+    pub fn surfaces(&self, records: &[Record]) -> Vec<Record> {
+        let penalties = [self.deck.penalty, self.deck.tangential_penalty.unwrap_or(self.deck.penalty)];
+        let most = |record: &Record| record.column("pressure").into_iter().flatten().fold(0.0, f64::max);
+        let one = |((name, law), record): (&(String, Box<dyn Interface>), &Record)| {
+            yield_surface(name, law.as_ref(), penalties, 2.0 * most(record))
+        };
+        self.laws.iter().zip(records).filter_map(one).collect()
+    }
 }
 
 impl Driven {
@@ -119,6 +129,13 @@ impl Driven {
         match self {
             Self::Solid(loaded) => &loaded.diagnostics,
             Self::Interface(loaded) => &loaded.diagnostics,
+        }
+    }
+    /// What is drawn beside the records: yield surfaces of interfaces, as columns `pressure` and `shear`.
+    pub fn surfaces(&self, records: &[Record]) -> Vec<Record> {
+        match self {
+            Self::Solid(_) => Vec::new(),
+            Self::Interface(loaded) => loaded.surfaces(records),
         }
     }
     /// Drives every law along the path.

@@ -9,6 +9,7 @@
 
 mod course;
 mod curves;
+mod locus;
 mod newton;
 mod probe;
 mod slider;
@@ -16,6 +17,7 @@ mod table;
 
 pub use course::{COMPONENTS, Control, Stage};
 pub use curves::Curve;
+pub use locus::yield_surface;
 pub use probe::Probe;
 pub use slider::{Normal, Slide, Slider, columns as slider_columns, drive};
 pub use table::{Record, columns, draw, write};

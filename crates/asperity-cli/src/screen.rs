@@ -127,6 +127,7 @@ fn figures(summary: &Summary) -> impl Iterator<Item = (&'static str, f64)> {
         ("  over the cell's size", c.max_penetration_relative),
         ("  weighted, at nodes", c.nodal_penetration),
         ("equilibrium error", c.equilibrium_error),
+        ("forces of the two sides differ by", c.imbalance),
         ("missing energy", c.energy_balance),
         ("excess over friction limit", c.coulomb_violation),
         ("least dissipation", c.least_dissipation),

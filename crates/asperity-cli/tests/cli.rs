@@ -67,6 +67,17 @@ fn a_run_converges_and_leaves_its_files() {
     assert!(String::from_utf8_lossy(&drawn.stdout).contains("contact_stress.svg"));
 }
 
+/// What `check` would have warned of is told before the run and stays in its summary.
+#[test]
+fn a_run_says_what_looks_wrong() {
+    let folder = folder(&DECK.replace("[[20.0, 0.0], [-20.0, 0.0]]", "[[-20.0, 0.0], [20.0, 0.0]]"));
+    let run = asperity(folder.path(), &["run", "block.toml", "--set", "step.push.increments={count=4}"]);
+    assert_eq!(code(&run), 0, "{}", error(&run));
+    let said = "no point of contact `sole` sees its target";
+    assert!(error(&run).contains(said) && error(&run).contains("material on its left?"), "{}", error(&run));
+    assert_eq!(summary(&folder.path().join("block.results"))["notes"], serde_json::json!([said]));
+}
+
 #[test]
 fn wrong_input_ends_with_2_and_a_caret() {
     let folder = folder(&DECK.replace("friction", "fricton"));

@@ -173,6 +173,7 @@ increments.count = 30
         options: made.deck.output.options(),
         input: made.input,
         start: Start::Beginning,
+        notes: &[],
     };
     simulate(&made.model, &job, &mut Silent).unwrap().1.unwrap();
     let text = |path: &str| String::from_utf8_lossy(&std::fs::read(directory.path().join(path)).unwrap()).into_owned();

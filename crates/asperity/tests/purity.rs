@@ -57,7 +57,7 @@ fn outputs_change_nothing() {
     let directory = tempfile::tempdir().unwrap();
     let options = ResultOptions { every: 1, checkpoint_every: 1, ..ResultOptions::default() };
     let input = InputHash::of(&[DECK.as_bytes()]);
-    let job = Job { directory: directory.path(), options, input, start: Start::Beginning };
+    let job = Job { directory: directory.path(), options, input, start: Start::Beginning, notes: &[] };
     simulate(&model, &job, &mut Silent).unwrap().1.unwrap();
     let (_, last) = checkpoint::load::<State>(&directory.path().join(CHECKPOINT), &input).unwrap();
     assert_eq!(bytes(&last), bytes(without.states.last().unwrap()));

@@ -42,7 +42,7 @@ fn print(text: &str) -> Outcome {
 /// Reads a deck and makes its model; warnings are told, notes are for `check`.
 fn made(arguments: &arguments::Deck) -> Result<Made, Trouble> {
     let mut made = deck::build(deck::load(&arguments.path, &arguments.sets)?)?;
-    made.diagnostics = made.diagnostics.without_notes();
+    made.diagnostics.list = deck::warnings(&made);
     tell(&made.diagnostics);
     Ok(made)
 }

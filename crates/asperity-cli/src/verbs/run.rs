@@ -24,9 +24,11 @@ fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
         pool.map_err(|error| asperity::Error::Internal(error.to_string()))?;
     }
     let made = made(&arguments.deck)?;
+    let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
     let stop = signals::listen()?;
     let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
-    let job = Job { directory: &directory, options: made.deck.output.options(), input: made.input, start };
+    let job =
+        Job { directory: &directory, options: made.deck.output.options(), input: made.input, start, notes: &notes };
     let mut screen = Screen::new(&made.model.problem, stop);
     // On a thread of the pool: from outside, every parallel loop would hand over to it and wait.
     let simulated = rayon::scope(|_| simulate(&made.model, &job, &mut screen));

@@ -32,8 +32,6 @@ pub const REFUSED: f64 = 0.5;
 
 /// Edges that meet at a larger angle, in radians, form a corner and no facets of a curve.
 pub(super) const CORNER: f64 = 0.7;
-/// Edges that turn by less, in radians, are flat.
-pub(super) const FLAT: f64 = 1e-4;
 /// Nodes of the two sides that lie within this part of an edge of each other match.
 pub(super) const MATCH: f64 = 1e-3;
 
@@ -59,14 +57,6 @@ pub fn sagittas(mesh: &Mesh, dofs: &Dofs, edges: &[Edge], u: &[f64]) -> Vec<f64>
         }
     };
     edges.iter().enumerate().map(sagitta).collect()
-}
-
-/// Whether edges of first degree bend: two passes would then feel their facets.
-pub fn has_facets(mesh: &Mesh, dofs: &Dofs, edges: &[Edge]) -> bool {
-    let (still, straight) = (vec![0.0; dofs.count()], |edge: &&Edge| edge.nodes.len() == 2);
-    let straight: Vec<Edge> = edges.iter().filter(straight).cloned().collect();
-    let sagittas = sagittas(mesh, dofs, &straight, &still);
-    straight.iter().zip(sagittas).any(|(edge, sagitta)| 8.0 * sagitta > FLAT * edge.chord(mesh))
 }
 
 /// The pressure that facets are worth over the pressure that is carried, `K delta A / F`, over closed points; `sagitta`

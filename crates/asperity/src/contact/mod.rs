@@ -36,7 +36,7 @@ mod variational;
 pub use adjust::Move;
 pub use augment::Augmentation;
 pub use faces::Faces;
-pub use guard::{Guard, has_facets};
+pub use guard::Guard;
 pub use options::{ContactOptions, Loads, second_name};
 pub use overlap::{Overlap, Wear};
 pub use pair::Contact;

@@ -1,5 +1,5 @@
-//! The penalty that needs no guess: `K = 50 min(M / h)` over the faces of both sides, with `M = lambda + 2 G` of the
-//! undeformed law and `h` the size of the cell behind the face (its volume over the area of the face).
+//! The penalty that needs no guess: `K = 50 min(M / h)` over the faces of both sides, with `M` the lesser of `lambda + 2 G`
+//! and `4 G` of the undeformed law and `h` the size of the cell behind the face (its volume over the area of the face).
 
 use crate::mesh::{CellView, Mesh, Side};
 
@@ -10,7 +10,7 @@ const RATIO: f64 = 50.0;
 /// disagrees about from point to point, friction least of all, leaves Newton's method without an end.
 pub const TWO_PASSES: f64 = 0.2;
 
-/// Default penalty for faces `sides`, with `modulus` the confined modulus of a cell's material.
+/// Default penalty for faces `sides`, with `modulus` that of a cell's material.
 pub fn default_penalty(mesh: &Mesh, sides: &[Side], modulus: impl Fn(usize) -> f64) -> f64 {
     let stiffness = |side: &Side| modulus(side.cell) / depth(mesh, *side);
     RATIO * sides.iter().map(stiffness).fold(f64::INFINITY, f64::min)

@@ -26,7 +26,7 @@ pub use diagnose::{Diagnostic, Diagnostics, Severity};
 pub use keys::{Deck, InterfaceDeck, PointDeck};
 pub use point::{LoadedPoint, load_point, read_point};
 pub use reader::{Name, Unsaid};
-pub use review::{Review, review};
+pub use review::{Review, review, warnings};
 pub use slide::{Driven, LoadedInterface, load_driven, read_interface};
 
 use crate::error::Error;

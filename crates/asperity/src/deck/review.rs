@@ -27,26 +27,30 @@ pub struct Review {
     pub problems: Vec<Diagnostic>,
 }
 
+/// What is known to look wrong without solving anything: the warnings of the reading, and contacts that find nothing or
+/// begin inside.
+pub fn warnings(made: &Made) -> Vec<Diagnostic> {
+    let warnings = made.diagnostics.list.iter().filter(|d| d.severity <= Severity::Warning).cloned();
+    let nothing = vec![0.0; made.model.problem.dofs.count()];
+    let all = Seen::all(made, &nothing);
+    let odd = made.deck.contact.iter().flat_map(|(name, _)| Seen::of(&all, name).filter_map(|seen| seen.oddity(name)));
+    warnings.chain(odd).collect()
+}
+
 /// Looks a model over.
 ///
 /// # Errors
 /// An error of the solver that is not the model's fault.
 pub fn review(made: &Made) -> Result<Review, Error> {
-    let warnings = made.diagnostics.list.iter().filter(|d| d.severity <= Severity::Warning);
-    let mut problems: Vec<Diagnostic> = warnings.cloned().collect();
+    let mut problems = warnings(made);
     let mut page = Page::default();
     page.model(made);
     page.bodies(made);
     page.tools(made);
     let nothing = vec![0.0; made.model.problem.dofs.count()];
-    let plane = made.model.contacts.iter().map(|contact| Seen::plane(contact, &nothing));
-    let solid = made.model.solid_contacts.iter().map(|contact| Seen::solid(contact, &nothing));
-    let all: Vec<Seen> = plane.chain(solid).collect();
+    let all = Seen::all(made, &nothing);
     for (name, keys) in &made.deck.contact {
-        let second = second_name(&name.text);
-        for seen in all.iter().filter(|seen| [name.text.as_str(), &second].contains(&seen.name)) {
-            problems.extend(page.contact(name, keys, seen));
-        }
+        Seen::of(&all, name).for_each(|seen| page.contact(name, keys, seen));
     }
     page.steps(made);
     problems.extend(page.motions(made)?);
@@ -113,8 +117,8 @@ impl Page {
         }
     }
 
-    /// What a contact finds in the undeformed state, and what is odd about it.
-    fn contact(&mut self, name: &Name, keys: &keys::Contact, seen: &Seen) -> Option<Diagnostic> {
+    /// What a contact finds in the undeformed state.
+    fn contact(&mut self, name: &Name, keys: &keys::Contact, seen: &Seen) {
         let nearest = seen.found.iter().map(|(u, _)| -u).fold(f64::INFINITY, f64::min).max(0.0);
         let (surface, target) = match seen.name == name.text {
             true => (&keys.surface, &keys.target),
@@ -137,7 +141,6 @@ impl Page {
         let (options, origin) = (seen.options, if keys.penalty.is_some() { "given" } else { "computed" });
         let (penalty, tangential) = (options.penalty, options.tangential_penalty);
         self.line(format!("  penalty {penalty:.4e} ({origin}), tangential {tangential:.4e}"));
-        seen.oddity(name)
     }
 
     fn steps(&mut self, made: &Made) {
@@ -182,6 +185,18 @@ struct Seen<'a> {
 }
 
 impl<'a> Seen<'a> {
+    /// Every contact, and every second side.
+    fn all(made: &'a Made, u: &[f64]) -> Vec<Self> {
+        let plane = made.model.contacts.iter().map(|contact| Self::plane(contact, u));
+        plane.chain(made.model.solid_contacts.iter().map(|contact| Self::solid(contact, u))).collect()
+    }
+
+    /// Those of one contact of the deck.
+    fn of<'s>(all: &'s [Self], name: &Name) -> impl Iterator<Item = &'s Self> {
+        let names = [name.text.clone(), second_name(&name.text)];
+        all.iter().filter(move |seen| names.iter().any(|name| name == seen.name))
+    }
+
     fn plane(contact: &'a Contact, u: &[f64]) -> Self {
         let (hits, rejected) = contact.search(u);
         let part = |(i, hit): (usize, &Option<contact::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.edge_length(i)));

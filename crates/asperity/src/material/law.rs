@@ -146,12 +146,13 @@ pub trait Material: Send + Sync {
     fn is_conservative(&self) -> bool {
         false
     }
-    /// Confined modulus `lambda + 2 G` of the undeformed solid, which scales contact penalties.
-    fn confined_modulus(&self) -> f64 {
+    /// Confined modulus `lambda + 2 G` and shear modulus `G` of the undeformed solid.
+    fn moduli(&self) -> [f64; 2] {
         let mut state = vec![0.0; self.state_len()];
         self.initialise(&mut state);
         let old = state.clone();
         let identity = Tensor2::identity();
-        self.update_with_gradient(&identity, 1.0, &old, &mut state, Directions::Plane).map_or(0.0, |c| c[0][0])
+        let gradient = self.update_with_gradient(&identity, 1.0, &old, &mut state, Directions::Plane);
+        gradient.map_or([0.0; 2], |c| [c[0][0], c[3][1]])
     }
 }

@@ -27,6 +27,9 @@ pub struct Certificate {
     pub facet_ratio: Option<f64>,
     /// Difference of the mean pressures of the two sides of a contact over their mean, in the last increment.
     pub mismatch: Option<f64>,
+    /// What the forces on the two sides of a contact of two passes leave over, relative to the larger, in the last
+    /// increment.
+    pub imbalance: Option<f64>,
     /// Hits of a ray that the rules against false contact turned away, summed over the increments.
     pub rejected_false_contacts: Option<f64>,
     /// Largest motion of an increment over the size of the model, of those increments that moved many times as fast as
@@ -50,8 +53,8 @@ enum Worst {
 impl Certificate {
     /// Takes in one frame, given as columns of the history.
     pub fn observe<'a>(&mut self, columns: impl IntoIterator<Item = (&'a str, f64)>) {
-        // These two mean the last increment.
-        (self.facet_ratio, self.mismatch) = (None, None);
+        // These mean the last increment.
+        (self.facet_ratio, self.mismatch, self.imbalance) = (None, None, None);
         for (name, value) in columns {
             self.observe_energy(name, value);
             if let Some((figure, worst)) = self.figure(name) {
@@ -85,6 +88,7 @@ impl Certificate {
             ("contact", "least_dissipation") => (&mut self.least_dissipation, Worst::Least),
             ("contact", "facet_ratio") => (&mut self.facet_ratio, Worst::Largest),
             ("contact", "mismatch") => (&mut self.mismatch, Worst::Largest),
+            ("contact", "imbalance") => (&mut self.imbalance, Worst::Largest),
             ("contact", "false_contacts") => (&mut self.rejected_false_contacts, Worst::Sum),
             ("equilibrium", "error") => (&mut self.equilibrium_error, Worst::Largest),
             ("equilibrium", "leap") => (&mut self.leap, Worst::Largest),

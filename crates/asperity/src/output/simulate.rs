@@ -24,6 +24,8 @@ pub struct Job<'a> {
     pub input: InputHash,
     /// Where the run begins.
     pub start: Start,
+    /// What was said of the model beforehand, for the notes of the summary.
+    pub notes: &'a [String],
 }
 
 /// Where a run begins.
@@ -57,6 +59,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     account(&mut results.summary, &run, seconds);
     results.summary.notes.extend(facets(model, &run.state));
     results.summary.notes.extend(leap(&results.summary));
+    results.summary.notes.extend(imbalance(&results.summary));
     results.finish(&ended)?;
     Ok((results.summary, ended))
 }
@@ -82,6 +85,7 @@ impl Job<'_> {
             Start::Checkpoint => Results::resume(self.directory, start, self.options, self.input)?,
         };
         results.summary.title.clone_from(&model.title);
+        results.summary.notes.extend_from_slice(self.notes);
         results.summary.threads = rayon::current_num_threads();
         let log = match self.start {
             Start::Beginning => RunLog::create(self.directory)?,
@@ -97,6 +101,20 @@ fn leap(summary: &Summary) -> Option<String> {
     Some(format!(
         "an increment moved the model by {far:.2} of its size, more than 20 times as fast as the increment before: past \
          a limit load that may be a remote equilibrium; prescribed displacements, or smaller increments, can tell"
+    ))
+}
+
+/// Part of their force by which two sides of a contact may differ without a word.
+const BALANCED: f64 = 0.02;
+
+/// What it means that two sides of a contact press with different forces.
+fn imbalance(summary: &Summary) -> Option<String> {
+    let left = summary.certificate.imbalance.filter(|left| *left > BALANCED)?;
+    Some(format!(
+        "the forces on the two sides of a contact differ by {:.1} % in the last increment: with two passes each side answers \
+         for itself, and action equals reaction only as far as the meshes agree; finer meshes bring them together, \
+         passes = \"one\" makes them equal",
+        100.0 * left
     ))
 }
 

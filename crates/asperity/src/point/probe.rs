@@ -39,7 +39,7 @@ impl<'a> Probe<'a> {
         if let Some(stress) = stress {
             state[..6].copy_from_slice(&stress);
         }
-        let modulus = material.confined_modulus();
+        let [modulus, _] = material.moduli();
         Self { material, strain: [0.0; 6], state, time: 0.0, dissipated: 0.0, rate: [0.0; 6], modulus }
     }
 

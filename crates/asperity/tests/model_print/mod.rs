@@ -141,7 +141,7 @@ impl Observer for Listener {
 pub fn run_print(made: &Made) -> (bool, u64) {
     let directory = tempfile::tempdir().unwrap();
     let options = made.deck.output.options();
-    let job = Job { directory: directory.path(), options, input: made.input, start: Start::Beginning };
+    let job = Job { directory: directory.path(), options, input: made.input, start: Start::Beginning, notes: &[] };
     let mut listener = Listener(Print(DefaultHasher::new()));
     let (_, ended) = simulate(&made.model, &job, &mut listener).unwrap();
     let checkpoint = asperity::output::checkpoint::inspect(&directory.path().join("run.checkpoint"));

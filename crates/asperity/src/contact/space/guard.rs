@@ -5,9 +5,8 @@
 use super::pair::Contact;
 use super::surface::Face;
 use crate::contact::capture::positions;
-use crate::contact::guard::{CORNER, FLAT, MATCH, facet_ratio, said};
+use crate::contact::guard::{CORNER, MATCH, facet_ratio, said};
 use crate::contact::record::PointStatus;
-use crate::mesh::Mesh;
 use crate::system::History;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -75,13 +74,6 @@ fn sagittas(faces: &[Placed]) -> Vec<f64> {
         _ => placed.bow(),
     };
     faces.iter().zip(turning(faces)).map(one).collect()
-}
-
-/// Whether undeformed faces of first degree bend: two passes would then feel their facets.
-pub fn has_facets(mesh: &Mesh, faces: &[Face]) -> bool {
-    let first = faces.iter().filter(|face| face.kind.degree == 1);
-    let place = |face| Placed { face, x: face.nodes.iter().map(|&node| mesh.points[node]).collect() };
-    turning(&first.map(place).collect::<Vec<_>>()).into_iter().any(|angle| angle > FLAT)
 }
 
 impl Contact {

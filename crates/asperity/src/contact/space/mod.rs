@@ -24,7 +24,6 @@ mod uzawa;
 mod variational;
 
 pub use faces::Faces;
-pub use guard::has_facets;
 pub use pair::{Contact, Parts};
 pub use rigid::Rigid;
 pub use surface::{Face, Surface};

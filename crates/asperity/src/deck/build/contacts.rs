@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::contact::{
     Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES, Target,
-    default_penalty, has_facets, second_name, space,
+    default_penalty, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -133,22 +133,18 @@ impl Builder<'_> {
         }
     }
 
-    /// One pass or two: two between bodies, but one where the facets of linear edges would be felt. A surface that
-    /// touches itself carries the points of both sides anyhow.
+    /// One pass or two: two between sides of second degree, one where a side is of first degree and would be felt as the
+    /// facets into which contact bends it. A surface that touches itself carries the points of both sides anyhow.
     fn carried(&self, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> Loads {
         let Opposite::Sides(others) = opposite else { return Loads::Both };
         let passes = keys.passes.map_or(Passes::Auto, |passes| passes.value);
-        let (mesh, dofs) = (&self.site.mesh, &self.site.dofs);
-        let facets = |sides: &[Side]| match self.plane() {
-            true => has_facets(mesh, dofs, Faces::new(mesh.clone(), dofs.clone(), sides).edges()),
-            false => space::has_facets(mesh, space::Faces::new(mesh.clone(), dofs.clone(), sides).list()),
-        };
+        let smooth = |sides: &[Side]| sides.iter().all(|side| self.site.mesh.side(*side).0.degree > 1);
         let two = match passes {
             Passes::One => false,
             Passes::Two => true,
             Passes::Auto if same_sides(surface, others) => true,
             Passes::Auto if keys.augmentation.is_some() => false,
-            Passes::Auto => !(facets(surface) || facets(others)),
+            Passes::Auto => smooth(surface) && smooth(others),
         };
         if two { Loads::Own } else { Loads::Both }
     }
@@ -224,11 +220,16 @@ fn same_sides(one: &[Side], other: &[Side]) -> bool {
     one == other
 }
 
-/// Confined modulus of the material of each cell.
+/// Multiple of the shear modulus above which the confined modulus says nothing of a surface: a half-space yields to pressure
+/// by `2 G / (1 - nu)`, the incompressible one by `4 G`.
+const SURFACE: f64 = 4.0;
+
+/// Stiffness against pressure of the material of each cell: the confined modulus, at most four shear moduli.
 pub(super) fn moduli(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<f64> {
     let mut moduli = vec![0.0; mesh.cell_count()];
     for (body, _) in bodies {
-        let modulus = body.material().confined_modulus();
+        let [confined, shear] = body.material().moduli();
+        let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
         body.cells().iter().for_each(|&cell| moduli[cell] = modulus);
     }
     moduli

@@ -27,13 +27,14 @@ table! {
         parts: Option<Spot<usize>> = whole(1..=64).spot().computed("1"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
-            .computed("50 times the confined modulus over the depth of the cells behind the faces, the least of both sides; 10 times with two passes"),
+            .computed("50 times the modulus over the depth of the cells behind the faces, the least of both sides, 10 times with two passes; \
+             the modulus is the confined one, at most four shear moduli"),
         /// Friction stress for one unit of elastic slip.
         tangential_penalty: Option<f64> =
             number(unit::PENALTY, Range::POSITIVE).computed("equal to the penalty"),
         /// Which sides of two bodies carry contact points.
         passes: Option<Spot<Passes>> = word().spot().computed(
-            "two between bodies, but one where edges of first degree bend; a tool carries none"),
+            "two between sides of second degree, one where a side is of first degree; a tool carries none"),
         /// Whether the tangent holds the coupling of the two bodies. Without it the paper's iterations are reproduced.
         coupling: Option<Spot<bool>> = flag().spot().computed("true"),
         /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.

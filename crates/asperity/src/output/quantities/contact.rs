@@ -5,6 +5,7 @@ use super::{Source, Touching};
 use crate::Error;
 use crate::contact::{PointRecord, PointStatus, second_name};
 use crate::declare::Variable;
+use crate::mesh::Space;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
 use crate::system::History;
 use crate::tensor::Vec3;
@@ -36,6 +37,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         if let Some(second) = all.iter().find(|other| other.name == second && other.contact.loads_itself()) {
             let name = format!("contact.{}.mismatch", first.name);
             frame.push(Quantity::scalar(name, Unit::One, mismatch(first, second)))?;
+            let name = format!("contact.{}.imbalance", first.name);
+            frame.push(Quantity::scalar(name, Unit::One, imbalance(source, first, second)))?;
         }
     }
     Ok(())
@@ -49,6 +52,18 @@ fn mismatch(first: &Seen, second: &Seen) -> f64 {
     });
     // Without contact there is nothing to disagree about.
     if one + other > 0.0 { 2.0 * (one - other).abs() / (one + other) } else { 0.0 }
+}
+
+/// What the forces on the two sides of a contact leave over, relative to the larger.
+fn imbalance(source: &Source, first: &Seen, second: &Seen) -> f64 {
+    // Radial forces of a full circumference have no sum.
+    let radial = source.parts.space == Space::Axisymmetric;
+    let [one, other] = [first, second].map(|seen| {
+        let sum = seen.records.iter().fold(Vec3::zero(), |sum, record| sum + record.force());
+        if radial { Vec3::new(0.0, sum[1], 0.0) } else { sum }
+    });
+    let larger = one.norm().max(other.norm());
+    if larger > 0.0 { (one + other).norm() / larger } else { 0.0 }
 }
 
 fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {

@@ -1,0 +1,74 @@
+//! What holds where a contact says nothing of itself, and what two passes say of themselves.
+
+mod support;
+
+use support::{Keep, columns, model, run};
+
+/// A block pressed onto a longer one and pushed along it.
+const BLOCKS: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.big.rectangle = { from = [0.0, 0.0], to = [6.0, 2.0], cells = [12, 4], cell = "quad4" }
+mesh.part.small.rectangle = { from = [2.0, 2.0], to = [3.5, 3.0], cells = [5, 3], cell = "quad4" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.big = { material = "rubber", formulation = "f-bar" }
+body.small = { material = "rubber", formulation = "f-bar" }
+contact.joint = { surface = "small.bottom", target = "big.top", law.coulomb = { friction = 0.3 } }
+[[step]]
+increments.count = 4
+displacement."big.bottom" = { x = 0.0, y = 0.0 }
+displacement."small.top" = { x = 0.0, y = -0.1 }
+[[step]]
+increments.count = 6
+displacement."small.top" = { x = 1.0 }
+"#;
+
+/// What the supports of the two blocks take, along x and y, at the end.
+fn reactions(columns: &std::collections::BTreeMap<String, Vec<f64>>) -> [[f64; 2]; 2] {
+    ["big.bottom", "small.top"]
+        .map(|group| ["x", "y"].map(|axis| *columns[&format!("reaction.{group}.{axis}")].last().unwrap()))
+}
+
+/// Sides of first degree take one pass: contact bends them into facets, of which two passes would make pressures.
+#[test]
+fn blocks_of_first_degree_press_on_each_other_alike() {
+    let model = model(BLOCKS, &[]);
+    let keep: Keep = run(&model);
+    assert_eq!(model.contacts.len(), 1);
+    let [[x, y], [x2, y2]] = reactions(&columns(&model, &keep));
+    assert!(y > 10.0 && (y + y2).abs() < 1e-5 * y && (x + x2).abs() < 1e-5 * y, "{x} {y} {x2} {y2}");
+}
+
+/// Sides of second degree take two passes, and what their forces leave over is told.
+#[test]
+fn two_passes_tell_by_how_much_their_forces_differ() {
+    let sets = [
+        "mesh.part.big.rectangle.cell=quad8",
+        "mesh.part.small.rectangle.cell=quad8",
+        "body.big.formulation=standard",
+        "body.small.formulation=standard",
+    ];
+    let model = model(BLOCKS, &sets);
+    let keep: Keep = run(&model);
+    assert_eq!(model.contacts.len(), 2);
+    let columns = columns(&model, &keep);
+    let [[x, y], [x2, y2]] = reactions(&columns);
+    let told = *columns["contact.joint.imbalance"].last().unwrap();
+    let left = (x + x2).hypot(y + y2) / x.hypot(y).max(x2.hypot(y2));
+    assert!(told > 1e-4 && (told / left - 1.0).abs() < 1e-3, "{told} {left}");
+}
+
+/// The default penalty goes by the confined modulus, but of nearly incompressible solids by four shear moduli.
+#[test]
+fn the_penalty_knows_what_a_surface_resists() {
+    let penalty = |poisson: f64| {
+        let model = model(BLOCKS, &[&format!("material.rubber.elastic.poisson={poisson}")]);
+        model.contacts[0].options().penalty
+    };
+    let shear = |poisson: f64| 1e3 / (2.0 * (1.0 + poisson));
+    let depth = 0.5; // of the big block's cells; the small one's are 1/3
+    let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
+    let confined = 2.0 * shear(0.3) * 0.7 / 0.4;
+    assert!(close(penalty(0.3), 50.0 * confined / depth), "{}", penalty(0.3));
+    assert!(close(penalty(0.499), 50.0 * 4.0 * shear(0.499) / depth), "{}", penalty(0.499));
+}

@@ -89,8 +89,8 @@ fn bar() -> ProgressBar {
     ProgressBar::new(TICKS).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-/// How a run ended, how far its answer can be trusted, and where its files are.
-pub fn farewell(summary: &Summary, directory: &Path) -> String {
+/// How a run ended, how far its answer can be trusted, and where its files are; `again` is the command that goes on.
+pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     let mut text = String::from("\n");
     let word = match summary.status {
         Status::Converged => "converged",
@@ -114,7 +114,7 @@ pub fn farewell(summary: &Summary, directory: &Path) -> String {
         let _ = writeln!(text, "  {name:<28}{value:>11.3e}");
     }
     if summary.status != Status::Converged {
-        let _ = writeln!(text, "the last accepted increment is kept: `asperity restart` goes on from there");
+        let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {again}");
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));
     text

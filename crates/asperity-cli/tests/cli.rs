@@ -62,6 +62,10 @@ fn a_run_converges_and_leaves_its_files() {
     let text = String::from_utf8_lossy(&run.stdout).into_owned();
     assert!(text.contains("converged: 6 increments, 0 cut") && text.contains("certificate"), "{text}");
 
+    assert!(text.contains(" summary.json"), "{text}");
+    let late = asperity(folder.path(), &["figure", "block.results", "--at", "7"]);
+    assert_eq!(code(&late), 2);
+    assert!(error(&late).contains("this run goes from 0 to 2"), "{}", error(&late));
     let drawn = asperity(folder.path(), &["figure", "block.results", "--at", "1,2", "--window", "-1,5,-1,3"]);
     assert_eq!(code(&drawn), 0, "{}", error(&drawn));
     assert!(String::from_utf8_lossy(&drawn.stdout).contains("contact_stress.svg"));
@@ -87,6 +91,11 @@ fn wrong_input_ends_with_2_and_a_caret() {
     assert!(!folder.path().join("block.results").exists());
     let lost = asperity(folder.path(), &["run", "lost.toml"]);
     assert_eq!(code(&lost), 2);
+    std::fs::write(folder.path().join("taken"), "").unwrap();
+    std::fs::write(folder.path().join("good.toml"), DECK).unwrap();
+    let taken = asperity(folder.path(), &["run", "good.toml", "--out", "taken"]);
+    assert_eq!(code(&taken), 2);
+    assert!(error(&taken).contains("taken: this is a file"), "{}", error(&taken));
     let early = asperity(folder.path(), &["restart", "block.toml", "--set", "contact.sole.law={coulomb={friction=0}}"]);
     assert_eq!(code(&early), 2);
 }
@@ -102,6 +111,8 @@ fn what_does_not_converge_ends_with_3_and_a_summary() {
     let summary = summary(&folder.path().join("here"));
     assert_eq!(summary["status"], "not-converged");
     assert!(summary["reason"].as_str().unwrap().contains("free along x"));
+    let text = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(text.contains("\n  asperity restart block.toml --out here\n"), "{text}");
     let check = asperity(folder.path(), &["check", "block.toml"]);
     assert_eq!(code(&check), 5);
     assert!(error(&check).contains("free along x"), "{}", error(&check));
@@ -133,7 +144,7 @@ fn an_interrupted_run_goes_on() {
 
     let other = asperity(folder.path(), &["restart", "block.toml", "--set", "title=\"Another\""]);
     assert_eq!(code(&other), 2);
-    assert!(error(&other).contains("another deck"), "{}", error(&other));
+    assert!(error(&other).contains("another deck") && error(&other).contains("--set"), "{}", error(&other));
 
     assert_eq!(code(&asperity(folder.path(), &["restart", "block.toml", "--threads", "1"])), 0);
     assert_eq!(code(&asperity(folder.path(), &["run", "block.toml", "--out", "whole", "--threads", "2"])), 0);
@@ -172,6 +183,9 @@ fn a_point_is_driven_and_leaves_table_and_curves() {
     for file in String::from_utf8(point.stdout).unwrap().lines() {
         assert!(directory.path().join(file).exists(), "{file}");
     }
+    let mistaken = asperity(directory.path(), &["run", "bar.toml"]);
+    assert_eq!(code(&mistaken), 2);
+    assert!(error(&mistaken).contains("asperity point") && !error(&mistaken).contains("does not say"));
     let wrong = asperity(directory.path(), &["point", "bar.toml", "--set", "step.1.strain.xx=\"much\""]);
     assert_eq!(code(&wrong), 2, "{}", error(&wrong));
 }
@@ -194,7 +208,7 @@ fn a_point_of_an_interface_leaves_a_table_and_its_curves() {
         "version = 1\ninterface.joint.dilatant = {{ {joint} }}\npenalty = 1e6\n[[step]]\npressure = 100.0\n\
          [[step]]\nnormal_stiffness = 2e4\nslip = [0.02, 0.0]\n"
     );
-    std::fs::write(folder.path().join("joint.toml"), deck).unwrap();
+    std::fs::write(folder.path().join("joint.toml"), &deck).unwrap();
     let run = asperity(folder.path(), &["point", "joint.toml"]);
     assert_eq!(code(&run), 0, "{}", error(&run));
     let results = folder.path().join("joint.results");
@@ -203,6 +217,12 @@ fn a_point_of_an_interface_leaves_a_table_and_its_curves() {
     for curve in ["shear_s_over_slip_s", "closure_over_slip_s", "shear_over_pressure"] {
         assert!(results.join(format!("{curve}.svg")).exists(), "{curve}");
     }
+    let dry = deck.replace(".dilatant", ".coulomb").replace(joint, "friction = 0.6");
+    std::fs::write(folder.path().join("dry.toml"), dry).unwrap();
+    let run = asperity(folder.path(), &["point", "dry.toml"]);
+    assert_eq!(code(&run), 0, "{}", error(&run));
+    let dry = folder.path().join("dry.results");
+    assert!(dry.join("shear_s_over_slip_s.svg").exists() && !dry.join("closure_over_slip_s.svg").exists());
 }
 
 #[test]

@@ -17,6 +17,25 @@ pub fn restart(arguments: &arguments::Run) -> Outcome {
     solve(arguments, Start::Checkpoint)
 }
 
+/// The command that goes on from the checkpoint, as a shell takes it.
+fn again(arguments: &arguments::Run) -> String {
+    let sets = arguments.deck.sets.iter().flat_map(|set| ["--set".to_owned(), set.clone()]);
+    let out = arguments.out.iter().flat_map(|out| ["--out".to_owned(), out.display().to_string()]);
+    let deck = arguments.deck.path.display().to_string();
+    let words = ["asperity".to_owned(), "restart".to_owned(), deck].into_iter().chain(sets).chain(out);
+    words.map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
+}
+
+/// A word in quotes where a shell would read more in it than letters.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "._-/=+:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
 fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
     // Before anything else: what comes first in need of threads decides their number.
     if let Some(threads) = arguments.threads {
@@ -34,6 +53,21 @@ fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
     let simulated = rayon::scope(|_| simulate(&made.model, &job, &mut screen));
     screen.close();
     let (summary, ended) = simulated?;
-    print(&farewell(&summary, &directory))?;
+    print(&farewell(&summary, &directory, &again(arguments)))?;
     ended.map(|()| Exit::Done).map_err(Trouble::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arguments::{Command, Line};
+    use clap::Parser;
+
+    #[test]
+    fn the_command_that_goes_on_says_all_that_was_said() {
+        let words = ["asperity", "run", "my deck.toml", "--set", "step.push.increments={count=4}", "--out", "here"];
+        let Command::Run(run) = Line::parse_from(words).command else { panic!("not a run") };
+        assert_eq!(again(&run), "asperity restart 'my deck.toml' --set 'step.push.increments={count=4}' --out here");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
 }

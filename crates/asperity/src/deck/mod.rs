@@ -9,6 +9,7 @@ mod build;
 pub mod diagnose;
 pub mod form;
 pub mod keys;
+mod kind;
 mod names;
 mod overrides;
 mod parts;
@@ -32,6 +33,7 @@ pub use slide::{Driven, LoadedInterface, load_driven, read_interface};
 use crate::error::Error;
 use crate::mesh::Mesh;
 use form::Table;
+use kind::Kind;
 use reader::Reader;
 use source::Source;
 use std::path::{Path, PathBuf};
@@ -78,7 +80,7 @@ fn text_of(path: &Path) -> Result<(String, String), Diagnostics> {
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
-    let (read, reader) = understood(text, name, sets, |tree, reader| everything(tree, folder, reader));
+    let (read, reader) = understood(text, name, sets, Kind::Model, |tree, reader| everything(tree, folder, reader));
     let diagnostics = gathered(reader.sources, reader.diagnostics);
     match read {
         Some((deck, mesh)) if !diagnostics.has_errors() => {
@@ -88,11 +90,12 @@ pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Lo
     }
 }
 
-/// What `read` makes of a text with `sets` over it, and the reader with what was found.
+/// What `read` makes of a text of the `wanted` kind with `sets` over it, and the reader with what was found.
 fn understood<T>(
     text: &str,
     name: &str,
     sets: &[String],
+    wanted: Kind,
     read: impl FnOnce(&Node, &mut Reader) -> Option<T>,
 ) -> (Option<T>, Reader) {
     let mut reader = Reader::new(Source::new(name, text));
@@ -104,7 +107,9 @@ fn understood<T>(
         reader.sources.push(Source::new("--set", set));
     }
     // Text that is not TOML may hide the rest of its table: what would be said about that is not to be trusted.
-    let value = if torn { None } else { read(&tree, &mut reader) };
+    let mistaken = kind::mistaken(&tree, wanted).filter(|_| !torn);
+    let value = if torn || mistaken.is_some() { None } else { read(&tree, &mut reader) };
+    reader.diagnostics.extend(mistaken);
     (value, reader)
 }
 

@@ -55,12 +55,8 @@ fn put(keys: &[(String, Place)], new: Node, tree: &mut Node) -> Result<(), Diagn
             put(rest, new, &mut entries[at].node)
         }
         Value::List(items) => {
-            let count = items.len();
-            let item = find(items, key).ok_or_else(|| {
-                let what = format!("there is no item `{key}` in a list of {count}");
-                Diagnostic::error(what).at(*place).help("items are numbered from 1, or called by their `name`")
-            })?;
-            put(rest, new, item)
+            let lost = no_item(items, key, *place);
+            put(rest, new, find(items, key).ok_or(lost)?)
         }
         other => {
             let what = format!("there is no key `{key}` in {}", other.kind());
@@ -73,10 +69,25 @@ fn find<'a>(items: &'a mut [Node], key: &str) -> Option<&'a mut Node> {
     if let Ok(number) = key.parse::<usize>() {
         return items.get_mut(number.checked_sub(1)?);
     }
-    items.iter_mut().find(|item| match &item.value {
-        Value::Table(entries) => entries.iter().any(|e| e.key == "name" && e.node.value == Value::Text(key.to_owned())),
-        _ => false,
+    items.iter_mut().find(|item| name(item) == Some(key))
+}
+
+/// What an item of a list says under the key `name`.
+fn name(item: &Node) -> Option<&str> {
+    let Value::Table(entries) = &item.value else { return None };
+    entries.iter().find(|entry| entry.key == "name").and_then(|entry| match &entry.node.value {
+        Value::Text(text) => Some(text.as_str()),
+        _ => None,
     })
+}
+
+fn no_item(items: &[Node], key: &str, place: Place) -> Diagnostic {
+    let what = format!("there is no item `{key}` in a list of {}", items.len());
+    let diagnostic = Diagnostic::error(what).at(place).help("items are numbered from 1, or called by their `name`");
+    match key.parse::<usize>() {
+        Ok(_) => diagnostic,
+        Err(_) => diagnostic.suggest(key, items.iter().filter_map(name)),
+    }
 }
 
 #[cfg(test)]
@@ -119,6 +130,15 @@ mod tests {
         same("a = { b = 1 }", "a={ c = 2 }", "a = { c = 2 }");
         same("a = [1, 2]", "a.2=[3, 4]", "a = [1, [3, 4]]");
         same("[[step]]\nname='p'\n[[step]]\nname='q'", "step.q.n=1", "[[step]]\nname='p'\n[[step]]\nname='q'\nn=1");
+    }
+
+    #[test]
+    fn a_misspelt_name_of_an_item_gets_the_nearest() {
+        let steps = "[[step]]\nname='press'\n[[step]]\nname='push'";
+        let near = set(steps, "step.pres.duration=3").unwrap_err();
+        assert_eq!(near.label, "did you mean `press`?");
+        let far = set(steps, "step.unload.duration=3").unwrap_err();
+        assert_eq!(far.help[1], "valid here: `press`, `push`");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::diagnose::{Diagnostic, Diagnostics};
 use super::form::{Law, Table};
 use super::keys::{self, PointCurve, PointDeck};
+use super::kind::Kind;
 use super::reader::Name;
 use super::source::Spot;
 use super::{gathered, text_of, understood};
@@ -39,7 +40,7 @@ pub fn load_point(path: &Path, sets: &[String]) -> Result<LoadedPoint, Diagnosti
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn read_point(text: &str, name: &str, sets: &[String]) -> Result<LoadedPoint, Diagnostics> {
-    let (deck, mut reader) = understood(text, name, sets, PointDeck::read);
+    let (deck, mut reader) = understood(text, name, sets, Kind::Point, PointDeck::read);
     let made = deck.filter(|_| reader.errors() == 0).and_then(|deck| {
         let materials = materials(&deck, &mut reader.diagnostics);
         let names: Vec<String> = materials.iter().flat_map(|(_, law)| columns(law.as_ref())).collect();
@@ -86,7 +87,11 @@ pub(super) fn curves(curves: &[PointCurve], names: &[String], found: &mut Vec<Di
         }
         name.value.clone()
     };
-    let mut one = |x: &Spot<String>, y: &[Spot<String>]| Curve { x: check(x), y: y.iter().map(&mut check).collect() };
+    let mut one = |x: &Spot<String>, y: &[Spot<String>]| Curve {
+        x: check(x),
+        y: y.iter().map(&mut check).collect(),
+        asked: true,
+    };
     curves.iter().map(|curve| one(&curve.x, &curve.y)).collect()
 }
 

@@ -3,6 +3,7 @@
 use super::diagnose::{Diagnostic, Diagnostics};
 use super::form::Table;
 use super::keys::InterfaceDeck;
+use super::kind::Kind;
 use super::point::{LoadedPoint, curves, refuse_name};
 use super::tree::{self, Value};
 use super::{gathered, text_of, understood};
@@ -54,7 +55,7 @@ fn has_interface(text: &str) -> bool {
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn read_interface(text: &str, name: &str, sets: &[String]) -> Result<LoadedInterface, Diagnostics> {
-    let (deck, mut reader) = understood(text, name, sets, InterfaceDeck::read);
+    let (deck, mut reader) = understood(text, name, sets, Kind::Point, InterfaceDeck::read);
     let made = deck.filter(|_| reader.errors() == 0).and_then(|deck| {
         let laws = laws(&deck, &mut reader.diagnostics);
         let names: Vec<String> = laws.iter().flat_map(|(_, law)| slider_columns(law.as_ref())).collect();

@@ -1,5 +1,6 @@
 //! Values at integration points to values at nodes: in each cell the least-squares field in the shape functions of its
-//! corners, taken at its nodes; then the mean over the cells at each node. A node in no cell has none (NaN).
+//! corners, taken at its nodes; then the mean over the cells at each node. A node in no cell has none (NaN). A *bounded*
+//! mean takes no value at a node beyond the values at the points of the cell: a flow stress is not exceeded.
 
 use crate::Error;
 use crate::mesh::cells::{Cell, MAX_NODES, Rule};
@@ -13,6 +14,7 @@ type Extrapolation = Vec<Vec<f64>>;
 pub struct NodalMean<'a> {
     mesh: &'a Mesh,
     width: usize,
+    bounded: bool,
     sums: Vec<f64>,
     counts: Vec<usize>,
     known: BTreeMap<(&'static str, usize), Extrapolation>,
@@ -22,7 +24,12 @@ impl<'a> NodalMean<'a> {
     /// No values yet, of `width` components each.
     pub fn new(mesh: &'a Mesh, width: usize) -> Self {
         let nodes = mesh.points.len();
-        Self { mesh, width, sums: vec![0.0; width * nodes], counts: vec![0; nodes], known: BTreeMap::new() }
+        let (sums, counts) = (vec![0.0; width * nodes], vec![0; nodes]);
+        Self { mesh, width, bounded: false, sums, counts, known: BTreeMap::new() }
+    }
+    /// The same, with values at the nodes of a cell within those at its points, component by component.
+    pub fn bounded(self) -> Self {
+        Self { bounded: true, ..self }
     }
     /// Adds a cell by the values at the points of `rule`, point after point.
     ///
@@ -37,8 +44,10 @@ impl<'a> NodalMean<'a> {
         let weights = self.known.entry(key).or_insert_with(|| extrapolation(kind, rule));
         for (&node, weights) in nodes.iter().zip(weights.iter()) {
             let sums = &mut self.sums[node * self.width..][..self.width];
-            for (value, weight) in values.chunks_exact(self.width).zip(weights) {
-                sums.iter_mut().zip(value).for_each(|(sum, value)| *sum += weight * value);
+            for (component, sum) in sums.iter_mut().enumerate() {
+                let at_points = values.iter().skip(component).step_by(self.width).copied();
+                let value: f64 = at_points.clone().zip(weights).map(|(value, weight)| weight * value).sum();
+                *sum += if self.bounded { within(value, at_points) } else { value };
             }
             self.counts[node] += 1;
         }
@@ -51,6 +60,12 @@ impl<'a> NodalMean<'a> {
         }
         self.sums
     }
+}
+
+/// The nearest number to `value` within the range of others.
+fn within(value: f64, others: impl Iterator<Item = f64>) -> f64 {
+    let [low, high] = others.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
+    value.min(high).max(low)
 }
 
 /// Least squares in the shape functions of the corners; the plain mean where the points are too few for them.
@@ -135,6 +150,20 @@ mod tests {
             }
         }
         assert!(met >= 3);
+    }
+
+    #[test]
+    fn a_bounded_mean_stays_within_the_values_at_the_points() {
+        let kind = ALL.iter().find(|kind| kind.name == "quad4").unwrap();
+        let mesh = single(kind);
+        let values = [400.0, 400.0, 400.0, 250.0];
+        let nodal = |mut mean: NodalMean| {
+            mean.add(0, kind.full, &values).unwrap();
+            mean.finish().into_iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(x), h.max(x)])
+        };
+        let [low, high] = nodal(NodalMean::new(&mesh, 1));
+        assert!(low < 249.0 && high > 401.0, "extrapolation exceeds: {low} {high}");
+        assert_eq!(nodal(NodalMean::new(&mesh, 1).bounded()), [250.0, 400.0]);
     }
 
     #[test]

@@ -96,7 +96,8 @@ pub fn load<S: DeserializeOwned>(path: &Path, input: &InputHash) -> Result<(Stam
     let bytes = file::read(path)?;
     let (head, body) = open(&bytes).map_err(|reason| Error::file(path, reason))?;
     if head.input != *input {
-        let reason = "this checkpoint belongs to another deck or mesh; restart it with the files it was made from";
+        let reason = "this checkpoint belongs to another deck or mesh; restart it with the files it was made from; if it \
+                      was run with --set, give the same --set again";
         return Err(Error::file(path, reason));
     }
     let unpacked = zstd::stream::decode_all(body).map_err(|error| Error::file(path, error))?;

@@ -61,6 +61,10 @@ pub fn sweep(directory: &Path) -> Result<(), Error> {
 /// # Errors
 /// [`Error::File`] with what the system said.
 pub fn make_directory(path: &Path) -> Result<(), Error> {
+    if path.is_file() {
+        let reason = "this is a file, and results need a directory: name another with --out, or move the file";
+        return Err(Error::file(path, reason));
+    }
     std::fs::create_dir_all(path).map_err(|error| Error::file(path, error))
 }
 
@@ -108,6 +112,16 @@ mod tests {
             assert_eq!(read(&path).unwrap(), text.as_bytes());
         }
         assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_file_in_the_way_of_a_directory_is_told() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("results");
+        std::fs::write(&path, "mine").unwrap();
+        assert!(make_directory(&path).unwrap_err().to_string().contains("this is a file"));
+        make_directory(&directory.path().join("other/results")).unwrap();
+        assert_eq!(read(&path).unwrap(), b"mine");
     }
 
     #[test]

@@ -205,7 +205,7 @@ impl Results {
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
         let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
-        let tables = ["history.csv", "increments.csv", "iterations.csv", CHECKPOINT].map(String::from);
+        let tables = ["history.csv", "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY].map(String::from);
         let pictures = ["contact_stress", "von_mises", "forces", "convergence"];
         let pictures = pictures.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
         let all = frames.chain(tables).chain(pictures);
@@ -274,7 +274,7 @@ mod tests {
         let summary = Summary::read(&directory.path().join(SUMMARY)).unwrap();
         assert_eq!((summary.status, summary.increments), (Status::Converged, 5));
         assert_eq!(summary.bodies, ["block"]);
-        assert_eq!(summary.files[..4], ["bodies.pvd", "points.pvd", "history.csv", CHECKPOINT]);
+        assert_eq!(summary.files[..5], ["bodies.pvd", "points.pvd", "history.csv", CHECKPOINT, SUMMARY]);
         assert!(summary.files.contains(&"von_mises.png".into()) && summary.notes.is_empty(), "{summary:?}");
         assert!(summary.files.iter().all(|file| directory.path().join(file).exists()));
     }

@@ -76,13 +76,13 @@ pub fn write(records: &[Record], directory: &Path) -> Result<Vec<PathBuf>, Error
     records.iter().map(one).collect()
 }
 
-/// Draws curves of all records together as SVG and PNG and returns the files.
+/// Draws curves of all records together as SVG and PNG and returns the files; none of what would be empty unasked.
 ///
 /// # Errors
 /// [`Error::File`] when a picture cannot be written.
 pub fn draw(records: &[Record], curves: &[Curve], title: &str, directory: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut written = Vec::new();
-    for curve in curves {
+    for curve in curves.iter().filter(|curve| curve.is_drawn(records)) {
         let drawing = curve.chart(title, records).draw();
         let [svg, png] = ["svg", "png"].map(|kind| directory.join(format!("{}.{kind}", curve.file_name())));
         write_atomic(&svg, drawing.to_svg().as_bytes(), Durability::Process)?;

@@ -352,7 +352,8 @@ impl<'a> Newton<'a> {
             text += &format!("; contact states repeat every {} iterations: {}", cycle.period, self.name_cycle(&cycle));
         } else if let Some((term, stencil)) = last.changed {
             let name = self.problem.terms[term].name_of(stencil);
-            text += &format!("; {} contact states still changed, the last at {name}", last.changes);
+            let noun = if last.changes == 1 { "state" } else { "states" };
+            text += &format!("; {} contact {noun} still changed, the last at {name}", last.changes);
         }
         text
     }

@@ -4,8 +4,9 @@ use super::Form;
 use super::name::Naming;
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::reader::{Name, Reader};
-use crate::deck::schema::Schema;
-use crate::deck::tree::{Node, Value};
+use crate::deck::schema::{Key, Schema};
+use crate::deck::source::Place;
+use crate::deck::tree::{Entry, Node, Value};
 use std::ops::RangeInclusive;
 
 /// A list of as many items as `lengths` says.
@@ -78,6 +79,30 @@ pub struct Map<F> {
     item: F,
 }
 
+impl<F: Form> Map<F> {
+    /// What to write instead of a name with points that stands without quotes, which TOML reads as table in table.
+    fn unquoted(&self, entry: &Entry, reader: &Reader) -> Option<Diagnostic> {
+        let Schema::Table(known) = self.item.schema() else { return None };
+        let (rest, place) = below(entry, &known).filter(|_| !self.names.defines)?;
+        let path = reader.path();
+        let (name, kind) = (format!("{}.{rest}", entry.key), path.rsplit('.').next().unwrap_or_default());
+        let what = format!("`{path}.{}` has no key `{rest}`", entry.key);
+        let diagnostic = Diagnostic::error(what).at(place).label("a name with a point stands in quotes");
+        Some(diagnostic.help(format!("write {kind}.\"{name}\"")))
+    }
+}
+
+/// The tables in an entry that none of the known keys means: `right` of `block.right = { x = 0 }`.
+fn below(entry: &Entry, known: &[Key]) -> Option<(String, Place)> {
+    let Value::Table(inner) = &entry.node.value else { return None };
+    let is_table = |entry: &&Entry| matches!(entry.node.value, Value::Table(_));
+    let unknown = inner.iter().filter(is_table).find(|entry| known.iter().all(|key| key.name != entry.key))?;
+    Some(match below(unknown, known) {
+        Some((rest, place)) => (format!("{}.{rest}", unknown.key), place),
+        None => (unknown.key.clone(), unknown.place),
+    })
+}
+
 impl<F: Form> Form for Map<F> {
     type Value = Vec<(Name, F::Value)>;
     fn schema(&self) -> Schema {
@@ -87,6 +112,11 @@ impl<F: Form> Form for Map<F> {
     fn read(&self, node: &Node, reader: &mut Reader) -> Option<Self::Value> {
         let mut values = Vec::new();
         for entry in reader.table(node)? {
+            if let Some(unquoted) = self.unquoted(entry, reader) {
+                reader.report(unquoted);
+                values.push(None);
+                continue;
+            }
             let name = Name { text: entry.key.clone(), place: entry.place };
             if name.text.is_empty() && self.names.defines {
                 let what = format!("a {} needs a name that is not empty", self.names.names.noun());

@@ -9,6 +9,23 @@ use crate::deck::tree::{Node, Value};
 use crate::declare::Range;
 use std::ops::RangeInclusive;
 
+/// Refuses a value of another kind; what only stands in quotes is to be written without them.
+fn refuse_kind<T>(place: Place, must: &str, found: &Value, reader: &mut Reader) -> Option<T> {
+    let what = format!("`{}` must be {must}, not {}", reader.path(), found.kind());
+    let diagnostic = Diagnostic::error(what).at(place);
+    let advice = match found {
+        Value::Text(text) if text.parse::<f64>().is_ok() || text.parse::<bool>().is_ok() => {
+            format!("write {text}, without quotes")
+        }
+        Value::Text(text) if text.starts_with(|c: char| c.is_ascii_digit()) => {
+            "a number stands alone, without quotes and without a unit: 210e3".to_owned()
+        }
+        _ => String::new(),
+    };
+    reader.report(if advice.is_empty() { diagnostic } else { diagnostic.help(advice) });
+    None
+}
+
 /// A number of a unit within a range.
 pub fn number(unit: &'static str, range: Range) -> Number {
     Number { unit, range, meaning: "" }
@@ -44,7 +61,7 @@ impl Form for Number {
         let x = match node.value {
             Value::Whole(whole) => whole as f64,
             Value::Real(real) => real,
-            ref other => return reader.refuse(node.place, "a number", other.kind()),
+            ref other => return refuse_kind(node.place, "a number", other, reader),
         };
         if self.range.contains(x) {
             return Some(x);
@@ -79,7 +96,7 @@ impl Form for Whole {
                 None => reader.refuse(node.place, &must, &x.to_string()),
             },
             Value::Real(x) => reader.refuse(node.place, &must, &x.to_string()),
-            ref other => reader.refuse(node.place, &must, other.kind()),
+            ref other => refuse_kind(node.place, &must, other, reader),
         }
     }
 }
@@ -100,7 +117,7 @@ impl Form for Flag {
     fn read(&self, node: &Node, reader: &mut Reader) -> Option<bool> {
         match node.value {
             Value::Flag(flag) => Some(flag),
-            ref other => reader.refuse(node.place, "true or false", other.kind()),
+            ref other => refuse_kind(node.place, "true or false", other, reader),
         }
     }
 }

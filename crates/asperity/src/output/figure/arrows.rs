@@ -1,9 +1,10 @@
-//! Stress vectors drawn to scale on the boundary they act on: the tip touches the body, the shaft lies outside it, a
-//! thin line joins the tails of neighbours so that the distribution is seen.
+//! Stress vectors drawn to scale on the boundary they act on: the tip touches the body, the shaft lies outside it. In
+//! the plane, where points follow each other along the boundary, a thin line joins the tails of neighbours so that the
+//! distribution is seen.
 
 use super::drawing::{Drawing, Point, Segment, Stroke, polygon, polyline};
 use super::palette::Color;
-use super::view::View;
+use super::view::{Projection, View};
 
 /// A vector that acts on a point of the boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,21 +31,22 @@ impl Arrow {
     }
 }
 
-/// Draws arrows with `scale` lengths of space a unit of the vector.
-pub fn draw_arrows(drawing: &mut Drawing, view: &View, arrows: &[Arrow], scale: f64) {
+/// Draws arrows of one colour with `scale` lengths of space a unit of the vector.
+pub fn draw_arrows(drawing: &mut Drawing, view: &View, arrows: &[Arrow], scale: f64, color: Color) {
     let shafts: Vec<(Point, Point)> = arrows.iter().map(|a| (view.map(a.tail(scale)), view.map(a.at))).collect();
-    for run in runs(arrows, &shafts).into_iter().filter(|run| run.len() > 1) {
+    let runs = if view.projection == Projection::Plane { runs(arrows, &shafts) } else { Vec::new() };
+    for run in runs.into_iter().filter(|run| run.len() > 1) {
         let tails: Vec<Point> = run.iter().map(|&i| shafts[i].0).collect();
-        drawing.stroke(polyline(&tails), Stroke::full(Color::ARROW, 0.7));
+        drawing.stroke(polyline(&tails), Stroke::full(color, 0.7));
     }
     let head = head_size(&shafts);
     for &(tail, tip) in &shafts {
-        draw_arrow(drawing, tail, tip, head);
+        draw_arrow(drawing, [tail, tip], head, color);
     }
 }
 
 /// One arrow on the page.
-pub fn draw_arrow(drawing: &mut Drawing, tail: Point, tip: Point, head: f64) {
+pub fn draw_arrow(drawing: &mut Drawing, [tail, tip]: [Point; 2], head: f64, color: Color) {
     let along = [tip[0] - tail[0], tip[1] - tail[1]];
     let length = along[0].hypot(along[1]);
     if !(SHORTEST..f64::INFINITY).contains(&length) {
@@ -54,8 +56,8 @@ pub fn draw_arrow(drawing: &mut Drawing, tail: Point, tip: Point, head: f64) {
     let head = head.min(0.6 * length);
     let neck = [tip[0] - head * unit[0], tip[1] - head * unit[1]];
     let side = |s: f64| [neck[0] - 0.32 * s * head * unit[1], neck[1] + 0.32 * s * head * unit[0]];
-    drawing.stroke(vec![Segment::Move(tail), Segment::Line(neck)], Stroke::full(Color::ARROW, 0.9));
-    drawing.fill(polygon(&[tip, side(1.0), side(-1.0)]), Color::ARROW);
+    drawing.stroke(vec![Segment::Move(tail), Segment::Line(neck)], Stroke::full(color, 0.9));
+    drawing.fill(polygon(&[tip, side(1.0), side(-1.0)]), color);
 }
 
 /// Heads shrink where arrows stand close together.
@@ -92,6 +94,8 @@ fn runs(arrows: &[Arrow], shafts: &[(Point, Point)]) -> Vec<Vec<usize>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::drawing::{Item, Rect};
+    use super::super::view::Window;
     use super::*;
 
     fn arrow(x: f64, group: usize) -> Arrow {
@@ -121,10 +125,24 @@ mod tests {
     }
 
     #[test]
+    fn tails_are_joined_in_the_plane_only() {
+        let arrows: Vec<Arrow> = (0..8).map(|i| arrow(f64::from(i), 0)).collect();
+        let lines = |projection| {
+            let frame = Rect { x: 0.0, y: 0.0, width: 100.0, height: 100.0 };
+            let view = View { projection, window: Window { low: [0.0; 2], high: [10.0; 2] }, frame };
+            let mut drawing = Drawing::new(100.0, 100.0);
+            draw_arrows(&mut drawing, &view, &arrows, 1.0, Color::ARROW);
+            let long = |item: &&Item| matches!(item, Item::Path { path, stroke: Some(_), .. } if path.len() > 2);
+            drawing.items.iter().filter(long).count()
+        };
+        assert_eq!([Projection::Plane, Projection::Corner].map(lines), [1, 0]);
+    }
+
+    #[test]
     fn no_arrow_is_drawn_for_nothing() {
         let mut drawing = Drawing::new(10.0, 10.0);
-        draw_arrow(&mut drawing, [1.0, 1.0], [1.0, 1.0], 5.0);
-        draw_arrow(&mut drawing, [1.0, 1.0], [f64::NAN, 1.0], 5.0);
+        draw_arrow(&mut drawing, [[1.0, 1.0], [1.0, 1.0]], 5.0, Color::ARROW);
+        draw_arrow(&mut drawing, [[1.0, 1.0], [f64::NAN, 1.0]], 5.0, Color::ARROW);
         assert!(drawing.items.is_empty());
     }
 }

@@ -6,6 +6,9 @@ use super::palette::{self, Color};
 use super::text;
 use super::ticks::{Scale, ticks};
 
+/// Room between the ends of a linear axis and the frame, over its length.
+const ROOM: f64 = 0.03;
+
 /// A chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
@@ -64,13 +67,17 @@ impl Chart {
         let [width, height] = self.size;
         let mut drawing = Drawing::new(width, height);
         let axes = self.layout();
+        let legend = self.legend(&axes);
+        drawing.width = legend.map_or(width, |place| width.max(place.right() + 8.0));
         axes.draw_grid(&mut drawing);
         drawing.clipped(axes.frame, |drawing| self.series.iter().for_each(|s| s.draw_line(drawing, &s.on_page(&axes))));
         axes.draw_frame(&mut drawing);
         self.series.iter().for_each(|s| s.draw_marks(&mut drawing, &s.on_page(&axes)));
         let middle = axes.frame.x + 0.5 * axes.frame.width;
         drawing.label(Label::new([middle, LARGE + 6.0], &self.title, LARGE).anchored(Anchor::Middle).bold());
-        self.draw_legend(&mut drawing, &axes);
+        if let Some(place) = legend {
+            self.draw_legend(&mut drawing, place);
+        }
         drawing
     }
     fn axis(&self, which: usize, count: usize) -> Axis {
@@ -79,10 +86,16 @@ impl Chart {
         let usable = |x: &f64| x.is_finite() && (scale == Scale::Linear || *x > 0.0);
         let (low, high) =
             values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        // An axis that nearly begins at zero does; time and travel fill theirs to the end, the other ends at round numbers.
+        // An axis that nearly begins at zero does; time and travel end where they do, the other at round numbers.
         let low = if scale == Scale::Linear && low > 0.0 && low < 0.25 * high { 0.0 } else { low };
         let widen = which == 1;
-        Axis { title: self.axes[which].clone(), scale, ticks: ticks(scale, [low, high], count, widen) }
+        let mut ticks = ticks(scale, [low, high], count, widen);
+        if scale == Scale::Linear {
+            // What runs along the end of an axis is not lost in the frame.
+            let [low, high] = ticks.range;
+            ticks.range = [low - ROOM * (high - low), high + ROOM * (high - low)];
+        }
+        Axis { title: self.axes[which].clone(), scale, ticks }
     }
     fn layout(&self) -> Axes {
         let [width, height] = self.size;
@@ -94,16 +107,19 @@ impl Chart {
         let frame = Rect { x: left, y: top, width: width - left - 20.0, height: height - top - bottom };
         Axes { frame, x, y }
     }
-    fn draw_legend(&self, drawing: &mut Drawing, axes: &Axes) {
-        let named: Vec<&Series> = self.series.iter().filter(|s| !s.name.is_empty()).collect();
-        if named.is_empty() {
-            return;
-        }
-        let widest = named.iter().map(|s| text::width(&s.name, MEDIUM, false)).fold(0.0, f64::max);
-        let size = [widest + 52.0, 18.0 * named.len() as f64 + 8.0];
-        let place = self.emptiest(axes, size);
+    fn named(&self) -> impl Iterator<Item = &Series> {
+        self.series.iter().filter(|s| !s.name.is_empty())
+    }
+    /// Where the legend stands, if there is one: in a corner of the frame through which no line runs, or beside it.
+    fn legend(&self, axes: &Axes) -> Option<Rect> {
+        let widest = self.named().map(|s| text::width(&s.name, MEDIUM, false)).reduce(f64::max)?;
+        let size = [widest + 52.0, 18.0 * self.named().count() as f64 + 8.0];
+        let beside = Rect { x: axes.frame.right() + 8.0, y: axes.frame.y, width: size[0], height: size[1] };
+        Some(self.free_corner(axes, size).unwrap_or(beside))
+    }
+    fn draw_legend(&self, drawing: &mut Drawing, place: Rect) {
         drawing.fill(place.path(), Color::WHITE);
-        for (i, series) in named.iter().enumerate() {
+        for (i, series) in self.named().enumerate() {
             let y = place.y + 18.0 * i as f64 + 13.0;
             let sample = [[place.x + 8.0, y], [place.x + 36.0, y]];
             series.draw_line(drawing, &sample);
@@ -111,17 +127,15 @@ impl Chart {
             drawing.label(Label::new([place.x + 43.0, y + 0.36 * MEDIUM], &series.name, MEDIUM));
         }
     }
-    /// The corner of the frame where a box of this size covers the fewest points.
-    fn emptiest(&self, axes: &Axes, [width, height]: [f64; 2]) -> Rect {
+    /// A box of this size in a corner of the frame through which no line runs.
+    fn free_corner(&self, axes: &Axes, [width, height]: [f64; 2]) -> Option<Rect> {
         let frame = axes.frame;
         let (left, right) = (frame.x + 8.0, frame.right() - width - 8.0);
         let (top, bottom) = (frame.y + 8.0, frame.bottom() - height - 8.0);
         let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
-        let boxes = corners.map(|[x, y]| Rect { x, y, width, height });
-        let samples: Vec<Point> = self.series.iter().flat_map(|s| s.dense(axes)).collect();
-        let inside = |r: &Rect, p: &Point| p[0] > r.x && p[0] < r.right() && p[1] > r.y && p[1] < r.bottom();
-        let covered = |r: &&Rect| samples.iter().filter(|p| inside(r, p)).count();
-        *boxes.iter().min_by_key(covered).unwrap_or(&boxes[0])
+        let lines: Vec<Vec<Point>> = self.series.iter().map(|s| s.on_page(axes)).collect();
+        let free = |place: &Rect| !lines.iter().flat_map(|line| line.windows(2)).any(|w| crosses([w[0], w[1]], place));
+        corners.map(|[x, y]| Rect { x, y, width, height }).into_iter().find(free)
     }
 }
 
@@ -144,12 +158,6 @@ impl Series {
     fn on_page(&self, axes: &Axes) -> Vec<Point> {
         self.points.iter().map(|&p| axes.map(p)).filter(|p| p.iter().all(|x| x.is_finite())).collect()
     }
-    /// Points close together along the line, to see what it runs through.
-    fn dense(&self, axes: &Axes) -> Vec<Point> {
-        let between = |a: Point, b: Point, t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-        let points = self.on_page(axes);
-        points.windows(2).flat_map(|w| (0..=8).map(|i| between(w[0], w[1], f64::from(i) / 8.0))).collect()
-    }
     fn draw_line(&self, drawing: &mut Drawing, points: &[Point]) {
         let color = palette::line(self.style);
         drawing.stroke(polyline(points), Stroke { color, width: self.width, dash: palette::dash(self.style) });
@@ -158,6 +166,23 @@ impl Series {
         let marked = if self.marks { points } else { &[] };
         marked.iter().for_each(|&p| drawing.fill(disc(p, 2.6), palette::line(self.style)));
     }
+}
+
+/// Whether a piece of a line has a part inside a rectangle: the part between both pairs of sides is not empty.
+fn crosses([a, b]: [Point; 2], place: &Rect) -> bool {
+    let ends = [[place.x, place.right()], [place.y, place.bottom()]];
+    let mut part = [0.0f64, 1.0f64];
+    for (axis, [low, high]) in ends.into_iter().enumerate() {
+        let along = b[axis] - a[axis];
+        if along == 0.0 && !(low..=high).contains(&a[axis]) {
+            return false;
+        }
+        if along != 0.0 {
+            let [s, t] = [(low - a[axis]) / along, (high - a[axis]) / along];
+            part = [part[0].max(s.min(t)), part[1].min(s.max(t))];
+        }
+    }
+    part[0] <= part[1]
 }
 
 /// A small disc, as eight parabolas.
@@ -186,9 +211,47 @@ mod tests {
     #[test]
     fn the_legend_goes_where_no_line_runs() {
         let chart = chart();
-        let place = chart.emptiest(&chart.layout(), [100.0, 60.0]);
+        let place = chart.legend(&chart.layout()).unwrap();
         let frame = chart.layout().frame;
         assert!(place.x < frame.x + 20.0 && place.y < frame.y + 20.0, "upper left, not {place:?}");
+        assert_eq!(chart.draw().width, chart.size[0]);
+    }
+
+    #[test]
+    fn the_legend_stands_beside_a_chart_that_is_full() {
+        let mut chart = chart();
+        // Two points a line: a legend must not slip between the ends of a long one.
+        chart.line("falling", vec![[0.0, 100.0], [100.0, 0.0]]);
+        let place = chart.legend(&chart.layout()).unwrap();
+        let drawing = chart.draw();
+        assert!(place.x >= chart.layout().frame.right() && place.right() < drawing.width, "{place:?}");
+        assert!(Chart::new("", "", "").legend(&chart.layout()).is_none());
+    }
+
+    #[test]
+    fn a_line_through_a_box_is_noticed_between_its_points() {
+        let place = Rect { x: 10.0, y: 10.0, width: 5.0, height: 5.0 };
+        for (line, through) in [
+            ([[0.0, 0.0], [30.0, 30.0]], true),
+            ([[12.0, 0.0], [12.0, 99.0]], true),
+            ([[11.0, 11.0], [12.0, 12.0]], true),
+            ([[16.0, 0.0], [16.0, 99.0]], false),
+            ([[0.0, 18.0], [18.0, 0.0]], false),
+            ([[0.0, 0.0], [9.0, 9.0]], false),
+        ] {
+            assert_eq!(crosses(line, &place), through, "{line:?}");
+        }
+    }
+
+    #[test]
+    fn lines_at_the_ends_of_the_axes_stay_off_the_frame() {
+        let chart = chart();
+        let axes = chart.layout();
+        for p in chart.series.iter().flat_map(|s| s.on_page(&axes)) {
+            let frame = axes.frame;
+            let room = [p[0] - frame.x, frame.right() - p[0], p[1] - frame.y, frame.bottom() - p[1]];
+            assert!(room.iter().all(|&room| room > 5.0), "{p:?} in {frame:?}");
+        }
     }
 
     #[test]

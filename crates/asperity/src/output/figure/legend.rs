@@ -54,7 +54,7 @@ impl Panels<'_> {
         let length = value * layout.arrow_scale * layout.scale;
         let text = format!("{}   {}", short(value), self.arrow_name);
         let start = x - 0.5 * (length + 8.0 + text::width(&text, SMALL, false));
-        draw_arrow(drawing, [start, y], [start + length, y], 8.0);
+        draw_arrow(drawing, [[start, y], [start + length, y]], 8.0, Color::ARROW);
         drawing.label(Label::new([start + length + 8.0, y + 0.36 * SMALL], text, SMALL));
     }
     fn draw_color_bar(&self, drawing: &mut Drawing, [x, y]: Point, range: [f64; 2]) {

@@ -20,6 +20,8 @@ impl Color {
     pub const CELLS: Self = Self([112, 128, 144]);
     /// The arrows of contact stress.
     pub const ARROW: Self = Self([0xD5, 0x5E, 0x00]);
+    /// The same behind a body.
+    pub const HIDDEN_ARROW: Self = Self([0xEF, 0xC6, 0xA6]);
 }
 
 const LINES: [Color; 7] = [

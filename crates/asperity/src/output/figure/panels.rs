@@ -1,11 +1,12 @@
 //! Pictures of meshes: one or more panels side by side, all in one scale, with tools, a colour field, stress vectors
 //! and their legends.
 
-use super::arrows::{Arrow, draw_arrows};
+use super::arrows::Arrow;
 use super::axes::{Axes, Axis, LARGE, MEDIUM};
 use super::drawing::{Anchor, Drawing, Label, Rect};
 use super::outline::draw_outline;
-use super::scene::{Scene, draw_mesh, draw_triad};
+use super::scene::{Scene, draw_mesh, draw_stress, draw_triad};
+use super::shell::draw_shell;
 use super::text;
 use super::ticks::{Scale, ticks};
 use super::view::{Projection, View, Window};
@@ -135,7 +136,8 @@ impl Panels<'_> {
         drawing.clipped(view.frame, |drawing| {
             scene.tools.iter().for_each(|profile| draw_outline(drawing, view, profile));
             draw_mesh(drawing, scene, view, layout.range);
-            draw_arrows(drawing, view, &scene.arrows, layout.arrow_scale);
+            draw_shell(drawing, view, &scene.shells);
+            draw_stress(drawing, scene, view, layout.arrow_scale);
         });
         let above = [view.frame.x + 0.5 * view.frame.width, view.frame.y - 8.0];
         drawing.label(Label::new(above, &scene.title, MEDIUM).anchored(Anchor::Middle));
@@ -190,6 +192,7 @@ mod tests {
             field: Some(vec![0.0, 1.0, 2.0, 3.0]),
             arrows: vec![Arrow { at: [0.0, 10.0, 0.0], vector: [400.0 + 80.0 * i as f64, 0.0, 0.0], group: 0 }],
             tools: vec![vec![[0.0, -50.0, 0.0], [0.0, 50.0, 0.0]]],
+            shells: Vec::new(),
         };
         Panels {
             title: "title".into(),

@@ -1,10 +1,12 @@
 //! What one panel shows, and how its mesh is drawn.
 
-use super::arrows::Arrow;
+use super::arrows::{Arrow, draw_arrows};
 use super::axes::SMALL;
 use super::drawing::{Anchor, Drawing, Label, Stroke, polygon, polyline};
 use super::facets::{Facet, edge_path, edges, facets};
+use super::hidden::Cover;
 use super::palette::{self, Color};
+use super::shell::Tile;
 use super::view::{Projection, View};
 use crate::mesh::Mesh;
 
@@ -23,6 +25,20 @@ pub struct Scene<'a> {
     pub arrows: Vec<Arrow>,
     /// Profiles of tools as fine broken lines, their material on the left.
     pub tools: Vec<Vec<[f64; 3]>>,
+    /// Tiles of tools in space.
+    pub shells: Vec<Tile>,
+}
+
+/// Draws the stress vectors; in space those that stand behind a body in a pale colour, and no line joins them.
+pub(super) fn draw_stress(drawing: &mut Drawing, scene: &Scene, view: &View, scale: f64) {
+    if view.projection == Projection::Plane {
+        return draw_arrows(drawing, view, &scene.arrows, scale, Color::ARROW);
+    }
+    let acting: Vec<Arrow> = scene.arrows.iter().filter(|arrow| arrow.size() > 0.0).copied().collect();
+    let cover = Cover::new(&facets(scene.mesh), view, &scene.points);
+    let (hidden, seen): (Vec<Arrow>, Vec<Arrow>) = acting.into_iter().partition(|arrow| cover.hides(view, arrow.at));
+    draw_arrows(drawing, view, &hidden, scale, Color::HIDDEN_ARROW);
+    draw_arrows(drawing, view, &seen, scale, Color::ARROW);
 }
 
 /// Draws cells, colours and edges.
@@ -61,9 +77,10 @@ pub(super) fn draw_mesh(drawing: &mut Drawing, scene: &Scene, view: &View, range
     }
 }
 
-/// Draws the axes of space in the corner of a solid picture.
+/// Draws the axes of space at the corner of a solid picture.
 pub(super) fn draw_triad(drawing: &mut Drawing, view: &View) {
-    let origin = [view.frame.x + 26.0, view.frame.bottom() - 26.0];
+    // Beside the frame, where no body is.
+    let origin = [view.frame.x - 28.0, view.frame.bottom() + 20.0];
     for (axis, name) in ["x", "y", "z"].iter().enumerate() {
         let mut unit = [0.0; 3];
         unit[axis] = 1.0;

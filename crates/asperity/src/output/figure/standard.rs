@@ -6,6 +6,7 @@ use super::curves;
 use super::drawing::Drawing;
 use super::panels::Panels;
 use super::scene::Scene;
+use super::shell::Tile;
 use super::ticks::minus;
 use super::view::{Projection, Window};
 use crate::Error;
@@ -38,9 +39,13 @@ const PANELS: usize = 4;
 /// Draws the standard pictures into the directory of the results and returns their files.
 ///
 /// # Errors
-/// [`Error::File`] when a result cannot be read, or a picture not written.
+/// [`Error::File`] when a result cannot be read, or a picture not written; [`Error::Input`] for a time at which the run
+/// was not, and for a window of a run in space.
 pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<PathBuf>, Error> {
     let run = Run { directory, summary: Summary::read(&directory.join("summary.json"))?, options };
+    if options.window.is_some() && run.summary.space == "solid" {
+        return Err(Error::Input("a window is a part of the plane; this run is in space and is shown whole".into()));
+    }
     let mut written = Vec::new();
     let mut save = |name: &str, drawing: Drawing| -> Result<(), Error> {
         let (svg, png) = (directory.join(format!("{name}.svg")), directory.join(format!("{name}.png")));
@@ -84,6 +89,7 @@ struct Shot {
     bodies: Grid,
     arrows: Vec<Arrow>,
     tools: Vec<Vec<[f64; 3]>>,
+    shells: Vec<Tile>,
 }
 
 impl Run<'_> {
@@ -99,7 +105,7 @@ impl Run<'_> {
             frame.map_or(Ok(Grid::default()), |(_, file)| read_grid(&self.directory.join(file)))
         };
         let times: Vec<f64> = bodies.iter().map(|(time, _)| *time).collect();
-        let chosen = chosen(&times, &self.options.times).into_iter();
+        let chosen = chosen(&times, &self.options.times)?.into_iter();
         chosen.map(|time| shot(time, at(&bodies, time)?, &at(&contacts, time)?, &at(&tools, time)?)).collect()
     }
 
@@ -115,8 +121,9 @@ impl Run<'_> {
             scenes: shots.iter().map(|shot| shot.scene(field)).collect(),
             projection: if solid { Projection::Corner } else { Projection::Plane },
             axes: axes.map(str::to_string),
-            arrow_name: "contact stress (force / length^{2})".into(),
-            field_name: "von Mises stress (force / length^{2})".into(),
+            arrow_name: ["contact stress (force / length^{2})", if solid { ", pale behind a body" } else { "" }]
+                .concat(),
+            field_name: "von Mises stress, mean at nodes (force / length^{2})".into(),
             window: self.options.window,
             room: [900.0, 760.0],
         }
@@ -133,23 +140,32 @@ impl Shot {
             field,
             arrows: self.arrows.clone(),
             tools: self.tools.clone(),
+            shells: self.shells.clone(),
         }
     }
 }
 
-/// The written times nearest to the wanted ones; evenly spread ones where none are wanted, the first left out.
-fn chosen(times: &[f64], wanted: &[f64]) -> Vec<f64> {
-    let (Some(first), Some(last)) = (times.first(), times.last()) else { return Vec::new() };
+/// The written times nearest to the wanted ones; evenly spread ones where none are wanted, the first left out. A time
+/// at which the run was not is refused.
+fn chosen(times: &[f64], wanted: &[f64]) -> Result<Vec<f64>, Error> {
+    let (Some(first), Some(last)) = (times.first(), times.last()) else { return Ok(Vec::new()) };
+    let slack = 1e-9 * (last - first);
+    if let Some(lost) = wanted.iter().find(|&&want| !(want >= first - slack && want <= last + slack)) {
+        let [first, last] = [*first, *last].map(super::ticks::short);
+        return Err(Error::Input(format!("there is no frame at time {lost}: this run goes from {first} to {last}")));
+    }
+    let shown = if wanted.is_empty() && times.len() > 1 { &times[1..] } else { times };
     let even = (1..=PANELS).map(|i| first + (last - first) * i as f64 / PANELS as f64).collect();
     let wanted = if wanted.is_empty() { even } else { wanted.to_vec() };
-    let near = |&want: &f64| times.iter().copied().min_by(|a, b| (a - want).abs().total_cmp(&(b - want).abs()));
+    let near = |&want: &f64| shown.iter().copied().min_by(|a, b| (a - want).abs().total_cmp(&(b - want).abs()));
     let mut found: Vec<f64> = wanted.iter().filter_map(near).collect();
     found.dedup();
-    found
+    Ok(found)
 }
 
 fn shot(time: f64, bodies: Grid, contacts: &Grid, tools: &Grid) -> Result<Shot, Error> {
-    Ok(Shot { time, mesh: bodies.to_mesh()?, arrows: arrows(contacts), tools: profiles(tools), bodies })
+    let (arrows, shells) = (arrows(contacts), tiles(tools));
+    Ok(Shot { time, mesh: bodies.to_mesh()?, arrows, tools: profiles(tools), shells, bodies })
 }
 
 /// Present positions of a grid's points.
@@ -190,6 +206,14 @@ fn profiles(tools: &Grid) -> Vec<Vec<[f64; 3]>> {
     profiles
 }
 
+/// The tiles of tools in space.
+fn tiles(tools: &Grid) -> Vec<Tile> {
+    let points = moved(tools);
+    let corner = |&n: &i64| usize::try_from(n).ok().and_then(|n| points.get(n).copied());
+    let tiles = tools.cells.iter().flatten().filter(|(_, nodes)| nodes.len() > 2);
+    tiles.filter_map(|(_, nodes)| nodes.iter().map(corner).collect()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,9 +221,14 @@ mod tests {
     #[test]
     fn frames_are_chosen_by_time() {
         let times: Vec<f64> = (0..=10).map(|i| 0.1 * f64::from(i)).collect();
-        assert_eq!(chosen(&times, &[]), [times[2], times[5], times[7], times[10]]);
-        assert_eq!(chosen(&times, &[0.29, 0.31, 0.9]), [times[3], times[9]]);
-        assert!(chosen(&[], &[0.5]).is_empty());
+        assert_eq!(chosen(&times, &[]).unwrap(), [times[2], times[5], times[7], times[10]]);
+        assert_eq!(chosen(&times, &[0.29, 0.31, 0.9]).unwrap(), [times[3], times[9]]);
+        assert_eq!(chosen(&[0.0, 1.0, 2.0], &[]).unwrap(), [1.0, 2.0], "the beginning is not shown unasked");
+        assert!(chosen(&[], &[0.5]).unwrap().is_empty());
+        for lost in [-0.1, 1.01, f64::NAN] {
+            let refused = chosen(&times, &[0.5, lost]).unwrap_err().to_string();
+            assert!(refused.contains("goes from 0 to 1"), "{refused}");
+        }
     }
 
     #[test]
@@ -208,5 +237,7 @@ mod tests {
         [[0, 1], [1, 2], [3, 4]].into_iter().for_each(|line| grid.cells.push(3, line));
         let profiles = profiles(&grid);
         assert_eq!(profiles.iter().map(Vec::len).collect::<Vec<_>>(), [3, 2]);
+        grid.cells.push(5, [0, 2, 4]);
+        assert_eq!(tiles(&grid), [vec![[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0]]]);
     }
 }

@@ -1,4 +1,5 @@
-//! From space to the page: plane models as they are, solid ones seen from a corner, in true proportions.
+//! From space to the page: plane models as they are, solid ones seen from the corner between their front, right and top
+//! sides, in true proportions.
 
 use super::drawing::{Point, Rect};
 
@@ -7,7 +8,8 @@ use super::drawing::{Point, Rect};
 pub enum Projection {
     /// x to the right, y upwards.
     Plane,
-    /// From above a corner, without perspective: x and y recede to both sides, z stands upright.
+    /// From above the front right corner, without perspective: y stands upright, x goes to the right, z comes towards
+    /// the eye on the left.
     Corner,
 }
 
@@ -36,7 +38,7 @@ impl Projection {
     pub fn flat(self, [x, y, z]: [f64; 3]) -> [f64; 2] {
         match self {
             Self::Plane => [x, y],
-            Self::Corner => [0.829 * x + 0.559 * y, -0.254 * x + 0.376 * y + 0.891 * z],
+            Self::Corner => [0.829 * x - 0.559 * z, -0.254 * x + 0.891 * y - 0.376 * z],
         }
     }
     /// How near a point is to the eye.
@@ -44,7 +46,7 @@ impl Projection {
         match self {
             Self::Plane => 0.0,
             // The direction normal to both rows of `flat`: 27 degrees above the horizon.
-            Self::Corner => 0.498 * x - 0.739 * y + 0.454 * z,
+            Self::Corner => 0.498 * x + 0.454 * y + 0.739 * z,
         }
     }
 }
@@ -103,7 +105,11 @@ mod tests {
         for (a, b) in [(&right as &dyn Fn(usize) -> f64, &up as &dyn Fn(usize) -> f64), (&right, &eye), (&up, &eye)] {
             assert!(dot(a, b).abs() < 0.01 && (dot(a, a) - 1.0).abs() < 0.02 && (dot(b, b) - 1.0).abs() < 0.02);
         }
-        assert!(p.nearness([0.0, 0.0, 1.0]) > 0.0, "seen from above");
+        for (side, outward) in [("right", [1.0, 0.0, 0.0]), ("top", [0.0, 1.0, 0.0]), ("front", [0.0, 0.0, 1.0])] {
+            assert!(p.nearness(outward) > 0.4, "the {side} side of a box is seen");
+        }
+        assert!(p.flat([0.0, 1.0, 0.0])[0] == 0.0 && p.flat([0.0, 1.0, 0.0])[1] > 0.0, "y stands upright");
+        assert!(right(0) > 0.0, "x goes to the right");
     }
 
     #[test]

@@ -36,7 +36,8 @@ fn report_points(source: &Source, points: &[Point], frame: &mut Frame) -> Result
     frame.push(Quantity::integer("cell", Place::Gauss, number(&|p| p.record.cell)))?;
     frame.push(Quantity::integer("body", Place::Gauss, number(&|p| p.body)))?;
     let stress = gathered(points, |p| std::array::from_fn::<_, 6, _>(|i| p.record.state[i]));
-    push_stress(frame, Place::Gauss, "", stress)?;
+    let equivalent = equivalents(&stress);
+    push_stress(frame, Place::Gauss, "", (stress, equivalent))?;
     variables(source).into_iter().try_for_each(|variable| frame.push(values_of(variable, source, points)))
 }
 
@@ -88,28 +89,42 @@ fn report_cells(source: &Source, points: &[Point], frame: &mut Frame) -> Result<
         sums[cell].iter_mut().zip(record.state).for_each(|(sum, stress)| *sum += record.volume * stress);
         (body[cell], material[cell]) = (*number as f64, source.parts.materials[*number] as f64);
     }
-    let means = sums.iter().zip(&volumes).flat_map(|(sum, volume)| sum.map(|s| s / volume)).collect();
+    let means: Vec<f64> = sums.iter().zip(&volumes).flat_map(|(sum, volume)| sum.map(|s| s / volume)).collect();
+    let equivalent = equivalents(&means);
     frame.push(Quantity::integer("body", Place::Cell, body))?;
     frame.push(Quantity::integer("material", Place::Cell, material))?;
-    push_stress(frame, Place::Cell, "", means)
+    push_stress(frame, Place::Cell, "", (means, equivalent))
 }
 
 fn report_nodes(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    let (mut mean, mut stress) = (NodalMean::new(source.parts.mesh, 6), Vec::new());
+    let mesh = source.parts.mesh;
+    let (mut mean, mut stress) = (NodalMean::new(mesh, 6), Vec::new());
+    let mut equivalent = NodalMean::new(mesh, 1).bounded();
     for (term, body) in &source.parts.bodies {
         let (history, len) = (source.history(*term)?, body.point_len());
         for (slot, &cell) in body.cells().iter().enumerate() {
             let states = history.slot(slot).chunks_exact(len);
             stress.clear();
             states.for_each(|state| stress.extend_from_slice(&state[..6]));
-            mean.add(cell, body.rule(source.parts.mesh.cell(cell).kind), &stress)?;
+            let rule = body.rule(mesh.cell(cell).kind);
+            mean.add(cell, rule, &stress)?;
+            equivalent.add(cell, rule, &equivalents(&stress))?;
         }
     }
-    push_stress(frame, Place::Node, "_averaged", mean.finish())
+    // Not that of the mean stress: extrapolated components would leave the yield surface.
+    push_stress(frame, Place::Node, "_averaged", (mean.finish(), equivalent.finish()))
 }
 
-fn push_stress(frame: &mut Frame, place: Place, suffix: &str, stress: Vec<f64>) -> Result<(), Error> {
-    let equivalent = stress.as_chunks().0.iter().map(von_mises).collect();
+fn equivalents(stress: &[f64]) -> Vec<f64> {
+    stress.as_chunks().0.iter().map(von_mises).collect()
+}
+
+fn push_stress(
+    frame: &mut Frame,
+    place: Place,
+    suffix: &str,
+    (stress, equivalent): (Vec<f64>, Vec<f64>),
+) -> Result<(), Error> {
     let push = |name: &str, width, values| Quantity::new(format!("{name}{suffix}"), Unit::Stress, place, width, values);
     frame.push(push("cauchy_stress", Width::Symmetric, stress))?;
     frame.push(push("von_mises", Width::Scalar, equivalent))

@@ -85,7 +85,7 @@ impl Facet {
         let corners = self.kind.linear.nodes.len();
         let span = self.edges().map(|edge| distance(at(edge[0]), at(edge[1]))).fold(0.0, f64::max);
         let parts = ((span / size).ceil() as usize).clamp(1, 12);
-        let sample = |xi: [f64; 2]| self.sample(xi, &at, field);
+        let sample = |xi: [f64; 2]| self.sample(xi, &at, |node| field[node]);
         let tile = |corners: Vec<[f64; 2]>| {
             let (points, values): (Vec<Point>, Vec<f64>) = corners.into_iter().map(sample).unzip();
             let mean = values.iter().sum::<f64>() / values.len() as f64;
@@ -93,13 +93,17 @@ impl Facet {
         };
         pieces(corners, parts).into_iter().map(tile).collect()
     }
-    fn sample(&self, xi: [f64; 2], at: impl Fn(usize) -> Point, field: &[f64]) -> (Point, f64) {
+    /// Its middle, and a nodal field there.
+    pub fn middle(&self, at: impl Fn(usize) -> Point, field: impl Fn(usize) -> f64) -> (Point, f64) {
+        self.sample(if self.kind.linear.nodes.len() == 4 { [0.0; 2] } else { [1.0 / 3.0; 2] }, at, field)
+    }
+    fn sample(&self, xi: [f64; 2], at: impl Fn(usize) -> Point, field: impl Fn(usize) -> f64) -> (Point, f64) {
         let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
         let count = self.nodes.len();
         (self.kind.shape)([xi[0], xi[1], 0.0], &mut n[..count], &mut dn[..count]);
         self.nodes.iter().zip(n).fold(([0.0, 0.0], 0.0), |([x, y], value), (&node, n)| {
             let p = at(node);
-            ([x + n * p[0], y + n * p[1]], value + n * field[node])
+            ([x + n * p[0], y + n * p[1]], value + n * field(node))
         })
     }
 }

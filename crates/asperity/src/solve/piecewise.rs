@@ -141,8 +141,8 @@ impl<'a> Piecewise<'a> {
         for (number, kink) in self.site.kinks.list().iter().enumerate() {
             let change = self.site.kinks.along(kink, du);
             let (bent, _) = self.bend(number, &std::array::from_fn(|c| kink.y[c] + change[c]))?;
-            for c in 0..kink.count {
-                self.site.kinks.push(kink, c, bent.stress[c] - known[number][c], &mut forces);
+            for (c, (now, known)) in bent.stress.iter().zip(known[number]).enumerate().take(kink.count) {
+                self.site.kinks.push(kink, c, now - known, &mut forces);
             }
         }
         Ok(forces)

@@ -118,7 +118,7 @@ fn evaluate(made: &deck::Made, state: &State, criterion: &mut Criterion) -> f64 
     let (mut workspace, mut evaluation) = (Workspace::default(), Evaluation::new(&problem.terms, state));
     workspace.prepare(&assembly, state).expect("a pattern");
     let u: Vec<f64> = state.u.iter().zip(&state.last_change).map(|(u, change)| u + change).collect();
-    let trial = Trial { u: &u, missing: None, tangent: Tangent::Exact };
+    let trial = Trial { u: &u, missing: None, tangent: Tangent::Exact, acting: &[] };
     let mut once = || workspace.evaluate(&assembly, &trial, &mut evaluation).expect("an evaluation");
     let begun = Clock::now();
     (0..3).for_each(|_| once());

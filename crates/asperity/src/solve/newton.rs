@@ -360,19 +360,19 @@ impl<'a> Newton<'a> {
 
     /// The first stencils of a cycle, and what they go through.
     fn name_cycle(&self, cycle: &Cycle) -> String {
-        let named = cycle.stencils.iter().take(NAMED).map(|(term, stencil, through)| {
-            let term = &self.problem.terms[*term];
+        let named = cycle.members.iter().take(NAMED).map(|member| {
+            let term = &self.problem.terms[member.term];
             // A choice counts from one; zero is none.
             let state = |&(branch, choice): &(u8, u32)| {
                 let word = term.branches().get(usize::from(branch)).copied().unwrap_or_default();
                 if choice == 0 { word.to_owned() } else { format!("{word} on segment {choice}") }
             };
-            let states: Vec<String> = through.iter().map(state).collect();
-            format!("{} ({})", term.name_of(*stencil), states.join(", "))
+            let states: Vec<String> = member.through.iter().map(state).collect();
+            format!("{} ({})", term.name_of(member.stencil), states.join(", "))
         });
         let mut text = named.collect::<Vec<_>>().join("; ");
-        if cycle.stencils.len() > NAMED {
-            text += &format!("; and {} more", cycle.stencils.len() - NAMED);
+        if cycle.members.len() > NAMED {
+            text += &format!("; and {} more", cycle.members.len() - NAMED);
         }
         text
     }

@@ -20,8 +20,19 @@ pub struct Trail {
 pub struct Cycle {
     /// After how many iterations.
     pub period: usize,
-    /// Term and number of each stencil, and the branches and choices that it goes through.
-    pub stencils: Vec<(usize, usize, Vec<(u8, u32)>)>,
+    /// The stencils.
+    pub members: Vec<Member>,
+}
+
+/// A stencil that goes round in circles.
+#[derive(Debug, PartialEq)]
+pub struct Member {
+    /// Its term.
+    pub term: usize,
+    /// Its number in it.
+    pub stencil: usize,
+    /// The branches and choices that it goes through.
+    pub through: Vec<(u8, u32)>,
 }
 
 impl Trail {
@@ -45,12 +56,12 @@ impl Trail {
     /// The shortest cycle that has been gone through twice.
     pub fn cycle(&self) -> Option<Cycle> {
         let period = (2..=LENGTH / 2).find(|&period| self.repeats(period))?;
-        let stencils = self.changed().map(|(term, stencil)| {
+        let members = self.changed().map(|(term, stencil)| {
             let mut through: Vec<_> = (0..period).rev().map(|step| self.steps[step][term][stencil]).collect();
             through.dedup();
-            (term, stencil, through)
+            Member { term, stencil, through }
         });
-        Some(Cycle { period, stencils: stencils.collect() })
+        Some(Cycle { period, members: members.collect() })
     }
 
     fn repeats(&self, period: usize) -> bool {
@@ -84,7 +95,8 @@ mod tests {
         assert_eq!(trail(&[a, b, a]).cycle(), None);
         assert_eq!(trail(&[a, a, a, a]).cycle(), None);
         let cycle = trail(&[c, a, b, a, b]).cycle().unwrap();
-        assert_eq!((cycle.period, cycle.stencils), (2, vec![(1, 1, vec![(1, 4), (2, 4)])]));
+        let member = Member { term: 1, stencil: 1, through: vec![(1, 4), (2, 4)] };
+        assert_eq!(cycle, Cycle { period: 2, members: vec![member] });
         assert_eq!(trail(&[a, b, c, a, b, c]).cycle().unwrap().period, 3);
     }
 

@@ -129,6 +129,13 @@ fn account(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
     summary.notes.extend(run.problem.newton.notes());
+    let cut = summary.attempts.saturating_sub(summary.increments);
+    if cut > summary.increments / 2 {
+        summary.notes.push(format!(
+            "{cut} of {} attempts at an increment were cut; the page \"When a run does not converge\" of the manual says what helps",
+            summary.attempts
+        ));
+    }
     if run.state.jumps > 0 {
         summary.notes.push(format!(
             "{} increments ended beyond an instability; they set an energy of {:.4e} free",

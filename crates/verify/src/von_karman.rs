@@ -19,7 +19,7 @@ pub struct Theory {
     pub pressure: Vec<[f64; 2]>,
     /// Angle at which friction turns, in radians.
     pub neutral: f64,
-    /// Force per unit of width, over `2k`.
+    /// Force along the line through the axes per unit of width, over `2k`.
     pub force: f64,
 }
 
@@ -63,7 +63,13 @@ impl Gap {
         entry.reverse();
         let neutral = exit.iter().zip(&entry).find(|(a, b)| a[1] >= b[1]).map_or(f64::NAN, |(a, _)| a[0]);
         let pressure: Vec<_> = exit.iter().zip(&entry).map(|(a, b)| [a[0], a[1].min(b[1])]).collect();
-        let mean: f64 = pressure.windows(2).map(|two| 0.5 * (two[0][1] + two[1][1])).sum::<f64>() / PARTS as f64;
+        // Friction draws the strip in behind the neutral angle and holds it back before, which loads the roll and relieves it.
+        let upright = |&[angle, pressure]: &[f64; 2]| {
+            let sign = if angle > neutral { 1.0 } else { -1.0 };
+            pressure * (angle.cos() + sign * self.friction * angle.sin())
+        };
+        let mean =
+            pressure.windows(2).map(|two| 0.5 * (upright(&two[0]) + upright(&two[1]))).sum::<f64>() / PARTS as f64;
         Theory { pressure, neutral, force: mean * self.radius * self.arc() }
     }
 }

@@ -7,6 +7,7 @@ use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::{Key, Schema};
 use crate::deck::source::Place;
 use crate::deck::tree::{Entry, Node, Value};
+use crate::declare::nearest;
 use std::ops::RangeInclusive;
 
 /// A list of as many items as `lengths` says.
@@ -92,11 +93,12 @@ impl<F: Form> Map<F> {
     }
 }
 
-/// The tables in an entry that none of the known keys means: `right` of `block.right = { x = 0 }`.
+/// The tables in an entry that none of the known keys means, not even misspelt: `right` of `block.right = { x = 0 }`.
 fn below(entry: &Entry, known: &[Key]) -> Option<(String, Place)> {
     let Value::Table(inner) = &entry.node.value else { return None };
     let is_table = |entry: &&Entry| matches!(entry.node.value, Value::Table(_));
-    let unknown = inner.iter().filter(is_table).find(|entry| known.iter().all(|key| key.name != entry.key))?;
+    let is_unknown = |entry: &&Entry| nearest(&entry.key, known.iter().map(|key| key.name)).is_none();
+    let unknown = inner.iter().filter(is_table).find(is_unknown)?;
     Some(match below(unknown, known) {
         Some((rest, place)) => (format!("{}.{rest}", unknown.key), place),
         None => (unknown.key.clone(), unknown.place),

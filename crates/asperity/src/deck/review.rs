@@ -30,10 +30,12 @@ pub struct Review {
 /// What is known to look wrong without solving anything: the warnings of the reading, and contacts that find nothing or
 /// begin inside.
 pub fn warnings(made: &Made) -> Vec<Diagnostic> {
+    warnings_of(made, &Seen::all(made))
+}
+
+fn warnings_of(made: &Made, all: &[Seen]) -> Vec<Diagnostic> {
     let warnings = made.diagnostics.list.iter().filter(|d| d.severity <= Severity::Warning).cloned();
-    let nothing = vec![0.0; made.model.problem.dofs.count()];
-    let all = Seen::all(made, &nothing);
-    let odd = made.deck.contact.iter().flat_map(|(name, _)| Seen::of(&all, name).filter_map(|seen| seen.oddity(name)));
+    let odd = made.deck.contact.iter().flat_map(|(name, _)| Seen::of(all, name).filter_map(|seen| seen.oddity(name)));
     warnings.chain(odd).collect()
 }
 
@@ -42,13 +44,12 @@ pub fn warnings(made: &Made) -> Vec<Diagnostic> {
 /// # Errors
 /// An error of the solver that is not the model's fault.
 pub fn review(made: &Made) -> Result<Review, Error> {
-    let mut problems = warnings(made);
+    let all = Seen::all(made);
+    let mut problems = warnings_of(made, &all);
     let mut page = Page::default();
     page.model(made);
     page.bodies(made);
     page.tools(made);
-    let nothing = vec![0.0; made.model.problem.dofs.count()];
-    let all = Seen::all(made, &nothing);
     for (name, keys) in &made.deck.contact {
         Seen::of(&all, name).for_each(|seen| page.contact(name, keys, seen));
     }
@@ -185,10 +186,11 @@ struct Seen<'a> {
 }
 
 impl<'a> Seen<'a> {
-    /// Every contact, and every second side.
-    fn all(made: &'a Made, u: &[f64]) -> Vec<Self> {
-        let plane = made.model.contacts.iter().map(|contact| Self::plane(contact, u));
-        plane.chain(made.model.solid_contacts.iter().map(|contact| Self::solid(contact, u))).collect()
+    /// Every contact, and every second side, in the undeformed state.
+    fn all(made: &'a Made) -> Vec<Self> {
+        let still = vec![0.0; made.model.problem.dofs.count()];
+        let plane = made.model.contacts.iter().map(|contact| Self::plane(contact, &still));
+        plane.chain(made.model.solid_contacts.iter().map(|contact| Self::solid(contact, &still))).collect()
     }
 
     /// Those of one contact of the deck.

@@ -164,10 +164,10 @@ impl<L: RateLaw> Material for Rate<L> {
         f: &Tensor2,
         dt: f64,
         old: &[f64],
-        (new, gradient): (&mut [f64], &mut Gradient),
+        out: (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.advance_along(f, dt, old, (new, gradient), directions)
+        self.advance_along(f, dt, old, out, directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

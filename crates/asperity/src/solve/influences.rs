@@ -8,7 +8,7 @@
 
 use super::linear::{LinearError, LinearSolver};
 use crate::Failure;
-use crate::system::{Attempt, Constraints, Csr, Kink, Kinks};
+use crate::system::{Assembly, Attempt, Constraints, Csr, Kink, Kinks, Workspace};
 use frontal::{Change, Sparse};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,7 +40,11 @@ pub(super) struct Site<'a> {
     pub constraints: &'a Constraints,
 }
 
-impl Site<'_> {
+impl<'a> Site<'a> {
+    pub fn of(assembly: &'a Assembly<'a>, kinks: &'a Kinks) -> Self {
+        Self { attempts: &assembly.attempts, kinks, constraints: assembly.constraints }
+    }
+
     /// Forces of a unit of stress on free unknowns.
     fn forces(&self, kink: &Kink, coordinate: usize) -> Sparse {
         let forces = self.kinks.forces(kink, coordinate);
@@ -67,7 +71,11 @@ pub(super) struct Matrix<'a> {
     pub values: &'a [f64],
 }
 
-impl Matrix<'_> {
+impl<'a> Matrix<'a> {
+    pub fn of(workspace: &'a Workspace, values: &'a [f64]) -> Self {
+        Self { pattern: workspace.pattern(), values }
+    }
+
     fn row(&self, row: usize) -> (&[usize], &[f64]) {
         let range = self.pattern.starts[row]..self.pattern.starts[row + 1];
         (&self.pattern.columns[range.clone()], &self.values[range])

@@ -115,8 +115,7 @@ impl Newton<'_> {
     /// False where that does not come about.
     fn bend(&mut self, size: f64, motion: &mut Motion, forcing: f64) -> Result<bool, Trouble> {
         let (constraints, memory) = (&self.step.constraints, &mut *self.memory);
-        let site = Site { attempts: &self.assembly.attempts, kinks: &memory.kinks, constraints };
-        let mut piecewise = Piecewise::new(site, &motion.du)?;
+        let mut piecewise = Piecewise::new(Site::of(&self.assembly, &memory.kinks), &motion.du)?;
         let settled = piecewise.settle((&mut memory.influences, self.solver))?;
         let Some(part) = settled.filter(|_| piecewise.bends()) else { return Ok(true) };
         motion.du.iter_mut().for_each(|du| *du *= part);
@@ -212,18 +211,16 @@ impl Newton<'_> {
         let stays = self.problem.newton.variant == Variant::Full && self.solver.iterates();
         let dofs = memory.kinks.dofs();
         let near = if stays { memory.workspace.around(dofs, |t| terms[t].bends()) } else { dofs.to_vec() };
-        let site =
-            Site { attempts: &self.assembly.attempts, kinks: &memory.kinks, constraints: &self.step.constraints };
-        let matrix = Matrix { pattern: memory.workspace.pattern(), values: &self.evaluation.values };
+        let site = Site::of(&self.assembly, &memory.kinks);
+        let matrix = Matrix::of(&memory.workspace, &self.evaluation.values);
         memory.influences.begin((site, matrix), near, stays)
     }
 
     /// Puts the factor right for what has changed near contact.
     fn put_right(&mut self) -> Result<(), Failure> {
         let memory = &mut *self.memory;
-        let site =
-            Site { attempts: &self.assembly.attempts, kinks: &memory.kinks, constraints: &self.step.constraints };
-        let matrix = Matrix { pattern: memory.workspace.pattern(), values: &self.evaluation.values };
+        let site = Site::of(&self.assembly, &memory.kinks);
+        let matrix = Matrix::of(&memory.workspace, &self.evaluation.values);
         memory.influences.cover(site);
         let change = memory.influences.change((site, matrix), self.solver)?;
         self.solver.change(change);

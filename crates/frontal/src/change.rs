@@ -4,8 +4,9 @@
 //! had jumped.
 
 use crate::factor::Factor;
+use crate::full::Full;
 use crate::solve::Workspace;
-use crate::vector::{dot, subtract};
+use crate::vector::subtract;
 
 /// Numbers at some unknowns.
 pub type Sparse = Vec<(usize, f64)>;
@@ -15,7 +16,7 @@ pub type Sparse = Vec<(usize, f64)>;
 pub struct Change {
     columns: Vec<Sparse>,
     rows: Vec<Sparse>,
-    small: Small,
+    small: Full,
 }
 
 impl Change {
@@ -27,7 +28,7 @@ impl Change {
     pub fn new(columns: Vec<Sparse>, rows: Vec<Sparse>, capacitance: Vec<f64>) -> Option<Self> {
         let n = columns.len();
         assert!(rows.len() == n && capacitance.len() == n * n, "a change of rank {n}");
-        Some(Change { columns, rows, small: Small::factorise(n, capacitance)? })
+        Some(Change { columns, rows, small: Full::factorise(n, capacitance)? })
     }
 
     /// Its rank, at the most.
@@ -66,49 +67,5 @@ impl Factor {
             subtract(work.vectors(), -1.0, &halfway);
             factor.backward(work);
         });
-    }
-}
-
-/// A small dense matrix by rows, factorised with partial pivoting.
-#[derive(Debug, Clone)]
-struct Small {
-    rows: Vec<f64>,
-    swaps: Vec<usize>,
-}
-
-impl Small {
-    fn factorise(n: usize, mut rows: Vec<f64>) -> Option<Self> {
-        let mut swaps = Vec::with_capacity(n);
-        for k in 0..n {
-            let largest = |&i: &usize, &j: &usize| rows[i * n + k].abs().total_cmp(&rows[j * n + k].abs());
-            let pivot = (k..n).max_by(largest)?;
-            swaps.push(pivot);
-            (0..n).for_each(|j| rows.swap(k * n + j, pivot * n + j));
-            let (upper, lower) = rows.split_at_mut((k + 1) * n);
-            let upper = &upper[k * n + k..];
-            if upper[0] == 0.0 || !upper[0].is_finite() {
-                return None;
-            }
-            for row in lower.chunks_exact_mut(n).map(|row| &mut row[k..]).filter(|row| row[0] != 0.0) {
-                row[0] /= upper[0];
-                let factor = row[0];
-                subtract(&mut row[1..], factor, &upper[1..]);
-            }
-        }
-        Some(Small { rows, swaps })
-    }
-
-    fn solve(&self, x: &mut [f64]) {
-        let n = x.len();
-        for (k, &pivot) in self.swaps.iter().enumerate() {
-            x.swap(k, pivot);
-        }
-        for k in 0..n {
-            x[k] -= dot(&self.rows[k * n..k * n + k], &x[..k]);
-        }
-        for k in (0..n).rev() {
-            let row = &self.rows[k * n..(k + 1) * n];
-            x[k] = (x[k] - dot(&row[k + 1..], &x[k + 1..])) / row[k];
-        }
     }
 }

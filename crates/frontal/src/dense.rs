@@ -109,19 +109,19 @@ fn tiles(matrix: MatMut<'_, f64>, parallel: bool, work: impl Fn(usize, MatMut<'_
 }
 
 /// The fully summed columns of a front: `left`, `m` x `p`.
-struct Panel<'a> {
-    left: &'a mut [f64],
-    m: usize,
-    p: usize,
-    rule: PivotRule,
-    symmetric: bool,
-    parallel: bool,
+pub(crate) struct Panel<'a> {
+    pub left: &'a mut [f64],
+    pub m: usize,
+    pub p: usize,
+    pub rule: PivotRule,
+    pub symmetric: bool,
+    pub parallel: bool,
 }
 
 impl Panel<'_> {
     /// LU of the columns `range`, whose earlier columns are done, by halves. Pivots come from the first `p` rows;
     /// exchanges are made in all columns.
-    fn factorise(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
+    pub fn factorise(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
         let (start, end) = (range.start, range.end);
         if end - start <= NARROW {
             return Arch::new().dispatch(|| self.factorise_narrow(range, pivots));

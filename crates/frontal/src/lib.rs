@@ -38,6 +38,7 @@ mod extend_add;
 mod factor;
 #[cfg(feature = "feral")]
 mod feral;
+mod full;
 mod graph;
 mod influence;
 mod krylov;
@@ -63,6 +64,7 @@ pub use change::{Change, Sparse};
 pub use diagnose::{NullVector, Singular};
 pub use error::Error;
 pub use factor::{Factor, Report};
+pub use full::Full;
 pub use krylov::{Convergence, Krylov};
 pub use options::{Amalgamation, Options, Ordering};
 pub use pattern::Pattern;

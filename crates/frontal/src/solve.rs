@@ -196,7 +196,7 @@ pub(crate) fn backward(panels: &Panels, x: &mut [f64]) {
 
 /// `[U11 U12]^T` downwards.
 #[inline(always)]
-fn forward_transposed(panels: &Panels, x: &mut [f64]) {
+pub(crate) fn forward_transposed(panels: &Panels, x: &mut [f64]) {
     let (x, border) = x.split_at_mut(panels.p);
     for start in (0..panels.p).step_by(WIDTH) {
         let end = (start + WIDTH).min(panels.p);
@@ -213,7 +213,7 @@ fn forward_transposed(panels: &Panels, x: &mut [f64]) {
 
 /// `[L11; L21]^T` upwards.
 #[inline(always)]
-fn backward_transposed(panels: &Panels, x: &mut [f64]) {
+pub(crate) fn backward_transposed(panels: &Panels, x: &mut [f64]) {
     for start in (0..panels.p).step_by(WIDTH).rev() {
         let end = (start + WIDTH).min(panels.p);
         let sums = dot_columns(&x[end..], end - start, |k| &panels.left(start + k)[end..]);

@@ -4,7 +4,7 @@ use super::probe::deformation;
 use crate::Failure;
 use crate::material::{Directions, Gradient, Material};
 use crate::tensor::Tensor2;
-use crate::tensor::dense::eliminate;
+use frontal::Full;
 
 /// Largest difference from a prescribed stress, as a ratio to the largest stress.
 const TOLERANCE: f64 = 1e-11;
@@ -78,14 +78,9 @@ impl Increment<'_> {
     fn change(&self, trial: &Trial) -> Option<[f64; 6]> {
         let free: Vec<usize> = (0..6).filter(|&i| self.stress[i].is_some()).collect();
         let columns: Vec<[f64; 6]> = free.iter().map(|&j| self.along(trial, j)).collect();
-        let mut rows: Vec<Vec<f64>> = free
-            .iter()
-            .map(|&i| {
-                let miss = self.stress[i].unwrap_or(0.0) - trial.new[i];
-                columns.iter().map(|column| column[i]).chain([miss]).collect()
-            })
-            .collect();
-        let solved = eliminate(&mut rows)?;
+        let rows = free.iter().flat_map(|&i| columns.iter().map(move |column| column[i])).collect();
+        let mut solved: Vec<f64> = free.iter().map(|&i| self.stress[i].unwrap_or(0.0) - trial.new[i]).collect();
+        Full::factorise(free.len(), rows)?.solve(&mut solved);
         let mut change = [0.0; 6];
         free.iter().zip(solved).for_each(|(&i, x)| change[i] = x.clamp(-0.5, 0.5));
         Some(change)

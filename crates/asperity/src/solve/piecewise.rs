@@ -12,7 +12,7 @@ use super::influences::{Influences, Site};
 use super::linear::LinearSolver;
 use crate::Failure;
 use crate::system::{Answer, Coordinates};
-use crate::tensor::dense::eliminate;
+use frontal::Full;
 
 /// Stresses that the linear system leaves count from this part of the largest stress on.
 const NOTHING: f64 = 1e-9;
@@ -230,7 +230,9 @@ impl<'a> Piecewise<'a> {
                 (self.left, self.y) = (at.left, at.y);
                 return Ok(true);
             }
-            let Some(step) = eliminate(&mut self.rows(&at)) else { return Ok(false) };
+            let Some(slopes) = Full::factorise(at.error.len(), self.slopes(&at)) else { return Ok(false) };
+            let mut step = at.error.clone();
+            slopes.solve(&mut step);
             let mut motion = vec![Coordinates::default(); at.y.len()];
             step.iter().zip(&self.influence).for_each(|(d, influence)| add(&mut motion, *d, influence));
             let next = match steps {
@@ -275,16 +277,15 @@ impl<'a> Piecewise<'a> {
         Ok(problem)
     }
 
-    /// Derivative of the error along `w` by rows, the error last.
-    fn rows(&self, at: &Problem) -> Vec<Vec<f64>> {
-        let row = |(row, (slopes, &(kink, _))): (usize, (&Coordinates, &Stress))| {
+    /// Derivative of the error along `w`, by rows.
+    fn slopes(&self, at: &Problem) -> Vec<f64> {
+        let mut entries = Vec::with_capacity(self.active.len() * self.active.len());
+        for (row, (slopes, &(kink, _))) in at.slopes.iter().zip(&self.active).enumerate() {
             let along = |change: &Coordinates| slopes.iter().zip(change).map(|(slope, c)| slope * c).sum::<f64>();
-            let mut entries = Vec::with_capacity(self.active.len() + 1);
+            let start = entries.len();
             entries.extend(self.influence.iter().map(|influence| along(&influence[kink])));
-            entries[row] += 1.0;
-            entries.push(at.error[row]);
-            entries
-        };
-        at.slopes.iter().zip(&self.active).enumerate().map(row).collect()
+            entries[start + row] += 1.0;
+        }
+        entries
     }
 }

@@ -6,8 +6,7 @@
 
 use super::{Dofs, State};
 use crate::mesh::Space;
-use crate::tensor::Vec3;
-use crate::tensor::dense::eliminate;
+use crate::tensor::{Tensor2, Vec3};
 use crate::tool::space::Pose;
 
 /// Nodes that hang together by cells.
@@ -76,18 +75,16 @@ fn lead(leader: &[Option<usize>], mut node: usize) -> usize {
 /// The rotation vector that takes one set of arms to another, by least squares over the arms halfway: exact where one is the
 /// other turned, since the chord over the arm halfway is twice the tangent of half the angle.
 fn rotation(before: &[Vec3], now: &[Vec3]) -> Vec3 {
-    let mut rows = vec![vec![0.0; 4]; 3];
+    let (mut inertia, mut moment) = (Tensor2::zero(), Vec3::zero());
     for (&a, &b) in before.iter().zip(now) {
         let arm = (a + b) * 0.5;
-        let moment = arm.cross(b - a);
-        for (i, row) in rows.iter_mut().enumerate() {
-            (0..3).for_each(|j| row[j] -= arm[i] * arm[j]);
-            row[i] += arm.dot(arm);
-            row[3] += moment[i];
-        }
+        inertia = inertia + Tensor2::identity() * arm.dot(arm) - Tensor2::from_fn(|i, j| arm[i] * arm[j]);
+        moment = moment + arm.cross(b - a);
     }
-    let Some(twice) = eliminate(&mut rows) else { return Vec3::zero() };
-    let tangent = Vec3::new(twice[0], twice[1], twice[2]) * 0.5;
+    let tangent = inertia.inverse() * moment * 0.5;
+    if !tangent.norm().is_finite() {
+        return Vec3::zero();
+    }
     let size = tangent.norm();
     if size == 0.0 { tangent } else { tangent * (2.0 * size.atan() / size) }
 }

@@ -3,7 +3,6 @@
 //! Every law and every contact point is written once, generic over [`Scalar`]; evaluated with `f64` it gives the
 //! value, with [`Dual`] the value and its exact derivative along `N` directions.
 
-pub mod dense;
 mod dual;
 mod principal;
 mod scalar;

@@ -1,34 +1,12 @@
 //! Steps and increments: the loop around the attempts.
 
 use super::linear::LinearSolver;
-use super::newton::{Converged, Memory, Newton, NewtonOptions, Trouble};
-use super::observer::{AttemptRecord, IterationRecord, Observer};
+use super::newton::{Converged, Memory, Newton, Trouble};
+use super::observer::{AttemptRecord, Observer};
+use super::problem::Problem;
 use super::schedule::Step;
 use crate::Error;
-use crate::system::{Dofs, Energies, History, State, Term, Unknown, Whole};
-use std::sync::Arc;
-
-/// What is to be solved: terms, numbering, steps.
-pub struct Problem {
-    /// The terms of equilibrium.
-    pub terms: Vec<Arc<dyn Term>>,
-    /// The numbering of the unknowns.
-    pub dofs: Dofs,
-    /// The steps.
-    pub steps: Vec<Step>,
-    /// Options of the iterations.
-    pub newton: NewtonOptions,
-    /// Size of the model, a length.
-    pub size: f64,
-    /// Size of its smallest cell, a length: the measure of perturbations.
-    pub cell_size: f64,
-    /// What of the mesh hangs together.
-    pub wholes: Vec<Whole>,
-    /// Names of the tools.
-    pub tools: Vec<String>,
-    /// Names a node in messages: its number and group.
-    pub node_name: Box<dyn Fn(usize) -> String + Send + Sync>,
-}
+use crate::system::{Energies, State};
 
 /// Options of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -76,78 +54,6 @@ const FAR: f64 = 0.05;
 fn leap([before, driven, moved]: [f64; 3], size: f64) -> f64 {
     let leaps = before > 0.0 && moved > LEAP * before && moved > DRIVEN * driven && moved > FAR * size;
     if leaps { moved / size } else { 0.0 }
-}
-
-impl Problem {
-    /// The state before the first increment.
-    pub fn initial_state(&self) -> State {
-        let count = self.dofs.count();
-        let histories: Vec<_> = self.terms.iter().map(|term| term.initial()).collect();
-        let mut internal = vec![0.0; count];
-        // A first state that cannot be evaluated is told by the first attempt.
-        let stored: Vec<f64> = self.terms.iter().map(|term| term.at_start(&mut internal).unwrap_or(0.0)).collect();
-        State {
-            u: vec![0.0; count],
-            last_change: vec![0.0; count],
-            step_start: vec![0.0; count],
-            internal,
-            load: vec![0.0; count],
-            external_work: stored.iter().sum(),
-            energies: stored.iter().map(|&stored| Energies { stored, ..Energies::default() }).collect(),
-            next_dt: self.steps.first().map_or(0.0, |s| s.increments.first * s.duration),
-            histories,
-            ..State::default()
-        }
-    }
-
-    /// Whether a state read from elsewhere is one of this problem.
-    ///
-    /// # Errors
-    /// What does not fit, in words.
-    pub fn fits(&self, state: &State) -> Result<(), String> {
-        let own = self.initial_state();
-        let lengths = |s: &State| [&s.u, &s.last_change, &s.step_start, &s.internal, &s.load].map(Vec::len);
-        let same_slots = |(a, b): (&History, &History)| a.starts == b.starts && a.data.len() == b.data.len();
-        let same_histories =
-            own.histories.len() == state.histories.len() && own.histories.iter().zip(&state.histories).all(same_slots);
-        if lengths(&own) != lengths(state) || !same_histories || own.energies.len() != state.energies.len() {
-            return Err("this state belongs to another model".into());
-        }
-        if state.step > self.steps.len() || !state.next_dt.is_finite() {
-            return Err("this state stands outside the steps of the model".into());
-        }
-        Ok(())
-    }
-
-    /// Words for an unknown: "node 12 of 'bore' along y".
-    pub fn name_of(&self, dof: usize) -> String {
-        let axis = |axis: usize| ["x", "y", "z"][axis];
-        let tool = |tool: usize| self.tools.get(tool).map_or("", String::as_str);
-        match self.dofs.describe(dof) {
-            Unknown::Node(node, a) => format!("{} along {}", (self.node_name)(node), axis(a)),
-            Unknown::ToolTranslation(t, a) => format!("tool '{}' along {}", tool(t), axis(a)),
-            Unknown::ToolRotation(t, a) => format!("tool '{}' about {}", tool(t), axis(a)),
-        }
-    }
-
-    /// Whether increments that fail may be relaxed.
-    fn relaxes(&self) -> bool {
-        self.newton.relax && self.terms.iter().any(|term| term.bends())
-    }
-
-    /// How many contact points were open, stuck and slipping in an iteration, over all terms that know these words.
-    pub fn points_by_status(&self, iteration: &IterationRecord) -> [usize; 3] {
-        let terms = || self.terms.iter().zip(&iteration.branches);
-        ["open", "stick", "slip"].map(|word| {
-            let place = |term: &Arc<dyn Term>| term.branches().iter().position(|name| *name == word);
-            terms().filter_map(|(term, counts)| counts.get(place(term)?).copied()).sum()
-        })
-    }
-
-    pub(super) fn name_of_largest(&self, motion: &[f64]) -> String {
-        let largest = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
-        largest.map_or_else(|| "the model".into(), |dof| format!("{} is free", self.name_of(dof)))
-    }
 }
 
 impl<'a> Run<'a> {

@@ -79,7 +79,7 @@ fn rotation(before: &[Vec3], now: &[Vec3]) -> Vec3 {
     for (&a, &b) in before.iter().zip(now) {
         let arm = (a + b) * 0.5;
         inertia = inertia + Tensor2::identity() * arm.dot(arm) - Tensor2::from_fn(|i, j| arm[i] * arm[j]);
-        moment = moment + arm.cross(b - a);
+        moment += arm.cross(b - a);
     }
     let tangent = inertia.inverse() * moment * 0.5;
     if !tangent.norm().is_finite() {

@@ -6,7 +6,7 @@ mod perturbed;
 
 use asperity::Failure;
 use asperity::contact::{
-    Augmentation, Contact, ContactForm, ContactOptions, Guard, Loads, Overlap, Role, Surface, Target,
+    Augmentation, Contact, ContactForm, ContactOptions, Guard, Loads, Normals, Overlap, Role, Surface, Target,
 };
 use asperity::declare::find;
 use asperity::interface::{
@@ -135,6 +135,7 @@ fn contact_with(
         overlap: Overlap::Keep,
         wear: None,
         form: ContactForm::Traction,
+        normals: Normals::Own,
     };
     change(&mut options);
     let law = Arc::new(Law(Coulomb::new(friction)));

@@ -4,7 +4,7 @@
 
 mod perturbed;
 
-use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Overlap, Surface, Target};
+use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Overlap, Surface, Target};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
@@ -55,6 +55,7 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
         overlap: Overlap::Keep,
         wear: None,
         form: ContactForm::Traction,
+        normals: Normals::Own,
     };
     let parts = (mesh.clone(), dofs.clone(), space);
     let law = Arc::new(Law(Coulomb::new(0.4)));

@@ -5,7 +5,7 @@
 mod perturbed;
 
 use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
-use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Overlap};
+use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Normals, Overlap};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh};
@@ -63,6 +63,7 @@ fn options(loads: Loads) -> ContactOptions {
         overlap: Overlap::Keep,
         wear: None,
         form: ContactForm::Traction,
+        normals: Normals::Own,
     }
 }
 

@@ -12,7 +12,8 @@ use super::faces;
 use super::open::OpenContact;
 use super::point::triad;
 use super::record::entry;
-use super::split::{Placed, Vertex};
+use super::placed::{Frame, Placed};
+use super::split::Vertex;
 use super::surface::SurfacePoint;
 use super::target::{Cast, Memory, Standing};
 use crate::system::Stencil;
@@ -128,21 +129,21 @@ impl OpenContact<'_> {
     /// Edge and ray of a point in the accepted configuration.
     fn ray_before(&self, spot: &SurfacePoint) -> (Placed<'_>, Ray) {
         let placed = self.contact.placed(spot.edge, self.accepted);
-        let [origin, tangent, _] = placed.at(spot.xi);
+        let Frame { x: origin, tangent, .. } = placed.frame(spot.xi);
         let (_, direction, _) = triad(tangent);
         (placed, Ray { origin, direction })
     }
 
     /// Where a point at `spot` met a segment in the accepted configuration, and how that moves along the segment per
-    /// motion of the point: `(J - u (e_R.x'') / J) / (e_S.t)`.
+    /// motion of the point: `(e_S.x' - u (e_R.T') / J) / (e_S.t)`.
     fn slide(&self, segment: usize, spot: &SurfacePoint) -> Option<(f64, f64)> {
         let faces = self.contact.target.as_faces()?;
         let (u, (placed, ray)) = (faces.values(segment, self.accepted), self.ray_before(spot));
         let hit = faces.meet(segment, &u, &ray, [0.5, 0.0])?;
-        let [_, tangent, second] = placed.at(spot.xi);
+        let Frame { slope, tangent, bend, .. } = placed.frame(spot.xi);
         let (along, inward, length) = triad(tangent);
         let t: Vec3 = faces.tangent(segment, hit.s[0], &u);
-        Some((hit.s[0], (length - hit.u * inward.dot(second) / length) / along.dot(t)))
+        Some((hit.s[0], (along.dot(slope) - hit.u * inward.dot(bend) / length) / along.dot(t)))
     }
 
     /// Friction stress at a place of an edge and its slope: the straight line nearest to the closed points of the edge,

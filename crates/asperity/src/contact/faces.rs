@@ -150,7 +150,7 @@ impl Faces {
 }
 
 /// The edges that end where each begins, and begin where it ends.
-fn neighbours(edges: &[Edge]) -> Vec<[Option<usize>; 2]> {
+pub(super) fn neighbours(edges: &[Edge]) -> Vec<[Option<usize>; 2]> {
     let at =
         |end: usize| edges.iter().enumerate().map(move |(i, edge)| (edge.nodes[end], i)).collect::<BTreeMap<_, _>>();
     let (beginning, ending) = (at(0), at(1));

@@ -2,15 +2,17 @@
 //! directions of the contact point to those unknowns.
 //!
 //! The unknowns of a stencil are those of its own nodes, of the segment it hits, of the segment touched at the last
-//! accepted state where that is another one, and of the vertices at which the target ends over its edge.
+//! accepted state where that is another one, of the vertices at which the target ends over its edge, and of the nodes
+//! around it that turn its averaged normals.
 
+use super::averaged::MAX_AROUND;
 use super::before::Before;
 use super::layout::Layout;
 use super::open::OpenContact;
 use super::options::Loads;
 use super::point::{Closed, Place, triad};
 use super::seed::Seed;
-use super::split::{End, Placed};
+use super::placed::{End, Placed};
 use super::surface::{MAX_EDGE_NODES, SurfacePoint};
 use super::target::{Hit, MAX_UNKNOWNS};
 use crate::Failure;
@@ -19,12 +21,12 @@ use crate::tensor::Vec3;
 use crate::tool::Ray;
 
 /// Most unknowns of a stencil.
-pub const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + 2 * MAX_UNKNOWNS + 4;
+pub const MAX_DOFS: usize = 2 * MAX_EDGE_NODES + 2 * MAX_UNKNOWNS + 4 + 2 * MAX_AROUND;
 /// Directions in which a contact point is differentiated.
 pub const DIRECTIONS: usize = 8;
 
 /// Where everything is at one point, in plain numbers.
-pub struct Geometry {
+pub struct Geometry<'a> {
     /// Where the point stands on its edge.
     pub spot: SurfacePoint,
     /// Positions.
@@ -36,16 +38,8 @@ pub struct Geometry {
     /// Which unknowns they depend on.
     pub layout: Layout,
     ends: [Option<End>; 2],
-    /// First and second derivative of the position along the whole edge.
-    along: [Vec3; 2],
-}
-
-impl Layout {
-    /// Number of the unknowns that move the point itself.
-    pub fn count(&self) -> usize {
-        let ends = self.ends.iter().flatten().map(|end| end.end);
-        ends.chain(self.touched.as_ref().map(|touched| touched.end)).fold(self.hit.end, usize::max)
-    }
+    /// Its edge.
+    placed: Placed<'a>,
 }
 
 impl OpenContact<'_> {
@@ -64,6 +58,9 @@ impl OpenContact<'_> {
             stencil.also[..2].iter().filter(|&&vertex| vertex > 0).flat_map(|&vertex| faces.unknowns_of(vertex))
         });
         out.extend(ends);
+        if let Some(around) = contact.around.get(contact.surface.points[index].edge) {
+            out.extend(around.nodes.iter().flat_map(|&node| [0, 1].map(|axis| contact.dofs.node(node) + axis)));
+        }
         contact.unknowns_around(index, out);
     }
 
@@ -74,22 +71,22 @@ impl OpenContact<'_> {
             .touched_segment(index, stencil)
             .map(|touched| (!contact.target.together(segment, touched)).then(|| contact.target.count(touched)));
         let ends = [0, 1].map(|k| if stencil.also[k] > 0 { 2 } else { 0 });
-        Layout::new(own, contact.target.count(segment), touched, ends)
+        let around = contact.around.get(contact.surface.points[index].edge).map_or(0, |around| 2 * around.nodes.len());
+        Layout::new(own, contact.target.count(segment), touched, ends, around)
     }
 
     /// Where everything is for values `u` of a stencil's unknowns; None where it hits nothing.
-    pub(super) fn geometry(&self, index: usize, stencil: &Stencil, u: &[f64]) -> Result<Option<Geometry>, Failure> {
+    pub(super) fn geometry(&self, index: usize, stencil: &Stencil, u: &[f64]) -> Result<Option<Geometry<'_>>, Failure> {
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return Ok(None) };
         let (contact, layout) = (self.contact, self.layout(index, stencil, segment));
-        let edge = &contact.surface.edges[contact.surface.points[index].edge];
-        let mut x = [Vec3::zero(); MAX_EDGE_NODES];
-        for ((x, u), &node) in x.iter_mut().zip(u.chunks_exact(2)).zip(&edge.nodes) {
-            *x = contact.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
-        }
-        let placed = Placed { edge, x };
+        let edge = contact.surface.points[index].edge;
+        let placed = contact.placed_locally(edge, &u[..layout.own], &u[layout.around.clone()]);
         let ends = [0, 1].map(|k| self.end(stencil.also[k], &placed, layout.ends[k].clone().map(|range| &u[range])));
         let spot = contact.surface.moved(index, laid(&contact.surface.points[index], &ends));
-        let (a, tangent) = spot.place(&x[..edge.nodes.len()]);
+        let (a, tangent) = placed.stand(&spot);
+        if !placed.is_upright(&spot, tangent) {
+            return Err(Failure::new(format!("{}: its averaged normal lies across its edge", contact.describe(index))));
+        }
         let (_, inward, _) = triad(tangent);
         let lost = || Failure::new(format!("{}: its ray runs along the target", contact.describe(index)));
         let ray = Ray { origin: a, direction: inward };
@@ -97,9 +94,8 @@ impl OpenContact<'_> {
         let before = self.before(index, stencil, &spot);
         let of_touched = before.touched.zip(layout.touched.clone());
         let touched = of_touched.map(|((segment, s), range)| contact.target.point(segment, s, &u[range]));
-        let [_, first, second] = if ends == [None; 2] { [Vec3::zero(); 3] } else { placed.at(spot.xi) };
         let place = Place { a, tangent, b: a + inward * hit.u, touched };
-        Ok(Some(Geometry { spot, place, hit, before, layout, ends, along: [first, second] }))
+        Ok(Some(Geometry { spot, place, hit, before, layout, ends, placed }))
     }
 
     fn end(&self, vertex: u32, placed: &Placed, u: Option<&[f64]>) -> Option<End> {
@@ -168,11 +164,14 @@ impl OpenContact<'_> {
         let (contact, mut columns) = (self.contact, [[0.0; DIRECTIONS]; MAX_DOFS]);
         for (k, column) in columns[..g.layout.own].iter_mut().enumerate() {
             column[k % 2] = g.spot.n[k / 2];
-            column[2 + k % 2] = g.spot.dn[k / 2];
+        }
+        for (column, turning) in g.layout.field().zip(g.placed.turning(&g.spot)) {
+            (columns[column][2], columns[column][3]) = (turning[0], turning[1]);
         }
         self.each_end(g, |column, [shift, stretch]| {
-            let tangent = g.along[1] * (g.spot.half * shift) + g.along[0] * stretch;
-            for (direction, change) in [(0, g.along[0] * shift), (2, tangent), (6, self.sliding(g, u) * shift)] {
+            let at = g.placed.frame(g.spot.xi);
+            let tangent = at.bend * (g.spot.half * shift) + at.tangent * stretch;
+            for (direction, change) in [(0, at.slope * shift), (2, tangent), (6, self.sliding(g, u) * shift)] {
                 columns[column][direction] += change[0];
                 columns[column][direction + 1] += change[1];
             }
@@ -208,7 +207,7 @@ impl OpenContact<'_> {
         let [left, right] = [0.5 * (1.0 - g.spot.rule), 0.5 * (1.0 + g.spot.rule)];
         for (k, (shift, stretch)) in [(left, -0.5), (right, 0.5)].into_iter().enumerate() {
             let Some((end, range)) = g.ends[k].as_ref().zip(g.layout.ends[k].clone()) else { continue };
-            let own = end.own[..g.layout.own].iter().enumerate().map(|(j, &rate)| (j, rate));
+            let own = g.layout.field().zip(end.own);
             let coupled = if self.contact.options.coupling { range } else { 0..0 };
             for (column, rate) in own.chain(coupled.zip(end.vertex)) {
                 act(column, [shift * rate, stretch * rate]);

@@ -110,7 +110,8 @@ fn bow(mesh: &Mesh, dofs: &Dofs, edge: &Edge, u: &[f64]) -> f64 {
     (x[2] - x[0]).cross(chord).norm()
 }
 
-fn angle(a: Vec3, b: Vec3) -> f64 {
+/// Between two vectors, in radians.
+pub(super) fn angle(a: Vec3, b: Vec3) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }
 

@@ -6,6 +6,7 @@
 
 mod adjust;
 mod augment;
+mod averaged;
 mod before;
 mod capture;
 mod faces;
@@ -20,6 +21,7 @@ mod overlap;
 mod pair;
 mod partner;
 mod penalty;
+mod placed;
 mod point;
 mod record;
 mod rigid;
@@ -37,7 +39,7 @@ pub use adjust::Move;
 pub use augment::Augmentation;
 pub use faces::Faces;
 pub use guard::Guard;
-pub use options::{ContactOptions, Loads, second_name};
+pub use options::{ContactOptions, Loads, Normals, second_name};
 pub use overlap::{Overlap, Wear};
 pub use pair::Contact;
 pub use partner::Role;

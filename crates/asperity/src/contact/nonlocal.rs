@@ -11,7 +11,6 @@ use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::triad;
 use super::seed::Ask;
-use super::surface::MAX_EDGE_NODES;
 use super::target::{Cast, Memory};
 use crate::Failure;
 use crate::interface::{Interface, Motion, Past, Response};
@@ -76,8 +75,9 @@ impl Contact {
     /// Appends the unknowns of the edges around a point.
     pub(super) fn unknowns_around(&self, index: usize, out: &mut Vec<usize>) {
         for &edge in self.neighbours.others(index) {
-            let nodes = &self.surface.edges[edge].nodes;
-            out.extend(nodes.iter().flat_map(|&node| [0, 1].map(|axis| self.dofs.node(node) + axis)));
+            let around = self.around.get(edge).map_or(&[][..], |around| &around.nodes);
+            let nodes = self.surface.edges[edge].nodes.iter().chain(around);
+            out.extend(nodes.flat_map(|&node| [0, 1].map(|axis| self.dofs.node(node) + axis)));
         }
     }
 }
@@ -95,38 +95,36 @@ impl OpenContact<'_> {
         Some(mean)
     }
 
-    /// Where the unknowns of a neighbour's nodes stand in the stencil of a point.
-    fn nodes_of(&self, index: usize, neighbour: usize, g: &Geometry) -> Range<usize> {
+    /// Where the unknowns of a neighbour's nodes, and of the nodes around its edge, stand in the stencil of a point.
+    fn nodes_of(&self, index: usize, neighbour: usize, g: &Geometry) -> [Range<usize>; 2] {
         let (surface, mut start) = (&self.contact.surface, g.layout.count());
         let edge = surface.points[neighbour].edge;
         if edge == surface.points[index].edge {
-            return 0..g.layout.own;
+            return [0..g.layout.own, g.layout.around.clone()];
         }
         for &other in self.contact.neighbours.others(index) {
-            let len = 2 * surface.edges[other].nodes.len();
+            let middle = start + 2 * surface.edges[other].nodes.len();
+            let end = middle + self.contact.around.get(other).map_or(0, |around| 2 * around.nodes.len());
             if other == edge {
-                return start..start + len;
+                return [start..middle, middle..end];
             }
-            start += len;
+            start = end;
         }
-        start..start
+        [start..start, start..start]
     }
 
     /// Adds what one neighbour gives to the mean.
     fn add_pressure(
         &self,
         (point, part): (usize, f64),
-        (nodes, tool): (Range<usize>, Range<usize>),
+        ([own, around], tool): ([Range<usize>; 2], Range<usize>),
         u: &[f64],
         (mean, memory): (&mut Mean, &mut Memory),
     ) {
         let (contact, spot) = (self.contact, &self.contact.surface.points[point]);
         let Some(rigid) = contact.target.as_tool() else { return };
-        let mut x = [Vec3::zero(); MAX_EDGE_NODES];
-        for ((x, u), &node) in x.iter_mut().zip(u[nodes.clone()].chunks_exact(2)).zip(contact.surface.nodes(spot)) {
-            *x = contact.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
-        }
-        let (a, tangent) = spot.place(&x[..nodes.len() / 2]);
+        let placed = contact.placed_locally(spot.edge, &u[own.clone()], &u[around.clone()]);
+        let (a, tangent) = placed.stand(spot);
         let (along, inward, length) = triad(tangent);
         let motion = &u[tool.clone()];
         let cast =
@@ -138,12 +136,12 @@ impl OpenContact<'_> {
         }
         let (stiffness, cosine) = (part * contact.options.penalty, hit.normal.dot(inward));
         mean.pressure += stiffness * seen;
-        for (k, column) in nodes.enumerate() {
-            let mut axis = Vec3::zero();
-            axis[k % 2] = 1.0;
-            let turned = along * (-inward.dot(axis) * spot.dn[k / 2] / length);
-            let rate = -hit.normal.dot(axis * spot.n[k / 2] + turned * hit.u) / cosine;
-            mean.slopes[column] += stiffness * rate;
+        for (k, column) in own.clone().enumerate() {
+            mean.slopes[column] -= stiffness * hit.normal[k % 2] * spot.n[k / 2] / cosine;
+        }
+        for (column, turning) in own.chain(around).zip(placed.turning(spot)) {
+            let turned = along * (-inward.dot(turning) / length);
+            mean.slopes[column] -= stiffness * hit.normal.dot(turned) * hit.u / cosine;
         }
         for (rate, column) in rigid.rates(motion, a + inward * hit.u).iter().zip(tool) {
             mean.slopes[column] += stiffness * hit.normal.dot(*rate) / cosine;

@@ -28,6 +28,17 @@ pub struct ContactOptions {
     pub wear: Option<Wear>,
     /// How stresses become forces.
     pub form: ContactForm,
+    /// Along which normals its points look for the target and bear pressure.
+    pub normals: Normals,
+}
+
+/// The normals of a surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Normals {
+    /// Each point has that of its own edge or face.
+    Own,
+    /// Means at the nodes, over the edges or faces that meet there without a corner, and interpolated between the nodes.
+    Averaged,
 }
 
 /// Name of the second of two passes, whose points lie on what is the target of the first.

@@ -1,16 +1,17 @@
 //! A surface and its target as a term of equilibrium: one stencil a contact point.
 
 use super::augment::Corners;
-use super::capture::{depths, positions};
+use super::averaged::Around;
+use super::capture::depths;
 use super::faces::Faces;
 use super::guard;
 use super::nonlocal::{Neighbours, radius};
 use super::open::{OpenContact, write_hit};
-use super::options::{ContactOptions, Loads};
+use super::options::{ContactOptions, Loads, Normals};
 use super::point::triad;
 use super::record::{PointRecord, PointStatus, entry, variables};
 use super::search::relatives;
-use super::surface::{Edge, MAX_EDGE_NODES, Surface, SurfacePoint};
+use super::surface::{Edge, Surface, SurfacePoint};
 use super::target::Target;
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
@@ -47,6 +48,8 @@ pub struct Contact {
     pub(super) opposite: Corners,
     /// The points around each point, where the law is not local.
     pub(super) neighbours: Neighbours,
+    /// For each edge the nodes around it that turn its normals; none where each edge has its own.
+    pub(super) around: Vec<Around>,
 }
 
 impl Contact {
@@ -62,6 +65,10 @@ impl Contact {
         let relatives = relatives(surface.edges.iter().map(|edge| &edge.nodes), faces.iter().map(|edge| &edge.nodes));
         let (name, least, longest) = (name.into(), 0.0, 0.0);
         let (corners, opposite, neighbours) = (Corners::default(), Corners::default(), Neighbours::default());
+        let around = match options.normals {
+            Normals::Own => Vec::new(),
+            Normals::Averaged => Around::of(&mesh, &surface.edges),
+        };
         let mut contact = Self {
             name,
             mesh,
@@ -78,6 +85,7 @@ impl Contact {
             corners,
             opposite,
             neighbours,
+            around,
         };
         let lengths = |edges: &[Edge]| edges.iter().map(|edge| edge.chord(&contact.mesh)).collect::<Vec<_>>();
         let opposite = contact.target.as_faces().map_or(Vec::new(), |faces| lengths(faces.edges()));
@@ -130,14 +138,9 @@ impl Contact {
         self.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pole(u))
     }
 
-    /// Position, tangent and present nodes of a point.
+    /// Position and tangent of a point.
     pub(super) fn locate(&self, point: &SurfacePoint, u: &[f64]) -> (Vec3, Vec3) {
-        let mut x = [Vec3::zero(); MAX_EDGE_NODES];
-        let nodes = self.surface.nodes(point);
-        for (x, here) in x.iter_mut().zip(positions(&self.mesh, &self.dofs, nodes, u)) {
-            *x = here;
-        }
-        point.place(&x[..nodes.len()])
+        self.placed(point.edge, u).stand(point)
     }
 
     /// Length of the undeformed edge of a point, as its tangent there measures it.

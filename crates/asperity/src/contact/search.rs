@@ -5,7 +5,8 @@ use super::geometry::laid;
 use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::triad;
-use super::split::{Placed, Seeker};
+use super::placed::Placed;
+use super::split::Seeker;
 use super::surface::MAX_EDGE_NODES;
 use super::target::{Cast, Hit, Memory, Standing, Target};
 use crate::system::{Stencil, Stencils};
@@ -44,11 +45,30 @@ impl Contact {
 
     /// An edge of the surface with its nodes in place.
     pub(super) fn placed(&self, edge: usize, u: &[f64]) -> Placed<'_> {
-        let (edge, mut x) = (&self.surface.edges[edge], [Vec3::zero(); MAX_EDGE_NODES]);
-        for (x, here) in x.iter_mut().zip(positions(&self.mesh, &self.dofs, &edge.nodes, u)) {
-            *x = here;
-        }
-        Placed { edge, x }
+        let at = |nodes| positions(&self.mesh, &self.dofs, nodes, u);
+        let around = self.around.get(edge).map_or(&[][..], |around| &around.nodes);
+        self.placed_at(edge, at(&self.surface.edges[edge].nodes), at(around))
+    }
+
+    /// The same for values of the unknowns of its nodes, and of the nodes around it.
+    pub(super) fn placed_locally(&self, edge: usize, own: &[f64], around: &[f64]) -> Placed<'_> {
+        let here = |(&node, u): (&usize, &[f64])| self.mesh.points[node] + Vec3::new(u[0], u[1], 0.0);
+        let others = self.around.get(edge).map_or(&[][..], |around| &around.nodes);
+        let own = self.surface.edges[edge].nodes.iter().zip(own.chunks_exact(2)).map(here);
+        self.placed_at(edge, own, others.iter().zip(around.chunks_exact(2)).map(here))
+    }
+
+    fn placed_at(
+        &self,
+        edge: usize,
+        own: impl Iterator<Item = Vec3>,
+        around: impl Iterator<Item = Vec3>,
+    ) -> Placed<'_> {
+        let (averaged, edge) = (self.around.get(edge), &self.surface.edges[edge]);
+        let mut x = [Vec3::zero(); MAX_EDGE_NODES];
+        x.iter_mut().zip(own).for_each(|(x, here)| *x = here);
+        let field = averaged.map(|averaged| averaged.field(x[..edge.nodes.len()].iter().copied().chain(around)));
+        Placed { edge, x, field }
     }
 
     /// The largest gap at which the target is seen in the increment after `last_change`: a tool at any distance; faces,
@@ -103,7 +123,7 @@ impl OpenContact<'_> {
             Some(placed.foot(faces.place_of(vertex, &faces.unknowns_of(vertex).map(|dof| u[dof]))))
         });
         let spot = contact.surface.moved(index, laid(point, &ends));
-        let (origin, tangent) = spot.place(&placed.x[..placed.edge.nodes.len()]);
+        let (origin, tangent) = placed.stand(&spot);
         let (_, direction, _) = triad(tangent);
         let cast = Cast { ray: Ray { origin, direction }, ..contact.bounds(index, self.depths[index], self.reach) };
         let Some(hit) = standing.cast(&cast, memory) else {

@@ -8,8 +8,8 @@
 
 use super::faces::Standing;
 use super::point::triad;
-use super::surface::{Edge, MAX_EDGE_NODES};
-use super::target::{Cast, MAX_UNKNOWNS, Memory};
+use super::placed::{Frame, Placed};
+use super::target::{Cast, Memory};
 use crate::tensor::Vec3;
 use crate::tool::{Ray, Rules};
 
@@ -18,60 +18,6 @@ pub type Vertex = u32;
 
 /// Feet of vertices nearer to an end of the edge than this, in `xi`, cut nothing off.
 const END: f64 = 1e-9;
-
-/// One end of the covered part, and how it moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct End {
-    /// Its place on the edge, from -1 to 1.
-    pub xi: f64,
-    /// Derivatives along the unknowns of the edge's own nodes.
-    pub own: [f64; MAX_UNKNOWNS],
-    /// Derivatives along the position of the vertex.
-    pub vertex: [f64; 2],
-}
-
-/// An edge with its nodes in place.
-#[derive(Clone, Copy)]
-pub struct Placed<'a> {
-    /// The edge.
-    pub edge: &'a Edge,
-    /// Positions of its nodes.
-    pub x: [Vec3; MAX_EDGE_NODES],
-}
-
-impl Placed<'_> {
-    /// Position, tangent and second derivative at `xi`.
-    pub fn at(&self, xi: f64) -> [Vec3; 3] {
-        let ((n, dn), ddn) = (self.edge.shape_at(xi), self.edge.curvature());
-        let sum = |weights: [f64; MAX_EDGE_NODES]| {
-            self.x.iter().zip(weights).fold(Vec3::zero(), |sum, (&x, weight)| sum + x * weight)
-        };
-        [sum(n), sum(dn), sum(ddn)]
-    }
-
-    /// The foot of the normal through `vertex`.
-    pub fn foot(&self, vertex: Vec3) -> End {
-        let mut xi = 0.0;
-        // A straight edge needs one step; a parabola that bends little, a few.
-        for _ in 0..20 {
-            let [x, t, k] = self.at(xi);
-            let to = x - vertex;
-            let step = to.dot(t) / (t.dot(t) + to.dot(k));
-            xi -= step;
-            if step.abs() < 1e-15 || !step.is_finite() {
-                break;
-            }
-        }
-        let ([x, t, k], (n, dn)) = (self.at(xi), self.edge.shape_at(xi));
-        let to = x - vertex;
-        let slope = -1.0 / (t.dot(t) + to.dot(k));
-        let mut own = [0.0; MAX_UNKNOWNS];
-        for (j, rate) in own[..2 * self.edge.nodes.len()].iter_mut().enumerate() {
-            *rate = slope * (n[j / 2] * t[j % 2] + dn[j / 2] * to[j % 2]);
-        }
-        End { xi, own, vertex: [-slope * t[0], -slope * t[1]] }
-    }
-}
 
 /// A search on behalf of one edge.
 pub struct Seeker<'a> {
@@ -87,7 +33,7 @@ impl Seeker<'_> {
     /// The vertices at which the covered part of the edge begins and ends.
     pub fn vertices(&self, memory: &mut Memory) -> [Vertex; 2] {
         let (mut found, mut limits) = ([0; 2], [-1.0, 1.0]);
-        let (a, b) = (self.placed.at(-1.0)[0], self.placed.at(1.0)[0]);
+        let (a, b) = (self.placed.x[0], self.placed.x[1]);
         let mut near = Vec::new();
         self.standing.vertices_near([a, b], (b - a).norm(), &mut near);
         for vertex in near {
@@ -111,7 +57,7 @@ impl Seeker<'_> {
         if !(END - 1.0..=1.0 - END).contains(&foot.xi) {
             return None;
         }
-        let [x, tangent, _] = self.placed.at(foot.xi);
+        let Frame { x, tangent, .. } = self.placed.frame(foot.xi);
         let (along, inward, _) = triad(tangent);
         let gap = inward.dot(position - x);
         let looks = |outward: Vec3| inward.dot(outward) > Rules::LEAST_COSINE;
@@ -121,7 +67,7 @@ impl Seeker<'_> {
     }
 
     fn sees(&self, xi: f64, memory: &mut Memory) -> bool {
-        let [origin, tangent, _] = self.placed.at(xi);
+        let Frame { x: origin, tangent, .. } = self.placed.frame(xi);
         let (_, direction, _) = triad(tangent);
         self.standing.select(&Cast { ray: Ray { origin, direction }, ..self.cast }, memory).is_some()
     }

@@ -110,20 +110,20 @@ impl OpenContact<'_> {
             }
         }
         let [p, s, _] = acting([stresses[0], stresses[1], T::zero()], local.acting);
-        self.bend_forces((index, stencil), [p, s].map(|stress| area * stress.re()), local)
+        self.bend_forces((index, stencil), (g, [p, s].map(|stress| area * stress.re())), local)
     }
 
     /// What the second derivatives of penetration and slip add to the tangent.
     fn bend_forces(
         &self,
         (index, stencil): (usize, &Stencil),
-        loads: [f64; 2],
+        (g, loads): (&Geometry, [f64; 2]),
         local: &mut Local,
     ) -> Result<(), Failure> {
         let (n, mut u) = (local.force.len(), local.u.clone());
         for j in 0..n {
             for sign in [1.0, -1.0] {
-                let step = self.step_of(index, stencil, j);
+                let step = self.step_of(index, g, j);
                 u[j] = local.u[j] + sign * step;
                 let Some(beside) = self.geometry(index, stencil, &u)? else { continue };
                 let (_, rates) = self.rates(&beside, &u);
@@ -137,7 +137,7 @@ impl OpenContact<'_> {
     }
 
     /// Step of an unknown of a stencil: the last one of a tool is its rotation.
-    fn step_of(&self, index: usize, stencil: &Stencil, unknown: usize) -> f64 {
-        if unknown + 1 == stencil.len { STEP } else { STEP * self.contact.edge_length(index) }
+    fn step_of(&self, index: usize, g: &Geometry, unknown: usize) -> f64 {
+        if unknown + 1 == g.layout.hit.end { STEP } else { STEP * self.contact.edge_length(index) }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::perturbed::Random;
 use asperity::contact::space::{Contact, Parts, Surface, Target};
-use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Overlap};
+use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Normals, Overlap};
 use asperity::interface::{InterfaceLaw, Law};
 use asperity::mesh::{Cell, generate::Block};
 use asperity::system::Dofs;
@@ -58,6 +58,7 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L, fo
         overlap: Overlap::Keep,
         wear: None,
         form,
+        normals: Normals::Own,
     };
     let parts = Parts {
         name: "c".into(),

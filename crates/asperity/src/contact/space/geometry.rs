@@ -71,7 +71,7 @@ impl OpenContact<'_> {
         let touched = self
             .touched_segment(index, stencil)
             .map(|touched| (!parts.target.together(segment, touched)).then(|| parts.target.count(touched)));
-        Layout::new(own, parts.target.count(segment), touched, [3 * Border::of(stencil).list().count(), 0])
+        Layout::new(own, parts.target.count(segment), touched, [3 * Border::of(stencil).list().count(), 0], 0)
     }
 
     /// Where everything is for values `u` of a stencil's unknowns, and how it moves if those rates are wanted; None where it

@@ -2,14 +2,15 @@
 
 use super::Builder;
 use crate::contact::{
-    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES, Target,
+    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Role, Surface, TWO_PASSES,
+    Target,
     default_penalty, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
 use crate::interface::Interface;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
 use crate::tool::Tool;
 use std::sync::Arc;
@@ -129,6 +130,7 @@ impl Builder<'_> {
             augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation(role)),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
             form: keys.form.map_or(ContactForm::Traction, |form| form.value),
+            normals: keys.normals,
             wear: keys.wear.as_ref().map(keys::WearKeys::wear),
         }
     }
@@ -165,6 +167,9 @@ impl Builder<'_> {
         }
         if let Some(form) = keys.form.filter(|form| !rigid && form.value == ContactForm::Variational) {
             self.refuse("the variational form is for contact with a tool", form.place);
+        }
+        if keys.normals == Normals::Averaged && self.site.space == Space::Solid {
+            self.refuse("averaged normals are for the plane and axial symmetry", keys.surface.place);
         }
         let Opposite::Sides(others) = opposite else {
             let said = [

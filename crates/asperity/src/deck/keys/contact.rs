@@ -1,7 +1,7 @@
 //! Contacts.
 
 use super::UpdateKeys;
-use crate::contact::{Augmentation, ContactForm, Guard, Overlap, Role, Wear};
+use crate::contact::{Augmentation, ContactForm, Guard, Normals, Overlap, Role, Wear};
 use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, table_of, whole, word, words};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
@@ -41,6 +41,8 @@ table! {
         guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
         /// How stresses become forces, with a tool.
         form: Option<Spot<ContactForm>> = word().spot().computed("traction"),
+        /// Along which normals points look for the target and bear pressure. Averaged ones do not jump from edge to edge.
+        normals: Normals = word().or("\"own\""),
         /// What becomes of points that lie inside the target before the first increment.
         overlap: Spot<OverlapWord> = word().spot().or("\"ramp\""),
         /// Wear of the surface: reported as a depth, and felt as a gap if it recedes.
@@ -127,6 +129,19 @@ impl Words for ContactForm {
         vec![
             (Self::Traction, "traction", "along the normal of the strained surface, over its present area"),
             (Self::Variational, "variational", "as the gradient of a potential over the undeformed area"),
+        ]
+    }
+}
+
+impl Words for Normals {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        vec![
+            (Self::Own, "own", "of each edge or face, as it lies"),
+            (
+                Self::Averaged,
+                "averaged",
+                "means at the nodes over the edges or faces that meet there at less than 40 degrees, interpolated between the nodes",
+            ),
         ]
     }
 }

@@ -4,9 +4,7 @@
 
 mod perturbed;
 
-use asperity::contact::{
-    Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Overlap, Surface, Target,
-};
+use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Overlap, Surface, Target};
 use asperity::interface::{
     Interface, Law,
     laws::{Coulomb, OdenPires},
@@ -79,12 +77,7 @@ fn tool(shape: &str) -> Arc<Tool> {
     Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)))
 }
 
-fn scene_of(
-    (mesh, space): (Mesh, Space),
-    against: Against,
-    law: Arc<dyn Interface>,
-    options: ContactOptions,
-) -> Scene {
+fn scene_of((mesh, space): (Mesh, Space), against: Against, law: Arc<dyn Interface>, options: ContactOptions) -> Scene {
     let dofs = Dofs::new(2, mesh.points.len(), 1);
     let mesh = Arc::new(mesh);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
@@ -288,8 +281,7 @@ fn a_flat_surface_answers_as_with_its_own_normals() {
                 }
                 u
             };
-            let [own, averaged] =
-                both.each_ref().map(|scene| forces(scene, moved(0.08), &moved(0.1)).unwrap());
+            let [own, averaged] = both.each_ref().map(|scene| forces(scene, moved(0.08), &moved(0.1)).unwrap());
             let differences: Vec<f64> = own.iter().zip(&averaged).map(|(a, b)| a - b).collect();
             assert!(largest(&own) > 1e-3, "{against:?}");
             largest(&differences) / largest(&own)

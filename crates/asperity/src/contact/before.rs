@@ -10,9 +10,9 @@
 
 use super::faces;
 use super::open::OpenContact;
+use super::placed::{Frame, Placed};
 use super::point::triad;
 use super::record::entry;
-use super::placed::{Frame, Placed};
 use super::split::Vertex;
 use super::surface::SurfacePoint;
 use super::target::{Cast, Memory, Standing};

@@ -7,8 +7,8 @@
 //! and how that moves, is part of the stencil's function.
 
 use super::faces::Standing;
-use super::point::triad;
 use super::placed::{Frame, Placed};
+use super::point::triad;
 use super::target::{Cast, Memory};
 use crate::tensor::Vec3;
 use crate::tool::{Ray, Rules};

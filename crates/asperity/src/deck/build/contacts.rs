@@ -3,8 +3,7 @@
 use super::Builder;
 use crate::contact::{
     Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Role, Surface, TWO_PASSES,
-    Target,
-    default_penalty, second_name,
+    Target, default_penalty, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};

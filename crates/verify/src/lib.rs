@@ -11,6 +11,7 @@ pub mod bench;
 pub mod cases;
 pub mod expect;
 pub mod fit;
+mod hertz;
 pub mod table;
 pub mod von_karman;
 

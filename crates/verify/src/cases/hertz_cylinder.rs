@@ -1,8 +1,9 @@
 //! Hertz's line contact: an elastic roller pressed on a rigid plane. `p(x) = p0 sqrt(1 - x^2/a^2)` with
 //! `a^2 = 4 P R / (pi E*)` and `p0 = 2 P / (pi a)`.
 
-use crate::bench::{Bench, points};
-use crate::{Case, Measured, fit};
+use crate::bench::Bench;
+use crate::hertz::Study;
+use crate::{Case, Measured};
 use asperity::Error;
 use asperity::contact::PointRecord;
 use asperity::output::study::{extrapolate, forces};
@@ -14,31 +15,15 @@ pub const CASE: Case = Case { name: "hertz-cylinder", measure };
 
 const RADIUS: f64 = 50.0;
 const MODULUS: f64 = 210e3 / (1.0 - 0.3 * 0.3);
-const FORCE: f64 = 1000.0;
+const STUDY: Study = Study { deck: "roller.toml", refined, share: 2.0, force: 1000.0, theory };
 
-/// What one mesh gives.
-struct Level {
-    points: Vec<PointRecord>,
-    error: f64,
+fn theory(force: f64) -> (f64, f64) {
+    let a = (4.0 * force * RADIUS / (PI * MODULUS)).sqrt();
+    (a, 2.0 * force / (PI * a))
 }
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let levels = bench.pick(1, 3);
-    let runs = (0..levels).map(|level| solve(bench, 1 << level)).collect::<Result<Vec<_>, _>>()?;
-    let finest = &runs[levels - 1];
-    let (a, p0) = fit::hertz(&finest.points.iter().map(|p| (p.position[0], p.pressure)).collect::<Vec<_>>());
-    let mut measured = vec![
-        ("a".into(), a),
-        ("p0".into(), p0),
-        ("pressure".into(), finest.error),
-        ("force".into(), 2.0 * force(&finest.points)),
-    ];
-    if levels > 1 {
-        measured.push(("order".into(), fit::order(&runs.iter().map(|run| run.error).collect::<Vec<_>>())));
-    }
-    measured.extend(augmented(bench)?);
-    measured.extend(study(bench)?);
-    Ok(measured)
+    Ok([STUDY.measure(bench)?, augmented(bench)?, study(bench)?].concat())
 }
 
 /// With multipliers: the largest weighted penetration of a node in any increment, the most augmentations that took, and
@@ -85,42 +70,9 @@ fn study(bench: &Bench) -> Result<Measured, Error> {
     Ok(vec![("study".into(), off / line.error), ("study_error".into(), line.error / size)])
 }
 
-/// Every cell of the deck cut into `n` by `n`; the error is the mean over the increments of the second half of the
-/// load, as it depends on where within an edge the contact ends.
-fn solve(bench: &Bench, n: usize) -> Result<Level, Error> {
-    let mut errors = Vec::new();
-    let run = bench.follow("roller.toml", &refined(n), |model, state| {
-        let points = points(model, state, 0);
-        if 2.0 * force(&points) > 0.5 * FORCE {
-            errors.push(pressure_error(&points));
-        }
-    })?;
-    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    Ok(Level { points: run.points(0), error: mean })
-}
-
 fn refined(n: usize) -> Vec<String> {
     let part = "mesh.part.roller.annulus";
     let radius = format!("[{{ to = 49.0, cells = {}, ratio = 0.01 }}, {{ to = 50.0, cells = {} }}]", 10 * n, 9 * n);
     let angle = format!("[{{ to = -89.0, cells = {} }}, {{ to = 0.0, cells = {}, smooth = true }}]", 9 * n, 12 * n);
     vec![format!("{part}.along_radius={radius}"), format!("{part}.along_angle={angle}")]
-}
-
-/// Force of the modelled half.
-fn force(points: &[PointRecord]) -> f64 {
-    points.iter().map(|point| point.force()[1]).sum()
-}
-
-/// `|p - p_Hertz| / |p_Hertz|` in L2 over the contact points, with Hertz's pressure for the force that they carry.
-fn pressure_error(points: &[PointRecord]) -> f64 {
-    let force = 2.0 * force(points);
-    let a = (4.0 * force * RADIUS / (PI * MODULUS)).sqrt();
-    let p0 = 2.0 * force / (PI * a);
-    let (mut error, mut norm) = (0.0, 0.0);
-    for point in points {
-        let exact = p0 * (1.0 - (point.position[0] / a).powi(2)).max(0.0).sqrt();
-        error += point.area * (point.pressure - exact).powi(2);
-        norm += point.area * exact * exact;
-    }
-    (error / norm).sqrt()
 }

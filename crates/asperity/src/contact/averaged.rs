@@ -3,7 +3,8 @@
 //! The normal of a surface of first degree jumps from edge to edge. Here each node carries the mean of the tangents of
 //! the edges that meet in it, weighted by their lengths, `t_k = T_k / |T_k|` with `T_k = sum_e dx/dxi`, and along an edge
 //! `e_S = s / |s|`, `s = N_k t_k` (Yang, Laursen & Meng, Int. J. Numer. Meth. Engng 62, 2005). Edges that meet in a corner
-//! keep their own, and so does the end of a surface. Which edges do is decided on the undeformed surface, so that the
+//! keep their own, and so does the end of a surface, unless it lies on the axis of revolution: there the tangent is that of
+//! the edge and its mirror image, across the axis. Which edges do is decided on the undeformed surface, so that the
 //! field is a smooth function of the nodes. `T_k` is linear in the nodes of an edge and of its neighbours; those of the
 //! neighbours beyond its own are called the nodes around it. What the field is used for is not known here.
 
@@ -26,6 +27,8 @@ pub struct Around {
     /// The nodes of its neighbours that are not its own.
     pub nodes: Vec<usize>,
     weights: [[f64; MOST]; MAX_EDGE_NODES],
+    /// Whether its ends lie smoothly on the axis of revolution.
+    on_axis: [bool; 2],
 }
 
 /// The unit tangents at the nodes of an edge in place.
@@ -33,6 +36,7 @@ pub struct Around {
 pub struct Field<'a> {
     around: &'a Around,
     units: [Vec3; MAX_EDGE_NODES],
+    /// Lengths of the sums; zero where nothing turns the unit tangent.
     lengths: [f64; MAX_EDGE_NODES],
 }
 
@@ -40,11 +44,12 @@ pub struct Field<'a> {
 const PLACES: [f64; MAX_EDGE_NODES] = [-1.0, 1.0, 0.0];
 
 impl Around {
-    /// Those of each of `edges`.
-    pub fn of(mesh: &Mesh, edges: &[Edge]) -> Vec<Self> {
+    /// Those of each of `edges`, which turn about the axis `x = 0` or not.
+    pub fn of(mesh: &Mesh, edges: &[Edge], revolves: bool) -> Vec<Self> {
         let neighbours = neighbours(edges);
         let one = |(i, edge): (usize, &Edge)| {
-            let mut around = Self::default();
+            let on_axis = [0, 1].map(|end| revolves && ends_on_axis(mesh, edge, end));
+            let mut around = Self { on_axis, ..Self::default() };
             for (k, _) in edge.nodes.iter().enumerate() {
                 around.add(edge, k, (edge, PLACES[k]));
                 let beside = neighbours[i].get(k).copied().flatten().map(|other| (&edges[other], -PLACES[k]));
@@ -84,19 +89,32 @@ impl Around {
         for (j, x) in x.enumerate() {
             sums.iter_mut().zip(&self.weights).for_each(|(sum, weights)| *sum += x * weights[j]);
         }
-        let lengths = sums.map(|sum| sum.norm());
-        let units = std::array::from_fn(|k| if lengths[k] > 0.0 { sums[k] * lengths[k].recip() } else { Vec3::zero() });
+        let (mut lengths, mut units) = (sums.map(|sum| sum.norm()), [Vec3::zero(); MAX_EDGE_NODES]);
+        for k in (0..MAX_EDGE_NODES).filter(|&k| lengths[k] > 0.0) {
+            units[k] = sums[k] * lengths[k].recip();
+        }
+        for end in (0..2).filter(|&end| self.on_axis[end]) {
+            (units[end], lengths[end]) = (Vec3::new(sums[end][0].signum(), 0.0, 0.0), 0.0);
+        }
         Field { around: self, units, lengths }
     }
 }
 
+/// Tangent of an undeformed edge at a place on it.
+fn tangent(mesh: &Mesh, (edge, at): (&Edge, f64)) -> Vec3 {
+    let slopes = edge.shape_at(at).1;
+    edge.nodes.iter().zip(slopes).fold(Vec3::zero(), |sum, (&node, slope)| sum + mesh.points[node] * slope)
+}
+
 /// Whether two edges meet without a corner where both have a node, at places on them.
 fn meet_smoothly(mesh: &Mesh, one: (&Edge, f64), other: (&Edge, f64)) -> bool {
-    let [a, b] = [one, other].map(|(edge, at)| {
-        let slopes = edge.shape_at(at).1;
-        edge.nodes.iter().zip(slopes).fold(Vec3::zero(), |sum, (&node, slope)| sum + mesh.points[node] * slope)
-    });
-    angle(a, b) < CORNER
+    angle(tangent(mesh, one), tangent(mesh, other)) < CORNER
+}
+
+/// Whether an end of an edge lies on the axis, where it meets its mirror image without a corner.
+fn ends_on_axis(mesh: &Mesh, edge: &Edge, end: usize) -> bool {
+    let t = tangent(mesh, (edge, PLACES[end]));
+    mesh.points[edge.nodes[end]][0].abs() < 1e-9 * t.norm() && angle(t, Vec3::new(t[0], -t[1], 0.0)) < CORNER
 }
 
 impl Field<'_> {
@@ -142,7 +160,7 @@ mod tests {
             let ring = Annulus::new([0.0, 0.0], [1.0, 2.0], [0.0, 360.0], [1, 16], Cell::named(name).unwrap());
             let mesh = ring.mesh("ring").unwrap();
             let edges = edges(&mesh, "ring.outer");
-            for (edge, around) in edges.iter().zip(Around::of(&mesh, &edges)) {
+            for (edge, around) in edges.iter().zip(Around::of(&mesh, &edges, false)) {
                 assert_eq!(around.nodes.len(), if name == "quad4" { 2 } else { 4 });
                 for (k, &node) in edge.nodes.iter().enumerate() {
                     let along = mesh.points[node].unit().left();
@@ -153,6 +171,21 @@ mod tests {
         }
     }
 
+    /// On the axis of revolution the tangent is across it, whatever becomes of the edge.
+    #[test]
+    fn the_top_of_a_ball_is_level() {
+        let ball = Annulus::new([0.0, 0.0], [1.0, 2.0], [0.0, 90.0], [1, 4], Cell::named("quad4").unwrap());
+        let mesh = ball.mesh("ball").unwrap();
+        let edges = edges(&mesh, "ball.outer");
+        let tops = |revolves: bool| {
+            let all = Around::of(&mesh, &edges, revolves);
+            let top = edges.iter().zip(all).find(|(edge, _)| mesh.points[edge.nodes[1]][0].abs() < 1e-12).unwrap();
+            field_at(&mesh, top.0, &top.1, 1.0)
+        };
+        assert!((tops(true) + Vec3::new(1.0, 0.0, 0.0)).norm() < 1e-15);
+        assert!((tops(false)[1] - (11.25_f64).to_radians().sin()).abs() < 1e-12);
+    }
+
     /// A square keeps its corners; the end of a side has only one neighbour.
     #[test]
     fn corners_stay() {
@@ -160,7 +193,7 @@ mod tests {
         let mesh = Rectangle::new([0.0; 2], [1.0; 2], [2, 2], cell).mesh("b").unwrap();
         let sides = mesh.boundary(&mesh.groups["b"].cells);
         let edges: Vec<Edge> = sides.iter().map(|&side| Edge::new(&mesh, side)).collect();
-        for (edge, around) in edges.iter().zip(Around::of(&mesh, &edges)) {
+        for (edge, around) in edges.iter().zip(Around::of(&mesh, &edges, false)) {
             assert_eq!(around.nodes.len(), 1);
             let own = (mesh.points[edge.nodes[1]] - mesh.points[edge.nodes[0]]).unit();
             assert!([-1.0, 0.3, 1.0].iter().all(|&xi| (field_at(&mesh, edge, &around, xi) - own).norm() < 1e-15));

@@ -67,7 +67,7 @@ impl Contact {
         let (corners, opposite, neighbours) = (Corners::default(), Corners::default(), Neighbours::default());
         let around = match options.normals {
             Normals::Own => Vec::new(),
-            Normals::Averaged => Around::of(&mesh, &surface.edges),
+            Normals::Averaged => Around::of(&mesh, &surface.edges, space == Space::Axisymmetric),
         };
         let mut contact = Self {
             name,

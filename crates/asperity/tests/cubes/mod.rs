@@ -36,7 +36,18 @@ fn target(kind: &str) -> Facets {
 }
 
 /// A contact of the lower faces of a bent unit cube of `n` times `n` cells with a target below it, its tool free to move.
-pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L, form: ContactForm) -> (Contact, Dofs) {
+#[allow(dead_code)] // each test binary uses one of the two
+pub fn contact<L: InterfaceLaw>(cells: (&str, usize), kind: &str, law: L, form: ContactForm) -> (Contact, Dofs) {
+    contact_with(cells, kind, law, |options| options.form = form)
+}
+
+/// The same with options changed.
+pub fn contact_with<L: InterfaceLaw>(
+    (cell, n): (&str, usize),
+    kind: &str,
+    law: L,
+    change: impl FnOnce(&mut ContactOptions),
+) -> (Contact, Dofs) {
     let mut mesh = Block::new([0.0; 3], [1.0; 3], [n, n, 1], Cell::named(cell).unwrap()).mesh("b").unwrap();
     for x in &mut mesh.points {
         let [a, b, c] = x.0;
@@ -47,7 +58,7 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L, fo
     let tool = Arc::new(Tool::new("t", target(kind), at(0.5, 0.3, -1.0)));
     let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
     let lower = mesh.groups["b.back"].sides.clone();
-    let options = ContactOptions {
+    let mut options = ContactOptions {
         penalty: 1.0,
         tangential_penalty: 0.7,
         thickness: 1.0,
@@ -57,9 +68,10 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L, fo
         augmentation: None,
         overlap: Overlap::Keep,
         wear: None,
-        form,
+        form: ContactForm::Traction,
         normals: Normals::Own,
     };
+    change(&mut options);
     let parts = Parts {
         name: "c".into(),
         surface: Surface::new(&mesh, &lower, None),

@@ -6,7 +6,7 @@
 
 use super::open::OpenContact;
 use super::point::Triad;
-use super::split::Placed;
+use super::placed::Placed;
 use super::surface::SurfacePoint;
 use super::target::{Cast, Memory, Standing};
 use crate::contact::before::{AS_BEFORE, ENTERED, chosen, touched_segment};
@@ -83,7 +83,7 @@ impl OpenContact<'_> {
     /// Face and ray of a point in the accepted configuration.
     fn ray_before(&self, spot: &SurfacePoint) -> (Placed<'_>, Ray) {
         let placed = self.contact.placed(spot.face, self.accepted);
-        let (origin, tangents) = placed.at(spot.xi);
+        let (origin, tangents) = placed.frame(spot.xi);
         (placed, Ray { origin, direction: Triad::new(tangents).inward })
     }
 
@@ -94,13 +94,10 @@ impl OpenContact<'_> {
         let (u, (placed, ray)) = (faces.values(segment, self.accepted), self.ray_before(spot));
         let hit = faces.meet(segment, &u, &ray, [0.5; 2])?;
         let [t, v] = faces.tangents(segment, hit.s, &u);
-        let ((_, g), bend, e) = (placed.at(spot.xi), placed.bend(spot.xi), ray.direction);
-        let area = g[1].cross(g[0]).norm();
+        let ((_, g), turning, e) = (placed.at(spot.xi), placed.normal_slopes(spot.xi), ray.direction);
         let span = t.cross(v).dot(e);
         let sliding = [0, 1].map(|a| {
-            // Change of the normal g_2 x g_1 along xi_a; what is along the ray does not count.
-            let turning = (bend[1][a].cross(g[0]) + g[1].cross(bend[0][a])) * (hit.u / area);
-            let to: Vec3 = g[a] + turning - e * e.dot(turning);
+            let to: Vec3 = g[a] + turning[a] * hit.u;
             [to.cross(v).dot(e) / span, t.cross(to).dot(e) / span]
         });
         Some((hit.s, sliding))

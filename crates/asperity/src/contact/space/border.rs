@@ -3,7 +3,8 @@
 use super::faces::Standing;
 use super::point::Triad;
 use super::polygon::{Point, Polygon, left_of};
-use super::split::{Border, Placed, VERTICES};
+use super::placed::Placed;
+use super::split::{Border, VERTICES};
 use super::target::{Cast, Memory};
 use crate::tensor::Vec3;
 use crate::tool::{Bounds, Ray, Rules};
@@ -18,7 +19,7 @@ pub struct Seeker<'a> {
     /// Its target in place.
     pub standing: &'a Standing<'a>,
     /// The face.
-    pub placed: Placed<'a>,
+    pub placed: &'a Placed<'a>,
     /// Any ray of the face: its bounds and relatives hold for all.
     pub cast: Cast<'a>,
 }
@@ -74,7 +75,7 @@ impl Seeker<'_> {
     /// Edges of the border that cut something off the face, the covered part on their left, with the faces they end.
     fn lines(&self) -> Vec<(usize, [Vertex; 2])> {
         let mut found = Vec::new();
-        let (_, tangents) = self.placed.at(self.placed.face.middle());
+        let (_, tangents) = self.placed.frame(self.placed.face.middle());
         let inward = Triad::new(tangents).inward;
         let nodes = &self.placed.x[..self.placed.face.nodes.len()];
         let around = Bounds::of(nodes.iter().copied());
@@ -94,7 +95,7 @@ impl Seeker<'_> {
     /// A vertex within the reach of the face.
     fn vertex(&self, node: usize, x: Vec3) -> Option<Vertex> {
         let foot = self.placed.foot(x)?;
-        let (at, tangents) = self.placed.at(foot);
+        let (at, tangents) = self.placed.frame(foot);
         let gap = Triad::new(tangents).inward.dot(x - at);
         (gap >= -self.cast.reach && gap <= self.cast.depth).then_some((node, foot))
     }
@@ -108,7 +109,7 @@ impl Seeker<'_> {
     }
 
     fn sees(&self, xi: [f64; 2], owners: &[usize], memory: &mut Memory) -> bool {
-        let (origin, tangents) = self.placed.at(xi);
+        let (origin, tangents) = self.placed.frame(xi);
         let ray = Ray { origin, direction: Triad::new(tangents).inward };
         self.standing.select(&Cast { ray, ..self.cast }, memory).is_some_and(|hit| !owners.contains(&hit.facet))
     }

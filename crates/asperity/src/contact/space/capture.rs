@@ -64,7 +64,7 @@ impl Boundary {
 }
 
 /// Position and tangents of a point of the surface at displacements `u`.
-pub fn locate(surface: &Surface, point: &SurfacePoint, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> (Vec3, [Vec3; 2]) {
+fn locate(surface: &Surface, point: &SurfacePoint, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> (Vec3, [Vec3; 2]) {
     let face = &surface.faces[point.face];
     point.place(&face.placed((mesh, dofs), u)[..face.nodes.len()])
 }

@@ -1,11 +1,13 @@
 //! Where everything is at one contact point in space, which unknowns that depends on, and the chain rule from its fifteen
 //! directions to those unknowns: those of its own nodes, of the segment it hits, of the segment touched at the last accepted
-//! state where that is another one, and of the border of the target over its face.
+//! state where that is another one, of the border of the target over its face, and of the nodes around it that turn its
+//! averaged normals.
 
 use super::before::Before;
 use super::open::{D, OpenContact, seed};
 use super::point::{Closed, Place, Triad};
-use super::split::{self, Border, Placed, RATES, VERTICES};
+use super::placed::Placed;
+use super::split::{self, Border, VERTICES};
 use super::surface::{MAX_NODES, SurfacePoint};
 use super::target::MAX_UNKNOWNS;
 use crate::Failure;
@@ -19,11 +21,11 @@ use crate::tool::space::Hit;
 
 /// Directions in which a contact point is differentiated: five vectors.
 pub const DIRECTIONS: usize = 15;
-/// Most unknowns of a stencil.
+/// Most unknowns of a stencil, but for those of the nodes around its face.
 pub const MAX_DOFS: usize = 3 * MAX_NODES + 2 * MAX_UNKNOWNS + 3 * VERTICES;
 
 /// Where everything is at one point, in plain numbers.
-pub struct Geometry {
+pub struct Geometry<'a> {
     /// Where the point stands on its face.
     pub spot: SurfacePoint,
     /// Positions.
@@ -35,12 +37,17 @@ pub struct Geometry {
     /// Which unknowns they depend on.
     pub layout: Layout,
     moving: Option<Box<Moving>>,
+    /// Its face.
+    placed: Placed<'a>,
 }
 
 /// How a point moves that stands on a part of its face.
 struct Moving {
-    /// Derivatives of its two coordinates and of the root of the part.
-    rates: [[f64; RATES]; 3],
+    /// Derivatives of its two coordinates and of the root of the part along the unknowns on which its normal depends,
+    /// then those of the border.
+    rates: Vec<[f64; 3]>,
+    /// Derivatives of the position over the whole face.
+    along: [Vec3; 2],
     /// Tangents of the whole face.
     tangents: [Vec3; 2],
     /// Their derivatives.
@@ -62,6 +69,8 @@ impl OpenContact<'_> {
         if let Some(faces) = parts.target.as_faces() {
             out.extend(Border::of(stencil).list().flat_map(|node| faces.unknowns_of(node)));
         }
+        let around = self.contact.nodes_around(parts.surface.points[index].face);
+        out.extend(around.iter().flat_map(|&node| [0, 1, 2].map(|axis| parts.dofs.node(node) + axis)));
         self.contact.unknowns_around(index, out);
     }
 
@@ -71,7 +80,8 @@ impl OpenContact<'_> {
         let touched = self
             .touched_segment(index, stencil)
             .map(|touched| (!parts.target.together(segment, touched)).then(|| parts.target.count(touched)));
-        Layout::new(own, parts.target.count(segment), touched, [3 * Border::of(stencil).list().count(), 0], 0)
+        let around = 3 * self.contact.nodes_around(parts.surface.points[index].face).len();
+        Layout::new(own, parts.target.count(segment), touched, [3 * Border::of(stencil).list().count(), 0], around)
     }
 
     /// Where everything is for values `u` of a stencil's unknowns, and how it moves if those rates are wanted; None where it
@@ -81,15 +91,18 @@ impl OpenContact<'_> {
         index: usize,
         (stencil, rates): (&Stencil, bool),
         u: &[f64],
-    ) -> Result<Option<Geometry>, Failure> {
+    ) -> Result<Option<Geometry<'_>>, Failure> {
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return Ok(None) };
         let (contact, parts, layout) = (self.contact, &self.contact.parts, self.layout(index, stencil, segment));
         let lost = || Failure::new(format!("{}: its ray runs along the target", contact.describe(index)));
-        let face = &parts.surface.faces[parts.surface.points[index].face];
-        let placed = Placed { face, x: face.moved(&parts.mesh, u) };
+        let face = parts.surface.points[index].face;
+        let placed = contact.placed_locally(face, &u[..layout.own], &u[layout.around.clone()]);
         let border = layout.ends[0].clone().map(|range| &u[range]);
         let (spot, moving) = self.spot((index, stencil), &placed, border, rates).ok_or_else(lost)?;
-        let (a, tangents) = spot.place(&placed.x[..face.nodes.len()]);
+        if !placed.is_upright(&spot) {
+            return Err(Failure::new(format!("{}: its averaged normal lies across its face", contact.describe(index))));
+        }
+        let (a, tangents) = placed.stand(&spot);
         let inward = Triad::new(tangents).inward;
         let ray = Ray { origin: a, direction: inward };
         let hit = parts.target.meet(segment, &u[layout.hit.clone()], &ray, stencil.near).ok_or_else(lost)?;
@@ -97,7 +110,7 @@ impl OpenContact<'_> {
         let of_touched = before.touched.zip(layout.touched.clone());
         let touched = of_touched.map(|((on, s), range)| parts.target.point(on, s, &u[range]));
         let place = Place { a, tangents, b: a + inward * hit.u, touched };
-        Ok(Some(Geometry { spot, place, hit, before, layout, moving }))
+        Ok(Some(Geometry { spot, place, hit, before, layout, moving, placed }))
     }
 
     /// Where a point stands on its face, and how it moves there with its nodes and those of the border, whose unknowns
@@ -118,7 +131,8 @@ impl OpenContact<'_> {
         let (xi, scale) = split::laid(placed, border, &vertices, &surface.points[index])?;
         let moving = || {
             let rates = split::rates(placed, border, &vertices, &surface.points[index])?;
-            Some(Box::new(Moving { rates, tangents: placed.at(xi).1, bend: placed.bend(xi) }))
+            let (along, tangents) = (placed.at(xi).1, placed.frame(xi).1);
+            Some(Box::new(Moving { rates, along, tangents, bend: placed.bend(xi) }))
         };
         let moving = if rates { Some(moving()?) } else { None };
         Some((surface.moved(index, xi, scale), moving))
@@ -146,7 +160,7 @@ impl OpenContact<'_> {
 
     /// Adds the forces of a closed point and their derivatives by the chain rule.
     pub(super) fn add<T: Seed<DIRECTIONS>>(&self, g: &Geometry, closed: &Closed<T>, local: &mut Local) {
-        let (n, hit, count) = (local.force.len(), g.layout.hit.clone(), g.layout.count());
+        let (n, hit) = (local.force.len(), g.layout.hit.clone());
         let forces = self.rows::<f64>((g, &local.u), (closed.hit.re(), g.place.b), closed.force);
         local.force.iter_mut().zip(&forces).for_each(|(force, row)| *force += row);
         if !local.wants_tangent {
@@ -157,7 +171,7 @@ impl OpenContact<'_> {
         // Nothing acts on what was touched.
         for (i, row) in rows[..hit.end].iter().enumerate() {
             let slopes = row.slopes();
-            for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns[..count]) {
+            for (entry, column) in local.tangent[i * n..].iter_mut().zip(&columns) {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }
@@ -185,23 +199,29 @@ impl OpenContact<'_> {
     fn each_rate(&self, g: &Geometry, mut act: impl FnMut(&Moving, usize, [f64; 3])) {
         let Some((moving, ends)) = g.moving.as_ref().zip(g.layout.ends[0].clone()) else { return };
         let coupled = if self.contact.parts.options.coupling { ends } else { 0..0 };
-        let columns = (0..g.layout.own).map(|k| (k, k)).chain(coupled.zip(3 * MAX_NODES..));
-        columns.for_each(|(column, rate)| act(moving, column, moving.rates.map(|rates| rates[rate])));
+        let columns = g.layout.field().chain(coupled).zip(&moving.rates);
+        columns.for_each(|(column, rates)| act(moving, column, *rates));
     }
 
     /// Derivatives of the fifteen directions along each unknown of the stencil.
-    pub(super) fn columns(&self, g: &Geometry, u: &[f64]) -> [[f64; DIRECTIONS]; MAX_DOFS] {
-        let (parts, mut columns) = (&self.contact.parts, [[0.0; DIRECTIONS]; MAX_DOFS]);
+    pub(super) fn columns(&self, g: &Geometry, u: &[f64]) -> Vec<[f64; DIRECTIONS]> {
+        let (parts, mut columns) = (&self.contact.parts, vec![[0.0; DIRECTIONS]; g.layout.count()]);
         for (k, column) in columns[..g.layout.own].iter_mut().enumerate() {
             column[k % 3] = g.spot.n[k / 3];
             column[3 + k % 3] = g.spot.dn[k / 3][0];
             column[6 + k % 3] = g.spot.dn[k / 3][1];
         }
+        if let Some(turning) = g.placed.turning(&g.spot) {
+            for (column, [first, second]) in g.layout.field().zip(turning) {
+                columns[column][3..6].copy_from_slice(&first.0);
+                columns[column][6..9].copy_from_slice(&second.0);
+            }
+        }
         let sliding = self.sliding(g, u);
         self.each_rate(g, |moving, column, [xi, eta, stretch]| {
             let along = |[p, q]: [Vec3; 2]| p * xi + q * eta;
             let tangent = |a: usize| along(moving.bend[a]) * g.spot.scale + moving.tangents[a] * stretch;
-            let changes = [along(moving.tangents), tangent(0), tangent(1), Vec3::zero(), along(sliding)];
+            let changes = [along(moving.along), tangent(0), tangent(1), Vec3::zero(), along(sliding)];
             for (direction, change) in columns[column].iter_mut().zip(changes.iter().flat_map(|change| change.0)) {
                 *direction += change;
             }

@@ -1,6 +1,6 @@
 //! Penetration and the two slips of a point in space as the coordinates over which its forces bend.
 
-use super::geometry::{Geometry, MAX_DOFS};
+use super::geometry::Geometry;
 use super::open::OpenContact;
 use super::point::Triad;
 use crate::contact::ContactForm;
@@ -13,13 +13,12 @@ impl OpenContact<'_> {
         let Triad { inward, along, area } = Triad::new(g.place.tangents);
         let coordinates = [(penetration + self.closure(index), inward), (s, along[0]), (t, along[1])];
         for ((y, direction), rates) in coordinates.into_iter().zip(&rates) {
-            let beyond = std::iter::repeat_n(0.0, stencil.len.saturating_sub(MAX_DOFS));
-            let rates = rates.iter().take(stencil.len).copied().chain(beyond.clone());
+            let rates = rates.iter().copied();
             match self.contact.parts.options.form {
                 ContactForm::Traction => {
                     let force = direction * (area * g.spot.weight);
                     let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), force);
-                    out.coordinate(y, rates, rows.into_iter().take(stencil.len).chain(beyond));
+                    out.coordinate(y, rates, rows.into_iter().chain(std::iter::repeat(0.0)).take(stencil.len));
                 }
                 ContactForm::Variational => {
                     let undeformed = self.contact.undeformed_area(index);

@@ -1,6 +1,7 @@
 //! Contact in space between the faces of bodies, and with rigid tools: the same element as in the plane, with two
 //! tangents.
 
+mod averaged;
 mod before;
 mod border;
 mod capture;
@@ -13,6 +14,7 @@ mod nonlocal;
 mod open;
 mod pair;
 mod patch;
+mod placed;
 mod point;
 mod polygon;
 mod rigid;

@@ -5,13 +5,12 @@ use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::Triad;
 use super::rigid;
-use super::surface::{MAX_NODES, SurfacePoint};
 use super::target::{Cast, Memory, Standing};
 use crate::Failure;
 use crate::contact::nonlocal::Mean;
 use crate::interface::{Motion, Past};
 use crate::system::Local;
-use crate::tensor::{Dual, Vec3};
+use crate::tensor::Dual;
 use crate::tool::Ray;
 use std::ops::Range;
 
@@ -19,8 +18,8 @@ impl Contact {
     /// Appends the unknowns of the faces around a point.
     pub(super) fn unknowns_around(&self, index: usize, out: &mut Vec<usize>) {
         for &face in self.neighbours.others(index) {
-            let nodes = &self.parts.surface.faces[face].nodes;
-            out.extend(nodes.iter().flat_map(|&node| [0, 1, 2].map(|axis| self.parts.dofs.node(node) + axis)));
+            let nodes = self.parts.surface.faces[face].nodes.iter().chain(self.nodes_around(face));
+            out.extend(nodes.flat_map(|&node| [0, 1, 2].map(|axis| self.parts.dofs.node(node) + axis)));
         }
     }
 }
@@ -39,35 +38,36 @@ impl OpenContact<'_> {
         Some(mean)
     }
 
-    /// Where the unknowns of a neighbour's nodes stand in the stencil of a point.
-    fn nodes_of(&self, index: usize, neighbour: usize, g: &Geometry) -> Range<usize> {
+    /// Where the unknowns of a neighbour's nodes, and of the nodes around its face, stand in the stencil of a point.
+    fn nodes_of(&self, index: usize, neighbour: usize, g: &Geometry) -> [Range<usize>; 2] {
         let (surface, mut start) = (&self.contact.parts.surface, g.layout.count());
         let face = surface.points[neighbour].face;
         if face == surface.points[index].face {
-            return 0..g.layout.own;
+            return [0..g.layout.own, g.layout.around.clone()];
         }
         for &other in self.contact.neighbours.others(index) {
-            let len = 3 * surface.faces[other].nodes.len();
+            let middle = start + 3 * surface.faces[other].nodes.len();
+            let end = middle + 3 * self.contact.nodes_around(other).len();
             if other == face {
-                return start..start + len;
+                return [start..middle, middle..end];
             }
-            start += len;
+            start = end;
         }
-        start..start
+        [start..start, start..start]
     }
 
     /// Adds what one neighbour gives to the mean.
     fn add_pressure(
         &self,
         (point, part): (usize, f64),
-        (nodes, tool): (Range<usize>, Range<usize>),
+        ([own, around], tool): ([Range<usize>; 2], Range<usize>),
         u: &[f64],
         (standing, mean, memory): (&Standing, &mut Mean, &mut Memory),
     ) {
         let (contact, parts) = (self.contact, &self.contact.parts);
         let spot = &parts.surface.points[point];
-        let x: [Vec3; MAX_NODES] = parts.surface.faces[spot.face].moved(&parts.mesh, &u[nodes.clone()]);
-        let (a, tangents) = spot.place(&x[..nodes.len() / 3]);
+        let placed = contact.placed_locally(spot.face, &u[own.clone()], &u[around.clone()]);
+        let (a, tangents) = placed.stand(spot);
         let inward = Triad::new(tangents).inward;
         let ray = Ray { origin: a, direction: inward };
         let cast = Cast { ray, ..contact.bounds(point, self.depths[point], self.reach) };
@@ -78,9 +78,11 @@ impl OpenContact<'_> {
         }
         let (stiffness, cosine) = (part * parts.options.penalty, hit.normal.dot(inward));
         mean.pressure += stiffness * seen;
-        for (k, column) in nodes.enumerate() {
-            let moved = axis(k % 3) * spot.n[k / 3] + turned(spot, tangents, k) * hit.u;
-            mean.slopes[column] -= stiffness * hit.normal.dot(moved) / cosine;
+        for (k, column) in own.clone().enumerate() {
+            mean.slopes[column] -= stiffness * hit.normal[k % 3] * spot.n[k / 3] / cosine;
+        }
+        for (column, turned) in own.chain(around).zip(placed.normal_rates(spot)) {
+            mean.slopes[column] -= stiffness * hit.normal.dot(turned) * hit.u / cosine;
         }
         let rates = parts.target.rates(hit.facet, hit.s, &u[tool.clone()], a + inward * hit.u);
         for (rate, column) in rates.iter().zip(tool) {
@@ -113,17 +115,4 @@ impl OpenContact<'_> {
         }
         Ok(())
     }
-}
-
-fn axis(i: usize) -> Vec3 {
-    Vec3(std::array::from_fn(|k| f64::from(u8::from(k == i))))
-}
-
-/// How the inward normal of a point turns with one of its face's unknowns.
-fn turned(spot: &SurfacePoint, [g1, g2]: [Vec3; 2], unknown: usize) -> Vec3 {
-    let (axis, [first, second]) = (axis(unknown % 3), spot.dn[unknown / 3]);
-    let normal = g2.cross(g1);
-    let (length, change) = (normal.norm(), (axis * second).cross(g1) + g2.cross(axis * first));
-    let inward = normal * length.recip();
-    (change - inward * inward.dot(change)) * length.recip()
 }

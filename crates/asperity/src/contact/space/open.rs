@@ -75,7 +75,7 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn reach(&self, couplings: &mut Couplings) {
-        if self.contact.parts.target.deforms() {
+        if self.contact.parts.target.deforms() || !self.contact.around.is_empty() {
             let mut stencils = Stencils::default();
             self.list(&self.ahead, &mut stencils);
             stencils.list.iter().for_each(|stencil| couplings.push(stencils.dofs(stencil)));

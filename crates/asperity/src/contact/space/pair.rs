@@ -1,6 +1,7 @@
 //! A surface and its target in space as a term of equilibrium: one stencil a contact point.
 
-use super::capture::{depths, locate};
+use super::averaged::Around;
+use super::capture::depths;
 use super::open::{OpenContact, write_hit};
 use super::point::Triad;
 use super::surface::{Face, Surface, SurfacePoint};
@@ -11,7 +12,7 @@ use crate::contact::nonlocal::{Neighbours, radius};
 use crate::contact::pair::{CLOSED, ahead};
 use crate::contact::record::{PointRecord, PointStatus, entry, variables};
 use crate::contact::search::relatives;
-use crate::contact::{ContactOptions, Loads};
+use crate::contact::{ContactOptions, Loads, Normals};
 use crate::interface::Interface;
 use crate::mesh::{CellView, Mesh, Side};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
@@ -55,6 +56,8 @@ pub struct Contact {
     pub(super) opposite: Corners,
     /// The points around each point, where the law is not local.
     pub(super) neighbours: Neighbours,
+    /// For each face the nodes around it that turn its normals; none where each face has its own.
+    pub(super) around: Vec<Around>,
 }
 
 impl Parts {
@@ -77,7 +80,11 @@ impl Contact {
         let lengths = parts.surface.faces.iter().chain(opposite).map(|face| parts.length(face));
         let least = CLOSED * lengths.fold(f64::INFINITY, f64::min);
         let (corners, opposite, neighbours) = (Corners::default(), Corners::default(), Neighbours::default());
-        let mut contact = Self { parts, least, relatives, longest, corners, opposite, neighbours };
+        let around = match parts.options.normals {
+            Normals::Own => Vec::new(),
+            Normals::Averaged => Around::of(&parts.mesh, &parts.surface.faces),
+        };
+        let mut contact = Self { parts, least, relatives, longest, corners, opposite, neighbours, around };
         if contact.parts.options.augmentation.is_some() {
             contact.corners = contact.corners_of_faces();
             contact.opposite = contact.corners_of_target();
@@ -124,8 +131,9 @@ impl Contact {
         self.parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pole(u))
     }
 
+    /// Position and tangents of a point.
     pub(super) fn locate(&self, point: &SurfacePoint, u: &[f64]) -> (Vec3, [Vec3; 2]) {
-        locate(&self.parts.surface, point, (&self.parts.mesh, &self.parts.dofs), u)
+        self.placed(point.face, u).stand(point)
     }
 
     /// Size of the undeformed face of a point, a length.

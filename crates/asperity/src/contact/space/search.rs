@@ -1,14 +1,17 @@
 //! The search in space: which segments the rays of a surface meet, and which border of the target runs over
 //! its faces.
 
+use super::averaged::Around;
 use super::border::Seeker;
 use super::capture::depths;
 use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::Triad;
-use super::split::{self, Border, Placed};
-use super::surface::SurfacePoint;
+use super::placed::Placed;
+use super::split::{self, Border};
+use super::surface::{MAX_NODES, SurfacePoint};
 use super::target::{Cast, Memory, Standing};
+use crate::contact::capture::positions;
 use crate::contact::search;
 use crate::system::{Stencil, Stencils};
 use crate::tensor::Vec3;
@@ -46,8 +49,36 @@ impl Contact {
 
     /// A face of the surface with its nodes in place.
     pub(super) fn placed(&self, face: usize, u: &[f64]) -> Placed<'_> {
-        let (parts, face) = (&self.parts, &self.parts.surface.faces[face]);
-        Placed { face, x: face.placed((&parts.mesh, &parts.dofs), u) }
+        let parts = &self.parts;
+        let at = |nodes| positions(&parts.mesh, &parts.dofs, nodes, u);
+        self.placed_at(face, at(&parts.surface.faces[face].nodes), at(self.nodes_around(face)))
+    }
+
+    /// The same for values of the unknowns of its nodes, and of the nodes around it.
+    pub(super) fn placed_locally(&self, face: usize, own: &[f64], around: &[f64]) -> Placed<'_> {
+        let parts = &self.parts;
+        let here = |(&node, u): (&usize, &[f64])| parts.mesh.points[node] + Vec3::new(u[0], u[1], u[2]);
+        let own = parts.surface.faces[face].nodes.iter().zip(own.chunks_exact(3)).map(here);
+        self.placed_at(face, own, self.nodes_around(face).iter().zip(around.chunks_exact(3)).map(here))
+    }
+
+    fn placed_at(
+        &self,
+        face: usize,
+        own: impl Iterator<Item = Vec3>,
+        around: impl Iterator<Item = Vec3>,
+    ) -> Placed<'_> {
+        let (averaged, face) = (self.around.get(face), &self.parts.surface.faces[face]);
+        let mut x = [Vec3::zero(); MAX_NODES];
+        x.iter_mut().zip(own).for_each(|(x, here)| *x = here);
+        let all = |_: &Around| x[..face.nodes.len()].iter().copied().chain(around).collect();
+        let field = averaged.map(|averaged| averaged.field(all(averaged)));
+        Placed { face, x, field }
+    }
+
+    /// The nodes around a face that turn its normals; none where it has its own.
+    pub(super) fn nodes_around(&self, face: usize) -> &[usize] {
+        self.around.get(face).map_or(&[], |around| &around.nodes)
     }
 
     /// The rays of all points of the undeformed surface.
@@ -93,10 +124,10 @@ impl OpenContact<'_> {
     /// The choices of the points of a face.
     fn seek(&self, face: usize, standing: &Standing, u: &[f64], memory: &mut Memory) -> Vec<Stencil> {
         let (contact, placed) = (self.contact, self.contact.placed(face, u));
-        let border = self.border(face, placed, standing, memory);
+        let border = self.border(face, &placed, standing, memory);
         let one = |index: usize| {
             let spot = self.spot_within(index, &placed, border, |node| self.corner(node, u))?;
-            let (origin, tangents) = spot.place(&placed.x[..placed.face.nodes.len()]);
+            let (origin, tangents) = placed.stand(&spot);
             let ray = Ray { origin, direction: Triad::new(tangents).inward };
             let hit = standing.cast(&Cast { ray, ..contact.bounds(index, self.depths[index], self.reach) }, memory)?;
             let (nodes, [first, closed]) = border.choices();
@@ -107,7 +138,7 @@ impl OpenContact<'_> {
     }
 
     /// The border of a target that deforms over a face.
-    fn border(&self, face: usize, placed: Placed, standing: &Standing, memory: &mut Memory) -> Border {
+    fn border(&self, face: usize, placed: &Placed, standing: &Standing, memory: &mut Memory) -> Border {
         let (contact, Standing::Faces(standing)) = (self.contact, standing) else { return Border::default() };
         let points = contact.parts.surface.points_of(face);
         let Some(index) = points.clone().next() else { return Border::default() };

@@ -1,7 +1,7 @@
 //! The variational form of contact with a tool in space: forces that are the gradient of a potential, as in the plane
 //! ([`ContactForm::Variational`]), with two slips in place of one: `F = A_0 (p du/dq + tau_S ds/dq + tau_T dt/dq)`.
 
-use super::geometry::{Geometry, MAX_DOFS};
+use super::geometry::Geometry;
 use super::open::{D, OpenContact};
 use super::pair::Contact;
 use super::point::{Closed, Triad};
@@ -17,7 +17,7 @@ use crate::tensor::{Scalar, Vec3};
 use crate::tool::Ray;
 
 /// Rates of penetration and the two slips along the unknowns of a stencil.
-pub type Rates = [[f64; MAX_DOFS]; 3];
+pub type Rates = [Vec<f64>; 3];
 
 impl Contact {
     /// Area over which the stresses of a point act whose tangents are these.
@@ -56,9 +56,9 @@ impl OpenContact<'_> {
         let slip = |e: Vec3<D>| place.touched.map_or(D::zero(), |touched| e.dot(touched - place.a));
         let [s, t] = triad.along.map(slip);
         let y = [normal.dot(place.b - place.a) / normal.dot(triad.inward), s, t];
-        let (columns, mut rates) = (self.columns(g, u), [[0.0; MAX_DOFS]; 3]);
+        let (columns, mut rates) = (self.columns(g, u), [0; 3].map(|_| vec![0.0; u.len()]));
         for (rates, y) in rates.iter_mut().zip(&y) {
-            for (rate, column) in rates.iter_mut().zip(&columns).take(u.len()) {
+            for (rate, column) in rates.iter_mut().zip(&columns) {
                 *rate = y.du.iter().zip(column).map(|(s, c)| s * c).sum();
             }
         }
@@ -89,13 +89,13 @@ impl OpenContact<'_> {
         let columns = self.columns(g, &local.u);
         for (rates, stress) in rates.iter().zip(stresses) {
             let slopes = stress.slopes();
-            for (j, column) in columns[..n].iter().enumerate() {
+            for (j, column) in columns.iter().enumerate() {
                 let slope: f64 = slopes.iter().zip(column).map(|(s, c)| s * c).sum();
                 (0..n).for_each(|i| local.tangent[i * n + j] += area * rates[i] * slope);
             }
         }
         let loads = acting(stresses, local.acting).map(|stress| area * stress.re());
-        self.bend_forces((index, stencil), loads, local)
+        self.bend_forces((index, stencil), (g, loads), local)
     }
 
     /// What the second derivatives of penetration and slips add to the tangent: central differences of their rates, as in
@@ -103,12 +103,13 @@ impl OpenContact<'_> {
     fn bend_forces(
         &self,
         (index, stencil): (usize, &Stencil),
-        loads: [f64; 3],
+        (g, loads): (&Geometry, [f64; 3]),
         local: &mut Local,
     ) -> Result<(), Failure> {
         let (n, mut u) = (local.force.len(), local.u.clone());
         // The last unknowns of a tool are its rotation.
-        let step = |j: usize| if j + 3 < n { STEP * self.contact.face_length(index) } else { STEP };
+        let rotation = g.layout.hit.end - 3..g.layout.hit.end;
+        let step = |j: usize| if rotation.contains(&j) { STEP } else { STEP * self.contact.face_length(index) };
         for j in 0..n {
             for sign in [1.0, -1.0] {
                 u[j] = local.u[j] + sign * step(j);

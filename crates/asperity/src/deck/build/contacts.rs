@@ -2,14 +2,14 @@
 
 use super::Builder;
 use crate::contact::{
-    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Role, Surface, TWO_PASSES,
+    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES,
     Target, default_penalty, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
 use crate::interface::Interface;
-use crate::mesh::{Mesh, Side, Space};
+use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
 use crate::tool::Tool;
 use std::sync::Arc;
@@ -166,9 +166,6 @@ impl Builder<'_> {
         }
         if let Some(form) = keys.form.filter(|form| !rigid && form.value == ContactForm::Variational) {
             self.refuse("the variational form is for contact with a tool", form.place);
-        }
-        if keys.normals == Normals::Averaged && self.site.space == Space::Solid {
-            self.refuse("averaged normals are for the plane and axial symmetry", keys.surface.place);
         }
         let Opposite::Sides(others) = opposite else {
             let said = [

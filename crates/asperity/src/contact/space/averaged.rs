@@ -72,10 +72,11 @@ impl Around {
             return place;
         }
         let known = self.nodes.iter().position(|&other| other == node);
-        own.nodes.len() + known.unwrap_or_else(|| {
-            self.nodes.push(node);
-            self.nodes.len() - 1
-        })
+        own.nodes.len()
+            + known.unwrap_or_else(|| {
+                self.nodes.push(node);
+                self.nodes.len() - 1
+            })
     }
 
     /// The field for the nodes of a face and those around it at `x`.

@@ -5,8 +5,8 @@
 //! touched the place where the straight way to it, from what it touches now, leaves the target.
 
 use super::open::OpenContact;
-use super::point::Triad;
 use super::placed::Placed;
+use super::point::Triad;
 use super::surface::SurfacePoint;
 use super::target::{Cast, Memory, Standing};
 use crate::contact::before::{AS_BEFORE, ENTERED, chosen, touched_segment};

@@ -1,9 +1,9 @@
 //! The search for the border of a target over a face of the surface.
 
 use super::faces::Standing;
+use super::placed::Placed;
 use super::point::Triad;
 use super::polygon::{Point, Polygon, left_of};
-use super::placed::Placed;
 use super::split::{Border, VERTICES};
 use super::target::{Cast, Memory};
 use crate::tensor::Vec3;

@@ -5,8 +5,8 @@
 
 use super::before::Before;
 use super::open::{D, OpenContact, seed};
-use super::point::{Closed, Place, Triad};
 use super::placed::Placed;
+use super::point::{Closed, Place, Triad};
 use super::split::{self, Border, VERTICES};
 use super::surface::{MAX_NODES, SurfacePoint};
 use super::target::MAX_UNKNOWNS;

@@ -168,8 +168,11 @@ impl Placed<'_> {
         let normals = self.field.as_ref().map_or_else(|| vec![Vec3::zero(); own], |field| field.rates(&n));
         let along = |(unknown, normal): (usize, Vec3)| {
             let (axis, node) = (axis(unknown % 3), unknown / 3);
-            let (moved, tangents) =
-                if unknown < own { (axis * n[node], dn[node].map(|dn| axis * dn)) } else { (Vec3::zero(), [Vec3::zero(); 2]) };
+            let (moved, tangents) = if unknown < own {
+                (axis * n[node], dn[node].map(|dn| axis * dn))
+            } else {
+                (Vec3::zero(), [Vec3::zero(); 2])
+            };
             follow(at.change(tangents, moved, normal))
         };
         let vertex = [0, 1, 2].map(|i| follow(at.change([Vec3::zero(); 2], -axis(i), Vec3::zero())));

@@ -6,8 +6,8 @@
 //! search and kept for one evaluation; where their feet lie, and so the places and weights of the points, is a function of
 //! the nodes of both sides.
 
-use super::polygon::{Laid, Point, Polygon};
 use super::placed::Placed;
+use super::polygon::{Laid, Point, Polygon};
 use super::surface::{Face, SurfacePoint};
 use crate::system::Stencil;
 use crate::tensor::{Dual, Scalar, Vec3};

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use crate::contact::{
-    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES,
-    Target, default_penalty, second_name,
+    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES, Target,
+    default_penalty, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};

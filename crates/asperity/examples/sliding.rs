@@ -33,6 +33,22 @@ impl Clocked {
     }
 }
 
+impl Clocked {
+    fn counted(
+        &mut self,
+        tolerance: f64,
+        work: impl FnOnce(&mut Frontal) -> Result<bool, LinearError>,
+    ) -> Result<bool, LinearError> {
+        let before = self.solver.counts().iterations;
+        let solved = self.add(3, work)?;
+        let iterations = self.solver.counts().iterations - before;
+        if std::env::var_os("VERBOSE").is_some() {
+            println!("    {iterations} inner iterations to {tolerance:.0e}: {solved}");
+        }
+        Ok(solved)
+    }
+}
+
 impl LinearSolver for Clocked {
     fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
         self.add(0, |solver| solver.analyse(pattern, nodes))
@@ -67,13 +83,10 @@ impl LinearSolver for Clocked {
         self.solver.change(change);
     }
     fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
-        let before = self.solver.counts().iterations;
-        let solved = self.add(3, |solver| solver.iterate(values, rhs, tolerance))?;
-        let iterations = self.solver.counts().iterations - before;
-        if iterations > 0 && std::env::var_os("VERBOSE").is_some() {
-            println!("    {iterations} inner iterations to {tolerance:.0e}: {solved}");
-        }
-        Ok(solved)
+        self.counted(tolerance, |solver| solver.iterate(values, rhs, tolerance))
+    }
+    fn iterate_again(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
+        self.counted(tolerance, |solver| solver.iterate_again(values, rhs, tolerance))
     }
 }
 

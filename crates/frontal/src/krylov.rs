@@ -4,7 +4,7 @@ use crate::change::Change;
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
-use crate::recycle::{Outer, Recycled, orthogonalise};
+use crate::recycle::{Outer, orthogonalise};
 use crate::refine::check_finite;
 use crate::solve::Workspace;
 use crate::vector::{norm, subtract};
@@ -47,17 +47,17 @@ impl Factor {
     /// # Errors
     /// [`Error::NotFactorised`], [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, Error> {
-        self.solve_recycling((values, None), rhs, krylov, &mut Recycled::default())
+        self.solve_recycling((values, None), rhs, krylov, (&mut Outer::default(), true))
     }
 
     /// The same with a preconditioner put right for a change, beginning in the space of the directions of earlier
-    /// solutions, to which its own are added.
+    /// solutions, with the `same` matrix or with another; its own are added to them.
     pub(crate) fn solve_recycling(
         &self,
         (values, change): (&[f64], Option<&Change>),
         rhs: &mut [f64],
         krylov: &Krylov,
-        recycled: &mut Recycled,
+        (outer, same): (&mut Outer, bool),
     ) -> Result<Convergence, Error> {
         self.check_ready()?;
         let pattern = &self.symbolic.pattern;
@@ -71,7 +71,10 @@ impl Factor {
         let mut system = OtherValues { factor: self, values, change, work: Workspace::new(self), scaled: rhs.to_vec() };
         let mut x = vec![0.0; rhs.len()];
         scale(rhs, &self.scaling.rows);
-        let convergence = fgmres(&mut system, rhs, &mut x, krylov, recycled);
+        if !same {
+            outer.carry_over(&mut system);
+        }
+        let convergence = fgmres(&mut system, rhs, &mut x, krylov, outer);
         scale(&mut x, &self.scaling.columns);
         rhs.copy_from_slice(&x);
         Ok(convergence)
@@ -144,22 +147,22 @@ pub(crate) fn multiply_transposed(pattern: &Pattern, values: &[f64], x: &[f64], 
 }
 
 /// Improves `x` until `A x = b` to the tolerance, by cycles of at most `restart` iterations. Begins in the space of the
-/// recycled directions, and adds its own to them.
+/// outer directions, and adds its own to them.
 pub(crate) fn fgmres(
     system: &mut impl System,
     b: &[f64],
     x: &mut [f64],
     krylov: &Krylov,
-    recycled: &mut Recycled,
+    outer: &mut Outer,
 ) -> Convergence {
     let goal = krylov.tolerance * norm(b);
-    let mut basis = Basis { outer: Outer::new(system, recycled), ..Basis::default() };
-    let mut residual = vec![0.0; b.len()];
-    subtract_from(system, b, x, &mut residual);
-    basis.outer.correct(&residual, x);
+    let mut residual = b.to_vec();
+    if x.iter().any(|x| *x != 0.0) {
+        subtract_from(system, b, x, &mut residual);
+    }
+    outer.correct(0, &mut residual, x);
     let mut iterations = 0;
     loop {
-        subtract_from(system, b, x, &mut residual);
         let size = norm(&residual);
         let relative_residual = if size == 0.0 { 0.0 } else { size / norm(b) };
         let done = Convergence { iterations, relative_residual, converged: size <= goal };
@@ -167,12 +170,15 @@ pub(crate) fn fgmres(
             return done;
         }
         let length = krylov.restart.max(1).min(krylov.iterations - iterations);
-        iterations += basis.cycle(system, &residual, size, goal, length);
-        let before = size;
-        let predicted = basis.add_correction(x);
-        recycled.keep(std::mem::take(&mut basis.z));
+        let mut basis = Basis::new(&residual, size);
+        iterations += basis.cycle((system, outer), goal, length);
+        let (known, predicted) = (outer.len(), basis.predicted());
+        basis.join(outer);
+        outer.correct(known, &mut residual, x);
+        outer.trim();
+        subtract_from(system, b, x, &mut residual);
         // A cycle that gains nothing will gain nothing when repeated.
-        if predicted > 0.99 * before {
+        if predicted > 0.99 * size {
             return Convergence { iterations, ..done };
         }
     }
@@ -188,7 +194,6 @@ fn subtract_from(system: &mut impl System, b: &[f64], x: &[f64], residual: &mut 
 /// with the rotated right-hand side `g`; `parts` holds what was taken out of every image along the outer space.
 #[derive(Default)]
 struct Basis {
-    outer: Outer,
     v: Vec<Vec<f64>>,
     z: Vec<Vec<f64>>,
     r: Vec<Vec<f64>>,
@@ -198,33 +203,40 @@ struct Basis {
 }
 
 impl Basis {
-    fn restart(&mut self, residual: &[f64], size: f64) {
-        let outer = std::mem::take(&mut self.outer);
+    /// Begins from a residual of this `size`.
+    fn new(residual: &[f64], size: f64) -> Self {
         let v = vec![residual.iter().map(|r| r / size).collect()];
-        *self = Basis { outer, g: vec![size], v, ..Default::default() };
+        Self { g: vec![size], v, ..Self::default() }
     }
 
-    /// Iterates from a residual of this `size` until its estimate is below the goal; returns the iterations made.
-    fn cycle(&mut self, system: &mut impl System, residual: &[f64], size: f64, goal: f64, length: usize) -> usize {
-        self.restart(residual, size);
+    /// Iterates until the estimate of the residual is below the goal; returns the iterations made.
+    fn cycle(&mut self, (system, outer): (&mut impl System, &Outer), goal: f64, length: usize) -> usize {
         for k in 0..length {
             let mut z = self.v[k].clone();
             system.precondition(&mut z);
             let mut w = vec![0.0; z.len()];
             system.multiply(&z, &mut w);
-            self.parts.push(self.outer.take_out(&mut w));
+            self.parts.push(outer.take_out(&mut w));
             let mut column = self.v.iter().map(|v| orthogonalise(&mut w, v)).collect::<Vec<_>>();
             let remainder = norm(&w);
             self.z.push(z);
             self.rotate(&mut column, remainder);
             self.r.push(column);
-            if self.g[k + 1].abs() <= goal || remainder == 0.0 || !remainder.is_finite() {
+            if remainder == 0.0 || !remainder.is_finite() {
                 return k + 1;
             }
             w.iter_mut().for_each(|w| *w /= remainder);
             self.v.push(w);
+            if self.predicted() <= goal {
+                return k + 1;
+            }
         }
         length
+    }
+
+    /// Estimate of the residual's norm.
+    fn predicted(&self) -> f64 {
+        self.g[self.g.len() - 1].abs()
     }
 
     /// Givens rotations that keep the Hessenberg matrix triangular.
@@ -241,16 +253,34 @@ impl Basis {
         self.g[k] *= c;
     }
 
-    /// Adds the combination of directions that makes the residual least; returns the norm of that residual.
-    fn add_correction(&mut self, x: &mut [f64]) -> f64 {
-        let predicted = self.g.pop().map_or(0.0, f64::abs);
-        for k in (0..self.g.len()).rev() {
-            let (column, pivot) = (&self.r[k], self.r[k][k]);
-            let y = if pivot == 0.0 { 0.0 } else { self.g[k] / pivot };
-            subtract(&mut self.g[..k], y, &column[..k]);
-            subtract(x, -y, &self.z[k]);
-            self.outer.put_back(&self.parts[k], y, x);
+    /// Adds its directions to the outer ones: with `H = Q R`, `A (Z - U parts) R^-1 = V Q`, whose columns are orthonormal.
+    fn join(self, outer: &mut Outer) {
+        let mut directions = Vec::<Vec<f64>>::new();
+        for (k, mut u) in self.z.into_iter().enumerate() {
+            let pivot = self.r[k][k];
+            if pivot == 0.0 || !pivot.is_finite() {
+                break;
+            }
+            outer.put_back(&self.parts[k], 1.0, &mut u);
+            directions.iter().zip(&self.r[k]).for_each(|(before, r)| subtract(&mut u, *r, before));
+            u.iter_mut().for_each(|u| *u /= pivot);
+            directions.push(u);
         }
-        predicted
+        for (k, u) in directions.into_iter().enumerate() {
+            let mut c = vec![0.0; u.len()];
+            let weights = column_of_q(&self.rotations, k);
+            self.v.iter().zip(weights).for_each(|(v, q)| subtract(&mut c, -q, v));
+            outer.add(u, c);
+        }
     }
+}
+
+/// Column `k` of the orthogonal factor whose transposed is the product of these rotations.
+fn column_of_q(rotations: &[(f64, f64)], k: usize) -> Vec<f64> {
+    let mut q = vec![0.0; rotations.len() + 1];
+    q[k] = 1.0;
+    for (i, &(c, s)) in rotations.iter().enumerate().take(k + 1).rev() {
+        (q[i], q[i + 1]) = (c * q[i] - s * q[i + 1], s * q[i] + c * q[i + 1]);
+    }
+    q
 }

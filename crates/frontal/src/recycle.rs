@@ -1,63 +1,75 @@
 //! Directions kept from one iterative solution to the next: matrices that differ from the factorised one in the same
 //! few places share most of what makes the preconditioner imperfect, so the old directions `U` solve the new system in
 //! part before the first substitution. With `C = A U` orthonormal, FGMRES works on `(I - C C^T) A` (de Sturler, J.
-//! Comput. Appl. Math. 67, 1996; Parks et al., SIAM J. Sci. Comput. 28, 2006). A direction costs one product with the
-//! matrix, about a tenth of a substitution in space.
+//! Comput. Appl. Math. 67, 1996; Parks et al., SIAM J. Sci. Comput. 28, 2006). For another right-hand side of the same
+//! matrix that costs two products of vectors a direction, for another matrix one product with it, about a tenth of a
+//! substitution in space.
 
 use crate::krylov::System;
 use crate::vector::{dot, norm, subtract};
 
-/// Directions kept at the most, the latest ones.
-const MOST: usize = 12;
+/// Directions kept for another matrix at the most, the latest ones,
+const OTHER: usize = 12;
+/// and for the same.
+const SAME: usize = 40;
 /// An image that keeps less than this of its length next to the others adds nothing.
 const DEPENDENT: f64 = 1e-8;
 
-/// Preconditioned directions of earlier solutions, oldest first.
+/// Directions `u` and their orthonormal images `c = A u` under the matrix at hand, oldest first.
 #[derive(Debug, Default)]
-pub(crate) struct Recycled(Vec<Vec<f64>>);
-
-impl Recycled {
-    pub fn keep(&mut self, directions: Vec<Vec<f64>>) {
-        self.0.extend(directions);
-        self.0.drain(..self.0.len().saturating_sub(MOST));
-    }
-
-    pub fn clear(&mut self) {
-        self.0.clear();
-    }
-}
-
-/// Directions `u` and their orthonormal images `c = A u` under the matrix at hand.
-#[derive(Default)]
 pub(crate) struct Outer {
     u: Vec<Vec<f64>>,
     c: Vec<Vec<f64>>,
 }
 
 impl Outer {
-    pub fn new(system: &mut impl System, recycled: &Recycled) -> Self {
-        let mut outer = Outer::default();
-        for direction in recycled.0.iter().rev() {
-            let (mut u, mut c) = (direction.clone(), vec![0.0; direction.len()]);
-            system.multiply(&u, &mut c);
-            let before = norm(&c);
-            let parts = outer.take_out(&mut c);
-            let length = norm(&c);
-            if length > DEPENDENT * before {
-                outer.put_back(&parts, 1.0, &mut u);
-                u.iter_mut().chain(&mut c).for_each(|x| *x /= length);
-                outer.u.push(u);
-                outer.c.push(c);
-            }
-        }
-        outer
+    pub fn clear(&mut self) {
+        *self = Self::default();
     }
 
-    /// Adds to `x` what makes the residual orthogonal to all images.
-    pub fn correct(&self, residual: &[f64], x: &mut [f64]) {
-        for (u, c) in self.u.iter().zip(&self.c) {
-            subtract(x, -dot(c, residual), u);
+    /// The same directions with their images under another matrix.
+    pub fn carry_over(&mut self, system: &mut impl System) {
+        let old = std::mem::take(self).u;
+        for mut u in old.into_iter().rev().take(OTHER) {
+            let mut c = vec![0.0; u.len()];
+            system.multiply(&u, &mut c);
+            let before = norm(&c);
+            let parts = self.take_out(&mut c);
+            let length = norm(&c);
+            if length > DEPENDENT * before {
+                self.put_back(&parts, 1.0, &mut u);
+                u.iter_mut().chain(&mut c).for_each(|x| *x /= length);
+                self.add(u, c);
+            }
         }
+        self.u.reverse();
+        self.c.reverse();
+    }
+
+    /// Takes in a direction and its image, of unit length and orthogonal to the others.
+    pub fn add(&mut self, u: Vec<f64>, c: Vec<f64>) {
+        self.u.push(u);
+        self.c.push(c);
+    }
+
+    /// Drops the oldest directions beyond those to keep.
+    pub fn trim(&mut self) {
+        let beyond = self.u.len().saturating_sub(SAME);
+        self.u.drain(..beyond);
+        self.c.drain(..beyond);
+    }
+
+    /// Adds to `x` the directions from `first` on as far as they make the residual orthogonal to their images.
+    pub fn correct(&self, first: usize, residual: &mut [f64], x: &mut [f64]) {
+        for (u, c) in self.u.iter().zip(&self.c).skip(first) {
+            let part = orthogonalise(residual, c);
+            subtract(x, -part, u);
+        }
+    }
+
+    /// Number of directions.
+    pub fn len(&self) -> usize {
+        self.u.len()
     }
 
     /// Takes the parts along the images out of `w`, and returns them.

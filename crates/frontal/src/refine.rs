@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::factor::Factor;
 use crate::krylov::{Krylov, System, fgmres, multiply, multiply_transposed};
 use crate::pattern::{Pattern, check_length};
-use crate::recycle::Recycled;
+use crate::recycle::Outer;
 use crate::solve::Workspace;
 
 /// A solution with a larger backward error than this is refused.
@@ -152,7 +152,7 @@ impl<'a> Refinement<'a> {
         }
         if accuracy.backward_error > ACCEPTABLE {
             let system = &mut Perturbed { factor: self.factor, side: self.side, work: &mut self.work };
-            accuracy.refinements += fgmres(system, b, &mut self.x, &LAST_RESORT, &mut Recycled::default()).iterations;
+            accuracy.refinements += fgmres(system, b, &mut self.x, &LAST_RESORT, &mut Outer::default()).iterations;
             accuracy.backward_error = self.backward_error(b);
         }
         if accuracy.backward_error <= ACCEPTABLE {

@@ -4,9 +4,13 @@ use crate::change::Change;
 use crate::error::Error;
 use crate::factor::{Factor, Report};
 use crate::krylov::{Convergence, Krylov};
-use crate::recycle::Recycled;
+use crate::recycle::Outer;
 use crate::refine::Accuracy;
 use crate::symbolic::{Prediction, Symbolic};
+
+/// Decades by which the affordable iterations must lower a residual, all together and those of one solution at the least.
+const DECADES: f64 = 9.0;
+const FEWEST: f64 = 3.0;
 
 /// How long a factor may serve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -83,7 +87,9 @@ pub struct Solver {
     /// Whether the factor may be used for the next matrix.
     usable: bool,
     /// Directions of the solutions since the factorisation.
-    recycled: Recycled,
+    outer: Outer,
+    /// Iterations spent on the matrix at hand.
+    spent: usize,
     /// What is known to have changed since.
     change: Option<Change>,
     counts: Counts,
@@ -93,8 +99,8 @@ impl Solver {
     /// Takes an analysis and makes room for one factor.
     pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
         let factor = symbolic.new_factor();
-        let (recycled, counts) = (Recycled::default(), Counts::default());
-        Solver { symbolic, factor, policy, usable: false, recycled, change: None, counts }
+        let (outer, counts) = (Outer::default(), Counts::default());
+        Solver { symbolic, factor, policy, usable: false, outer, spent: 0, change: None, counts }
     }
 
     /// The analysis.
@@ -156,20 +162,46 @@ impl Solver {
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Option<Convergence>, Error> {
-        let iterations = self.affordable_iterations();
+        self.spent = 0;
+        // With a change known a few iterations do, of which each takes less than the products with all earlier directions.
+        if self.change.is_some() {
+            self.outer.clear();
+        }
+        self.iterate_on((values, false), rhs, tolerance)
+    }
+
+    /// The same for another right-hand side with the matrix of the last call: what the directions found then do of it is
+    /// known without a substitution. Both together may take as many iterations as one alone.
+    ///
+    /// # Errors
+    /// As those of [`Solver::iterate`].
+    pub fn iterate_again(
+        &mut self,
+        values: &[f64],
+        rhs: &mut [f64],
+        tolerance: f64,
+    ) -> Result<Option<Convergence>, Error> {
+        self.iterate_on((values, true), rhs, tolerance)
+    }
+
+    fn iterate_on(
+        &mut self,
+        (values, same): (&[f64], bool),
+        rhs: &mut [f64],
+        tolerance: f64,
+    ) -> Result<Option<Convergence>, Error> {
+        let affordable = self.affordable_iterations();
+        let iterations = (affordable as f64 * (-tolerance.log10()).clamp(FEWEST, DECADES) / DECADES).ceil() as usize;
+        let iterations = iterations.min(affordable.saturating_sub(self.spent));
         if iterations == 0 {
             return Ok(None);
         }
         let mut x = rhs.to_vec();
         let krylov = Krylov { tolerance, iterations, restart: iterations };
-        let convergence = match &self.change {
-            // A few iterations do then, of which each takes less than the products with all earlier directions.
-            Some(change) => {
-                self.factor.solve_recycling((values, Some(change)), &mut x, &krylov, &mut Recycled::default())?
-            }
-            None => self.factor.solve_recycling((values, None), &mut x, &krylov, &mut self.recycled)?,
-        };
+        let system = (values, self.change.as_ref());
+        let convergence = self.factor.solve_recycling(system, &mut x, &krylov, (&mut self.outer, same))?;
         self.counts.iterations += convergence.iterations;
+        self.spent += convergence.iterations;
         if !convergence.converged {
             return Ok(None);
         }
@@ -184,7 +216,7 @@ impl Solver {
     /// Those of [`Symbolic::factorise`].
     pub fn factorise(&mut self, values: &[f64]) -> Result<Report, Error> {
         self.usable = false;
-        self.recycled.clear();
+        self.outer.clear();
         self.change = None;
         self.counts.factorisations += 1;
         let report = self.symbolic.factorise(values, &mut self.factor)?;

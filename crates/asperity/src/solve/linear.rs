@@ -95,6 +95,13 @@ pub trait LinearSolver: Send {
     fn iterate(&mut self, _values: &[f64], _rhs: &mut [f64], _tolerance: f64) -> Result<bool, LinearError> {
         Ok(false)
     }
+    /// The same for another right-hand side with the matrix of the last call, of which more is known then.
+    ///
+    /// # Errors
+    /// As those of [`iterate`](Self::iterate).
+    fn iterate_again(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
+        self.iterate(values, rhs, tolerance)
+    }
 }
 
 /// The multifrontal solver of the crate `frontal`.
@@ -189,5 +196,9 @@ impl LinearSolver for Frontal {
 
     fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
         self.solver()?.iterate(values, rhs, tolerance).map(|found| found.is_some()).map_err(translate)
+    }
+
+    fn iterate_again(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
+        self.solver()?.iterate_again(values, rhs, tolerance).map(|found| found.is_some()).map_err(translate)
     }
 }

@@ -1,6 +1,7 @@
 //! The procedure: increments, attempts, Newton's iterations. It sees the discrete system and the linear solver only;
 //! it knows neither mechanics nor contact.
 
+mod bend;
 mod convergence;
 mod free;
 mod influences;

@@ -234,11 +234,15 @@ impl<'a> Newton<'a> {
                 (stalls, _) = (0, self.solver.refuse());
             }
             self.complete(&u, missing.as_deref())?;
-            let motion = self.linearise((iteration, &u), missing.as_deref(), forcing(norms.ratio, ratio))?;
+            let motion =
+                self.linearise((iteration, &u), missing.as_deref(), forcing(norms.ratio, ratio, norms.allowed))?;
             let tangent = self.wanted(&norms, ratio);
             (factorised, ratio) = (motion.factorised, norms.ratio);
             let from = u.clone();
             taken = self.advance(&mut u, (&motion, tangent), missing.as_deref())?;
+            if taken < motion.part && !factorised {
+                self.solver.refuse();
+            }
             let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0_f64, |m, x| m.max(x.abs()));
             let change = largest(&mut u.iter().zip(&self.state.u).map(|(a, b)| a - b));
             correction = largest(&mut u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);

@@ -115,19 +115,57 @@ impl<'a> Piecewise<'a> {
                 stride *= 0.25;
             }
         }
+        self.y = self.coordinates(part);
         Ok((part >= ENOUGH).then_some(part))
     }
 
-    /// Puts the same part of the step right again, now that the step is known to be `du`; false where that fails.
+    /// Puts the same part of the step right again, now that the step is known to be `du` where `before` were the stresses
+    /// until the last time; false where that fails.
     ///
     /// # Errors
     /// As those of [`settle`](Self::settle).
-    pub fn settle_again(&mut self, part: f64, du: &[f64], factored: Factored) -> Result<bool, Failure> {
-        for ((kink, beyond), y) in self.site.kinks.list().iter().zip(&mut self.beyond).zip(&self.y) {
+    pub fn settle_again(
+        &mut self,
+        (part, before): (f64, &[f64]),
+        du: &[f64],
+        factored: Factored,
+    ) -> Result<bool, Failure> {
+        let gap = self.gap(du);
+        self.learn(before, &gap);
+        let (influences, solver) = factored;
+        Ok(self.settle_part((part, Steps::Whole), (influences, solver))?
+            || self.settle_part((part, Steps::Searched), (influences, solver))?)
+    }
+
+    /// The stresses that were put right last.
+    pub fn left(&self) -> &[f64] {
+        &self.left
+    }
+
+    /// What the coordinates of the step `du` are beyond those that were found for it.
+    fn gap(&self, du: &[f64]) -> Vec<Coordinates> {
+        let mut gap = vec![Coordinates::default(); self.y.len()];
+        for ((kink, gap), y) in self.site.kinks.list().iter().zip(&mut gap).zip(&self.y) {
             let change = self.site.kinks.along(kink, du);
-            (0..kink.count).for_each(|c| beyond[c] += kink.y[c] + change[c] - y[c]);
+            (0..kink.count).for_each(|c| gap[c] = kink.y[c] + change[c] - y[c]);
         }
-        self.settle_part((part, Steps::Whole), factored)
+        gap
+    }
+
+    /// Has `S` say of the last change of the stresses what came of it, with the least change of `S` (Broyden, Math. Comp.
+    /// 19, 1965).
+    fn learn(&mut self, before: &[f64], gap: &[Coordinates]) {
+        let before = before.iter().copied().chain(std::iter::repeat(0.0));
+        let change: Vec<f64> = self.left.iter().zip(before).map(|(now, before)| now - before).collect();
+        let square: f64 = change.iter().map(|c| c * c).sum();
+        if square == 0.0 {
+            return add(&mut self.beyond, 1.0, gap);
+        }
+        for (influence, change) in self.influence.iter_mut().zip(&change) {
+            add(influence, -change / square, gap);
+        }
+        let said: f64 = change.iter().zip(&self.left).map(|(change, left)| change * left).sum();
+        add(&mut self.beyond, 1.0 - said / square, gap);
     }
 
     /// The forces that the step `du` leaves because its stresses are not those that were put right.

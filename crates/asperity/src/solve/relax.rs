@@ -108,7 +108,7 @@ impl Newton<'_> {
         let (rough, mut ratio) = (u.clone(), self.measure().ratio);
         for _ in 0..FEW {
             let iterated = self
-                .linearise((0, u), None, forcing(ratio, 1.0))
+                .linearise((0, u), None, forcing(ratio, 1.0, 0.0))
                 .and_then(|m| Ok(self.advance(u, (&m, self.tangent()), None)?));
             let norms = self.measure();
             if iterated.is_err() || norms.ratio > ratio.max(norms.allowed) {
@@ -147,7 +147,7 @@ impl Newton<'_> {
             if iteration == ITERATIONS || !norms.ratio.is_finite() {
                 break;
             }
-            let motion = self.linearise((iteration, u), missing.as_deref(), forcing(norms.ratio, ratio))?;
+            let motion = self.linearise((iteration, u), missing.as_deref(), forcing(norms.ratio, ratio, 0.0))?;
             ratio = norms.ratio;
             let taken = self.advance(u, (&motion, self.tangent()), missing.as_deref())?;
             *missing = missing.take().filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());

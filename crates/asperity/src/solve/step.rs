@@ -1,22 +1,18 @@
 //! One step of Newton's method: the linear system, what bends over its solution, and how far to go along it.
 
 use super::influences::{Matrix, Site};
-use super::linear::{LinearError, LinearSolver};
+use super::linear::LinearError;
 use super::newton::{Newton, Trouble, Variant};
-use super::piecewise::Piecewise;
 use crate::Failure;
-use crate::system::{Constraints, Dofs, Tangent};
+use crate::system::{Dofs, Tangent};
 
 /// Slope, as a part of the initial one, at which the search for a shorter step ends.
 const GOOD: f64 = 0.8;
 /// Bounds of what an iterative solution may leave of its right-hand side.
 const LOOSEST: f64 = 1e-3;
-const TIGHTEST: f64 = 1e-8;
-/// The same where forces are much smaller than the unbalanced ones.
-const LOOSE: f64 = 0.1;
-/// Part of the unbalanced forces that stencils which bend may leave, and what asking them again must lower that to.
-const LEFT: f64 = 0.02;
-const GAIN: f64 = 0.5;
+pub(super) const TIGHTEST: f64 = 1e-8;
+/// Part of the unbalanced forces allowed at the end that it may always leave.
+const ENOUGH: f64 = 0.01;
 /// Shortest step of the line search.
 const SHORTEST: f64 = 0.01;
 /// A step is at most a cell long, or this multiple of what was moved in the increment so far and what is still missing,
@@ -32,51 +28,6 @@ pub(super) struct Motion {
     pub part: f64,
     /// Whether a matrix was factorised for it.
     pub factorised: bool,
-}
-
-/// The linear system of an iteration, to be solved to a part `forcing` of the unbalanced forces of this `size`, or by the
-/// factor alone where that is its own.
-struct Loose<'a> {
-    constraints: &'a Constraints,
-    values: &'a [f64],
-    size: f64,
-    forcing: Option<f64>,
-}
-
-impl Loose<'_> {
-    fn gather(&self, forces: &[f64]) -> Vec<f64> {
-        let mut free = vec![0.0; self.constraints.free_count()];
-        self.constraints.gather(forces, &mut free);
-        free
-    }
-
-    /// Size of forces on the free unknowns.
-    fn size_of(&self, forces: &[f64]) -> f64 {
-        norm(&self.gather(forces))
-    }
-
-    /// Takes out of a step what forces do, with a fresh factor where the old one does not serve.
-    fn push(&self, forces: &[f64], solver: &mut dyn LinearSolver, motion: &mut Motion) -> Result<(), LinearError> {
-        let mut rhs = self.gather(forces);
-        let iterated = match self.forcing {
-            Some(forcing) => {
-                let tolerance = (forcing * self.size / norm(&rhs).max(f64::MIN_POSITIVE)).clamp(TIGHTEST, LOOSE);
-                let iterated = solver.iterate(self.values, &mut rhs, tolerance)?;
-                if !iterated {
-                    solver.factorise(self.values)?;
-                    motion.factorised = true;
-                }
-                iterated
-            }
-            None => false,
-        };
-        if !iterated {
-            solver.solve(&mut rhs)?;
-        }
-        rhs.iter_mut().for_each(|dq| *dq = -*dq);
-        self.constraints.expand(&rhs, &mut motion.du);
-        Ok(())
-    }
 }
 
 impl Newton<'_> {
@@ -108,47 +59,6 @@ impl Newton<'_> {
         self.limit(u, missing, &mut motion);
         self.memory.mixed.aim(&self.assembly, &self.memory.kinks, &motion.du)?;
         Ok(motion)
-    }
-
-    /// Puts the linear step right for the stencils that bend over it. What they do by an old factor is known roughly; the
-    /// solution with the matrix then tells what they do, until they leave little of the unbalanced forces of this `size`.
-    /// False where that does not come about.
-    fn bend(&mut self, size: f64, motion: &mut Motion, forcing: f64) -> Result<bool, Trouble> {
-        let (constraints, memory) = (&self.step.constraints, &mut *self.memory);
-        let mut piecewise = Piecewise::new(Site::of(&self.assembly, &memory.kinks), &motion.du)?;
-        let settled = piecewise.settle((&mut memory.influences, self.solver))?;
-        let Some(part) = settled.filter(|_| piecewise.bends()) else { return Ok(true) };
-        motion.du.iter_mut().for_each(|du| *du *= part);
-        motion.part = part;
-        let exact = motion.factorised || self.problem.newton.variant != Variant::Full;
-        let system = Loose { constraints, values: &self.evaluation.values, size, forcing: (!exact).then_some(forcing) };
-        let (mut before, mut missed) = (vec![0.0; motion.du.len()], f64::INFINITY);
-        loop {
-            let forces = piecewise.forces(before.len());
-            let more: Vec<f64> = forces.iter().zip(&before).map(|(now, before)| now - before).collect();
-            if let Err(error) = system.push(&more, self.solver, motion) {
-                return Err(self.explain(error, 1));
-            }
-            if exact {
-                return Ok(true);
-            }
-            if motion.factorised {
-                memory.influences.forget();
-                memory.factorisations += 1;
-                return Ok(true);
-            }
-            let now = system.size_of(&piecewise.miss(&motion.du)?);
-            if now <= LEFT * size {
-                return Ok(true);
-            }
-            (before, missed) = match now <= GAIN * missed {
-                true => (forces, now),
-                false => return Ok(false),
-            };
-            if !piecewise.settle_again(part, &motion.du, (&mut memory.influences, self.solver))? {
-                return Ok(false);
-            }
-        }
     }
 
     /// Shortens a step that leads far beyond what the increment moves: something is then free that a shorter step may
@@ -319,15 +229,17 @@ impl Newton<'_> {
     }
 }
 
-fn norm(x: &[f64]) -> f64 {
+pub(super) fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Residual of an iterative solution over its right-hand side, from the unbalanced forces now and an iteration before:
 /// what the linear system leaves is no more than what the next iteration finds anyway, so that the order stays
-/// quadratic (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996, their second choice).
-pub(super) fn forcing(now: f64, before: f64) -> f64 {
-    (now / before.max(f64::MIN_POSITIVE)).powi(2).clamp(TIGHTEST, LOOSEST)
+/// quadratic (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996, their second choice). Nor need it be less than a small
+/// part of what is `allowed` at the end.
+pub(super) fn forcing(now: f64, before: f64, allowed: f64) -> f64 {
+    let enough = ENOUGH * allowed / now.max(f64::MIN_POSITIVE);
+    (now / before.max(f64::MIN_POSITIVE)).powi(2).max(enough).clamp(TIGHTEST, LOOSEST)
 }
 
 /// For each free unknown, its node or tool, numbered as they come.

@@ -92,8 +92,10 @@ impl Placed<'_> {
 
     /// Whether the averaged normal at a point looks to the side to which its face looks.
     pub fn is_upright(&self, spot: &SurfacePoint) -> bool {
-        let (_, [g1, g2]) = spot.place(&self.x[..self.face.nodes.len()]);
-        self.field.as_ref().is_none_or(|field| field.sum(&spot.n).dot(g2.cross(g1)) > 0.0)
+        self.field.as_ref().is_none_or(|field| {
+            let (_, [g1, g2]) = spot.place(&self.x[..self.face.nodes.len()]);
+            field.sum(&spot.n).dot(g2.cross(g1)) > 0.0
+        })
     }
 
     /// Changes of the tangents of its own that a node's motion along an axis makes at a point; none for nodes around it.

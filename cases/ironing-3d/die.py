@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes coarse.msh and fine.msh: half of a half-cylinder shell of hex20 about the axis y, from radius 1.5 to 3 and 2.6
-long, its lowest line 0.01 above z = 0."""
+"""Writes coarse.msh, fine.msh and finest.msh: half of a half-cylinder shell of hex20 about the axis y, from radius 1.5 to 3
+and 2.6 long, its lowest line 0.01 above z = 0."""
 import math
 
 INNER, OUTER, LENGTH, X, Z = 1.5, 3.0, 2.6, 2.5, 3.01
@@ -61,3 +61,4 @@ def write(name, cells):
 
 write("coarse.msh", (2, 3, 12))
 write("fine.msh", (3, 4, 18))
+write("finest.msh", (4, 6, 27))

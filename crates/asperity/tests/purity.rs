@@ -94,11 +94,12 @@ proptest! {
         let model = model(DECK, &coarse(&[]));
         let begun = go_on(&model, model.problem.initial_state(), Some(k));
         let mut start = begun.states.last().unwrap().clone();
-        let failed = faulty_increment(&model.problem, start.clone(), factorisation);
+        let faulty = |at| Faulty { at, ..Faulty::default() };
+        let failed = faulty_increment(&model.problem, start.clone(), faulty(factorisation));
         // An increment that needs fewer solutions does not meet the fault.
         prop_assume!(failed.attempts == start.attempts + 2);
         start.next_dt *= 0.5;
-        let direct = faulty_increment(&model.problem, start, usize::MAX);
+        let direct = faulty_increment(&model.problem, start, faulty(usize::MAX));
         let counted = State { attempts: direct.attempts, iterations: direct.iterations, ..failed };
         prop_assert!(bytes(&counted) == bytes(&direct));
     }
@@ -113,18 +114,28 @@ fn through_a_file(state: &State) -> State {
     checkpoint::load(&path, &input).unwrap().1
 }
 
+/// Far from equilibrium a stiffness may overflow: the increment is cut, the run goes on.
+#[test]
+fn a_stiffness_that_is_not_finite_cuts_the_increment() {
+    let model = model(DECK, &coarse(&[]));
+    let faulty = Faulty { at: 2, poisoned: true, ..Faulty::default() };
+    let state = faulty_increment(&model.problem, model.problem.initial_state(), faulty);
+    assert_eq!((state.attempts, state.increment), (2, 1));
+}
+
 /// The state after one increment with a solver that gives up once.
-fn faulty_increment(problem: &asperity::solve::Problem, start: State, at: usize) -> State {
-    let mut run = Run::new(problem, start, Box::new(Faulty { at, ..Faulty::default() }));
+fn faulty_increment(problem: &asperity::solve::Problem, start: State, faulty: Faulty) -> State {
+    let mut run = Run::new(problem, start, Box::new(faulty));
     run.run(&RunOptions { increments: Some(1) }, &mut Silent).unwrap();
     run.state
 }
 
-/// A solver that calls its `at`-th matrix singular, and all that follow in the same attempt.
+/// A solver that calls its `at`-th matrix singular, or is given a poisoned one, and all that follow in the same attempt.
 #[derive(Default)]
 struct Faulty {
     solver: Frontal,
     at: usize,
+    poisoned: bool,
     factorisations: usize,
     broken: bool,
     unknowns: usize,
@@ -138,6 +149,9 @@ impl LinearSolver for Faulty {
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
         self.factorisations += 1;
         self.broken |= self.factorisations == self.at;
+        if self.broken && self.poisoned {
+            return self.solver.factorise(&vec![f64::NAN; values.len()]);
+        }
         if self.broken {
             let everything = vec![1.0; self.unknowns];
             return Err(LinearError::Singular(vec![everything]));

@@ -11,6 +11,8 @@ pub enum LinearError {
     Singular(Vec<Vec<f64>>),
     /// The matrix is so nearly singular that its solution is not accurate; how much, in words.
     Inaccurate(String),
+    /// A value of the matrix or of the right-hand side is infinite or not a number, as far from equilibrium.
+    NotFinite(String),
     /// Anything else, in words.
     Other(String),
 }
@@ -19,7 +21,7 @@ impl fmt::Display for LinearError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular(_) => f.write_str("the matrix is singular"),
-            Self::Inaccurate(text) | Self::Other(text) => f.write_str(text),
+            Self::Inaccurate(text) | Self::NotFinite(text) | Self::Other(text) => f.write_str(text),
         }
     }
 }
@@ -133,6 +135,7 @@ fn translate(error: frontal::Error) -> LinearError {
         frontal::Error::Inaccurate { backward_error, .. } => {
             LinearError::Inaccurate(format!("the matrix is nearly singular: a backward error of {backward_error:.1e}"))
         }
+        frontal::Error::NotFinite { .. } => LinearError::NotFinite("the stiffness is not finite".into()),
         other => LinearError::Other(other.to_string()),
     }
 }

@@ -70,7 +70,9 @@ impl Newton<'_> {
     pub(super) fn explain(&self, error: LinearError, iteration: usize) -> Trouble {
         let motions = match &error {
             LinearError::Singular(motions) => motions,
-            LinearError::Inaccurate(_) | LinearError::NotFinite(_) => return Trouble::Failure(Failure::new(error.to_string())),
+            LinearError::Inaccurate(_) | LinearError::NotFinite(_) => {
+                return Trouble::Failure(Failure::new(error.to_string()));
+            }
             LinearError::Other(_) => return Trouble::Error(Error::Internal(error.to_string())),
         };
         let text = self.name_motions(motions).join("; ");

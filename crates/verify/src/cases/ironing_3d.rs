@@ -13,8 +13,11 @@ pub const CASE: Case = Case { name: "ironing-3d", measure };
 const SLIDING: f64 = 1.61;
 
 /// Meshes: name, file of the die, cells of the block.
-const MESHES: [[&str; 3]; 3] =
-    [["coarse", "coarse.msh", "[12, 3, 4]"], ["fine", "fine.msh", "[18, 4, 6]"], ["finest", "finest.msh", "[27, 6, 9]"]];
+const MESHES: [[&str; 3]; 3] = [
+    ["coarse", "coarse.msh", "[12, 3, 4]"],
+    ["fine", "fine.msh", "[18, 4, 6]"],
+    ["finest", "finest.msh", "[27, 6, 9]"],
+];
 
 /// Forces on the half block at a place of the drag.
 struct Moment {

@@ -5,8 +5,8 @@
 
 use crate::factor::Factor;
 use crate::full::Full;
-use crate::solve::Workspace;
-use crate::vector::subtract;
+use crate::solve::{Halves, Workspace};
+use crate::vector::{Number, subtract};
 
 /// Numbers at some unknowns.
 pub type Sparse = Vec<(usize, f64)>;
@@ -45,27 +45,46 @@ impl Change {
     }
 }
 
-impl Factor {
+impl<T: Number> Halves<'_, T> {
     /// `x <- (A + U V^T)^-1 x` for the equilibrated matrix. The second substitution begins where the first turned round.
-    pub(crate) fn substitute_changed(&self, change: &Change, x: &mut [f64], work: &mut Workspace) {
-        let position = |unknown: usize| self.symbolic.tree.position[unknown];
+    pub fn substitute_changed(&self, change: &Change, x: &mut [f64], work: &mut Workspace) {
+        let Factor { symbolic, scaling, .. } = self.factor;
+        let position = |unknown: usize| symbolic.tree.position[unknown];
         let at = |list: &[Sparse]| list.iter().flatten().map(|&(unknown, _)| position(unknown)).collect::<Vec<_>>();
         let (from, to) = (at(&change.columns), at(&change.rows));
-        self.permuted(x, work, |factor, work| {
-            factor.forward(work);
+        self.factor.permuted(x, work, |work| {
+            self.forward(work);
             let halfway = work.vectors().to_vec();
-            factor.backward_to(&to, work);
+            self.backward_to(&to, work);
             let x = work.vectors();
-            let weights = change.weights(|unknown| x[position(unknown) as usize] * factor.scaling.columns[unknown]);
+            let weights = change.weights(|unknown| x[position(unknown) as usize] * scaling.columns[unknown]);
             x.fill(0.0);
             for (column, weight) in change.columns.iter().zip(weights) {
                 for &(unknown, value) in column {
-                    x[position(unknown) as usize] -= weight * value * factor.scaling.rows[unknown];
+                    x[position(unknown) as usize] -= weight * value * scaling.rows[unknown];
                 }
             }
-            factor.forward_from(&from, work);
+            self.forward_from(&from, work);
             subtract(work.vectors(), -1.0, &halfway);
-            factor.backward(work);
+            self.backward(work);
         });
+    }
+}
+
+/// What a factor is taken with.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Preconditioner<'a> {
+    /// In single precision.
+    pub single: Option<Halves<'a, f32>>,
+    /// Put right for this.
+    pub change: Option<&'a Change>,
+}
+
+impl<T: Number> Halves<'_, T> {
+    pub fn precondition(&self, change: Option<&Change>, x: &mut [f64], work: &mut Workspace) {
+        match change {
+            Some(change) => self.substitute_changed(change, x, work),
+            None => self.substitute(x, work),
+        }
     }
 }

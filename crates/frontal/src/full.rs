@@ -1,7 +1,7 @@
 //! A full matrix of moderate size, factorised by the kernels of the fronts.
 
 use crate::dense::{Panel, Pivot, PivotRule};
-use crate::solve::{Panels, backward_transposed, forward_transposed};
+use crate::panels::{Panels, backward_transposed, forward_transposed};
 use pulp::Arch;
 
 /// A full matrix `A`, factorised with partial pivoting. What is stored is `P A^T = L U`: the rows of `A` are the columns

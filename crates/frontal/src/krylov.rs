@@ -1,6 +1,6 @@
 //! FGMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by a factor, within a recycled outer space.
 
-use crate::change::Change;
+use crate::change::Preconditioner;
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
@@ -47,14 +47,19 @@ impl Factor {
     /// # Errors
     /// [`Error::NotFactorised`], [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, Error> {
-        self.solve_recycling((values, None), rhs, krylov, (&mut Outer::default(), true))
+        self.solve_recycling(
+            (values, Preconditioner { single: None, change: None }),
+            rhs,
+            krylov,
+            (&mut Outer::default(), true),
+        )
     }
 
     /// The same with a preconditioner put right for a change, beginning in the space of the directions of earlier
     /// solutions, with the `same` matrix or with another; its own are added to them.
     pub(crate) fn solve_recycling(
         &self,
-        (values, change): (&[f64], Option<&Change>),
+        (values, preconditioner): (&[f64], Preconditioner),
         rhs: &mut [f64],
         krylov: &Krylov,
         (outer, same): (&mut Outer, bool),
@@ -68,7 +73,8 @@ impl Factor {
         }
         pattern.check_finite(values)?;
         check_finite(rhs, pattern.len())?;
-        let mut system = OtherValues { factor: self, values, change, work: Workspace::new(self), scaled: rhs.to_vec() };
+        let (work, scaled) = (Workspace::new(self), rhs.to_vec());
+        let mut system = OtherValues { factor: self, values, preconditioner, work, scaled };
         let mut x = vec![0.0; rhs.len()];
         scale(rhs, &self.scaling.rows);
         if !same {
@@ -93,7 +99,7 @@ pub(crate) trait System {
 struct OtherValues<'a> {
     factor: &'a Factor,
     values: &'a [f64],
-    change: Option<&'a Change>,
+    preconditioner: Preconditioner<'a>,
     work: Workspace,
     scaled: Vec<f64>,
 }
@@ -107,9 +113,10 @@ impl System for OtherValues<'_> {
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
-        match self.change {
-            Some(change) => self.factor.substitute_changed(change, x, &mut self.work),
-            None => self.factor.substitute(x, &mut self.work),
+        let Preconditioner { single, change } = self.preconditioner;
+        match single {
+            Some(single) => single.precondition(change, x, &mut self.work),
+            None => self.factor.halves().precondition(change, x, &mut self.work),
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Not factorising at all when an old factor will do.
 
-use crate::change::Change;
+use crate::change::{Change, Preconditioner};
 use crate::error::Error;
 use crate::factor::{Factor, Report};
 use crate::krylov::{Convergence, Krylov};
 use crate::recycle::Outer;
 use crate::refine::Accuracy;
+use crate::rounded::Rounded;
 use crate::symbolic::{Prediction, Symbolic};
 
 /// Decades by which the affordable iterations must lower a residual, all together and those of one solution at the least.
@@ -88,6 +89,8 @@ pub struct Solver {
     usable: bool,
     /// Directions of the solutions since the factorisation.
     outer: Outer,
+    /// The factor in single precision, which is enough to precondition.
+    rounded: Rounded,
     /// Iterations spent on the matrix at hand.
     spent: usize,
     /// What is known to have changed since.
@@ -99,8 +102,8 @@ impl Solver {
     /// Takes an analysis and makes room for one factor.
     pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
         let factor = symbolic.new_factor();
-        let (outer, counts) = (Outer::default(), Counts::default());
-        Solver { symbolic, factor, policy, usable: false, outer, spent: 0, change: None, counts }
+        let (outer, rounded, counts) = (Outer::default(), Rounded::default(), Counts::default());
+        Solver { symbolic, factor, policy, usable: false, outer, rounded, spent: 0, change: None, counts }
     }
 
     /// The analysis.
@@ -198,7 +201,9 @@ impl Solver {
         }
         let mut x = rhs.to_vec();
         let krylov = Krylov { tolerance, iterations, restart: iterations };
-        let system = (values, self.change.as_ref());
+        let preconditioner =
+            Preconditioner { single: self.rounded.of(&self.factor, rhs), change: self.change.as_ref() };
+        let system = (values, preconditioner);
         let convergence = self.factor.solve_recycling(system, &mut x, &krylov, (&mut self.outer, same))?;
         self.counts.iterations += convergence.iterations;
         self.spent += convergence.iterations;
@@ -217,6 +222,7 @@ impl Solver {
     pub fn factorise(&mut self, values: &[f64]) -> Result<Report, Error> {
         self.usable = false;
         self.outer.clear();
+        self.rounded.forget();
         self.change = None;
         self.counts.factorisations += 1;
         let report = self.symbolic.factorise(values, &mut self.factor)?;

@@ -2,8 +2,10 @@
 
 use crate::assembly_tree::Front;
 use crate::factor::Factor;
-use crate::vector::{dot, dot_four, subtract, subtract_four};
-use pulp::Arch;
+use crate::panels::{Backward, BackwardTransposed, Forward, ForwardTransposed, Panels, SparseForward, Step};
+use crate::vector::Number;
+use pulp::{Arch, NullaryFnOnce};
+use std::marker::PhantomData;
 
 /// Working memory of a solve, in elimination order.
 pub(crate) struct Workspace {
@@ -41,207 +43,118 @@ impl Workspace {
 }
 
 impl Factor {
+    /// The factors as they were found.
+    pub(crate) fn halves(&self) -> Halves<'_, f64> {
+        Halves { factor: self, entries: &self.factors }
+    }
+
     /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included.
     pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
-        self.permuted(x, work, |factor, work| {
-            factor.forward(work);
-            factor.backward(work);
-        });
-    }
-
-    /// The first half of a substitution, in elimination order.
-    pub(crate) fn forward(&self, work: &mut Workspace) {
-        self.symbolic.tree.fronts.iter().for_each(|front| self.at_front(front, work, forward));
-    }
-
-    /// The second half.
-    pub(crate) fn backward(&self, work: &mut Workspace) {
-        self.symbolic.tree.fronts.iter().rev().for_each(|front| self.at_front(front, work, backward));
-    }
-
-    /// The first half where only the entries `from` are not zero.
-    pub(crate) fn forward_from(&self, from: &[u32], work: &mut Workspace) {
-        let fronts = self.symbolic.tree.fronts.iter().zip(self.symbolic.tree.above(from));
-        for (front, _) in fronts.filter(|(_, reached)| *reached) {
-            self.at_front(front, work, |panels, x| {
-                if x[..panels.p].iter().any(|x| *x != 0.0) {
-                    forward(panels, x);
-                }
-            });
-        }
-    }
-
-    /// The second half where only the entries `to` are needed.
-    pub(crate) fn backward_to(&self, to: &[u32], work: &mut Workspace) {
-        let fronts = self.symbolic.tree.fronts.iter().zip(self.symbolic.tree.above(to));
-        for (front, _) in fronts.rev().filter(|(_, needed)| *needed) {
-            self.at_front(front, work, backward);
-        }
+        self.halves().substitute(x, work);
     }
 
     /// `x <- A^-T x`.
     pub(crate) fn substitute_transposed(&self, x: &mut [f64], work: &mut Workspace) {
-        self.permuted(x, work, |factor, work| {
-            for front in &factor.symbolic.tree.fronts {
-                factor.at_front(front, work, forward_transposed);
+        let halves = self.halves();
+        self.permuted(x, work, |work| {
+            for front in &self.symbolic.tree.fronts {
+                halves.at_front::<ForwardTransposed>(front, work);
             }
-            for front in factor.symbolic.tree.fronts.iter().rev() {
-                factor.at_front(front, work, backward_transposed);
+            for front in self.symbolic.tree.fronts.iter().rev() {
+                halves.at_front::<BackwardTransposed>(front, work);
             }
         });
     }
 
-    pub(crate) fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&Self, &mut Workspace)) {
+    pub(crate) fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&mut Workspace)) {
         let order = &self.symbolic.tree.order;
         work.x.iter_mut().zip(order).for_each(|(permuted, &unknown)| *permuted = x[unknown as usize]);
-        solve(self, work);
+        solve(work);
         work.x.iter().zip(order).for_each(|(permuted, &unknown)| x[unknown as usize] = *permuted);
+    }
+}
+
+/// The two halves of a substitution, in elimination order, by factors in this precision.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Halves<'a, T> {
+    pub factor: &'a Factor,
+    pub entries: &'a [T],
+}
+
+impl<T: Number> Halves<'_, T> {
+    /// `x <- A^-1 x`.
+    pub fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
+        self.factor.permuted(x, work, |work| {
+            self.forward(work);
+            self.backward(work);
+        });
+    }
+
+    /// The first half.
+    pub fn forward(&self, work: &mut Workspace) {
+        self.factor.symbolic.tree.fronts.iter().for_each(|front| self.at_front::<Forward>(front, work));
+    }
+
+    /// The second half.
+    pub fn backward(&self, work: &mut Workspace) {
+        self.factor.symbolic.tree.fronts.iter().rev().for_each(|front| self.at_front::<Backward>(front, work));
+    }
+
+    /// The first half where only the entries `from` are not zero.
+    pub fn forward_from(&self, from: &[u32], work: &mut Workspace) {
+        let tree = &self.factor.symbolic.tree;
+        for (front, _) in tree.fronts.iter().zip(tree.above(from)).filter(|(_, reached)| *reached) {
+            self.at_front::<SparseForward>(front, work);
+        }
+    }
+
+    /// The second half where only the entries `to` are needed.
+    pub fn backward_to(&self, to: &[u32], work: &mut Workspace) {
+        let tree = &self.factor.symbolic.tree;
+        for (front, _) in tree.fronts.iter().zip(tree.above(to)).rev().filter(|(_, needed)| *needed) {
+            self.at_front::<Backward>(front, work);
+        }
     }
 
     /// The factors of a front.
-    pub(crate) fn panels(&self, front: &Front) -> Panels<'_> {
-        let (left, right) = self.factors[front.factor_range()].split_at(front.size() * front.pivots);
-        let pivots = &self.pivots[front.pivot_range()];
+    pub fn panels(&self, front: &Front) -> Panels<'_, T> {
+        let (left, right) = self.entries[front.factor_range()].split_at(front.size() * front.pivots);
+        let pivots = &self.factor.pivots[front.pivot_range()];
         Panels { left, right, pivots, m: front.size(), p: front.pivots, symmetric: front.symmetric }
     }
 
-    /// Gathers the unknowns of a front, pivots first, lets `step` work on them and scatters them.
-    pub(crate) fn at_front(&self, front: &Front, work: &mut Workspace, step: impl Fn(&Panels, &mut [f64])) {
-        let tree = &self.symbolic.tree;
+    /// Gathers the unknowns of a front, pivots first, takes a step on them and scatters them.
+    pub fn at_front<S: Step>(&self, front: &Front, work: &mut Workspace) {
+        let symbolic = &self.factor.symbolic;
         let panels = self.panels(front);
-        for x in work.x.chunks_exact_mut(self.symbolic.pattern.len()) {
+        for x in work.x.chunks_exact_mut(symbolic.pattern.len()) {
             let local = &mut work.local[..front.size()];
             let (top, border) = local.split_at_mut(front.pivots);
             top.copy_from_slice(&x[front.pivot_range()]);
-            for (value, &row) in border.iter_mut().zip(tree.rows(front)) {
+            for (value, &row) in border.iter_mut().zip(symbolic.tree.rows(front)) {
                 *value = x[row as usize];
             }
-            Arch::new().dispatch(|| step(&panels, local));
+            Arch::new().dispatch(At { panels: &panels, x: local, step: PhantomData::<S> });
             let (top, border) = local.split_at(front.pivots);
             x[front.pivot_range()].copy_from_slice(top);
-            for (value, &row) in border.iter().zip(tree.rows(front)) {
+            for (value, &row) in border.iter().zip(symbolic.tree.rows(front)) {
                 x[row as usize] = *value;
             }
         }
     }
 }
 
-/// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) has `m - p` rows and is missing if
-/// the matrix is symmetric.
-pub(crate) struct Panels<'a> {
-    pub left: &'a [f64],
-    pub right: &'a [f64],
-    pub pivots: &'a [crate::dense::Pivot],
-    pub m: usize,
-    pub p: usize,
-    pub symmetric: bool,
+/// A step at the unknowns of one front.
+struct At<'a, T, S> {
+    panels: &'a Panels<'a, T>,
+    x: &'a mut [f64],
+    step: PhantomData<S>,
 }
 
-impl Panels<'_> {
-    fn left(&self, k: usize) -> &[f64] {
-        &self.left[self.m * k..self.m * (k + 1)]
+impl<T: Number, S: Step> NullaryFnOnce for At<'_, T, S> {
+    type Output = ();
+    #[inline(always)]
+    fn call(self) {
+        S::run(self.panels, self.x);
     }
-
-    /// Row `k` of U12, as a factor and a column to be multiplied with it.
-    fn right(&self, k: usize) -> (f64, &[f64]) {
-        let border = self.m - self.p;
-        match self.symmetric {
-            true => (self.left(k)[k], &self.left(k)[self.p..]),
-            false => (1.0, &self.right[border * k..border * (k + 1)]),
-        }
-    }
-}
-
-/// Columns taken together: the vectors they are combined with are then loaded and stored less often than they are.
-const WIDTH: usize = 4;
-
-/// `[L11; L21]` downwards.
-#[inline(always)]
-pub(crate) fn forward(panels: &Panels, x: &mut [f64]) {
-    for (k, pivot) in panels.pivots.iter().enumerate() {
-        x.swap(k, pivot.row as usize);
-    }
-    for start in (0..panels.p).step_by(WIDTH) {
-        let end = (start + WIDTH).min(panels.p);
-        let (done, rest) = x.split_at_mut(end);
-        for k in start..end {
-            let value = done[k];
-            subtract(&mut done[k + 1..], value, &panels.left(k)[k + 1..end]);
-        }
-        subtract_columns(rest, &done[start..], |k| &panels.left(start + k)[end..]);
-    }
-}
-
-/// `[U11 U12]` upwards.
-#[inline(always)]
-pub(crate) fn backward(panels: &Panels, x: &mut [f64]) {
-    let (x, border) = x.split_at_mut(panels.p);
-    for start in (0..panels.p).step_by(WIDTH) {
-        let end = (start + WIDTH).min(panels.p);
-        let sums = dot_columns(border, end - start, |k| panels.right(start + k).1);
-        (start..end).for_each(|k| x[k] -= panels.right(k).0 * sums[k - start]);
-    }
-    for start in (0..panels.p).step_by(WIDTH).rev() {
-        let end = (start + WIDTH).min(panels.p);
-        for k in (start..end).rev() {
-            let column = panels.left(k);
-            x[k] /= column[k];
-            let value = x[k];
-            subtract(&mut x[start..k], value, &column[start..k]);
-        }
-        let (rest, done) = x.split_at_mut(start);
-        subtract_columns(rest, &done[..end - start], |k| &panels.left(start + k)[..start]);
-    }
-}
-
-/// `[U11 U12]^T` downwards.
-#[inline(always)]
-pub(crate) fn forward_transposed(panels: &Panels, x: &mut [f64]) {
-    let (x, border) = x.split_at_mut(panels.p);
-    for start in (0..panels.p).step_by(WIDTH) {
-        let end = (start + WIDTH).min(panels.p);
-        let sums = dot_columns(&x[..start], end - start, |k| &panels.left(start + k)[..start]);
-        for k in start..end {
-            let column = panels.left(k);
-            x[k] = (x[k] - sums[k - start] - dot(&column[start..k], &x[start..k])) / column[k];
-        }
-        let mut scaled = [0.0; WIDTH];
-        (start..end).for_each(|k| scaled[k - start] = panels.right(k).0 * x[k]);
-        subtract_columns(border, &scaled[..end - start], |k| panels.right(start + k).1);
-    }
-}
-
-/// `[L11; L21]^T` upwards.
-#[inline(always)]
-pub(crate) fn backward_transposed(panels: &Panels, x: &mut [f64]) {
-    for start in (0..panels.p).step_by(WIDTH).rev() {
-        let end = (start + WIDTH).min(panels.p);
-        let sums = dot_columns(&x[end..], end - start, |k| &panels.left(start + k)[end..]);
-        for k in (start..end).rev() {
-            x[k] -= sums[k - start] + dot(&panels.left(k)[k + 1..end], &x[k + 1..end]);
-        }
-    }
-    for (k, pivot) in panels.pivots.iter().enumerate().rev() {
-        x.swap(k, pivot.row as usize);
-    }
-}
-
-/// `y <- y - sum of factor times column`.
-#[inline(always)]
-fn subtract_columns<'a>(y: &mut [f64], factors: &[f64], column: impl Fn(usize) -> &'a [f64]) {
-    match *factors {
-        [a, b, c, d] => subtract_four(y, [a, b, c, d], [column(0), column(1), column(2), column(3)]),
-        _ => factors.iter().enumerate().for_each(|(k, &factor)| subtract(y, factor, column(k))),
-    }
-}
-
-/// Products of `count` columns with `y`.
-#[inline(always)]
-fn dot_columns<'a>(y: &[f64], count: usize, column: impl Fn(usize) -> &'a [f64]) -> [f64; WIDTH] {
-    if count == WIDTH {
-        return dot_four(y, [column(0), column(1), column(2), column(3)]);
-    }
-    let mut sums = [0.0; WIDTH];
-    (0..count).for_each(|k| sums[k] = dot(column(k), y));
-    sums
 }

@@ -2,7 +2,8 @@
 
 use crate::assembly_tree::Front;
 use crate::factor::Factor;
-use crate::solve::{Panels, Workspace, backward, forward};
+use crate::panels::{Backward, Panels, SparseForward};
+use crate::solve::Workspace;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Accum, MatMut, MatRef, Par};
@@ -19,24 +20,21 @@ impl Factor {
         for (front, _) in fronts.iter().zip(self.symbolic.tree.above(from)).filter(|(_, reached)| *reached) {
             match blocked(front, count) {
                 true => self.at_front_together(front, work, forward_together),
-                false => self.at_front(front, work, |panels, x| {
-                    if x[..panels.p].iter().any(|x| *x != 0.0) {
-                        forward(panels, x);
-                    }
-                }),
+                false => self.halves().at_front::<SparseForward>(front, work),
             }
         }
         for (front, _) in fronts.iter().zip(self.symbolic.tree.above(to)).rev().filter(|(_, needed)| *needed) {
             match blocked(front, count) {
                 true => self.at_front_together(front, work, backward_together),
-                false => self.at_front(front, work, backward),
+                false => self.halves().at_front::<Backward>(front, work),
             }
         }
     }
 
     /// Gathers the unknowns of a front for all vectors, lets `step` work on them and scatters them.
-    fn at_front_together(&self, front: &Front, work: &mut Workspace, step: impl Fn(&Panels, MatMut<'_, f64>)) {
-        let (panels, rows) = (self.panels(front), self.symbolic.tree.rows(front));
+    fn at_front_together(&self, front: &Front, work: &mut Workspace, step: impl Fn(&Panels<f64>, MatMut<'_, f64>)) {
+        let halves = self.halves();
+        let (panels, rows) = (halves.panels(front), self.symbolic.tree.rows(front));
         let (x, local) = work.vectors_and_local();
         let (n, m, p) = (self.symbolic.pattern.len(), front.size(), front.pivots);
         let count = x.len() / n;
@@ -58,7 +56,7 @@ fn blocked(front: &Front, count: usize) -> bool {
 }
 
 /// `[L11; L21]` downwards.
-fn forward_together(panels: &Panels, mut x: MatMut<'_, f64>) {
+fn forward_together(panels: &Panels<f64>, mut x: MatMut<'_, f64>) {
     for column in 0..x.ncols() {
         for (k, pivot) in panels.pivots.iter().enumerate() {
             let other = pivot.row as usize;
@@ -73,7 +71,7 @@ fn forward_together(panels: &Panels, mut x: MatMut<'_, f64>) {
 }
 
 /// `[U11 U12]` upwards.
-fn backward_together(panels: &Panels, x: MatMut<'_, f64>) {
+fn backward_together(panels: &Panels<f64>, x: MatMut<'_, f64>) {
     let top = MatRef::from_column_major_slice(panels.left, panels.m, panels.p).subrows(0, panels.p);
     let right = MatRef::from_column_major_slice(panels.right, panels.m - panels.p, panels.p);
     let (mut x, rest) = x.split_at_row_mut(panels.p);

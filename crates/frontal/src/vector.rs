@@ -1,25 +1,31 @@
 //! Sums over vectors, in an order that depends on nothing but their length.
 
+/// A number of a factor, which may be stored in single precision.
+pub(crate) trait Number: Copy + Into<f64> {}
+impl Number for f64 {}
+impl Number for f32 {}
+
 /// `y <- y - factor x`.
 #[inline(always)]
-pub(crate) fn subtract(y: &mut [f64], factor: f64, x: &[f64]) {
+pub(crate) fn subtract<T: Number>(y: &mut [f64], factor: f64, x: &[T]) {
     for (y, x) in y.iter_mut().zip(x) {
-        *y -= factor * x;
+        *y -= factor * (*x).into();
     }
 }
 
 /// `y <- y - sum of factor times x`, with one load and one store of `y`.
 #[inline(always)]
-pub(crate) fn subtract_four(y: &mut [f64], factors: [f64; 4], columns: [&[f64]; 4]) {
+pub(crate) fn subtract_four<T: Number>(y: &mut [f64], factors: [f64; 4], columns: [&[T]; 4]) {
     let [a, b, c, d] = columns.map(|column| &column[..y.len()]);
     for (i, y) in y.iter_mut().enumerate() {
-        *y -= (factors[0] * a[i] + factors[1] * b[i]) + (factors[2] * c[i] + factors[3] * d[i]);
+        *y -= (factors[0] * a[i].into() + factors[1] * b[i].into())
+            + (factors[2] * c[i].into() + factors[3] * d[i].into());
     }
 }
 
 /// Sums of products with four vectors.
 #[inline(always)]
-pub(crate) fn dot_four(y: &[f64], columns: [&[f64]; 4]) -> [f64; 4] {
+pub(crate) fn dot_four<T: Number>(y: &[f64], columns: [&[T]; 4]) -> [f64; 4] {
     const LANES: usize = 8;
     let columns = columns.map(|column| &column[..y.len()]);
     let mut sums = [[0.0; LANES]; 4];
@@ -28,12 +34,12 @@ pub(crate) fn dot_four(y: &[f64], columns: [&[f64]; 4]) -> [f64; 4] {
         let y = &y[start..start + LANES];
         for (sums, column) in sums.iter_mut().zip(columns) {
             let column = &column[start..start + LANES];
-            (0..LANES).for_each(|lane| sums[lane] += column[lane] * y[lane]);
+            (0..LANES).for_each(|lane| sums[lane] += column[lane].into() * y[lane]);
         }
     }
     let mut totals = [0.0; 4];
     for ((total, sums), column) in totals.iter_mut().zip(&sums).zip(columns) {
-        let tail = column[whole..].iter().zip(&y[whole..]).map(|(x, y)| x * y).sum::<f64>();
+        let tail = column[whole..].iter().zip(&y[whole..]).map(|(&x, y)| x.into() * y).sum::<f64>();
         *total = add_lanes(sums) + tail;
     }
     totals
@@ -41,13 +47,13 @@ pub(crate) fn dot_four(y: &[f64], columns: [&[f64]; 4]) -> [f64; 4] {
 
 /// Sum of products, in eight interleaved parts so that it vectorises.
 #[inline(always)]
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn dot<T: Number>(x: &[T], y: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (x_parts, y_parts) = (x.chunks_exact(8), y.chunks_exact(8));
-    let tail = x_parts.remainder().iter().zip(y_parts.remainder()).map(|(x, y)| x * y).sum::<f64>();
+    let tail = x_parts.remainder().iter().zip(y_parts.remainder()).map(|(&x, y)| x.into() * y).sum::<f64>();
     for (x, y) in x_parts.zip(y_parts) {
         for lane in 0..8 {
-            sums[lane] += x[lane] * y[lane];
+            sums[lane] += x[lane].into() * y[lane];
         }
     }
     add_lanes(&sums) + tail

@@ -3,7 +3,7 @@
 #[path = "../benches/models/mod.rs"]
 mod models;
 
-use frontal::{Change, Krylov, Options, Outcome, Policy, Reuse, Solver, Symbolic};
+use frontal::{Change, Krylov, Options, Outcome, Pattern, Policy, Reuse, Solver, Symbolic};
 
 /// A body with stiff springs on some nodes of its top, as where a rigid body touches it.
 fn with_patch(model: &models::Model, first_node: usize) -> Vec<f64> {
@@ -18,7 +18,7 @@ fn with_patch(model: &models::Model, first_node: usize) -> Vec<f64> {
 }
 
 /// The tolerance holds in the equilibrated scale, whose norms are within this factor of the plain ones for these models.
-const SCALES: f64 = 4.0;
+const SCALES: f64 = 10.0;
 
 fn residual(model: &models::Model, values: &[f64], x: &[f64], b: &[f64]) -> f64 {
     let (starts, columns) = (model.pattern.starts(), model.pattern.columns());
@@ -90,14 +90,16 @@ fn directions_of_earlier_solutions_save_iterations() {
     solver.solve(&with_patch(&model, 6), &mut vector(1.0), 1e-9).expect("a regular matrix");
     let (values, b) = (with_patch(&model, 7), vector(2.0));
     let mut x = b.clone();
-    let alone = solver.factor().solve_with(&values, &mut x, &Krylov { tolerance: 1e-9, ..Krylov::default() });
-    let alone = alone.expect("good input").iterations;
+    let mut other = Solver::new(symbolic.clone(), Policy { share: 10.0, ..Policy::default() });
+    other.factorise(&with_patch(&model, 0)).expect("a regular matrix");
+    // More than may be made, if it does not end.
+    let alone = other.iterate(&values, &mut x, 1e-9).expect("good input").map_or(usize::MAX, |done| done.iterations);
     let mut x = b.clone();
     let Ok(Outcome::Iterative(recycling)) = solver.solve(&values, &mut x, 1e-9) else {
         panic!("an old factor would do")
     };
     assert!(recycling.iterations + 2 < alone, "{} against {alone}", recycling.iterations);
-    assert!(residual(&model, &values, &x, &b) < SCALES * 1e-9);
+    assert!(recycling.relative_residual < 1e-9 && residual(&model, &values, &x, &b) < SCALES * 1e-9);
 }
 
 /// What springs that many times as stiff as the body change between two places, with the entries of the inverse it takes.
@@ -138,5 +140,52 @@ fn a_factor_put_right_for_a_leap_solves_at_once() {
     };
     let (alone, change) = solve(None);
     assert!(alone > 6, "{alone} iterations");
-    assert!(change.rank() > 30 && solve(Some(change)).0 <= 1);
+    // In single precision the factor leaves less than the tolerance when it is applied twice.
+    assert!(change.rank() > 30 && solve(Some(change)).0 <= 2);
+}
+
+#[test]
+fn another_right_hand_side_of_the_same_matrix_takes_fewer_iterations() {
+    let model = models::hex8([10, 10, 10]);
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    let mut solver = Solver::new(symbolic, Policy { share: 10.0, ..Policy::default() });
+    solver.factorise(&with_patch(&model, 0)).expect("a regular matrix");
+    let values = with_patch(&model, 2);
+    let vector = |seed: f64| (0..model.pattern.len()).map(|k| (seed + k as f64).cos()).collect::<Vec<_>>();
+    let (b, mut x) = (vector(1.0), vector(1.0));
+    let alone = solver.iterate(&values, &mut x, 1e-6).expect("good input").expect("an old factor would do");
+    solver.iterate(&values, &mut vector(0.0), 1e-6).expect("good input").expect("an old factor would do");
+    let mut x = b.clone();
+    let again = solver.iterate_again(&values, &mut x, 1e-6).expect("good input").expect("an old factor would do");
+    assert!(2 * again.iterations < alone.iterations, "{again:?} against {alone:?}");
+    assert!(residual(&model, &values, &x, &b) < SCALES * 1e-6);
+}
+
+/// Iterations to solve with the matrix that was factorised.
+fn own_iterations(pattern: &Pattern, values: &[f64], tolerance: f64) -> usize {
+    let symbolic = Symbolic::analyse(pattern, &Options::default()).expect("a good pattern");
+    let mut solver = Solver::new(symbolic, Policy { share: f64::INFINITY, ..Policy::default() });
+    solver.factorise(values).expect("a regular matrix");
+    let mut x = vec![1.0; pattern.len()];
+    solver.iterate(values, &mut x, tolerance).expect("good input").expect("its own factor would do").iterations
+}
+
+#[test]
+fn a_factor_is_rounded_unless_that_would_spoil_it() {
+    let block = models::hex8([6, 6, 6]);
+    assert_eq!(own_iterations(&block.pattern, &block.values, 1e-9), 2, "once more for what rounding leaves");
+    // A chain on springs so soft that they are lost in single precision.
+    let (links, spring) = (4000_usize, 1e-8);
+    let (mut starts, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+    for row in 0..links {
+        let neighbours = [row.wrapping_sub(1), row + 1].into_iter().filter(|&other| other < links);
+        let mut entries: Vec<(usize, f64)> = neighbours.map(|other| (other, -1.0)).collect();
+        entries.push((row, entries.len() as f64 + spring));
+        entries.sort_by_key(|entry| entry.0);
+        columns.extend(entries.iter().map(|entry| entry.0));
+        values.extend(entries.iter().map(|entry| entry.1));
+        starts.push(columns.len());
+    }
+    let chain = Pattern::new(starts, columns).expect("a good pattern");
+    assert_eq!(own_iterations(&chain, &values, 1e-6), 1, "as it was found");
 }

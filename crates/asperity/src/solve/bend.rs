@@ -10,7 +10,7 @@ use crate::Failure;
 use crate::system::Constraints;
 
 /// Most of its right-hand side that an iterative solution may leave where that is much smaller than the unbalanced forces.
-const LOOSE: f64 = 0.1;
+const LOOSE: f64 = 0.3;
 /// Part of the unbalanced forces that stencils which bend may leave, what asking them again must lower that to, and what
 /// they may leave where that does not come about so many times.
 const LEFT: f64 = 0.002;

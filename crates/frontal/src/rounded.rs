@@ -1,0 +1,53 @@
+//! The factors once more in single precision. A substitution takes as long as reading the factors; where it only
+//! preconditions an iterative solution, half the bytes do, as long as what rounding spoils is little: for a matrix `A`
+//! with rounded factors `M` that is `|b - A M^-1 b|`, of the order of the condition number times the round-off.
+
+use crate::factor::Factor;
+use crate::solve::{Halves, Workspace};
+use crate::vector::{norm, subtract};
+
+/// Part of a right-hand side that rounding may spoil.
+const SPOILT: f64 = 0.01;
+
+/// Rounded factors, and whether they are fit for use; nothing is known of that before they are asked for.
+#[derive(Debug, Default)]
+pub(crate) struct Rounded {
+    entries: Vec<f32>,
+    fit: Option<bool>,
+}
+
+impl Rounded {
+    /// There are other factors now.
+    pub fn forget(&mut self) {
+        self.fit = None;
+    }
+
+    /// The rounded factors, unless rounding spoils them for the right-hand side `b` they are first asked for with, or
+    /// there is not the memory.
+    pub fn of<'a>(&'a mut self, factor: &'a Factor, b: &[f64]) -> Option<Halves<'a, f32>> {
+        let fit = match self.fit {
+            Some(fit) => fit,
+            None => self.round(factor) && self.spoils_little(factor, b),
+        };
+        self.fit = Some(fit);
+        fit.then_some(Halves { factor, entries: &self.entries })
+    }
+
+    fn round(&mut self, factor: &Factor) -> bool {
+        let (bytes, limit) = (factor.symbolic.prediction.bytes, factor.symbolic.options.memory_limit);
+        if limit.is_some_and(|limit| bytes + size_of_val(&*factor.factors) / 2 > limit) {
+            return false;
+        }
+        self.entries.resize(factor.factors.len(), 0.0);
+        self.entries.iter_mut().zip(&factor.factors).for_each(|(single, double)| *single = *double as f32);
+        true
+    }
+
+    fn spoils_little(&self, factor: &Factor, b: &[f64]) -> bool {
+        let mut residual: Vec<f64> = b.iter().zip(&factor.scaling.rows).map(|(b, scale)| b * scale).collect();
+        let (size, mut x) = (norm(&residual), residual.clone());
+        Halves { factor, entries: &self.entries }.substitute(&mut x, &mut Workspace::new(factor));
+        subtract(&mut residual, 1.0, &factor.times(&x));
+        norm(&residual) <= SPOILT * size
+    }
+}

@@ -29,7 +29,7 @@ pub enum ContactForm {
     Variational,
 }
 
-/// Step of the differences, as a part of the edge's length or in radians.
+/// Step of the differences, as a part of the length of an edge or a face, or in radians.
 pub const STEP: f64 = 1e-5;
 
 /// Rates of penetration and slip along the unknowns of a stencil.
@@ -92,52 +92,69 @@ impl OpenContact<'_> {
         closed: &Closed<T>,
         local: &mut Local,
     ) -> Result<(), Failure> {
-        let (n, area) = (local.force.len(), self.contact.undeformed_area(index));
+        let area = self.contact.undeformed_area(index);
         let (_, rates) = self.rates(g, &local.u);
         let stresses = [closed.response.pressure, closed.response.shear[0]];
-        for (rates, stress) in rates.iter().zip(stresses) {
-            local.force.iter_mut().zip(rates).for_each(|(force, rate)| *force += area * stress.re() * rate);
-        }
+        add_forces(&rates, &stresses, area, local);
         if !local.wants_tangent {
             return Ok(());
         }
-        let columns = self.columns(g, &local.u);
-        for (rates, stress) in rates.iter().zip(stresses) {
-            let slopes = stress.slopes();
-            for (j, column) in columns[..n].iter().enumerate() {
-                let slope: f64 = slopes.iter().zip(column).map(|(s, c)| s * c).sum();
-                (0..n).for_each(|i| local.tangent[i * n + j] += area * rates[i] * slope);
-            }
-        }
+        add_slopes((&rates, &self.columns(g, &local.u)), &stresses, area, local);
         let [p, s, _] = acting([stresses[0], stresses[1], T::zero()], local.acting);
-        self.bend_forces((index, stencil), (g, [p, s].map(|stress| area * stress.re())), local)
+        // The last unknown of a tool is its rotation.
+        let step = |j| if j + 1 == g.layout.hit.end { STEP } else { STEP * self.contact.edge_length(index) };
+        bend_forces([p, s].map(|stress| area * stress.re()), step, local, |u| {
+            Ok(self.geometry(index, stencil, u)?.map(|beside| self.rates(&beside, u).1))
+        })
     }
+}
 
-    /// What the second derivatives of penetration and slip add to the tangent.
-    fn bend_forces(
-        &self,
-        (index, stencil): (usize, &Stencil),
-        (g, loads): (&Geometry, [f64; 2]),
-        local: &mut Local,
-    ) -> Result<(), Failure> {
-        let (n, mut u) = (local.force.len(), local.u.clone());
-        for j in 0..n {
-            for sign in [1.0, -1.0] {
-                let step = self.step_of(index, g, j);
-                u[j] = local.u[j] + sign * step;
-                let Some(beside) = self.geometry(index, stencil, &u)? else { continue };
-                let (_, rates) = self.rates(&beside, &u);
-                for (rates, load) in rates.iter().zip(loads) {
-                    (0..n).for_each(|i| local.tangent[i * n + j] += sign * load * rates[i] / (2.0 * step));
-                }
-            }
-            u[j] = local.u[j];
+/// Adds the forces of stresses over an area that do their work on these rates.
+pub fn add_forces<T: Scalar>(rates: &[impl AsRef<[f64]>], stresses: &[T], area: f64, local: &mut Local) {
+    for (rates, stress) in rates.iter().zip(stresses) {
+        local.force.iter_mut().zip(rates.as_ref()).for_each(|(force, rate)| *force += area * stress.re() * rate);
+    }
+}
+
+/// Adds what the stresses' own derivatives give the tangent: `columns` are those of the directions along the unknowns.
+pub fn add_slopes<T: Seed<N>, const N: usize>(
+    (rates, columns): (&[impl AsRef<[f64]>], &[[f64; N]]),
+    stresses: &[T],
+    area: f64,
+    local: &mut Local,
+) {
+    let n = local.force.len();
+    for (rates, stress) in rates.iter().zip(stresses) {
+        let (rates, slopes) = (rates.as_ref(), stress.slopes());
+        for (j, column) in columns[..n].iter().enumerate() {
+            let slope: f64 = slopes.iter().zip(column).map(|(s, c)| s * c).sum();
+            (0..n).for_each(|i| local.tangent[i * n + j] += area * rates[i] * slope);
         }
-        Ok(())
     }
+}
 
-    /// Step of an unknown of a stencil: the last one of a tool is its rotation.
-    fn step_of(&self, index: usize, g: &Geometry, unknown: usize) -> f64 {
-        if unknown + 1 == g.layout.hit.end { STEP } else { STEP * self.contact.edge_length(index) }
+/// Adds what the second derivatives of penetration and slips give the tangent: central differences of their rates, by the
+/// step of each unknown.
+///
+/// # Errors
+/// As those of the rates.
+pub fn bend_forces<R: AsRef<[f64]>, const N: usize>(
+    loads: [f64; N],
+    step: impl Fn(usize) -> f64,
+    local: &mut Local,
+    rates_at: impl Fn(&[f64]) -> Result<Option<[R; N]>, Failure>,
+) -> Result<(), Failure> {
+    let (n, mut u) = (local.force.len(), local.u.clone());
+    for j in 0..n {
+        for sign in [1.0, -1.0] {
+            u[j] = local.u[j] + sign * step(j);
+            let Some(beside) = rates_at(&u)? else { continue };
+            for (rates, load) in beside.iter().zip(loads) {
+                let part = sign * load / (2.0 * step(j));
+                (0..n).for_each(|i| local.tangent[i * n + j] += part * rates.as_ref()[i]);
+            }
+        }
+        u[j] = local.u[j];
     }
+    Ok(())
 }

@@ -11,7 +11,7 @@ use crate::contact::ContactForm;
 use crate::contact::point::acting;
 use crate::contact::record::entry;
 use crate::contact::seed::Seed;
-use crate::contact::variational::STEP;
+use crate::contact::variational::{STEP, add_forces, add_slopes, bend_forces};
 use crate::system::{Local, Stencil};
 use crate::tensor::{Scalar, Vec3};
 use crate::tool::Ray;
@@ -76,51 +76,21 @@ impl OpenContact<'_> {
         closed: &Closed<T>,
         local: &mut Local,
     ) -> Result<(), Failure> {
-        let (n, area) = (local.force.len(), self.contact.undeformed_area(index));
+        let area = self.contact.undeformed_area(index);
         let (_, rates) = self.rates(g, &local.u);
         let [s, t] = closed.response.shear;
         let stresses = [closed.response.pressure, s, t];
-        for (rates, stress) in rates.iter().zip(stresses) {
-            local.force.iter_mut().zip(rates).for_each(|(force, rate)| *force += area * stress.re() * rate);
-        }
+        add_forces(&rates, &stresses, area, local);
         if !local.wants_tangent {
             return Ok(());
         }
-        let columns = self.columns(g, &local.u);
-        for (rates, stress) in rates.iter().zip(stresses) {
-            let slopes = stress.slopes();
-            for (j, column) in columns.iter().enumerate() {
-                let slope: f64 = slopes.iter().zip(column).map(|(s, c)| s * c).sum();
-                (0..n).for_each(|i| local.tangent[i * n + j] += area * rates[i] * slope);
-            }
-        }
-        let loads = acting(stresses, local.acting).map(|stress| area * stress.re());
-        self.bend_forces((index, stencil), (g, loads), local)
-    }
-
-    /// What the second derivatives of penetration and slips add to the tangent: central differences of their rates, as in
-    /// the plane.
-    fn bend_forces(
-        &self,
-        (index, stencil): (usize, &Stencil),
-        (g, loads): (&Geometry, [f64; 3]),
-        local: &mut Local,
-    ) -> Result<(), Failure> {
-        let (n, mut u) = (local.force.len(), local.u.clone());
+        add_slopes((&rates, &self.columns(g, &local.u)), &stresses, area, local);
         // The last unknowns of a tool are its rotation.
         let rotation = g.layout.hit.end - 3..g.layout.hit.end;
-        let step = |j: usize| if rotation.contains(&j) { STEP } else { STEP * self.contact.face_length(index) };
-        for j in 0..n {
-            for sign in [1.0, -1.0] {
-                u[j] = local.u[j] + sign * step(j);
-                let Some(beside) = self.geometry(index, (stencil, true), &u)? else { continue };
-                let (_, rates) = self.rates(&beside, &u);
-                for (rates, load) in rates.iter().zip(loads) {
-                    (0..n).for_each(|i| local.tangent[i * n + j] += sign * load * rates[i] / (2.0 * step(j)));
-                }
-            }
-            u[j] = local.u[j];
-        }
-        Ok(())
+        let step = |j| if rotation.contains(&j) { STEP } else { STEP * self.contact.face_length(index) };
+        let loads = acting(stresses, local.acting).map(|stress| area * stress.re());
+        bend_forces(loads, step, local, |u| {
+            Ok(self.geometry(index, (stencil, true), u)?.map(|beside| self.rates(&beside, u).1))
+        })
     }
 }

@@ -20,7 +20,7 @@ const QUICK: f64 = 0.5;
 type Pile = (&'static str, &'static str, &'static str, f64, [f64; 2]);
 
 const PILES: [Pile; 2] = [
-    ("clay", "Tresca, over su", "clay.toml", 5.4, [5.0, 1.0]),
+    ("clay", "Tresca, over su", "clay.toml", 10.9, [5.0, 1.0]),
     ("cam_clay", "Cam-clay, over p0", "cam_clay.toml", 10.9, [100.0, 100.0]),
 ];
 

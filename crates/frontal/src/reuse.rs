@@ -194,7 +194,9 @@ impl Solver {
         tolerance: f64,
     ) -> Result<Option<Convergence>, Error> {
         let affordable = self.affordable_iterations();
-        let iterations = (affordable as f64 * (-tolerance.log10()).clamp(FEWEST, DECADES) / DECADES).ceil() as usize;
+        // Where a change is known other right-hand sides follow.
+        let decades = if self.change.is_some() { (-tolerance.log10()).clamp(FEWEST, DECADES) } else { DECADES };
+        let iterations = (affordable as f64 * decades / DECADES).ceil() as usize;
         let iterations = iterations.min(affordable.saturating_sub(self.spent));
         if iterations == 0 {
             return Ok(None);

@@ -49,7 +49,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         }
         for (axis, what) in ["down", "along"].iter().enumerate() {
             let line = level.curve.iter().map(|at| [at.way, at.force[axis]]).collect();
-            chart.line(&format!("{what}, {}", mesh[0]), line);
+            chart.line(format!("{what}, {}", mesh[0]), line);
         }
         coarser = Some(level);
     }

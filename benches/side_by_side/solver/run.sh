@@ -17,7 +17,8 @@ for model in $models; do
     kind=${model%%:*} rest=${model#*:}
     size=${rest%%:*} block=${rest#*:}
     matrix=$work/$kind$size.mtx
-    [ -f "$matrix" ] || target/release/examples/market write "$kind" "$size" "$matrix"
+    # Whole or not at all, if the run is stopped.
+    [ -f "$matrix" ] || { target/release/examples/market write "$kind" "$size" "$matrix.part" && mv "$matrix.part" "$matrix"; }
     : > "$work/lines"
     round=0
     while [ $round -lt "$rounds" ]; do

@@ -3,22 +3,20 @@
 //! mean pressure; the same answer turned; that of each face's own normals where the surface is flat.
 
 mod cubes;
+mod pairs;
 mod perturbed;
 
-use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
-use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Normals, Overlap};
-use asperity::interface::{
-    Law,
-    laws::{Coulomb, OdenPires},
-};
+use asperity::contact::space::Contact;
+use asperity::contact::{ContactForm, ContactOptions, Loads, Normals};
+use asperity::interface::laws::{Coulomb, OdenPires};
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh};
-use asperity::system::{Dofs, Local, State, Stencils, Term};
+use asperity::system::{Dofs, State, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::space::Pose;
 use cubes::at;
-use perturbed::{Random, check, commit, instant, state};
-use std::sync::Arc;
+use pairs::Carrier;
+use perturbed::{Random, check, commit, instant, largest, options, state};
 
 /// Largest difference of an entry over the largest entry.
 const ALLOWED: f64 = 1e-7;
@@ -120,15 +118,6 @@ fn tangents_of_other_forms_are_exact() {
     }
 }
 
-/// Which of two blocks carries the points.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Carrier {
-    /// The small one, which the large one covers.
-    Small,
-    /// The large one, whose faces the small one covers in part.
-    Large,
-}
-
 /// A small block of two cells above a large one, the faces between them bent by `bow`.
 fn mesh([upper, lower]: [&str; 2], bow: f64) -> Mesh {
     let block = |from, to, cells, cell: &str, name: &str| {
@@ -144,50 +133,11 @@ fn mesh([upper, lower]: [&str; 2], bow: f64) -> Mesh {
 }
 
 fn bodies(mesh: Mesh, carrier: Carrier, loads: Loads, normals: Normals) -> (Contact, Dofs) {
-    let mesh = Arc::new(mesh);
-    let (own, other) = match carrier {
-        Carrier::Small => ("upper.back", "lower.front"),
-        Carrier::Large => ("lower.front", "upper.back"),
-    };
-    let dofs = Dofs::new(3, mesh.points.len(), 0);
-    let sides = |group: &str| mesh.groups[group].sides.as_slice();
-    let options = ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 1.0,
-        loads,
-        coupling: true,
-        guard: Guard::Refuse,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-        normals,
-    };
-    let parts = Parts {
-        name: "c".into(),
-        surface: Surface::new(&mesh, sides(own), None),
-        boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
-        target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides(other))),
-        law: Arc::new(Law(Coulomb::new(0.4))),
-        options,
-        dofs: dofs.clone(),
-        mesh: mesh.clone(),
-    };
-    (Contact::new(parts), dofs)
+    pairs::pair(mesh, carrier, 0.4, ContactOptions { normals, ..options(loads) })
 }
 
-/// Random motion: the small block by up to a tenth and downwards, all nodes by a little.
 fn motion(contact: &Contact, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
-    let by = [0.08 * random.next(), 0.08 * random.next(), -0.04 - 0.05 * random.next()];
-    let mut u = vec![0.0; dofs.count()];
-    for node in 0..dofs.nodes() {
-        let upper = contact.mesh().groups["upper"].nodes.contains(&node);
-        for (axis, by) in by.into_iter().enumerate() {
-            u[dofs.node(node) + axis] = if upper { by } else { 0.0 } + 0.012 * random.next();
-        }
-    }
-    u
+    pairs::motion((contact, dofs), [0.04, 0.05], random)
 }
 
 #[test]
@@ -214,25 +164,8 @@ fn tangents_between_bodies_are_exact() {
     }
 }
 
-/// Forces of all points on all unknowns, after two increments to `first` and `second`.
 fn forces((contact, dofs): &(Contact, Dofs), first: Vec<f64>, second: &[f64]) -> Option<Vec<f64>> {
-    let start = state(vec![0.0; dofs.count()], contact.initial());
-    let accepted = commit(contact, &start, first).ok()?;
-    let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
-    let (mut stencils, mut local, mut sum) = (Stencils::default(), Local::default(), vec![0.0; second.len()]);
-    attempt.stencils(second, &mut stencils).unwrap();
-    for (i, stencil) in stencils.list.iter().enumerate() {
-        let dofs = stencils.dofs(stencil);
-        local.u = dofs.iter().map(|&dof| second[dof]).collect();
-        local.reset(stencil.len);
-        attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local).ok()?;
-        dofs.iter().zip(&local.force).for_each(|(&dof, force)| sum[dof] += force);
-    }
-    Some(sum)
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+    perturbed::forces(contact, &state(vec![0.0; dofs.count()], contact.initial()), first, second)
 }
 
 /// Both states turned as a whole by 40 degrees about a slanting axis: the forces turn with them.

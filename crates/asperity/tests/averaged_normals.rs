@@ -4,17 +4,17 @@
 
 mod perturbed;
 
-use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Overlap, Surface, Target};
+use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Surface, Target};
 use asperity::interface::{
     Interface, Law,
     laws::{Coulomb, OdenPires},
 };
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
-use asperity::system::{Dofs, Local, State, Stencils, Term};
+use asperity::system::{Dofs, State, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::{Tool, shapes};
-use perturbed::{Random, check, commit, instant, state};
+use perturbed::{Random, check, commit, instant, largest, state};
 use std::sync::Arc;
 
 /// Largest difference of an entry over the largest entry.
@@ -52,19 +52,7 @@ fn mesh(cell: &str, bow: f64) -> Mesh {
 }
 
 fn options(normals: Normals, loads: Loads) -> ContactOptions {
-    ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 0.8,
-        loads,
-        coupling: true,
-        guard: Guard::Warn,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-        normals,
-    }
+    ContactOptions { thickness: 0.8, guard: Guard::Warn, normals, ..perturbed::options(loads) }
 }
 
 fn tool(shape: &str) -> Arc<Tool> {
@@ -204,24 +192,8 @@ fn tangents_of_other_forms_are_exact() {
     }
 }
 
-/// Forces of all points on all unknowns, after two increments to `first` and `second`.
 fn forces(scene: &Scene, first: Vec<f64>, second: &[f64]) -> Option<Vec<f64>> {
-    let accepted = commit(&scene.contact, &scene.start(), first).ok()?;
-    let attempt = scene.contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
-    let (mut stencils, mut local, mut sum) = (Stencils::default(), Local::default(), vec![0.0; second.len()]);
-    attempt.stencils(second, &mut stencils).unwrap();
-    for (i, stencil) in stencils.list.iter().enumerate() {
-        let dofs = stencils.dofs(stencil);
-        local.u = dofs.iter().map(|&dof| second[dof]).collect();
-        local.reset(stencil.len);
-        attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local).ok()?;
-        dofs.iter().zip(&local.force).for_each(|(&dof, force)| sum[dof] += force);
-    }
-    Some(sum)
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+    perturbed::forces(&scene.contact, &scene.start(), first, second)
 }
 
 /// Both states turned as a whole, bodies and tool: the forces turn with them.

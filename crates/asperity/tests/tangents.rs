@@ -5,9 +5,7 @@
 mod perturbed;
 
 use asperity::Failure;
-use asperity::contact::{
-    Augmentation, Contact, ContactForm, ContactOptions, Guard, Loads, Normals, Overlap, Role, Surface, Target,
-};
+use asperity::contact::{Augmentation, Contact, ContactForm, ContactOptions, Loads, Role, Surface, Target};
 use asperity::declare::find;
 use asperity::interface::{
     Law,
@@ -123,20 +121,7 @@ fn contact_with(
     let tool = Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)));
     let boundary = (0..mesh.kinds[0].faces.len()).map(|face| Side { cell: 0, face }).collect();
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
-    let (loads, coupling) = (Loads::Both, true);
-    let mut options = ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 0.8,
-        loads,
-        coupling,
-        guard: Guard::Refuse,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-        normals: Normals::Own,
-    };
+    let mut options = ContactOptions { thickness: 0.8, ..perturbed::options(Loads::Both) };
     change(&mut options);
     let law = Arc::new(Law(Coulomb::new(friction)));
     let parts = (mesh, dofs.clone(), space);

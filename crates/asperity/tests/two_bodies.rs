@@ -4,7 +4,7 @@
 
 mod perturbed;
 
-use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Overlap, Surface, Target};
+use asperity::contact::{Contact, ContactOptions, Faces, Loads, Surface, Target};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
@@ -44,19 +44,7 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
     let surface = Surface::new(&mesh, sides(own), None);
     let body = own.split('.').next().unwrap();
     let boundary = mesh.boundary(&mesh.groups[body].cells);
-    let options = ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 0.8,
-        loads,
-        coupling: true,
-        guard: Guard::Refuse,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-        normals: Normals::Own,
-    };
+    let options = ContactOptions { thickness: 0.8, ..perturbed::options(loads) };
     let parts = (mesh.clone(), dofs.clone(), space);
     let law = Arc::new(Law(Coulomb::new(0.4)));
     (Contact::new("c", parts, (surface, boundary), target, (law, options)), dofs)

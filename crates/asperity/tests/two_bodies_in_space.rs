@@ -2,17 +2,19 @@
 //! kind against faces of every kind, with one pass and with two; balance of the forces of one pass; a loaded pair that
 //! turns without slip.
 
+mod pairs;
 mod perturbed;
 
+use asperity::contact::Loads;
 use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
-use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Normals, Overlap};
 use asperity::interface::{Law, laws::Coulomb};
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh};
 use asperity::system::{Attempt, Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::space::Pose;
-use perturbed::{Random, check, commit, instant, state};
+use pairs::Carrier;
+use perturbed::{Random, check, commit, instant, options, state};
 use std::sync::Arc;
 
 /// Largest difference of an entry over the largest entry.
@@ -51,63 +53,12 @@ fn mesh([upper, lower]: [&str; 2]) -> Mesh {
     mesh
 }
 
-fn options(loads: Loads) -> ContactOptions {
-    ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 1.0,
-        loads,
-        coupling: true,
-        guard: Guard::Refuse,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-        normals: Normals::Own,
-    }
-}
-
-/// Which of the two blocks carries the points.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Carrier {
-    /// The small one, which the large one covers.
-    Small,
-    /// The large one, whose faces the small one covers in part.
-    Large,
-}
-
 fn contact(cells: [&str; 2], carrier: Carrier, loads: Loads, friction: f64) -> (Contact, Dofs) {
-    let mesh = Arc::new(mesh(cells));
-    let (own, other) = match carrier {
-        Carrier::Small => ("upper.back", "lower.front"),
-        Carrier::Large => ("lower.front", "upper.back"),
-    };
-    let dofs = Dofs::new(3, mesh.points.len(), 0);
-    let sides = |group: &str| mesh.groups[group].sides.as_slice();
-    let parts = Parts {
-        name: "c".into(),
-        surface: Surface::new(&mesh, sides(own), None),
-        boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
-        target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides(other))),
-        law: Arc::new(Law(Coulomb::new(friction))),
-        options: options(loads),
-        dofs: dofs.clone(),
-        mesh: mesh.clone(),
-    };
-    (Contact::new(parts), dofs)
+    pairs::pair(mesh(cells), carrier, friction, options(loads))
 }
 
-/// Random motion: the small block by up to a tenth and downwards, all nodes by a little.
 fn motion(contact: &Contact, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
-    let by = [0.08 * random.next(), 0.08 * random.next(), -0.03 - 0.06 * random.next()];
-    let mut u = vec![0.0; dofs.count()];
-    for node in 0..dofs.nodes() {
-        let upper = contact.mesh().groups["upper"].nodes.contains(&node);
-        for (axis, by) in by.into_iter().enumerate() {
-            u[dofs.node(node) + axis] = if upper { by } else { 0.0 } + 0.012 * random.next();
-        }
-    }
-    u
+    pairs::motion((contact, dofs), [0.03, 0.06], random)
 }
 
 /// What looks at an accepted state, the attempt that follows it and the unknowns tried in it.

@@ -65,22 +65,9 @@ impl Around {
     fn add(&mut self, own: &Edge, k: usize, (edge, at): (&Edge, f64)) {
         let slopes = edge.shape_at(at).1;
         for (node, slope) in edge.nodes.iter().zip(slopes) {
-            let place = self.place(own, *node);
+            let place = number_of(*node, &own.nodes, &mut self.nodes);
             self.weights[k][place] += slope;
         }
-    }
-
-    /// The number of a node among an edge's own and those around it.
-    fn place(&mut self, own: &Edge, node: usize) -> usize {
-        if let Some(place) = own.nodes.iter().position(|&other| other == node) {
-            return place;
-        }
-        let known = self.nodes.iter().position(|&other| other == node);
-        own.nodes.len()
-            + known.unwrap_or_else(|| {
-                self.nodes.push(node);
-                self.nodes.len() - 1
-            })
     }
 
     /// The field for the nodes of an edge and those around it at `x`.
@@ -98,6 +85,15 @@ impl Around {
         }
         Field { around: self, units, lengths }
     }
+}
+
+/// The number of a node among the own ones of an edge or a face and those around it, to which it is added if it is new.
+pub fn number_of(node: usize, own: &[usize], around: &mut Vec<usize>) -> usize {
+    let known = own.iter().chain(around.iter()).position(|&other| other == node);
+    known.unwrap_or_else(|| {
+        around.push(node);
+        own.len() + around.len() - 1
+    })
 }
 
 /// Tangent of an undeformed edge at a place on it.

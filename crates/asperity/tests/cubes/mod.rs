@@ -1,8 +1,8 @@
 //! A bent unit cube over a tool of any kind, and random motions that press the one on the other.
 
-use super::perturbed::Random;
+use super::perturbed::{Random, options};
 use asperity::contact::space::{Contact, Parts, Surface, Target};
-use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Normals, Overlap};
+use asperity::contact::{ContactForm, ContactOptions, Loads};
 use asperity::interface::{InterfaceLaw, Law};
 use asperity::mesh::{Cell, generate::Block};
 use asperity::system::Dofs;
@@ -58,19 +58,7 @@ pub fn contact_with<L: InterfaceLaw>(
     let tool = Arc::new(Tool::new("t", target(kind), at(0.5, 0.3, -1.0)));
     let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
     let lower = mesh.groups["b.back"].sides.clone();
-    let mut options = ContactOptions {
-        penalty: 1.0,
-        tangential_penalty: 0.7,
-        thickness: 1.0,
-        loads: Loads::Both,
-        coupling: true,
-        guard: Guard::Refuse,
-        augmentation: None,
-        overlap: Overlap::Keep,
-        wear: None,
-        form: ContactForm::Traction,
-        normals: Normals::Own,
-    };
+    let mut options = options(Loads::Both);
     change(&mut options);
     let parts = Parts {
         name: "c".into(),

@@ -2,6 +2,7 @@
 #![allow(dead_code)] // each test binary uses a part of it
 
 use asperity::Failure;
+use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Normals, Overlap};
 use asperity::system::{Attempt, History, Instant, Local, State, Stencil, Stencils, TangentCheck, Term, check_tangent};
 
 /// Numbers in (-1, 1) from a linear congruence (Knuth's MMIX), the same in every run.
@@ -35,6 +36,44 @@ pub fn commit(term: &dyn Term, from: &State, u: Vec<f64>) -> Result<State, Failu
     }
     drop(attempt);
     Ok(state(u, new))
+}
+
+/// Options of a contact whose moduli and lengths are of the order of one.
+pub fn options(loads: Loads) -> ContactOptions {
+    ContactOptions {
+        penalty: 1.0,
+        tangential_penalty: 0.7,
+        thickness: 1.0,
+        loads,
+        coupling: true,
+        guard: Guard::Refuse,
+        augmentation: None,
+        overlap: Overlap::Keep,
+        wear: None,
+        form: ContactForm::Traction,
+        normals: Normals::Own,
+    }
+}
+
+/// Forces of all stencils on all unknowns, after two increments to `first` and `second`.
+pub fn forces(term: &dyn Term, start: &State, first: Vec<f64>, second: &[f64]) -> Option<Vec<f64>> {
+    let accepted = commit(term, start, first).ok()?;
+    let attempt = term.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+    let (mut stencils, mut local, mut sum) = (Stencils::default(), Local::default(), vec![0.0; second.len()]);
+    attempt.stencils(second, &mut stencils).unwrap();
+    for (i, stencil) in stencils.list.iter().enumerate() {
+        let dofs = stencils.dofs(stencil);
+        local.u = dofs.iter().map(|&dof| second[dof]).collect();
+        local.reset(stencil.len);
+        attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local).ok()?;
+        dofs.iter().zip(&local.force).for_each(|(&dof, force)| sum[dof] += force);
+    }
+    Some(sum)
+}
+
+/// The largest size of a value.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
 /// Checks all stencils of an attempt at `u`; lengths and angles are of the order of one here.

@@ -7,6 +7,7 @@
 //! of its face turned by the smallest rotation that brings its normal to `e_R`; they span the same area.
 
 use super::surface::{Face, MAX_NODES};
+use crate::contact::averaged::number_of;
 use crate::contact::guard::{CORNER, angle};
 use crate::mesh::Mesh;
 use crate::tensor::{Dual, Scalar, Vec3};
@@ -63,20 +64,9 @@ impl Around {
         let slopes = face.natural(place_of(face, k)).1;
         let part = if face.corners() == 3 { 0.5_f64 } else { 4.0 }.sqrt();
         let parts = face.nodes.iter().zip(slopes).filter(|(_, slopes)| *slopes != [0.0; 2]);
-        parts.map(|(&node, slopes)| (self.place(own, node), slopes.map(|slope| slope * part))).collect()
-    }
-
-    /// The number of a node among a face's own and those around it.
-    fn place(&mut self, own: &Face, node: usize) -> usize {
-        if let Some(place) = own.nodes.iter().position(|&other| other == node) {
-            return place;
-        }
-        let known = self.nodes.iter().position(|&other| other == node);
-        own.nodes.len()
-            + known.unwrap_or_else(|| {
-                self.nodes.push(node);
-                self.nodes.len() - 1
-            })
+        parts
+            .map(|(&node, slopes)| (number_of(node, &own.nodes, &mut self.nodes), slopes.map(|slope| slope * part)))
+            .collect()
     }
 
     /// The field for the nodes of a face and those around it at `x`.

@@ -5,7 +5,7 @@ mod support;
 
 use asperity::system::State;
 use std::collections::BTreeMap;
-use support::{all_bytes, bytes, columns, go_on, model, run};
+use support::{all_bytes, bytes, columns, go_on, model, run, with_threads};
 
 /// Half of a wheel of flat facets against a round die that is pressed into it and turned about its axle: on a round
 /// wheel, without friction, nothing would hold the die back.
@@ -139,10 +139,6 @@ fn the_force_of_a_ball_ripples_less() {
     });
     println!("{own:.4} own, {averaged:.4} averaged, ratio {:.2}", own / averaged);
     assert!(own > 6.0 * averaged, "{own} {averaged}");
-}
-
-fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
 }
 
 /// A curved shoe drawn along a curved bed, both of first degree: edges covered in part on both sides.

@@ -8,7 +8,7 @@ use asperity::output::{CHECKPOINT, Job, ResultOptions, Start, simulate};
 use asperity::solve::{Frontal, LinearError, LinearSolver, Run, RunOptions, Silent};
 use asperity::system::{Csr, State};
 use proptest::prelude::*;
-use support::{all_bytes, bytes, go_on, model, run};
+use support::{all_bytes, bytes, go_on, model, run, with_threads};
 
 const DECK: &str = include_str!("../../../cases/tube/tube.toml");
 const COARSE: [&str; 3] = [
@@ -21,10 +21,6 @@ const QUAD4: [&str; 3] =
 
 fn coarse(more: &[&'static str]) -> Vec<&'static str> {
     [&COARSE, more].concat()
-}
-
-fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
 }
 
 #[test]

@@ -61,6 +61,11 @@ pub fn go_on(model: &Model, from: State, increments: Option<usize>) -> Keep {
     keep
 }
 
+/// What some work gives on so many threads.
+pub fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
+}
+
 /// The columns of the history of a run, by name, each with a value an increment.
 pub fn columns(model: &Model, keep: &Keep) -> BTreeMap<String, Vec<f64>> {
     let mut columns = BTreeMap::<String, Vec<f64>>::new();

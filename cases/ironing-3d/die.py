@@ -59,6 +59,6 @@ def write(name, cells):
         out.write("$EndElements\n")
 
 
-write("coarse.msh", (2, 3, 12))
-write("fine.msh", (3, 4, 18))
+write("coarse.msh", (2, 4, 15))
+write("fine.msh", (3, 5, 21))
 write("finest.msh", (4, 6, 27))

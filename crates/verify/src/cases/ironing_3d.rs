@@ -14,8 +14,8 @@ const SLIDING: f64 = 1.61;
 
 /// Meshes: name, file of the die, cells of the block.
 const MESHES: [[&str; 3]; 3] = [
-    ["coarse", "coarse.msh", "[12, 3, 4]"],
-    ["fine", "fine.msh", "[18, 4, 6]"],
+    ["coarse", "coarse.msh", "[15, 4, 5]"],
+    ["fine", "fine.msh", "[21, 5, 7]"],
     ["finest", "finest.msh", "[27, 6, 9]"],
 ];
 
@@ -58,7 +58,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 }
 
 fn level(bench: &Bench, [_, die, block]: &[&str; 3]) -> Result<Level, Error> {
-    let (whole, increments, press) = bench.pick((2.4, 12, 5), (4.0, 40, 10));
+    let (whole, increments, press) = bench.pick((2.4, 12, 8), (4.0, 40, 10));
     let sets = [
         format!("step.press.increments.count={press}"),
         format!("step.slide.displacement.ends.x={whole:?}"),

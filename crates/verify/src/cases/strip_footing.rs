@@ -23,8 +23,9 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     }
     if bench.pick(false, true) {
         for friction in [20, 30] {
-            let [mean, range] = without_dilatancy(bench, friction)?;
-            for (what, value) in [("", mean), ("_davis", mean), ("_range", range)] {
+            let (even, bands) = (even(bench, friction)?, bands(bench, friction)?);
+            let of_even = [("", even[0]), ("_davis", even[0]), ("_range", even[1])];
+            for (what, value) in of_even.into_iter().chain([("_bands", bands[0]), ("_bands_range", bands[1])]) {
                 measured.push((format!("nc_{friction}_psi_0{what}"), value));
             }
         }
@@ -51,13 +52,25 @@ fn load(bench: &Bench, deck: &str, friction: usize) -> Result<f64, Error> {
     Ok(-bench.solve(deck, &sets)?.reaction("face")[1])
 }
 
-/// Mean over the second half of the settlement, and the range over it, since the load never comes to rest.
-fn without_dilatancy(bench: &Bench, friction: usize) -> Result<[f64; 2], Error> {
+/// Without dilatancy, on the mesh of the deck.
+fn even(bench: &Bench, friction: usize) -> Result<[f64; 2], Error> {
     let mut sets = sets(1, [friction, 0], 5e-4);
     sets.push("step.load.increments={ first = 0.01, largest = 0.02 }".into());
     sets.push("solver={ tolerance = 1e-3, iterations = 40 }".into());
+    plateau(bench, "footing.toml", &sets)
+}
+
+/// Without dilatancy, on the mesh along the slip lines.
+fn bands(bench: &Bench, friction: usize) -> Result<[f64; 2], Error> {
+    let soil = "material.soil.drucker_prager_plane_strain";
+    let sets = [format!("mesh.file='bands_{friction}.inp'"), format!("{soil}.friction={friction}")];
+    plateau(bench, "bands.toml", &sets)
+}
+
+/// Mean over the second half of the settlement, and the range over it, of a load that never comes to rest.
+fn plateau(bench: &Bench, deck: &str, sets: &[String]) -> Result<[f64; 2], Error> {
     let mut curve = Vec::new();
-    bench.follow("footing.toml", &sets, |model, state| curve.push((state.time, -reaction(model, state, "face")[1])))?;
+    bench.follow(deck, sets, |model, state| curve.push((state.time, -reaction(model, state, "face")[1])))?;
     let late: Vec<_> = curve.windows(2).filter(|two| two[1].0 > 0.5).collect();
     let area: f64 = late.iter().map(|two| (two[1].0 - two[0].0) * two[1].1).sum();
     let (low, high) = late.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), two| (l.min(two[1].1), h.max(two[1].1)));

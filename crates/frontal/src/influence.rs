@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::check_length;
-use crate::solve::Workspace;
+use crate::together::Together;
 
 /// Loads substituted together.
 const TOGETHER: usize = 32;
@@ -24,29 +24,30 @@ impl Factor {
         if x.is_empty() {
             return Ok(());
         }
-        let to: Vec<u32> = at.iter().map(|&unknown| self.symbolic.tree.position[unknown]).collect();
-        let mut work = Workspace::with_room_for(self, TOGETHER.min(loads.len()));
+        let position = &self.symbolic.tree.position;
+        let to: Vec<u32> = at.iter().map(|&unknown| position[unknown]).collect();
+        let mut vectors = Together::with_room_for(self, TOGETHER.min(loads.len()));
         for (loads, x) in loads.chunks(TOGETHER).zip(x.chunks_mut(TOGETHER * at.len())) {
-            let from = self.scatter(loads, work.vectors());
-            self.substitute_between(&from, &to, &mut work);
-            let vectors = work.vectors().chunks_exact(self.symbolic.pattern.len());
-            for (x, vector) in x.chunks_exact_mut(at.len()).zip(vectors) {
-                for ((x, &unknown), &position) in x.iter_mut().zip(at).zip(&to) {
-                    *x = vector[position as usize] * self.scaling.columns[unknown];
+            vectors.clear(self, loads.len());
+            let from = self.scatter(loads, &mut vectors);
+            self.substitute_between(&from, &to, &mut vectors);
+            for (place, (&unknown, &position)) in at.iter().zip(&to).enumerate() {
+                let scale = self.scaling.columns[unknown];
+                for (x, value) in x.chunks_exact_mut(at.len()).zip(vectors.row(position)) {
+                    x[place] = *value * scale;
                 }
             }
         }
         Ok(())
     }
 
-    /// Sets the vectors to the scaled loads in elimination order and returns the positions that are loaded.
-    fn scatter(&self, loads: &[Vec<(usize, f64)>], vectors: &mut [f64]) -> Vec<u32> {
-        vectors.fill(0.0);
+    /// Adds the scaled loads to vectors in elimination order and returns the positions that are loaded.
+    fn scatter(&self, loads: &[Vec<(usize, f64)>], vectors: &mut Together) -> Vec<u32> {
         let mut loaded = Vec::new();
-        for (load, vector) in loads.iter().zip(vectors.chunks_exact_mut(self.symbolic.pattern.len())) {
+        for (k, load) in loads.iter().enumerate() {
             for &(unknown, value) in load {
                 let position = self.symbolic.tree.position[unknown];
-                vector[position as usize] += value * self.scaling.rows[unknown];
+                vectors.row(position)[k] += value * self.scaling.rows[unknown];
                 loaded.push(position);
             }
         }

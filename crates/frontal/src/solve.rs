@@ -20,22 +20,6 @@ impl Workspace {
         Workspace { x: vec![0.0; symbolic.pattern.len()], local: vec![0.0; symbolic.prediction.largest_front] }
     }
 
-    /// Room for `count` vectors at once.
-    pub fn with_room_for(factor: &Factor, count: usize) -> Self {
-        let one = Self::new(factor);
-        Workspace { x: vec![0.0; one.x.len() * count], local: vec![0.0; one.local.len() * count] }
-    }
-
-    /// How many vectors it holds.
-    pub fn count(&self, factor: &Factor) -> usize {
-        self.x.len() / factor.symbolic.pattern.len().max(1)
-    }
-
-    /// The vectors, and room for the gathered unknowns of a front.
-    pub fn vectors_and_local(&mut self) -> (&mut [f64], &mut [f64]) {
-        (&mut self.x, &mut self.local)
-    }
-
     /// The vectors, one after the other.
     pub fn vectors(&mut self) -> &mut [f64] {
         &mut self.x

@@ -1,80 +1,203 @@
-//! Substitution for several vectors at once: large fronts by matrix products, which read the factor once for all.
+//! Substitution for several vectors at once, which lie next to each other: a row of numbers for each unknown. The factor
+//! is then read once for all of them, and what is done at a front are products of matrices.
 
 use crate::assembly_tree::Front;
 use crate::factor::Factor;
-use crate::panels::{Backward, Panels, SparseForward};
-use crate::solve::Workspace;
+use crate::panels::Panels;
+use crate::vector::subtract;
 use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::{solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Accum, MatMut, MatRef, Par};
+use pulp::Arch;
+use std::ops::Range;
 
-/// Fronts with fewer entries of the factor are done vector by vector.
-const LARGE: usize = 2048;
+/// Pivots taken one after the other; more are halved.
+const NARROW: usize = 16;
+/// Products with fewer entries of the factor are done by simple loops.
+const SMALL: usize = 256;
+
+/// Vectors in elimination order, each row `width` numbers, and room for the rows of a front.
+pub(crate) struct Together {
+    width: usize,
+    x: Vec<f64>,
+    local: Vec<f64>,
+}
+
+impl Together {
+    /// Room for `most` vectors.
+    pub fn with_room_for(factor: &Factor, most: usize) -> Self {
+        let symbolic = &factor.symbolic;
+        let [x, local] = [symbolic.pattern.len(), symbolic.prediction.largest_front].map(|n| Vec::with_capacity(n * most));
+        Together { width: most, x, local }
+    }
+
+    /// Sets so many vectors to zero.
+    pub fn clear(&mut self, factor: &Factor, width: usize) {
+        self.width = width;
+        self.x.clear();
+        self.x.resize(factor.symbolic.pattern.len() * width, 0.0);
+        self.local.resize(factor.symbolic.prediction.largest_front * width, 0.0);
+    }
+
+    /// What all vectors are at a position.
+    pub fn row(&mut self, position: u32) -> &mut [f64] {
+        row(&mut self.x, self.width, position)
+    }
+}
+
+fn row(x: &mut [f64], width: usize, position: u32) -> &mut [f64] {
+    &mut x[width * position as usize..][..width]
+}
 
 impl Factor {
-    /// `x <- A^-1 x` for several vectors, one after the other in elimination order, passing the fronts that none of the
-    /// entries `from` reaches and those that none of the entries `to` needs.
-    pub(crate) fn substitute_between(&self, from: &[u32], to: &[u32], work: &mut Workspace) {
-        let fronts = &self.symbolic.tree.fronts;
-        let count = work.count(self);
-        for (front, _) in fronts.iter().zip(self.symbolic.tree.above(from)).filter(|(_, reached)| *reached) {
-            match blocked(front, count) {
-                true => self.at_front_together(front, work, forward_together),
-                false => self.halves().at_front::<SparseForward>(front, work),
-            }
+    /// `x <- A^-1 x` for the equilibrated matrix, passing the fronts that none of the entries `from`, all that are not zero,
+    /// reaches and those that none of the entries `to` needs.
+    pub(crate) fn substitute_between(&self, from: &[u32], to: &[u32], vectors: &mut Together) {
+        let tree = &self.symbolic.tree;
+        for (front, _) in tree.fronts.iter().zip(tree.above(from)).filter(|(_, reached)| *reached) {
+            self.forward_at(front, vectors);
         }
-        for (front, _) in fronts.iter().zip(self.symbolic.tree.above(to)).rev().filter(|(_, needed)| *needed) {
-            match blocked(front, count) {
-                true => self.at_front_together(front, work, backward_together),
-                false => self.halves().at_front::<Backward>(front, work),
-            }
+        for (front, _) in tree.fronts.iter().zip(tree.above(to)).rev().filter(|(_, needed)| *needed) {
+            self.backward_at(front, vectors);
         }
     }
 
-    /// Gathers the unknowns of a front for all vectors, lets `step` work on them and scatters them.
-    fn at_front_together(&self, front: &Front, work: &mut Workspace, step: impl Fn(&Panels<f64>, MatMut<'_, f64>)) {
-        let halves = self.halves();
-        let (panels, rows) = (halves.panels(front), self.symbolic.tree.rows(front));
-        let (x, local) = work.vectors_and_local();
-        let (n, m, p) = (self.symbolic.pattern.len(), front.size(), front.pivots);
-        let count = x.len() / n;
-        let local = &mut local[..m * count];
-        for (local, x) in local.chunks_exact_mut(m).zip(x.chunks_exact(n)) {
-            local[..p].copy_from_slice(&x[front.pivot_range()]);
-            local[p..].iter_mut().zip(rows).for_each(|(local, &row)| *local = x[row as usize]);
-        }
-        step(&panels, MatMut::from_column_major_slice_mut(local, m, count));
-        for (local, x) in local.chunks_exact(m).zip(x.chunks_exact_mut(n)) {
-            x[front.pivot_range()].copy_from_slice(&local[..p]);
-            local[p..].iter().zip(rows).for_each(|(local, &row)| x[row as usize] = *local);
-        }
-    }
-}
-
-fn blocked(front: &Front, count: usize) -> bool {
-    count > 1 && !front.symmetric && front.size() * front.pivots >= LARGE
-}
-
-/// `[L11; L21]` downwards.
-fn forward_together(panels: &Panels<f64>, mut x: MatMut<'_, f64>) {
-    for column in 0..x.ncols() {
+    /// `[L11; L21]` downwards.
+    fn forward_at(&self, front: &Front, vectors: &mut Together) {
+        let (Together { width, x, local }, halves) = (vectors, self.halves());
+        let panels = halves.panels(front);
+        let (width, m, p) = (*width, panels.m, panels.p);
+        let top = &mut x[width * front.first..][..width * p];
         for (k, pivot) in panels.pivots.iter().enumerate() {
-            let other = pivot.row as usize;
-            (x[(k, column)], x[(other, column)]) = (x[(other, column)], x[(k, column)]);
+            exchange(top, width, k, pivot.row as usize);
+        }
+        lower(&panels, 0..p, top, width);
+        let local = &mut local[..width * (m - p)];
+        local.fill(0.0);
+        take(local, &Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: false }, top, width);
+        for (local, &at) in local.chunks_exact(width).zip(self.symbolic.tree.rows(front)) {
+            row(x, width, at).iter_mut().zip(local).for_each(|(x, local)| *x += local);
         }
     }
-    let left = MatRef::from_column_major_slice(panels.left, panels.m, panels.p);
-    let (top, bottom) = left.split_at_row(panels.p);
-    let (mut x, rest) = x.split_at_row_mut(panels.p);
-    solve_unit_lower_triangular_in_place(top, x.as_mut(), Par::Seq);
-    matmul(rest, Accum::Add, bottom, x.as_ref(), -1.0, Par::Seq);
+
+    /// `[U11 U12]` upwards.
+    fn backward_at(&self, front: &Front, vectors: &mut Together) {
+        let (Together { width, x, local }, halves) = (vectors, self.halves());
+        let panels = halves.panels(front);
+        let (width, m, p) = (*width, panels.m, panels.p);
+        let (border, product) = local[..width * m].split_at_mut(width * (m - p));
+        for (local, &at) in border.chunks_exact_mut(width).zip(self.symbolic.tree.rows(front)) {
+            local.copy_from_slice(row(x, width, at));
+        }
+        let right = match panels.symmetric {
+            true => Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: true },
+            false => Part { entries: panels.right, leading: m - p, rows: 0..m - p, columns: 0..p, transposed: true },
+        };
+        product.fill(0.0);
+        take(product, &right, border, width);
+        let top = &mut x[width * front.first..][..width * p];
+        for (k, (x, product)) in top.chunks_exact_mut(width).zip(product.chunks_exact(width)).enumerate() {
+            let factor = if panels.symmetric { panels.left[m * k + k] } else { 1.0 };
+            x.iter_mut().zip(product).for_each(|(x, product)| *x += factor * product);
+        }
+        upper(&panels, 0..p, top, width);
+    }
 }
 
-/// `[U11 U12]` upwards.
-fn backward_together(panels: &Panels<f64>, x: MatMut<'_, f64>) {
-    let top = MatRef::from_column_major_slice(panels.left, panels.m, panels.p).subrows(0, panels.p);
-    let right = MatRef::from_column_major_slice(panels.right, panels.m - panels.p, panels.p);
-    let (mut x, rest) = x.split_at_row_mut(panels.p);
-    matmul(x.as_mut(), Accum::Add, right.transpose(), rest.as_ref(), -1.0, Par::Seq);
-    solve_upper_triangular_in_place(top, x, Par::Seq);
+fn exchange(x: &mut [f64], width: usize, j: usize, k: usize) {
+    if j != k {
+        let (head, tail) = x.split_at_mut(width * k);
+        head[width * j..][..width].swap_with_slice(&mut tail[..width]);
+    }
+}
+
+/// Some rows and columns of a matrix that is stored by columns, or their transpose.
+struct Part<'a> {
+    entries: &'a [f64],
+    leading: usize,
+    rows: Range<usize>,
+    columns: Range<usize>,
+    transposed: bool,
+}
+
+impl Part<'_> {
+    fn column(&self, k: usize) -> &[f64] {
+        &self.entries[self.leading * k..][self.rows.clone()]
+    }
+
+    fn matrix(&self) -> MatRef<'_, f64> {
+        let all = MatRef::from_column_major_slice(self.entries, self.leading, self.entries.len() / self.leading.max(1));
+        let part = all.get(self.rows.clone(), self.columns.clone());
+        if self.transposed { part.transpose() } else { part }
+    }
+}
+
+/// `y <- y - part x`, where rows have this width.
+fn take(y: &mut [f64], part: &Part, x: &[f64], width: usize) {
+    if part.rows.len() * part.columns.len() <= SMALL {
+        return Arch::new().dispatch(|| take_small(y, part, x, width));
+    }
+    let rows = |x: &[f64]| x.len() / width;
+    let (y_rows, x_rows) = (rows(y), rows(x));
+    let y = MatMut::from_row_major_slice_mut(y, y_rows, width);
+    matmul(y, Accum::Add, part.matrix(), MatRef::from_row_major_slice(x, x_rows, width), -1.0, Par::Seq);
+}
+
+#[inline(always)]
+fn take_small(y: &mut [f64], part: &Part, x: &[f64], width: usize) {
+    for (j, k) in part.columns.clone().enumerate() {
+        for (i, &factor) in part.column(k).iter().enumerate() {
+            let (to, from) = if part.transposed { (j, i) } else { (i, j) };
+            subtract(&mut y[width * to..][..width], factor, &x[width * from..][..width]);
+        }
+    }
+}
+
+/// `x <- L11^-1 x` for the pivots of a range, whose rows `x` holds.
+fn lower(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+    if range.len() <= NARROW {
+        return Arch::new().dispatch(|| lower_narrow(panels, range, x, width));
+    }
+    let middle = range.start + range.len() / 2;
+    let (first, second) = x.split_at_mut(width * (middle - range.start));
+    lower(panels, range.start..middle, first, width);
+    let (rows, columns) = (middle..range.end, range.start..middle);
+    take(second, &Part { entries: panels.left, leading: panels.m, rows, columns, transposed: false }, first, width);
+    lower(panels, middle..range.end, second, width);
+}
+
+#[inline(always)]
+fn lower_narrow(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+    for (done, k) in range.clone().enumerate() {
+        let (x, rest) = x.split_at_mut(width * (done + 1));
+        let factors = &panels.left[panels.m * k..][k + 1..range.end];
+        for (row, &factor) in rest.chunks_exact_mut(width).zip(factors) {
+            subtract(row, factor, &x[width * done..]);
+        }
+    }
+}
+
+/// `x <- U11^-1 x` for the pivots of a range, whose rows `x` holds.
+fn upper(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+    if range.len() <= NARROW {
+        return Arch::new().dispatch(|| upper_narrow(panels, range, x, width));
+    }
+    let middle = range.start + range.len() / 2;
+    let (first, second) = x.split_at_mut(width * (middle - range.start));
+    upper(panels, middle..range.end, second, width);
+    let (rows, columns) = (range.start..middle, middle..range.end);
+    take(first, &Part { entries: panels.left, leading: panels.m, rows, columns, transposed: false }, second, width);
+    upper(panels, range.start..middle, first, width);
+}
+
+#[inline(always)]
+fn upper_narrow(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+    for (above, k) in range.clone().enumerate().rev() {
+        let column = &panels.left[panels.m * k..][range.start..=k];
+        let (rest, x) = x.split_at_mut(width * above);
+        let x = &mut x[..width];
+        x.iter_mut().for_each(|x| *x /= column[above]);
+        for (row, &factor) in rest.chunks_exact_mut(width).zip(column) {
+            subtract(row, factor, x);
+        }
+    }
 }

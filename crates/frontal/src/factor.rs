@@ -83,6 +83,18 @@ impl Factor {
         &self.perturbed
     }
 
+    /// Columns and values of a row of the matrix that was factorised.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let pattern = &self.symbolic.pattern;
+        let range = pattern.starts()[row]..pattern.starts()[row + 1];
+        let entries = pattern.columns()[range.clone()].iter().zip(&self.values[range]);
+        let Scaling { rows, columns, .. } = &self.scaling;
+        entries.map(move |(&column, value)| (column, value / (rows[row] * columns[column])))
+    }
+
     pub(crate) fn check_ready(&self) -> Result<(), Error> {
         if self.ready { Ok(()) } else { Err(Error::NotFactorised) }
     }

@@ -47,25 +47,21 @@ impl Factor {
     /// # Errors
     /// [`Error::NotFactorised`], [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, Error> {
-        self.solve_recycling(
-            (values, Preconditioner { single: None, change: None }),
-            rhs,
-            krylov,
-            (&mut Outer::default(), true),
-        )
+        let matrix = (&self.symbolic.pattern, values);
+        let preconditioner = Preconditioner { single: None, change: None };
+        self.solve_recycling((matrix, preconditioner), rhs, krylov, (&mut Outer::default(), true))
     }
 
-    /// The same with a preconditioner put right for a change, beginning in the space of the directions of earlier
-    /// solutions, with the `same` matrix or with another; its own are added to them.
+    /// The same for a matrix of any pattern with a preconditioner put right for a change, beginning in the space of the
+    /// directions of earlier solutions, with the `same` matrix or with another; its own are added to them.
     pub(crate) fn solve_recycling(
         &self,
-        (values, preconditioner): (&[f64], Preconditioner),
+        ((pattern, values), preconditioner): ((&Pattern, &[f64]), Preconditioner),
         rhs: &mut [f64],
         krylov: &Krylov,
         (outer, same): (&mut Outer, bool),
     ) -> Result<Convergence, Error> {
         self.check_ready()?;
-        let pattern = &self.symbolic.pattern;
         check_length("values", pattern.nonzeros(), values.len())?;
         check_length("rhs", pattern.len(), rhs.len())?;
         if pattern.len() == 0 {
@@ -74,7 +70,7 @@ impl Factor {
         pattern.check_finite(values)?;
         check_finite(rhs, pattern.len())?;
         let (work, scaled) = (Workspace::new(self), rhs.to_vec());
-        let mut system = OtherValues { factor: self, values, preconditioner, work, scaled };
+        let mut system = OtherValues { factor: self, matrix: (pattern, values), preconditioner, work, scaled };
         let mut x = vec![0.0; rhs.len()];
         scale(rhs, &self.scaling.rows);
         if !same {
@@ -95,10 +91,10 @@ pub(crate) trait System {
     fn precondition(&mut self, x: &mut [f64]);
 }
 
-/// Other values than those factorised, in the scale of the factor.
+/// Another matrix than the one factorised, in the scale of the factor.
 struct OtherValues<'a> {
     factor: &'a Factor,
-    values: &'a [f64],
+    matrix: (&'a Pattern, &'a [f64]),
     preconditioner: Preconditioner<'a>,
     work: Workspace,
     scaled: Vec<f64>,
@@ -108,7 +104,8 @@ impl System for OtherValues<'_> {
     fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
         self.scaled.copy_from_slice(x);
         scale(&mut self.scaled, &self.factor.scaling.columns);
-        multiply(&self.factor.symbolic.pattern, self.values, &self.scaled, y);
+        let (pattern, values) = self.matrix;
+        multiply(pattern, values, &self.scaled, y);
         scale(y, &self.factor.scaling.rows);
     }
 

@@ -4,6 +4,7 @@ use crate::change::{Change, Preconditioner};
 use crate::error::Error;
 use crate::factor::{Factor, Report};
 use crate::krylov::{Convergence, Krylov};
+use crate::pattern::{Pattern, check_length};
 use crate::recycle::Outer;
 use crate::refine::Accuracy;
 use crate::rounded::Rounded;
@@ -95,6 +96,8 @@ pub struct Solver {
     spent: usize,
     /// What is known to have changed since.
     change: Option<Change>,
+    /// Pattern of the matrices to come, where it is not the one that was analysed.
+    other: Option<Pattern>,
     counts: Counts,
 }
 
@@ -103,7 +106,7 @@ impl Solver {
     pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
         let factor = symbolic.new_factor();
         let (outer, rounded, counts) = (Outer::default(), Rounded::default(), Counts::default());
-        Solver { symbolic, factor, policy, usable: false, outer, rounded, spent: 0, change: None, counts }
+        Solver { symbolic, factor, policy, usable: false, outer, rounded, spent: 0, change: None, other: None, counts }
     }
 
     /// The analysis.
@@ -141,6 +144,19 @@ impl Solver {
     /// put right for that until the next factorisation or the next change.
     pub fn change(&mut self, change: Option<Change>) {
         self.change = change;
+    }
+
+    /// Has the matrices to come have another pattern, of the same unknowns: the factor there is may precondition them. They
+    /// are not factorised by this solver.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] for another number of unknowns.
+    pub fn follow(&mut self, pattern: Pattern) -> Result<(), Error> {
+        check_length("rows of the pattern", self.symbolic.pattern().len(), pattern.len())?;
+        // Images of the directions are not known of the other matrix; its changes are found anew.
+        self.change = None;
+        self.other = (pattern != *self.symbolic.pattern()).then_some(pattern);
+        Ok(())
     }
 
     /// Solves `A x = b` in place. With an old factor the residual is brought below `tolerance` times the right-hand
@@ -205,7 +221,8 @@ impl Solver {
         let krylov = Krylov { tolerance, iterations, restart: iterations };
         let preconditioner =
             Preconditioner { single: self.rounded.of(&self.factor, rhs), change: self.change.as_ref() };
-        let system = (values, preconditioner);
+        let pattern = self.other.as_ref().unwrap_or(self.symbolic.pattern());
+        let system = ((pattern, values), preconditioner);
         let convergence = self.factor.solve_recycling(system, &mut x, &krylov, (&mut self.outer, same))?;
         self.counts.iterations += convergence.iterations;
         self.spent += convergence.iterations;

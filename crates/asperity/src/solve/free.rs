@@ -28,7 +28,7 @@ impl Newton<'_> {
                 self.evaluation.values[pattern.starts[row] + diagonal] += PROP * self.stiffness;
             }
         }
-        self.solver.factorise(&self.evaluation.values).map_err(|e| self.explain(e, iteration))
+        self.factorise_matrix().map_err(|e| self.explain(e, iteration))
     }
 
     /// A solution that was reached with a propped matrix must stand without the prop: what still meets no stiffness must
@@ -37,7 +37,7 @@ impl Newton<'_> {
         if self.propped.is_empty() {
             return Ok(());
         }
-        let motions = match self.solver.factorise(&self.evaluation.values) {
+        let motions = match self.factorise_matrix() {
             Err(LinearError::Singular(motions)) => motions,
             factorised => return factorised.map_err(|e| self.explain(e, 1)),
         };

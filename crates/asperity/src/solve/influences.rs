@@ -21,9 +21,8 @@ pub(super) struct Influences {
     /// Unknowns of the stencils near contact, and the free ones that they follow, ascending.
     dofs: Vec<usize>,
     at: Vec<usize>,
-    /// Free unknowns of closed stencils when it was factorised, and its rows `at` them.
+    /// Free unknowns of closed stencils when it was factorised.
     closed: BTreeSet<usize>,
-    rows: BTreeMap<usize, Vec<f64>>,
     /// Motions `at` all under a unit of force.
     columns: BTreeMap<usize, Vec<f64>>,
     /// Unknowns whose rows have changed, and how.
@@ -87,12 +86,11 @@ impl Influences {
     ///
     /// # Errors
     /// When a law cannot answer.
-    pub fn begin(&mut self, (site, matrix): (Site, Matrix), near: Vec<usize>, stays: bool) -> Result<(), Failure> {
+    pub fn begin(&mut self, site: Site, near: Vec<usize>, stays: bool) -> Result<(), Failure> {
         *self = Self { dofs: near, stays, ..Self::default() };
         self.find_free(site.constraints);
         if stays {
             self.closed = site.closed()?;
-            self.rows = self.at.iter().map(|&row| (row, matrix.row(row).1.to_vec())).collect();
         }
         Ok(())
     }
@@ -204,26 +202,18 @@ impl Influences {
     ) -> Result<Option<Change>, Failure> {
         self.change = None;
         let mut unknowns: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
-        unknowns.retain(|unknown| self.rows.contains_key(unknown));
+        unknowns.retain(|unknown| self.at.binary_search(unknown).is_ok());
         if unknowns.is_empty() || unknowns.len() > MOST {
             return Ok(None);
         }
         self.find(&unknowns, solver).map_err(|error| Failure::new(error.to_string()))?;
-        let rows: Vec<Sparse> = unknowns.iter().map(|&row| self.row(row, &unknowns, matrix)).collect();
+        let rows: Vec<Sparse> = unknowns.iter().map(|&row| difference(matrix.row(row), solver.row(row), &unknowns)).collect();
         let unknowns: Vec<usize> = unknowns.into_iter().collect();
         let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
         let capacitance = self.capacitance(&rows, &unknowns);
         let change = Change::new(forces, rows, capacitance);
         self.change = change.clone().map(|change| (unknowns, change));
         Ok(change)
-    }
-
-    /// What has changed of a row among these unknowns.
-    fn row(&self, row: usize, among: &BTreeSet<usize>, matrix: Matrix) -> Sparse {
-        let (columns, now) = matrix.row(row);
-        let entries = columns.iter().zip(now.iter().zip(&self.rows[&row]));
-        let entries = entries.filter(|(column, (now, then))| now != then && among.contains(*column));
-        entries.map(|(&column, (now, then))| (column, now - then)).collect()
     }
 
     /// `I + V^T K0^-1 U` by rows.
@@ -237,4 +227,11 @@ impl Influences {
         }
         entries
     }
+}
+
+/// What has changed of a row among these unknowns.
+fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &BTreeSet<usize>) -> Sparse {
+    let mut changed: BTreeMap<usize, f64> = columns.iter().copied().zip(now.iter().copied()).collect();
+    then.into_iter().for_each(|(column, value)| *changed.entry(column).or_default() -= value);
+    changed.into_iter().filter(|(column, value)| *value != 0.0 && among.contains(column)).collect()
 }

@@ -61,6 +61,11 @@ pub trait LinearSolver: Send {
     /// # Errors
     /// When the pattern cannot be handled.
     fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError>;
+    /// Takes note that the matrices to come have another pattern, of the same unknowns, and says whether the factor there is
+    /// may serve for them all the same; [`analyse`](Self::analyse) comes before the next factorisation then.
+    fn follow(&mut self, _pattern: &Csr) -> bool {
+        false
+    }
     /// Factorises the matrix with these values, in the order of the pattern.
     ///
     /// # Errors
@@ -77,6 +82,10 @@ pub trait LinearSolver: Send {
     /// # Errors
     /// When nothing is factorised.
     fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError>;
+    /// Columns and values of a row of the matrix that was factorised last.
+    fn row(&self, _row: usize) -> Vec<(usize, f64)> {
+        Vec::new()
+    }
     /// Begins a sequence of related matrices, such as those of an attempt: what was factorised before is not to show in
     /// its solutions.
     fn begin(&mut self) {}
@@ -155,15 +164,21 @@ impl LinearSolver for Frontal {
         let pattern = Pattern::new(pattern.starts.clone(), pattern.columns.clone())
             .and_then(|p| p.with_nodes(nodes))
             .map_err(translate)?;
-        if self.solver.as_ref().is_some_and(|solver| *solver.symbolic().pattern() == pattern) {
-            self.begin();
-            return Ok(());
+        if let Some(solver) = self.solver.as_mut().filter(|solver| *solver.symbolic().pattern() == pattern) {
+            solver.refuse();
+            return solver.follow(pattern).map_err(translate);
         }
         // The memory of the old factor is given back before the new one takes its own.
         self.solver = None;
         let symbolic = Symbolic::analyse(&pattern, &options).map_err(translate)?;
         self.solver = Some(Solver::new(symbolic, self.factors.policy()));
         Ok(())
+    }
+
+    fn follow(&mut self, pattern: &Csr) -> bool {
+        let Some(solver) = self.solver.as_mut().filter(|solver| solver.affordable_iterations() > 0) else { return false };
+        let pattern = Pattern::new(pattern.starts.clone(), pattern.columns.clone());
+        pattern.and_then(|pattern| solver.follow(pattern)).is_ok()
     }
 
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
@@ -177,6 +192,10 @@ impl LinearSolver for Frontal {
     fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError> {
         let solver = self.solver.as_ref().ok_or_else(|| LinearError::Other("nothing is analysed".into()))?;
         solver.influence(loads, at, x).map_err(translate)
+    }
+
+    fn row(&self, row: usize) -> Vec<(usize, f64)> {
+        self.solver.as_ref().map_or_else(Vec::new, |solver| solver.factor().row(row).collect())
     }
 
     fn begin(&mut self) {

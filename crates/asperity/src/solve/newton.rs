@@ -81,7 +81,10 @@ impl NewtonOptions {
 pub struct Memory {
     /// Pattern, places and buffers.
     pub workspace: Workspace,
+    /// Pattern that was analysed, pattern that the solver was told of, and the unknowns of both.
     pub(super) analysed: usize,
+    pub(super) followed: usize,
+    pub(super) free: Vec<usize>,
     pub(super) factorised: bool,
     /// Stencils that bend.
     pub(super) kinks: Kinks,

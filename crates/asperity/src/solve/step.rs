@@ -78,18 +78,30 @@ impl Newton<'_> {
         }
     }
 
-    /// Analyses the pattern if it is new.
-    fn analyse(&mut self, iteration: usize) -> Result<(), Trouble> {
+    /// Tells the solver of the pattern if it is new, and whether its unknowns are those that it knows.
+    fn follow(&mut self) {
+        let (analysis, free) = (self.memory.workspace.analysis(), self.step.constraints.free());
+        if self.memory.followed == analysis {
+            return;
+        }
+        if self.memory.free != free || !self.solver.follow(self.memory.workspace.pattern()) {
+            self.solver.refuse();
+            self.memory.influences.forget();
+            self.memory.free = free.to_vec();
+        }
+        (self.memory.followed, self.memory.factorised) = (analysis, false);
+    }
+
+    /// Factorises the matrix at hand, and analyses its pattern before if that is new.
+    pub(super) fn factorise_matrix(&mut self) -> Result<(), LinearError> {
         let analysis = self.memory.workspace.analysis();
         if self.memory.analysed != analysis {
             let nodes = owners(&self.problem.dofs, self.step.constraints.free());
-            let pattern = self.memory.workspace.pattern();
-            self.solver.analyse(pattern, nodes).map_err(|e| self.explain(e, iteration))?;
-            (self.memory.analysed, self.memory.factorised) = (analysis, false);
-            self.memory.influences.forget();
+            self.solver.analyse(self.memory.workspace.pattern(), nodes)?;
+            self.memory.analysed = analysis;
             self.memory.analyses += 1;
         }
-        Ok(())
+        self.solver.factorise(&self.evaluation.values)
     }
 
     /// Factorises if this iteration asks for it, and says whether it did.
@@ -105,7 +117,7 @@ impl Newton<'_> {
         self.memory.factorisations += 1;
         self.memory.factorised = false;
         self.propped.clear();
-        match self.solver.factorise(&self.evaluation.values) {
+        match self.factorise_matrix() {
             Err(LinearError::Singular(motions)) if self.may_hold() => self.prop(&motions, iteration)?,
             factorised => {
                 factorised.map_err(|e| self.explain(e, iteration))?;
@@ -122,8 +134,7 @@ impl Newton<'_> {
         let dofs = memory.kinks.dofs();
         let near = if stays { memory.workspace.around(dofs, |t| terms[t].bends()) } else { dofs.to_vec() };
         let site = Site::of(&self.assembly, &memory.kinks);
-        let matrix = Matrix::of(&memory.workspace, &self.evaluation.values);
-        memory.influences.begin((site, matrix), near, stays)
+        memory.influences.begin(site, near, stays)
     }
 
     /// Puts the factor right for what has changed near contact.
@@ -139,7 +150,7 @@ impl Newton<'_> {
 
     /// Solves with the present matrix or that of the variant, and says whether a matrix was factorised.
     fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, Trouble> {
-        self.analyse(iteration)?;
+        self.follow();
         if self.problem.newton.variant == Variant::Full && self.solver.iterates() {
             self.put_right()?;
             let solved = self.solver.iterate(&self.evaluation.values, rhs, forcing);

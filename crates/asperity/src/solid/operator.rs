@@ -3,6 +3,7 @@
 
 use super::gradient::PointGradient;
 use crate::mesh::cells::MAX_NODES;
+use pulp::Arch;
 
 /// Most unknowns of a cell.
 pub const MAX_DOFS: usize = 3 * MAX_NODES;
@@ -36,11 +37,15 @@ pub fn add_tangent<const DIM: usize, const D: usize>(
     volume: f64,
     tangent: &mut [f64],
 ) {
-    match point.nodes.len() {
-        4 => add_product::<DIM, D, 4>(point, a, volume, tangent),
-        8 => add_product::<DIM, D, 8>(point, a, volume, tangent),
-        _ => add_product::<DIM, D, MAX_NODES>(point, a, volume, tangent),
-    }
+    Arch::new().dispatch(
+        #[inline(always)]
+        || match point.nodes.len() {
+            4 => add_product::<DIM, D, 4>(point, a, volume, tangent),
+            8 => add_product::<DIM, D, 8>(point, a, volume, tangent),
+            20 => add_product::<DIM, D, 20>(point, a, volume, tangent),
+            _ => add_product::<DIM, D, MAX_NODES>(point, a, volume, tangent),
+        },
+    );
 }
 
 /// The same for a cell of at most `MOST` nodes: where it has as many, all lengths are known when this is compiled.
@@ -52,6 +57,7 @@ fn add_product<const DIM: usize, const D: usize, const MOST: usize>(
     tangent: &mut [f64],
 ) {
     let nodes = &point.nodes[..point.nodes.len().min(MOST)];
+    let n = DIM * nodes.len();
     let mut ab = [[[0.0; DIM]; MOST]; D];
     for (ab, a) in ab.iter_mut().zip(a) {
         let a = a.map(|a| a * volume);
@@ -66,19 +72,18 @@ fn add_product<const DIM: usize, const D: usize, const MOST: usize>(
             }
         }
     }
-    let mut rows = tangent.chunks_exact_mut(DIM * nodes.len());
+    let mut rows = tangent.chunks_exact_mut(n);
     for grad in nodes {
         for (i, row) in rows.by_ref().take(DIM).enumerate() {
-            let hoop = if i == 0 && D == DIM * DIM + 1 { grad[3] } else { 0.0 };
-            for (r, k) in row.as_chunks_mut::<DIM>().0.iter_mut().enumerate() {
-                for m in 0..DIM {
-                    for j in 0..DIM {
-                        k[m] += grad[j] * ab[i * DIM + j][r][m];
-                    }
-                    if i == 0 && D == DIM * DIM + 1 {
-                        k[m] += hoop * ab[DIM * DIM][r][m];
-                    }
+            let parts: [&[f64]; DIM] = std::array::from_fn(|j| &ab[i * DIM + j].as_flattened()[..n]);
+            for (r, k) in row.iter_mut().enumerate() {
+                for j in 0..DIM {
+                    *k += grad[j] * parts[j][r];
                 }
+            }
+            if i == 0 && D == DIM * DIM + 1 {
+                let part = &ab[DIM * DIM].as_flattened()[..n];
+                row.iter_mut().zip(part).for_each(|(k, ab)| *k += grad[3] * ab);
             }
         }
     }

@@ -71,6 +71,11 @@ impl Csr {
         let begin = self.starts[row];
         self.columns[begin..self.starts[row + 1]].binary_search(&column).ok().map(|k| begin + k)
     }
+    /// The same where it may stand so many entries from the beginning of the row; it is searched for where it does not.
+    pub fn position_near(&self, row: usize, column: usize, offset: usize) -> Option<usize> {
+        let guess = self.starts[row] + offset;
+        if guess < self.starts[row + 1] && self.columns[guess] == column { Some(guess) } else { self.position(row, column) }
+    }
 }
 
 /// Groups in the numbering of the free unknowns.

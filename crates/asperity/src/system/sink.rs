@@ -140,9 +140,15 @@ pub fn places(pattern: &Csr, constraints: &Constraints, stencils: &Stencils) -> 
             places.resize(places.len() + dofs.len() * dofs.len(), LONG_WAY);
             continue;
         }
+        // The unknowns of a node have like rows and stand next to each other in all of them.
         for &row in dofs {
+            let mut next = 0;
             places.extend(dofs.iter().map(|&column| match (constraints.row(row), constraints.row(column)) {
-                (Row::Free(i), Row::Free(j)) => pattern.position(*i, *j).map_or(NOWHERE, |p| p as u32),
+                (Row::Free(i), Row::Free(j)) => {
+                    let place = pattern.position_near(*i, *j, next);
+                    next = place.map_or(0, |place| place + 1 - pattern.starts[*i]);
+                    place.map_or(NOWHERE, |place| place as u32)
+                }
                 _ => NOWHERE,
             }));
         }

@@ -54,9 +54,9 @@ impl<T: Number> Halves<'_, T> {
         let (from, to) = (at(&change.columns), at(&change.rows));
         self.factor.permuted(x, work, |work| {
             self.forward(work);
-            let halfway = work.vectors().to_vec();
+            let halfway = work.x().to_vec();
             self.backward_to(&to, work);
-            let x = work.vectors();
+            let x = work.x();
             let weights = change.weights(|unknown| x[position(unknown) as usize] * scaling.columns[unknown]);
             x.fill(0.0);
             for (column, weight) in change.columns.iter().zip(weights) {
@@ -65,7 +65,7 @@ impl<T: Number> Halves<'_, T> {
                 }
             }
             self.forward_from(&from, work);
-            subtract(work.vectors(), -1.0, &halfway);
+            subtract(work.x(), -1.0, &halfway);
             self.backward(work);
         });
     }

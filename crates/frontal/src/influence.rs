@@ -3,7 +3,9 @@
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::check_length;
+use crate::solve::Halves;
 use crate::together::Together;
+use crate::vector::Number;
 
 /// Loads substituted together.
 const TOGETHER: usize = 32;
@@ -20,21 +22,29 @@ impl Factor {
     /// If there is no such unknown.
     pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
         self.check_ready()?;
+        self.halves().influence(loads, at, x)
+    }
+}
+
+impl<T: Number> Halves<'_, T> {
+    /// [`Factor::influence`] by factors in this precision.
+    pub(crate) fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
         check_length("x", loads.len() * at.len(), x.len())?;
         if x.is_empty() {
             return Ok(());
         }
-        let position = &self.symbolic.tree.position;
+        let Factor { symbolic, scaling, .. } = self.factor;
+        let position = &symbolic.tree.position;
         let to: Vec<u32> = at.iter().map(|&unknown| position[unknown]).collect();
-        let mut vectors = Together::with_room_for(self, TOGETHER.min(loads.len()));
+        let mut vectors = Together::with_room_for(self.factor, TOGETHER.min(loads.len()));
         for (loads, x) in loads.chunks(TOGETHER).zip(x.chunks_mut(TOGETHER * at.len())) {
-            vectors.clear(self, loads.len());
+            vectors.clear(self.factor, loads.len());
             let from = self.scatter(loads, &mut vectors);
             self.substitute_between(&from, &to, &mut vectors);
             for (place, (&unknown, &position)) in at.iter().zip(&to).enumerate() {
-                let scale = self.scaling.columns[unknown];
+                let scale = scaling.columns[unknown];
                 for (x, value) in x.chunks_exact_mut(at.len()).zip(vectors.row(position)) {
-                    x[place] = *value * scale;
+                    x[place] = scale * (*value).into();
                 }
             }
         }
@@ -42,12 +52,12 @@ impl Factor {
     }
 
     /// Adds the scaled loads to vectors in elimination order and returns the positions that are loaded.
-    fn scatter(&self, loads: &[Vec<(usize, f64)>], vectors: &mut Together) -> Vec<u32> {
+    fn scatter(&self, loads: &[Vec<(usize, f64)>], vectors: &mut Together<T>) -> Vec<u32> {
         let mut loaded = Vec::new();
         for (k, load) in loads.iter().enumerate() {
             for &(unknown, value) in load {
-                let position = self.symbolic.tree.position[unknown];
-                vectors.row(position)[k] += value * self.scaling.rows[unknown];
+                let position = self.factor.symbolic.tree.position[unknown];
+                vectors.row(position)[k] += T::round(value * self.factor.scaling.rows[unknown]);
                 loaded.push(position);
             }
         }

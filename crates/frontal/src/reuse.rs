@@ -255,14 +255,21 @@ impl Solver {
     /// Those of [`Factor::solve`].
     pub fn solve_directly(&mut self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
         self.counts.solutions += 1;
+        if self.affordable_iterations() > 0 && rhs.len() == self.symbolic.pattern().len() {
+            self.rounded.of(&self.factor, rhs);
+        }
         self.factor.solve(rhs)
     }
 
-    /// [`Factor::influence`] with the factor there is.
+    /// [`Factor::influence`] with the factor there is, in single precision where other matrices are to be preconditioned by
+    /// that.
     ///
     /// # Errors
     /// Those of [`Factor::influence`].
     pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
-        self.factor.influence(loads, at, x)
+        match self.rounded.known(&self.factor) {
+            Some(single) => single.influence(loads, at, x),
+            None => self.factor.influence(loads, at, x),
+        }
     }
 }

@@ -30,7 +30,12 @@ impl Rounded {
             None => self.round(factor) && self.spoils_little(factor, b),
         };
         self.fit = Some(fit);
-        fit.then_some(Halves { factor, entries: &self.entries })
+        self.known(factor)
+    }
+
+    /// The same where it is known already.
+    pub fn known<'a>(&'a self, factor: &'a Factor) -> Option<Halves<'a, f32>> {
+        (self.fit == Some(true)).then_some(Halves { factor, entries: &self.entries })
     }
 
     fn round(&mut self, factor: &Factor) -> bool {

@@ -20,8 +20,8 @@ impl Workspace {
         Workspace { x: vec![0.0; symbolic.pattern.len()], local: vec![0.0; symbolic.prediction.largest_front] }
     }
 
-    /// The vectors, one after the other.
-    pub fn vectors(&mut self) -> &mut [f64] {
+    /// The vector.
+    pub fn x(&mut self) -> &mut [f64] {
         &mut self.x
     }
 }
@@ -111,19 +111,18 @@ impl<T: Number> Halves<'_, T> {
     pub fn at_front<S: Step>(&self, front: &Front, work: &mut Workspace) {
         let symbolic = &self.factor.symbolic;
         let panels = self.panels(front);
-        for x in work.x.chunks_exact_mut(symbolic.pattern.len()) {
-            let local = &mut work.local[..front.size()];
-            let (top, border) = local.split_at_mut(front.pivots);
-            top.copy_from_slice(&x[front.pivot_range()]);
-            for (value, &row) in border.iter_mut().zip(symbolic.tree.rows(front)) {
-                *value = x[row as usize];
-            }
-            Arch::new().dispatch(At { panels: &panels, x: local, step: PhantomData::<S> });
-            let (top, border) = local.split_at(front.pivots);
-            x[front.pivot_range()].copy_from_slice(top);
-            for (value, &row) in border.iter().zip(symbolic.tree.rows(front)) {
-                x[row as usize] = *value;
-            }
+        let Workspace { x, local } = work;
+        let local = &mut local[..front.size()];
+        let (top, border) = local.split_at_mut(front.pivots);
+        top.copy_from_slice(&x[front.pivot_range()]);
+        for (value, &row) in border.iter_mut().zip(symbolic.tree.rows(front)) {
+            *value = x[row as usize];
+        }
+        Arch::new().dispatch(At { panels: &panels, x: local, step: PhantomData::<S> });
+        let (top, border) = local.split_at(front.pivots);
+        x[front.pivot_range()].copy_from_slice(top);
+        for (value, &row) in border.iter().zip(symbolic.tree.rows(front)) {
+            x[row as usize] = *value;
         }
     }
 }

@@ -4,7 +4,8 @@
 use crate::assembly_tree::Front;
 use crate::factor::Factor;
 use crate::panels::Panels;
-use crate::vector::subtract;
+use crate::solve::Halves;
+use crate::vector::Number;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use pulp::Arch;
@@ -16,13 +17,13 @@ const NARROW: usize = 16;
 const SMALL: usize = 256;
 
 /// Vectors in elimination order, each row `width` numbers, and room for the rows of a front.
-pub(crate) struct Together {
+pub(crate) struct Together<T> {
     width: usize,
-    x: Vec<f64>,
-    local: Vec<f64>,
+    x: Vec<T>,
+    local: Vec<T>,
 }
 
-impl Together {
+impl<T: Number> Together<T> {
     /// Room for `most` vectors.
     pub fn with_room_for(factor: &Factor, most: usize) -> Self {
         let symbolic = &factor.symbolic;
@@ -34,25 +35,25 @@ impl Together {
     pub fn clear(&mut self, factor: &Factor, width: usize) {
         self.width = width;
         self.x.clear();
-        self.x.resize(factor.symbolic.pattern.len() * width, 0.0);
-        self.local.resize(factor.symbolic.prediction.largest_front * width, 0.0);
+        self.x.resize(factor.symbolic.pattern.len() * width, T::round(0.0));
+        self.local.resize(factor.symbolic.prediction.largest_front * width, T::round(0.0));
     }
 
     /// What all vectors are at a position.
-    pub fn row(&mut self, position: u32) -> &mut [f64] {
+    pub fn row(&mut self, position: u32) -> &mut [T] {
         row(&mut self.x, self.width, position)
     }
 }
 
-fn row(x: &mut [f64], width: usize, position: u32) -> &mut [f64] {
+fn row<T>(x: &mut [T], width: usize, position: u32) -> &mut [T] {
     &mut x[width * position as usize..][..width]
 }
 
-impl Factor {
+impl<T: Number> Halves<'_, T> {
     /// `x <- A^-1 x` for the equilibrated matrix, passing the fronts that none of the entries `from`, all that are not zero,
     /// reaches and those that none of the entries `to` needs.
-    pub(crate) fn substitute_between(&self, from: &[u32], to: &[u32], vectors: &mut Together) {
-        let tree = &self.symbolic.tree;
+    pub(crate) fn substitute_between(&self, from: &[u32], to: &[u32], vectors: &mut Together<T>) {
+        let tree = &self.factor.symbolic.tree;
         for (front, _) in tree.fronts.iter().zip(tree.above(from)).filter(|(_, reached)| *reached) {
             self.forward_at(front, vectors);
         }
@@ -62,9 +63,8 @@ impl Factor {
     }
 
     /// `[L11; L21]` downwards.
-    fn forward_at(&self, front: &Front, vectors: &mut Together) {
-        let (Together { width, x, local }, halves) = (vectors, self.halves());
-        let panels = halves.panels(front);
+    fn forward_at(&self, front: &Front, vectors: &mut Together<T>) {
+        let (Together { width, x, local }, panels) = (vectors, self.panels(front));
         let (width, m, p) = (*width, panels.m, panels.p);
         let top = &mut x[width * front.first..][..width * p];
         for (k, pivot) in panels.pivots.iter().enumerate() {
@@ -72,38 +72,37 @@ impl Factor {
         }
         lower(&panels, 0..p, top, width);
         let local = &mut local[..width * (m - p)];
-        local.fill(0.0);
+        local.fill(T::round(0.0));
         take(local, &Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: false }, top, width);
-        for (local, &at) in local.chunks_exact(width).zip(self.symbolic.tree.rows(front)) {
-            row(x, width, at).iter_mut().zip(local).for_each(|(x, local)| *x += local);
+        for (local, &at) in local.chunks_exact(width).zip(self.factor.symbolic.tree.rows(front)) {
+            row(x, width, at).iter_mut().zip(local).for_each(|(x, local)| *x += *local);
         }
     }
 
     /// `[U11 U12]` upwards.
-    fn backward_at(&self, front: &Front, vectors: &mut Together) {
-        let (Together { width, x, local }, halves) = (vectors, self.halves());
-        let panels = halves.panels(front);
+    fn backward_at(&self, front: &Front, vectors: &mut Together<T>) {
+        let (Together { width, x, local }, panels) = (vectors, self.panels(front));
         let (width, m, p) = (*width, panels.m, panels.p);
         let (border, product) = local[..width * m].split_at_mut(width * (m - p));
-        for (local, &at) in border.chunks_exact_mut(width).zip(self.symbolic.tree.rows(front)) {
+        for (local, &at) in border.chunks_exact_mut(width).zip(self.factor.symbolic.tree.rows(front)) {
             local.copy_from_slice(row(x, width, at));
         }
         let right = match panels.symmetric {
             true => Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: true },
             false => Part { entries: panels.right, leading: m - p, rows: 0..m - p, columns: 0..p, transposed: true },
         };
-        product.fill(0.0);
+        product.fill(T::round(0.0));
         take(product, &right, border, width);
         let top = &mut x[width * front.first..][..width * p];
         for (k, (x, product)) in top.chunks_exact_mut(width).zip(product.chunks_exact(width)).enumerate() {
-            let factor = if panels.symmetric { panels.left[m * k + k] } else { 1.0 };
-            x.iter_mut().zip(product).for_each(|(x, product)| *x += factor * product);
+            let factor = if panels.symmetric { panels.left[m * k + k] } else { T::round(1.0) };
+            x.iter_mut().zip(product).for_each(|(x, product)| *x += factor * *product);
         }
         upper(&panels, 0..p, top, width);
     }
 }
 
-fn exchange(x: &mut [f64], width: usize, j: usize, k: usize) {
+fn exchange<T>(x: &mut [T], width: usize, j: usize, k: usize) {
     if j != k {
         let (head, tail) = x.split_at_mut(width * k);
         head[width * j..][..width].swap_with_slice(&mut tail[..width]);
@@ -111,39 +110,45 @@ fn exchange(x: &mut [f64], width: usize, j: usize, k: usize) {
 }
 
 /// Some rows and columns of a matrix that is stored by columns, or their transpose.
-struct Part<'a> {
-    entries: &'a [f64],
+struct Part<'a, T> {
+    entries: &'a [T],
     leading: usize,
     rows: Range<usize>,
     columns: Range<usize>,
     transposed: bool,
 }
 
-impl Part<'_> {
-    fn column(&self, k: usize) -> &[f64] {
+impl<T: Number> Part<'_, T> {
+    fn column(&self, k: usize) -> &[T] {
         &self.entries[self.leading * k..][self.rows.clone()]
     }
 
-    fn matrix(&self) -> MatRef<'_, f64> {
+    fn matrix(&self) -> MatRef<'_, T> {
         let all = MatRef::from_column_major_slice(self.entries, self.leading, self.entries.len() / self.leading.max(1));
         let part = all.get(self.rows.clone(), self.columns.clone());
         if self.transposed { part.transpose() } else { part }
     }
 }
 
+/// `y <- y - factor x`.
+#[inline(always)]
+fn subtract<T: Number>(y: &mut [T], factor: T, x: &[T]) {
+    y.iter_mut().zip(x).for_each(|(y, x)| *y -= factor * *x);
+}
+
 /// `y <- y - part x`, where rows have this width.
-fn take(y: &mut [f64], part: &Part, x: &[f64], width: usize) {
+fn take<T: Number>(y: &mut [T], part: &Part<T>, x: &[T], width: usize) {
     if part.rows.len() * part.columns.len() <= SMALL {
         return Arch::new().dispatch(|| take_small(y, part, x, width));
     }
-    let rows = |x: &[f64]| x.len() / width;
+    let rows = |x: &[T]| x.len() / width;
     let (y_rows, x_rows) = (rows(y), rows(x));
     let y = MatMut::from_row_major_slice_mut(y, y_rows, width);
-    matmul(y, Accum::Add, part.matrix(), MatRef::from_row_major_slice(x, x_rows, width), -1.0, Par::Seq);
+    matmul(y, Accum::Add, part.matrix(), MatRef::from_row_major_slice(x, x_rows, width), T::round(-1.0), Par::Seq);
 }
 
 #[inline(always)]
-fn take_small(y: &mut [f64], part: &Part, x: &[f64], width: usize) {
+fn take_small<T: Number>(y: &mut [T], part: &Part<T>, x: &[T], width: usize) {
     for (j, k) in part.columns.clone().enumerate() {
         for (i, &factor) in part.column(k).iter().enumerate() {
             let (to, from) = if part.transposed { (j, i) } else { (i, j) };
@@ -153,7 +158,7 @@ fn take_small(y: &mut [f64], part: &Part, x: &[f64], width: usize) {
 }
 
 /// `x <- L11^-1 x` for the pivots of a range, whose rows `x` holds.
-fn lower(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+fn lower<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
     if range.len() <= NARROW {
         return Arch::new().dispatch(|| lower_narrow(panels, range, x, width));
     }
@@ -166,7 +171,7 @@ fn lower(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize)
 }
 
 #[inline(always)]
-fn lower_narrow(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+fn lower_narrow<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
     for (done, k) in range.clone().enumerate() {
         let (x, rest) = x.split_at_mut(width * (done + 1));
         let factors = &panels.left[panels.m * k..][k + 1..range.end];
@@ -177,7 +182,7 @@ fn lower_narrow(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width:
 }
 
 /// `x <- U11^-1 x` for the pivots of a range, whose rows `x` holds.
-fn upper(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+fn upper<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
     if range.len() <= NARROW {
         return Arch::new().dispatch(|| upper_narrow(panels, range, x, width));
     }
@@ -190,7 +195,7 @@ fn upper(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize)
 }
 
 #[inline(always)]
-fn upper_narrow(panels: &Panels<f64>, range: Range<usize>, x: &mut [f64], width: usize) {
+fn upper_narrow<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
     for (above, k) in range.clone().enumerate().rev() {
         let column = &panels.left[panels.m * k..][range.start..=k];
         let (rest, x) = x.split_at_mut(width * above);

@@ -1,9 +1,24 @@
 //! Sums over vectors, in an order that depends on nothing but their length.
 
+use faer::traits::RealField;
+
 /// A number of a factor, which may be stored in single precision.
-pub(crate) trait Number: Copy + Into<f64> {}
-impl Number for f64 {}
-impl Number for f32 {}
+pub(crate) trait Number: RealField + Copy + Into<f64> {
+    /// The nearest one.
+    fn round(x: f64) -> Self;
+}
+
+impl Number for f64 {
+    fn round(x: f64) -> Self {
+        x
+    }
+}
+
+impl Number for f32 {
+    fn round(x: f64) -> Self {
+        x as f32
+    }
+}
 
 /// `y <- y - factor x`.
 #[inline(always)]

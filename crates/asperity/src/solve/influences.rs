@@ -12,8 +12,9 @@ use crate::system::{Assembly, Attempt, Constraints, Csr, Kink, Kinks, Workspace}
 use frontal::{Change, Sparse};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most unknowns for which the factor is put right.
+/// Most unknowns for which the factor is put right, and the part of its largest value by which a row must have changed.
 const MOST: usize = 1024;
+const CHANGED: f64 = 0.01;
 
 /// Columns of the inverse of the matrix that was factorised last, and its rows, near contact.
 #[derive(Debug, Default)]
@@ -162,10 +163,11 @@ impl Influences {
         Ok(())
     }
 
-    /// Motions under loads, by the columns where those serve again.
+    /// Motions under loads, by the columns where fewer of those are missing.
     fn motions(&mut self, loads: &[Sparse], solver: &dyn LinearSolver) -> Result<Vec<Vec<f64>>, LinearError> {
         let unknowns: BTreeSet<usize> = loads.iter().flatten().map(|&(unknown, _)| unknown).collect();
-        if !self.stays || unknowns.len() > MOST {
+        let missing = unknowns.iter().filter(|unknown| !self.columns.contains_key(unknown)).count();
+        if !self.stays || missing > loads.len() {
             return Ok(self.solve(loads, solver)?.into_iter().map(|motions| self.put_right(motions)).collect());
         }
         self.find(&unknowns, solver)?;
@@ -201,13 +203,17 @@ impl Influences {
         solver: &dyn LinearSolver,
     ) -> Result<Option<Change>, Failure> {
         self.change = None;
-        let mut unknowns: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
-        unknowns.retain(|unknown| self.at.binary_search(unknown).is_ok());
+        let mut near: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
+        near.retain(|unknown| self.at.binary_search(unknown).is_ok());
+        let changed = near.iter().filter_map(|&row| {
+            let change = difference(matrix.row(row), solver.row(row), &near)?;
+            Some((row, change))
+        });
+        let (unknowns, rows): (BTreeSet<usize>, Vec<Sparse>) = changed.unzip();
         if unknowns.is_empty() || unknowns.len() > MOST {
             return Ok(None);
         }
         self.find(&unknowns, solver).map_err(|error| Failure::new(error.to_string()))?;
-        let rows: Vec<Sparse> = unknowns.iter().map(|&row| difference(matrix.row(row), solver.row(row), &unknowns)).collect();
         let unknowns: Vec<usize> = unknowns.into_iter().collect();
         let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
         let capacitance = self.capacitance(&rows, &unknowns);
@@ -229,9 +235,11 @@ impl Influences {
     }
 }
 
-/// What has changed of a row among these unknowns.
-fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &BTreeSet<usize>) -> Sparse {
+/// What has changed of a row among these unknowns, if that is much.
+fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &BTreeSet<usize>) -> Option<Sparse> {
+    let largest = now.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let mut changed: BTreeMap<usize, f64> = columns.iter().copied().zip(now.iter().copied()).collect();
     then.into_iter().for_each(|(column, value)| *changed.entry(column).or_default() -= value);
-    changed.into_iter().filter(|(column, value)| *value != 0.0 && among.contains(column)).collect()
+    changed.retain(|column, value| *value != 0.0 && among.contains(column));
+    changed.values().any(|value| value.abs() > CHANGED * largest).then(|| changed.into_iter().collect())
 }

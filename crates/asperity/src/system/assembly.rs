@@ -158,7 +158,8 @@ impl Workspace {
     }
 
     fn rebuild(&mut self, assembly: &Assembly) {
-        self.pattern = Csr::build(assembly.constraints, &self.couplings);
+        let room = self.pattern.columns.len();
+        self.pattern = Csr::build(assembly.constraints, &self.couplings, room + room / 8);
         self.analysis += 1;
         let fixed = assembly.attempts.iter().map(|a| a.is_fixed());
         self.places = fixed

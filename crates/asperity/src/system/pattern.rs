@@ -37,13 +37,13 @@ pub struct Csr {
 }
 
 impl Csr {
-    /// The pattern of `groups` after elimination of the constrained unknowns.
-    pub fn build(constraints: &Constraints, groups: &Couplings) -> Self {
+    /// The pattern of `groups` after elimination of the constrained unknowns, in memory for so many entries at least.
+    pub fn build(constraints: &Constraints, groups: &Couplings, room: usize) -> Self {
         let n = constraints.free_count();
         let reduced = reduce(constraints, groups);
         let (member_starts, members) = invert(n, &reduced);
         let mut marker = vec![usize::MAX; n];
-        let (mut starts, mut columns) = (Vec::with_capacity(n + 1), Vec::new());
+        let (mut starts, mut columns) = (Vec::with_capacity(n + 1), Vec::with_capacity(room));
         starts.push(0);
         for row in 0..n {
             let begin = columns.len();

@@ -8,7 +8,8 @@ use crate::pattern::check_length;
 use crate::plan::Plan;
 use crate::scaling::Scaling;
 use crate::symbolic::{Inner, Symbolic};
-use std::sync::{Arc, Mutex};
+use std::mem::take;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Perturbed pivots get this share of the largest value: the square root of the unit round-off balances the error
 /// made against the growth allowed (Li & Demmel, ACM TOMS 29, 2003).
@@ -28,6 +29,15 @@ pub struct Factor {
     stacks: Mutex<Vec<Vec<f64>>>,
     perturbed: Vec<usize>,
     pub(crate) ready: bool,
+}
+
+/// The large arrays of a factor.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    factors: Vec<f64>,
+    values: Vec<f64>,
+    shared: Vec<f64>,
+    stacks: Vec<Vec<f64>>,
 }
 
 /// What a factorisation met.
@@ -61,21 +71,35 @@ impl Symbolic {
 }
 
 impl Factor {
-    pub(crate) fn new(symbolic: Arc<Inner>, threads: usize) -> Self {
+    /// Room for a factorisation, in the memory of an earlier one.
+    pub(crate) fn new(symbolic: Arc<Inner>, threads: usize, memory: Memory) -> Self {
         let n = symbolic.pattern.len();
         let plan = symbolic.plan(threads);
+        let Memory { mut factors, mut values, mut shared, mut stacks } = memory;
+        factors.resize(symbolic.tree.factor_len(), 0.0);
+        values.resize(symbolic.pattern.nonzeros(), 0.0);
+        shared.resize(plan.shared_len(), 0.0);
+        stacks.resize_with(plan.stacks(), Vec::new);
+        stacks.iter_mut().for_each(|stack| stack.resize(plan.stack_len + plan.scratch_len, 0.0));
         Factor {
-            factors: vec![0.0; symbolic.tree.factor_len()],
+            factors,
             pivots: vec![Pivot::default(); n],
             scaling: Scaling::identity(n),
-            values: vec![0.0; symbolic.pattern.nonzeros()],
-            shared: vec![0.0; plan.shared_len()],
-            stacks: Mutex::new(vec![vec![0.0; plan.stack_len + plan.scratch_len]; plan.stacks()]),
+            values,
+            shared,
+            stacks: Mutex::new(stacks),
             plan,
             perturbed: Vec::new(),
             ready: false,
             symbolic,
         }
+    }
+
+    /// Gives the memory away; the factor holds no values then.
+    pub(crate) fn take_memory(&mut self) -> Memory {
+        self.ready = false;
+        let stacks = self.stacks.get_mut().unwrap_or_else(PoisonError::into_inner);
+        Memory { factors: take(&mut self.factors), values: take(&mut self.values), shared: take(&mut self.shared), stacks: take(stacks) }
     }
 
     /// Unknowns whose pivots were perturbed by the last factorisation.

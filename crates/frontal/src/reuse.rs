@@ -146,6 +146,16 @@ impl Solver {
         self.change = change;
     }
 
+    /// Takes another analysis, and for its factor the memory of the one there was.
+    pub fn replace(&mut self, symbolic: Symbolic) {
+        self.refuse();
+        self.outer.clear();
+        self.rounded.forget();
+        (self.change, self.other) = (None, None);
+        self.factor = symbolic.new_factor_in(self.factor.take_memory());
+        self.symbolic = symbolic;
+    }
+
     /// Has the matrices to come have another pattern, of the same unknowns: the factor there is may precondition them. They
     /// are not factorised by this solver.
     ///

@@ -3,7 +3,7 @@
 use crate::assembly_tree::AssemblyTree;
 use crate::error::Error;
 use crate::etree::{NONE, children, column_counts, elimination_tree, postorder};
-use crate::factor::Factor;
+use crate::factor::{Factor, Memory};
 use crate::options::Options;
 use crate::ordering;
 use crate::pattern::Pattern;
@@ -102,7 +102,14 @@ impl Symbolic {
     /// that would exceed [`Options::memory_limit`] one thread does all. Results are the same
     /// to the last bit for any number of threads.
     pub fn new_factor(&self) -> Factor {
-        Factor::new(self.inner.clone(), rayon::current_num_threads())
+        self.new_factor_in(Memory::default())
+    }
+}
+
+impl Symbolic {
+    /// The same in the memory of an earlier factor.
+    pub(crate) fn new_factor_in(&self, memory: Memory) -> Factor {
+        Factor::new(self.inner.clone(), rayon::current_num_threads(), memory)
     }
 }
 

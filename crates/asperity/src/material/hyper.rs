@@ -1,12 +1,11 @@
 //! Hyperelastic laws: the Cauchy stress follows from the left Cauchy-Green tensor `b = F F^T`, which is the only
 //! history and is carried by `b = f b_n f^T`; nothing is integrated, and closed cycles give all energy back.
 
-use super::law::{self, Differentiate};
 use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Material, Variable, VariableKind};
 use crate::Failure;
 use crate::integrate::Update;
-use crate::tensor::{Scalar, Tensor2};
+use crate::tensor::{Dual, Scalar, Tensor2};
 
 /// An isotropic law between `b` and the Cauchy stress.
 pub trait HyperLaw: Clone + Send + Sync + 'static {
@@ -29,31 +28,18 @@ fn left_cauchy_green(state: &[f64]) -> Tensor2 {
     Tensor2::from_voigt(std::array::from_fn(|i| state[6 + i]))
 }
 
-impl<L: HyperLaw> Hyper<L> {
-    fn advance<T: Scalar>(&self, f: &Tensor2<T>, old: &[f64], new: &mut [f64]) -> Result<[T; 6], Failure> {
-        if f.det().re() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT));
-        }
-        let b = (*f * left_cauchy_green(old).lift() * f.transpose()).sym();
-        let stress = self.0.stress(&b)?.to_voigt();
-        new[..6].copy_from_slice(&stress.map(Scalar::re));
-        new[6..12].copy_from_slice(&b.re().to_voigt());
-        Ok(stress)
+/// `f b_n` and `b = f b_n f^T`.
+fn carried(f: &Tensor2, old: &[f64]) -> Result<(Tensor2, Tensor2), Failure> {
+    if f.det() <= 0.0 {
+        return Err(Failure::new(INSIDE_OUT));
     }
+    let half = *f * left_cauchy_green(old);
+    Ok((half, (half * f.transpose()).sym()))
 }
 
-impl<L: HyperLaw> Differentiate for Hyper<L> {
-    fn advance_dual<const N: usize>(
-        &self,
-        f: &Tensor2,
-        _dt: f64,
-        old: &[f64],
-        (new, gradient): (&mut [f64], &mut Gradient),
-        directions: Directions,
-    ) -> Result<(), Failure> {
-        law::write_slopes(&self.advance(&law::seeded::<N>(f, directions.components()), old, new)?, gradient);
-        Ok(())
-    }
+fn write<T: Scalar>(stress: &[T; 6], b: &Tensor2, new: &mut [f64]) {
+    new[..6].copy_from_slice(&stress.map(Scalar::re));
+    new[6..12].copy_from_slice(&b.to_voigt());
 }
 
 impl<L: HyperLaw> Material for Hyper<L> {
@@ -79,18 +65,32 @@ impl<L: HyperLaw> Material for Hyper<L> {
     }
 
     fn update(&self, f: &Tensor2, _dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        self.advance(f, old, new).map(|_| ())
+        let (_, b) = carried(f, old)?;
+        write(&self.0.stress(&b)?.to_voigt(), &b, new);
+        Ok(())
     }
 
+    /// By the slopes along the six components of `b`, and `db_ij = df_ik (f b_n)_jk + (f b_n)_ik df_jk`.
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        _dt: f64,
         old: &[f64],
         (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.advance_along(f, dt, old, (new, gradient), directions)
+        let (half, b) = carried(f, old)?;
+        let components = b.to_voigt();
+        let variable = Tensor2::from_voigt(std::array::from_fn(|i| Dual::<6>::variable(components[i], i)));
+        let stress = self.0.stress(&variable)?.to_voigt();
+        write(&stress, &b, new);
+        for (row, stress) in gradient.iter_mut().zip(&stress) {
+            // An entry off the diagonal stands in `b` twice.
+            let slopes = Tensor2::from_voigt(std::array::from_fn(|i| stress.du[i] * if i < 3 { 2.0 } else { 1.0 }));
+            let along = slopes * half;
+            row.iter_mut().zip(directions.components()).for_each(|(slope, &place)| *slope = along[place]);
+        }
+        Ok(())
     }
 
     fn is_conservative(&self) -> bool {

@@ -58,18 +58,25 @@ fn add_product<const DIM: usize, const D: usize, const MOST: usize>(
 ) {
     let nodes = &point.nodes[..point.nodes.len().min(MOST)];
     let n = DIM * nodes.len();
+    let mut grads = [[0.0; MOST]; 4];
+    for (node, grad) in nodes.iter().enumerate() {
+        (0..4).for_each(|k| grads[k][node] = grad[k]);
+    }
     let mut ab = [[[0.0; DIM]; MOST]; D];
     for (ab, a) in ab.iter_mut().zip(a) {
         let a = a.map(|a| a * volume);
-        for (ab, grad) in ab.iter_mut().zip(nodes) {
-            for m in 0..DIM {
-                for k in 0..DIM {
-                    ab[m] += a[m * DIM + k] * grad[k];
-                }
+        // By axes first, over all nodes at once.
+        let mut axes = [[0.0; MOST]; DIM];
+        for (m, axis) in axes.iter_mut().enumerate() {
+            for (k, grads) in grads[..DIM].iter().enumerate() {
+                (0..MOST).for_each(|node| axis[node] += a[m * DIM + k] * grads[node]);
             }
-            if D == DIM * DIM + 1 {
-                ab[0] += a[DIM * DIM] * grad[3];
+            if m == 0 && D == DIM * DIM + 1 {
+                (0..MOST).for_each(|node| axis[node] += a[DIM * DIM] * grads[3][node]);
             }
+        }
+        for (node, ab) in ab.iter_mut().enumerate() {
+            (0..DIM).for_each(|m| ab[m] = axes[m][node]);
         }
     }
     let mut rows = tangent.chunks_exact_mut(n);

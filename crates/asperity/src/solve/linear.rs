@@ -127,7 +127,7 @@ impl Frontal {
     pub fn new(factors: Factors) -> Self {
         Self { factors, solver: None }
     }
-    /// What was done since the last analysis.
+    /// What was done so far.
     pub fn counts(&self) -> frontal::Counts {
         self.solver.as_ref().map_or_else(Default::default, Solver::counts)
     }
@@ -168,10 +168,11 @@ impl LinearSolver for Frontal {
             solver.refuse();
             return solver.follow(pattern).map_err(translate);
         }
-        // The memory of the old factor is given back before the new one takes its own.
-        self.solver = None;
         let symbolic = Symbolic::analyse(&pattern, &options).map_err(translate)?;
-        self.solver = Some(Solver::new(symbolic, self.factors.policy()));
+        match &mut self.solver {
+            Some(solver) => solver.replace(symbolic),
+            None => self.solver = Some(Solver::new(symbolic, self.factors.policy())),
+        }
         Ok(())
     }
 

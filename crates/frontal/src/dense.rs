@@ -61,7 +61,10 @@ pub(crate) fn eliminate(front: &Front, parts: &mut Parts, pivots: &mut [Pivot], 
         solve_right(left, right, front, parallel && !small);
     }
     if small {
-        return Arch::new().dispatch(|| update_block_small(left, right, block, front));
+        return Arch::new().dispatch(
+            #[inline(always)]
+            || update_block_small(left, right, block, front),
+        );
     }
     let lower = MatRef::from_column_major_slice(left, m, p).subrows(p, b);
     let right = MatRef::from_column_major_slice(right, b, p);
@@ -85,7 +88,10 @@ fn scale_right(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usize) {
 fn solve_right(left: &[f64], right: &mut [f64], front: &Front, parallel: bool) {
     let (m, p, b) = (front.size(), front.pivots, front.border);
     if p * p * b <= SMALL {
-        return Arch::new().dispatch(|| solve_right_small(left, right, m, p, b));
+        return Arch::new().dispatch(
+            #[inline(always)]
+            || solve_right_small(left, right, m, p, b),
+        );
     }
     let upper = MatRef::from_column_major_slice(left, m, p).subrows(0, p);
     let right = MatMut::from_column_major_slice_mut(right, b, p);
@@ -124,7 +130,10 @@ impl Panel<'_> {
     pub fn factorise(&mut self, range: Range<usize>, pivots: &mut [Pivot]) {
         let (start, end) = (range.start, range.end);
         if end - start <= NARROW {
-            return Arch::new().dispatch(|| self.factorise_narrow(range, pivots));
+            return Arch::new().dispatch(
+                #[inline(always)]
+                || self.factorise_narrow(range, pivots),
+            );
         }
         let middle = start + ((end - start) / 2).next_multiple_of(4);
         self.factorise(start..middle, pivots);

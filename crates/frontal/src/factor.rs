@@ -99,7 +99,12 @@ impl Factor {
     pub(crate) fn take_memory(&mut self) -> Memory {
         self.ready = false;
         let stacks = self.stacks.get_mut().unwrap_or_else(PoisonError::into_inner);
-        Memory { factors: take(&mut self.factors), values: take(&mut self.values), shared: take(&mut self.shared), stacks: take(stacks) }
+        Memory {
+            factors: take(&mut self.factors),
+            values: take(&mut self.values),
+            shared: take(&mut self.shared),
+            stacks: take(stacks),
+        }
     }
 
     /// Unknowns whose pivots were perturbed by the last factorisation.

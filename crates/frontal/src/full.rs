@@ -43,9 +43,12 @@ impl Full {
         let n = self.pivots.len();
         assert_eq!(x.len(), n, "a vector for {n} rows");
         let panels = Panels { left: &self.factors, right: &[], pivots: &self.pivots, m: n, p: n, symmetric: false };
-        Arch::new().dispatch(|| {
-            forward_transposed(&panels, x);
-            backward_transposed(&panels, x);
-        });
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                forward_transposed(&panels, x);
+                backward_transposed(&panels, x);
+            },
+        );
     }
 }

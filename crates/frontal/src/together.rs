@@ -27,7 +27,8 @@ impl<T: Number> Together<T> {
     /// Room for `most` vectors.
     pub fn with_room_for(factor: &Factor, most: usize) -> Self {
         let symbolic = &factor.symbolic;
-        let [x, local] = [symbolic.pattern.len(), symbolic.prediction.largest_front].map(|n| Vec::with_capacity(n * most));
+        let [x, local] =
+            [symbolic.pattern.len(), symbolic.prediction.largest_front].map(|n| Vec::with_capacity(n * most));
         Together { width: most, x, local }
     }
 
@@ -73,7 +74,12 @@ impl<T: Number> Halves<'_, T> {
         lower(&panels, 0..p, top, width);
         let local = &mut local[..width * (m - p)];
         local.fill(T::round(0.0));
-        take(local, &Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: false }, top, width);
+        take(
+            local,
+            &Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: false },
+            top,
+            width,
+        );
         for (local, &at) in local.chunks_exact(width).zip(self.factor.symbolic.tree.rows(front)) {
             row(x, width, at).iter_mut().zip(local).for_each(|(x, local)| *x += *local);
         }
@@ -139,7 +145,10 @@ fn subtract<T: Number>(y: &mut [T], factor: T, x: &[T]) {
 /// `y <- y - part x`, where rows have this width.
 fn take<T: Number>(y: &mut [T], part: &Part<T>, x: &[T], width: usize) {
     if part.rows.len() * part.columns.len() <= SMALL {
-        return Arch::new().dispatch(|| take_small(y, part, x, width));
+        return Arch::new().dispatch(
+            #[inline(always)]
+            || take_small(y, part, x, width),
+        );
     }
     let rows = |x: &[T]| x.len() / width;
     let (y_rows, x_rows) = (rows(y), rows(x));
@@ -160,7 +169,10 @@ fn take_small<T: Number>(y: &mut [T], part: &Part<T>, x: &[T], width: usize) {
 /// `x <- L11^-1 x` for the pivots of a range, whose rows `x` holds.
 fn lower<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
     if range.len() <= NARROW {
-        return Arch::new().dispatch(|| lower_narrow(panels, range, x, width));
+        return Arch::new().dispatch(
+            #[inline(always)]
+            || lower_narrow(panels, range, x, width),
+        );
     }
     let middle = range.start + range.len() / 2;
     let (first, second) = x.split_at_mut(width * (middle - range.start));
@@ -184,7 +196,10 @@ fn lower_narrow<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T],
 /// `x <- U11^-1 x` for the pivots of a range, whose rows `x` holds.
 fn upper<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
     if range.len() <= NARROW {
-        return Arch::new().dispatch(|| upper_narrow(panels, range, x, width));
+        return Arch::new().dispatch(
+            #[inline(always)]
+            || upper_narrow(panels, range, x, width),
+        );
     }
     let middle = range.start + range.len() / 2;
     let (first, second) = x.split_at_mut(width * (middle - range.start));

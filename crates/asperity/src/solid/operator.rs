@@ -3,7 +3,7 @@
 
 use super::gradient::PointGradient;
 use crate::mesh::cells::MAX_NODES;
-use pulp::Arch;
+use pulp::{Arch, NullaryFnOnce};
 
 /// Most unknowns of a cell.
 pub const MAX_DOFS: usize = 3 * MAX_NODES;
@@ -37,15 +37,29 @@ pub fn add_tangent<const DIM: usize, const D: usize>(
     volume: f64,
     tangent: &mut [f64],
 ) {
-    Arch::new().dispatch(
-        #[inline(always)]
-        || match point.nodes.len() {
+    Arch::new().dispatch(Product::<DIM, D> { point, a, volume, tangent });
+}
+
+/// Not a closure, since only what is inlined into [`Arch::dispatch`] is compiled for the processor at hand.
+struct Product<'a, const DIM: usize, const D: usize> {
+    point: &'a PointGradient<'a>,
+    a: &'a [[f64; D]; D],
+    volume: f64,
+    tangent: &'a mut [f64],
+}
+
+impl<const DIM: usize, const D: usize> NullaryFnOnce for Product<'_, DIM, D> {
+    type Output = ();
+    #[inline(always)]
+    fn call(self) {
+        let Self { point, a, volume, tangent } = self;
+        match point.nodes.len() {
             4 => add_product::<DIM, D, 4>(point, a, volume, tangent),
             8 => add_product::<DIM, D, 8>(point, a, volume, tangent),
             20 => add_product::<DIM, D, 20>(point, a, volume, tangent),
             _ => add_product::<DIM, D, MAX_NODES>(point, a, volume, tangent),
-        },
-    );
+        }
+    }
 }
 
 /// The same for a cell of at most `MOST` nodes: where it has as many, all lengths are known when this is compiled.
@@ -82,15 +96,18 @@ fn add_product<const DIM: usize, const D: usize, const MOST: usize>(
     let mut rows = tangent.chunks_exact_mut(n);
     for grad in nodes {
         for (i, row) in rows.by_ref().take(DIM).enumerate() {
-            let parts: [&[f64]; DIM] = std::array::from_fn(|j| &ab[i * DIM + j].as_flattened()[..n]);
-            for (r, k) in row.iter_mut().enumerate() {
-                for j in 0..DIM {
-                    *k += grad[j] * parts[j][r];
-                }
+            let part = |j: usize| ab[i * DIM + j].as_flattened()[..n].iter();
+            if DIM == 3 {
+                let parts = part(0).zip(part(1)).zip(part(2));
+                row.iter_mut()
+                    .zip(parts)
+                    .for_each(|(k, ((x, y), z))| *k = *k + grad[0] * x + grad[1] * y + grad[2] * z);
+            } else {
+                row.iter_mut().zip(part(0).zip(part(1))).for_each(|(k, (x, y))| *k = *k + grad[0] * x + grad[1] * y);
             }
             if i == 0 && D == DIM * DIM + 1 {
-                let part = &ab[DIM * DIM].as_flattened()[..n];
-                row.iter_mut().zip(part).for_each(|(k, ab)| *k += grad[3] * ab);
+                let hoop = &ab[DIM * DIM].as_flattened()[..n];
+                row.iter_mut().zip(hoop).for_each(|(k, ab)| *k += grad[3] * ab);
             }
         }
     }

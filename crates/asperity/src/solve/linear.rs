@@ -177,7 +177,9 @@ impl LinearSolver for Frontal {
     }
 
     fn follow(&mut self, pattern: &Csr) -> bool {
-        let Some(solver) = self.solver.as_mut().filter(|solver| solver.affordable_iterations() > 0) else { return false };
+        let Some(solver) = self.solver.as_mut().filter(|solver| solver.affordable_iterations() > 0) else {
+            return false;
+        };
         let pattern = Pattern::new(pattern.starts.clone(), pattern.columns.clone());
         pattern.and_then(|pattern| solver.follow(pattern)).is_ok()
     }

@@ -74,7 +74,11 @@ impl Csr {
     /// The same where it may stand so many entries from the beginning of the row; it is searched for where it does not.
     pub fn position_near(&self, row: usize, column: usize, offset: usize) -> Option<usize> {
         let guess = self.starts[row] + offset;
-        if guess < self.starts[row + 1] && self.columns[guess] == column { Some(guess) } else { self.position(row, column) }
+        if guess < self.starts[row + 1] && self.columns[guess] == column {
+            Some(guess)
+        } else {
+            self.position(row, column)
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::together::Together;
 use crate::vector::Number;
 
 /// Loads substituted together.
-const TOGETHER: usize = 32;
+const TOGETHER: usize = 64;
 
 impl Factor {
     /// Solves `A x = b` for many sparse `b`, each given by unknowns and values that are added, and writes the `x` at the

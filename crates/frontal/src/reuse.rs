@@ -163,9 +163,8 @@ impl Solver {
     /// [`Error::WrongLength`] for another number of unknowns.
     pub fn follow(&mut self, pattern: Pattern) -> Result<(), Error> {
         check_length("rows of the pattern", self.symbolic.pattern().len(), pattern.len())?;
-        // Images of the directions are not known of the other matrix; its changes are found anew.
         self.change = None;
-        self.other = (pattern != *self.symbolic.pattern()).then_some(pattern);
+        self.other = (!self.symbolic.covers(&pattern)).then_some(pattern);
         Ok(())
     }
 
@@ -237,6 +236,7 @@ impl Solver {
         self.counts.iterations += convergence.iterations;
         self.spent += convergence.iterations;
         if !convergence.converged {
+            self.rounded.doubt();
             return Ok(None);
         }
         self.counts.solutions += 1;

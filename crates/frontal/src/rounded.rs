@@ -9,33 +9,40 @@ use crate::vector::{norm, subtract};
 /// Part of a right-hand side that rounding may spoil.
 const SPOILT: f64 = 0.01;
 
-/// Rounded factors, and whether they are fit for use; nothing is known of that before they are asked for.
+/// Rounded factors, if they are those of the factor there is, and whether they are fit for use, if that is known.
 #[derive(Debug, Default)]
 pub(crate) struct Rounded {
     entries: Vec<f32>,
+    current: bool,
     fit: Option<bool>,
 }
 
 impl Rounded {
-    /// There are other factors now.
+    /// There are other factors now. What was fit for the last ones mostly is for them.
     pub fn forget(&mut self) {
+        self.current = false;
+        self.fit = self.fit.filter(|fit| *fit);
+    }
+
+    /// A solution failed: whether the next factors are fit is to be found out.
+    pub fn doubt(&mut self) {
         self.fit = None;
     }
 
     /// The rounded factors, unless rounding spoils them for the right-hand side `b` they are first asked for with, or
     /// there is not the memory.
     pub fn of<'a>(&'a mut self, factor: &'a Factor, b: &[f64]) -> Option<Halves<'a, f32>> {
-        let fit = match self.fit {
-            Some(fit) => fit,
-            None => self.round(factor) && self.spoils_little(factor, b),
-        };
-        self.fit = Some(fit);
+        if !self.current {
+            self.current = true;
+            let fit = self.round(factor) && self.fit.unwrap_or_else(|| self.spoils_little(factor, b));
+            self.fit = Some(fit);
+        }
         self.known(factor)
     }
 
     /// The same where it is known already.
     pub fn known<'a>(&'a self, factor: &'a Factor) -> Option<Halves<'a, f32>> {
-        (self.fit == Some(true)).then_some(Halves { factor, entries: &self.entries })
+        (self.current && self.fit == Some(true)).then_some(Halves { factor, entries: &self.entries })
     }
 
     fn round(&mut self, factor: &Factor) -> bool {

@@ -22,7 +22,8 @@ pub enum Reuse {
     /// Until [`Solver::begin`]: a sequence of solves that starts with a fresh factor depends on nothing before it.
     #[default]
     WithinSequence,
-    /// As long as it pays. What was solved before then shows in the last digits of what is solved later.
+    /// As long as it pays: until a sequence takes more work than the sequences since the factorisation took on average,
+    /// that of the factorisation included. What was solved before then shows in the last digits of what is solved later.
     AcrossSequences,
 }
 
@@ -94,6 +95,9 @@ pub struct Solver {
     rounded: Rounded,
     /// Iterations spent on the matrix at hand.
     spent: usize,
+    /// Sequences begun since the factorisation, and all iterations until then and until the last of them began.
+    sequences: usize,
+    iterations_at: [usize; 2],
     /// What is known to have changed since.
     change: Option<Change>,
     /// Pattern of the matrices to come, where it is not the one that was analysed.
@@ -106,7 +110,7 @@ impl Solver {
     pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
         let factor = symbolic.new_factor();
         let (outer, rounded, counts) = (Outer::default(), Rounded::default(), Counts::default());
-        Solver { symbolic, factor, policy, usable: false, outer, rounded, spent: 0, change: None, other: None, counts }
+        Solver { symbolic, factor, policy, usable: false, outer, rounded, spent: 0, sequences: 0, iterations_at: [0; 2], change: None, other: None, counts }
     }
 
     /// The analysis.
@@ -127,7 +131,16 @@ impl Solver {
     /// Begins a new sequence, such as the attempt of an increment: the next matrix is factorised, unless the policy
     /// reuses factors across sequences.
     pub fn begin(&mut self) {
-        self.usable &= self.policy.reuse == Reuse::AcrossSequences;
+        self.usable &= self.policy.reuse == Reuse::AcrossSequences && self.pays();
+        (self.sequences, self.iterations_at[1]) = (self.sequences + 1, self.counts.iterations);
+    }
+
+    /// Whether the last sequence took no more work than all since the factorisation did on average.
+    fn pays(&self) -> bool {
+        let cost = self.symbolic.prediction();
+        let work = |since: usize| cost.solve_work() * (self.counts.iterations - since) as f64;
+        let [all, last] = self.iterations_at.map(work);
+        self.sequences == 0 || last * self.sequences as f64 <= cost.factorisation_work() + all
     }
 
     /// Has the next matrix factorised, whatever the policy.
@@ -254,6 +267,7 @@ impl Solver {
         self.rounded.forget();
         self.change = None;
         self.counts.factorisations += 1;
+        (self.sequences, self.iterations_at) = (1, [self.counts.iterations; 2]);
         let report = self.symbolic.factorise(values, &mut self.factor)?;
         self.usable = true;
         Ok(report)

@@ -74,6 +74,49 @@ fn a_sequence_begins_with_a_fresh_factor() {
 }
 
 #[test]
+fn a_factor_of_one_pattern_serves_another() {
+    let model = models::hex8([6, 6, 6]);
+    let n = model.pattern.len();
+    // The first unknown and the last couple too.
+    let (mut starts, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+    for row in 0..n {
+        let range = model.pattern.starts()[row]..model.pattern.starts()[row + 1];
+        let mut entries: Vec<_> = range.map(|at| (model.pattern.columns()[at], model.values[at])).collect();
+        match row {
+            0 => entries.push((n - 1, 0.5)),
+            row if row == n - 1 => entries.insert(0, (0, 0.5)),
+            _ => {}
+        }
+        columns.extend(entries.iter().map(|entry| entry.0));
+        values.extend(entries.iter().map(|entry| entry.1));
+        starts.push(columns.len());
+    }
+    let other = Pattern::new(starts, columns).expect("a good pattern");
+    let analyse = |pattern: &Pattern| Symbolic::analyse(pattern, &Options::default()).expect("a good pattern");
+    let mut solver = Solver::new(analyse(&model.pattern), Policy { share: f64::INFINITY, ..Policy::default() });
+    solver.factorise(&model.values).expect("a regular matrix");
+    let row: Vec<_> = solver.factor().row(5).collect();
+    let range = model.pattern.starts()[5]..model.pattern.starts()[6];
+    let expected = model.pattern.columns()[range.clone()].iter().copied().zip(model.values[range].iter().copied());
+    assert!(row.into_iter().eq(expected), "a row as it was given");
+
+    assert!(solver.follow(models::hex8([5, 6, 6]).pattern).is_err(), "other unknowns");
+    solver.follow(other.clone()).expect("the same unknowns");
+    let mut x = vec![1.0; n];
+    solver.iterate(&values, &mut x, 1e-10).expect("good input").expect("an old factor would do");
+    assert!(solver.factorise(&values).is_err(), "another pattern than the one analysed");
+
+    solver.replace(analyse(&other));
+    let (mut again, mut fresh) = (vec![1.0; n], vec![1.0; n]);
+    solver.solve(&values, &mut again, 1e-10).expect("a regular matrix");
+    let mut anew = Solver::new(analyse(&other), Policy::default());
+    anew.solve(&values, &mut fresh, 1e-10).expect("a regular matrix");
+    assert_eq!(again, fresh, "old memory leaves no trace");
+    let largest = fresh.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    assert!(x.iter().zip(&fresh).all(|(x, fresh)| (x - fresh).abs() < 1e-7 * largest));
+}
+
+#[test]
 fn small_matrices_are_always_factorised() {
     let model = models::quad4([8, 30]);
     let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");

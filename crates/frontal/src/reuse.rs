@@ -110,7 +110,20 @@ impl Solver {
     pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
         let factor = symbolic.new_factor();
         let (outer, rounded, counts) = (Outer::default(), Rounded::default(), Counts::default());
-        Solver { symbolic, factor, policy, usable: false, outer, rounded, spent: 0, sequences: 0, iterations_at: [0; 2], change: None, other: None, counts }
+        Solver {
+            symbolic,
+            factor,
+            policy,
+            usable: false,
+            outer,
+            rounded,
+            spent: 0,
+            sequences: 0,
+            iterations_at: [0; 2],
+            change: None,
+            other: None,
+            counts,
+        }
     }
 
     /// The analysis.

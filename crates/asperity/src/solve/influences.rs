@@ -10,6 +10,7 @@ use super::linear::{LinearError, LinearSolver};
 use crate::Failure;
 use crate::system::{Assembly, Attempt, Constraints, Csr, Kink, Kinks, Workspace};
 use frontal::{Change, Sparse};
+use pulp::Arch;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most unknowns for which the factor is put right, and the part of its largest value by which a row must have changed.
@@ -167,29 +168,31 @@ impl Influences {
     fn motions(&mut self, loads: &[Sparse], solver: &dyn LinearSolver) -> Result<Vec<Vec<f64>>, LinearError> {
         let unknowns: BTreeSet<usize> = loads.iter().flatten().map(|&(unknown, _)| unknown).collect();
         let missing = unknowns.iter().filter(|unknown| !self.columns.contains_key(unknown)).count();
-        if !self.stays || missing > loads.len() {
-            return Ok(self.solve(loads, solver)?.into_iter().map(|motions| self.put_right(motions)).collect());
-        }
-        self.find(&unknowns, solver)?;
-        let motion = |load: &Sparse| {
-            let mut sum = vec![0.0; self.at.len()];
-            for (unknown, force) in load {
-                sum.iter_mut().zip(&self.columns[unknown]).for_each(|(sum, motion)| *sum += force * motion);
-            }
-            self.put_right(sum)
+        let mut motions = if !self.stays || missing > loads.len() {
+            self.solve(loads, solver)?
+        } else {
+            self.find(&unknowns, solver)?;
+            loads.iter().map(|load| self.sum(load)).collect()
         };
-        Ok(loads.iter().map(motion).collect())
+        self.put_right(&mut motions);
+        Ok(motions)
     }
 
-    /// Motions by the changed matrix from those by the factorised one.
-    fn put_right(&self, mut motions: Vec<f64>) -> Vec<f64> {
-        if let Some((unknowns, change)) = &self.change {
-            let weights = change.weights(|unknown| motions[self.place(unknown)]);
-            for (unknown, weight) in unknowns.iter().zip(weights) {
-                motions.iter_mut().zip(&self.columns[unknown]).for_each(|(m, c)| *m -= weight * c);
-            }
+    /// The motion under a load, from the columns.
+    fn sum(&self, load: &Sparse) -> Vec<f64> {
+        let mut sum = vec![0.0; self.at.len()];
+        load.iter().for_each(|(unknown, force)| add_multiple(&mut sum, *force, &self.columns[unknown]));
+        sum
+    }
+
+    /// Turns motions by the factorised matrix into those by the changed one.
+    fn put_right(&self, motions: &mut [Vec<f64>]) {
+        let Some((unknowns, change)) = &self.change else { return };
+        let weights: Vec<_> = motions.iter().map(|m| change.weights(|unknown| m[self.place(unknown)])).collect();
+        for (k, unknown) in unknowns.iter().enumerate() {
+            let column = &self.columns[unknown];
+            motions.iter_mut().zip(&weights).for_each(|(motion, weights)| add_multiple(motion, -weights[k], column));
         }
-        motions
     }
 
     /// What has changed of the matrix among the unknowns of stencils that are closed or were; None if that is nothing, or
@@ -225,14 +228,26 @@ impl Influences {
     /// `I + V^T K0^-1 U` by rows.
     fn capacitance(&self, rows: &[Sparse], unknowns: &[usize]) -> Vec<f64> {
         let columns: Vec<&Vec<f64>> = unknowns.iter().map(|unknown| &self.columns[unknown]).collect();
-        let mut entries = Vec::with_capacity(rows.len() * rows.len());
-        for (i, row) in rows.iter().enumerate() {
-            let places: Vec<_> = row.iter().map(|&(unknown, value)| (self.place(unknown), value)).collect();
-            let along = |column: &[f64]| places.iter().map(|&(p, value)| value * column[p]).sum::<f64>();
-            entries.extend(columns.iter().enumerate().map(|(j, column)| f64::from(i == j) + along(column)));
+        let mut inverse: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+        let mut entries = vec![0.0; rows.len() * rows.len()];
+        for (i, (row, sums)) in rows.iter().zip(entries.chunks_exact_mut(rows.len())).enumerate() {
+            sums[i] = 1.0;
+            for &(unknown, value) in row {
+                let place = self.place(unknown);
+                let inverse = inverse.entry(place).or_insert_with(|| columns.iter().map(|c| c[place]).collect());
+                add_multiple(sums, value, inverse);
+            }
         }
         entries
     }
+}
+
+/// `y <- y + factor x`.
+fn add_multiple(y: &mut [f64], factor: f64, x: &[f64]) {
+    Arch::new().dispatch(
+        #[inline(always)]
+        || y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x),
+    );
 }
 
 /// What has changed of a row among these unknowns, if that is much.

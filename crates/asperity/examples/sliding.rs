@@ -1,4 +1,4 @@
-//! A ball slides with friction over a block in space: every matrix factorised against one factor an attempt, in one run.
+//! A ball slides with friction over a block in space: every matrix factorised, one an attempt, and as few as possible, in one run.
 //! `cargo run --release -p asperity --example sliding -- 21` (cells along an edge), or with a deck and what is set over
 //! it: `... --example sliding -- cases/dragged-ball/slab.toml "mesh.part.slab.box.cells=[48,18,12]"`.
 

@@ -54,8 +54,12 @@ impl<const DIM: usize, const D: usize> NullaryFnOnce for Product<'_, DIM, D> {
     fn call(self) {
         let Self { point, a, volume, tangent } = self;
         match point.nodes.len() {
+            3 => add_product::<DIM, D, 3>(point, a, volume, tangent),
             4 => add_product::<DIM, D, 4>(point, a, volume, tangent),
+            6 => add_product::<DIM, D, 6>(point, a, volume, tangent),
             8 => add_product::<DIM, D, 8>(point, a, volume, tangent),
+            9 => add_product::<DIM, D, 9>(point, a, volume, tangent),
+            10 => add_product::<DIM, D, 10>(point, a, volume, tangent),
             20 => add_product::<DIM, D, 20>(point, a, volume, tangent),
             _ => add_product::<DIM, D, MAX_NODES>(point, a, volume, tangent),
         }

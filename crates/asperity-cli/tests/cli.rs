@@ -135,8 +135,10 @@ fn an_interrupted_run_goes_on() {
         assert!(begun.elapsed().as_secs() < 60, "the run does not get on");
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
-    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
-    assert!(kill.success());
+    // As `timeout` does, which signals a program and then its group.
+    let twice =
+        Command::new("sh").args(["-c", "kill -TERM $0; kill -TERM $0", &child.id().to_string()]).status().unwrap();
+    assert!(twice.success());
     assert_eq!(child.wait().unwrap().code(), Some(4));
     let stopped = summary(&results);
     assert_eq!(stopped["status"], "stopped");

@@ -1,10 +1,14 @@
-//! Newton's method with the factor of an attempt's first iteration against a factor for every iteration.
+//! Newton's method with the factor of an attempt's first iteration, or of an earlier increment, against a factor for every
+//! iteration.
 
 #[path = "support/ball.rs"]
 mod ball;
 
-use asperity::solve::Factors;
+use asperity::model::Model;
+use asperity::solve::{Factors, RunOptions};
+use asperity::system::{Factorised, Near, State};
 use ball::{Attempts, model};
+use std::sync::Arc;
 
 /// Displacements and attempts of a run on so many threads.
 fn slide(factors: Factors, threads: usize) -> (Vec<f64>, Attempts) {
@@ -26,29 +30,112 @@ fn one_factor_an_attempt_takes_the_same_iterations_to_the_same_place() {
     assert_eq!(all, factorised);
     assert!(2 * few < iterations && few >= attempt.0.len(), "{few} of {iterations} factorised");
     assert!(iterations.abs_diff(all) * 10 <= all, "{iterations} iterations against {all}");
-    let largest = u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
-    let difference = u.iter().zip(&v).fold(0.0_f64, |m, (u, v)| m.max((u - v).abs()));
-    assert!(difference < 1e-5 * largest, "{difference:.1e} of {largest:.1e}");
+    assert!(distance(&u, &v) < 1e-5, "{:.1e}", distance(&u, &v));
+}
+
+#[test]
+fn a_factor_serves_increments_to_come() {
+    let (u, attempt) = slide(Factors::Attempt, 1);
+    let (v, kept) = slide(Factors::Kept, 1);
+    let ((all, many), (iterations, few)) = (attempt.iterations(), kept.iterations());
+    assert!(2 * few <= many, "{few} against {many} factorised");
+    assert!(iterations.abs_diff(all) * 10 <= all, "{iterations} iterations against {all}");
+    assert!(distance(&u, &v) < 1e-5, "{:.1e}", distance(&u, &v));
 }
 
 #[test]
 fn the_number_of_threads_does_not_show() {
-    let one = slide(Factors::Attempt, 1).0;
-    for threads in [2, 4] {
-        let other = slide(Factors::Attempt, threads).0;
-        assert!(one.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()), "{threads} threads");
+    for factors in [Factors::Attempt, Factors::Kept] {
+        let one = slide(factors, 1).0;
+        for threads in [2, 4] {
+            assert!(same(&one, &slide(factors, threads).0), "{factors:?}, {threads} threads");
+        }
     }
 }
 
 #[test]
 fn a_repeated_attempt_does_not_show() {
-    let mut rehearsed = model(6, Factors::Attempt);
-    rehearsed.problem.newton.rehearse = true;
-    let plain = model(6, Factors::Attempt);
-    let [u, v] = [&plain, &rehearsed].map(|model| {
-        let mut run = model.run(model.problem.initial_state());
-        run.run(&Default::default(), &mut Attempts::default()).unwrap();
-        run.state.u
-    });
-    assert!(u.iter().zip(&v).all(|(a, b)| a.to_bits() == b.to_bits()));
+    for factors in [Factors::Attempt, Factors::Kept] {
+        let mut rehearsed = model(6, factors);
+        rehearsed.problem.newton.rehearse = true;
+        let [u, v] = [&model(6, factors), &rehearsed].map(|model| go_on(model, model.problem.initial_state(), None));
+        assert!(bytes(&u) == bytes(&v), "{factors:?}");
+    }
+}
+
+/// With the matrix that the state holds a new solver makes the same factor.
+#[test]
+fn a_restart_does_not_show() {
+    let model = model(6, Factors::Kept);
+    let whole = go_on(&model, model.problem.initial_state(), None);
+    let mut held = 0;
+    for increment in 1..whole.increment {
+        let begun = go_on(&model, model.problem.initial_state(), Some(increment));
+        held += usize::from(begun.preconditioner.is_some());
+        let read: State = postcard::from_bytes(&bytes(&begun)).unwrap();
+        model.problem.fits(&read).unwrap();
+        assert!(bytes(&go_on(&model, read, None)) == bytes(&whole), "from increment {increment}");
+    }
+    assert!(held > 2, "{held} states hold a matrix");
+}
+
+type Spoil<'a> = &'a dyn Fn(&mut Factorised, &mut Near);
+
+/// What a checkpoint may hold that no run wrote.
+#[test]
+fn a_matrix_that_cannot_be_is_refused_and_one_without_a_factor_left_out() {
+    let model = model(6, Factors::Kept);
+    let state = go_on(&model, model.problem.initial_state(), Some(3));
+    let spoilt = |spoil: Spoil| {
+        let mut state = state.clone();
+        let held = state.preconditioner.as_mut().expect("a factor that serves on");
+        spoil(Arc::make_mut(&mut held.matrix), &mut held.near);
+        state
+    };
+    let impossible: [Spoil; 9] = [
+        &|matrix, _| Arc::make_mut(&mut matrix.columns)[1] = 0,
+        &|matrix, _| Arc::make_mut(&mut matrix.columns)[7] = usize::MAX,
+        &|matrix, _| Arc::make_mut(&mut matrix.starts)[4] = usize::MAX,
+        &|matrix, _| Arc::make_mut(&mut matrix.starts).clear(),
+        &|matrix, _| matrix.values.truncate(5),
+        &|matrix, _| *matrix.free.last_mut().expect("unknowns") = usize::MAX,
+        &|_, near| near.dofs.push(usize::MAX),
+        &|_, near| near.closed = vec![usize::MAX],
+        &|_, near| near.columns = vec![usize::MAX],
+    ];
+    for (number, spoil) in impossible.into_iter().enumerate() {
+        assert!(model.problem.fits(&spoilt(spoil)).is_err(), "number {number}");
+    }
+    let useless: [Spoil; 3] =
+        [&|matrix, _| matrix.values[3] = f64::NAN, &|matrix, _| matrix.values.fill(0.0), &|_, near| {
+            *near = Near { columns: vec![0], ..Near::default() }
+        }];
+    let sound = go_on(&model, state.clone(), Some(1)).u;
+    for (number, spoil) in useless.into_iter().enumerate() {
+        let state = spoilt(spoil);
+        model.problem.fits(&state).unwrap();
+        let u = go_on(&model, state, Some(1)).u;
+        assert!(distance(&sound, &u) < 1e-5, "number {number}: {:.1e}", distance(&sound, &u));
+    }
+}
+
+/// The state after so many increments, or all.
+fn go_on(model: &Model, state: State, increments: Option<usize>) -> State {
+    let mut run = model.run(state);
+    run.run(&RunOptions { increments }, &mut Attempts::default()).unwrap();
+    run.state
+}
+
+fn bytes(state: &State) -> Vec<u8> {
+    postcard::to_stdvec(state).unwrap()
+}
+
+fn same(u: &[f64], v: &[f64]) -> bool {
+    u.iter().zip(v).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+/// Largest difference over the largest displacement.
+fn distance(u: &[f64], v: &[f64]) -> f64 {
+    let largest = u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    u.iter().zip(v).fold(0.0_f64, |m, (u, v)| m.max((u - v).abs())) / largest
 }

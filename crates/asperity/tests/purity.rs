@@ -37,13 +37,23 @@ fn the_number_of_threads_changes_nothing() {
 #[test]
 fn the_number_of_threads_changes_nothing_in_space() {
     let deck = include_str!("../../../cases/dragged-ball/slab.toml");
-    let model = model(deck, &["mesh.part.slab.box.cells=[12, 6, 2]", "step.drag.increments.count=4"]);
-    let [one, two, three] = [1, 2, 3].map(|threads| with_threads(threads, || all_bytes(&run(&model))));
-    assert_eq!(one.len(), 8);
-    assert!(one == two && one == three);
-    let begun = go_on(&model, model.problem.initial_state(), Some(5));
-    let rest = go_on(&model, through_a_file(begun.states.last().unwrap()), None);
-    assert!(one[5..] == all_bytes(&rest)[..], "a restart changes nothing either");
+    for factors in ["solver.factors=fresh", "solver.factors=kept"] {
+        let mut model = model(deck, &["mesh.part.slab.box.cells=[12, 6, 2]", "step.drag.increments.count=4", factors]);
+        let [one, two, three] = [1, 2, 3].map(|threads| with_threads(threads, || all_bytes(&run(&model))));
+        assert_eq!(one.len(), 8);
+        assert!(one == two && one == three, "{factors}");
+        model.problem.newton.rehearse = true;
+        let rehearsed = run(&model);
+        assert!(one == all_bytes(&rehearsed), "{factors}: nor does an attempt that is made twice");
+        model.problem.newton.rehearse = false;
+        let held: Vec<_> = rehearsed.states.iter().filter_map(|state| state.preconditioner.as_ref()).collect();
+        assert_eq!(held.iter().any(|held| !held.near.columns.is_empty()), factors.ends_with("kept"));
+        for k in 1..8 {
+            let begun = go_on(&model, model.problem.initial_state(), Some(k));
+            let rest = go_on(&model, through_a_file(begun.states.last().unwrap()), None);
+            assert!(one[k..] == all_bytes(&rest)[..], "{factors}: a restart at {k} changes nothing either");
+        }
+    }
 }
 
 #[test]
@@ -62,7 +72,7 @@ fn outputs_change_nothing() {
 /// Each attempt made twice, the first thrown away when it has converged.
 #[test]
 fn an_attempt_leaves_nothing_behind() {
-    for way in ["solver.factors=fresh", "solver.factors=attempt"] {
+    for way in ["solver.factors=fresh", "solver.factors=attempt", "solver.factors=kept"] {
         let mut model = model(DECK, &coarse(&[way]));
         let once = all_bytes(&run(&model));
         model.problem.newton.rehearse = true;

@@ -43,6 +43,16 @@ impl Change {
         self.small.solve(&mut weights);
         weights
     }
+
+    /// The same for `width` vectors that lie next to each other: `x` gives a row of numbers for each unknown.
+    pub fn weights_together<'a>(&self, width: usize, x: impl Fn(usize) -> &'a [f64]) -> Vec<f64> {
+        let mut weights = vec![0.0; self.rank() * width];
+        for (weights, row) in weights.chunks_exact_mut(width).zip(&self.rows) {
+            row.iter().for_each(|&(unknown, value)| subtract(weights, -value, x(unknown)));
+        }
+        self.small.solve_together(&mut weights, width);
+        weights
+    }
 }
 
 impl<T: Number> Halves<'_, T> {

@@ -2,6 +2,10 @@
 
 use crate::dense::{Panel, Pivot, PivotRule};
 use crate::panels::{Panels, backward_transposed, forward_transposed};
+use crate::together::exchange;
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_unit_upper_triangular_in_place};
+use faer::{Accum, MatMut, MatRef, Par};
 use pulp::Arch;
 
 /// A full matrix `A`, factorised with partial pivoting. What is stored is `P A^T = L U`: the rows of `A` are the columns
@@ -50,5 +54,65 @@ impl Full {
                 backward_transposed(&panels, x);
             },
         );
+    }
+
+    /// `x <- A^-1 x` for `width` vectors that lie next to each other: `x` holds a row of numbers for each unknown.
+    ///
+    /// # Panics
+    /// Unless `x` holds `width` numbers for each row.
+    pub fn solve_together(&self, x: &mut [f64], width: usize) {
+        let n = self.pivots.len();
+        let transposed = MatRef::from_column_major_slice(&self.factors, n, n).transpose();
+        let mut rows = MatMut::from_row_major_slice_mut(&mut *x, n, width);
+        solve_lower_triangular_in_place(transposed, rows.as_mut(), Par::Seq);
+        solve_unit_upper_triangular_in_place(transposed, rows, Par::Seq);
+        for (k, pivot) in self.pivots.iter().enumerate().rev() {
+            exchange(x, width, k, pivot.row as usize);
+        }
+    }
+}
+
+/// `Y <- Y - A^T X` for matrices given by rows, of which those of `X` and `Y` hold `width` numbers.
+///
+/// # Panics
+/// Unless `A` has a row for every row of `X` and a column for every row of `Y`.
+pub fn subtract_product(y: &mut [f64], a: &[f64], x: &[f64], width: usize) {
+    let [rows, inner] = [&*y, x].map(|v| v.len() / width.max(1));
+    let a = MatRef::from_row_major_slice(a, inner, rows).transpose();
+    let (y, x) = (MatMut::from_row_major_slice_mut(y, rows, width), MatRef::from_row_major_slice(x, inner, width));
+    matmul(y, Accum::Add, a, x, -1.0, Par::Seq);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(n: usize, factor: f64) -> Vec<f64> {
+        (0..n).map(|k| (factor * (k * k % 101) as f64).sin()).collect()
+    }
+
+    #[test]
+    fn vectors_together_are_solved_for_as_each_alone() {
+        for (n, width) in [(1, 1), (5, 3), (70, 1), (70, 9), (130, 40)] {
+            let mut a = wave(n * n, 0.7);
+            (0..n).for_each(|k| a[(n + 1) * k] += if k % 3 == 0 { 0.1 } else { 3.0 });
+            let (full, b) = (Full::factorise(n, a.clone()).expect("a regular matrix"), wave(n * width, 0.3));
+            let mut x = b.clone();
+            full.solve_together(&mut x, width);
+            for k in 0..width {
+                let mut alone: Vec<f64> = b.iter().skip(k).step_by(width).copied().collect();
+                full.solve(&mut alone);
+                let largest = alone.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                let together = x.iter().skip(k).step_by(width);
+                assert!(together.zip(&alone).all(|(x, y)| (x - y).abs() <= 1e-10 * largest), "{n}, {width}");
+            }
+            let mut left = b;
+            let transposed: Vec<f64> =
+                (0..n).flat_map(|j| (0..n).map(move |i| (i, j))).map(|(i, j)| a[n * i + j]).collect();
+            subtract_product(&mut left, &transposed, &x, width);
+            let worst = left.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let largest = x.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+            assert!(worst < 1e-12 * n as f64 * largest, "{worst:.1e} of {largest:.1e} is left, {n}, {width}");
+        }
     }
 }

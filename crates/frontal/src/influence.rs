@@ -7,8 +7,10 @@ use crate::solve::Halves;
 use crate::together::Together;
 use crate::vector::Number;
 
-/// Loads substituted together.
+/// Loads substituted together, a multiple of so many with zeros: products of matrices treat a vector alone in another way,
+/// and their digits would show how many there were.
 const TOGETHER: usize = 64;
+const EVEN: usize = 8;
 
 impl Factor {
     /// Solves `A x = b` for many sparse `b`, each given by unknowns and values that are added, and writes the `x` at the
@@ -36,9 +38,9 @@ impl<T: Number> Halves<'_, T> {
         let Factor { symbolic, scaling, .. } = self.factor;
         let position = &symbolic.tree.position;
         let to: Vec<u32> = at.iter().map(|&unknown| position[unknown]).collect();
-        let mut vectors = Together::with_room_for(self.factor, TOGETHER.min(loads.len()));
+        let mut vectors = Together::with_room_for(self.factor, TOGETHER.min(loads.len().next_multiple_of(EVEN)));
         for (loads, x) in loads.chunks(TOGETHER).zip(x.chunks_mut(TOGETHER * at.len())) {
-            vectors.clear(self.factor, loads.len());
+            vectors.clear(self.factor, loads.len().next_multiple_of(EVEN));
             let from = self.scatter(loads, &mut vectors);
             self.substitute_between(&from, &to, &mut vectors);
             for (place, (&unknown, &position)) in at.iter().zip(&to).enumerate() {

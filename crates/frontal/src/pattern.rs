@@ -20,10 +20,18 @@ impl Pattern {
     /// # Errors
     /// [`Error::InvalidStarts`], [`Error::InvalidColumn`] or [`Error::NotSymmetric`], at the first offence.
     pub fn new(starts: Vec<usize>, columns: Vec<usize>) -> Result<Self, Error> {
+        Self::sharing(Arc::new(starts), Arc::new(columns))
+    }
+
+    /// The same with memory that the caller keeps too.
+    ///
+    /// # Errors
+    /// As [`Pattern::new`].
+    pub fn sharing(starts: Arc<Vec<usize>>, columns: Arc<Vec<usize>>) -> Result<Self, Error> {
         check_starts(&starts, columns.len())?;
         check_columns(&starts, &columns)?;
         check_symmetry(&starts, &columns)?;
-        Ok(Pattern { starts: Arc::new(starts), columns: Arc::new(columns), node_of: None })
+        Ok(Pattern { starts, columns, node_of: None })
     }
 
     /// Names the node of every unknown, so that the ordering works on the smaller graph of the nodes. Nodes may be

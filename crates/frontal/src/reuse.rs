@@ -9,6 +9,7 @@ use crate::recycle::Outer;
 use crate::refine::Accuracy;
 use crate::rounded::Rounded;
 use crate::symbolic::{Prediction, Symbolic};
+use serde::{Deserialize, Serialize};
 
 /// Decades by which the affordable iterations must lower a residual, all together and those of one solution at the least.
 const DECADES: f64 = 9.0;
@@ -23,7 +24,8 @@ pub enum Reuse {
     #[default]
     WithinSequence,
     /// As long as it pays: until a sequence takes more work than the sequences since the factorisation took on average,
-    /// that of the factorisation included. What was solved before then shows in the last digits of what is solved later.
+    /// that of the factorisation included. Which matrix was factorised then shows in the last digits of what is solved
+    /// later.
     AcrossSequences,
 }
 
@@ -81,6 +83,18 @@ pub struct Counts {
     pub iterations: usize,
 }
 
+/// What a factor has served for since it was made, as far as that decides on what comes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Service {
+    /// Sequences, the one in which it was made included.
+    sequences: usize,
+    /// Iterations, and those of the sequence that began last.
+    iterations: usize,
+    latest: usize,
+    /// Whether it preconditions in single precision, where that was found out.
+    single: Option<bool>,
+}
+
 /// A factor with a policy: solves a sequence of systems with one pattern and slowly changing values.
 #[derive(Debug)]
 pub struct Solver {
@@ -89,15 +103,13 @@ pub struct Solver {
     policy: Policy,
     /// Whether the factor may be used for the next matrix.
     usable: bool,
-    /// Directions of the solutions since the factorisation.
+    /// Directions of the solutions since the sequence began.
     outer: Outer,
     /// The factor in single precision, which is enough to precondition.
     rounded: Rounded,
     /// Iterations spent on the matrix at hand.
     spent: usize,
-    /// Sequences begun since the factorisation, and all iterations until then and until the last of them began.
-    sequences: usize,
-    iterations_at: [usize; 2],
+    service: Service,
     /// What is known to have changed since.
     change: Option<Change>,
     /// Pattern of the matrices to come, where it is not the one that was analysed.
@@ -118,8 +130,7 @@ impl Solver {
             outer,
             rounded,
             spent: 0,
-            sequences: 0,
-            iterations_at: [0; 2],
+            service: Service::default(),
             change: None,
             other: None,
             counts,
@@ -142,18 +153,34 @@ impl Solver {
     }
 
     /// Begins a new sequence, such as the attempt of an increment: the next matrix is factorised, unless the policy
-    /// reuses factors across sequences.
+    /// reuses factors across sequences. Of the solutions before, nothing but the [`Service`] shows in those to come.
     pub fn begin(&mut self) {
         self.usable &= self.policy.reuse == Reuse::AcrossSequences && self.pays();
-        (self.sequences, self.iterations_at[1]) = (self.sequences + 1, self.counts.iterations);
+        self.service.sequences += 1;
+        self.service.latest = 0;
+        self.outer.clear();
     }
 
     /// Whether the last sequence took no more work than all since the factorisation did on average.
     fn pays(&self) -> bool {
         let cost = self.symbolic.prediction();
-        let work = |since: usize| cost.solve_work() * (self.counts.iterations - since) as f64;
-        let [all, last] = self.iterations_at.map(work);
-        self.sequences == 0 || last * self.sequences as f64 <= cost.factorisation_work() + all
+        let work = |iterations: usize| cost.solve_work() * iterations as f64;
+        let Service { sequences, iterations, latest, .. } = self.service;
+        work(latest) * sequences as f64 <= cost.factorisation_work() + work(iterations)
+    }
+
+    /// What the factor there is has served for, if it may serve for the next sequence too.
+    pub fn service(&self) -> Option<Service> {
+        let stays = self.policy.reuse == Reuse::AcrossSequences && self.affordable_iterations() > 0;
+        (stays && self.pays()).then(|| Service { single: self.rounded.fit(), ..self.service })
+    }
+
+    /// Has the factor there is be one that has served for so much: what follows is the same to the bit as after that.
+    pub fn resume(&mut self, service: Service) {
+        self.usable = true;
+        self.service = service;
+        self.rounded.settle(&self.factor, service.single);
+        self.change = None;
     }
 
     /// Has the next matrix factorised, whatever the policy.
@@ -259,10 +286,11 @@ impl Solver {
         let pattern = self.other.as_ref().unwrap_or(self.symbolic.pattern());
         let system = ((pattern, values), preconditioner);
         let convergence = self.factor.solve_recycling(system, &mut x, &krylov, (&mut self.outer, same))?;
-        self.counts.iterations += convergence.iterations;
-        self.spent += convergence.iterations;
+        let Service { iterations, latest, .. } = &mut self.service;
+        for count in [&mut self.counts.iterations, &mut self.spent, iterations, latest] {
+            *count += convergence.iterations;
+        }
         if !convergence.converged {
-            self.rounded.doubt();
             return Ok(None);
         }
         self.counts.solutions += 1;
@@ -280,7 +308,7 @@ impl Solver {
         self.rounded.forget();
         self.change = None;
         self.counts.factorisations += 1;
-        (self.sequences, self.iterations_at) = (1, [self.counts.iterations; 2]);
+        self.service = Service { sequences: 1, ..Service::default() };
         let report = self.symbolic.factorise(values, &mut self.factor)?;
         self.usable = true;
         Ok(report)

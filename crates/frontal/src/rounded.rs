@@ -9,7 +9,8 @@ use crate::vector::{norm, subtract};
 /// Part of a right-hand side that rounding may spoil.
 const SPOILT: f64 = 0.01;
 
-/// Rounded factors, if they are those of the factor there is, and whether they are fit for use, if that is known.
+/// Rounded factors, if they are those of the factor there is, and whether they are fit for use, if that is known: found out
+/// once for a factor, so that nothing shows in what is solved with it but itself and its first right-hand side.
 #[derive(Debug, Default)]
 pub(crate) struct Rounded {
     entries: Vec<f32>,
@@ -18,15 +19,20 @@ pub(crate) struct Rounded {
 }
 
 impl Rounded {
-    /// There are other factors now. What was fit for the last ones mostly is for them.
+    /// There are other factors now.
     pub fn forget(&mut self) {
-        self.current = false;
-        self.fit = self.fit.filter(|fit| *fit);
+        (self.current, self.fit) = (false, None);
     }
 
-    /// A solution failed: whether the next factors are fit is to be found out.
-    pub fn doubt(&mut self) {
-        self.fit = None;
+    /// Whether the rounded factors serve, if that is known.
+    pub fn fit(&self) -> Option<bool> {
+        self.fit
+    }
+
+    /// Takes for known whether the rounded factors of the factor there is serve.
+    pub fn settle(&mut self, factor: &Factor, fit: Option<bool>) {
+        self.current = true;
+        self.fit = fit.map(|fit| fit && self.round(factor));
     }
 
     /// The rounded factors, unless rounding spoils them for the right-hand side `b` they are first asked for with, or
@@ -34,8 +40,7 @@ impl Rounded {
     pub fn of<'a>(&'a mut self, factor: &'a Factor, b: &[f64]) -> Option<Halves<'a, f32>> {
         if !self.current {
             self.current = true;
-            let fit = self.round(factor) && self.fit.unwrap_or_else(|| self.spoils_little(factor, b));
-            self.fit = Some(fit);
+            self.fit = Some(self.round(factor) && self.spoils_little(factor, b));
         }
         self.known(factor)
     }

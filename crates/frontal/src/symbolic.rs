@@ -104,9 +104,7 @@ impl Symbolic {
     pub fn new_factor(&self) -> Factor {
         self.new_factor_in(Memory::default())
     }
-}
 
-impl Symbolic {
     /// The same in the memory of an earlier factor.
     pub(crate) fn new_factor_in(&self, memory: Memory) -> Factor {
         Factor::new(self.inner.clone(), rayon::current_num_threads(), memory)

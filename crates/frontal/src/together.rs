@@ -74,12 +74,7 @@ impl<T: Number> Halves<'_, T> {
         lower(&panels, 0..p, top, width);
         let local = &mut local[..width * (m - p)];
         local.fill(T::round(0.0));
-        take(
-            local,
-            &Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: false },
-            top,
-            width,
-        );
+        take(local, &Part::left(&panels, p..m, 0..p), top, width);
         for (local, &at) in local.chunks_exact(width).zip(self.factor.symbolic.tree.rows(front)) {
             row(x, width, at).iter_mut().zip(local).for_each(|(x, local)| *x += *local);
         }
@@ -94,7 +89,7 @@ impl<T: Number> Halves<'_, T> {
             local.copy_from_slice(row(x, width, at));
         }
         let right = match panels.symmetric {
-            true => Part { entries: panels.left, leading: m, rows: p..m, columns: 0..p, transposed: true },
+            true => Part { transposed: true, ..Part::left(&panels, p..m, 0..p) },
             false => Part { entries: panels.right, leading: m - p, rows: 0..m - p, columns: 0..p, transposed: true },
         };
         product.fill(T::round(0.0));
@@ -108,7 +103,8 @@ impl<T: Number> Halves<'_, T> {
     }
 }
 
-fn exchange<T>(x: &mut [T], width: usize, j: usize, k: usize) {
+/// Exchanges two rows.
+pub(crate) fn exchange<T>(x: &mut [T], width: usize, j: usize, k: usize) {
     if j != k {
         let (head, tail) = x.split_at_mut(width * k);
         head[width * j..][..width].swap_with_slice(&mut tail[..width]);
@@ -124,7 +120,11 @@ struct Part<'a, T> {
     transposed: bool,
 }
 
-impl<T: Number> Part<'_, T> {
+impl<'a, T: Number> Part<'a, T> {
+    fn left(panels: &Panels<'a, T>, rows: Range<usize>, columns: Range<usize>) -> Self {
+        Part { entries: panels.left, leading: panels.m, rows, columns, transposed: false }
+    }
+
     fn column(&self, k: usize) -> &[T] {
         &self.entries[self.leading * k..][self.rows.clone()]
     }
@@ -178,7 +178,7 @@ fn lower<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width:
     let (first, second) = x.split_at_mut(width * (middle - range.start));
     lower(panels, range.start..middle, first, width);
     let (rows, columns) = (middle..range.end, range.start..middle);
-    take(second, &Part { entries: panels.left, leading: panels.m, rows, columns, transposed: false }, first, width);
+    take(second, &Part::left(panels, rows, columns), first, width);
     lower(panels, middle..range.end, second, width);
 }
 
@@ -205,7 +205,7 @@ fn upper<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width:
     let (first, second) = x.split_at_mut(width * (middle - range.start));
     upper(panels, middle..range.end, second, width);
     let (rows, columns) = (range.start..middle, middle..range.end);
-    take(first, &Part { entries: panels.left, leading: panels.m, rows, columns, transposed: false }, second, width);
+    take(first, &Part::left(panels, rows, columns), second, width);
     upper(panels, range.start..middle, first, width);
 }
 

@@ -232,3 +232,57 @@ fn a_factor_is_rounded_unless_that_would_spoil_it() {
     let chain = Pattern::new(starts, columns).expect("a good pattern");
     assert_eq!(own_iterations(&chain, &values, 1e-6), 1, "as it was found");
 }
+
+/// Columns of the inverse are found as they are asked for, and all at once where a solver goes on from elsewhere.
+#[test]
+fn loads_of_one_call_do_not_show_in_each_other() {
+    let model = models::hex8([12, 12, 12]);
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    let n = model.pattern.len();
+    let at: Vec<usize> = (0..n).step_by(37).collect();
+    let loads: Vec<_> = (0..70).map(|k| vec![((k * 53) % n, 1.0)]).collect();
+    for share in [0.0, 10.0] {
+        let mut solver = Solver::new(symbolic.clone(), Policy { share, ..Policy::default() });
+        // In single precision where the factor is to serve for other matrices.
+        solver.solve(&model.values, &mut vec![1.0; n], 1e-9).expect("a regular matrix");
+        let mut together = vec![0.0; loads.len() * at.len()];
+        solver.influence(&loads, &at, &mut together).expect("a factor");
+        for count in [1, 2, 3, 5, 8, 13, 64] {
+            for (loads, together) in loads.chunks(count).zip(together.chunks(count * at.len())) {
+                let mut alone = vec![0.0; together.len()];
+                solver.influence(loads, &at, &mut alone).expect("a factor");
+                assert!(alone.iter().zip(together).all(|(a, b)| a == b), "{count} at a time");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_solver_goes_on_where_another_left_off() {
+    let model = models::hex8([10, 10, 10]);
+    let n = model.pattern.len();
+    let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+    let policy = Policy { share: 10.0, reuse: Reuse::AcrossSequences, ..Policy::default() };
+    let sequence = |solver: &mut Solver, nodes: std::ops::Range<usize>| -> Vec<Vec<f64>> {
+        solver.begin();
+        let solve = |node| {
+            let mut x = vec![1.0; n];
+            let outcome = solver.solve(&with_patch(&model, node), &mut x, 1e-9).expect("a regular matrix");
+            x.push(f64::from(u8::from(matches!(outcome, Outcome::Direct { .. }))));
+            x
+        };
+        nodes.map(solve).collect()
+    };
+    let mut first = Solver::new(symbolic.clone(), policy);
+    sequence(&mut first, 0..2);
+    assert_eq!(first.counts().factorisations, 1);
+    let mut second = Solver::new(symbolic.clone(), policy);
+    second.factorise(&with_patch(&model, 0)).expect("a regular matrix");
+    second.resume(first.service().expect("it may serve on"));
+    for nodes in [2..4, 5..6, 7..20, 20..22] {
+        assert_eq!(sequence(&mut first, nodes.clone()), sequence(&mut second, nodes.clone()), "{nodes:?}");
+        assert_eq!(first.service(), second.service());
+    }
+    // It has not served for ever.
+    assert!(first.counts().factorisations > 1);
+}

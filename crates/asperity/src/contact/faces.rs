@@ -226,6 +226,10 @@ impl Standing<'_> {
         (self.curves[segment].shape().point(end as f64), look(segment, end), beyond)
     }
 
+    /// The node of a vertex.
+    pub(super) fn node_of(&self, vertex: Vertex) -> usize {
+        self.faces.node_of(vertex)
+    }
     /// The edge beyond a vertex.
     pub(super) fn beyond(&self, vertex: Vertex) -> Option<usize> {
         let (segment, end) = parts(vertex);

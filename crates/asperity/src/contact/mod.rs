@@ -13,6 +13,7 @@ mod faces;
 mod geometry;
 mod guard;
 mod kink;
+mod known;
 mod layout;
 mod nonlocal;
 mod open;

@@ -47,19 +47,12 @@ impl Placed<'_> {
         self.x.iter().zip(weights).fold(Vec3::zero(), |sum, (&x, &weight)| sum + x * weight)
     }
 
-    /// Position, first and second derivative at `xi`.
-    fn at(&self, xi: f64) -> [Vec3; 3] {
+    /// Position, first and second derivative at `xi`; and a vector along the tangent there, and its derivative.
+    fn at(&self, xi: f64) -> ([Vec3; 3], [Vec3; 2]) {
         let (n, dn) = self.edge.shape_at(xi);
-        [self.sum(&n), self.sum(&dn), self.sum(&self.edge.curvature())]
-    }
-
-    /// A vector along the tangent at `xi`, and its derivative.
-    fn direction(&self, xi: f64) -> [Vec3; 2] {
-        let (n, dn) = self.edge.shape_at(xi);
-        match &self.field {
-            None => [self.sum(&dn), self.sum(&self.edge.curvature())],
-            Some(field) => [field.sum(&n), field.sum(&dn)],
-        }
+        let [x, slope, second] = [self.sum(&n), self.sum(&dn), self.sum(&self.edge.curvature)];
+        let direction = self.field.as_ref().map(|field| [field.sum(&n), field.sum(&dn)]);
+        ([x, slope, second], direction.unwrap_or([slope, second]))
     }
 
     /// Derivatives of that vector along the unknowns of the nodes, and of those around.
@@ -68,23 +61,31 @@ impl Placed<'_> {
         self.field.as_ref().map_or_else(|| along_axes(&dn), |field| field.rates(&n))
     }
 
-    /// The foot of the normal through `vertex`: `(x(xi) - x_V).s(xi) = 0`.
-    pub fn foot(&self, vertex: Vec3) -> End {
+    /// What lies between a place and `vertex`, the direction there, and the slope of their product.
+    fn way(&self, xi: f64, vertex: Vec3) -> (Vec3, Vec3, f64) {
+        let ([x, t, _], [s, k]) = self.at(xi);
+        (x - vertex, s, t.dot(s) + (x - vertex).dot(k))
+    }
+
+    /// Where the foot of the normal through `vertex` is: `(x(xi) - x_V).s(xi) = 0`.
+    pub fn foot_place(&self, vertex: Vec3) -> f64 {
         let mut xi = 0.0;
-        let slope = |xi: f64| {
-            let ([x, t, _], [s, k]) = (self.at(xi), self.direction(xi));
-            (x - vertex, s, t.dot(s) + (x - vertex).dot(k))
-        };
         // A straight edge needs one step; one that bends little, a few.
         for _ in 0..20 {
-            let (to, s, slope) = slope(xi);
+            let (to, s, slope) = self.way(xi, vertex);
             let step = to.dot(s) / slope;
             xi -= step;
             if step.abs() < 1e-15 || !step.is_finite() {
                 break;
             }
         }
-        let ((to, s, slope), (n, _)) = (slope(xi), self.edge.shape_at(xi));
+        xi
+    }
+
+    /// The foot of the normal through `vertex`, and how it moves.
+    pub fn foot(&self, vertex: Vec3) -> End {
+        let xi = self.foot_place(vertex);
+        let ((to, s, slope), (n, _)) = (self.way(xi, vertex), self.edge.shape_at(xi));
         let (mut own, turning) = ([0.0; MAX_FIELD], self.direction_rates(xi));
         for (j, (rate, turning)) in own.iter_mut().zip(turning).enumerate() {
             let n = n.get(j / 2).filter(|_| j < 2 * self.edge.nodes.len()).copied().unwrap_or(0.0);
@@ -122,12 +123,11 @@ impl Placed<'_> {
 
     /// A place on the edge.
     pub fn frame(&self, xi: f64) -> Frame {
-        let [x, slope, second] = self.at(xi);
+        let ([x, slope, second], [s, k]) = self.at(xi);
         if self.field.is_none() {
             return Frame { x, slope, tangent: slope, bend: second };
         }
-        let ([s, k], length) = (self.direction(xi), slope.norm());
-        let e = s.unit();
+        let (length, e) = (slope.norm(), s.unit());
         let turned = (k - e * e.dot(k)) * (length / s.norm());
         Frame { x, slope, tangent: e * length, bend: e * (slope.dot(second) / length) + turned }
     }

@@ -7,6 +7,7 @@
 //! and how that moves, is part of the stencil's function.
 
 use super::faces::Standing;
+use super::known::Known;
 use super::placed::{Frame, Placed};
 use super::point::triad;
 use super::target::{Cast, Memory};
@@ -34,10 +35,11 @@ impl Seeker<'_> {
     pub fn vertices(&self, memory: &mut Memory) -> [Vertex; 2] {
         let (mut found, mut limits) = ([0; 2], [-1.0, 1.0]);
         let (a, b) = (self.placed.x[0], self.placed.x[1]);
-        let mut near = Vec::new();
+        // Each vertex ends two edges.
+        let (mut near, mut feet) = (Vec::new(), Known::default());
         self.standing.vertices_near([a, b], (b - a).norm(), &mut near);
         for vertex in near {
-            let Some((side, xi)) = self.border(vertex) else { continue };
+            let Some((side, xi)) = self.border(vertex, &mut feet) else { continue };
             // The innermost of several on one side; beyond it there must be nothing to be seen.
             let (inner, outside) = match side {
                 0 => (xi > limits[0], 0.5 * (xi - 1.0)),
@@ -51,19 +53,19 @@ impl Seeker<'_> {
     }
 
     /// Whether the target as the edge sees it begins (0) or ends (1) at a vertex, and where on the edge.
-    fn border(&self, vertex: Vertex) -> Option<(usize, f64)> {
+    fn border(&self, vertex: Vertex, feet: &mut Known<f64>) -> Option<(usize, f64)> {
         let (position, (outward, away), beyond) = self.standing.faces_at(vertex);
-        let foot = self.placed.foot(position);
-        if !(END - 1.0..=1.0 - END).contains(&foot.xi) {
+        let foot = feet.of(self.standing.node_of(vertex), || self.placed.foot_place(position));
+        if !(END - 1.0..=1.0 - END).contains(&foot) {
             return None;
         }
-        let Frame { x, tangent, .. } = self.placed.frame(foot.xi);
+        let Frame { x, tangent, .. } = self.placed.frame(foot);
         let (along, inward, _) = triad(tangent);
         let gap = inward.dot(position - x);
         let looks = |outward: Vec3| inward.dot(outward) > Rules::LEAST_COSINE;
         let within = gap >= -self.cast.reach && gap <= self.cast.depth;
         let last = looks(outward) && !beyond.is_some_and(|(outward, _)| looks(outward));
-        (within && last).then(|| (usize::from(along.dot(away) < 0.0), foot.xi))
+        (within && last).then(|| (usize::from(along.dot(away) < 0.0), foot))
     }
 
     fn sees(&self, xi: f64, memory: &mut Memory) -> bool {

@@ -16,24 +16,23 @@ pub struct Edge {
     pub kind: &'static Cell,
     /// Its nodes.
     pub nodes: Vec<usize>,
+    /// Second derivatives of the shape functions, which are constant.
+    pub curvature: [f64; MAX_EDGE_NODES],
 }
 
 impl Edge {
     /// A side of the mesh.
     pub fn new(mesh: &Mesh, side: Side) -> Self {
         let (kind, nodes) = mesh.side(side);
-        Self { side, kind, nodes: nodes.collect() }
+        let mut edge = Self { side, kind, nodes: nodes.collect(), curvature: [0.0; MAX_EDGE_NODES] };
+        let (left, right) = (edge.shape_at(-0.5).1, edge.shape_at(0.5).1);
+        edge.curvature = std::array::from_fn(|k| right[k] - left[k]);
+        edge
     }
 
     /// Distance between its ends before any motion.
     pub fn chord(&self, mesh: &Mesh) -> f64 {
         (mesh.points[self.nodes[1]] - mesh.points[self.nodes[0]]).norm()
-    }
-
-    /// Second derivatives of the shape functions, which are constant.
-    pub fn curvature(&self) -> [f64; MAX_EDGE_NODES] {
-        let (left, right) = (self.shape_at(-0.5).1, self.shape_at(0.5).1);
-        std::array::from_fn(|k| right[k] - left[k])
     }
 
     /// Shape functions at `xi` from -1 to 1, and their derivatives.

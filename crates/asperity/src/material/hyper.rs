@@ -5,7 +5,7 @@ use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Material, Variable, VariableKind};
 use crate::Failure;
 use crate::integrate::Update;
-use crate::tensor::{Dual, Scalar, Tensor2};
+use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
 
 /// An isotropic law between `b` and the Cauchy stress.
 pub trait HyperLaw: Clone + Send + Sync + 'static {
@@ -14,8 +14,28 @@ pub trait HyperLaw: Clone + Send + Sync + 'static {
     /// # Errors
     /// A [`Failure`] when `b` is inadmissible.
     fn stress<T: Scalar>(&self, b: &Tensor2<T>) -> Result<Tensor2<T>, Failure>;
+    /// The same, and its [`Slopes`]: by dual numbers where a law does not write them out.
+    ///
+    /// # Errors
+    /// As [`stress`](Self::stress).
+    fn stress_with_slopes(&self, b: &Tensor2, slopes: &mut Slopes) -> Result<Tensor2, Failure> {
+        by_duals(self, b, slopes)
+    }
     /// Stored energy per undeformed volume.
     fn energy(&self, b: &Tensor2) -> f64;
+}
+
+/// Derivatives of the six stress components along the six of `b`, in the order XX YY ZZ XY YZ XZ; one off the diagonal
+/// stands in `b` twice.
+pub type Slopes = [[f64; 6]; 6];
+
+/// Stress of a law and its slopes by dual numbers.
+pub(super) fn by_duals<L: HyperLaw>(law: &L, b: &Tensor2, slopes: &mut Slopes) -> Result<Tensor2, Failure> {
+    let components = b.to_voigt();
+    let variable = Tensor2::from_voigt(std::array::from_fn(|i| Dual::<6>::variable(components[i], i)));
+    let stress = law.stress(&variable)?;
+    slopes.iter_mut().zip(stress.to_voigt()).for_each(|(slopes, stress)| *slopes = stress.du);
+    Ok(stress.re())
 }
 
 /// A [`HyperLaw`] as a [`Material`].
@@ -34,11 +54,12 @@ fn carried(f: &Tensor2, old: &[f64]) -> Result<(Tensor2, Tensor2), Failure> {
         return Err(Failure::new(INSIDE_OUT));
     }
     let half = *f * left_cauchy_green(old);
-    Ok((half, (half * f.transpose()).sym()))
+    let b = |i: usize, j: usize| Vec3(half.0[i]).dot(Vec3(f.0[j]));
+    Ok((half, Tensor2::from_voigt([b(0, 0), b(1, 1), b(2, 2), b(0, 1), b(1, 2), b(0, 2)])))
 }
 
-fn write<T: Scalar>(stress: &[T; 6], b: &Tensor2, new: &mut [f64]) {
-    new[..6].copy_from_slice(&stress.map(Scalar::re));
+fn write(stress: &Tensor2, b: &Tensor2, new: &mut [f64]) {
+    new[..6].copy_from_slice(&stress.to_voigt());
     new[6..12].copy_from_slice(&b.to_voigt());
 }
 
@@ -66,7 +87,7 @@ impl<L: HyperLaw> Material for Hyper<L> {
 
     fn update(&self, f: &Tensor2, _dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         let (_, b) = carried(f, old)?;
-        write(&self.0.stress(&b)?.to_voigt(), &b, new);
+        write(&self.0.stress(&b)?, &b, new);
         Ok(())
     }
 
@@ -80,15 +101,16 @@ impl<L: HyperLaw> Material for Hyper<L> {
         directions: Directions,
     ) -> Result<(), Failure> {
         let (half, b) = carried(f, old)?;
-        let components = b.to_voigt();
-        let variable = Tensor2::from_voigt(std::array::from_fn(|i| Dual::<6>::variable(components[i], i)));
-        let stress = self.0.stress(&variable)?.to_voigt();
-        write(&stress, &b, new);
-        for (row, stress) in gradient.iter_mut().zip(&stress) {
+        let mut slopes = Slopes::default();
+        write(&self.0.stress_with_slopes(&b, &mut slopes)?, &b, new);
+        for (row, slopes) in gradient.iter_mut().zip(&slopes) {
             // An entry off the diagonal stands in `b` twice.
-            let slopes = Tensor2::from_voigt(std::array::from_fn(|i| stress.du[i] * if i < 3 { 2.0 } else { 1.0 }));
-            let along = slopes * half;
-            row.iter_mut().zip(directions.components()).for_each(|(slope, &place)| *slope = along[place]);
+            let [xx, yy, zz, xy, yz, xz] = *slopes;
+            let along = Tensor2::from_voigt([2.0 * xx, 2.0 * yy, 2.0 * zz, xy, yz, xz]) * half;
+            match directions {
+                Directions::Space => row.copy_from_slice(along.0.as_flattened()),
+                _ => row.iter_mut().zip(directions.components()).for_each(|(slope, &place)| *slope = along[place]),
+            }
         }
         Ok(())
     }

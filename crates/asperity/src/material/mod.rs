@@ -18,7 +18,7 @@ mod vars;
 pub use crate::declare::{Variable, VariableKind};
 pub use frame::hughes_winget;
 pub use green_naghdi::GreenNaghdi;
-pub use hyper::{Hyper, HyperLaw};
+pub use hyper::{Hyper, HyperLaw, Slopes};
 pub use law::{Directions, Gradient, Material};
 pub use rate::{Rate, RateLaw};
 pub use vars::{ScalarsAndTensor, ScalarsAndVector, Vars};

@@ -198,7 +198,7 @@ impl Results {
         }
         Ok(())
     }
-    fn write_summary(&mut self) -> Result<(), Error> {
+    pub(super) fn write_summary(&mut self) -> Result<(), Error> {
         self.summary.files = self.present_files();
         self.summary.write(&self.directory.join(SUMMARY))
     }

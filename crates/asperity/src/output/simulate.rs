@@ -87,6 +87,7 @@ impl Job<'_> {
         results.summary.title.clone_from(&model.title);
         results.summary.notes.extend_from_slice(self.notes);
         results.summary.threads = rayon::current_num_threads();
+        results.write_summary()?;
         let log = match self.start {
             Start::Beginning => RunLog::create(self.directory)?,
             Start::Checkpoint => RunLog::resume(self.directory, start.state.increment)?,

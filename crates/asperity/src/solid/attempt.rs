@@ -1,22 +1,26 @@
 //! A body during one attempt: its cells' gradients at the accepted state, and the forces of each cell.
 
 use super::body::{Body, Formulation};
-use super::gradient::{Gradients, PointGradient};
-use super::operator::{MAX_DOFS, add_center, add_forces, add_tangent};
+use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
+use super::operator::{Nodal, Tangent, add_forces, deformation, volume_gradient};
 use super::plane_stress;
 use super::point::{PointLaw, PointStress};
 use crate::Failure;
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
+use rayon::prelude::*;
+
+/// Cells whose gradients one thread finds together.
+const PART: usize = 1024;
 
 /// A body during one attempt.
 pub(super) struct OpenBody<'a> {
     pub body: &'a Body,
     pub accepted: &'a State,
     pub history: &'a History,
-    /// Gradients at the points of each cell and, with F-bar, at its centre behind them.
-    pub gradients: Gradients,
+    /// Gradients at the points of each cell and, with F-bar, at its centre behind them; [`PART`] cells in each part.
+    pub gradients: Vec<Gradients>,
     pub dt: f64,
     /// Thermal stretch at the end of the increment, where the body has a temperature.
     pub stretch: Option<f64>,
@@ -38,9 +42,9 @@ impl Attempt for OpenBody<'_> {
 
     fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let done = match self.body.space {
-            Space::PlaneStrain => self.evaluate_cell::<2, 4>(index, new, local),
-            Space::PlaneStress | Space::Axisymmetric => self.evaluate_cell::<2, 5>(index, new, local),
-            Space::Solid => self.evaluate_cell::<3, 9>(index, new, local),
+            Space::PlaneStrain => self.evaluate_padded::<2, 4>(index, new, local),
+            Space::PlaneStress | Space::Axisymmetric => self.evaluate_padded::<2, 5>(index, new, local),
+            Space::Solid => self.evaluate_padded::<3, 9>(index, new, local),
         };
         done.map_err(|f| Failure::new(format!("{}: {}", self.body.name_of(index), f.reason)))?;
         Ok(0)
@@ -48,12 +52,16 @@ impl Attempt for OpenBody<'_> {
 }
 
 impl Body {
-    /// The gradients of all cells at displacements `u`.
-    pub(super) fn gradients(&self, u: &[f64]) -> Result<Gradients, Failure> {
-        let mut gradients = Gradients::with_capacity(self.cells.len(), self.most_points(), self.most_nodes());
-        for &cell in &self.cells {
-            self.open(cell, u, &mut gradients)?;
-        }
+    /// The gradients of all cells at displacements `u`, in parts of [`PART`] cells.
+    pub(super) fn gradients(&self, u: &[f64]) -> Result<Vec<Gradients>, Failure> {
+        let parts: Vec<_> = self.cells.par_chunks(PART).map(|cells| self.gradients_of(cells, u)).collect();
+        // Of several failures the first, whichever thread met its own first.
+        parts.into_iter().collect()
+    }
+
+    fn gradients_of(&self, cells: &[usize], u: &[f64]) -> Result<Gradients, Failure> {
+        let mut gradients = Gradients::with_capacity(cells.len(), self.most_points(), self.most_nodes());
+        cells.iter().try_for_each(|&cell| self.open(cell, u, &mut gradients))?;
         Ok(gradients)
     }
 
@@ -78,59 +86,109 @@ impl Body {
 }
 
 impl OpenBody<'_> {
-    /// Displacements of a cell's nodes over the increment.
-    fn increment(&self, index: usize, u: &[f64], du: &mut [f64]) {
-        let (dofs, dim) = (&self.body.dofs, self.body.dofs.per_node());
-        for (k, &node) in self.body.mesh.cell(self.body.cells[index]).nodes.iter().enumerate() {
-            let first = dofs.node(node);
-            for c in 0..dim {
-                du[k * dim + c] = u[k * dim + c] - self.accepted.u[first + c];
-            }
-        }
-    }
-
-    fn evaluate_cell<const DIM: usize, const D: usize>(
+    /// Every padded number of nodes is compiled apart, all lengths known.
+    fn evaluate_padded<const DIM: usize, const D: usize>(
         &self,
         index: usize,
         new: &mut [f64],
         local: &mut Local,
     ) -> Result<(), Failure> {
-        let body = self.body;
-        let mut du = [0.0; MAX_DOFS];
-        let du = &mut du[..local.u.len()];
-        self.increment(index, &local.u, du);
-        let mut points = self.gradients.cell(index);
-        let barred = body.options.formulation == Formulation::FBar;
-        let center = if barred { points.next_back() } else { None };
-        let center = center.map(|c| (c, c.deformation::<DIM>(du)));
-        let len = body.point_len();
-        // A body has one temperature, and with it one stretch.
-        let growth = self.stretch.map_or(1.0, |stretch| stretch / self.history.slot(index)[len - 1]);
-        let law = PointLaw {
-            material: body.material.as_ref(),
-            space: body.space,
-            dt: self.dt,
-            center: center.as_ref().map(|(_, f0)| f0.det()),
-            free: growth.recip(),
-        };
-        let mut sums = Sums { du, center_gradient: [0.0; MAX_DOFS], local, s: PointStress::<D>::default() };
-        if let (Some((c, f0)), true) = (&center, sums.local.wants_tangent) {
-            c.volume_gradient::<DIM>(f0, &mut sums.center_gradient[..sums.du.len()]);
+        match padded(self.nodes(index).len()) {
+            4 => self.evaluate_cell::<DIM, D, 4>(index, new, local),
+            8 => self.evaluate_cell::<DIM, D, 8>(index, new, local),
+            12 => self.evaluate_cell::<DIM, D, 12>(index, new, local),
+            16 => self.evaluate_cell::<DIM, D, 16>(index, new, local),
+            20 => self.evaluate_cell::<DIM, D, 20>(index, new, local),
+            _ => self.evaluate_cell::<DIM, D, MOST>(index, new, local),
         }
+    }
+
+    /// Nodes of a cell.
+    fn nodes(&self, index: usize) -> &[usize] {
+        self.body.mesh.cell(self.body.cells[index]).nodes
+    }
+
+    /// Displacements of a cell's nodes over the increment.
+    fn increment<const DIM: usize, const N: usize>(&self, index: usize, u: &[f64]) -> Nodal<DIM, N> {
+        let mut du = [[0.0; N]; DIM];
+        for (k, (&node, u)) in self.nodes(index).iter().zip(u.as_chunks::<DIM>().0).enumerate().take(N) {
+            let before = &self.accepted.u[self.body.dofs.node(node)..];
+            (0..DIM).for_each(|i| du[i][k] = u[i] - before[i]);
+        }
+        du
+    }
+
+    fn evaluate_cell<const DIM: usize, const D: usize, const N: usize>(
+        &self,
+        index: usize,
+        new: &mut [f64],
+        local: &mut Local,
+    ) -> Result<(), Failure> {
+        if !local.wants_tangent {
+            return self.add_points::<DIM, D, N>(index, new, local, None);
+        }
+        let (nodes, standard) = (self.nodes(index).len(), self.body.options.formulation == Formulation::Standard);
+        let mut tangent = Tangent::<DIM, N>::zero(nodes, standard && self.body.material.is_conservative());
+        self.add_points::<DIM, D, N>(index, new, local, Some(&mut tangent))?;
+        tangent.write(&mut local.tangent);
+        Ok(())
+    }
+
+    fn add_points<const DIM: usize, const D: usize, const N: usize>(
+        &self,
+        index: usize,
+        new: &mut [f64],
+        local: &mut Local,
+        tangent: Option<&mut Tangent<DIM, N>>,
+    ) -> Result<(), Failure> {
+        let (mut points, len) = (self.gradients[index / PART].cell(index % PART), self.body.point_len());
+        let barred = self.body.options.formulation == Formulation::FBar;
+        let center = if barred { points.next_back() } else { None };
+        let mut sums = self.sums::<DIM, D, N>(index, &local.u, center, tangent);
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in points.zip(lanes).enumerate() {
             let volume = point.volume * self.thickness(old);
             let det = sums
-                .add::<DIM>(&law, (&point, volume), (old, new))
+                .add((point.rows(), volume), (old, new))
                 .map_err(|f| Failure::new(format!("integration point {}: {}", number + 1, f.reason)))?;
-            let local = &mut *sums.local;
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
-                local.supplied -= 0.5 * (trace(old) + trace(new) * det) * volume * growth.ln();
+                local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * sums.law.free.ln();
             }
         }
+        if let Some(tangent) = sums.tangent.filter(|_| barred) {
+            tangent.add_center(&sums.along_center, &sums.center_gradient);
+        }
+        for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(N) {
+            *out = std::array::from_fn(|i| sums.force[i][node]);
+        }
         Ok(())
+    }
+
+    /// The sums of a cell before its points are added, with the gradient at its centre where F-bar is used.
+    fn sums<'s, const DIM: usize, const D: usize, const N: usize>(
+        &'s self,
+        index: usize,
+        u: &[f64],
+        center: Option<PointGradient>,
+        tangent: Option<&'s mut Tangent<DIM, N>>,
+    ) -> Sums<'s, DIM, D, N> {
+        let (du, mut center_gradient) = (self.increment(index, u), [[0.0; N]; DIM]);
+        let center = center.map(|center| {
+            let f0 = deformation(center.rows(), &du);
+            if tangent.is_some() {
+                center_gradient = volume_gradient(center.rows(), &f0);
+            }
+            f0.det()
+        });
+        // A body has one temperature, and with it one stretch.
+        let before = |now: f64| self.history.slot(index)[self.body.point_len() - 1] / now;
+        let free = self.stretch.map_or(1.0, before);
+        let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
+        let law = PointLaw { material, space, dt, center, free };
+        let (force, along_center, s) = ([[0.0; N]; DIM], [[0.0; N]; DIM], PointStress::default());
+        Sums { law, du, center_gradient, force, along_center, tangent, s }
     }
 
     /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
@@ -157,36 +215,36 @@ impl OpenBody<'_> {
 }
 
 /// Forces and tangent of a cell while its points are added up.
-struct Sums<'a, const D: usize> {
+struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
+    law: PointLaw<'a>,
     /// Displacements of the nodes over the increment.
-    du: &'a [f64],
+    du: Nodal<DIM, N>,
     /// Derivative of `ln det f0` along them, with F-bar.
-    center_gradient: [f64; MAX_DOFS],
-    local: &'a mut Local,
+    center_gradient: Nodal<DIM, N>,
+    force: Nodal<DIM, N>,
+    /// Derivative of the forces along `ln det f0`, with F-bar.
+    along_center: Nodal<DIM, N>,
+    /// Where it is wanted.
+    tangent: Option<&'a mut Tangent<DIM, N>>,
     /// Stress of the present point.
     s: PointStress<D>,
 }
 
-impl<const D: usize> Sums<'_, D> {
+impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
     /// Adds a point of this volume and returns the determinant of its deformation.
-    fn add<const DIM: usize>(
-        &mut self,
-        law: &PointLaw,
-        (point, volume): (&PointGradient, f64),
-        (old, new): (&[f64], &mut [f64]),
-    ) -> Result<f64, Failure> {
-        let (f, s, local) = (point.deformation::<DIM>(self.du), &mut self.s, &mut *self.local);
-        match (law.space, local.wants_tangent) {
+    fn add(&mut self, (rows, volume): (&Rows<N>, f64), (old, new): (&[f64], &mut [f64])) -> Result<f64, Failure> {
+        let (f, s, law) = (deformation(rows, &self.du), &mut self.s, &self.law);
+        match (law.space, self.tangent.is_some()) {
             (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
             (Space::PlaneStress, false) => plane_stress::stress(law, &f, old, new, s)?,
             (_, true) => law.stress_with_tangent::<DIM, D>(&f, old, new, s)?,
             (_, false) => law.stress::<DIM, D>(&f, old, new, s)?,
         }
-        add_forces::<DIM, D>(point, &s.p, volume, &mut local.force);
-        if local.wants_tangent {
-            add_tangent::<DIM, D>(point, &s.tangent, volume, &mut local.tangent);
+        add_forces(rows, &s.p, volume, &mut self.force);
+        if let Some(tangent) = &mut self.tangent {
+            tangent.add(rows, &s.tangent, volume);
             if law.center.is_some() {
-                add_center::<DIM, D>(point, &s.along_center, volume, &self.center_gradient, &mut local.tangent);
+                add_forces(rows, &s.along_center, volume, &mut self.along_center);
             }
         }
         Ok(s.det)

@@ -5,14 +5,30 @@ use crate::mesh::Space;
 use crate::mesh::cells::{Cell, MAX_NODES};
 use crate::tensor::Tensor2;
 
-/// Gradient of one shape function, and behind it `N_L / r` in the axisymmetric case, else zero.
-pub type NodeGradient = [f64; 4];
+/// Three values for each node: `dN_L/dx` of all nodes, then `dN_L/dy`, then `dN_L/dz` in space, `N_L / r` in the
+/// axisymmetric case and zero in the plane. Rows are filled up with zeros to the length that [`padded`] says.
+pub type Rows<const N: usize> = [[f64; N]; 3];
+
+/// Length of the rows of a cell with so many nodes: whole vectors of any processor, in few lengths.
+pub const fn padded(nodes: usize) -> usize {
+    match nodes {
+        0..=4 => 4,
+        5..=8 => 8,
+        9..=12 => 12,
+        13..=16 => 16,
+        17..=20 => 20,
+        _ => MOST,
+    }
+}
+
+/// The longest row.
+pub const MOST: usize = MAX_NODES.next_multiple_of(4);
 
 /// Gradient operator of one point of a cell.
 #[derive(Debug, Clone, Copy)]
 pub struct PointGradient<'a> {
-    /// Of each node.
-    pub nodes: &'a [NodeGradient],
+    /// Its rows, one after another.
+    rows: &'a [f64],
     /// Volume the point stands for: determinant times weight, times the circumference when axisymmetric (not times
     /// the thickness).
     pub volume: f64,
@@ -21,9 +37,9 @@ pub struct PointGradient<'a> {
 /// The gradient operators of many points, one cell after another.
 #[derive(Debug, Clone, Default)]
 pub struct Gradients {
-    nodes: Vec<NodeGradient>,
+    rows: Vec<f64>,
     volumes: Vec<f64>,
-    /// Where each cell ends among nodes and volumes.
+    /// Where each cell ends among rows and volumes.
     ends: Vec<[usize; 2]>,
 }
 
@@ -31,7 +47,7 @@ impl Gradients {
     /// Room for so many cells of so many points and nodes.
     pub fn with_capacity(cells: usize, points: usize, nodes: usize) -> Self {
         Self {
-            nodes: Vec::with_capacity(cells * points * nodes),
+            rows: Vec::with_capacity(3 * cells * points * padded(nodes)),
             volumes: Vec::with_capacity(cells * points),
             ends: Vec::with_capacity(cells),
         }
@@ -41,23 +57,23 @@ impl Gradients {
     /// the right of the axis.
     #[must_use]
     pub fn push(&mut self, shapes: &Shapes, x: &[[f64; 3]], space: Space) -> bool {
-        let volume = at(shapes, x, space, &mut self.nodes);
+        let volume = at(shapes, x, space, &mut self.rows);
         self.volumes.extend(volume);
         volume.is_some()
     }
 
     /// Ends the present cell.
     pub fn close(&mut self) {
-        self.ends.push([self.nodes.len(), self.volumes.len()]);
+        self.ends.push([self.rows.len(), self.volumes.len()]);
     }
 
     /// The points of a cell, in the order in which they were added.
     pub fn cell(&self, index: usize) -> impl DoubleEndedIterator<Item = PointGradient<'_>> + ExactSizeIterator + Clone {
         let [first, from] = index.checked_sub(1).map_or([0, 0], |before| self.ends[before]);
         let [last, to] = self.ends[index];
-        let (nodes, volumes) = (&self.nodes[first..last], &self.volumes[from..to]);
-        let count = (nodes.len() / volumes.len().max(1)).max(1);
-        nodes.chunks_exact(count).zip(volumes).map(|(nodes, &volume)| PointGradient { nodes, volume })
+        let (rows, volumes) = (&self.rows[first..last], &self.volumes[from..to]);
+        let count = (rows.len() / volumes.len().max(1)).max(1);
+        rows.chunks_exact(count).zip(volumes).map(|(rows, &volume)| PointGradient { rows, volume })
     }
 }
 
@@ -80,9 +96,9 @@ impl Shapes {
     }
 }
 
-/// Adds to `out` the gradients at one point of a cell with nodes at `x` and returns the point's volume; `None` if the cell
-/// is inside out there, or not to the right of the axis.
-pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space, out: &mut Vec<NodeGradient>) -> Option<f64> {
+/// Adds to `out` the gradients at one point of a cell with nodes at `x`, in the order of [`Rows`], and returns the
+/// point's volume; `None` if the cell is inside out there, or not to the right of the axis.
+pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space, out: &mut Vec<f64>) -> Option<f64> {
     let (n, dn) = (&shapes.n[..x.len()], &shapes.dn[..x.len()]);
     let mut jacobian = Tensor2::zero();
     for (x, dn) in x.iter().zip(dn) {
@@ -104,39 +120,23 @@ pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space, out: &mut Vec<NodeGradi
     }
     let inverse = jacobian.inverse();
     let (around, hoop) = if axisymmetric { (std::f64::consts::TAU * radius, radius.recip()) } else { (1.0, 0.0) };
-    out.extend(n.iter().zip(dn).map(|(n, dn)| {
-        let along = |i: usize| dn[0] * inverse[(0, i)] + dn[1] * inverse[(1, i)] + dn[2] * inverse[(2, i)];
-        [along(0), along(1), along(2), n * hoop]
-    }));
+    let (begun, length) = (out.len(), padded(x.len()));
+    out.resize(begun + 3 * length, 0.0);
+    for (i, row) in out[begun..].chunks_exact_mut(length).enumerate() {
+        if i < 2 || space == Space::Solid {
+            let [a, b, c] = [inverse[(0, i)], inverse[(1, i)], inverse[(2, i)]];
+            row.iter_mut().zip(dn).for_each(|(along, dn)| *along = dn[0] * a + dn[1] * b + dn[2] * c);
+        } else {
+            row.iter_mut().zip(n).for_each(|(along, n)| *along = n * hoop);
+        }
+    }
     Some(det * shapes.weight * around)
 }
 
-impl PointGradient<'_> {
-    /// Deformation `I + grad(du)` for nodal displacements with `DIM` components each.
+impl<'a> PointGradient<'a> {
+    /// Its rows; `N` is the length that [`padded`] says.
     #[inline]
-    pub fn deformation<const DIM: usize>(&self, du: &[f64]) -> Tensor2 {
-        let mut f = Tensor2::identity();
-        for (du, grad) in du.as_chunks::<DIM>().0.iter().zip(self.nodes) {
-            for i in 0..DIM {
-                for j in 0..DIM {
-                    f[(i, j)] += du[i] * grad[j];
-                }
-            }
-            if DIM == 2 {
-                f[(2, 2)] += du[0] * grad[3];
-            }
-        }
-        f
-    }
-
-    /// Derivative of `ln det` of the deformation `f` along each nodal displacement.
-    pub fn volume_gradient<const DIM: usize>(&self, f: &Tensor2, out: &mut [f64]) {
-        let inverse = f.inverse();
-        for (out, grad) in out.as_chunks_mut::<DIM>().0.iter_mut().zip(self.nodes) {
-            for (m, out) in out.iter_mut().enumerate() {
-                *out = (0..DIM).map(|n| inverse[(n, m)] * grad[n]).sum();
-            }
-            out[0] += inverse[(2, 2)] * grad[3];
-        }
+    pub fn rows<const N: usize>(&self) -> &'a Rows<N> {
+        self.rows.as_chunks().0.first_chunk().expect("rows of the padded length")
     }
 }

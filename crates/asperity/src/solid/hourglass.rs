@@ -6,7 +6,7 @@
 //! 1981), and `g . u` is what a cell moves by the product. They are not stabilised here but told.
 
 use super::body::{Body, Integration};
-use super::gradient::{self, Shapes};
+use super::gradient::{self, Shapes, padded};
 use crate::mesh::Space;
 use crate::mesh::cells::{Cell, MAX_NODES};
 
@@ -58,7 +58,7 @@ impl Body {
         let x: Vec<[f64; 3]> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
         // The gradient of the reference configuration; that around the axis is no matter of the cell's plane.
         let space = if axes == 3 { Space::Solid } else { Space::PlaneStrain };
-        let mut gradients = Vec::with_capacity(count);
+        let mut gradients = Vec::with_capacity(3 * padded(count));
         gradient::at(&Shapes::new(view.kind, view.kind.center(), 1.0), &x, space, &mut gradients)?;
         let mut sums = [0.0; 2];
         for axis in 0..axes {
@@ -70,7 +70,8 @@ impl Body {
                 h.iter_mut().zip(view.kind.nodes).for_each(|(h, &xi)| *h = product(number, xi));
                 let linear = |i: usize| h.iter().zip(&x).map(|(h, x)| h * x[i]).sum::<f64>();
                 let slope = [0, 1, 2].map(linear);
-                let along = |k: usize| h[k] - (0..axes).map(|i| slope[i] * gradients[k][i]).sum::<f64>();
+                let along =
+                    |k: usize| h[k] - (0..axes).map(|i| slope[i] * gradients[i * padded(count) + k]).sum::<f64>();
                 let moved: f64 = v.iter().enumerate().map(|(k, v)| along(k) * v).sum();
                 sums[0] += moved * moved / count as f64;
             }

@@ -1,134 +1,180 @@
-//! What the gradients of a cell make of a stress and its derivatives: nodal forces and the cell's tangent. `D` components
-//! of the gradient vary: those of `DIM` axes by rows, and the hoop's behind them where the circumference counts.
+//! What the gradients of a cell make of displacements, of a stress and of its derivatives: deformation, nodal forces and
+//! the cell's tangent.
+//!
+//! All is kept by axes: component `i` of node `L` at `[i][L]`. `D` components of the gradient vary: those of `DIM` axes by
+//! rows, and the hoop's behind them where the circumference counts. A displacement along axis `i` moves one component
+//! for each row of the [`PointGradient`](super::gradient::PointGradient) that counts: see [`component`].
 
-use super::gradient::PointGradient;
-use crate::mesh::cells::MAX_NODES;
-use pulp::{Arch, NullaryFnOnce};
+use super::gradient::Rows;
+use super::lanes::{add_dyads, add_multiple, dot};
+use crate::tensor::Tensor2;
+use pulp::{Arch, Simd, WithSimd};
 
-/// Most unknowns of a cell.
-pub const MAX_DOFS: usize = 3 * MAX_NODES;
+/// A value for each axis of each node.
+pub type Nodal<const DIM: usize, const N: usize> = [[f64; N]; DIM];
 
-/// `F_Li += P_ij dN_L/dx_j dv`, and the hoop part on the radial component.
-#[inline]
-pub fn add_forces<const DIM: usize, const D: usize>(
-    point: &PointGradient,
-    p: &[f64; D],
-    volume: f64,
-    force: &mut [f64],
-) {
-    let p = p.map(|p| p * volume);
-    for (force, grad) in force.as_chunks_mut::<DIM>().0.iter_mut().zip(point.nodes) {
-        for i in 0..DIM {
-            for j in 0..DIM {
-                force[i] += p[i * DIM + j] * grad[j];
-            }
-        }
-        if D == DIM * DIM + 1 {
-            force[0] += p[DIM * DIM] * grad[3];
-        }
-    }
+/// How many rows of the gradient a displacement along axis `i` enters by.
+const fn rows<const DIM: usize, const D: usize>(i: usize) -> usize {
+    if DIM == 3 || (D == DIM * DIM + 1 && i == 0) { 3 } else { 2 }
 }
 
-/// `K += B^T A B dv` with `B` the map from nodal displacements to the components of the gradient.
+/// Component that a displacement along axis `i` moves by row `j` of the gradient.
+const fn component<const DIM: usize>(i: usize, j: usize) -> usize {
+    if j < DIM { DIM * i + j } else { DIM * DIM }
+}
+
+/// Deformation `I + grad(du)`.
 #[inline]
-pub fn add_tangent<const DIM: usize, const D: usize>(
-    point: &PointGradient,
-    a: &[[f64; D]; D],
-    volume: f64,
-    tangent: &mut [f64],
-) {
-    Arch::new().dispatch(Product::<DIM, D> { point, a, volume, tangent });
+pub fn deformation<const DIM: usize, const N: usize>(g: &Rows<N>, du: &Nodal<DIM, N>) -> Tensor2 {
+    Arch::new().dispatch(Deformation { g, du })
 }
 
 /// Not a closure, since only what is inlined into [`Arch::dispatch`] is compiled for the processor at hand.
-struct Product<'a, const DIM: usize, const D: usize> {
-    point: &'a PointGradient<'a>,
+struct Deformation<'a, const DIM: usize, const N: usize> {
+    g: &'a Rows<N>,
+    du: &'a Nodal<DIM, N>,
+}
+
+impl<const DIM: usize, const N: usize> WithSimd for Deformation<'_, DIM, N> {
+    type Output = Tensor2;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Tensor2 {
+        let (Self { g, du }, mut f) = (self, Tensor2::identity());
+        for i in 0..DIM {
+            (0..DIM).for_each(|j| f[(i, j)] += dot(simd, &du[i], &g[j]));
+        }
+        if DIM == 2 {
+            f[(2, 2)] += dot(simd, &du[0], &g[2]);
+        }
+        f
+    }
+}
+
+/// Derivative of `ln det` of the deformation `f` along each nodal displacement.
+pub fn volume_gradient<const DIM: usize, const N: usize>(g: &Rows<N>, f: &Tensor2) -> Nodal<DIM, N> {
+    let (inverse, mut out) = (f.inverse(), [[0.0; N]; DIM]);
+    for (m, out) in out.iter_mut().enumerate() {
+        for (n, g) in g[..DIM].iter().enumerate() {
+            out.iter_mut().zip(g).for_each(|(out, g)| *out += inverse[(n, m)] * g);
+        }
+    }
+    if DIM == 2 {
+        out[0].iter_mut().zip(&g[2]).for_each(|(out, g)| *out += inverse[(2, 2)] * g);
+    }
+    out
+}
+
+/// `F_Li += P_ij dN_L/dx_j dv`, and the hoop part on the radial component.
+#[inline]
+pub fn add_forces<const DIM: usize, const D: usize, const N: usize>(
+    g: &Rows<N>,
+    p: &[f64; D],
+    volume: f64,
+    force: &mut Nodal<DIM, N>,
+) {
+    Arch::new().dispatch(Forces { g, p, volume, force });
+}
+
+struct Forces<'a, const DIM: usize, const D: usize, const N: usize> {
+    g: &'a Rows<N>,
+    p: &'a [f64; D],
+    volume: f64,
+    force: &'a mut Nodal<DIM, N>,
+}
+
+impl<const DIM: usize, const D: usize, const N: usize> WithSimd for Forces<'_, DIM, D, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for (i, force) in self.force.iter_mut().enumerate() {
+            for (j, g) in self.g[..rows::<DIM, D>(i)].iter().enumerate() {
+                add_multiple(simd, self.p[component::<DIM>(i, j)] * self.volume, g, force);
+            }
+        }
+    }
+}
+
+/// The tangent of a cell while its points are added up.
+pub struct Tangent<const DIM: usize, const N: usize> {
+    /// Derivative of force `[i][L]` along displacement `[m][M]` at `[i][m][L][M]`.
+    blocks: [[[[f64; N]; N]; DIM]; DIM],
+    /// Nodes of the cell.
+    nodes: usize,
+    /// Whether it is symmetric, so that only the blocks of `m >= i` are worked out.
+    symmetric: bool,
+}
+
+impl<const DIM: usize, const N: usize> Tangent<DIM, N> {
+    /// Zero.
+    pub fn zero(nodes: usize, symmetric: bool) -> Self {
+        Self { blocks: [[[[0.0; N]; N]; DIM]; DIM], nodes: nodes.min(N), symmetric }
+    }
+
+    /// `K += B^T A B dv` with `B` the map from nodal displacements to the components of the gradient.
+    #[inline]
+    pub fn add<const D: usize>(&mut self, g: &Rows<N>, a: &[[f64; D]; D], volume: f64) {
+        Arch::new().dispatch(Product { g, a, volume, tangent: self });
+    }
+
+    /// The rank-one part of F-bar: forces along `ln det f0`, times its gradient.
+    pub fn add_center(&mut self, force: &Nodal<DIM, N>, gradient: &Nodal<DIM, N>) {
+        for (blocks, force) in self.blocks.iter_mut().zip(force) {
+            for (block, gradient) in blocks.iter_mut().zip(gradient) {
+                for (row, f) in block.iter_mut().zip(force) {
+                    row.iter_mut().zip(gradient).for_each(|(k, g)| *k += f * g);
+                }
+            }
+        }
+    }
+
+    /// Writes it by rows, node by node.
+    pub fn write(&self, out: &mut [f64]) {
+        let mut rows = out.chunks_exact_mut(DIM * self.nodes);
+        for node in 0..self.nodes {
+            for (i, row) in rows.by_ref().take(DIM).enumerate() {
+                for (other, row) in row.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(N) {
+                    for (m, entry) in row.iter_mut().enumerate() {
+                        let below = self.symmetric && m < i;
+                        *entry = if below { self.blocks[m][i][other][node] } else { self.blocks[i][m][node][other] };
+                    }
+                }
+            }
+        }
+    }
+}
+
+struct Product<'a, const DIM: usize, const D: usize, const N: usize> {
+    g: &'a Rows<N>,
     a: &'a [[f64; D]; D],
     volume: f64,
-    tangent: &'a mut [f64],
+    tangent: &'a mut Tangent<DIM, N>,
 }
 
-impl<const DIM: usize, const D: usize> NullaryFnOnce for Product<'_, DIM, D> {
+impl<const DIM: usize, const D: usize, const N: usize> WithSimd for Product<'_, DIM, D, N> {
     type Output = ();
+
     #[inline(always)]
-    fn call(self) {
-        let Self { point, a, volume, tangent } = self;
-        match point.nodes.len() {
-            3 => add_product::<DIM, D, 3>(point, a, volume, tangent),
-            4 => add_product::<DIM, D, 4>(point, a, volume, tangent),
-            6 => add_product::<DIM, D, 6>(point, a, volume, tangent),
-            8 => add_product::<DIM, D, 8>(point, a, volume, tangent),
-            9 => add_product::<DIM, D, 9>(point, a, volume, tangent),
-            10 => add_product::<DIM, D, 10>(point, a, volume, tangent),
-            20 => add_product::<DIM, D, 20>(point, a, volume, tangent),
-            _ => add_product::<DIM, D, MAX_NODES>(point, a, volume, tangent),
-        }
-    }
-}
-
-/// The same for a cell of at most `MOST` nodes: where it has as many, all lengths are known when this is compiled.
-#[inline(always)]
-fn add_product<const DIM: usize, const D: usize, const MOST: usize>(
-    point: &PointGradient,
-    a: &[[f64; D]; D],
-    volume: f64,
-    tangent: &mut [f64],
-) {
-    let nodes = &point.nodes[..point.nodes.len().min(MOST)];
-    let n = DIM * nodes.len();
-    let mut grads = [[0.0; MOST]; 4];
-    for (node, grad) in nodes.iter().enumerate() {
-        (0..4).for_each(|k| grads[k][node] = grad[k]);
-    }
-    let mut ab = [[[0.0; DIM]; MOST]; D];
-    for (ab, a) in ab.iter_mut().zip(a) {
-        let a = a.map(|a| a * volume);
-        // By axes first, over all nodes at once.
-        let mut axes = [[0.0; MOST]; DIM];
-        for (m, axis) in axes.iter_mut().enumerate() {
-            for (k, grads) in grads[..DIM].iter().enumerate() {
-                (0..MOST).for_each(|node| axis[node] += a[m * DIM + k] * grads[node]);
-            }
-            if m == 0 && D == DIM * DIM + 1 {
-                (0..MOST).for_each(|node| axis[node] += a[DIM * DIM] * grads[3][node]);
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { g, a, volume, tangent } = self;
+        let mut weighted = [[0.0; N]; 3];
+        weighted.iter_mut().zip(g).for_each(|(weighted, g)| add_multiple(simd, volume, g, weighted));
+        for i in 0..DIM {
+            let first = if tangent.symmetric { i } else { 0 };
+            for m in first..DIM {
+                let mut ab = [[0.0; N]; 3];
+                for (j, ab) in ab[..rows::<DIM, D>(i)].iter_mut().enumerate() {
+                    for (n, g) in weighted[..rows::<DIM, D>(m)].iter().enumerate() {
+                        add_multiple(simd, a[component::<DIM>(i, j)][component::<DIM>(m, n)], g, ab);
+                    }
+                }
+                let block = &mut tangent.blocks[i][m][..tangent.nodes];
+                match rows::<DIM, D>(i) {
+                    3 => add_dyads::<S, N, 3>(simd, g, &ab, block),
+                    _ => add_dyads::<S, N, 2>(simd, g, &ab, block),
+                }
             }
         }
-        for (node, ab) in ab.iter_mut().enumerate() {
-            (0..DIM).for_each(|m| ab[m] = axes[m][node]);
-        }
-    }
-    let mut rows = tangent.chunks_exact_mut(n);
-    for grad in nodes {
-        for (i, row) in rows.by_ref().take(DIM).enumerate() {
-            let part = |j: usize| ab[i * DIM + j].as_flattened()[..n].iter();
-            if DIM == 3 {
-                let parts = part(0).zip(part(1)).zip(part(2));
-                row.iter_mut()
-                    .zip(parts)
-                    .for_each(|(k, ((x, y), z))| *k = *k + grad[0] * x + grad[1] * y + grad[2] * z);
-            } else {
-                row.iter_mut().zip(part(0).zip(part(1))).for_each(|(k, (x, y))| *k = *k + grad[0] * x + grad[1] * y);
-            }
-            if i == 0 && D == DIM * DIM + 1 {
-                let hoop = &ab[DIM * DIM].as_flattened()[..n];
-                row.iter_mut().zip(hoop).for_each(|(k, ab)| *k += grad[3] * ab);
-            }
-        }
-    }
-}
-
-/// The rank-one part of F-bar: forces along `ln det f0`, times its gradient.
-pub fn add_center<const DIM: usize, const D: usize>(
-    point: &PointGradient,
-    along: &[f64; D],
-    volume: f64,
-    gradient: &[f64],
-    tangent: &mut [f64],
-) {
-    let n = DIM * point.nodes.len();
-    let mut force = [0.0; MAX_DOFS];
-    add_forces::<DIM, D>(point, along, volume, &mut force[..n]);
-    for (row, f) in tangent.chunks_exact_mut(n).zip(force) {
-        row.iter_mut().zip(gradient).for_each(|(k, g)| *k += f * g);
     }
 }

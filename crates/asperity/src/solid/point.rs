@@ -1,10 +1,9 @@
 //! One integration point: from the deformation of the increment to `P = det(f) sigma f^-T` and its derivative.
 //!
-//! With the law's derivative `C = dsigma/df`,
-//! `dP_ij/df_mn = P_ij f^-1_nm - P_in f^-1_jm + det(f) f^-1_jk C_ik,mn`.
 //! F-bar (de Souza Neto et al. 1996) evaluates the law at `fbar = f (det f0 / det f)^(1/3)`, in plane strain at the
 //! in-plane block scaled with the power 1/2, with f0 at the cell's centre; gradients and volume stay those of f.
 
+use super::piola::{Derivative, VOIGT, first_piola, place};
 use crate::Failure;
 use crate::material::{Directions, Gradient, Material};
 use crate::mesh::Space;
@@ -27,15 +26,6 @@ pub struct PointStress<const D: usize> {
 impl<const D: usize> Default for PointStress<D> {
     fn default() -> Self {
         Self { p: [0.0; D], tangent: [[0.0; D]; D], along_center: [0.0; D], det: 1.0, law: Gradient::default() }
-    }
-}
-
-/// Row and column of the component of `f` that is number `d` of `D`, as [`Directions`] have them.
-const fn place<const D: usize>(d: usize) -> (usize, usize) {
-    match D {
-        9 => (d / 3, d % 3),
-        _ if d < 4 => (d / 2, d % 2),
-        _ => (2, 2),
     }
 }
 
@@ -84,7 +74,7 @@ impl PointLaw<'_> {
     ) -> Result<(), Failure> {
         out.det = self.admissible(f)?;
         self.material.update(&(self.bar(f, out.det).0 * self.free), self.dt, old, new)?;
-        let p = first_piola::<DIM>(new, &(f.inverse() * out.det));
+        let p = first_piola(new, &(f.inverse() * out.det));
         out.p = std::array::from_fn(|d| p[place::<D>(d)]);
         Ok(())
     }
@@ -116,9 +106,10 @@ impl PointLaw<'_> {
         if power > 0.0 {
             self.unbar((f, &inverse), (&bar, power), (&adjugate, out));
         }
-        let p = first_piola::<DIM>(new, &adjugate);
+        let p = first_piola(new, &adjugate);
         out.p = std::array::from_fn(|d| p[place::<D>(d)]);
-        out.differentiate::<DIM>(&p, &inverse, &adjugate);
+        let derivative = Derivative { law: &out.law, p: &p, inverse: &inverse, adjugate: &adjugate };
+        derivative.write::<DIM, D>(&mut out.tangent);
         Ok(())
     }
 
@@ -150,64 +141,3 @@ impl PointLaw<'_> {
         }
     }
 }
-
-#[inline]
-fn stress_of(state: &[f64]) -> Tensor2 {
-    Tensor2::from_voigt([state[0], state[1], state[2], state[3], state[4], state[5]])
-}
-
-impl<const D: usize> PointStress<D> {
-    /// The derivatives of `P` from those of the law; in the plane nothing couples the normal with the axes but volume.
-    #[inline]
-    fn differentiate<const DIM: usize>(&mut self, p: &Tensor2, inverse: &Tensor2, adjugate: &Tensor2) {
-        let ([p, inverse, adjugate], block) = ([p.0, inverse.0, adjugate.0], DIM * DIM);
-        for i in 0..DIM {
-            for j in 0..DIM {
-                let mut row = [0.0; D];
-                // det(f) f^-1_jk C_ik,mn: rows of C, weighted.
-                for k in 0..DIM {
-                    let (weight, c) = (adjugate[j][k], &self.law[VOIGT[i][k]]);
-                    row.iter_mut().zip(c).for_each(|(t, c)| *t += weight * c);
-                }
-                for m in 0..DIM {
-                    for n in 0..DIM {
-                        row[DIM * m + n] += p[i][j] * inverse[n][m] - p[i][n] * inverse[j][m];
-                    }
-                }
-                if D > block {
-                    row[block] += p[i][j] * inverse[2][2];
-                }
-                self.tangent[DIM * i + j] = row;
-            }
-        }
-        if D > block {
-            let row = &mut self.tangent[block];
-            row.iter_mut().zip(&self.law[2]).for_each(|(t, c)| *t = adjugate[2][2] * c);
-            for m in 0..DIM {
-                for n in 0..DIM {
-                    row[DIM * m + n] += p[2][2] * inverse[n][m];
-                }
-            }
-        }
-    }
-}
-
-/// `P = sigma (det(f) f^-1)^T`; in the plane nothing couples the normal with the axes.
-#[inline]
-fn first_piola<const DIM: usize>(state: &[f64], adjugate: &Tensor2) -> Tensor2 {
-    let (sigma, mut p) = (stress_of(state), Tensor2::zero());
-    for i in 0..DIM {
-        for j in 0..DIM {
-            for k in 0..DIM {
-                p[(i, j)] += sigma[(i, k)] * adjugate[(j, k)];
-            }
-        }
-    }
-    if DIM == 2 {
-        p[(2, 2)] = sigma[(2, 2)] * adjugate[(2, 2)];
-    }
-    p
-}
-
-/// Place of each component among XX YY ZZ XY YZ XZ.
-const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];

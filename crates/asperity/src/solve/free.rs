@@ -2,7 +2,6 @@
 
 use super::linear::LinearError;
 use super::newton::{Newton, Trouble};
-use super::step::owners;
 use crate::system::Tangent;
 use crate::{Error, Failure};
 
@@ -21,12 +20,8 @@ impl Newton<'_> {
     /// The solution itself must stand without it.
     pub(super) fn prop(&mut self, motions: &[Vec<f64>], iteration: usize) -> Result<(), Trouble> {
         self.propped = self.name_motions(motions);
-        let pattern = self.memory.workspace.pattern();
-        for row in 0..pattern.starts.len() - 1 {
-            let columns = &pattern.columns[pattern.starts[row]..pattern.starts[row + 1]];
-            if let Ok(diagonal) = columns.binary_search(&row) {
-                self.evaluation.values[pattern.starts[row] + diagonal] += PROP * self.stiffness;
-            }
+        for &place in &self.memory.workspace.pattern().diagonal {
+            self.evaluation.values[place] += PROP * self.stiffness;
         }
         self.factorise_matrix().map_err(|e| self.explain(e, iteration))
     }
@@ -39,7 +34,11 @@ impl Newton<'_> {
         }
         let motions = match self.factorise_matrix() {
             Err(LinearError::Singular(motions)) => motions,
-            factorised => return factorised.map_err(|e| self.explain(e, 1)),
+            factorised => {
+                // Nothing is known of the inverse of this one.
+                self.solver.refuse();
+                return factorised.map_err(|e| self.explain(e, 1));
+            }
         };
         for motion in motions {
             if !self.is_held(u, &motion, reference)? {
@@ -102,10 +101,7 @@ impl Newton<'_> {
     pub fn free_motions(mut self) -> Result<Vec<String>, Trouble> {
         let u = self.state.u.clone();
         self.evaluate(&u, None, Tangent::Exact)?;
-        let nodes = owners(&self.problem.dofs, self.step.constraints.free());
-        let pattern = self.memory.workspace.pattern();
-        let solved = self.solver.analyse(pattern, nodes).and_then(|()| self.solver.factorise(&self.evaluation.values));
-        match solved {
+        match self.factorise_matrix() {
             Ok(()) => Ok(Vec::new()),
             Err(LinearError::Singular(motions)) => Ok(self.name_motions(&motions)),
             Err(other) => Err(Trouble::Error(Error::Internal(other.to_string()))),

@@ -1,5 +1,4 @@
-//! What forces on the unknowns near contact do there, by the factor there is, and what has changed of the matrix near
-//! contact since it was factorised.
+//! What forces on the unknowns near contact do there, by the factor there is.
 //!
 //! Column `p` is `K0^-1 e_p` at the unknowns of the stencils that bend, found when it is first asked for and kept as long
 //! as the factor of `K0`. Where stencils bend the matrix jumps, elsewhere it changes little; with the columns of the
@@ -8,27 +7,25 @@
 
 use super::linear::{LinearError, LinearSolver};
 use crate::Failure;
-use crate::system::{Assembly, Attempt, Constraints, Csr, Kink, Kinks, Workspace};
-use frontal::{Change, Sparse};
+use crate::system::{Assembly, Attempt, Constraints, Kink, Kinks, Near};
+use frontal::{Change, Sparse, subtract_product};
 use pulp::Arch;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Most unknowns for which the factor is put right, and the part of its largest value by which a row must have changed.
-const MOST: usize = 1024;
-const CHANGED: f64 = 0.01;
 
 /// Columns of the inverse of the matrix that was factorised last, and its rows, near contact.
 #[derive(Debug, Default)]
 pub(super) struct Influences {
     /// Unknowns of the stencils near contact, and the free ones that they follow, ascending.
     dofs: Vec<usize>,
-    at: Vec<usize>,
+    pub(super) at: Vec<usize>,
     /// Free unknowns of closed stencils when it was factorised.
-    closed: BTreeSet<usize>,
+    pub(super) closed: BTreeSet<usize>,
     /// Motions `at` all under a unit of force.
-    columns: BTreeMap<usize, Vec<f64>>,
+    pub(super) columns: BTreeMap<usize, Vec<f64>>,
+    /// Loads that were solved for instead of columns since the factor was made.
+    loads: usize,
     /// Unknowns whose rows have changed, and how.
-    change: Option<(Vec<usize>, Change)>,
+    pub(super) change: Option<(Vec<usize>, Change)>,
     /// Whether the factor is to serve for more than one matrix.
     stays: bool,
 }
@@ -53,7 +50,7 @@ impl<'a> Site<'a> {
     }
 
     /// Free unknowns of the stencils whose stresses have slopes.
-    fn closed(&self) -> Result<BTreeSet<usize>, Failure> {
+    pub fn closed(&self) -> Result<BTreeSet<usize>, Failure> {
         let mut closed = BTreeSet::new();
         for kink in self.kinks.list() {
             let slopes = self.attempts[kink.term].answer(kink.stencil, &kink.y)?.slopes;
@@ -62,24 +59,6 @@ impl<'a> Site<'a> {
             }
         }
         Ok(closed)
-    }
-}
-
-/// The matrix at hand.
-#[derive(Clone, Copy)]
-pub(super) struct Matrix<'a> {
-    pub pattern: &'a Csr,
-    pub values: &'a [f64],
-}
-
-impl<'a> Matrix<'a> {
-    pub fn of(workspace: &'a Workspace, values: &'a [f64]) -> Self {
-        Self { pattern: workspace.pattern(), values }
-    }
-
-    fn row(&self, row: usize) -> (&[usize], &[f64]) {
-        let range = self.pattern.starts[row]..self.pattern.starts[row + 1];
-        (&self.pattern.columns[range.clone()], &self.values[range])
     }
 }
 
@@ -95,6 +74,28 @@ impl Influences {
             self.closed = site.closed()?;
         }
         Ok(())
+    }
+
+    /// What must be known to go on from here.
+    pub fn near(&self) -> Near {
+        let closed = self.closed.iter().copied().collect();
+        Near { dofs: self.dofs.clone(), closed, columns: self.columns.keys().copied().collect(), loads: self.loads }
+    }
+
+    /// Goes on with a factor of which so much was known.
+    ///
+    /// # Errors
+    /// When a solution with the factor fails.
+    pub fn resume(
+        &mut self,
+        near: &Near,
+        constraints: &Constraints,
+        solver: &dyn LinearSolver,
+    ) -> Result<(), LinearError> {
+        let closed = near.closed.iter().copied().collect();
+        *self = Self { dofs: near.dofs.clone(), closed, stays: true, loads: near.loads, ..Self::default() };
+        self.find_free(constraints);
+        self.find(&near.columns.iter().copied().collect(), solver)
     }
 
     /// Forgets all: the unknowns may be numbered anew.
@@ -121,7 +122,7 @@ impl Influences {
     }
 
     /// Finds the columns that are missing.
-    fn find(&mut self, unknowns: &BTreeSet<usize>, solver: &dyn LinearSolver) -> Result<(), LinearError> {
+    pub(super) fn find(&mut self, unknowns: &BTreeSet<usize>, solver: &dyn LinearSolver) -> Result<(), LinearError> {
         let missing = unknowns.iter().copied().filter(|unknown| !self.columns.contains_key(unknown));
         let missing: Vec<usize> = missing.collect();
         let loads: Vec<Sparse> = missing.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
@@ -138,11 +139,11 @@ impl Influences {
     }
 
     /// Where a free unknown stands among [`at`](Self::at).
-    fn place(&self, unknown: usize) -> usize {
+    pub(super) fn place(&self, unknown: usize) -> usize {
         self.at.binary_search(&unknown).expect("the columns reach all stencils")
     }
 
-    /// Calls `take` with the motion of all unknowns near contact under a unit of each stress, given by kink and coordinate.
+    /// Calls `take` with the motion of the unknowns of all kinks under a unit of each stress, given by kink and coordinate.
     ///
     /// # Errors
     /// When a solution with the factor fails.
@@ -154,28 +155,51 @@ impl Influences {
     ) -> Result<(), LinearError> {
         let load = |&(kink, coordinate): &(usize, usize)| site.forces(&site.kinks.list()[kink], coordinate);
         let loads: Vec<Sparse> = stresses.iter().map(load).collect();
+        let dofs: BTreeSet<usize> = site.kinks.dofs().iter().copied().collect();
+        let followed = |&dof: &usize| site.constraints.followed(dof).map(move |(i, c)| (dof, i, c));
+        let follow: Vec<_> = dofs.iter().flat_map(followed).collect();
+        let mut wanted: Vec<usize> = follow.iter().map(|(_, unknown, _)| self.place(*unknown)).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let motions = self.motions(&loads, &wanted, solver)?;
+        let place = |unknown: &usize| wanted.binary_search(&self.place(*unknown)).expect("it is wanted");
+        let follow: Vec<_> = follow.iter().map(|(dof, unknown, c)| (*dof, place(unknown), *c)).collect();
         let mut full = vec![0.0; site.constraints.count()];
-        for motions in self.motions(&loads, solver)? {
-            for &dof in &self.dofs {
-                full[dof] = site.constraints.followed(dof).map(|(i, c)| c * motions[self.place(i)]).sum();
-            }
+        for number in 0..loads.len() {
+            dofs.iter().for_each(|&dof| full[dof] = 0.0);
+            follow.iter().for_each(|(dof, place, c)| full[*dof] += c * motions[place * loads.len() + number]);
             take(&full);
         }
         Ok(())
     }
 
-    /// Motions under loads, by the columns where fewer of those are missing.
-    fn motions(&mut self, loads: &[Sparse], solver: &dyn LinearSolver) -> Result<Vec<Vec<f64>>, LinearError> {
+    /// Motions at the places `wanted` under loads, place after place, by the columns where no more of those are missing than
+    /// there are loads, and were before: so that what is solved for is at most twice what it would be, had it been known
+    /// how long the factor serves.
+    fn motions(
+        &mut self,
+        loads: &[Sparse],
+        wanted: &[usize],
+        solver: &dyn LinearSolver,
+    ) -> Result<Vec<f64>, LinearError> {
         let unknowns: BTreeSet<usize> = loads.iter().flatten().map(|&(unknown, _)| unknown).collect();
         let missing = unknowns.iter().filter(|unknown| !self.columns.contains_key(unknown)).count();
-        let mut motions = if !self.stays || missing > loads.len() {
+        let motions = if !self.stays || missing > self.loads + loads.len() {
+            self.loads += loads.len();
             self.solve(loads, solver)?
         } else {
             self.find(&unknowns, solver)?;
             loads.iter().map(|load| self.sum(load)).collect()
         };
-        self.put_right(&mut motions);
-        Ok(motions)
+        let rows = transposed(&motions, self.at.len());
+        let at_wanted = |rows: &[f64]| -> Vec<f64> {
+            wanted.iter().flat_map(|place| &rows[place * loads.len()..][..loads.len()]).copied().collect()
+        };
+        let mut right = at_wanted(&rows);
+        if let Some((unknowns, change)) = &self.change {
+            self.put_right((unknowns, change), (&rows, loads.len()), (&mut right, wanted));
+        }
+        Ok(right)
     }
 
     /// The motion under a load, from the columns.
@@ -185,76 +209,29 @@ impl Influences {
         sum
     }
 
-    /// Turns motions by the factorised matrix into those by the changed one.
-    fn put_right(&self, motions: &mut [Vec<f64>]) {
-        let Some((unknowns, change)) = &self.change else { return };
-        let weights: Vec<_> = motions.iter().map(|m| change.weights(|unknown| m[self.place(unknown)])).collect();
-        for (k, unknown) in unknowns.iter().enumerate() {
-            let column = &self.columns[unknown];
-            motions.iter_mut().zip(&weights).for_each(|(motion, weights)| add_multiple(motion, -weights[k], column));
-        }
-    }
-
-    /// What has changed of the matrix among the unknowns of stencils that are closed or were; None if that is nothing, or
-    /// too much.
-    ///
-    /// # Errors
-    /// When a law cannot answer, or a solution with the factor fails.
-    pub fn change(
-        &mut self,
-        (site, matrix): (Site, Matrix),
-        solver: &dyn LinearSolver,
-    ) -> Result<Option<Change>, Failure> {
-        self.change = None;
-        let mut near: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
-        near.retain(|unknown| self.at.binary_search(unknown).is_ok());
-        let changed = near.iter().filter_map(|&row| {
-            let change = difference(matrix.row(row), solver.row(row), &near)?;
-            Some((row, change))
-        });
-        let (unknowns, rows): (BTreeSet<usize>, Vec<Sparse>) = changed.unzip();
-        if unknowns.is_empty() || unknowns.len() > MOST {
-            return Ok(None);
-        }
-        self.find(&unknowns, solver).map_err(|error| Failure::new(error.to_string()))?;
-        let unknowns: Vec<usize> = unknowns.into_iter().collect();
-        let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
-        let capacitance = self.capacitance(&rows, &unknowns);
-        let change = Change::new(forces, rows, capacitance);
-        self.change = change.clone().map(|change| (unknowns, change));
-        Ok(change)
-    }
-
-    /// `I + V^T K0^-1 U` by rows.
-    fn capacitance(&self, rows: &[Sparse], unknowns: &[usize]) -> Vec<f64> {
-        let columns: Vec<&Vec<f64>> = unknowns.iter().map(|unknown| &self.columns[unknown]).collect();
-        let mut inverse: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-        let mut entries = vec![0.0; rows.len() * rows.len()];
-        for (i, (row, sums)) in rows.iter().zip(entries.chunks_exact_mut(rows.len())).enumerate() {
-            sums[i] = 1.0;
-            for &(unknown, value) in row {
-                let place = self.place(unknown);
-                let inverse = inverse.entry(place).or_insert_with(|| columns.iter().map(|c| c[place]).collect());
-                add_multiple(sums, value, inverse);
-            }
-        }
-        entries
+    /// Turns `width` motions by the factorised matrix into those by the changed one, at the places `wanted`.
+    fn put_right(
+        &self,
+        (unknowns, change): (&[usize], &Change),
+        (motions, width): (&[f64], usize),
+        (right, wanted): (&mut [f64], &[usize]),
+    ) {
+        let weights = change.weights_together(width, |unknown| &motions[self.place(unknown) * width..][..width]);
+        let columns = unknowns.iter().map(|unknown| &self.columns[unknown]);
+        let columns: Vec<f64> = columns.flat_map(|column| wanted.iter().map(|&place| column[place])).collect();
+        subtract_product(right, &columns, &weights, width);
     }
 }
 
+/// Vectors of this length, number after number.
+fn transposed(vectors: &[Vec<f64>], length: usize) -> Vec<f64> {
+    (0..length).flat_map(|k| vectors.iter().map(move |vector| vector[k])).collect()
+}
+
 /// `y <- y + factor x`.
-fn add_multiple(y: &mut [f64], factor: f64, x: &[f64]) {
+pub(super) fn add_multiple(y: &mut [f64], factor: f64, x: &[f64]) {
     Arch::new().dispatch(
         #[inline(always)]
         || y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x),
     );
-}
-
-/// What has changed of a row among these unknowns, if that is much.
-fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &BTreeSet<usize>) -> Option<Sparse> {
-    let largest = now.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let mut changed: BTreeMap<usize, f64> = columns.iter().copied().zip(now.iter().copied()).collect();
-    then.into_iter().for_each(|(column, value)| *changed.entry(column).or_default() -= value);
-    changed.retain(|column, value| *value != 0.0 && among.contains(column));
-    changed.values().any(|value| value.abs() > CHANGED * largest).then(|| changed.into_iter().collect())
 }

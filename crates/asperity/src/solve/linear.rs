@@ -1,7 +1,7 @@
 //! Solving the linear system of an iteration: the trait, and the multifrontal solver behind it.
 
 use crate::system::Csr;
-use frontal::{Change, Options, Pattern, Policy, Reuse, Solver, Symbolic};
+use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Solver, Symbolic};
 use std::fmt;
 
 /// Why a linear system was not solved.
@@ -29,16 +29,15 @@ impl fmt::Display for LinearError {
 /// What is factorised when every iteration has a matrix of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Factors {
-    /// The matrix of an attempt's first iteration, which then preconditions the iterative solution of the others; every
-    /// matrix where that is predicted to be cheaper, as in the plane.
+    /// As few as possible, each of which preconditions the iterative solution of the others; every matrix where that is
+    /// predicted to be cheaper, as in the plane.
     #[default]
     Auto,
     /// Every matrix.
     Fresh,
     /// The matrix of an attempt's first iteration, whatever the prediction.
     Attempt,
-    /// As few as possible: a factor serves later increments too. Results then depend on what was computed before, to
-    /// within the tolerance: restart and repetition are no longer identical to the bit.
+    /// As few as possible, whatever the prediction: a factor serves later increments too.
     Kept,
 }
 
@@ -46,9 +45,9 @@ impl Factors {
     fn policy(self) -> Policy {
         let forced = Policy { share: f64::INFINITY, ..Policy::default() };
         match self {
-            Self::Auto => Policy::default(),
+            Self::Auto => Policy { reuse: Reuse::AcrossSequences, ..Policy::default() },
             Self::Fresh => Policy { reuse: Reuse::Never, ..Policy::default() },
-            Self::Attempt => forced,
+            Self::Attempt => Policy { reuse: Reuse::WithinSequence, ..forced },
             Self::Kept => Policy { reuse: Reuse::AcrossSequences, ..forced },
         }
     }
@@ -86,9 +85,15 @@ pub trait LinearSolver: Send {
     fn row(&self, _row: usize) -> Vec<(usize, f64)> {
         Vec::new()
     }
-    /// Begins a sequence of related matrices, such as those of an attempt: what was factorised before is not to show in
-    /// its solutions.
+    /// Begins a sequence of related matrices, such as those of an attempt: nothing of what was solved before is to show in
+    /// its solutions but the factor there is, if that serves on, and its [`service`](Self::service).
     fn begin(&mut self) {}
+    /// What the factor there is has served for, if it may serve for the next sequence too.
+    fn service(&self) -> Option<Service> {
+        None
+    }
+    /// Has the factor there is be one that has served for so much.
+    fn resume(&mut self, _service: Service) {}
     /// Whether [`iterate`](Self::iterate) will try with the factor there is.
     fn iterates(&self) -> bool {
         false
@@ -149,6 +154,10 @@ fn translate(error: frontal::Error) -> LinearError {
     }
 }
 
+fn pattern_of(pattern: &Csr) -> Result<Pattern, frontal::Error> {
+    Pattern::sharing(pattern.starts.clone(), pattern.columns.clone())
+}
+
 /// Unknowns that couple to very many others, such as those of a tool's reference node: the rule by which minimum degree
 /// orderings put dense rows last (Amestoy, Davis & Duff, ACM TOMS 30, 2004).
 fn dense_rows(pattern: &Csr) -> Vec<usize> {
@@ -161,9 +170,7 @@ impl LinearSolver for Frontal {
     fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
         let mut options = Options::default();
         options.last = dense_rows(pattern);
-        let pattern = Pattern::new(pattern.starts.clone(), pattern.columns.clone())
-            .and_then(|p| p.with_nodes(nodes))
-            .map_err(translate)?;
+        let pattern = pattern_of(pattern).and_then(|p| p.with_nodes(nodes)).map_err(translate)?;
         if let Some(solver) = self.solver.as_mut().filter(|solver| *solver.symbolic().pattern() == pattern) {
             solver.refuse();
             return solver.follow(pattern).map_err(translate);
@@ -180,8 +187,7 @@ impl LinearSolver for Frontal {
         let Some(solver) = self.solver.as_mut().filter(|solver| solver.affordable_iterations() > 0) else {
             return false;
         };
-        let pattern = Pattern::new(pattern.starts.clone(), pattern.columns.clone());
-        pattern.and_then(|pattern| solver.follow(pattern)).is_ok()
+        pattern_of(pattern).and_then(|pattern| solver.follow(pattern)).is_ok()
     }
 
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
@@ -207,6 +213,14 @@ impl LinearSolver for Frontal {
 
     fn refuse(&mut self) {
         self.solver.iter_mut().for_each(Solver::refuse);
+    }
+
+    fn service(&self) -> Option<Service> {
+        self.solver.as_ref().and_then(Solver::service)
+    }
+
+    fn resume(&mut self, service: Service) {
+        self.solver.iter_mut().for_each(|solver| solver.resume(service));
     }
 
     fn iterates(&self) -> bool {

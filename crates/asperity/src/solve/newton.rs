@@ -10,8 +10,9 @@ use super::relax::Drag;
 use super::schedule::Step;
 use super::step::forcing;
 use super::trail::{Cycle, Trail};
-use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace};
+use crate::system::{Assembly, Evaluation, Factorised, Instant, Kinks, State, Tangent, Trial, Workspace};
 use crate::{Error, Failure};
+use std::sync::Arc;
 
 /// Which matrix the iterations use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,13 +86,18 @@ pub struct Memory {
     pub(super) analysed: usize,
     pub(super) followed: usize,
     pub(super) free: Vec<usize>,
-    pub(super) factorised: bool,
+    /// Whether there is a factor that [`Variant::Modified`] and [`Variant::Kept`] may use again.
+    pub(super) current: bool,
+    /// The matrix that was factorised last, where an accepted state may hold it.
+    pub(super) factorised: Option<Arc<Factorised>>,
     /// Stencils that bend.
     pub(super) kinks: Kinks,
     pub(super) mixed: Mixed,
     pub(super) influences: Influences,
     /// The evaluation of the last accepted increment: room for the next.
     pub spare: Option<Evaluation>,
+    /// Room for the evaluation of another first guess.
+    pub(super) other: Option<Evaluation>,
     /// Analyses of the solver so far.
     pub analyses: usize,
     /// Factorisations so far.
@@ -202,7 +208,7 @@ impl<'a> Newton<'a> {
         let options = self.problem.newton;
         let (mut u, mut missing) = self.predict()?;
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
-        self.solver.begin();
+        self.begin_sequence();
         let mut trail = Trail::default();
         let (mut augmentation, mut begun, mut stalls) = (0, 0, 0);
         for iteration in 0.. {
@@ -320,7 +326,7 @@ impl<'a> Newton<'a> {
         }
         let free = self.step.constraints.free().iter().enumerate();
         let displacements = free.filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
-        let diagonal = displacements.filter_map(|(row, _)| pattern.position(row, row));
+        let diagonal = displacements.map(|(row, _)| pattern.diagonal[row]);
         self.stiffness = diagonal.map(|place| self.evaluation.values[place].abs()).fold(0.0, f64::max);
     }
 

@@ -6,7 +6,7 @@
 
 use super::newton::{Newton, Trouble};
 use crate::Failure;
-use crate::system::Tangent;
+use crate::system::{Evaluation, Tangent};
 
 /// A first guess, and what prescribed unknowns miss there.
 type Start = (Vec<f64>, Option<Vec<f64>>);
@@ -15,6 +15,13 @@ type Start = (Vec<f64>, Option<Vec<f64>>);
 const GOOD_GUESS: f64 = 0.1;
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// An evaluation that is set aside, and the pattern of its matrix.
+struct Aside {
+    evaluation: Evaluation,
+    residual: Vec<f64>,
+    pattern: usize,
+}
 
 impl Newton<'_> {
     /// First guess, evaluated, and what the prescribed unknowns still miss there: the motion of the last increment carried
@@ -25,22 +32,53 @@ impl Newton<'_> {
         }
         let part = self.at.dt / self.state.last_dt;
         let nodal: Vec<f64> = self.state.u.iter().zip(&self.state.last_change).map(|(u, d)| u + part * d).collect();
-        let first = self.guess(nodal.clone());
+        let first = self.guess(nodal.clone(), self.tangent());
         if let Ok((start, unbalanced)) = &first
             && *unbalanced <= GOOD_GUESS
         {
-            return Ok(self.settle(start.clone())?);
+            return Ok(start.clone());
         }
-        let second = self.guess(self.problem.wholes.iter().fold(nodal, |mut u, whole| {
+        let aside = self.set_aside();
+        let rigid = self.problem.wholes.iter().fold(nodal, |mut u, whole| {
             whole.carry(&self.problem.dofs, self.state, part, &mut u);
             u
-        }));
+        });
+        let second = self.guess(rigid, Tangent::None);
         let left =
             |guess: &Result<(Start, f64), Failure>| guess.as_ref().map_or(f64::INFINITY, |(_, unbalanced)| *unbalanced);
-        if left(&second) < left(&first) {
-            return Ok(self.settle(second?.0)?);
+        let better = left(&second) < left(&first);
+        match if better { second } else { first } {
+            Ok(((u, missing), _)) => {
+                self.choose(aside, better, &u)?;
+                self.complete(&u, missing.as_deref())?;
+                Ok((u, missing))
+            }
+            Err(_) => Ok(self.begin(self.state.u.clone())?),
         }
-        Ok(self.begin(first.map_or_else(|_| self.state.u.clone(), |((u, _), _)| u))?)
+    }
+
+    /// Keeps the evaluation there is while another guess is tried.
+    fn set_aside(&mut self) -> Aside {
+        let room = self.memory.other.take();
+        let room = room.unwrap_or_else(|| Evaluation::new(&self.problem.terms, self.state));
+        Aside {
+            evaluation: std::mem::replace(&mut self.evaluation, room),
+            residual: self.residual.clone(),
+            pattern: self.memory.workspace.analysis(),
+        }
+    }
+
+    /// Takes the evaluation back that was set aside, at `u`, unless the `other` is the better one.
+    fn choose(&mut self, aside: Aside, other: bool, u: &[f64]) -> Result<(), Failure> {
+        let Aside { mut evaluation, residual, pattern } = aside;
+        if !other {
+            std::mem::swap(&mut self.evaluation, &mut evaluation);
+            self.residual = residual;
+            self.memory.workspace.find_stencils(&self.assembly, u)?;
+            self.linearised = pattern == self.memory.workspace.analysis();
+        }
+        self.memory.other = Some(evaluation);
+        Ok(())
     }
 
     /// A first guess at `u`.
@@ -50,17 +88,11 @@ impl Newton<'_> {
         Ok((u, missing))
     }
 
-    /// The first guess that was measured last.
-    fn settle(&mut self, (u, missing): Start) -> Result<Start, Failure> {
-        self.complete(&u, missing.as_deref())?;
-        Ok((u, missing))
-    }
-
     /// Evaluates a first guess and measures the unbalanced forces, with those of the motion that prescribed unknowns still
-    /// miss: for them alone the matrix is needed.
-    fn guess(&mut self, mut u: Vec<f64>) -> Result<(Start, f64), Failure> {
+    /// miss: for them the matrix is needed.
+    fn guess(&mut self, mut u: Vec<f64>, tangent: Tangent) -> Result<(Start, f64), Failure> {
         let missing = self.missing(&mut u);
-        let tangent = if missing.is_some() { self.tangent() } else { Tangent::None };
+        let tangent = if missing.is_some() { self.tangent() } else { tangent };
         self.evaluate(&u, missing.as_deref(), tangent)?;
         let residual = self.residual.clone();
         if missing.is_some() {

@@ -66,6 +66,9 @@ impl Problem {
         if state.step > self.steps.len() || !state.next_dt.is_finite() {
             return Err("this state stands outside the steps of the model".into());
         }
+        if !state.preconditioner.iter().all(|held| held.fits(&self.dofs)) {
+            return Err("the matrix of this state belongs to another model".into());
+        }
         Ok(())
     }
 

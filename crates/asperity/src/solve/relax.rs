@@ -53,8 +53,8 @@ impl Newton<'_> {
         for (row, (&dof, anchor)) in self.step.constraints.free().iter().zip(&drag.anchor).enumerate() {
             let c = drag.at(self.problem.dofs.is_rotation(dof), size);
             self.residual[row] += c * (u[dof] - anchor);
-            if let Some(place) = pattern.position(row, row).filter(|_| matrix) {
-                self.evaluation.values[place] += c;
+            if matrix {
+                self.evaluation.values[pattern.diagonal[row]] += c;
             }
         }
     }
@@ -64,7 +64,7 @@ impl Newton<'_> {
         let mut u = self.state.u.clone();
         let mut missing = self.missing(&mut u);
         self.evaluate(&u, missing.as_deref(), self.tangent())?;
-        self.solver.begin();
+        self.begin_sequence();
         let (mut coefficient, mut failed) = (START * self.mean_stiffness(), false);
         for _ in 0..STEPS {
             let free = self.step.constraints.free();
@@ -160,7 +160,7 @@ impl Newton<'_> {
         let pattern = self.memory.workspace.pattern();
         let free = self.step.constraints.free().iter().enumerate();
         let places = free.filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
-        let places: Vec<usize> = places.filter_map(|(row, _)| pattern.position(row, row)).collect();
+        let places: Vec<usize> = places.map(|(row, _)| pattern.diagonal[row]).collect();
         let sum: f64 = places.iter().map(|&place| self.evaluation.values[place].abs()).sum();
         sum / places.len().max(1) as f64
     }

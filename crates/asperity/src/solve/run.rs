@@ -237,6 +237,7 @@ impl<'a> Run<'a> {
         std::mem::swap(&mut state.load, &mut evaluation.load);
         std::mem::swap(&mut state.histories, &mut evaluation.histories);
         self.memory.spare = Some(evaluation);
+        state.preconditioner = self.memory.preconditioner(self.solver.as_ref());
         for (past, now) in state.reference.iter_mut().zip(converged.reference) {
             *past = past.max(now);
         }

@@ -1,6 +1,7 @@
 //! One step of Newton's method: the linear system, what bends over its solution, and how far to go along it.
 
-use super::influences::{Matrix, Site};
+use super::influences::Site;
+use super::jump::Matrix;
 use super::linear::LinearError;
 use super::newton::{Newton, Trouble, Variant};
 use crate::Failure;
@@ -13,6 +14,8 @@ const LOOSEST: f64 = 1e-3;
 pub(super) const TIGHTEST: f64 = 1e-8;
 /// Part of the unbalanced forces allowed at the end that it may always leave.
 const ENOUGH: f64 = 0.01;
+/// Rings of stencils around those near contact that the columns of the inverse reach from the start.
+const RINGS: usize = 2;
 /// Shortest step of the line search.
 const SHORTEST: f64 = 0.01;
 /// A step is at most a cell long, or this multiple of what was moved in the increment so far and what is still missing,
@@ -89,7 +92,7 @@ impl Newton<'_> {
             self.memory.influences.forget();
             self.memory.free = free.to_vec();
         }
-        (self.memory.followed, self.memory.factorised) = (analysis, false);
+        (self.memory.followed, self.memory.current) = (analysis, false);
     }
 
     /// Factorises the matrix at hand, and analyses its pattern before if that is new.
@@ -101,7 +104,10 @@ impl Newton<'_> {
             self.memory.analysed = analysis;
             self.memory.analyses += 1;
         }
-        self.solver.factorise(&self.evaluation.values)
+        self.memory.factorised = None;
+        self.solver.factorise(&self.evaluation.values)?;
+        self.hold_matrix();
+        Ok(())
     }
 
     /// Factorises if this iteration asks for it, and says whether it did.
@@ -111,17 +117,17 @@ impl Newton<'_> {
             Variant::Modified => iteration > 0,
             Variant::Kept => iteration != 4,
         };
-        if keep && self.medium.is_none() && self.memory.factorised {
+        if keep && self.medium.is_none() && self.memory.current {
             return Ok(false);
         }
         self.memory.factorisations += 1;
-        self.memory.factorised = false;
+        self.memory.current = false;
         self.propped.clear();
         match self.factorise_matrix() {
             Err(LinearError::Singular(motions)) if self.may_hold() => self.prop(&motions, iteration)?,
             factorised => {
                 factorised.map_err(|e| self.explain(e, iteration))?;
-                self.memory.factorised = true;
+                self.memory.current = true;
             }
         }
         Ok(true)
@@ -132,7 +138,11 @@ impl Newton<'_> {
         let (terms, memory) = (self.assembly.terms, &mut *self.memory);
         let stays = self.problem.newton.variant == Variant::Full && self.solver.iterates();
         let dofs = memory.kinks.dofs();
-        let near = if stays { memory.workspace.around(dofs, |t| terms[t].bends()) } else { dofs.to_vec() };
+        let mut near = dofs.to_vec();
+        // Where contact may go while the factor serves.
+        for _ in 0..if stays { RINGS } else { 0 } {
+            near = memory.workspace.around(&near, |t| terms[t].bends());
+        }
         let site = Site::of(&self.assembly, &memory.kinks);
         memory.influences.begin(site, near, stays)
     }

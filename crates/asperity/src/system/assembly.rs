@@ -1,12 +1,14 @@
 //! The sum of all terms at a trial state: forces, matrix, new histories, energies, branches.
 //!
-//! Stencils are evaluated in parallel in chunks of fixed size and scattered in stencil order, so that no bit depends
+//! Stencils are evaluated in parallel in chunks of fixed size and added up in stencil order, so that no bit depends
 //! on the number of threads. The [`Workspace`] only keeps memory and what follows exactly from the pattern.
 
+use super::band::Frame;
 use super::chunk::{CHUNK, Chunk, Pass, lanes};
-use super::sink::{Miss, Sink, places};
+use super::sink::{Miss, Round, Sink};
+use super::structure::Structure;
 use super::{
-    Attempt, Branch, Constraints, Coordinates, Couplings, Csr, Dofs, Energies, History, Kinks, State, Stencils, Term,
+    Attempt, Branch, Constraints, Coordinates, Csr, Dofs, Energies, History, Kinks, Role, State, Stencils, Term,
 };
 use crate::Failure;
 use rayon::prelude::*;
@@ -75,26 +77,24 @@ pub struct Assembly<'a> {
 /// Memory that lives through the run: pattern, places in it, chunk buffers.
 #[derive(Debug, Default)]
 pub struct Workspace {
-    couplings: Couplings,
-    constraints: Option<Constraints>,
-    pattern: Csr,
-    analysis: usize,
+    structure: Structure,
     stencils: Vec<Stencils>,
-    places: Vec<Vec<u32>>,
     chunks: Vec<Chunk>,
     enlarged: usize,
 }
 
-/// Chunks evaluated between two scatters; bounds the memory of local matrices.
-const ROUND: usize = 64;
+/// Chunks evaluated before they are added up: so few that local matrices are still in the cache of a thread that is alone,
+/// so many that it pays others to wake up.
+const ROUND: [usize; 2] = [4, 64];
+
 impl Workspace {
     /// The pattern of the matrix.
     pub fn pattern(&self) -> &Csr {
-        &self.pattern
+        self.structure.pattern()
     }
     /// Changes whenever the pattern changes.
     pub fn analysis(&self) -> usize {
-        self.analysis
+        self.structure.analysis()
     }
     /// Number of the stencils of a term.
     pub fn stencils(&self, term: usize) -> usize {
@@ -142,30 +142,26 @@ impl Workspace {
     /// A [`Failure`] of a search at the accepted state.
     pub fn prepare(&mut self, assembly: &Assembly, accepted: &State) -> Result<(), Failure> {
         self.stencils.resize_with(assembly.terms.len(), Stencils::default);
-        let mut couplings = Couplings::default();
         for (attempt, stencils) in assembly.attempts.iter().zip(&mut self.stencils) {
             stencils.clear();
             attempt.stencils(&accepted.u, stencils)?;
-            stencils.list.iter().for_each(|s| couplings.push(stencils.dofs(s)));
-            attempt.reach(&mut couplings);
         }
-        if couplings != self.couplings || self.constraints.as_ref() != Some(assembly.constraints) {
-            self.couplings = couplings;
-            self.constraints = Some(assembly.constraints.clone());
-            self.rebuild(assembly);
-        }
+        self.structure.prepare(assembly, &self.stencils);
         Ok(())
     }
 
-    fn rebuild(&mut self, assembly: &Assembly) {
-        let room = self.pattern.columns.len();
-        self.pattern = Csr::build(assembly.constraints, &self.couplings, room + room / 8);
-        self.analysis += 1;
-        let fixed = assembly.attempts.iter().map(|a| a.is_fixed());
-        self.places = fixed
-            .zip(&self.stencils)
-            .map(|(fixed, s)| if fixed { places(&self.pattern, assembly.constraints, s) } else { Vec::new() })
-            .collect();
+    /// Lists the stencils at `u` of the terms whose stencils change.
+    ///
+    /// # Errors
+    /// A [`Failure`] of a search.
+    pub fn find_stencils(&mut self, assembly: &Assembly, u: &[f64]) -> Result<(), Failure> {
+        for (attempt, stencils) in assembly.attempts.iter().zip(&mut self.stencils) {
+            if !attempt.is_fixed() {
+                stencils.clear();
+                attempt.stencils(u, stencils)?;
+            }
+        }
+        Ok(())
     }
 
     /// Evaluates all terms at a trial state.
@@ -173,14 +169,9 @@ impl Workspace {
     /// # Errors
     /// The first [`Failure`] in the order of terms and stencils.
     pub fn evaluate(&mut self, assembly: &Assembly, trial: &Trial, out: &mut Evaluation) -> Result<(), Failure> {
-        for (attempt, stencils) in assembly.attempts.iter().zip(&mut self.stencils) {
-            if !attempt.is_fixed() {
-                stencils.clear();
-                attempt.stencils(trial.u, stencils)?;
-            }
-        }
+        self.find_stencils(assembly, trial.u)?;
         loop {
-            out.clear(assembly.dofs.count(), self.pattern.columns.len(), trial.tangent);
+            out.clear(assembly.dofs.count(), self.pattern().columns.len(), trial.tangent);
             let mut miss = false;
             for t in 0..assembly.terms.len() {
                 match self.evaluate_term(assembly, t, trial, out)? {
@@ -191,11 +182,8 @@ impl Workspace {
             if !miss {
                 return Ok(());
             }
-            for stencils in &self.stencils {
-                stencils.list.iter().for_each(|s| self.couplings.push(stencils.dofs(s)));
-            }
             self.enlarged += 1;
-            self.rebuild(assembly);
+            self.structure.enlarge(assembly, &self.stencils);
         }
     }
 
@@ -221,24 +209,25 @@ impl Workspace {
     ) -> Result<Result<(), Miss>, Failure> {
         let (stencils, dofs) = (&self.stencils[t], assembly.dofs);
         let pass = Pass { attempt: assembly.attempts[t].as_ref(), term: t, stencils, dofs, trial };
-        let places = self.places.get(t).filter(|p| !p.is_empty()).map(Vec::as_slice);
+        let (pattern, places) = (self.structure.pattern(), self.structure.places(t));
         let role = assembly.terms[t].role();
-        let mut sink = Sink::new((out, t), (assembly.constraints, &self.pattern), (trial, role), places);
+        let sign = if role == Role::Load { -1.0 } else { 1.0 };
+        let frame = Frame { constraints: assembly.constraints, pattern, places, sign };
+        let mut sink = Sink::new((out, t), (trial, role), frame);
         let (mut result, count) = (Ok(()), stencils.list.len());
-        for first in (0..count).step_by(CHUNK * ROUND) {
-            let end = (first + CHUNK * ROUND).min(count);
+        let round = CHUNK * ROUND[usize::from(rayon::current_num_threads() > 1)];
+        for first in (0..count).step_by(round) {
+            let end = (first + round).min(count);
             let number = (end - first).div_ceil(CHUNK);
             if self.chunks.len() < number {
                 self.chunks.resize_with(number, Chunk::default);
             }
             let chunks = &mut self.chunks[..number];
             chunks.par_iter_mut().zip(lanes(history, first..end)).for_each(|(chunk, lane)| chunk.run(&pass, lane));
-            for (chunk, list) in chunks.iter_mut().zip(stencils.list[first..end].chunks(CHUNK)) {
-                if let Some(failure) = chunk.failure.take() {
-                    return Err(failure);
-                }
-                result = sink.scatter(chunk, list, stencils).and(result);
+            if let Some(failure) = chunks.iter_mut().find_map(|chunk| chunk.failure.take()) {
+                return Err(failure);
             }
+            result = sink.scatter(&Round { chunks, stencils, first }).and(result);
         }
         Ok(result)
     }

@@ -2,17 +2,22 @@
 //!
 //! Equilibrium is `sum of internal terms - sum of loads = 0`. A [`Term`] is a list of small stencils (an element, a
 //! contact point, a loaded face), each a pure function of the accepted state, the trial unknowns and the instant.
-//! This room knows neither mechanics nor contact: it sums, scatters and eliminates constrained unknowns.
+//! This room knows neither mechanics nor contact: it sums, scatters and eliminates constrained unknowns. What the procedure
+//! and the linear solver hand on from increment to increment stands in the state as data.
 
 mod assembly;
+mod band;
 mod check;
 mod chunk;
 mod constraint;
 mod dofs;
 mod kink;
 mod pattern;
+mod places;
+mod preconditioner;
 mod sink;
 mod state;
+mod structure;
 mod term;
 mod whole;
 
@@ -22,6 +27,7 @@ pub use constraint::{Constraints, Row};
 pub use dofs::{Dofs, Unknown};
 pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};
 pub use pattern::{Couplings, Csr};
+pub use preconditioner::{Factorised, Near, Preconditioner};
 pub use state::{Energies, History, State};
 pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};
 pub use whole::Whole;

@@ -1,6 +1,7 @@
 //! Which free unknowns couple: the sparsity pattern, in compressed rows.
 
-use super::{Constraints, Row};
+use super::{Constraints, Row, Stencils};
+use std::sync::Arc;
 
 /// Groups of unknowns, each of which couples within itself.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -20,10 +21,13 @@ impl Couplings {
         let begins = std::iter::once(0).chain(self.starts.iter().copied());
         begins.zip(&self.starts).map(|(begin, &end)| &self.dofs[begin..end])
     }
-    /// Forgets all groups and keeps the memory.
-    pub fn clear(&mut self) {
-        self.starts.clear();
-        self.dofs.clear();
+    /// Adds the unknowns of each stencil as a group.
+    pub fn extend(&mut self, stencils: &Stencils) {
+        stencils.list.iter().for_each(|stencil| self.push(stencils.dofs(stencil)));
+    }
+    /// Whether there is no group.
+    pub fn is_empty(&self) -> bool {
+        self.starts.is_empty()
     }
 }
 
@@ -31,40 +35,68 @@ impl Couplings {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Csr {
     /// Row `i` holds `columns[starts[i]..starts[i + 1]]`.
-    pub starts: Vec<usize>,
+    pub starts: Arc<Vec<usize>>,
     /// Columns of all rows.
-    pub columns: Vec<usize>,
+    pub columns: Arc<Vec<usize>>,
+    /// Place of the entry on the diagonal, row by row.
+    pub diagonal: Vec<usize>,
 }
 
 impl Csr {
-    /// The pattern of `groups` after elimination of the constrained unknowns, in memory for so many entries at least.
-    pub fn build(constraints: &Constraints, groups: &Couplings, room: usize) -> Self {
+    /// From what its rows hold, each with its diagonal.
+    pub fn new(starts: Arc<Vec<usize>>, columns: Arc<Vec<usize>>) -> Self {
+        let before = |row: usize| columns[starts[row]..starts[row + 1]].partition_point(|&column| column < row);
+        let diagonal = (0..starts.len() - 1).map(|row| starts[row] + before(row)).collect();
+        Self { starts, columns, diagonal }
+    }
+    /// The pattern of `groups` after elimination of the constrained unknowns.
+    pub fn build(constraints: &Constraints, groups: &Couplings) -> Self {
         let n = constraints.free_count();
-        let reduced = reduce(constraints, groups);
+        let [starts, columns] = [n + 1, n].map(|count| Arc::new((0..count).collect()));
+        Self::new(starts, columns).with(constraints, groups, Vec::new())
+    }
+    /// This pattern and that of `groups` in one, whose columns are written over `memory`.
+    pub fn with(&self, constraints: &Constraints, groups: &Couplings, memory: Vec<usize>) -> Self {
+        let (n, reduced) = (self.rows(), reduce(constraints, groups));
         let (member_starts, members) = invert(n, &reduced);
         let mut marker = vec![usize::MAX; n];
-        let (mut starts, mut columns) = (Vec::with_capacity(n + 1), Vec::with_capacity(room));
+        let (mut starts, mut columns, mut diagonal) = (Vec::with_capacity(n + 1), memory, Vec::with_capacity(n));
         starts.push(0);
+        columns.clear();
         for row in 0..n {
-            let begin = columns.len();
-            marker[row] = row;
-            columns.push(row);
-            for &group in &members[member_starts[row]..member_starts[row + 1]] {
-                for &column in reduced.group(group) {
-                    if marker[column] != row {
-                        marker[column] = row;
-                        columns.push(column);
-                    }
+            let (begin, own) = (columns.len(), self.row(row));
+            columns.extend_from_slice(own);
+            let groups = &members[member_starts[row]..member_starts[row + 1]];
+            if !groups.is_empty() {
+                own.iter().for_each(|&column| marker[column] = row);
+            }
+            for &column in groups.iter().flat_map(|&group| reduced.group(group)) {
+                if marker[column] != row {
+                    marker[column] = row;
+                    columns.push(column);
                 }
             }
-            columns[begin..].sort_unstable();
+            let mut before = self.diagonal[row] - self.starts[row];
+            if columns.len() > begin + own.len() {
+                columns[begin..].sort_unstable();
+                before = columns[begin..].partition_point(|&column| column < row);
+            }
+            diagonal.push(begin + before);
             starts.push(columns.len());
         }
-        Self { starts, columns }
+        Self { starts: Arc::new(starts), columns: Arc::new(columns), diagonal }
     }
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.starts.len() - 1
+    }
+    /// Columns of a row.
+    pub fn row(&self, row: usize) -> &[usize] {
+        &self.columns[self.starts[row]..self.starts[row + 1]]
+    }
+    /// Place of an entry of the pattern in its row; that behind the entries before it, where it is none.
+    pub fn offset(&self, row: usize, column: usize) -> usize {
+        self.row(row).partition_point(|&other| other < column)
     }
     /// Place of entry `(row, column)` among the values, if it is in the pattern.
     pub fn position(&self, row: usize, column: usize) -> Option<usize> {
@@ -72,13 +104,10 @@ impl Csr {
         self.columns[begin..self.starts[row + 1]].binary_search(&column).ok().map(|k| begin + k)
     }
     /// The same where it may stand so many entries from the beginning of the row; it is searched for where it does not.
-    pub fn position_near(&self, row: usize, column: usize, offset: usize) -> Option<usize> {
-        let guess = self.starts[row] + offset;
-        if guess < self.starts[row + 1] && self.columns[guess] == column {
-            Some(guess)
-        } else {
-            self.position(row, column)
-        }
+    pub fn position_near(&self, row: usize, column: usize, offsets: [usize; 2]) -> Option<usize> {
+        let (begin, end) = (self.starts[row], self.starts[row + 1]);
+        let is_there = |place: &usize| *place < end && self.columns[*place] == column;
+        offsets.map(|offset| begin + offset).into_iter().find(is_there).or_else(|| self.position(row, column))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Everything the next increment reads.
 
+use super::Preconditioner;
 use serde::{Deserialize, Serialize};
 
 /// History of one term: a block of values for each of its slots (an element, a contact point).
@@ -102,6 +103,8 @@ pub struct State {
     pub released: f64,
     /// History of each term.
     pub histories: Vec<History>,
+    /// What the linear solver begins the next increment with, where that is not a matrix of its own.
+    pub preconditioner: Option<Preconditioner>,
     /// Attempts and iterations spent so far.
     pub attempts: usize,
     /// Iterations spent so far.

@@ -100,8 +100,8 @@ pub trait Scalar:
     }
     /// Power with a fixed exponent.
     fn powf(self, exponent: f64) -> Self {
-        let value = self.re().powf(exponent);
-        self.chain(value, exponent * self.re().powf(exponent - 1.0))
+        let (base, value) = (self.re(), self.re().powf(exponent));
+        self.chain(value, exponent * if base == 0.0 { base.powf(exponent - 1.0) } else { value / base })
     }
     /// Absolute value; at zero the right-hand slope is taken.
     fn abs(self) -> Self {

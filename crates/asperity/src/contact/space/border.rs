@@ -6,6 +6,7 @@ use super::point::Triad;
 use super::polygon::{Point, Polygon, left_of};
 use super::split::{Border, VERTICES};
 use super::target::{Cast, Memory};
+use crate::contact::known::Known;
 use crate::tensor::Vec3;
 use crate::tool::{Bounds, Ray, Rules};
 
@@ -74,7 +75,7 @@ impl Seeker<'_> {
 
     /// Edges of the border that cut something off the face, the covered part on their left, with the faces they end.
     fn lines(&self) -> Vec<(usize, [Vertex; 2])> {
-        let mut found = Vec::new();
+        let (mut found, mut feet) = (Vec::new(), Known::default());
         let (_, tangents) = self.placed.frame(self.placed.face.middle());
         let inward = Triad::new(tangents).inward;
         let nodes = &self.placed.x[..self.placed.face.nodes.len()];
@@ -82,9 +83,10 @@ impl Seeker<'_> {
         let wide = Vec3([around.size(); 3]);
         let around = Bounds { min: around.min - wide, max: around.max + wide };
         let looks = |normal: Vec3| inward.dot(normal) > Rules::LEAST_COSINE;
+        // Each vertex ends two edges.
         self.standing.borders_near(&around, &looks, &mut |segment, ends| {
             // Its face lies on the left of an edge seen from outside, on the right seen through the surface.
-            let [b, a] = ends.map(|(node, x)| self.vertex(node, x));
+            let [b, a] = ends.map(|(node, x)| feet.of(node, || self.vertex(node, x)));
             let line = a.zip(b).map(|(a, b)| [a, b]).filter(|&[a, b]| self.cuts([a.1, b.1]));
             found.extend(line.map(|line| (segment, line)));
         });
@@ -103,9 +105,9 @@ impl Seeker<'_> {
     /// Whether a piece of a line, and not only what it would be if carried on, runs through the face.
     fn cuts(&self, line: [Point<f64>; 2]) -> bool {
         let whole = Polygon::<f64>::whole(self.placed.face.corners());
-        let area = whole.moments().area;
-        let off = whole.cut([line[1], line[0]]).moments().area;
-        off > NOTHING * area && off < (1.0 - NOTHING) * area && whole.holds_part(line, NOTHING)
+        let area = |polygon: &Polygon<f64>| polygon.moments().area;
+        let parted = |off: f64, area: f64| off > NOTHING * area && off < (1.0 - NOTHING) * area;
+        whole.holds_part(line, NOTHING) && parted(area(&whole.cut([line[1], line[0]])), area(&whole))
     }
 
     fn sees(&self, xi: [f64; 2], owners: &[usize], memory: &mut Memory) -> bool {

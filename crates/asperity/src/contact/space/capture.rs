@@ -10,9 +10,17 @@ use crate::tensor::Vec3;
 use crate::tool::space::{Facet, Triangle};
 use crate::tool::{Bounds, Ray, Tree};
 
-/// The body's boundary in an accepted state.
+/// The boundary of a body, and a tree around it before any motion.
 pub struct Boundary {
-    triangles: Vec<(Side, Triangle)>,
+    /// Nodes of the triangles, and the side that each belongs to.
+    triangles: Vec<(Side, [usize; 3])>,
+    tree: Tree,
+}
+
+/// The boundary in an accepted state.
+struct Standing<'a> {
+    boundary: &'a Boundary,
+    triangles: Vec<Triangle>,
     tree: Tree,
 }
 
@@ -32,27 +40,38 @@ fn triangles(nodes: usize) -> &'static [[usize; 3]] {
 const MARGIN: f64 = 1e-9;
 
 impl Boundary {
-    /// The given sides at displacements `u`.
-    pub fn new(mesh: &Mesh, dofs: &Dofs, sides: &[Side], u: &[f64]) -> Self {
+    /// The given sides.
+    pub fn new(mesh: &Mesh, sides: &[Side]) -> Self {
         let mut all = Vec::new();
         for &side in sides {
             let nodes: Vec<usize> = mesh.side(side).1.collect();
-            let x: Vec<Vec3> = positions(mesh, dofs, &nodes, u).collect();
-            all.extend(triangles(nodes.len()).iter().map(|corners| (side, Triangle(corners.map(|k| x[k])))));
+            all.extend(triangles(nodes.len()).iter().map(|corners| (side, corners.map(|k| nodes[k]))));
         }
-        let boxes: Vec<Bounds> = all.iter().map(|(_, triangle)| triangle.bounds()).collect();
-        let size = boxes.iter().fold(Bounds::EMPTY, |sum, &b| sum.union(b)).size();
-        Self { tree: Tree::new(&boxes, MARGIN * size), triangles: all }
+        let still = all.iter().map(|(_, nodes)| Triangle(nodes.map(|node| mesh.points[node])).bounds());
+        Self { tree: Tree::new(&still.collect::<Vec<_>>(), 0.0), triangles: all }
     }
 
+    /// The same at displacements `u`.
+    fn stand(&self, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> Standing<'_> {
+        let at = |nodes: &[usize; 3]| {
+            let mut x = positions(mesh, dofs, nodes, u);
+            Triangle([(); 3].map(|()| x.next().unwrap_or(Vec3::zero())))
+        };
+        let triangles: Vec<Triangle> = self.triangles.iter().map(|(_, nodes)| at(nodes)).collect();
+        let boxes: Vec<Bounds> = triangles.iter().map(Facet::bounds).collect();
+        let size = boxes.iter().fold(Bounds::EMPTY, |sum, &b| sum.union(b)).size();
+        Standing { boundary: self, tree: self.tree.refit(&boxes, MARGIN * size), triangles }
+    }
+}
+
+impl Standing<'_> {
     /// Distance along a ray from a point on the side `own` to the next crossing. A point of a curved side lies off its
     /// triangles, so that these are left out; `least` is a distance within rounding of a corner.
     fn depth(&self, ray: &Ray, own: Side, least: f64) -> f64 {
         let mut depth = f64::INFINITY;
         self.tree.along(ray, [least, f64::INFINITY], &mut |i| {
-            let (side, triangle) = &self.triangles[i];
-            if *side != own {
-                triangle.cast(ray, &mut |place| {
+            if self.boundary.triangles[i].0 != own {
+                self.triangles[i].cast(ray, &mut |place| {
                     if place.u > least {
                         depth = depth.min(place.u);
                     }
@@ -70,13 +89,13 @@ fn locate(surface: &Surface, point: &SurfacePoint, (mesh, dofs): (&Mesh, &Dofs),
 }
 
 /// The largest admissible penetration at each point of a surface; infinite where the ray never leaves the body.
-pub fn depths(surface: &Surface, mesh: &Mesh, dofs: &Dofs, boundary: &[Side], u: &[f64]) -> Vec<f64> {
-    let boundary = Boundary::new(mesh, dofs, boundary, u);
+pub fn depths(surface: &Surface, mesh: &Mesh, dofs: &Dofs, boundary: &Boundary, u: &[f64]) -> Vec<f64> {
+    let standing = boundary.stand((mesh, dofs), u);
     let at = |point: &SurfacePoint| {
         let (origin, tangents) = locate(surface, point, (mesh, dofs), u);
         let triad = Triad::new(tangents);
         let ray = Ray { origin, direction: triad.inward };
-        0.5 * boundary.depth(&ray, surface.faces[point.face].side, 1e-3 * triad.area.sqrt())
+        0.5 * standing.depth(&ray, surface.faces[point.face].side, 1e-3 * triad.area.sqrt())
     };
     surface.points.iter().map(at).collect()
 }
@@ -93,7 +112,8 @@ mod tests {
             let mesh = Block::new([0.0; 3], [3.0, 2.0, 4.0], [2, 2, 2], cell).mesh("b").unwrap();
             let dofs = Dofs::new(3, mesh.points.len(), 0);
             let surface = Surface::new(&mesh, &mesh.groups["b.top"].sides, None);
-            let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
+            let sides = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
+            let boundary = Boundary::new(&mesh, &sides);
             let depths = depths(&surface, &mesh, &dofs, &boundary, &vec![0.0; dofs.count()]);
             assert!(!depths.is_empty(), "{}", cell.name);
             let high = mesh.bounds();

@@ -29,6 +29,8 @@ pub struct Faces {
 pub struct Standing<'a> {
     faces: &'a Faces,
     patches: Vec<Patch>,
+    /// Outward normals at their middles.
+    normals: Vec<Vec3>,
     tree: Tree,
 }
 
@@ -66,7 +68,8 @@ impl Faces {
     pub(super) fn stand(&self, u: &[f64]) -> Standing<'_> {
         let patches = self.patches(u);
         let tree = self.tree.refit(&boxes(&patches), MARGIN * self.size);
-        Standing { faces: self, patches, tree }
+        let normals = patches.iter().map(Patch::normal).collect();
+        Standing { faces: self, patches, normals, tree }
     }
 
     fn patches(&self, u: &[f64]) -> Vec<Patch> {
@@ -165,11 +168,11 @@ impl Standing<'_> {
         looks: &dyn Fn(Vec3) -> bool,
         found: &mut dyn FnMut(usize, [(usize, Vec3); 2]),
     ) {
-        let looks = |segment: usize| looks(self.patches[segment].normal());
+        let looks = |segment: usize| looks(self.normals[segment]);
         self.tree.near(around, &mut |segment| {
             let (face, patch) = (&self.faces.faces[segment], &self.patches[segment]);
-            for (k, beyond) in self.faces.neighbours[segment].iter().enumerate() {
-                if !beyond.is_some_and(looks) && looks(segment) {
+            for (k, beyond) in self.faces.neighbours[segment].iter().enumerate().filter(|_| looks(segment)) {
+                if !beyond.is_some_and(looks) {
                     found(segment, [k, (k + 1) % face.corners()].map(|k| (face.nodes[k], patch.corner(k))));
                 }
             }

@@ -1,7 +1,7 @@
 //! A surface and its target in space as a term of equilibrium: one stencil a contact point.
 
 use super::averaged::Around;
-use super::capture::depths;
+use super::capture::{Boundary, depths};
 use super::open::{OpenContact, write_hit};
 use super::point::Triad;
 use super::surface::{Face, Surface, SurfacePoint};
@@ -44,6 +44,8 @@ pub struct Parts {
 /// Contact in space between a surface and a target.
 pub struct Contact {
     pub(super) parts: Parts,
+    /// What bounds the bodies behind the surface.
+    behind: Boundary,
     /// Penetration from which a point counts as closed.
     pub(in crate::contact) least: f64,
     /// For each face the segments of the target that share a node with it.
@@ -84,7 +86,8 @@ impl Contact {
             Normals::Own => Vec::new(),
             Normals::Averaged => Around::of(&parts.mesh, &parts.surface.faces),
         };
-        let mut contact = Self { parts, least, relatives, longest, corners, opposite, neighbours, around };
+        let behind = Boundary::new(&parts.mesh, &parts.boundary);
+        let mut contact = Self { parts, behind, least, relatives, longest, corners, opposite, neighbours, around };
         if contact.parts.options.augmentation.is_some() {
             contact.corners = contact.corners_of_faces();
             contact.opposite = contact.corners_of_target();
@@ -129,6 +132,12 @@ impl Contact {
     /// Where moments are taken about: the present place of a tool's reference point, or the origin.
     pub fn pole(&self, u: &[f64]) -> Vec3 {
         self.parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pole(u))
+    }
+
+    /// The largest admissible penetration at each point.
+    pub(super) fn depths(&self, u: &[f64]) -> Vec<f64> {
+        let parts = &self.parts;
+        depths(&parts.surface, &parts.mesh, &parts.dofs, &self.behind, u)
     }
 
     /// Position and tangents of a point.
@@ -224,13 +233,12 @@ impl Term for Contact {
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let parts = &self.parts;
-        let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, &accepted.u);
         Ok(Box::new(OpenContact {
             contact: self,
             history,
             accepted: &accepted.u,
             standing: parts.target.deforms().then(|| parts.target.stand(&accepted.u)),
-            depths,
+            depths: self.depths(&accepted.u),
             rotation: parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pose(&accepted.u).rotation),
             reach: self.reach(&accepted.last_change),
             ahead: ahead(accepted, at.dt),

@@ -38,20 +38,20 @@ struct Across {
 const FAR: f64 = 50.0;
 
 impl Placed<'_> {
-    fn sum(&self, weights: &[f64; MAX_NODES]) -> Vec3 {
-        self.x.iter().zip(weights).fold(Vec3::zero(), |sum, (&x, &weight)| sum + x * weight)
+    fn sum(&self, weight: impl Fn(usize) -> f64) -> Vec3 {
+        (0..self.face.nodes.len()).fold(Vec3::zero(), |sum, k| sum + self.x[k] * weight(k))
     }
 
     /// Position and its two derivatives at `xi`.
     pub fn at(&self, xi: [f64; 2]) -> (Vec3, [Vec3; 2]) {
         let (n, dn) = self.face.natural(xi);
-        (self.sum(&n), [0, 1].map(|a| self.sum(&dn.map(|dn| dn[a]))))
+        (self.sum(|k| n[k]), [0, 1].map(|a| self.sum(|k| dn[k][a])))
     }
 
     /// Second derivatives at `xi`: `d g_a / d xi_b` at `[a][b]`.
     fn second(&self, xi: [f64; 2]) -> [[Vec3; 2]; 2] {
         let ddn = self.face.second(xi);
-        [0, 1].map(|a| [0, 1].map(|b| self.sum(&ddn.map(|ddn| ddn[a][b]))))
+        [0, 1].map(|a| [0, 1].map(|b| self.sum(|k| ddn[k][a][b])))
     }
 
     /// The averaged normal at `xi`, of any length, and its two derivatives.

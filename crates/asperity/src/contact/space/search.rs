@@ -3,7 +3,6 @@
 
 use super::averaged::Around;
 use super::border::Seeker;
-use super::capture::depths;
 use super::open::OpenContact;
 use super::pair::Contact;
 use super::placed::Placed;
@@ -32,7 +31,7 @@ impl Contact {
 
     pub(super) fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {
         let parts = &self.parts;
-        let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, u);
+        let depths = self.depths(u);
         let (standing, mut memory) = (parts.target.stand(u), Memory::default());
         let points = parts.surface.points.iter().zip(depths).enumerate();
         let hits = points.map(|(i, (point, depth))| {
@@ -90,7 +89,7 @@ impl Contact {
     /// How far the target is penetrated along rays, each from beside a point of the undeformed surface.
     pub(in crate::contact) fn penetrations(&self, rays: &[(Ray, usize)]) -> Vec<Option<f64>> {
         let (parts, still) = (&self.parts, vec![0.0; self.parts.dofs.count()]);
-        let depths = depths(&parts.surface, &parts.mesh, &parts.dofs, &parts.boundary, &still);
+        let depths = self.depths(&still);
         let (standing, mut memory) = (parts.target.stand(&still), Memory::default());
         let along = |&(ray, point): &(Ray, usize)| {
             let relatives = &self.relatives[parts.surface.points[point].face];

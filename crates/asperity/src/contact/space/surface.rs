@@ -52,13 +52,15 @@ impl Face {
     /// Second derivatives of the shape functions, `[a][b]` along `xi_a` and `xi_b`. Along one coordinate the first ones
     /// are of second degree at most, so that their central differences are exact.
     pub fn second(&self, xi: [f64; 2]) -> [[[f64; 2]; 2]; MAX_NODES] {
-        let along = |b: usize| {
+        let mut second = [[[0.0; 2]; 2]; MAX_NODES];
+        for b in 0..2 {
             let at = |step: f64| self.natural(std::array::from_fn(|i| if i == b { xi[i] + step } else { xi[i] })).1;
             let (back, ahead) = (at(-0.5), at(0.5));
-            move |k: usize, a: usize| ahead[k][a] - back[k][a]
-        };
-        let (first, second) = (along(0), along(1));
-        std::array::from_fn(|k| [0, 1].map(|a| [first(k, a), second(k, a)]))
+            for (k, second) in second[..self.nodes.len()].iter_mut().enumerate() {
+                (0..2).for_each(|a| second[a][b] = ahead[k][a] - back[k][a]);
+            }
+        }
+        second
     }
 
     /// Positions of its nodes at displacements `u` of all.

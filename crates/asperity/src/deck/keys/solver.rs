@@ -42,17 +42,12 @@ impl Words for Variant {
 
 impl Words for Factors {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
-        let kept = "as few matrices as possible, over all increments; \
-            a restarted run is then no longer the same to the bit";
+        let attempt = "the matrix of an attempt's first iteration, with which the others are solved by FGMRES";
         vec![
-            (Self::Auto, "auto", "as `attempt` where that is predicted to be cheaper, as in space; else as `fresh`"),
+            (Self::Auto, "auto", "as `kept` where that is predicted to be cheaper, as in space; else as `fresh`"),
             (Self::Fresh, "fresh", "every matrix"),
-            (
-                Self::Attempt,
-                "attempt",
-                "the matrix of an attempt's first iteration, with which the others are solved by FGMRES",
-            ),
-            (Self::Kept, "kept", kept),
+            (Self::Attempt, "attempt", attempt),
+            (Self::Kept, "kept", "as few matrices as possible, with which those of later increments are solved too"),
         ]
     }
 }

@@ -4,7 +4,7 @@
 use super::hyper;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, unit};
-use crate::material::{HyperLaw, Material};
+use crate::material::{HyperLaw, Material, Slopes};
 use crate::tensor::{Scalar, Tensor2};
 
 pub(super) const BULK: Parameter = Parameter {
@@ -57,8 +57,44 @@ impl HyperLaw for NeoHookean {
         Ok(b.deviator() * scale + Tensor2::identity() * pressure(self.bulk, j))
     }
 
+    /// With `dJ = J/2 b^-1 : db`.
+    fn stress_with_slopes(&self, b: &Tensor2, slopes: &mut Slopes) -> Result<Tensor2, Failure> {
+        let (j, [xx, yy, zz, xy, yz, xz]) = (b.det().sqrt(), b.inverse().to_voigt());
+        let (scale, volume) = (self.shear * j.powf(-5.0 / 3.0), [xx, yy, zz, 2.0 * xy, 2.0 * yz, 2.0 * xz]);
+        let (shape, normal) = ((b.deviator() * scale).to_voigt(), 0.25 * self.bulk * (j + 1.0 / j));
+        for (r, row) in slopes.iter_mut().enumerate() {
+            let along = -5.0 / 6.0 * shape[r] + if r < 3 { normal } else { 0.0 };
+            *row = volume.map(|volume| along * volume);
+            row[r] += scale;
+            if r < 3 {
+                row[..3].iter_mut().for_each(|slope| *slope -= scale / 3.0);
+            }
+        }
+        Ok(Tensor2::from_voigt(shape) + Tensor2::identity() * pressure(self.bulk, j))
+    }
+
     fn energy(&self, b: &Tensor2) -> f64 {
         let j = b.det().sqrt();
-        0.5 * self.shear * (b.trace() * j.powf(-2.0 / 3.0) - 3.0) + volume_energy(self.bulk, j)
+        let shape = b.trace() * (-2.0 / 3.0 * j.ln()).exp();
+        0.5 * self.shear * (shape - 3.0) + volume_energy(self.bulk, j)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::hyper::by_duals;
+
+    #[test]
+    fn slopes_are_those_of_dual_numbers() {
+        let law = NeoHookean { shear: 0.7, bulk: 2.3 };
+        let b = Tensor2::from_voigt([1.3, 0.8, 1.1, 0.2, -0.3, 0.1]);
+        let (mut written, mut dual) = (Slopes::default(), Slopes::default());
+        let stress = law.stress_with_slopes(&b, &mut written).unwrap();
+        let residue = by_duals(&law, &b, &mut dual).unwrap() - stress;
+        assert!(residue.contract(residue).sqrt() < 1e-15);
+        for (x, y) in written.as_flattened().iter().zip(dual.as_flattened()) {
+            assert!((x - y).abs() < 1e-14, "{x} against {y}");
+        }
     }
 }

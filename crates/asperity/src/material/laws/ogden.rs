@@ -7,7 +7,7 @@ use super::hyper;
 use super::neo_hookean::{BULK, pressure, volume_energy};
 use crate::Failure;
 use crate::declare::{Entry, Pairs};
-use crate::material::{HyperLaw, Material};
+use crate::material::{HyperLaw, Material, Slopes};
 use crate::tensor::{Isotropic, Scalar, Tensor2, principal};
 
 const TERMS: Pairs = Pairs { key: "terms", meaning: "pairs [modulus mu (stress), exponent alpha]", least: 1, most: 16 };
@@ -53,6 +53,10 @@ impl Isotropic for Ogden {
 impl HyperLaw for Ogden {
     fn stress<T: Scalar>(&self, b: &Tensor2<T>) -> Result<Tensor2<T>, Failure> {
         self.of(b)
+    }
+
+    fn stress_with_slopes(&self, b: &Tensor2, slopes: &mut Slopes) -> Result<Tensor2, Failure> {
+        self.with_slopes(b, slopes)
     }
 
     fn energy(&self, b: &Tensor2) -> f64 {

@@ -1,0 +1,87 @@
+//! What has jumped in the matrix near contact since it was factorised, as a change of low rank by which the factor is put
+//! right.
+
+use super::influences::{Influences, Site, add_multiple};
+use super::linear::LinearSolver;
+use crate::Failure;
+use crate::system::{Csr, Workspace};
+use frontal::{Change, Sparse};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most unknowns for which the factor is put right, and the part of its largest value by which a row must have changed.
+const MOST: usize = 1024;
+const CHANGED: f64 = 0.01;
+
+/// The matrix at hand.
+#[derive(Clone, Copy)]
+pub(super) struct Matrix<'a> {
+    pub pattern: &'a Csr,
+    pub values: &'a [f64],
+}
+
+impl<'a> Matrix<'a> {
+    pub fn of(workspace: &'a Workspace, values: &'a [f64]) -> Self {
+        Self { pattern: workspace.pattern(), values }
+    }
+
+    fn row(&self, row: usize) -> (&[usize], &[f64]) {
+        (self.pattern.row(row), &self.values[self.pattern.starts[row]..self.pattern.starts[row + 1]])
+    }
+}
+
+impl Influences {
+    /// What has changed of the matrix among the unknowns of stencils that are closed or were; None if that is nothing, or
+    /// too much.
+    ///
+    /// # Errors
+    /// When a law cannot answer, or a solution with the factor fails.
+    pub fn change(
+        &mut self,
+        (site, matrix): (Site, Matrix),
+        solver: &dyn LinearSolver,
+    ) -> Result<Option<Change>, Failure> {
+        self.change = None;
+        let mut near: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
+        near.retain(|unknown| self.at.binary_search(unknown).is_ok());
+        let changed = near.iter().filter_map(|&row| {
+            let change = difference(matrix.row(row), solver.row(row), &near)?;
+            Some((row, change))
+        });
+        let (unknowns, rows): (BTreeSet<usize>, Vec<Sparse>) = changed.unzip();
+        if unknowns.is_empty() || unknowns.len() > MOST {
+            return Ok(None);
+        }
+        self.find(&unknowns, solver).map_err(|error| Failure::new(error.to_string()))?;
+        let unknowns: Vec<usize> = unknowns.into_iter().collect();
+        let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
+        let capacitance = self.capacitance(&rows, &unknowns);
+        let change = Change::new(forces, rows, capacitance);
+        self.change = change.clone().map(|change| (unknowns, change));
+        Ok(change)
+    }
+
+    /// `I + V^T K0^-1 U` by rows.
+    fn capacitance(&self, rows: &[Sparse], unknowns: &[usize]) -> Vec<f64> {
+        let columns: Vec<&Vec<f64>> = unknowns.iter().map(|unknown| &self.columns[unknown]).collect();
+        let mut inverse: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+        let mut entries = vec![0.0; rows.len() * rows.len()];
+        for (i, (row, sums)) in rows.iter().zip(entries.chunks_exact_mut(rows.len())).enumerate() {
+            sums[i] = 1.0;
+            for &(unknown, value) in row {
+                let place = self.place(unknown);
+                let inverse = inverse.entry(place).or_insert_with(|| columns.iter().map(|c| c[place]).collect());
+                add_multiple(sums, value, inverse);
+            }
+        }
+        entries
+    }
+}
+
+/// What has changed of a row among these unknowns, if that is much.
+fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &BTreeSet<usize>) -> Option<Sparse> {
+    let largest = now.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let mut changed: BTreeMap<usize, f64> = columns.iter().copied().zip(now.iter().copied()).collect();
+    then.into_iter().for_each(|(column, value)| *changed.entry(column).or_default() -= value);
+    changed.retain(|column, value| *value != 0.0 && among.contains(column));
+    changed.values().any(|value| value.abs() > CHANGED * largest).then(|| changed.into_iter().collect())
+}

@@ -20,10 +20,10 @@ pub fn penalty(command: &PenaltyCommand) -> Outcome {
 
 /// Runs the deck with its penalties and with softer ones, and prints the forces of a rigid interface with their errors.
 fn study(arguments: &Study) -> Outcome {
+    let stop = signals::listen()?;
     let stiff = made(&arguments.deck)?;
     let loaded = deck::load(&arguments.deck.path, &arguments.deck.sets)?;
     let soft = deck::build(loaded.softened(&stiff.model, arguments.ratio)?)?;
-    let stop = signals::listen()?;
     print(&format!("with penalties divided by {}:\n", arguments.ratio))?;
     let softer = solve(&soft.model, stop.clone())?;
     print("\nwith the penalties of the deck:\n")?;

@@ -37,14 +37,14 @@ fn quoted(word: &str) -> String {
 }
 
 fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
-    // Before anything else: what comes first in need of threads decides their number.
+    let stop = signals::listen()?;
+    // Before the deck is read: what comes first in need of threads decides their number.
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
         pool.map_err(|error| asperity::Error::Internal(error.to_string()))?;
     }
     let made = made(&arguments.deck)?;
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
-    let stop = signals::listen()?;
     let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
     let job =
         Job { directory: &directory, options: made.deck.output.options(), input: made.input, start, notes: &notes };

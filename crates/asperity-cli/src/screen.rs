@@ -134,6 +134,7 @@ fn figures(summary: &Summary) -> impl Iterator<Item = (&'static str, f64)> {
         ("false contacts refused", c.rejected_false_contacts),
         ("largest leap over the size", c.leap.filter(|leap| *leap > 0.0)),
         ("unresisted part of motion", c.hourglass),
+        ("gradient in small strain", c.small_strain.values().copied().reduce(f64::max)),
     ];
     all.into_iter().filter_map(|(name, value)| Some((name, value?)))
 }

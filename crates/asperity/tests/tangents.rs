@@ -15,7 +15,7 @@ use asperity::material::{Material, Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Side, Space};
-use asperity::solid::{Body, BodyOptions, Formulation, Integration};
+use asperity::solid::{Body, BodyOptions, Formulation, Integration, Strain};
 use asperity::system::{Attempt, Branch, Dofs, Local, Stencil, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::{Tool, shapes};
@@ -59,8 +59,10 @@ fn bodies_are_exact(material: &Arc<dyn Material>) {
         for space in spaces.into_iter().filter(|space| space.dimension() == cell.dimension) {
             for integration in [Integration::Full, Integration::Reduced] {
                 for formulation in [Formulation::Standard, Formulation::FBar] {
-                    let options = BodyOptions { formulation, integration, ..BodyOptions::default() };
-                    bodies += usize::from(body_is_exact(&mesh, space, (material, options), &mut random));
+                    for strain in [Strain::Finite, Strain::Small] {
+                        let options = BodyOptions { formulation, integration, strain, ..BodyOptions::default() };
+                        bodies += usize::from(body_is_exact(&mesh, space, (material, options), &mut random));
+                    }
                 }
             }
         }

@@ -9,6 +9,7 @@
 use super::frame::{about_midpoint, half};
 use super::law::{self, Differentiate};
 use super::rate::{INSIDE_OUT, stress_of};
+use super::small::NO_RATE;
 use super::{Directions, Gradient, Material, Rate, RateLaw, Variable, VariableKind, Vars};
 use crate::Failure;
 use crate::integrate::Update;
@@ -108,6 +109,10 @@ impl<L: RateLaw> Material for GreenNaghdi<L> {
 
     fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String> {
         Ok(Box::new(self.clone()))
+    }
+
+    fn with_small_strain(&self) -> Result<Box<dyn Material>, String> {
+        Err(NO_RATE.into())
     }
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {

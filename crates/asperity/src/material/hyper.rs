@@ -85,6 +85,12 @@ impl<L: HyperLaw> Material for Hyper<L> {
         Err("the stress of a hyperelastic law follows from the deformation alone: no objective rate enters it".into())
     }
 
+    fn with_small_strain(&self) -> Result<Box<dyn Material>, String> {
+        Err("the stress of a hyperelastic law follows from the whole deformation and has no small strain: use the law \
+             `elastic`, or strain = \"finite\""
+            .into())
+    }
+
     fn update(&self, f: &Tensor2, _dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         let (_, b) = carried(f, old)?;
         write(&self.0.stress(&b)?, &b, new);

@@ -101,6 +101,11 @@ pub trait Material: Send + Sync {
     /// # Errors
     /// In words, where the stress of a law follows from the deformation alone and there is no frame to choose.
     fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String>;
+    /// The same law in small strain, where `f` is `I` and the displacement gradient of the increment.
+    ///
+    /// # Errors
+    /// In words, where the stress of a law follows from the whole deformation.
+    fn with_small_strain(&self) -> Result<Box<dyn Material>, String>;
     /// The state at the end of an increment with deformation `f` relative to its beginning.
     ///
     /// # Errors

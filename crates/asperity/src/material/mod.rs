@@ -13,6 +13,7 @@ mod integrated;
 mod law;
 pub mod laws;
 mod rate;
+mod small;
 mod vars;
 
 pub use crate::declare::{Variable, VariableKind};
@@ -21,4 +22,5 @@ pub use green_naghdi::GreenNaghdi;
 pub use hyper::{Hyper, HyperLaw, Slopes};
 pub use law::{Directions, Gradient, Material};
 pub use rate::{Rate, RateLaw};
+pub use small::SmallStrain;
 pub use vars::{ScalarsAndTensor, ScalarsAndVector, Vars};

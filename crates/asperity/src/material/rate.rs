@@ -9,7 +9,7 @@
 use super::frame::{Frame, InPlane, InSpace, Turning};
 use super::integrated::Integrated;
 use super::law::{self, Differentiate};
-use super::{Directions, Gradient, GreenNaghdi, Material, Variable, Vars};
+use super::{Directions, Gradient, GreenNaghdi, Material, SmallStrain, Variable, Vars};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
@@ -75,7 +75,7 @@ impl<L: RateLaw> Rate<L> {
     }
 
     /// The end of an increment seen in `turning`, and its derivatives along `N` components of the deformation.
-    fn advance_in<const N: usize>(
+    pub(super) fn advance_in<const N: usize>(
         &self,
         turning: &impl Turning,
         dt: f64,
@@ -150,6 +150,10 @@ impl<L: RateLaw> Material for Rate<L> {
 
     fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String> {
         Ok(Box::new(GreenNaghdi::new(self.0.clone())))
+    }
+
+    fn with_small_strain(&self) -> Result<Box<dyn Material>, String> {
+        Ok(Box::new(SmallStrain::new(self.0.clone())))
     }
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {

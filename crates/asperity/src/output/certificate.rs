@@ -2,6 +2,7 @@
 //! quantities of each frame, by name, and from nothing else: what stands in `history.csv` is what is certified.
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The worst of each figure over all accepted increments. A figure is absent, never zero, when no frame reported it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -37,6 +38,9 @@ pub struct Certificate {
     pub leap: Option<f64>,
     /// Largest part of the motion of cells with reduced integration that they do not resist.
     pub hourglass: Option<f64>,
+    /// Largest displacement gradient of each body in small strain, which is wrong by a part of that order.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub small_strain: BTreeMap<String, f64>,
     /// The largest energy of the run, the largest that was missing, and the largest residue of rate laws.
     #[serde(skip)]
     energies: [f64; 3],
@@ -57,6 +61,10 @@ impl Certificate {
         (self.facet_ratio, self.mismatch, self.imbalance) = (None, None, None);
         for (name, value) in columns {
             self.observe_energy(name, value);
+            if let Some(body) = name.strip_prefix("small_strain.") {
+                let largest = self.small_strain.entry(body.into()).or_default();
+                *largest = largest.max(value);
+            }
             if let Some((figure, worst)) = self.figure(name) {
                 *figure = Some(figure.map_or(value, |old| worst.of(old, value)));
             }
@@ -118,6 +126,8 @@ mod tests {
         certificate.observe([
             ("contact.bore.max_penetration", 1e-3),
             ("contact.a.b.max_penetration", 2e-3),
+            ("small_strain.block.left", 0.3),
+            ("small_strain.disc", 0.1),
             ("energy.external", 10.0),
             ("energy.missing", -2.0),
             ("energy.residue", 0.5),
@@ -132,6 +142,7 @@ mod tests {
             ("energy.missing", 1.0),
             ("equilibrium.leap", 0.2),
             ("hourglass.block", 0.1),
+            ("small_strain.block.left", 0.2),
             ("time", 9.0),
         ]);
         let expected = Certificate {
@@ -142,6 +153,7 @@ mod tests {
             rejected_false_contacts: Some(5.0),
             leap: Some(0.2),
             hourglass: Some(0.1),
+            small_strain: BTreeMap::from([("block.left".into(), 0.3), ("disc".into(), 0.1)]),
             energies: [40.0, 2.0, 0.5],
             ..Certificate::default()
         };

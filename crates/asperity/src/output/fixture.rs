@@ -24,9 +24,13 @@ pub struct Fixture {
 
 impl Fixture {
     pub fn new(space: Space, formulation: Formulation, integration: Integration) -> Self {
+        Self::with(space, BodyOptions { formulation, integration, ..BodyOptions::default() })
+    }
+    /// With any options, but for the thickness.
+    pub fn with(space: Space, options: BodyOptions) -> Self {
         let mesh = Arc::new(mesh(space));
         let dofs = Dofs::new(space.dimension(), mesh.points.len(), 0);
-        let options = BodyOptions { formulation, integration, thickness: THICKNESS };
+        let options = BodyOptions { thickness: THICKNESS, ..options };
         let all = (0..mesh.cell_count()).collect();
         let law = Arc::new(Rate(Elastic::new(200.0, 0.3)));
         let body = Body::new("block", (mesh.clone(), dofs.clone(), space), all, law, options).unwrap();

@@ -60,6 +60,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     results.summary.notes.extend(facets(model, &run.state));
     results.summary.notes.extend(leap(&results.summary));
     results.summary.notes.extend(imbalance(&results.summary));
+    results.summary.notes.extend(large_strain(&results.summary));
     results.finish(&ended)?;
     Ok((results.summary, ended))
 }
@@ -119,6 +120,22 @@ fn imbalance(summary: &Summary) -> Option<String> {
     ))
 }
 
+/// Displacement gradient up to which small strain is taken at its word.
+const SMALL: f64 = 0.1;
+
+/// What it means that a body in small strain moves by more than that.
+fn large_strain(summary: &Summary) -> Vec<String> {
+    let beyond = summary.certificate.small_strain.iter().filter(|(_, gradient)| **gradient > SMALL);
+    let said = |(body, gradient): (&String, &f64)| {
+        format!(
+            "body '{body}' is computed in small strain, but the gradient of its displacements reaches {gradient:.2}: strains \
+             and rotations beyond {SMALL} are not small, and results are wrong by a part of that order; \
+             strain = \"finite\" has no such limit"
+        )
+    };
+    beyond.map(said).collect()
+}
+
 /// What contacts say of their facets in the last accepted state.
 fn facets(model: &Model, state: &State) -> Vec<String> {
     let contacts = Parts::of(model).contacts;
@@ -142,5 +159,18 @@ fn account(summary: &mut Summary, run: &Run, seconds: f64) {
             "{} increments ended beyond an instability; they set an energy of {:.4e} free",
             run.state.jumps, run.state.released
         ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_body_that_leaves_small_strain_is_named() {
+        let mut summary = Summary::begin("", "solid");
+        summary.certificate.observe([("small_strain.soft", 0.137), ("small_strain.stiff", 0.099)]);
+        let [said] = &large_strain(&summary)[..] else { panic!("one note") };
+        assert!(said.contains("'soft'") && said.contains("0.14") && said.contains("beyond 0.1"), "{said}");
     }
 }

@@ -3,12 +3,13 @@
 use super::body::{Body, Formulation};
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
 use super::operator::{Nodal, Tangent, add_forces, deformation, volume_gradient};
-use super::plane_stress;
 use super::point::{PointLaw, PointStress};
+use super::{Strain, plane_stress};
 use crate::Failure;
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
+use crate::tensor::Tensor2;
 use rayon::prelude::*;
 
 /// Cells whose gradients one thread finds together.
@@ -147,14 +148,15 @@ impl OpenBody<'_> {
         let mut sums = self.sums::<DIM, D, N>(index, &local.u, center, tangent);
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in points.zip(lanes).enumerate() {
-            let volume = point.volume * self.thickness(old);
+            let volume = point.volume * self.body.thickness(old);
             let det = sums
                 .add((point.rows(), volume), (old, new))
                 .map_err(|f| Failure::new(format!("integration point {}: {}", number + 1, f.reason)))?;
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
-                local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * sums.law.free.ln();
+                let strain = sums.law.free.ln() + sums.law.cooling;
+                local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * strain;
             }
         }
         if let Some(tangent) = sums.tangent.filter(|_| barred) {
@@ -175,18 +177,20 @@ impl OpenBody<'_> {
         tangent: Option<&'s mut Tangent<DIM, N>>,
     ) -> Sums<'s, DIM, D, N> {
         let (du, mut center_gradient) = (self.increment(index, u), [[0.0; N]; DIM]);
+        let strain = self.body.options.strain;
         let center = center.map(|center| {
             let f0 = deformation(center.rows(), &du);
             if tangent.is_some() {
-                center_gradient = volume_gradient(center.rows(), &f0);
+                let at = if strain == Strain::Finite { f0 } else { Tensor2::identity() };
+                center_gradient = volume_gradient(center.rows(), &at);
             }
-            f0.det()
+            strain.dilation(&f0)
         });
         // A body has one temperature, and with it one stretch.
-        let before = |now: f64| self.history.slot(index)[self.body.point_len() - 1] / now;
-        let free = self.stretch.map_or(1.0, before);
+        let before = || self.history.slot(index)[self.body.point_len() - 1];
+        let (free, cooling) = self.stretch.map_or((1.0, 0.0), |now| strain.of_heat(before(), now));
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
-        let law = PointLaw { material, space, dt, center, free };
+        let law = PointLaw { material, space, strain, dt, center, free, cooling };
         let (force, along_center, s) = ([[0.0; N]; DIM], [[0.0; N]; DIM], PointStress::default());
         Sums { law, du, center_gradient, force, along_center, tangent, s }
     }
@@ -203,15 +207,6 @@ impl OpenBody<'_> {
             local.residue += 0.5 * (material.stored_energy(old) + stored) * (1.0 - det) * volume;
         }
     }
-
-    /// Thickness at the beginning of the increment; one in space and in the axisymmetric case.
-    fn thickness(&self, old: &[f64]) -> f64 {
-        match self.body.space {
-            Space::PlaneStrain => self.body.options.thickness,
-            Space::PlaneStress => self.body.options.thickness * old[self.body.material.state_len()],
-            Space::Axisymmetric | Space::Solid => 1.0,
-        }
-    }
 }
 
 /// Forces and tangent of a cell while its points are added up.
@@ -219,10 +214,10 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
     law: PointLaw<'a>,
     /// Displacements of the nodes over the increment.
     du: Nodal<DIM, N>,
-    /// Derivative of `ln det f0` along them, with F-bar.
+    /// Derivative of `ln det f0` along them, with F-bar; of the trace in small strain.
     center_gradient: Nodal<DIM, N>,
     force: Nodal<DIM, N>,
-    /// Derivative of the forces along `ln det f0`, with F-bar.
+    /// Derivative of the forces along the same.
     along_center: Nodal<DIM, N>,
     /// Where it is wanted.
     tangent: Option<&'a mut Tangent<DIM, N>>,

@@ -2,7 +2,7 @@
 
 use super::attempt::OpenBody;
 use super::gradient::Shapes;
-use super::{Heat, InitialStress};
+use super::{Heat, InitialStress, Strain};
 use crate::material::Material;
 use crate::mesh::cells::{Cell, Rule};
 use crate::mesh::{Mesh, Space};
@@ -36,13 +36,16 @@ pub struct BodyOptions {
     pub formulation: Formulation,
     /// Quadrature.
     pub integration: Integration,
+    /// Kinematics.
+    pub strain: Strain,
     /// Thickness in the plane cases; ignored otherwise.
     pub thickness: f64,
 }
 
 impl Default for BodyOptions {
     fn default() -> Self {
-        Self { formulation: Formulation::Standard, integration: Integration::Full, thickness: 1.0 }
+        let (formulation, integration) = (Formulation::Standard, Integration::Full);
+        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0 }
     }
 }
 
@@ -73,7 +76,7 @@ impl Body {
     /// A body of the given cells.
     ///
     /// # Errors
-    /// An input error where a cell's kind and the options do not go together.
+    /// An input error where a cell's kind and the options do not go together, or the law has no small strain.
     pub fn new(
         name: &str,
         (mesh, dofs, space): (Arc<Mesh>, Dofs, Space),
@@ -84,6 +87,7 @@ impl Body {
         for &cell in &cells {
             refuse(name, mesh.cell(cell).kind, space, &options)?;
         }
+        let material = options.strain.law(material).map_err(|why| Error::input(format!("body '{name}': {why}")))?;
         let name = name.into();
         let (shapes, initial_stress, heat) = (Vec::new(), None, None);
         let mut body = Self { name, mesh, dofs, space, cells, material, options, shapes, initial_stress, heat };
@@ -255,7 +259,7 @@ impl Term for Body {
         history: &'a History,
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let gradients = self.gradients(&accepted.u)?;
+        let gradients = self.gradients(&self.options.strain.base(&accepted.u))?;
         let stretch = self.heat.as_ref().map(|heat| heat.stretch(at)).transpose()?;
         Ok(Box::new(OpenBody { body: self, accepted, history, gradients, dt: at.dt, stretch }))
     }

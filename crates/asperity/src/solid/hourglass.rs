@@ -82,7 +82,7 @@ impl Body {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BodyOptions, Formulation};
+    use super::super::BodyOptions;
     use super::*;
     use crate::material::Rate;
     use crate::material::laws::Elastic;
@@ -99,7 +99,7 @@ mod tests {
         };
         let mesh = Arc::new(mesh.unwrap());
         let dofs = Dofs::new(cell.dimension, mesh.points.len(), 0);
-        let options = BodyOptions { formulation: Formulation::Standard, integration, thickness: 1.0 };
+        let options = BodyOptions { integration, ..BodyOptions::default() };
         let all = (0..mesh.cell_count()).collect();
         let law = Arc::new(Rate(Elastic::new(200.0, 0.3)));
         (Body::new("block", (mesh.clone(), dofs, space), all, law, options).unwrap(), mesh)

@@ -2,7 +2,8 @@
 //!
 //! Updated Lagrangian: with `f` the deformation of the increment and `sigma` the Cauchy stress at its end, the nodal
 //! forces are `F_L = integral of P grad_n N_L dv_n`, `P = det(f) sigma f^-T`, with gradients and volume taken at the
-//! beginning of the increment. The tangent is the exact derivative of that same expression.
+//! beginning of the increment. The tangent is the exact derivative of that same expression. With small [`Strain`] all of
+//! it is taken over the undeformed body.
 
 mod attempt;
 mod body;
@@ -16,8 +17,10 @@ mod piola;
 mod plane_stress;
 mod point;
 mod record;
+mod strain;
 
 pub use body::{Body, BodyOptions, Formulation, Integration};
 pub use heat::Heat;
 pub use initial_stress::InitialStress;
 pub use record::PointRecord;
+pub use strain::Strain;

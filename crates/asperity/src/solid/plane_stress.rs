@@ -16,7 +16,7 @@ const NORMAL: usize = 4;
 fn solve(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<Tensor2, Failure> {
     let (mut f, mut c) = (*f, Gradient::default());
     for _ in 0..LIMIT {
-        let (seen, out) = (f * law.free, (&mut *new, &mut c));
+        let (seen, out) = (law.seen(&f), (&mut *new, &mut c));
         law.material.differentiate(&seen, law.dt, old, out, Directions::PlaneAndNormal)?;
         let change = -new[2] / (c[2][4] * law.free);
         f[(2, 2)] += change.clamp(-0.5 * f[(2, 2)], f[(2, 2)]);
@@ -30,7 +30,7 @@ fn solve(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<Te
 /// Writes the thickness; the state of the law is already in `new`.
 fn finish(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) {
     let place = law.material.state_len();
-    new[place] = old[place] * f[(2, 2)];
+    new[place] = law.strain.stretched(old[place], f[(2, 2)]);
 }
 
 /// New state, and in `s` `P` and `det f`.

@@ -3,6 +3,7 @@
 //! F-bar (de Souza Neto et al. 1996) evaluates the law at `fbar = f (det f0 / det f)^(1/3)`, in plane strain at the
 //! in-plane block scaled with the power 1/2, with f0 at the cell's centre; gradients and volume stay those of f.
 
+use super::Strain;
 use super::piola::{Derivative, VOIGT, first_piola, place};
 use crate::Failure;
 use crate::material::{Directions, Gradient, Material};
@@ -15,12 +16,12 @@ pub struct PointStress<const D: usize> {
     pub p: [f64; D],
     /// Their derivatives.
     pub tangent: [[f64; D]; D],
-    /// Their derivatives along `ln det f0`; zero without F-bar.
+    /// Their derivatives along `ln det f0`, in small strain along the trace there; zero without F-bar.
     pub along_center: [f64; D],
     /// `det f`.
     pub det: f64,
     /// Those of the law.
-    law: Gradient,
+    pub(super) law: Gradient,
 }
 
 impl<const D: usize> Default for PointStress<D> {
@@ -35,12 +36,16 @@ pub struct PointLaw<'a> {
     pub material: &'a dyn Material,
     /// The space.
     pub space: Space,
+    /// Kinematics.
+    pub strain: Strain,
     /// Length of the increment.
     pub dt: f64,
-    /// `det f0` at the centre where F-bar is used.
+    /// `det f0` at the centre where F-bar is used; in small strain one and its trace.
     pub center: Option<f64>,
-    /// What heat leaves of a unit of deformation to the law.
+    /// What heat leaves of a unit of deformation to the law,
     pub free: f64,
+    /// and what it adds to the diagonal, in small strain.
+    pub cooling: f64,
 }
 
 impl PointLaw<'_> {
@@ -64,6 +69,14 @@ impl PointLaw<'_> {
         (Tensor2::from_fn(|i, j| if scaled(i, j) { f[(i, j)] * scale } else { f[(i, j)] }), power)
     }
 
+    /// Deformation the law sees, without F-bar.
+    pub fn seen(&self, f: &Tensor2) -> Tensor2 {
+        match self.strain {
+            Strain::Finite => *f * self.free,
+            Strain::Small => self.small_seen(f),
+        }
+    }
+
     /// New state, and in `out` `P` without derivatives.
     pub fn stress<const DIM: usize, const D: usize>(
         &self,
@@ -72,6 +85,9 @@ impl PointLaw<'_> {
         new: &mut [f64],
         out: &mut PointStress<D>,
     ) -> Result<(), Failure> {
+        if self.strain == Strain::Small {
+            return self.small_stress(f, old, new, out);
+        }
         out.det = self.admissible(f)?;
         self.material.update(&(self.bar(f, out.det).0 * self.free), self.dt, old, new)?;
         let p = first_piola(new, &(f.inverse() * out.det));
@@ -94,6 +110,9 @@ impl PointLaw<'_> {
         new: &mut [f64],
         out: &mut PointStress<D>,
     ) -> Result<(), Failure> {
+        if self.strain == Strain::Small {
+            return self.small_stress_with_tangent(f, old, new, out);
+        }
         let det = self.admissible(f)?;
         let (bar, power) = self.bar(f, det);
         self.material.differentiate(&(bar * self.free), self.dt, old, (&mut *new, &mut out.law), self.directions())?;

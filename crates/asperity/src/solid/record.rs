@@ -1,7 +1,7 @@
 //! The integration points of a body in an accepted state: what outputs may ask of them.
 
-use super::Body;
 use super::gradient::Shapes;
+use super::{Body, Strain};
 use crate::mesh::Space;
 use crate::system::History;
 use crate::tensor::{Tensor2, Vec3};
@@ -17,7 +17,8 @@ pub struct PointRecord<'a> {
     pub reference: Vec3,
     /// Present position.
     pub position: Vec3,
-    /// Present volume it stands for: with the thickness in the plane, the full circumference when axisymmetric.
+    /// Present volume it stands for, in small strain that before any motion: with the thickness in the plane, the full
+    /// circumference when axisymmetric.
     pub volume: f64,
     /// Cauchy stress XX YY ZZ XY YZ XZ, then the variables of the law.
     pub state: &'a [f64],
@@ -37,6 +38,7 @@ impl Body {
         let view = self.mesh.cell(cell);
         let Shapes { n, dn, weight } = &self.shapes(view.kind).points[point];
         let (mut reference, mut position, mut jacobian) = (Vec3::zero(), Vec3::zero(), Tensor2::zero());
+        let small = self.options.strain == Strain::Small;
         for (&node, (n, dn)) in view.nodes.iter().zip(n.iter().zip(dn)) {
             let x = self.mesh.points[node];
             let first = self.dofs.node(node);
@@ -44,21 +46,16 @@ impl Body {
             (0..self.dofs.per_node()).for_each(|a| present[a] += u[first + a]);
             reference += x * *n;
             position += present * *n;
-            for (row, x) in jacobian.0.iter_mut().zip(present.0) {
+            for (row, x) in jacobian.0.iter_mut().zip(if small { x.0 } else { present.0 }) {
                 row.iter_mut().zip(dn).for_each(|(entry, dn)| *entry += x * dn);
             }
         }
         if self.space != Space::Solid {
             jacobian[(2, 2)] = 1.0;
         }
-        let (law, last) = state.split_at(self.material().state_len());
-        let extent = match self.space {
-            Space::PlaneStrain => self.options.thickness,
-            Space::PlaneStress => self.options.thickness * last[0],
-            Space::Axisymmetric => std::f64::consts::TAU * position[0],
-            Space::Solid => 1.0,
-        };
-        let volume = jacobian.det() * weight * extent;
-        PointRecord { cell, point, reference, position, volume, state: law }
+        let radius = if small { reference[0] } else { position[0] };
+        let around = if self.space == Space::Axisymmetric { std::f64::consts::TAU * radius } else { 1.0 };
+        let volume = jacobian.det() * weight * around * self.thickness(state);
+        PointRecord { cell, point, reference, position, volume, state: &state[..self.material().state_len()] }
     }
 }

@@ -7,7 +7,7 @@ use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Space, cells};
 use asperity::model::{Model, ModelParts};
-use asperity::solid::{Body, BodyOptions, Formulation, Integration};
+use asperity::solid::{Body, BodyOptions};
 use asperity::solve::{AttemptRecord, Course, Factors, Increments, NewtonOptions, Observer, Prescribed, Step};
 use asperity::system::{Attempt, Branch, Constraints, Dofs, History, Instant, Local, State, Stencil, Stencils, Term};
 use asperity::tensor::{Dual, Scalar, Vec3};
@@ -121,7 +121,7 @@ pub fn model(size: usize, factors: Factors) -> Model {
     let side = size as f64;
     let mesh = Arc::new(Block::new([0.0; 3], [side; 3], [size; 3], &cells::HEX8).mesh("block").expect("a mesh"));
     let dofs = Dofs::new(3, mesh.points.len(), 0);
-    let options = BodyOptions { formulation: Formulation::Standard, integration: Integration::Full, thickness: 1.0 };
+    let options = BodyOptions::default();
     let material = Arc::new(Rate(Elastic::new(YOUNG, 0.3)));
     let all = (0..mesh.cell_count()).collect();
     let body = Body::new("block", (mesh.clone(), dofs.clone(), Space::Solid), all, material, options);

@@ -4,6 +4,8 @@
 use crate::bench::{Bench, points, reaction};
 use crate::{Case, Measured, fit};
 use asperity::Error;
+use asperity::model::Model;
+use asperity::system::State;
 use std::f64::consts::PI;
 
 /// The case.
@@ -13,33 +15,61 @@ const RADIUS: f64 = 50.0;
 const MODULUS: f64 = 20e3 / (2.0 * (1.0 - 0.3 * 0.3));
 const FORCE: f64 = 586_080.6;
 
+/// Radii and pressures of contact points.
+type Pressures = Vec<(f64, f64)>;
+
 /// Force, and radius of contact and largest pressure over those of Hertz for it.
-type Moment = (f64, f64, f64);
+type Moment = (f64, [f64; 2]);
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let n = bench.pick(1, 2);
     let mut moments: Vec<Moment> = Vec::new();
-    let run = bench.follow("spheres.toml", &refined(n), |model, state| {
+    let finite = bench.follow("spheres.toml", &refined(n), |model, state| {
         let force = reaction(model, state, "lower.start")[1];
-        let a = (0.75 * force * 0.5 * RADIUS / MODULUS).cbrt();
-        let pressures: Vec<_> = points(model, state, 0).iter().map(|p| (p.position[0], p.pressure)).collect();
-        let (width, largest) = fit::hertz(&pressures);
-        moments.push((force, width / a, largest / (1.5 * force / (PI * a * a))));
+        moments.push((force, over_hertz(force, &present(model, state))));
     })?;
     let near = |force: f64| {
         let distance = |moment: &&Moment| (moment.0 / force).ln().abs();
         moments.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied().unwrap_or_default()
     };
+    let small = ["lower", "upper"].map(|body| format!("body.{body}.strain=small"));
+    let small = bench.solve("spheres.toml", &[refined(n), small.into()].concat())?;
+    let carried = |contact: usize| finite.points(contact).iter().map(|point| point.force()[1]).sum::<f64>().abs();
     let (whole, eighth) = (near(FORCE), near(0.125 * FORCE));
-    let carried = |contact: usize| run.points(contact).iter().map(|point| point.force()[1]).sum::<f64>().abs();
-    Ok(vec![
-        ("a".into(), whole.1),
-        ("p0".into(), whole.2),
-        ("a_eighth".into(), eighth.1),
-        ("p0_eighth".into(), eighth.2),
+    let figures = [
+        (["a", "p0"], whole.1),
+        (["a_eighth", "p0_eighth"], eighth.1),
+        (["a_undeformed", "p0_undeformed"], over_hertz(FORCE, &undeformed(&finite.model, &finite.state))),
+        (["a_small", "p0_small"], over_hertz(FORCE, &undeformed(&small.model, &small.state))),
+        (["a_small_present", "p0_small_present"], over_hertz(FORCE, &present(&small.model, &small.state))),
+    ];
+    let mut measured: Measured =
+        figures.iter().flat_map(|(names, values)| names.map(String::from).into_iter().zip(*values)).collect();
+    measured.extend([
         ("force".into(), whole.0),
+        ("force_small".into(), small.reaction("lower.start")[1]),
         ("balance".into(), carried(0) / carried(1) - 1.0),
-    ])
+    ]);
+    Ok(measured)
+}
+
+/// Radius of contact and largest pressure over those of Hertz for a force.
+fn over_hertz(force: f64, pressures: &Pressures) -> [f64; 2] {
+    let a = (0.75 * force * 0.5 * RADIUS / MODULUS).cbrt();
+    let (width, largest) = fit::hertz(pressures);
+    [width / a, largest / (1.5 * force / (PI * a * a))]
+}
+
+/// Pressures over present areas at present radii.
+fn present(model: &Model, state: &State) -> Pressures {
+    points(model, state, 0).iter().map(|point| (point.position[0], point.pressure)).collect()
+}
+
+/// Axial forces over the areas that the undeformed surface has on the plane of contact, at undeformed radii.
+fn undeformed(model: &Model, state: &State) -> Pressures {
+    let start = State { u: vec![0.0; state.u.len()], ..state.clone() };
+    let both = points(model, state, 0).into_iter().zip(points(model, &start, 0));
+    both.map(|(now, start)| (start.position[0], (now.force()[1] / (start.area * start.inward[1])).abs())).collect()
 }
 
 fn refined(n: usize) -> Vec<String> {

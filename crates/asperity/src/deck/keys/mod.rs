@@ -38,7 +38,7 @@ use super::source::Spot;
 use crate::declare::{Range, unit};
 use crate::material::{self, Material};
 use crate::mesh::Space;
-use crate::solid::{Formulation, Integration};
+use crate::solid::{Formulation, Integration, Strain};
 
 table! {
     /// A model and what is to be done with it.
@@ -84,6 +84,8 @@ table! {
         formulation: Spot<Formulation> = word().spot().or("\"standard\""),
         /// How many integration points a cell has.
         integration: Spot<Integration> = word().spot().or("\"full\""),
+        /// How displacements make strain.
+        strain: Spot<Strain> = word().spot().or("\"finite\""),
         /// How the law is integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
         /// The objective rate of the stress, in whose frame the law is integrated.
@@ -108,6 +110,15 @@ impl Words for Integration {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         let full = "as many as integrate the stiffness of an undistorted cell exactly";
         vec![(Self::Full, "full", full), (Self::Reduced, "reduced", "one order fewer")]
+    }
+}
+
+impl Words for Strain {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        let finite = "by the deformation of each increment, with its rotation";
+        let small = "linearly, by the symmetric part of the displacement gradient over the undeformed body; contact and \
+                     pressure go on acting at the present places";
+        vec![(Self::Finite, "finite", finite), (Self::Small, "small", small)]
     }
 }
 

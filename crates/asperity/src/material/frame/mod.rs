@@ -5,10 +5,12 @@
 
 mod in_plane;
 mod in_space;
+mod still;
 
 pub use in_plane::InPlane;
 pub use in_space::InSpace;
 use in_space::Turned;
+pub use still::Still;
 
 use super::Gradient;
 use crate::tensor::{Dual, Scalar, Tensor2, Vec3};

@@ -7,6 +7,7 @@ mod equilibrium;
 mod hourglass;
 mod nodes;
 mod reactions;
+mod small_strain;
 mod stress;
 #[cfg(test)]
 mod tests;
@@ -74,6 +75,7 @@ static ALL: &[Report] = &[
     energy::report,
     equilibrium::report,
     hourglass::report,
+    small_strain::report,
 ];
 
 impl Source<'_> {

@@ -5,19 +5,21 @@ use super::Source;
 use crate::mesh::{Mesh, Space};
 use crate::output::fixture::Fixture;
 use crate::output::{Frame, Place};
-use crate::solid::{Formulation, Integration};
+use crate::solid::{BodyOptions, Formulation, Integration, Strain};
 
-fn frame(space: Space, formulation: Formulation, integration: Integration) -> (Frame, Mesh) {
-    let fixture = Fixture::new(space, formulation, integration);
+fn frame(space: Space, options: BodyOptions) -> (Frame, Mesh) {
+    let fixture = Fixture::with(space, options);
     let state = fixture.after(&fixture.start(), 1.0);
     let frame = Source { parts: &fixture.parts(), state: &state, step: 0 }.gather().unwrap();
     (frame, (*fixture.mesh).clone())
 }
 
-/// Work of the reported forces and of the reported stress on the motion `v = gradient x`, in the present configuration.
-fn works(frame: &Frame, mesh: &Mesh, space: Space, gradient: [[f64; 3]; 3]) -> [f64; 2] {
+/// Work of the reported forces and of the reported stress on the motion `v = gradient x`, in the configuration of the
+/// stress: the present one, in small strain the undeformed one.
+fn works(frame: &Frame, mesh: &Mesh, (space, strain): (Space, Strain), gradient: [[f64; 3]; 3]) -> [f64; 2] {
     let v = |x: [f64; 3]| gradient.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2]);
-    let moved = |x: [f64; 3], u: [f64; 3]| std::array::from_fn(|a| x[a] + u[a]);
+    let part = if strain == Strain::Finite { 1.0 } else { 0.0 };
+    let moved = |x: [f64; 3], u: [f64; 3]| std::array::from_fn(|a| x[a] + part * u[a]);
     let get = |place, name: &str| frame.get(place, name).unwrap();
     let (u, force) = (get(Place::Node, "displacement"), get(Place::Node, "reaction"));
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -46,15 +48,18 @@ fn reported_stress_does_the_work_of_reported_forces() {
         } else {
             [(Standard, Full), (Standard, Reduced)]
         };
-        for (formulation, integration) in options {
-            let (frame, mesh) = frame(space, formulation, integration);
+        for ((formulation, integration), strain) in
+            options.into_iter().flat_map(|o| [(o, Strain::Finite), (o, Strain::Small)])
+        {
+            let options = BodyOptions { formulation, integration, strain, ..BodyOptions::default() };
+            let (frame, mesh) = frame(space, options);
             let dimension = space.dimension();
             for (i, j) in (0..dimension).flat_map(|i| (0..dimension).map(move |j| (i, j))) {
                 let mut gradient = [[0.0; 3]; 3];
                 gradient[i][j] = 1.0;
-                let [outer, inner] = works(&frame, &mesh, space, gradient);
+                let [outer, inner] = works(&frame, &mesh, (space, strain), gradient);
                 let size = outer.abs().max(1.0);
-                assert!((outer - inner).abs() < 1e-11 * size, "{space:?} {formulation:?} {i}{j}: {outer} {inner}");
+                assert!((outer - inner).abs() < 1e-11 * size, "{space:?} {options:?} {i}{j}: {outer} {inner}");
             }
         }
     }
@@ -62,7 +67,8 @@ fn reported_stress_does_the_work_of_reported_forces() {
 
 #[test]
 fn the_frame_is_whole() {
-    let (frame, mesh) = frame(Space::PlaneStress, Formulation::Standard, Integration::Reduced);
+    let (frame, mesh) =
+        frame(Space::PlaneStress, BodyOptions { integration: Integration::Reduced, ..BodyOptions::default() });
     assert_eq!((frame.step, frame.increment, frame.time), (1, 1, 1.0));
     assert_eq!(frame.count(Place::Node), Some(mesh.points.len()));
     assert_eq!(frame.count(Place::Gauss), Some(4 * mesh.cell_count()));

@@ -1,0 +1,176 @@
+//! Finite and small strain, and what is different in small strain.
+//!
+//! With small strain gradients and volumes are those of the undeformed body throughout, `F_L = integral of sigma grad N_L
+//! dV`, and the strain of an increment is the symmetric part of the gradient of its displacements. What an elastic body
+//! answers is then linear in its displacements. F-bar replaces the trace of the strain by that at the cell's centre, in
+//! plane strain over the two axes of the plane; heat subtracts its strain `alpha T`.
+
+use super::Body;
+use super::gradient;
+use super::piola::{VOIGT, place};
+use super::point::{PointLaw, PointStress};
+use crate::Failure;
+use crate::material::Material;
+use crate::mesh::Space;
+use crate::tensor::{Tensor2, Vec3};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// How displacements make strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Strain {
+    /// By the deformation of each increment from its beginning, with rotation.
+    Finite,
+    /// By the symmetric part of the displacement gradient over the undeformed body.
+    Small,
+}
+
+impl Strain {
+    /// A law as it sees these strains.
+    ///
+    /// # Errors
+    /// In words, where it has no small strain.
+    pub fn law(self, law: Arc<dyn Material>) -> Result<Arc<dyn Material>, String> {
+        match self {
+            Self::Finite => Ok(law),
+            Self::Small => Ok(Arc::from(law.with_small_strain()?)),
+        }
+    }
+
+    /// Displacements of the configuration over which an increment from `u` is taken.
+    pub(super) fn base(self, u: &[f64]) -> Cow<'_, [f64]> {
+        match self {
+            Self::Finite => u.into(),
+            Self::Small => vec![0.0; u.len()].into(),
+        }
+    }
+
+    /// Volume over that at the beginning of the increment.
+    pub(super) fn dilation(self, f: &Tensor2) -> f64 {
+        match self {
+            Self::Finite => f.det(),
+            Self::Small => f.trace() - 2.0,
+        }
+    }
+
+    /// What a change of the thermal stretch leaves to the law: a factor of the deformation and a part of its diagonal.
+    pub(super) fn of_heat(self, before: f64, now: f64) -> (f64, f64) {
+        match self {
+            Self::Finite => (before / now, 0.0),
+            Self::Small => (1.0, before - now),
+        }
+    }
+
+    /// A thickness, as a ratio to the nominal one, after a stretch.
+    pub(super) fn stretched(self, thickness: f64, stretch: f64) -> f64 {
+        match self {
+            Self::Finite => thickness * stretch,
+            Self::Small => thickness + (stretch - 1.0),
+        }
+    }
+}
+
+impl PointLaw<'_> {
+    /// Axes over which F-bar spreads a change of volume.
+    fn axes(&self) -> usize {
+        if self.space == Space::PlaneStrain { 2 } else { 3 }
+    }
+
+    /// Deformation that the law sees in small strain.
+    pub(super) fn small_seen(&self, f: &Tensor2) -> Tensor2 {
+        let spread = |center: f64| (center - self.strain.dilation(f)) / self.axes() as f64;
+        let (mean, mut seen) = (self.center.map_or(0.0, spread), *f);
+        for i in 0..3 {
+            seen[(i, i)] += if i < self.axes() { self.cooling + mean } else { self.cooling };
+        }
+        seen
+    }
+
+    /// New state, and in `out` the stress.
+    pub(super) fn small_stress<const D: usize>(
+        &self,
+        f: &Tensor2,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut PointStress<D>,
+    ) -> Result<(), Failure> {
+        self.material.update(&self.small_seen(f), self.dt, old, new)?;
+        self.small_values(new, out);
+        Ok(())
+    }
+
+    /// New state, and in `out` the stress with its derivatives.
+    pub(super) fn small_stress_with_tangent<const D: usize>(
+        &self,
+        f: &Tensor2,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut PointStress<D>,
+    ) -> Result<(), Failure> {
+        let seen = self.small_seen(f);
+        self.material.differentiate(&seen, self.dt, old, (&mut *new, &mut out.law), self.directions())?;
+        let mut center = [0.0; 6];
+        if self.center.is_some() {
+            let traced = |d: &usize| matches!(place::<D>(*d), (i, j) if i == j && i < self.axes());
+            for (row, center) in out.law.iter_mut().zip(&mut center) {
+                *center = (0..D).filter(traced).map(|d| row[d]).sum::<f64>() / self.axes() as f64;
+                (0..D).filter(traced).for_each(|d| row[d] -= *center);
+            }
+        }
+        for d in 0..D {
+            let (i, j) = place::<D>(d);
+            out.along_center[d] = center[VOIGT[i][j]];
+            out.tangent[d].copy_from_slice(&out.law[VOIGT[i][j]][..D]);
+        }
+        self.small_values(new, out);
+        Ok(())
+    }
+
+    fn small_values<const D: usize>(&self, new: &[f64], out: &mut PointStress<D>) {
+        out.det = 1.0;
+        out.p = std::array::from_fn(|d| {
+            let (i, j) = place::<D>(d);
+            new[VOIGT[i][j]]
+        });
+    }
+}
+
+impl Body {
+    /// Thickness at a point in a state, for its weight; one in space and in the axisymmetric case.
+    pub(super) fn thickness(&self, state: &[f64]) -> f64 {
+        match (self.space, self.options.strain) {
+            (Space::PlaneStress, Strain::Finite) => self.options.thickness * state[self.material.state_len()],
+            (Space::PlaneStrain | Space::PlaneStress, _) => self.options.thickness,
+            (Space::Axisymmetric | Space::Solid, _) => 1.0,
+        }
+    }
+
+    /// Of a body in small strain the largest displacement gradient at an integration point: the root of the sum of the
+    /// squares of its components, rotation among them. Strains are wrong by a part of that order.
+    pub fn largest_gradient(&self, u: &[f64]) -> Option<f64> {
+        let of_cell = |&cell: &usize| self.gradient_of(cell, u);
+        let squares = || self.cells.iter().map(of_cell).fold(0.0, f64::max);
+        (self.options.strain == Strain::Small).then(|| squares().sqrt())
+    }
+
+    /// The largest square of a displacement gradient in a cell.
+    fn gradient_of(&self, cell: usize, u: &[f64]) -> f64 {
+        let (view, mut rows, mut largest) = (self.mesh.cell(cell), Vec::new(), 0.0_f64);
+        let x: Vec<_> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
+        for shapes in &self.shapes(view.kind).points {
+            rows.clear();
+            if gradient::at(shapes, &x, self.space, &mut rows).is_none() {
+                continue;
+            }
+            let length = rows.len() / 3;
+            let along = |axis: usize, row: usize| -> f64 {
+                let row = &rows[row * length..];
+                view.nodes.iter().zip(row).map(|(&node, g)| g * u[self.dofs.node(node) + axis]).sum()
+            };
+            let axes = self.dofs.per_node();
+            let of_axis = |i: usize| Vec3([0, 1, 2].map(|j| if j < axes || i == 0 { along(i, j) } else { 0.0 }));
+            largest = largest.max((0..axes).map(of_axis).map(|g| g.dot(g)).sum());
+        }
+        largest
+    }
+}

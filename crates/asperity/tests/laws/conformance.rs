@@ -79,7 +79,7 @@ fn tangents_are_those_of_differences_at_many_states() {
 }
 
 fn compare_tangents(seed: u64, states: usize) {
-    for sample in samples() {
+    for sample in samples().into_iter().chain(small_samples()) {
         let material = sample.material.as_ref();
         let (mut random, mut worst, mut kinks, mut compared) = (Random::new(seed), 0.0_f64, 0, 0);
         for _ in 0..states {
@@ -206,7 +206,7 @@ fn search_what_is_no_number(seed: u64, states: usize) {
 
 #[test]
 fn the_plain_update_is_the_one_with_the_tangent() {
-    for sample in samples() {
+    for sample in samples().into_iter().chain(small_samples()) {
         let material = sample.material.as_ref();
         let mut random = Random::new(6);
         for _ in 0..STATES / 10 {

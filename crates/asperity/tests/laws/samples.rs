@@ -45,6 +45,15 @@ pub fn samples() -> Vec<Sample> {
     decks().iter().flat_map(of).collect()
 }
 
+/// The same laws in small strain, those that have one.
+pub fn small_samples() -> Vec<Sample> {
+    let small = |Sample { name, law, material }| {
+        let material = material.with_small_strain().ok()?;
+        Some(Sample { name: format!("{name}, small strain"), law, material })
+    };
+    samples().into_iter().filter_map(small).collect()
+}
+
 /// Random numbers (xorshift), the same on every machine.
 pub struct Random(u64);
 

@@ -6,10 +6,11 @@
 
 The spheres of `cases/hertz-spheres`, axisymmetric, cells of eight nodes with reduced integration on like meshes, no friction,
 the diametral planes moved together by 3.7: about the force for which Hertz' radius is 10. CalculiX takes face-to-face contact,
-linear geometry and its laws of large strain; ours its rate law and neo-Hookean. Radius and largest pressure are those of the
-line through r^2 and p^2 by least squares, over those of Hertz for the force found. At CalculiX p is the stress along the axis at
-the nodes of the surface, which is per undeformed area if geometry is linear; nodes within a fifth of the radius from the axis
-are left out for both, as its elements at the axis are wedges that disturb it. Needs numpy and meshio.
+linear geometry and its laws of large strain; ours small strain, its rate law and neo-Hookean. Radius and largest pressure are
+those of the line through r^2 and p^2 by least squares, over those of Hertz for the force found. At CalculiX p is the stress along
+the axis at the nodes of the surface, which is per undeformed area if geometry is linear; ours in small strain is the force over the
+area that the undeformed surface has on the plane of contact. Radii are undeformed in both. Nodes within a fifth of the radius
+from the axis are left out for both, as its elements at the axis are wedges that disturb it. Needs numpy and meshio.
 """
 import argparse
 import csv
@@ -30,9 +31,11 @@ THEIRS = {
     "linear in Green's strain": (f"*ELASTIC\n{YOUNG}, {NU}", ", NLGEOM"),
     "neo-Hookean": (f"*HYPERELASTIC, NEO HOOKE\n{SHEAR / 2}, {2 / BULK}", ", NLGEOM"),
 }
+ELASTIC = f"elastic]\nyoung = {YOUNG}\npoisson = {NU}"
 OURS = {
-    "rate law": f"elastic]\nyoung = {YOUNG}\npoisson = {NU}",
-    "neo-Hookean": f"neo_hookean]\nshear = {SHEAR}\nbulk = {BULK}",
+    "small strain": (ELASTIC, "small"),
+    "rate law": (ELASTIC, "finite"),
+    "neo-Hookean": (f"neo_hookean]\nshear = {SHEAR}\nbulk = {BULK}", "finite"),
 }
 
 
@@ -130,7 +133,7 @@ def run_theirs(folder, refine, law, geometry):
     return 180 * float(totals[-1][1]), np.hypot(at[:, 0], at[:, 2]), pressure
 
 
-def run_ours(program, folder, refine, law):
+def run_ours(program, folder, refine, law, strain):
     folder.mkdir(parents=True, exist_ok=True)
     part = lambda name, centre, start, angles: f"""[mesh.part.{name}.annulus]
 centre = [0.0, {centre}]
@@ -145,7 +148,7 @@ cell = "quad8"
         + part("lower", -RADIUS, 0.0, f"{{ to = 74.0, cells = {far}, ratio = 0.15 }}, {{ to = 90.0, cells = {near} }}")
         + part("upper", RADIUS, -90.0, f"{{ to = -74.0, cells = {near} }}, {{ to = 0.0, cells = {far}, ratio = 6.7 }}")
         + f"[material.soft.{law}\n" + "".join(f'[body.{name}]\nmaterial = "soft"\nintegration = "reduced"\n'
-                                               for name in ("lower", "upper"))
+                                               f'strain = "{strain}"\n' for name in ("lower", "upper"))
         + f"""[contact.touch]
 surface = "lower.outer"
 target = "upper.outer"
@@ -160,8 +163,12 @@ increments.count = {INCREMENTS}
     timed([program, "run", "spheres.toml", "--out", "results", "--threads", "1"], folder)
     with open(folder / "results" / "history.csv") as table:
         force = float(list(csv.DictReader(table))[-1]["reaction.lower.start.y"])
-    last = meshio.read(max((folder / "results" / "contacts").glob("*.vtu")))
+    frames = (folder / "results" / "contacts").glob("*.vtu")
+    first, *_, last = map(meshio.read, sorted(frames))
     lower = last.point_data["contact"] == 0
+    if strain == "small":
+        area = first.point_data["contact_area"] * first.point_data["contact_normal"][:, 1]
+        return force, last.points[lower, 0], np.abs(last.point_data["contact_force"][:, 1] / area)[lower]
     return force, (last.points + last.point_data["displacement"])[lower, 0], last.point_data["contact_pressure"][lower]
 
 
@@ -184,8 +191,8 @@ def main():
     options = parser.parse_args()
     root = pathlib.Path(__file__).resolve().parents[2]
     program, where = str(root / "target/release/asperity"), options.directory.resolve()
-    for name, law in OURS.items():
-        tell(f"Asperity, {name}", *run_ours(program, where / "spheres_asperity", options.refine, law))
+    for name, (law, strain) in OURS.items():
+        tell(f"Asperity, {name}", *run_ours(program, where / "spheres_asperity", options.refine, law, strain))
     for name, (law, geometry) in THEIRS.items():
         tell(f"CalculiX, {name}", *run_theirs(where / "spheres_calculix", options.refine, law, geometry))
     return 0

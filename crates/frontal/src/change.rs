@@ -57,7 +57,7 @@ impl Change {
 
 impl<T: Number> Halves<'_, T> {
     /// `x <- (A + U V^T)^-1 x` for the equilibrated matrix. The second substitution begins where the first turned round.
-    pub fn substitute_changed(&self, change: &Change, x: &mut [f64], work: &mut Workspace) {
+    pub fn substitute_changed(&self, change: &Change, x: &mut [f64], work: &mut Workspace<T>) {
         let Factor { symbolic, scaling, .. } = self.factor;
         let position = |unknown: usize| symbolic.tree.position[unknown];
         let at = |list: &[Sparse]| list.iter().flatten().map(|&(unknown, _)| position(unknown)).collect::<Vec<_>>();
@@ -67,15 +67,15 @@ impl<T: Number> Halves<'_, T> {
             let halfway = work.x().to_vec();
             self.backward_to(&to, work);
             let x = work.x();
-            let weights = change.weights(|unknown| x[position(unknown) as usize] * scaling.columns[unknown]);
-            x.fill(0.0);
+            let weights = change.weights(|unknown| x[position(unknown) as usize].into() * scaling.columns[unknown]);
+            x.fill(T::round(0.0));
             for (column, weight) in change.columns.iter().zip(weights) {
                 for &(unknown, value) in column {
-                    x[position(unknown) as usize] -= weight * value * scaling.rows[unknown];
+                    x[position(unknown) as usize] -= T::round(weight * value * scaling.rows[unknown]);
                 }
             }
             self.forward_from(&from, work);
-            subtract(work.x(), -1.0, &halfway);
+            subtract(work.x(), T::round(-1.0), &halfway);
             self.backward(work);
         });
     }
@@ -90,11 +90,22 @@ pub(crate) struct Preconditioner<'a> {
     pub change: Option<&'a Change>,
 }
 
-impl<T: Number> Halves<'_, T> {
-    pub fn precondition(&self, change: Option<&Change>, x: &mut [f64], work: &mut Workspace) {
-        match change {
-            Some(change) => self.substitute_changed(change, x, work),
-            None => self.substitute(x, work),
+impl<'a> Preconditioner<'a> {
+    /// `x <- M^-1 x` for the equilibrated matrix that was factorised.
+    pub fn open(self, factor: &'a Factor) -> Box<dyn FnMut(&mut [f64]) + 'a> {
+        match self.single {
+            Some(single) => Box::new(single.open(self.change)),
+            None => Box::new(factor.halves().open(self.change)),
+        }
+    }
+}
+
+impl<'a, T: Number> Halves<'a, T> {
+    fn open(self, change: Option<&'a Change>) -> impl FnMut(&mut [f64]) + 'a {
+        let mut work = Workspace::new(self.factor);
+        move |x| match change {
+            Some(change) => self.substitute_changed(change, x, &mut work),
+            None => self.substitute(x, &mut work),
         }
     }
 }

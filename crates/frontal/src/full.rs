@@ -1,12 +1,11 @@
 //! A full matrix of moderate size, factorised by the kernels of the fronts.
 
 use crate::dense::{Panel, Pivot, PivotRule};
-use crate::panels::{Panels, backward_transposed, forward_transposed};
+use crate::panels::{BackwardTransposed, ForwardTransposed, Panels};
 use crate::together::exchange;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_unit_upper_triangular_in_place};
 use faer::{Accum, MatMut, MatRef, Par};
-use pulp::Arch;
 
 /// A full matrix `A`, factorised with partial pivoting. What is stored is `P A^T = L U`: the rows of `A` are the columns
 /// of the kernels.
@@ -47,13 +46,8 @@ impl Full {
         let n = self.pivots.len();
         assert_eq!(x.len(), n, "a vector for {n} rows");
         let panels = Panels { left: &self.factors, right: &[], pivots: &self.pivots, m: n, p: n, symmetric: false };
-        Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                forward_transposed(&panels, x);
-                backward_transposed(&panels, x);
-            },
-        );
+        panels.take::<ForwardTransposed>(x);
+        panels.take::<BackwardTransposed>(x);
     }
 
     /// `x <- A^-1 x` for `width` vectors that lie next to each other: `x` holds a row of numbers for each unknown.

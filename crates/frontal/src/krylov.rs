@@ -6,7 +6,6 @@ use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
 use crate::recycle::{Outer, orthogonalise};
 use crate::refine::check_finite;
-use crate::solve::Workspace;
 use crate::vector::{norm, subtract};
 
 /// When an iterative solution ends.
@@ -69,8 +68,8 @@ impl Factor {
         }
         pattern.check_finite(values)?;
         check_finite(rhs, pattern.len())?;
-        let (work, scaled) = (Workspace::new(self), rhs.to_vec());
-        let mut system = OtherValues { factor: self, matrix: (pattern, values), preconditioner, work, scaled };
+        let (precondition, scaled) = (preconditioner.open(self), rhs.to_vec());
+        let mut system = OtherValues { factor: self, matrix: (pattern, values), precondition, scaled };
         let mut x = vec![0.0; rhs.len()];
         scale(rhs, &self.scaling.rows);
         if !same {
@@ -95,8 +94,7 @@ pub(crate) trait System {
 struct OtherValues<'a> {
     factor: &'a Factor,
     matrix: (&'a Pattern, &'a [f64]),
-    preconditioner: Preconditioner<'a>,
-    work: Workspace,
+    precondition: Box<dyn FnMut(&mut [f64]) + 'a>,
     scaled: Vec<f64>,
 }
 
@@ -110,11 +108,7 @@ impl System for OtherValues<'_> {
     }
 
     fn precondition(&mut self, x: &mut [f64]) {
-        let Preconditioner { single, change } = self.preconditioner;
-        match single {
-            Some(single) => single.precondition(change, x, &mut self.work),
-            None => self.factor.halves().precondition(change, x, &mut self.work),
-        }
+        (self.precondition)(x);
     }
 }
 

@@ -1,6 +1,8 @@
 //! What a substitution does at one front.
 
-use crate::vector::{Number, dot, dot_four, subtract, subtract_four};
+use crate::vector::{Number, subtract};
+use pulp::{Arch, Simd, WithSimd};
+use std::marker::PhantomData;
 
 /// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) has `m - p` rows and is missing if
 /// the matrix is symmetric.
@@ -21,26 +23,57 @@ impl<T: Number> Panels<'_, T> {
 
     /// Row `k` of U12, as a factor and a column to be multiplied with it.
     #[inline(always)]
-    fn right(&self, k: usize) -> (f64, &[T]) {
+    fn right(&self, k: usize) -> (T, &[T]) {
         let border = self.m - self.p;
         match self.symmetric {
-            true => (self.left(k)[k].into(), &self.left(k)[self.p..]),
-            false => (1.0, &self.right[border * k..border * (k + 1)]),
+            true => (self.left(k)[k], &self.left(k)[self.p..]),
+            false => (T::round(1.0), &self.right[border * k..border * (k + 1)]),
         }
     }
 }
 
-/// What is done at a front. Not a closure, since only what is inlined into [`pulp::Arch::dispatch`] is compiled
-/// for the processor at hand.
+/// What is done at a front, inlined into what [`Arch::dispatch`] compiles for the processor at hand.
 pub(crate) trait Step {
-    fn run<T: Number>(panels: &Panels<T>, x: &mut [f64]);
+    fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]);
 }
 
+impl<T: Number> Panels<'_, T> {
+    /// Takes a step on the unknowns of the front, pivots first.
+    pub fn take<Taken: Step>(&self, x: &mut [T]) {
+        Arch::new().dispatch(At { panels: self, x, step: PhantomData::<Taken> });
+    }
+}
+
+/// Not a closure, which would not be told of the vectors.
+struct At<'a, T, Taken> {
+    panels: &'a Panels<'a, T>,
+    x: &'a mut [T],
+    step: PhantomData<Taken>,
+}
+
+impl<T: Number, Taken: Step> WithSimd for At<'_, T, Taken> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        Taken::run(simd, self.panels, self.x);
+    }
+}
+
+// The columns of a front follow each other in memory: one after the other is how they are read fastest.
+
+/// `[L11; L21]` downwards.
 pub(crate) struct Forward;
 impl Step for Forward {
     #[inline(always)]
-    fn run<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-        forward(panels, x);
+    fn run<T: Number, S: Simd>(_: S, panels: &Panels<T>, x: &mut [T]) {
+        for (k, pivot) in panels.pivots.iter().enumerate() {
+            x.swap(k, pivot.row as usize);
+        }
+        for k in 0..panels.p {
+            let (done, rest) = x.split_at_mut(k + 1);
+            subtract(rest, done[k], &panels.left(k)[k + 1..]);
+        }
     }
 }
 
@@ -48,127 +81,57 @@ impl Step for Forward {
 pub(crate) struct SparseForward;
 impl Step for SparseForward {
     #[inline(always)]
-    fn run<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-        if x[..panels.p].iter().any(|x| *x != 0.0) {
-            forward(panels, x);
+    fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]) {
+        if x[..panels.p].iter().any(|x| *x != T::round(0.0)) {
+            Forward::run(simd, panels, x);
         }
-    }
-}
-
-pub(crate) struct Backward;
-impl Step for Backward {
-    #[inline(always)]
-    fn run<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-        backward(panels, x);
-    }
-}
-
-pub(crate) struct ForwardTransposed;
-impl Step for ForwardTransposed {
-    #[inline(always)]
-    fn run<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-        forward_transposed(panels, x);
-    }
-}
-
-pub(crate) struct BackwardTransposed;
-impl Step for BackwardTransposed {
-    #[inline(always)]
-    fn run<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-        backward_transposed(panels, x);
-    }
-}
-
-/// Columns taken together: the vectors they are combined with are then loaded and stored less often than they are.
-const WIDTH: usize = 4;
-
-/// `[L11; L21]` downwards.
-#[inline(always)]
-fn forward<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-    for (k, pivot) in panels.pivots.iter().enumerate() {
-        x.swap(k, pivot.row as usize);
-    }
-    for start in (0..panels.p).step_by(WIDTH) {
-        let end = (start + WIDTH).min(panels.p);
-        let (done, rest) = x.split_at_mut(end);
-        for k in start..end {
-            let value = done[k];
-            subtract(&mut done[k + 1..], value, &panels.left(k)[k + 1..end]);
-        }
-        subtract_columns(rest, &done[start..], |k| &panels.left(start + k)[end..]);
     }
 }
 
 /// `[U11 U12]` upwards.
-#[inline(always)]
-fn backward<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-    let (x, border) = x.split_at_mut(panels.p);
-    for start in (0..panels.p).step_by(WIDTH) {
-        let end = (start + WIDTH).min(panels.p);
-        let sums = dot_columns(border, end - start, |k| panels.right(start + k).1);
-        (start..end).for_each(|k| x[k] -= panels.right(k).0 * sums[k - start]);
-    }
-    for start in (0..panels.p).step_by(WIDTH).rev() {
-        let end = (start + WIDTH).min(panels.p);
-        for k in (start..end).rev() {
-            let column = panels.left(k);
-            x[k] /= column[k].into();
-            let value = x[k];
-            subtract(&mut x[start..k], value, &column[start..k]);
+pub(crate) struct Backward;
+impl Step for Backward {
+    #[inline(always)]
+    fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]) {
+        let (x, border) = x.split_at_mut(panels.p);
+        for (k, x) in x.iter_mut().enumerate() {
+            let (factor, column) = panels.right(k);
+            *x -= factor * T::dot(simd, column, border);
         }
-        let (rest, done) = x.split_at_mut(start);
-        subtract_columns(rest, &done[..end - start], |k| &panels.left(start + k)[..start]);
+        for k in (0..panels.p).rev() {
+            let column = panels.left(k);
+            x[k] /= column[k];
+            let (rest, done) = x.split_at_mut(k);
+            subtract(rest, done[0], column);
+        }
     }
 }
 
 /// `[U11 U12]^T` downwards.
-#[inline(always)]
-pub(crate) fn forward_transposed<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-    let (x, border) = x.split_at_mut(panels.p);
-    for start in (0..panels.p).step_by(WIDTH) {
-        let end = (start + WIDTH).min(panels.p);
-        let sums = dot_columns(&x[..start], end - start, |k| &panels.left(start + k)[..start]);
-        for k in start..end {
-            let column = panels.left(k);
-            x[k] = (x[k] - sums[k - start] - dot(&column[start..k], &x[start..k])) / column[k].into();
+pub(crate) struct ForwardTransposed;
+impl Step for ForwardTransposed {
+    #[inline(always)]
+    fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]) {
+        let (x, border) = x.split_at_mut(panels.p);
+        for k in 0..panels.p {
+            let (column, (factor, right)) = (panels.left(k), panels.right(k));
+            x[k] = (x[k] - T::dot(simd, &column[..k], &x[..k])) / column[k];
+            subtract(border, factor * x[k], right);
         }
-        let mut scaled = [0.0; WIDTH];
-        (start..end).for_each(|k| scaled[k - start] = panels.right(k).0 * x[k]);
-        subtract_columns(border, &scaled[..end - start], |k| panels.right(start + k).1);
     }
 }
 
 /// `[L11; L21]^T` upwards.
-#[inline(always)]
-pub(crate) fn backward_transposed<T: Number>(panels: &Panels<T>, x: &mut [f64]) {
-    for start in (0..panels.p).step_by(WIDTH).rev() {
-        let end = (start + WIDTH).min(panels.p);
-        let sums = dot_columns(&x[end..], end - start, |k| &panels.left(start + k)[end..]);
-        for k in (start..end).rev() {
-            x[k] -= sums[k - start] + dot(&panels.left(k)[k + 1..end], &x[k + 1..end]);
+pub(crate) struct BackwardTransposed;
+impl Step for BackwardTransposed {
+    #[inline(always)]
+    fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]) {
+        for k in (0..panels.p).rev() {
+            let (done, rest) = x.split_at_mut(k + 1);
+            done[k] -= T::dot(simd, &panels.left(k)[k + 1..], rest);
+        }
+        for (k, pivot) in panels.pivots.iter().enumerate().rev() {
+            x.swap(k, pivot.row as usize);
         }
     }
-    for (k, pivot) in panels.pivots.iter().enumerate().rev() {
-        x.swap(k, pivot.row as usize);
-    }
-}
-
-/// `y <- y - sum of factor times column`.
-#[inline(always)]
-fn subtract_columns<'a, T: Number + 'a>(y: &mut [f64], factors: &[f64], column: impl Fn(usize) -> &'a [T]) {
-    match *factors {
-        [a, b, c, d] => subtract_four(y, [a, b, c, d], [column(0), column(1), column(2), column(3)]),
-        _ => factors.iter().enumerate().for_each(|(k, &factor)| subtract(y, factor, column(k))),
-    }
-}
-
-/// Products of `count` columns with `y`.
-#[inline(always)]
-fn dot_columns<'a, T: Number + 'a>(y: &[f64], count: usize, column: impl Fn(usize) -> &'a [T]) -> [f64; WIDTH] {
-    if count == WIDTH {
-        return dot_four(y, [column(0), column(1), column(2), column(3)]);
-    }
-    let mut sums = [0.0; WIDTH];
-    (0..count).for_each(|k| sums[k] = dot(column(k), y));
-    sums
 }

@@ -30,7 +30,7 @@ enum Side {
 }
 
 impl Side {
-    fn substitute(self, factor: &Factor, x: &mut [f64], work: &mut Workspace) {
+    fn substitute(self, factor: &Factor, x: &mut [f64], work: &mut Workspace<f64>) {
         match self {
             Side::Plain => factor.substitute(x, work),
             Side::Transposed => factor.substitute_transposed(x, work),
@@ -42,7 +42,7 @@ impl Side {
 struct Perturbed<'a> {
     factor: &'a Factor,
     side: Side,
-    work: &'a mut Workspace,
+    work: &'a mut Workspace<f64>,
 }
 
 impl System for Perturbed<'_> {
@@ -109,7 +109,7 @@ pub(crate) fn check_finite(rhs: &[f64], n: usize) -> Result<(), Error> {
 struct Refinement<'a> {
     factor: &'a Factor,
     side: Side,
-    work: Workspace,
+    work: Workspace<f64>,
     x: Vec<f64>,
     residual: Vec<f64>,
     /// `|A| |x| + |b|`.

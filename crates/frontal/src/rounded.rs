@@ -62,9 +62,12 @@ impl Rounded {
 
     fn spoils_little(&self, factor: &Factor, b: &[f64]) -> bool {
         let mut residual: Vec<f64> = b.iter().zip(&factor.scaling.rows).map(|(b, scale)| b * scale).collect();
-        let (size, mut x) = (norm(&residual), residual.clone());
+        let size = norm(&residual).max(f64::MIN_POSITIVE);
+        // Of length one, as all that is preconditioned: single precision has less range.
+        residual.iter_mut().for_each(|r| *r /= size);
+        let mut x = residual.clone();
         Halves { factor, entries: &self.entries }.substitute(&mut x, &mut Workspace::new(factor));
         subtract(&mut residual, 1.0, &factor.times(&x));
-        norm(&residual) <= SPOILT * size
+        norm(&residual) <= SPOILT
     }
 }

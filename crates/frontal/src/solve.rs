@@ -4,24 +4,23 @@ use crate::assembly_tree::Front;
 use crate::factor::Factor;
 use crate::panels::{Backward, BackwardTransposed, Forward, ForwardTransposed, Panels, SparseForward, Step};
 use crate::vector::Number;
-use pulp::{Arch, NullaryFnOnce};
-use std::marker::PhantomData;
 
 /// Working memory of a solve, in elimination order.
-pub(crate) struct Workspace {
-    x: Vec<f64>,
+pub(crate) struct Workspace<T> {
+    x: Vec<T>,
     /// Gathered unknowns of one front.
-    local: Vec<f64>,
+    local: Vec<T>,
 }
 
-impl Workspace {
+impl<T: Number> Workspace<T> {
     pub fn new(factor: &Factor) -> Self {
         let symbolic = &factor.symbolic;
-        Workspace { x: vec![0.0; symbolic.pattern.len()], local: vec![0.0; symbolic.prediction.largest_front] }
+        let zeros = |n| vec![T::round(0.0); n];
+        Workspace { x: zeros(symbolic.pattern.len()), local: zeros(symbolic.prediction.largest_front) }
     }
 
     /// The vector.
-    pub fn x(&mut self) -> &mut [f64] {
+    pub fn x(&mut self) -> &mut [T] {
         &mut self.x
     }
 }
@@ -33,12 +32,12 @@ impl Factor {
     }
 
     /// `x <- A^-1 x` for the equilibrated matrix as it was factorised, perturbed pivots included.
-    pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
+    pub(crate) fn substitute(&self, x: &mut [f64], work: &mut Workspace<f64>) {
         self.halves().substitute(x, work);
     }
 
     /// `x <- A^-T x`.
-    pub(crate) fn substitute_transposed(&self, x: &mut [f64], work: &mut Workspace) {
+    pub(crate) fn substitute_transposed(&self, x: &mut [f64], work: &mut Workspace<f64>) {
         let halves = self.halves();
         self.permuted(x, work, |work| {
             for front in &self.symbolic.tree.fronts {
@@ -50,11 +49,16 @@ impl Factor {
         });
     }
 
-    pub(crate) fn permuted(&self, x: &mut [f64], work: &mut Workspace, solve: impl Fn(&mut Workspace)) {
+    pub(crate) fn permuted<T: Number>(
+        &self,
+        x: &mut [f64],
+        work: &mut Workspace<T>,
+        solve: impl Fn(&mut Workspace<T>),
+    ) {
         let order = &self.symbolic.tree.order;
-        work.x.iter_mut().zip(order).for_each(|(permuted, &unknown)| *permuted = x[unknown as usize]);
+        work.x.iter_mut().zip(order).for_each(|(permuted, &unknown)| *permuted = T::round(x[unknown as usize]));
         solve(work);
-        work.x.iter().zip(order).for_each(|(permuted, &unknown)| x[unknown as usize] = *permuted);
+        work.x.iter().zip(order).for_each(|(permuted, &unknown)| x[unknown as usize] = (*permuted).into());
     }
 }
 
@@ -67,7 +71,7 @@ pub(crate) struct Halves<'a, T> {
 
 impl<T: Number> Halves<'_, T> {
     /// `x <- A^-1 x`.
-    pub fn substitute(&self, x: &mut [f64], work: &mut Workspace) {
+    pub fn substitute(&self, x: &mut [f64], work: &mut Workspace<T>) {
         self.factor.permuted(x, work, |work| {
             self.forward(work);
             self.backward(work);
@@ -75,17 +79,17 @@ impl<T: Number> Halves<'_, T> {
     }
 
     /// The first half.
-    pub fn forward(&self, work: &mut Workspace) {
+    pub fn forward(&self, work: &mut Workspace<T>) {
         self.factor.symbolic.tree.fronts.iter().for_each(|front| self.at_front::<Forward>(front, work));
     }
 
     /// The second half.
-    pub fn backward(&self, work: &mut Workspace) {
+    pub fn backward(&self, work: &mut Workspace<T>) {
         self.factor.symbolic.tree.fronts.iter().rev().for_each(|front| self.at_front::<Backward>(front, work));
     }
 
     /// The first half where only the entries `from` are not zero.
-    pub fn forward_from(&self, from: &[u32], work: &mut Workspace) {
+    pub fn forward_from(&self, from: &[u32], work: &mut Workspace<T>) {
         let tree = &self.factor.symbolic.tree;
         for (front, _) in tree.fronts.iter().zip(tree.above(from)).filter(|(_, reached)| *reached) {
             self.at_front::<SparseForward>(front, work);
@@ -93,7 +97,7 @@ impl<T: Number> Halves<'_, T> {
     }
 
     /// The second half where only the entries `to` are needed.
-    pub fn backward_to(&self, to: &[u32], work: &mut Workspace) {
+    pub fn backward_to(&self, to: &[u32], work: &mut Workspace<T>) {
         let tree = &self.factor.symbolic.tree;
         for (front, _) in tree.fronts.iter().zip(tree.above(to)).rev().filter(|(_, needed)| *needed) {
             self.at_front::<Backward>(front, work);
@@ -108,9 +112,8 @@ impl<T: Number> Halves<'_, T> {
     }
 
     /// Gathers the unknowns of a front, pivots first, takes a step on them and scatters them.
-    pub fn at_front<S: Step>(&self, front: &Front, work: &mut Workspace) {
+    pub fn at_front<S: Step>(&self, front: &Front, work: &mut Workspace<T>) {
         let symbolic = &self.factor.symbolic;
-        let panels = self.panels(front);
         let Workspace { x, local } = work;
         let local = &mut local[..front.size()];
         let (top, border) = local.split_at_mut(front.pivots);
@@ -118,26 +121,11 @@ impl<T: Number> Halves<'_, T> {
         for (value, &row) in border.iter_mut().zip(symbolic.tree.rows(front)) {
             *value = x[row as usize];
         }
-        Arch::new().dispatch(At { panels: &panels, x: local, step: PhantomData::<S> });
+        self.panels(front).take::<S>(local);
         let (top, border) = local.split_at(front.pivots);
         x[front.pivot_range()].copy_from_slice(top);
         for (value, &row) in border.iter().zip(symbolic.tree.rows(front)) {
             x[row as usize] = *value;
         }
-    }
-}
-
-/// A step at the unknowns of one front.
-struct At<'a, T, S> {
-    panels: &'a Panels<'a, T>,
-    x: &'a mut [f64],
-    step: PhantomData<S>,
-}
-
-impl<T: Number, S: Step> NullaryFnOnce for At<'_, T, S> {
-    type Output = ();
-    #[inline(always)]
-    fn call(self) {
-        S::run(self.panels, self.x);
     }
 }

@@ -5,7 +5,7 @@ use crate::assembly_tree::Front;
 use crate::factor::Factor;
 use crate::panels::Panels;
 use crate::solve::Halves;
-use crate::vector::Number;
+use crate::vector::{Number, subtract};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use pulp::Arch;
@@ -134,12 +134,6 @@ impl<'a, T: Number> Part<'a, T> {
         let part = all.get(self.rows.clone(), self.columns.clone());
         if self.transposed { part.transpose() } else { part }
     }
-}
-
-/// `y <- y - factor x`.
-#[inline(always)]
-fn subtract<T: Number>(y: &mut [T], factor: T, x: &[T]) {
-    y.iter_mut().zip(x).for_each(|(y, x)| *y -= factor * *x);
 }
 
 /// `y <- y - part x`, where rows have this width.

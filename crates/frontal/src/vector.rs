@@ -1,83 +1,72 @@
-//! Sums over vectors, in an order that depends on nothing but their length.
+//! Sums over vectors, in an order that depends on nothing but their length and the processor's vectors.
 
 use faer::traits::RealField;
+use pulp::{Arch, Simd, WithSimd};
 
 /// A number of a factor, which may be stored in single precision.
 pub(crate) trait Number: RealField + Copy + Into<f64> {
     /// The nearest one.
     fn round(x: f64) -> Self;
+
+    /// Sum of products, to be inlined into what [`Arch::dispatch`] compiles.
+    fn dot<S: Simd>(simd: S, x: &[Self], y: &[Self]) -> Self;
 }
 
-impl Number for f64 {
-    fn round(x: f64) -> Self {
-        x
-    }
+macro_rules! number {
+    ($real:ty: $vectors:ident, $splat:ident, $add:ident, $multiply_add:ident, $sum:ident) => {
+        impl Number for $real {
+            fn round(x: f64) -> Self {
+                x as Self
+            }
+
+            // Written out for each: compilers make a poor job of sums in many parts. Four of them hide the time an
+            // addition takes.
+            #[inline(always)]
+            fn dot<S: Simd>(simd: S, x: &[Self], y: &[Self]) -> Self {
+                let ((x, x_rest), (y, y_rest)) = (S::$vectors(x), S::$vectors(y));
+                let ((x, x_last), (y, y_last)) = (x.as_chunks::<4>(), y.as_chunks::<4>());
+                let mut sums = [simd.$splat(0.0); 4];
+                for (x, y) in x.iter().zip(y) {
+                    (0..4).for_each(|k| sums[k] = simd.$multiply_add(x[k], y[k], sums[k]));
+                }
+                for (k, (x, y)) in x_last.iter().zip(y_last).enumerate() {
+                    sums[k] = simd.$multiply_add(*x, *y, sums[k]);
+                }
+                let sum = simd.$add(simd.$add(sums[0], sums[1]), simd.$add(sums[2], sums[3]));
+                x_rest.iter().zip(y_rest).fold(simd.$sum(sum), |sum, (x, y)| sum + x * y)
+            }
+        }
+    };
 }
 
-impl Number for f32 {
-    fn round(x: f64) -> Self {
-        x as f32
-    }
-}
+number!(f32: as_simd_f32s, splat_f32s, add_f32s, mul_add_e_f32s, reduce_sum_f32s);
+number!(f64: as_simd_f64s, splat_f64s, add_f64s, mul_add_e_f64s, reduce_sum_f64s);
 
 /// `y <- y - factor x`.
 #[inline(always)]
-pub(crate) fn subtract<T: Number>(y: &mut [f64], factor: f64, x: &[T]) {
+pub(crate) fn subtract<T: Number>(y: &mut [T], factor: T, x: &[T]) {
     for (y, x) in y.iter_mut().zip(x) {
-        *y -= factor * (*x).into();
+        *y -= factor * *x;
     }
 }
 
-/// `y <- y - sum of factor times x`, with one load and one store of `y`.
-#[inline(always)]
-pub(crate) fn subtract_four<T: Number>(y: &mut [f64], factors: [f64; 4], columns: [&[T]; 4]) {
-    let [a, b, c, d] = columns.map(|column| &column[..y.len()]);
-    for (i, y) in y.iter_mut().enumerate() {
-        *y -= (factors[0] * a[i].into() + factors[1] * b[i].into())
-            + (factors[2] * c[i].into() + factors[3] * d[i].into());
-    }
+/// Sum of products.
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    Arch::new().dispatch(Dot { x, y })
 }
 
-/// Sums of products with four vectors.
-#[inline(always)]
-pub(crate) fn dot_four<T: Number>(y: &[f64], columns: [&[T]; 4]) -> [f64; 4] {
-    const LANES: usize = 8;
-    let columns = columns.map(|column| &column[..y.len()]);
-    let mut sums = [[0.0; LANES]; 4];
-    let whole = y.len() / LANES * LANES;
-    for start in (0..whole).step_by(LANES) {
-        let y = &y[start..start + LANES];
-        for (sums, column) in sums.iter_mut().zip(columns) {
-            let column = &column[start..start + LANES];
-            (0..LANES).for_each(|lane| sums[lane] += column[lane].into() * y[lane]);
-        }
-    }
-    let mut totals = [0.0; 4];
-    for ((total, sums), column) in totals.iter_mut().zip(&sums).zip(columns) {
-        let tail = column[whole..].iter().zip(&y[whole..]).map(|(&x, y)| x.into() * y).sum::<f64>();
-        *total = add_lanes(sums) + tail;
-    }
-    totals
+struct Dot<'a> {
+    x: &'a [f64],
+    y: &'a [f64],
 }
 
-/// Sum of products, in eight interleaved parts so that it vectorises.
-#[inline(always)]
-pub(crate) fn dot<T: Number>(x: &[T], y: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (x_parts, y_parts) = (x.chunks_exact(8), y.chunks_exact(8));
-    let tail = x_parts.remainder().iter().zip(y_parts.remainder()).map(|(&x, y)| x.into() * y).sum::<f64>();
-    for (x, y) in x_parts.zip(y_parts) {
-        for lane in 0..8 {
-            sums[lane] += x[lane].into() * y[lane];
-        }
-    }
-    add_lanes(&sums) + tail
-}
+impl WithSimd for Dot<'_> {
+    type Output = f64;
 
-#[inline(always)]
-fn add_lanes(sums: &[f64; 8]) -> f64 {
-    let half = [sums[0] + sums[4], sums[1] + sums[5], sums[2] + sums[6], sums[3] + sums[7]];
-    (half[0] + half[2]) + (half[1] + half[3])
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        f64::dot(simd, self.x, self.y)
+    }
 }
 
 pub(crate) fn norm(x: &[f64]) -> f64 {

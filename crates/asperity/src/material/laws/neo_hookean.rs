@@ -60,7 +60,7 @@ impl HyperLaw for NeoHookean {
     /// With `dJ = J/2 b^-1 : db`.
     fn stress_with_slopes(&self, b: &Tensor2, slopes: &mut Slopes) -> Result<Tensor2, Failure> {
         let (j, [xx, yy, zz, xy, yz, xz]) = (b.det().sqrt(), b.inverse().to_voigt());
-        let (scale, volume) = (self.shear / j.cbrt().powi(5), [xx, yy, zz, 2.0 * xy, 2.0 * yz, 2.0 * xz]);
+        let (scale, volume) = (self.shear * (-5.0 / 3.0 * j.ln()).exp(), [xx, yy, zz, 2.0 * xy, 2.0 * yz, 2.0 * xz]);
         let (shape, normal) = ((b.deviator() * scale).to_voigt(), 0.25 * self.bulk * (j + 1.0 / j));
         for (r, row) in slopes.iter_mut().enumerate() {
             let along = -5.0 / 6.0 * shape[r] + if r < 3 { normal } else { 0.0 };
@@ -75,7 +75,7 @@ impl HyperLaw for NeoHookean {
 
     fn energy(&self, b: &Tensor2) -> f64 {
         let j = b.det().sqrt();
-        let shape = b.trace() / j.cbrt().powi(2);
+        let shape = b.trace() * (-2.0 / 3.0 * j.ln()).exp();
         0.5 * self.shear * (shape - 3.0) + volume_energy(self.bulk, j)
     }
 }

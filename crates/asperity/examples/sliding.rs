@@ -137,8 +137,9 @@ fn slide(model: &Model, factors: Factors) -> [f64; 2] {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let model = model(&arguments);
-    let [fresh, attempt, auto] =
-        [Factors::Fresh, Factors::Attempt, Factors::Auto].map(|factors| slide(&model, factors));
+    let all = [Factors::Fresh, Factors::Attempt, Factors::Auto];
+    // On a thread of the pool, as the program runs: from outside, every parallel loop would hand over to it and wait.
+    let [fresh, attempt, auto] = rayon::scope(|_| all.map(|factors| slide(&model, factors)));
     for (name, times) in [("attempt", attempt), ("auto", auto)] {
         println!("{name} / fresh: run {:.2}, linear solver {:.2}", times[0] / fresh[0], times[1] / fresh[1]);
     }

@@ -34,6 +34,15 @@ impl Pattern {
         Ok(Pattern { starts, columns, node_of: None })
     }
 
+    /// The same for a pattern that is known to keep the rules, which only debug builds check.
+    ///
+    /// # Panics
+    /// Later, where it does not.
+    pub fn trusted(starts: Arc<Vec<usize>>, columns: Arc<Vec<usize>>) -> Self {
+        debug_assert!(Self::sharing(starts.clone(), columns.clone()).is_ok(), "a pattern that breaks the rules");
+        Pattern { starts, columns, node_of: None }
+    }
+
     /// Names the node of every unknown, so that the ordering works on the smaller graph of the nodes. Nodes may be
     /// numbered in any way and may have any number of unknowns.
     ///

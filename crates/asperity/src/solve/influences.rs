@@ -192,10 +192,8 @@ impl Influences {
             loads.iter().map(|load| self.sum(load)).collect()
         };
         let rows = transposed(&motions, self.at.len());
-        let at_wanted = |rows: &[f64]| -> Vec<f64> {
-            wanted.iter().flat_map(|place| &rows[place * loads.len()..][..loads.len()]).copied().collect()
-        };
-        let mut right = at_wanted(&rows);
+        let mut right = Vec::with_capacity(wanted.len() * loads.len());
+        wanted.iter().for_each(|place| right.extend_from_slice(&rows[place * loads.len()..][..loads.len()]));
         if let Some((unknowns, change)) = &self.change {
             self.put_right((unknowns, change), (&rows, loads.len()), (&mut right, wanted));
         }
@@ -217,15 +215,19 @@ impl Influences {
         (right, wanted): (&mut [f64], &[usize]),
     ) {
         let weights = change.weights_together(width, |unknown| &motions[self.place(unknown) * width..][..width]);
-        let columns = unknowns.iter().map(|unknown| &self.columns[unknown]);
-        let columns: Vec<f64> = columns.flat_map(|column| wanted.iter().map(|&place| column[place])).collect();
+        let mut columns = Vec::with_capacity(unknowns.len() * wanted.len());
+        for column in unknowns.iter().map(|unknown| &self.columns[unknown]) {
+            columns.extend(wanted.iter().map(|&place| column[place]));
+        }
         subtract_product(right, &columns, &weights, width);
     }
 }
 
 /// Vectors of this length, number after number.
 fn transposed(vectors: &[Vec<f64>], length: usize) -> Vec<f64> {
-    (0..length).flat_map(|k| vectors.iter().map(move |vector| vector[k])).collect()
+    let mut rows = Vec::with_capacity(vectors.len() * length);
+    (0..length).for_each(|k| rows.extend(vectors.iter().map(|vector| vector[k])));
+    rows
 }
 
 /// `y <- y + factor x`.

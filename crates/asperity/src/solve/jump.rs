@@ -41,7 +41,7 @@ impl Influences {
         solver: &dyn LinearSolver,
     ) -> Result<Option<Change>, Failure> {
         self.change = None;
-        let mut near: BTreeSet<usize> = self.closed.union(&site.closed()?).copied().collect();
+        let mut near: Vec<usize> = self.closed.union(&site.closed()?).copied().collect();
         near.retain(|unknown| self.at.binary_search(unknown).is_ok());
         let changed = near.iter().filter_map(|&row| {
             let change = difference(matrix.row(row), solver.row(row), &near)?;
@@ -77,11 +77,18 @@ impl Influences {
     }
 }
 
-/// What has changed of a row among these unknowns, if that is much.
-fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &BTreeSet<usize>) -> Option<Sparse> {
+/// What has changed of a row among these unknowns, if that is much; all are in ascending order.
+fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &[usize]) -> Option<Sparse> {
     let largest = now.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let mut changed: BTreeMap<usize, f64> = columns.iter().copied().zip(now.iter().copied()).collect();
-    then.into_iter().for_each(|(column, value)| *changed.entry(column).or_default() -= value);
-    changed.retain(|column, value| *value != 0.0 && among.contains(column));
-    changed.values().any(|value| value.abs() > CHANGED * largest).then(|| changed.into_iter().collect())
+    let then = then.into_iter().map(|(column, value)| (column, -value));
+    let mut changed: Sparse = then.chain(columns.iter().copied().zip(now.iter().copied())).collect();
+    changed.retain(|(column, _)| among.binary_search(column).is_ok());
+    changed.sort_by_key(|(column, _)| *column);
+    changed.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        kept.1 += if same { next.1 } else { 0.0 };
+        same
+    });
+    changed.retain(|(_, value)| *value != 0.0);
+    changed.iter().any(|(_, value)| value.abs() > CHANGED * largest).then_some(changed)
 }

@@ -154,10 +154,6 @@ fn translate(error: frontal::Error) -> LinearError {
     }
 }
 
-fn pattern_of(pattern: &Csr) -> Result<Pattern, frontal::Error> {
-    Pattern::sharing(pattern.starts.clone(), pattern.columns.clone())
-}
-
 /// Unknowns that couple to very many others, such as those of a tool's reference node: the rule by which minimum degree
 /// orderings put dense rows last (Amestoy, Davis & Duff, ACM TOMS 30, 2004).
 fn dense_rows(pattern: &Csr) -> Vec<usize> {
@@ -170,7 +166,8 @@ impl LinearSolver for Frontal {
     fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
         let mut options = Options::default();
         options.last = dense_rows(pattern);
-        let pattern = pattern_of(pattern).and_then(|p| p.with_nodes(nodes)).map_err(translate)?;
+        let pattern = Pattern::sharing(pattern.starts.clone(), pattern.columns.clone());
+        let pattern = pattern.and_then(|pattern| pattern.with_nodes(nodes)).map_err(translate)?;
         if let Some(solver) = self.solver.as_mut().filter(|solver| *solver.symbolic().pattern() == pattern) {
             solver.refuse();
             return solver.follow(pattern).map_err(translate);
@@ -187,7 +184,8 @@ impl LinearSolver for Frontal {
         let Some(solver) = self.solver.as_mut().filter(|solver| solver.affordable_iterations() > 0) else {
             return false;
         };
-        pattern_of(pattern).and_then(|pattern| solver.follow(pattern)).is_ok()
+        // Each increment has its own, made by the same rules as the first.
+        solver.follow(Pattern::trusted(pattern.starts.clone(), pattern.columns.clone())).is_ok()
     }
 
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {

@@ -43,7 +43,7 @@ pub struct Policy {
 
 impl Default for Policy {
     fn default() -> Self {
-        Policy { reuse: Reuse::default(), share: 0.8, least_iterations: 6 }
+        Policy { reuse: Reuse::default(), share: 0.8, least_iterations: 9 }
     }
 }
 

@@ -36,7 +36,7 @@ impl Prediction {
 
     /// Work of one solution in the same unit: each number of the factor is read once.
     pub fn solve_work(&self) -> f64 {
-        45.0 * self.factor_entries as f64
+        30.0 * self.factor_entries as f64
     }
 }
 

@@ -81,6 +81,9 @@ impl<T: Number> Halves<'_, T> {
     }
 }
 
+/// What is done to a vector: `x <- M^-1 x`.
+pub(crate) type Map<'a> = Box<dyn FnMut(&mut [f64]) + 'a>;
+
 /// What a factor is taken with.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Preconditioner<'a> {
@@ -92,7 +95,7 @@ pub(crate) struct Preconditioner<'a> {
 
 impl<'a> Preconditioner<'a> {
     /// `x <- M^-1 x` for the equilibrated matrix that was factorised.
-    pub fn open(self, factor: &'a Factor) -> Box<dyn FnMut(&mut [f64]) + 'a> {
+    pub fn open(self, factor: &'a Factor) -> Map<'a> {
         match self.single {
             Some(single) => Box::new(single.open(self.change)),
             None => Box::new(factor.halves().open(self.change)),

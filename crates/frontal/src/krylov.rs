@@ -1,6 +1,6 @@
 //! FGMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by a factor, within a recycled outer space.
 
-use crate::change::Preconditioner;
+use crate::change::{Map, Preconditioner};
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
@@ -94,7 +94,7 @@ pub(crate) trait System {
 struct OtherValues<'a> {
     factor: &'a Factor,
     matrix: (&'a Pattern, &'a [f64]),
-    precondition: Box<dyn FnMut(&mut [f64]) + 'a>,
+    precondition: Map<'a>,
     scaled: Vec<f64>,
 }
 

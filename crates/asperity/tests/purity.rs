@@ -5,9 +5,11 @@ mod support;
 
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
 use asperity::output::{CHECKPOINT, Job, ResultOptions, Start, simulate};
-use asperity::solve::{Frontal, LinearError, LinearSolver, Run, RunOptions, Silent};
+use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run, RunOptions, Silent};
 use asperity::system::{Csr, State};
+use frontal::{Change, Service};
 use proptest::prelude::*;
+use std::borrow::Cow;
 use support::{all_bytes, bytes, go_on, model, run, with_threads};
 
 const DECK: &str = include_str!("../../../cases/tube/tube.toml");
@@ -96,12 +98,12 @@ proptest! {
     /// An attempt whose linear solver gives up in the middle is cut in half; what follows is what would have been,
     /// had the half been tried at once.
     #[test]
-    fn a_failed_attempt_changes_nothing(k in 5_usize..23, factorisation in 2_usize..4) {
+    fn a_failed_attempt_changes_nothing(k in 5_usize..23, matrix in 2_usize..4) {
         let model = model(DECK, &coarse(&[]));
         let begun = go_on(&model, model.problem.initial_state(), Some(k));
         let mut start = begun.states.last().unwrap().clone();
         let faulty = |at| Faulty { at, ..Faulty::default() };
-        let failed = faulty_increment(&model.problem, start.clone(), faulty(factorisation));
+        let failed = faulty_increment(&model.problem, start.clone(), faulty(matrix));
         // An increment that needs fewer solutions does not meet the fault.
         prop_assume!(failed.attempts == start.attempts + 2);
         start.next_dt *= 0.5;
@@ -120,6 +122,31 @@ fn through_a_file(state: &State) -> State {
     checkpoint::load(&path, &input).unwrap().1
 }
 
+/// In space, where the attempt begins with the factor that the accepted state holds and may make another.
+#[test]
+fn a_failed_attempt_leaves_the_factor_of_the_state() {
+    let deck = include_str!("../../../cases/dragged-ball/slab.toml");
+    let more = ["mesh.part.slab.box.cells=[12, 6, 2]", "step.drag.increments.count=4", "solver.factors=kept"];
+    let model = model(deck, &more);
+    let (mut held, mut failed) = (0, 0);
+    for k in 1..8 {
+        let start = go_on(&model, model.problem.initial_state(), Some(k)).states.last().unwrap().clone();
+        held += usize::from(start.preconditioner.is_some());
+        let faulty = |at| Faulty { solver: Frontal::new(Factors::Kept), at, poisoned: true, ..Faulty::default() };
+        let half = State { next_dt: 0.5 * start.next_dt, ..start.clone() };
+        let direct = faulty_increment(&model.problem, half, faulty(usize::MAX));
+        for at in 1..6 {
+            let state = faulty_increment(&model.problem, start.clone(), faulty(at));
+            if state.attempts == direct.attempts + 1 {
+                failed += 1;
+                let counted = State { attempts: direct.attempts, iterations: direct.iterations, ..state };
+                assert!(bytes(&counted) == bytes(&direct), "from {k}, matrix {at}");
+            }
+        }
+    }
+    assert!(held > 2 && failed > 10, "{held} factors, {failed} failed attempts");
+}
+
 /// Far from equilibrium a stiffness may overflow: the increment is cut, the run goes on.
 #[test]
 fn a_stiffness_that_is_not_finite_cuts_the_increment() {
@@ -136,15 +163,30 @@ fn faulty_increment(problem: &asperity::solve::Problem, start: State, faulty: Fa
     run.state
 }
 
-/// A solver that calls its `at`-th matrix singular, or is given a poisoned one, and all that follow in the same attempt.
+/// A solver that is given a poisoned matrix as its `at`-th, or calls that and all that follow in the same attempt singular.
 #[derive(Default)]
 struct Faulty {
     solver: Frontal,
     at: usize,
     poisoned: bool,
-    factorisations: usize,
+    /// Matrices met, those counted twice for which an old factor did not do.
+    matrices: usize,
     broken: bool,
     unknowns: usize,
+}
+
+impl Faulty {
+    /// Meets another matrix: its values, as they are or poisoned.
+    fn meet<'v>(&mut self, values: &'v [f64]) -> Result<Cow<'v, [f64]>, LinearError> {
+        self.matrices += 1;
+        let fault = self.matrices == self.at;
+        self.broken |= fault && !self.poisoned;
+        match fault && self.poisoned {
+            _ if self.broken => Err(LinearError::Singular(vec![vec![1.0; self.unknowns]])),
+            true => Ok(vec![f64::NAN; values.len()].into()),
+            false => Ok(values.into()),
+        }
+    }
 }
 
 impl LinearSolver for Faulty {
@@ -152,17 +194,12 @@ impl LinearSolver for Faulty {
         self.unknowns = nodes.len();
         self.solver.analyse(pattern, nodes)
     }
+    fn follow(&mut self, pattern: &Csr) -> bool {
+        self.solver.follow(pattern)
+    }
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
-        self.factorisations += 1;
-        self.broken |= self.factorisations == self.at;
-        if self.broken && self.poisoned {
-            return self.solver.factorise(&vec![f64::NAN; values.len()]);
-        }
-        if self.broken {
-            let everything = vec![1.0; self.unknowns];
-            return Err(LinearError::Singular(vec![everything]));
-        }
-        self.solver.factorise(values)
+        let values = self.meet(values)?;
+        self.solver.factorise(&values)
     }
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         self.solver.solve(rhs)
@@ -170,11 +207,33 @@ impl LinearSolver for Faulty {
     fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError> {
         self.solver.influence(loads, at, x)
     }
+    fn row(&self, row: usize) -> Vec<(usize, f64)> {
+        self.solver.row(row)
+    }
     fn begin(&mut self) {
         self.broken = false;
         self.solver.begin();
     }
+    fn service(&self) -> Option<Service> {
+        self.solver.service()
+    }
+    fn resume(&mut self, service: Service) {
+        self.solver.resume(service);
+    }
+    fn iterates(&self) -> bool {
+        self.solver.iterates()
+    }
+    fn change(&mut self, change: Option<Change>) {
+        self.solver.change(change);
+    }
+    fn refuse(&mut self) {
+        self.solver.refuse();
+    }
     fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
-        self.solver.iterate(values, rhs, tolerance)
+        let values = self.meet(values)?;
+        self.solver.iterate(&values, rhs, tolerance)
+    }
+    fn iterate_again(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
+        self.solver.iterate_again(values, rhs, tolerance)
     }
 }

@@ -11,22 +11,31 @@ mod verbs;
 
 use arguments::{Command, Line};
 use clap::Parser;
-use exit::Exit;
+use exit::{Exit, Trouble};
+use signals::Interrupts;
 use std::process::ExitCode;
+use verbs::Outcome;
 
 fn main() -> ExitCode {
     let line = Line::parse();
-    let exit = match line.command {
-        Command::Run(run) => verbs::run(&run),
-        Command::Restart(run) => verbs::restart(&run),
+    Interrupts::listen()
+        .map_err(Trouble::from)
+        .and_then(|interrupts| obey(line, &interrupts))
+        .unwrap_or_else(Exit::after)
+        .into()
+}
+
+fn obey(line: Line, interrupts: &Interrupts) -> Outcome {
+    match line.command {
+        Command::Run(run) => verbs::run(&run, interrupts),
+        Command::Restart(run) => verbs::restart(&run, interrupts),
         Command::Figure(figure) => verbs::figure(&figure),
         Command::Check(check) => verbs::check(&check),
         Command::Info(info) => verbs::info(&info),
         Command::Schema(schema) => verbs::schema(&schema),
         Command::Point(point) => verbs::point(&point),
         Command::Laws => verbs::laws(),
-        Command::Penalty(command) => verbs::penalty(&command),
+        Command::Penalty(command) => verbs::penalty(&command, interrupts),
         Command::Completions(completions) => verbs::completions(&completions),
-    };
-    exit.unwrap_or_else(Exit::after).into()
+    }
 }

@@ -118,6 +118,25 @@ fn what_does_not_converge_ends_with_3_and_a_summary() {
     assert!(error(&check).contains("free along x"), "{}", error(&check));
 }
 
+/// A run that accepts no increment leaves nothing of an earlier one that a restart or a reader could take for its own.
+#[test]
+fn a_run_begins_without_the_results_of_another() {
+    let folder = folder(DECK);
+    let file = |name: &str| folder.path().join("here").join(name);
+    assert_eq!(code(&asperity(folder.path(), &["run", "block.toml", "--out", "here"])), 0);
+    let written = ["history.csv", "forces.svg"];
+    assert!(written.iter().all(|name| file(name).exists()));
+    // Nothing holds the block along x before it touches.
+    let free = DECK.replace("x = 0.0, y = -0.01", "y = -0.01").replace("from = [0.0, 0.0]", "from = [0.0, 1.0]");
+    std::fs::write(folder.path().join("free.toml"), free.replace("to = [4.0, 2.0]", "to = [4.0, 3.0]")).unwrap();
+    assert_eq!(code(&asperity(folder.path(), &["run", "free.toml", "--out", "here"])), 3);
+    let left: Vec<_> = written.iter().filter(|name| file(name).exists()).collect();
+    assert!(left.is_empty(), "{left:?}");
+    let restart = asperity(folder.path(), &["restart", "block.toml", "--out", "here"]);
+    assert_eq!(code(&restart), 2);
+    assert!(error(&restart).contains("another deck"), "{}", error(&restart));
+}
+
 /// A run that is interrupted ends with 4, goes on from its checkpoint, and arrives where an undisturbed one does.
 #[cfg(unix)]
 #[test]

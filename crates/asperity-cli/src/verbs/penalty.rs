@@ -4,7 +4,7 @@ use super::{Outcome, made, print};
 use crate::arguments::{PenaltyCommand, Study};
 use crate::exit::{Exit, Trouble};
 use crate::screen::Screen;
-use crate::signals;
+use crate::signals::Interrupts;
 use asperity::deck;
 use asperity::model::Model;
 use asperity::output::study::{Ends, extrapolate, forces, table};
@@ -12,18 +12,18 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Runs what is asked about penalties.
-pub fn penalty(command: &PenaltyCommand) -> Outcome {
+pub fn penalty(command: &PenaltyCommand, interrupts: &Interrupts) -> Outcome {
     match command {
-        PenaltyCommand::Study(arguments) => study(arguments),
+        PenaltyCommand::Study(arguments) => study(arguments, interrupts),
     }
 }
 
 /// Runs the deck with its penalties and with softer ones, and prints the forces of a rigid interface with their errors.
-fn study(arguments: &Study) -> Outcome {
-    let stop = signals::listen()?;
+fn study(arguments: &Study, interrupts: &Interrupts) -> Outcome {
     let stiff = made(&arguments.deck)?;
     let loaded = deck::load(&arguments.deck.path, &arguments.deck.sets)?;
     let soft = deck::build(loaded.softened(&stiff.model, arguments.ratio)?)?;
+    let stop = interrupts.heed();
     print(&format!("with penalties divided by {}:\n", arguments.ratio))?;
     let softer = solve(&soft.model, stop.clone())?;
     print("\nwith the penalties of the deck:\n")?;

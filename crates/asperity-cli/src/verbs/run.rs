@@ -4,17 +4,17 @@ use super::{Outcome, made, print, results_of};
 use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, farewell};
-use crate::signals;
+use crate::signals::Interrupts;
 use asperity::output::{Job, Start, simulate};
 
 /// Runs a deck from its beginning.
-pub fn run(arguments: &arguments::Run) -> Outcome {
-    solve(arguments, Start::Beginning)
+pub fn run(arguments: &arguments::Run, interrupts: &Interrupts) -> Outcome {
+    solve(arguments, interrupts, Start::Beginning)
 }
 
 /// Goes on from the checkpoint in the result directory.
-pub fn restart(arguments: &arguments::Run) -> Outcome {
-    solve(arguments, Start::Checkpoint)
+pub fn restart(arguments: &arguments::Run, interrupts: &Interrupts) -> Outcome {
+    solve(arguments, interrupts, Start::Checkpoint)
 }
 
 /// The command that goes on from the checkpoint, as a shell takes it.
@@ -36,8 +36,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
-    let stop = signals::listen()?;
+fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> Outcome {
     // Before the deck is read: what comes first in need of threads decides their number.
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
@@ -48,7 +47,7 @@ fn solve(arguments: &arguments::Run, start: Start) -> Outcome {
     let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
     let job =
         Job { directory: &directory, options: made.deck.output.options(), input: made.input, start, notes: &notes };
-    let mut screen = Screen::new(&made.model.problem, stop);
+    let mut screen = Screen::new(&made.model.problem, interrupts.heed());
     // On a thread of the pool: from outside, every parallel loop would hand over to it and wait.
     let simulated = rayon::scope(|_| simulate(&made.model, &job, &mut screen));
     screen.close();

@@ -56,6 +56,18 @@ pub fn sweep(directory: &Path) -> Result<(), Error> {
     Ok(())
 }
 
+/// Removes those of the files that are there.
+///
+/// # Errors
+/// [`Error::File`] when one cannot be removed.
+pub fn remove(directory: &Path, names: impl IntoIterator<Item = String>) -> Result<(), Error> {
+    names
+        .into_iter()
+        .map(|name| directory.join(name))
+        .filter(|path| path.exists())
+        .try_for_each(|path| std::fs::remove_file(&path).map_err(|error| Error::file(&path, error)))
+}
+
 /// Makes a directory and its parents.
 ///
 /// # Errors

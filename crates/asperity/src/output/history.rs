@@ -17,6 +17,9 @@ pub struct HistoryTable {
     table: Option<Table>,
 }
 
+/// Name of the table of histories in the result directory.
+pub const HISTORY: &str = "history.csv";
+
 /// The global quantities of a frame by column; a plane has no z forces and no x, y moments.
 pub fn global_columns(frame: &Frame, plane: bool) -> Vec<(String, f64)> {
     let entries = |quantity: &super::Quantity| {
@@ -29,7 +32,7 @@ pub fn global_columns(frame: &Frame, plane: bool) -> Vec<(String, f64)> {
 impl HistoryTable {
     /// A history in `directory`; the file appears with the first frame.
     pub fn create(directory: &Path, plane: bool) -> Self {
-        Self { path: directory.join("history.csv"), plane, columns: Vec::new(), table: None }
+        Self { path: directory.join(HISTORY), plane, columns: Vec::new(), table: None }
     }
     /// Continues a history after a restart from `increment`; later rows are dropped. Returns also the rows that stay.
     ///

@@ -9,9 +9,9 @@
 
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
-use super::file::{make_directory, sweep};
+use super::file::{make_directory, remove, sweep};
 use super::grids::{BodyGrid, cloud, tools};
-use super::history::{HistoryTable, global_columns};
+use super::history::{HISTORY, HistoryTable, global_columns};
 use super::quantities::{Parts, Source};
 use super::quantity::Place;
 use super::summary::Summary;
@@ -85,6 +85,8 @@ impl Results {
     pub fn create(directory: &Path, start: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
         make_directory(directory)?;
         sweep(directory)?;
+        // What the run writes only later would else be that of an earlier one until then: a restart would go on from it.
+        remove(directory, [CHECKPOINT, HISTORY].map(String::from).into_iter().chain(pictures()))?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
         let history = HistoryTable::create(directory, start.parts.is_plane());
@@ -205,12 +207,16 @@ impl Results {
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
         let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
-        let tables = ["history.csv", "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY].map(String::from);
-        let pictures = ["contact_stress", "von_mises", "forces", "convergence"];
-        let pictures = pictures.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
-        let all = frames.chain(tables).chain(pictures);
+        let tables = [HISTORY, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY].map(String::from);
+        let all = frames.chain(tables).chain(pictures());
         all.filter(|name| self.directory.join(name).exists()).collect()
     }
+}
+
+/// The files of the standard pictures.
+fn pictures() -> impl Iterator<Item = String> {
+    let names = ["contact_stress", "von_mises", "forces", "convergence"].into_iter();
+    names.flat_map(|name| [format!("{name}.svg"), format!("{name}.png")])
 }
 
 /// The kinds of frames that a model has.
@@ -260,6 +266,15 @@ mod tests {
     fn begin(directory: &Path, fixture: &Fixture) -> Results {
         let (parts, state) = (fixture.parts(), fixture.start());
         Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, OPTIONS, input()).unwrap()
+    }
+
+    #[test]
+    fn what_an_earlier_run_wrote_at_its_end_is_gone_from_the_start() {
+        let directory = tempfile::tempdir().unwrap();
+        let late = [CHECKPOINT, HISTORY, "forces.svg", "von_mises.png"].map(|name| directory.path().join(name));
+        late.iter().for_each(|path| std::fs::write(path, "of another run").unwrap());
+        begin(directory.path(), &fixture());
+        assert!(late.iter().all(|path| !path.exists()));
     }
 
     #[test]

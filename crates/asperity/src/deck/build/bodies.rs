@@ -36,8 +36,7 @@ impl Builder<'_> {
                 let place = keys.update.as_ref().map_or(keys.rate.place, |update| update.place);
                 let law = self.keep(law.map_err(crate::Error::input), place)?;
                 let material = law.map_or_else(|| materials[number].clone(), Arc::from);
-                // The body says so again, but not where it stands in the deck.
-                self.keep(keys.strain.law(material.clone()).map_err(crate::Error::input), keys.strain.place)?;
+                let material = self.keep(keys.strain.law(material).map_err(crate::Error::input), keys.strain.place)?;
                 let body = Body::new(&name.text, site, cells, material, options);
                 let body = self.keep(body, name.place)?;
                 let body = self.heated(body, name, keys)?;

@@ -1,6 +1,6 @@
 //! A rigid ball slides over an elastic block with friction: Newton's method with a fresh factor at every iteration
 //! against the policy that reuses the factor of an increment's first iteration.
-//! `cargo run --release -p frontal --example sliding -- 21` (cells along an edge).
+//! `cargo run --release -p frontal --example reuse -- 21` (cells along an edge).
 
 #[path = "../benches/measure/mod.rs"]
 mod measure;

@@ -66,12 +66,17 @@ const BORNE: f64 = 1e-9;
 pub(super) const INSIDE_OUT: &str = "a cell is turned inside out";
 
 impl<L: RateLaw> Rate<L> {
-    fn advance(&self, f: &Tensor2, dt: f64, old: &[f64]) -> Result<(Tensor2, L::Vars<f64>), Failure> {
-        if f.det() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT));
-        }
-        let frame = Frame::of(f, &stress_of(old));
+    /// Stress and variables at the end of an increment seen in `frame`.
+    fn end(&self, frame: &Frame<f64>, dt: f64, old: &[f64]) -> Result<(Tensor2, L::Vars<f64>), Failure> {
         self.0.update(frame.de, frame.stress, &L::Vars::<f64>::read(&old[6..]).rotate(&frame.q), dt)
+    }
+
+    /// New state at the end of an increment seen in `frame`.
+    pub(super) fn update_in(&self, frame: &Frame<f64>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        let (stress, vars) = self.end(frame, dt, old)?;
+        new[..6].copy_from_slice(&stress.to_voigt());
+        vars.write(&mut new[6..]);
+        Ok(())
     }
 
     /// The end of an increment seen in `turning`, and its derivatives along `N` components of the deformation.
@@ -136,7 +141,9 @@ impl<L: RateLaw> Material for Rate<L> {
 
     /// A stress that an increment of nothing leaves as it is.
     fn bears(&self, state: &[f64]) -> Result<(), String> {
-        let (borne, _) = self.advance(&Tensor2::identity(), 0.0, state).map_err(|failure| failure.reason)?;
+        let (borne, _) = self
+            .end(&Frame::of(&Tensor2::identity(), &stress_of(state)), 0.0, state)
+            .map_err(|failure| failure.reason)?;
         let given = stress_of(state);
         let off = borne - given;
         // Not `>`, so that what is not a number is refused.
@@ -157,10 +164,10 @@ impl<L: RateLaw> Material for Rate<L> {
     }
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        let (stress, vars) = self.advance(f, dt, old)?;
-        new[..6].copy_from_slice(&stress.to_voigt());
-        vars.write(&mut new[6..]);
-        Ok(())
+        if f.det() <= 0.0 {
+            return Err(Failure::new(INSIDE_OUT));
+        }
+        self.update_in(&Frame::of(f, &stress_of(old)), dt, old, new)
     }
 
     fn differentiate(

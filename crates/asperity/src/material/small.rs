@@ -1,10 +1,10 @@
 //! Rate laws in small strain: the strain of an increment is the symmetric part of its displacement gradient, taken over
 //! the undeformed body, and nothing turns. What an elastic law makes of it is linear in the displacements.
 
-use super::frame::{Frame, Still, Turning};
+use super::frame::{Still, Turning};
 use super::law::Differentiate;
 use super::rate::stress_of;
-use super::{Directions, Gradient, Material, Rate, RateLaw, Variable, Vars};
+use super::{Directions, Gradient, Material, Rate, RateLaw, Variable};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::Tensor2;
@@ -59,11 +59,7 @@ impl<L: RateLaw> Material for SmallStrain<L> {
     }
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        let Frame { de, stress, .. } = Still::new(f, &stress_of(old)).values();
-        let (stress, vars) = self.0.0.update(de, stress, &L::Vars::<f64>::read(&old[6..]), dt)?;
-        new[..6].copy_from_slice(&stress.to_voigt());
-        vars.write(&mut new[6..]);
-        Ok(())
+        self.0.update_in(&Still::new(f, &stress_of(old)).values(), dt, old, new)
     }
 
     fn differentiate(

@@ -71,6 +71,7 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         tools: vec![],
         solid_tools: vec![],
         solid_contacts: vec![],
+        field_contacts: vec![],
         contacts: vec![],
         springs: vec![],
         loads: vec![],

@@ -188,9 +188,14 @@ impl<F: FnMut(&Model, &State)> Observer for Follower<'_, F> {
 /// The points of a contact in a state.
 pub fn points(model: &Model, state: &State, contact: usize) -> Vec<PointRecord> {
     let history = &state.histories[model.first_contact() + contact];
+    let solid = |contact: usize| model.solid_contacts.get(contact);
+    let points = model.contacts.len();
     match model.contacts.get(contact) {
         Some(contact) => contact.records(&state.u, history).collect(),
-        None => model.solid_contacts[contact - model.contacts.len()].records(&state.u, history),
+        None => match solid(contact - points) {
+            Some(contact) => contact.records(&state.u, history),
+            None => model.field_contacts[contact - points - model.solid_contacts.len()].records(&state.u, history),
+        },
     }
 }
 

@@ -10,6 +10,7 @@ mod averaged;
 mod before;
 mod capture;
 mod faces;
+pub mod field;
 mod geometry;
 mod guard;
 mod kink;

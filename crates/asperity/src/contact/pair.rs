@@ -183,6 +183,7 @@ impl Contact {
                 along,
                 thrust: self.thrust(values, u, Ray { origin: a, direction: inward }),
                 area: self.acting_area(i, point, (a, tangent)),
+                resultant: None,
                 status: PointStatus::from_value(values[entry::STATUS]),
                 pressure: values[entry::PRESSURE],
                 shear: values[entry::SHEAR],

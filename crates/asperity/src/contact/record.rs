@@ -132,6 +132,8 @@ pub struct PointRecord {
     pub along: Vec3,
     /// Area the point stands for; the full circumference when axisymmetric.
     pub area: f64,
+    /// Force on the solid and where it acts, of a node that stands for more than a point.
+    pub resultant: Option<[Vec3; 2]>,
     /// Status.
     pub status: PointStatus,
     /// Pressure, positive in compression.
@@ -167,6 +169,10 @@ impl PointRecord {
     }
     /// Force on the solid.
     pub fn force(&self) -> Vec3 {
-        self.traction() * self.area
+        self.resultant.map_or_else(|| self.traction() * self.area, |[force, _]| force)
+    }
+    /// Where that acts.
+    pub fn center(&self) -> Vec3 {
+        self.resultant.map_or(self.position, |[_, center]| center)
     }
 }

@@ -27,6 +27,8 @@ pub enum ContactForm {
     Traction,
     /// As the gradient of a potential over the undeformed area.
     Variational,
+    /// As a field of nodal values: see [`field`](super::field).
+    Field,
 }
 
 /// Step of the differences, as a part of the length of an edge or a face, or in radians.
@@ -48,7 +50,7 @@ impl Contact {
     pub(super) fn acting_area(&self, index: usize, point: &SurfacePoint, (a, tangent): (Vec3, Vec3)) -> f64 {
         match self.options.form {
             ContactForm::Traction => self.area(point, a, tangent),
-            ContactForm::Variational => self.undeformed_area(index),
+            ContactForm::Variational | ContactForm::Field => self.undeformed_area(index),
         }
     }
 

@@ -7,6 +7,7 @@ use super::keys;
 use super::reader::Name;
 use crate::Error;
 use crate::contact::space::Contact as Solid;
+use crate::contact::field::FieldContact;
 use crate::contact::{self, Contact, ContactOptions, Loads, second_name};
 use crate::solve::Step;
 use crate::system::Term;
@@ -190,7 +191,8 @@ impl<'a> Seen<'a> {
     fn all(made: &'a Made) -> Vec<Self> {
         let still = vec![0.0; made.model.problem.dofs.count()];
         let plane = made.model.contacts.iter().map(|contact| Self::plane(contact, &still));
-        plane.chain(made.model.solid_contacts.iter().map(|contact| Self::solid(contact, &still))).collect()
+        let solid = made.model.solid_contacts.iter().map(|contact| Self::solid(contact, &still));
+        plane.chain(solid).chain(made.model.field_contacts.iter().map(|contact| Self::field(contact))).collect()
     }
 
     /// Those of one contact of the deck.
@@ -226,6 +228,20 @@ impl<'a> Seen<'a> {
             found: hits.iter().enumerate().filter_map(part).collect(),
             rejected,
             advice: "is the surface the right one, and do the tool's facets look outward?",
+        }
+    }
+
+    fn field(contact: &'a FieldContact) -> Self {
+        let surface = contact.surface();
+        Self {
+            name: contact.name(),
+            options: contact.options(),
+            deforms: contact.target().as_faces().is_some(),
+            points: surface.nodes.len(),
+            pieces: format!("{} {}", surface.faces.len(), if surface.plane { "edges" } else { "faces" }),
+            found: contact.initial_gaps(),
+            rejected: Rejected::default(),
+            advice: "is the surface the right one, and does the tool look outward?",
         }
     }
 

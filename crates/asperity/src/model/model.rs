@@ -1,5 +1,6 @@
 //! A model owns its mesh, bodies, tools, contacts, springs, loads and steps; a run only reads it.
 
+use crate::contact::field::FieldContact;
 use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
@@ -32,6 +33,8 @@ pub struct ModelParts {
     pub contacts: Vec<Contact>,
     /// The contacts of a model in space.
     pub solid_contacts: Vec<contact::space::Contact>,
+    /// The contacts whose stress is a field of nodal values.
+    pub field_contacts: Vec<FieldContact>,
     /// Springs.
     pub springs: Vec<Box<dyn Term>>,
     /// Loads.
@@ -66,6 +69,8 @@ pub struct Model {
     pub contacts: Vec<Arc<Contact>>,
     /// The contacts of a model in space.
     pub solid_contacts: Vec<Arc<contact::space::Contact>>,
+    /// The contacts whose stress is a field of nodal values, which follow these.
+    pub field_contacts: Vec<Arc<FieldContact>>,
     /// Number of springs.
     pub springs: usize,
     /// Names and nodes of the groups that are held or moved in any step.
@@ -94,10 +99,12 @@ impl Model {
         let bodies: Vec<_> = parts.bodies.into_iter().map(|(body, material)| (Arc::new(body), material)).collect();
         let contacts: Vec<_> = parts.contacts.into_iter().map(Arc::new).collect();
         let solid_contacts: Vec<_> = parts.solid_contacts.into_iter().map(Arc::new).collect();
+        let field_contacts: Vec<_> = parts.field_contacts.into_iter().map(Arc::new).collect();
         let springs = parts.springs.len();
         let mut terms: Vec<Arc<dyn Term>> = bodies.iter().map(|(body, _)| body.clone() as Arc<dyn Term>).collect();
         terms.extend(contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(solid_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
+        terms.extend(field_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
         let cells = bodies.iter().flat_map(|(body, _)| body.cells());
         let problem = Problem {
@@ -127,6 +134,7 @@ impl Model {
             solid_tools,
             contacts,
             solid_contacts,
+            field_contacts,
             springs,
             supports,
             problem,
@@ -139,7 +147,7 @@ impl Model {
     }
     /// Number of the first spring among the terms.
     pub fn first_spring(&self) -> usize {
-        self.bodies.len() + self.contacts.len() + self.solid_contacts.len()
+        self.bodies.len() + self.contacts.len() + self.solid_contacts.len() + self.field_contacts.len()
     }
 
     /// A run from a given state: the initial one ([`Problem::initial_state`]) or that of a checkpoint.

@@ -5,6 +5,7 @@
 //! meets, [`select`] judges by the paper's two rules against false contacts. This room knows neither meshes nor laws.
 
 mod check;
+mod distance;
 mod fillet;
 mod finding;
 mod pose;
@@ -20,6 +21,7 @@ mod conformance;
 #[cfg(test)]
 mod tests;
 
+pub use distance::{ClosestPoint, PieceEnd, SmoothPiece};
 pub use fillet::{Draft, rounded};
 pub use finding::{Finding, Severity};
 pub use pose::Pose;

@@ -140,6 +140,7 @@ pub fn model(size: usize, factors: Factors) -> Model {
         tools: vec![],
         solid_tools: vec![],
         solid_contacts: vec![],
+        field_contacts: vec![],
         contacts: vec![],
         springs: vec![],
         loads: vec![Box::new(ball)],

@@ -20,7 +20,7 @@ impl OpenContact<'_> {
                     let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), force);
                     out.coordinate(y, rates, rows.into_iter().chain(std::iter::repeat(0.0)).take(stencil.len));
                 }
-                ContactForm::Variational => {
+                ContactForm::Variational | ContactForm::Field => {
                     let undeformed = self.contact.undeformed_area(index);
                     out.coordinate(y, rates.clone(), rates.map(|rate| rate * undeformed));
                 }

@@ -173,6 +173,7 @@ impl Contact {
             thrust: self.thrust(values, u, Ray { origin: position, direction: inward }),
             along: direction,
             area: self.acting_area(index, point, tangents),
+            resultant: None,
             status: PointStatus::from_value(values[entry::STATUS]),
             pressure: values[entry::PRESSURE],
             shear,

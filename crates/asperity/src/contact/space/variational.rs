@@ -24,7 +24,7 @@ impl Contact {
     pub(super) fn acting_area(&self, index: usize, point: &SurfacePoint, tangents: [Vec3; 2]) -> f64 {
         match self.parts.options.form {
             ContactForm::Traction => point.weight * Triad::new(tangents).area,
-            ContactForm::Variational => self.undeformed_area(index),
+            ContactForm::Variational | ContactForm::Field => self.undeformed_area(index),
         }
     }
 

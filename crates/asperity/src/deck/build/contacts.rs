@@ -27,8 +27,9 @@ impl Builder<'_> {
         let moduli = moduli(&self.site.mesh, bodies);
         let deck = self.deck;
         self.check_doubles();
+        let of_points: Vec<_> = deck.contact.iter().filter(|(_, keys)| !self.is_field(keys)).collect();
         let contacts: Vec<_> =
-            deck.contact.iter().map(|(name, keys)| self.contact(name, keys, tools, &moduli)).collect();
+            of_points.into_iter().map(|(name, keys)| self.contact(name, keys, tools, &moduli)).collect();
         Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
@@ -128,7 +129,7 @@ impl Builder<'_> {
             guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
             augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation(role)),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
-            form: keys.form.map_or(ContactForm::Traction, |form| form.value),
+            form: if self.is_field(keys) { ContactForm::Field } else { keys.form.map_or(ContactForm::Traction, |form| form.value) },
             normals: keys.normals,
             wear: keys.wear.as_ref().map(keys::WearKeys::wear),
         }

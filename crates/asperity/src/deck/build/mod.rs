@@ -4,6 +4,7 @@
 
 mod bodies;
 mod contacts;
+mod field_contacts;
 mod loads;
 mod overlaps;
 mod solid_contacts;
@@ -133,6 +134,7 @@ impl Builder<'_> {
         let contacts = tools.as_ref().filter(|_| plane).and_then(|tools| self.contacts(tools, bodies.as_deref()?));
         let solid = solid_tools.as_ref().filter(|_| !plane);
         let solid_contacts = solid.and_then(|tools| self.solid_contacts(tools, bodies.as_deref()?));
+        let field_contacts = self.field_contacts(&tools, bodies.as_deref());
         let (springs, loads) = (self.springs(), self.loads());
         let (constrained, supports) = self.supports();
         let steps = self.deck.step.iter().enumerate().zip(constrained);
@@ -148,6 +150,7 @@ impl Builder<'_> {
             solid_tools: solid_tools?,
             contacts: if plane { contacts? } else { Vec::new() },
             solid_contacts: if plane { Vec::new() } else { solid_contacts? },
+            field_contacts: field_contacts?,
             springs: springs?,
             loads: loads?,
             steps: steps

@@ -29,7 +29,8 @@ fn penetrations(parts: &ModelParts) -> Vec<Found> {
             |(i, hit): (usize, Option<crate::tool::space::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.face_length(i)));
         (contact.title().to_owned(), hits.filter_map(part).collect())
     });
-    plane.chain(solid).collect()
+    let fields = parts.field_contacts.iter().map(|c| (c.title().to_owned(), c.initial_penetrations()));
+    plane.chain(solid).chain(fields).collect()
 }
 
 impl Builder<'_> {
@@ -63,7 +64,8 @@ impl Builder<'_> {
         for (name, keys) in self.said(OverlapWord::Adjust) {
             let plane = parts.contacts.iter().filter(|contact| contact.title() == name.text).flat_map(|c| c.moves());
             let solid = parts.solid_contacts.iter().filter(|c| c.title() == name.text).flat_map(|c| c.moves());
-            moves.extend(plane.chain(solid).map(|moved| (moved, keys.overlap.place)));
+            let fields = parts.field_contacts.iter().filter(|c| c.title() == name.text).flat_map(|c| c.moves());
+            moves.extend(plane.chain(solid).chain(fields).map(|moved| (moved, keys.overlap.place)));
         }
         let mut mesh = (*self.site.mesh).clone();
         for (Move { node, by, cell }, place) in &moves {

@@ -127,7 +127,8 @@ words! {
 impl Words for ContactForm {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         vec![
-            (Self::Traction, "traction", "along the normal of the strained surface, over its present area"),
+            (Self::Field, "field", "as a field of nodal values, along the normals of what is touched"),
+            (Self::Traction, "paper", "at the integration points, along the normal of the strained surface, over its present area"),
             (Self::Variational, "variational", "as the gradient of a potential over the undeformed area"),
         ]
     }

@@ -146,7 +146,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     let center = sum(&|r| r.position * (r.pressure * r.area)) * thrust.recip();
     let vectors = [
         ("force", Unit::Force, Width::Vector, sum(&PointRecord::force)),
-        ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.position - pole).cross(r.force()))),
+        ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.center() - pole).cross(r.force()))),
         ("center", Unit::Length, Width::Vector, center),
     ];
     // With two passes each side counts half of the energy of the interface.

@@ -1,17 +1,20 @@
-//! Contacts of the plane and of space under one roof, for reports.
+//! Contacts of every kind under one roof, for reports.
 
+use crate::contact::field::FieldContact;
 use crate::contact::{Contact, ContactOptions, PointRecord, space};
 use crate::declare::Variable;
 use crate::system::{History, Term};
 use crate::tensor::Vec3;
 
-/// A contact of either kind.
+/// A contact of any kind.
 #[derive(Clone, Copy)]
 pub enum Touching<'a> {
     /// In the plane or axisymmetric.
     Plane(&'a Contact),
     /// In space.
     Solid(&'a space::Contact),
+    /// A field of nodal values, in either.
+    Field(&'a FieldContact),
 }
 
 impl Touching<'_> {
@@ -20,6 +23,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.name(),
             Self::Solid(contact) => contact.name(),
+            Self::Field(contact) => contact.name(),
         }
     }
     /// How it is computed.
@@ -27,6 +31,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.options(),
             Self::Solid(contact) => contact.options(),
+            Self::Field(contact) => contact.options(),
         }
     }
     /// Variables of its law.
@@ -34,6 +39,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.law().variables(),
             Self::Solid(contact) => contact.law().variables(),
+            Self::Field(contact) => contact.law().variables(),
         }
     }
     /// All points in an accepted state, with this term's lane of its history.
@@ -41,6 +47,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.records(u, history).collect(),
             Self::Solid(contact) => contact.records(u, history),
+            Self::Field(contact) => contact.records(u, history),
         }
     }
     /// Where moments are taken about.
@@ -48,6 +55,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.pole(u),
             Self::Solid(contact) => contact.pole(u),
+            Self::Field(contact) => contact.pole(u),
         }
     }
     /// False contacts that the search refuses at displacements `u`.
@@ -55,6 +63,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.search(u).1.total(),
             Self::Solid(contact) => contact.search(u).1.total(),
+            Self::Field(_) => 0,
         }
     }
     /// Whether its target carries points of its own: one of two passes.
@@ -62,6 +71,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.loads_itself(),
             Self::Solid(contact) => contact.loads_itself(),
+            Self::Field(_) => false,
         }
     }
     /// Part of the interface's energy that is counted here.
@@ -69,6 +79,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.options().loads.share(),
             Self::Solid(contact) => contact.options().loads.share(),
+            Self::Field(_) => 1.0,
         }
     }
     /// How much of its pressure facets stand for, where the target deforms.
@@ -76,6 +87,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.target().deforms().then(|| contact.facet_ratio(u, history)),
             Self::Solid(contact) => contact.target().deforms().then(|| contact.facet_ratio(u, history)),
+            Self::Field(_) => None,
         }
     }
     /// What must be said of the facets in an accepted state.
@@ -83,6 +95,7 @@ impl Touching<'_> {
         let said = match self {
             Self::Plane(contact) => contact.facets(u, history),
             Self::Solid(contact) => contact.facets(u, history),
+            Self::Field(_) => None,
         };
         said.map(|(text, _)| text)
     }
@@ -91,6 +104,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.nodal_penetration(u, history),
             Self::Solid(contact) => contact.nodal_penetration(u, history),
+            Self::Field(contact) => contact.nodal_penetration(history),
         }
     }
     /// How far the facets of the surface stand off a smooth one, over the size of their elements, where it is touched.
@@ -98,6 +112,7 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.options().augmentation.map(|_| contact.facet_mismatch(u, history)),
             Self::Solid(contact) => contact.options().augmentation.map(|_| contact.facet_mismatch(u, history)),
+            Self::Field(_) => None,
         }
     }
     /// Nodes whose distance is the length of an edge, or of the first edge of a face.
@@ -105,6 +120,7 @@ impl Touching<'_> {
         let nodes = match self {
             Self::Plane(contact) => &contact.surface().edges[edge].nodes,
             Self::Solid(contact) => &contact.surface().faces[edge].nodes,
+            Self::Field(contact) => &contact.surface().faces[edge].nodes,
         };
         nodes.first().zip(nodes.get(1)).map(|(a, b)| [*a, *b])
     }

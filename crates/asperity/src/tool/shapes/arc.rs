@@ -43,7 +43,7 @@ impl Arc {
         let apex = (from + to) * 0.5 - t.left() * (0.5 * chord * (0.25 * theta).tan());
         Self { nodes, t, chord, theta, apex }
     }
-    fn curvature(&self) -> f64 {
+    fn turning(&self) -> f64 {
         2.0 * (0.5 * self.theta).sin() / self.chord
     }
     /// Direction of travel where the arc has turned by `phi` from its apex.
@@ -65,7 +65,7 @@ impl Arc {
         if self.theta == 0.0 {
             return 0.5 + q.dot(self.t) / self.chord;
         }
-        let k = self.curvature();
+        let k = self.turning();
         0.5 + (k * q.dot(self.t)).atan2(1.0 - k * q.dot(self.t.left())) / self.theta
     }
 }
@@ -89,14 +89,14 @@ impl Shape for Arc {
     }
     fn meet(&self, ray: &Ray) -> [Crossing; 2] {
         // From the ray's point nearest to the apex, so that a far origin costs no digits.
-        let (e, n, k) = (ray.direction, self.t.left(), self.curvature());
+        let (e, n, k) = (ray.direction, self.t.left(), self.turning());
         let shift = (self.apex - ray.origin).dot(e);
         let q0 = ray.point(shift) - self.apex;
         let roots = quadratic(0.5 * k, k * q0.dot(e) - e.dot(n), 0.5 * k * q0.dot(q0) - q0.dot(n));
         roots.map(|u| Crossing { u: shift + u, s: self.coordinate(q0 + e * u) })
     }
     fn conic(&self) -> Conic {
-        let (k, n) = (0.5 * self.curvature(), self.t.left());
+        let (k, n) = (0.5 * self.turning(), self.t.left());
         Conic { origin: self.apex, c: [k, 0.0, k, -n[0], -n[1], 0.0] }
     }
     fn bounds(&self) -> Bounds {
@@ -109,9 +109,20 @@ impl Shape for Arc {
         let half = 0.5 * self.theta;
         if half == 0.0 { self.chord } else { self.chord * (half / half.sin()) }
     }
+    fn curvature(&self, _s: f64) -> f64 {
+        self.turning()
+    }
+    fn closest(&self, x: Vec3) -> f64 {
+        let s = self.coordinate(x - self.apex);
+        if (0.0..=1.0).contains(&s) {
+            return s;
+        }
+        let [from, to] = [self.nodes[0], self.nodes[2]].map(|end| (x - end).norm());
+        if to < from { 1.0 } else { 0.0 }
+    }
     fn pieces(&self, sagitta: f64) -> usize {
         // A chord over the angle a has the sagitta (1 - cos(a / 2)) / |k|.
-        let half_step = (1.0 - (sagitta * self.curvature().abs()).min(1.0)).acos();
+        let half_step = (1.0 - (sagitta * self.turning().abs()).min(1.0)).acos();
         (0.5 * self.theta.abs() / half_step).ceil() as usize
     }
     fn flaw(&self) -> Option<String> {

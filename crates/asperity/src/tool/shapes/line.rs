@@ -39,6 +39,13 @@ impl Shape for Line {
     fn length(&self) -> f64 {
         self.tangent(0.0).norm()
     }
+    fn curvature(&self, _s: f64) -> f64 {
+        0.0
+    }
+    fn closest(&self, x: Vec3) -> f64 {
+        let along = self.tangent(0.0);
+        (along.dot(x - self.0[0]) / along.dot(along)).clamp(0.0, 1.0)
+    }
     fn pieces(&self, _sagitta: f64) -> usize {
         1
     }

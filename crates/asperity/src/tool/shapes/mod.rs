@@ -177,6 +177,10 @@ pub trait Shape: Debug + Send + Sync {
     fn bounds(&self) -> Bounds;
     /// Arc length.
     fn length(&self) -> f64;
+    /// Signed curvature at `s`, positive where the segment turns to the left.
+    fn curvature(&self, s: f64) -> f64;
+    /// Coordinate of the point of the segment that is closest to `x`, in `[0, 1]`.
+    fn closest(&self, x: Vec3) -> f64;
     /// Number of equal parts in `s` whose chords are nowhere farther than `sagitta` from the segment.
     fn pieces(&self, sagitta: f64) -> usize;
     /// What makes the nodes unfit for this shape, if anything: the rest of a sentence that begins with the segment.

@@ -84,6 +84,27 @@ impl Shape for Parabola {
         let speed = |s: f64| self.tangent(s).norm();
         integral(&speed, 0.0, 1.0, gauss(&speed, 0.0, 1.0), 0)
     }
+    fn curvature(&self, s: f64) -> f64 {
+        let tangent = self.tangent(s);
+        2.0 * turn(tangent, self.b2()) / tangent.norm().powi(3)
+    }
+    fn closest(&self, x: Vec3) -> f64 {
+        let off = |s: f64| (self.point(s) - x).dot(self.point(s) - x);
+        let places = (0..=8).map(|k| f64::from(k) / 8.0);
+        let mut s = places.fold(0.0, |best, s| if off(s) < off(best) { s } else { best });
+        // Newton's method on (p - x) . p' = 0 from the nearest of nine.
+        for _ in 0..30 {
+            let (to, tangent) = (self.point(s) - x, self.tangent(s));
+            let slope = tangent.dot(tangent) + 2.0 * to.dot(self.b2());
+            let step = if slope > 0.0 { -to.dot(tangent) / slope } else { -to.dot(tangent).signum() * 0.05 };
+            let next = (s + step).clamp(0.0, 1.0);
+            if (next - s).abs() < 1e-16 {
+                break;
+            }
+            s = next;
+        }
+        s
+    }
     fn pieces(&self, sagitta: f64) -> usize {
         // A chord over dw leaves the parabola by at most |b2| dw^2 / 4.
         (self.b2().norm() / (4.0 * sagitta)).sqrt().ceil() as usize

@@ -1,0 +1,588 @@
+//! The field during one attempt: who sees whom, the law at each node, forces and tangents.
+
+use super::cover::{FaceInPlace, Patch, between_vertices, over_piece};
+use super::face::{CORNERS, Placed};
+use super::faces::{FacesInPlace, LEAST_COSINE, Ray};
+use super::point::Touched;
+use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
+use super::term::{FieldContact, FieldTarget};
+use super::tool::ToolInPlace;
+use crate::Failure;
+use crate::contact::kink::answer;
+use crate::contact::overlap::recession;
+use crate::contact::record::{entry, leave, stresses, write};
+use crate::contact::{augment, capture::refuse_turn, point::in_contact};
+use crate::interface::{Motion, Past};
+use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
+use crate::tensor::Vec3;
+use crate::tool::Bounds;
+use std::cell::RefCell;
+use std::sync::{Arc, PoisonError, RwLock};
+
+thread_local! {
+    static SUMS: RefCell<NodeSums> = RefCell::default();
+}
+
+/// A field during one attempt.
+pub struct FieldAttempt<'a> {
+    /// The contact.
+    pub contact: &'a FieldContact,
+    /// Its history in the accepted state.
+    pub history: &'a History,
+    /// Accepted unknowns.
+    pub accepted: &'a [f64],
+    /// The accepted configuration.
+    pub before: Configuration<'a>,
+    /// Deformed over undeformed area around each node, in the accepted state.
+    pub stretches: Vec<f64>,
+    /// Largest admissible penetration at each face.
+    pub depths: Vec<f64>,
+    /// Largest gap at which the target is seen.
+    pub reach: f64,
+    /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
+    pub ahead: Vec<f64>,
+    /// Closure and slips that multipliers stand for, slot by slot.
+    pub shifts: Vec<[f64; COUNT]>,
+    /// How often they were improved in the attempt.
+    pub augmented: usize,
+    /// The part of the overlap that is removed at the beginning and at the end.
+    pub settled: [f64; 2],
+    /// Length of the increment.
+    pub dt: f64,
+    /// What the last search found, slot by slot.
+    pub found: RwLock<Arc<Vec<Support>>>,
+}
+
+/// Both sides of a contact at given unknowns.
+pub struct Configuration<'a> {
+    contact: &'a FieldContact,
+    /// The faces of the surface.
+    pub placed: Vec<Placed>,
+    /// Outward unit normals at the nodes of the field; none where nothing asks for them.
+    pub normals: Vec<Vec3>,
+    /// The target.
+    pub target: TargetInPlace<'a>,
+}
+
+/// A target at given unknowns.
+pub enum TargetInPlace<'a> {
+    /// A tool.
+    Tool(ToolInPlace<'a>),
+    /// Faces of bodies.
+    Faces(FacesInPlace<'a>),
+}
+
+impl<'a> Configuration<'a> {
+    /// At unknowns `u`.
+    pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
+        let (surface, site) = (&contact.surface, (&*contact.mesh, &contact.dofs));
+        let placed: Vec<Placed> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
+        let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
+        let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
+        let target = match &contact.target {
+            FieldTarget::Tool(rigid) => TargetInPlace::Tool(rigid.at(u)),
+            FieldTarget::Faces(faces) => TargetInPlace::Faces(faces.in_place(site, u)),
+        };
+        Self { contact, placed, normals, target }
+    }
+
+    /// A face of the surface.
+    pub fn face(&self, number: usize) -> FaceInPlace<'_> {
+        let surface = &self.contact.surface;
+        let mut normals = [Vec3::zero(); CORNERS];
+        for (normal, node) in normals.iter_mut().zip(surface.field[number]) {
+            *normal = self.normals.get(node).copied().unwrap_or(Vec3::zero());
+        }
+        FaceInPlace { face: &surface.faces[number], placed: self.placed[number], normals, plane: surface.plane }
+    }
+}
+
+/// What a search finds on a face.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    patch: Patch,
+    /// Least gap among its samples.
+    least: f64,
+    /// Gap in its middle.
+    middle: f64,
+}
+
+impl Configuration<'_> {
+    /// The patches of a face that look at it, within `reach` or nearly so.
+    fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<Seen> {
+        let (face, mut found) = (self.face(number), Vec::new());
+        match &self.target {
+            TargetInPlace::Tool(tool) => {
+                for piece in 0..self.contact.pieces {
+                    over_piece(&face, (tool, piece), |interval, ends| {
+                        let patch = Patch { face: number, target: piece, ends, near: interval };
+                        found.extend(self.judge(&face, patch));
+                    });
+                }
+            }
+            TargetInPlace::Faces(faces) => {
+                let all = Bounds::of(face.placed.nodes().iter().copied());
+                // Farther than the band, since a node has one and not each of its faces.
+                faces.near(&all, 2.0 * reach, near);
+                for &target in near.iter().filter(|&&target| self.contact.may_touch(number, target)) {
+                    let nodes = faces.placed(target).nodes();
+                    let Some((interval, bounded)) = between_vertices(&face, [nodes[1], nodes[0]]) else { continue };
+                    let ends = [bounded[0].then_some(1), bounded[1].then_some(0)];
+                    found.extend(self.judge(&face, Patch { face: number, target, ends, near: interval }));
+                }
+                keep_nearest(&mut found);
+            }
+        }
+        found
+    }
+
+    /// Gaps of a patch; none if it does not look at the surface.
+    fn judge(&self, face: &FaceInPlace, patch: Patch) -> Option<Seen> {
+        let [from, to] = patch.near;
+        let mut looks = false;
+        let mut gap = |part: f64| {
+            let xi = [from + part * (to - from), 0.0];
+            let at = face.at(xi);
+            match &self.target {
+                TargetInPlace::Tool(tool) => {
+                    let foot = tool.closest(patch.target, at.x);
+                    looks |= -foot.normal.dot(face.own_normal(xi)) > LEAST_COSINE;
+                    Some(foot.gap)
+                }
+                TargetInPlace::Faces(faces) => {
+                    let ray = Ray { x: at.x, n: at.normal.unit() };
+                    let hit = self.contact.target.as_faces()?.project(patch.target, faces.placed(patch.target), &ray)?;
+                    looks |= -hit.normal().dot(ray.n) > LEAST_COSINE;
+                    Some(hit.gap)
+                }
+            }
+        };
+        let [a, b, middle] = [gap(0.0)?, gap(1.0)?, gap(0.5)?];
+        looks.then(|| Seen { patch, least: a.min(b).min(middle), middle })
+    }
+}
+
+/// Of patches of one face that lie over each other, keeps the nearest.
+fn keep_nearest(found: &mut Vec<Seen>) {
+    let overlap = |a: &Seen, b: &Seen| {
+        a.patch.near[1].min(b.patch.near[1]) - a.patch.near[0].max(b.patch.near[0]) > 1e-6
+    };
+    let nearer = |a: &Seen, b: &Seen| (a.middle.abs(), a.patch.target) < (b.middle.abs(), b.patch.target);
+    let all = found.clone();
+    found.retain(|seen| !all.iter().any(|other| overlap(seen, other) && nearer(other, seen)));
+}
+
+impl FieldContact {
+    /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
+    pub(super) fn find(
+        &self,
+        now: &Configuration,
+        reach: f64,
+        depths: &[f64],
+        mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
+    ) -> Vec<Support> {
+        let mut near = Vec::new();
+        let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
+        for number in 0..self.surface.faces.len() {
+            for seen in now.patches(number, reach, &mut near) {
+                let (piece, depth) = (self.piece_of(seen.patch.target), depths[number]);
+                let deep = -seen.middle > depth;
+                for corner in 0..self.surface.faces[number].corners() {
+                    let slot = self.slot(self.surface.field[number][corner], piece);
+                    if deep {
+                        // Deeper than the middle of the body, and not the body's own far side.
+                        supports[slot].through |= -seen.middle < THROUGH * depth;
+                        continue;
+                    }
+                    supports[slot].patches.push((seen.patch, corner));
+                    least[slot] = least[slot].min(seen.least);
+                }
+            }
+        }
+        for (support, least) in supports.iter_mut().zip(least) {
+            if least > reach {
+                support.patches.clear();
+            }
+            for (patch, _) in &support.patches {
+                self.list_nodes(patch, &mut support.nodes);
+                touched(now, patch, &mut support.nodes);
+            }
+            support.nodes.sort_unstable();
+            support.nodes.dedup();
+        }
+        supports
+    }
+
+    /// Nodes on which a patch depends.
+    fn list_nodes(&self, patch: &Patch, nodes: &mut Vec<usize>) {
+        nodes.extend_from_slice(&self.surface.faces[patch.face].nodes);
+        if let Some(faces) = self.target.as_faces() {
+            nodes.extend_from_slice(&faces.surface.faces[patch.target].nodes);
+        }
+        if self.needs_normals() {
+            for corner in 0..self.surface.faces[patch.face].corners() {
+                let support = &self.surface.nodes[self.surface.field[patch.face][corner]].support;
+                support.iter().for_each(|&(f, _)| nodes.extend_from_slice(&self.surface.faces[f].nodes));
+            }
+        }
+    }
+}
+
+/// Depth, in units of the largest admissible one, up to which a face is surely not the body's own far side.
+const THROUGH: f64 = 1.8;
+
+impl FieldAttempt<'_> {
+    fn search(&self, u: &[f64]) -> Vec<Support> {
+        let now = Configuration::new(self.contact, u);
+        self.contact.find(&now, self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
+    }
+
+    /// Nodes of the faces that the points of a patch saw at the accepted state.
+    fn list_touched(&self, _: &Configuration, patch: &Patch, nodes: &mut Vec<usize>) {
+        let Some(faces) = self.contact.target.as_faces() else { return };
+        for &(eta, _) in self.contact.rule() {
+            let [from, to] = patch.near;
+            let xi = [0.5 * (from + to) + 0.5 * (to - from) * eta, 0.0];
+            if let Some((face, _)) = self.seen_before(patch, xi) {
+                nodes.extend_from_slice(&faces.surface.faces[face].nodes);
+            }
+        }
+    }
+
+    /// The face that a place saw at the accepted state: the nearest that looked at it, or what continues the one seen now.
+    fn seen_before(&self, patch: &Patch, xi: [f64; 2]) -> Option<(usize, super::faces::Projection)> {
+        let (Some(faces), TargetInPlace::Faces(before)) = (self.contact.target.as_faces(), &self.before.target) else {
+            return None;
+        };
+        let at = self.before.face(patch.face).at(xi);
+        let ray = Ray { x: at.x, n: at.normal.unit() };
+        let range = [-2.0 * self.depths[patch.face], 2.0 * self.reach];
+        let admits = |face: usize, hit: &super::faces::Projection| {
+            self.contact.may_touch(patch.face, face) && -hit.normal().dot(ray.n) > LEAST_COSINE
+        };
+        let seen = before.nearest(&ray, range, admits);
+        seen.or_else(|| {
+            let hit = faces.project(patch.target, before.placed(patch.target), &ray)?;
+            Some((patch.target, hit))
+        })
+    }
+
+    fn recall(&self, stencil: &StencilInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
+        let face = self.before.face(patch.face);
+        let at = face.at(xi);
+        match (&self.before.target, &self.contact.target) {
+            (TargetInPlace::Tool(before), FieldTarget::Tool(rigid)) => {
+                let (foot, now) = (before.closest(patch.target, at.x), rigid.in_place(stencil.motion()));
+                let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
+                let slopes = [slope(at.tangents[0]), Vec3::zero()];
+                Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None })
+            }
+            (TargetInPlace::Faces(_), FieldTarget::Faces(faces)) => {
+                let (number, hit) = self.seen_before(patch, xi)?;
+                let m = at.normal;
+                let n = m.unit();
+                let turned = (at.normal_slopes[0] - n * n.dot(at.normal_slopes[0])) * m.norm().recip();
+                let (_, s) = hit.follow(n, at.tangents[0] + turned * hit.gap);
+                let placed = stencil.placed(&faces.surface.faces[number]);
+                let [a, b] = hit.shape.tangents(placed.nodes(), self.contact.surface.plane);
+                let slopes = [a * s[0] + b * s[1], Vec3::zero()];
+                Some(Touched { now: hit.shape.value(placed.nodes()), slopes, face: Some((number, hit.shape)) })
+            }
+            _ => None,
+        }
+    }
+
+    /// What is added to the penetration of a node before the law sees it.
+    fn closure(&self, slot: usize) -> f64 {
+        self.shift(slot)[0] + recession(self.contact.options.wear, self.settled[1], self.history.slot(slot))
+    }
+
+    fn shift(&self, slot: usize) -> [f64; COUNT] {
+        self.shifts.get(slot).copied().unwrap_or_default()
+    }
+
+    /// Deformed over undeformed area around the node of a slot.
+    fn stretch(&self, slot: usize) -> f64 {
+        self.stretches[slot / self.contact.pieces]
+    }
+
+    /// What the law may know of a node. Penalties are for undeformed area, stresses for present.
+    fn past(&self, slot: usize) -> Past<'_> {
+        let (options, old, stretch) = (&self.contact.options, self.history.slot(slot), self.stretch(slot));
+        let (penalty, tangential_penalty) = (options.penalty / stretch, options.tangential_penalty / stretch);
+        let [_, s, t] = self.shift(slot);
+        let penetration = old[entry::PENETRATION] + old[entry::CLOSURE];
+        let mut past = Past {
+            penalty,
+            tangential_penalty,
+            penetration,
+            pressure: old[entry::PRESSURE],
+            shear: [old[entry::SHEAR] + tangential_penalty * s, old[entry::SHEAR2] + tangential_penalty * t],
+            vars: &old[entry::COUNT..],
+            dt: self.dt,
+        };
+        if old[entry::SEGMENT] < 0.0 {
+            past.penetration = self.contact.law.touch(&past);
+        }
+        past
+    }
+
+    fn stencil<'s>(&'s self, support: &'s Support, u: &'s [f64]) -> StencilInPlace<'s> {
+        StencilInPlace { contact: self.contact, support, u }
+    }
+
+    /// The sums of a node; None where it sees nothing.
+    fn sum(&self, stencil: &StencilInPlace, derivatives: bool, sums: &mut NodeSums) -> Option<()> {
+        if stencil.support.patches.is_empty() {
+            return None;
+        }
+        stencil.sum(&|patch, xi| self.recall(stencil, patch, xi), derivatives, sums)
+    }
+
+    fn supports(&self) -> Arc<Vec<Support>> {
+        self.found.read().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn evaluate_node(
+        &self,
+        slot: usize,
+        stencil: &StencilInPlace,
+        new: &mut [f64],
+        local: (&mut Local, &mut NodeSums),
+    ) -> Result<Branch, Failure> {
+        let (local, sums) = local;
+        let (contact, old) = (self.contact, self.history.slot(slot));
+        new.fill(0.0);
+        new[entry::SEGMENT] = -1.0;
+        if self.sum(stencil, local.wants_tangent, sums).is_none() {
+            if stencil.support.through && old[entry::PRESSURE] != 0.0 {
+                return Err(Failure::new(format!("the target came through at {}", contact.describe(slot))));
+            }
+            leave(&*contact.law, old, new);
+            return Ok(0);
+        }
+        let (past, law) = (self.past(slot), &*contact.law);
+        (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (0.0, sums.area, self.stretch(slot));
+        (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
+        new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
+        let seen = sums.y[0] + self.closure(slot);
+        let slip = [sums.y[1], sums.y[2]];
+        if seen <= law.opens(&past, slip) + contact.least {
+            leave(law, old, new);
+            self.account(slot, sums.area, Carried::default(), local);
+            return Ok(0);
+        }
+        self.refuse_leap(slot, (stencil, sums))?;
+        let (touch, penetration) = (law.touch(&past), seen - contact.least);
+        new[entry::PENETRATION] -= contact.least;
+        let part = in_contact(penetration - touch, past.penetration - touch);
+        let slip = slip.map(|slip| slip * part);
+        let entered = Past { penetration: past.penetration.max(touch), ..past };
+        let response = law.respond(&Motion { penetration, slip }, &entered, &mut new[entry::COUNT..])?;
+        write(&response, slip, old, new);
+        stencil.find_forces(sums);
+        let (n, stretch) = (local.force.len(), self.stretch(slot));
+        let t = [response.pressure, response.shear[0], response.shear[1]];
+        for (c, t) in t.iter().enumerate() {
+            let unit = &sums.forces[c * n..(c + 1) * n];
+            local.force.iter_mut().zip(unit).for_each(|(force, unit)| *force += stretch * t * unit);
+        }
+        if local.wants_tangent {
+            let y = [seen, sums.y[1], sums.y[2], 0.0];
+            let slopes = answer(law, &past, contact.least, &y)?.slopes;
+            add_material(&slopes, stretch, sums, &mut local.tangent);
+            let acting = local.acting.map_or(t, |acting| [acting[0], acting[1], acting[2]]);
+            stencil.add_geometric(acting, stretch, sums, &mut local.tangent);
+        }
+        let carried = Carried { pressure: t[0], shear: [t[1], t[2]], slip, slipped: response.slipped, closure: response.closure };
+        self.account(slot, sums.area, carried, local);
+        Ok(response.status as Branch)
+    }
+
+    /// Refuses a node that closes too deep, and a touching tool that turned too far.
+    fn refuse_leap(&self, slot: usize, (stencil, sums): (&StencilInPlace, &NodeSums)) -> Result<(), Failure> {
+        let contact = self.contact;
+        let faces = stencil.support.patches.iter().map(|(patch, _)| self.depths[patch.face]);
+        let depth = faces.fold(f64::INFINITY, f64::min);
+        if self.history.slot(slot)[entry::STATUS] == 0.0 && sums.y[0] > 0.25 * depth {
+            let (name, deep) = (contact.describe(slot), sums.y[0]);
+            return Err(Failure::new(format!("{name} came to lie {deep:.3e} deep in one increment")));
+        }
+        let FieldTarget::Tool(rigid) = &contact.target else { return Ok(()) };
+        let turned = stencil.motion().last().copied().unwrap_or(0.0) - self.accepted[rigid.unknowns().end - 1];
+        refuse_turn(turned, || contact.describe(slot))
+    }
+
+    /// Energy stored by the stresses of a node, and dissipated over the increment: the work of the mean friction stress on
+    /// the slip less what of it is stored, and of the mean pressure on the closure that stays. A node that closes or opens takes
+    /// part with half its stress. Where multipliers bear the stress nothing is stored by a slip.
+    fn account(&self, slot: usize, area: f64, now: Carried, local: &mut Local) {
+        let (options, old, stretch) = (&self.contact.options, self.history.slot(slot), self.stretch(slot));
+        let area = area * stretch;
+        let before = [old[entry::SHEAR], old[entry::SHEAR2]];
+        let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(slot)[0] };
+        local.stored = 0.5 * now.pressure * (now.pressure * stretch / options.penalty - multiplied) * area;
+        let mean = [0, 1].map(|a| 0.5 * (before[a] + now.shear[a]));
+        let friction = if options.augmentation.is_some() {
+            let shear = now.shear[0].hypot(now.shear[1]);
+            if shear > 0.0 { (mean[0] * now.shear[0] + mean[1] * now.shear[1]) / shear * now.slipped } else { 0.0 }
+        } else {
+            let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) * stretch / options.tangential_penalty;
+            local.stored += area * stored(now.shear);
+            mean[0] * now.slip[0] + mean[1] * now.slip[1] - (stored(now.shear) - stored(before))
+        };
+        let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);
+        local.supplied = area * pressure * (self.settled[1] - self.settled[0]) * old[entry::OVERLAP];
+        local.dissipated = area * (friction + pressure * now.closure);
+    }
+}
+
+/// What a node carries, for its energy.
+#[derive(Debug, Clone, Copy, Default)]
+struct Carried {
+    pressure: f64,
+    shear: [f64; 2],
+    slip: [f64; 2],
+    slipped: f64,
+    closure: f64,
+}
+
+/// Adds `factor H C G`.
+fn add_material(slopes: &[Coordinates; 4], factor: f64, sums: &NodeSums, tangent: &mut [f64]) {
+    let n = sums.gradients.len() / COUNT;
+    for (c, slopes) in slopes.iter().enumerate().take(COUNT) {
+        if slopes.iter().all(|slope| *slope == 0.0) {
+            continue;
+        }
+        let row = |j: usize| (0..COUNT).map(|d| slopes[d] * sums.gradients[d * n + j]).sum::<f64>() * factor;
+        let change: Vec<f64> = (0..n).map(row).collect();
+        for (force, row) in sums.forces[c * n..(c + 1) * n].iter().zip(tangent.chunks_exact_mut(n)) {
+            if *force != 0.0 {
+                row.iter_mut().zip(&change).for_each(|(entry, change)| *entry += force * change);
+            }
+        }
+    }
+}
+
+impl Attempt for FieldAttempt<'_> {
+    fn is_fixed(&self) -> bool {
+        false
+    }
+
+    fn scratch(&self, index: usize) -> Vec<f64> {
+        vec![0.0; self.history.slot(index).len()]
+    }
+
+    fn reach(&self, couplings: &mut Couplings) {
+        let mut stencils = Stencils::default();
+        self.list(&self.ahead, &mut stencils);
+        stencils.list.iter().for_each(|stencil| couplings.push(stencils.dofs(stencil)));
+    }
+
+    fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
+        let supports = self.list(u, out);
+        *self.found.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(supports);
+        Ok(())
+    }
+
+    fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
+        let supports = self.supports();
+        let u = std::mem::take(&mut local.u);
+        let stencil = self.stencil(&supports[index], &u);
+        let branch = SUMS.with_borrow_mut(|sums| self.evaluate_node(index, &stencil, new, (local, sums)));
+        local.u = u;
+        branch
+    }
+
+    fn kink(&self, index: usize, _: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
+        let supports = self.supports();
+        let stencil = self.stencil(&supports[index], u);
+        SUMS.with_borrow_mut(|sums| {
+            if self.sum(&stencil, true, sums).is_none() {
+                return;
+            }
+            stencil.find_forces(sums);
+            let (n, stretch) = (u.len(), self.stretch(index));
+            let y = [sums.y[0] + self.closure(index), sums.y[1], sums.y[2]];
+            for (c, y) in y.into_iter().enumerate().take(self.contact.coordinates()) {
+                let range = c * n..(c + 1) * n;
+                let forces = sums.forces[range.clone()].iter().map(|force| force * stretch);
+                out.coordinate(y, sums.gradients[range].iter().copied(), forces);
+            }
+        });
+        Ok(())
+    }
+
+    fn before(&self, stencil: usize) -> Coordinates {
+        stresses(self.history.slot(stencil))
+    }
+
+    fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
+        answer(&*self.contact.law, &self.past(stencil), self.contact.least, y)
+    }
+
+    fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        self.improve(u, new)
+    }
+}
+
+impl FieldAttempt<'_> {
+    /// Lists the stencils of all nodes at unknowns `u`.
+    fn list(&self, u: &[f64], out: &mut Stencils) -> Vec<Support> {
+        let supports = self.search(u);
+        let axes = self.contact.dofs.per_node();
+        for support in &supports {
+            let start = out.dofs.len();
+            let choice = support.patches.first().map_or(0, |(patch, _)| patch.target as u32 + 1);
+            if choice > 0 {
+                let nodes = support.nodes.iter().map(|&node| self.contact.dofs.node(node));
+                out.dofs.extend(nodes.flat_map(|first| first..first + axes));
+                if let FieldTarget::Tool(rigid) = &self.contact.target {
+                    out.dofs.extend(rigid.unknowns());
+                }
+            }
+            out.close(start, Stencil { choice, ..Stencil::default() });
+        }
+        supports
+    }
+
+    /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
+    /// Comput. Struct. 42, 1992).
+    fn improve(&mut self, _u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        let Some(augmentation) = self.contact.options.augmentation else { return Ok(false) };
+        let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());
+        for (slot, shift) in better.iter_mut().enumerate() {
+            let (new, size) = (new.slot(slot), self.contact.size_at(slot));
+            if new[entry::SEGMENT] < 0.0 {
+                shift[0] = 0.0;
+                continue;
+            }
+            let stretch = self.stretch(slot);
+            let borne = new[entry::PRESSURE] * stretch / self.contact.options.penalty;
+            let closed = new[entry::STATUS] > 0.0;
+            let raised = if closed { borne } else { (shift[0] + new[entry::PENETRATION]).max(0.0) };
+            left.penetration = left.penetration.max((raised - shift[0]).abs() / size);
+            shift[0] = raised;
+            if closed && self.contact.options.augmentation.is_some() {
+                let old = self.history.slot(slot);
+                let elastic = [(entry::SHEAR, 1), (entry::SHEAR2, 2)].map(|(shear, c)| {
+                    ((new[shear] - old[shear]) * stretch / self.contact.options.tangential_penalty, c)
+                });
+                let sticks = new[entry::STATUS] == 1.0;
+                for (borne, c) in elastic {
+                    if sticks {
+                        left.slip = left.slip.max((borne - shift[c]).abs() / size);
+                    }
+                    shift[c] = borne;
+                }
+            }
+        }
+        if !augmentation.goes_on(&left, self.augmented, self.contact.title())? {
+            let kept = new.slot_mut(self.contact.slots());
+            kept.iter_mut().zip(&self.shifts).for_each(|(closure, shift)| *closure = shift[0]);
+            return Ok(false);
+        }
+        (self.shifts, self.augmented) = (better, self.augmented + 1);
+        Ok(true)
+    }
+}

@@ -1,0 +1,199 @@
+//! Which part of a face of the surface sees which part of the target.
+//!
+//! A patch is the part of one face that sees one smooth piece of a tool or one face of a body. In the plane it is an interval
+//! of the edge, between the edge's own ends and the places that see an end of what is touched: of a body, where the averaged
+//! normal of the surface passes through the vertex, `(x_V - x(xi)) . e_S(xi) = 0`; of a tool, where the surface crosses the
+//! profile's normal at its end, `(x(xi) - x_V) . t_V = 0`. The ends of an interval move with all of these.
+
+use super::face::{CORNERS, Face, Placed};
+use super::tool::ToolInPlace;
+use crate::tensor::Vec3;
+
+/// The part of a face that sees one piece of the target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patch {
+    /// The face of the surface.
+    pub face: usize,
+    /// The smooth piece of a tool, or the face of a body.
+    pub target: usize,
+    /// What bounds the interval below and above: an end of the target, or none for the edge's own end.
+    pub ends: [Option<usize>; 2],
+    /// Where the interval ends, roughly: from where its ends are found anew.
+    pub near: [f64; 2],
+}
+
+/// A face of the surface in place, with the outward normals at its corners.
+#[derive(Debug, Clone, Copy)]
+pub struct FaceInPlace<'a> {
+    /// The face.
+    pub face: &'a Face,
+    /// Its nodes.
+    pub placed: Placed,
+    /// Unit normals at its corners.
+    pub normals: [Vec3; CORNERS],
+    /// Whether it is an edge of the plane.
+    pub plane: bool,
+}
+
+/// A place on a face in place.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame {
+    /// Position.
+    pub x: Vec3,
+    /// Tangents.
+    pub tangents: [Vec3; 2],
+    /// Interpolated normal, not of unit length.
+    pub normal: Vec3,
+    /// Its derivatives along the reference coordinates.
+    pub normal_slopes: [Vec3; 2],
+}
+
+impl FaceInPlace<'_> {
+    /// A place of it.
+    pub fn at(&self, xi: [f64; 2]) -> Frame {
+        let (shape, corners) = (self.face.shape(xi), self.face.corner_functions(xi));
+        let normals = &self.normals[..self.face.corners()];
+        let slope = |a: usize| normals.iter().zip(&corners.dn).fold(Vec3::zero(), |sum, (&n, dn)| sum + n * dn[a]);
+        Frame {
+            x: shape.value(self.placed.nodes()),
+            tangents: shape.tangents(self.placed.nodes(), self.plane),
+            normal: corners.value(normals),
+            normal_slopes: [slope(0), slope(1)],
+        }
+    }
+
+    /// Its own outward unit normal.
+    pub fn own_normal(&self, xi: [f64; 2]) -> Vec3 {
+        let [a, b] = self.face.shape(xi).tangents(self.placed.nodes(), self.plane);
+        a.cross(b).unit()
+    }
+
+    /// How far a vertex lies along the surface from the place whose normal passes through it, and the slope of that.
+    pub fn vertex_offset(&self, xi: f64, vertex: Vec3) -> [f64; 2] {
+        let at = self.at([xi, 0.0]);
+        let (along, to) = (at.normal.left(), vertex - at.x);
+        [to.dot(along), to.dot(at.normal_slopes[0].left()) - at.tangents[0].dot(along)]
+    }
+
+    /// How far a place lies beyond the normal at the end of a profile, along the profile, and the slope of that.
+    pub fn end_offset(&self, xi: f64, (end, along): (Vec3, Vec3)) -> [f64; 2] {
+        let at = self.at([xi, 0.0]);
+        [(at.x - end).dot(along), at.tangents[0].dot(along)]
+    }
+}
+
+/// Ends of an interval nearer to those of the edge than this, in reference coordinates, cut nothing off.
+const END: f64 = 1e-9;
+
+/// The zero between `from` and `to` of a function with its slope, by Newton's method within a shrinking bracket.
+fn root([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let below = f(from)[0] < 0.0;
+    let mut xi = 0.5 * (from + to);
+    for _ in 0..100 {
+        let [value, slope] = f(xi);
+        if (value < 0.0) == below { from = xi } else { to = xi }
+        let newton = xi - value / slope;
+        let inside = newton > from.min(to) && newton < from.max(to);
+        let next = if inside { newton } else { 0.5 * (from + to) };
+        if (next - xi).abs() < 1e-15 {
+            break;
+        }
+        xi = next;
+    }
+    xi
+}
+
+/// The zero near `xi` of a function with its slope, by Newton's method; where it does not settle, `xi`.
+pub fn root_near(xi: f64, f: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let mut at = xi;
+    for _ in 0..20 {
+        let [value, slope] = f(at);
+        let next = at - value / slope;
+        if !next.is_finite() || (next - xi).abs() > 1.0 {
+            return xi;
+        }
+        if (next - at).abs() < 1e-15 {
+            return next;
+        }
+        at = next;
+    }
+    at
+}
+
+/// The interval of an edge that sees the edge of a body between two vertices, in the order in which the surface passes
+/// them, and which of them bound it.
+pub fn between_vertices(face: &FaceInPlace, vertices: [Vec3; 2]) -> Option<([f64; 2], [bool; 2])> {
+    let (mut ends, mut bounded) = ([-1.0, 1.0], [false; 2]);
+    for k in 0..2 {
+        let offset = |xi: f64| face.vertex_offset(xi, vertices[k]);
+        let [before, behind] = [-1.0, 1.0].map(|xi| offset(xi)[0]);
+        let (covers, misses) = if k == 0 { (before <= 0.0, behind >= 0.0) } else { (behind >= 0.0, before <= 0.0) };
+        if covers {
+            continue;
+        }
+        if misses {
+            return None;
+        }
+        let xi = root([-1.0, 1.0], offset);
+        if (xi - ends[k]).abs() > END {
+            (ends[k], bounded[k]) = (xi, true);
+        }
+    }
+    (ends[1] - ends[0] > END).then_some((ends, bounded))
+}
+
+/// Samples along an edge that tell where it sees a piece of a tool.
+const SAMPLES: usize = 4;
+
+/// The intervals of an edge that see a smooth piece of a tool, and the ends of the piece that bound them.
+pub fn over_piece(
+    face: &FaceInPlace,
+    (tool, piece): (&ToolInPlace, usize),
+    mut take: impl FnMut([f64; 2], [Option<usize>; 2]),
+) {
+    let ends = tool.ends(piece);
+    let sees = |xi: f64| tool.closest(piece, face.at([xi, 0.0]).x).beyond;
+    let mut samples: Vec<f64> = (0..=SAMPLES).map(|k| 2.0 * k as f64 / SAMPLES as f64 - 1.0).collect();
+    if let [Some((a, _)), Some((b, _))] = ends {
+        // A piece shorter than an edge shows between its own ends.
+        let [tangent, _] = face.at([0.0; 2]).tangents;
+        let along = |x: Vec3| tangent.dot(x - face.at([0.0; 2]).x) / tangent.dot(tangent);
+        samples.push((0.5 * (along(a) + along(b))).clamp(-1.0, 1.0));
+        samples.sort_unstable_by(f64::total_cmp);
+    }
+    let seen: Vec<Option<usize>> = samples.iter().map(|&xi| sees(xi)).collect();
+    let cut = |inside: f64, outside: f64, end: usize| {
+        // The side on which the piece is seen, then the place itself.
+        let (mut inside, mut outside) = (inside, outside);
+        for _ in 0..30 {
+            let middle = 0.5 * (inside + outside);
+            if sees(middle).is_none() { inside = middle } else { outside = middle }
+        }
+        let Some(line) = ends[end] else { return inside };
+        root_near(inside, |xi| face.end_offset(xi, line))
+    };
+    let mut first = 0;
+    while first < samples.len() {
+        if seen[first].is_some() {
+            first += 1;
+            continue;
+        }
+        let last = (first..samples.len()).take_while(|&k| seen[k].is_none()).last().unwrap_or(first);
+        let (mut interval, mut bounds) = ([-1.0, 1.0], [None; 2]);
+        if let Some(end) = first.checked_sub(1).and_then(|before| seen[before]) {
+            (interval[0], bounds[0]) = (cut(samples[first], samples[first - 1], end), Some(end));
+        }
+        if let Some(end) = seen.get(last + 1).copied().flatten() {
+            (interval[1], bounds[1]) = (cut(samples[last], samples[last + 1], end), Some(end));
+        }
+        for k in 0..2 {
+            if (interval[k] - [-1.0, 1.0][k]).abs() <= END {
+                (interval[k], bounds[k]) = ([-1.0, 1.0][k], None);
+            }
+        }
+        if interval[1] - interval[0] > END {
+            take(interval, bounds);
+        }
+        first = last + 1;
+    }
+}

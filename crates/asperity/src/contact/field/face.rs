@@ -1,0 +1,135 @@
+//! A face of a body's boundary: an edge in the plane, a face in space, with its nodes in place.
+
+use crate::mesh::cells::{Cell, MAX_NODES};
+use crate::mesh::{Mesh, Side};
+use crate::system::Dofs;
+use crate::tensor::Vec3;
+
+/// Most nodes of a face.
+pub const MOST: usize = 9;
+/// Most corners of a face.
+pub const CORNERS: usize = 4;
+
+/// A face of the boundary.
+#[derive(Debug, Clone)]
+pub struct Face {
+    /// Where it lies in the mesh.
+    pub side: Side,
+    /// Its reference cell.
+    pub kind: &'static Cell,
+    /// Its nodes, the corners first.
+    pub nodes: Vec<usize>,
+}
+
+/// Shape functions and their derivatives at a place of a face.
+#[derive(Debug, Clone, Copy)]
+pub struct ShapeFunctions {
+    /// Values.
+    pub n: [f64; MOST],
+    /// Derivatives along the two reference coordinates.
+    pub dn: [[f64; 2]; MOST],
+}
+
+impl ShapeFunctions {
+    /// Those of a reference cell at `xi`.
+    pub fn of(kind: &Cell, xi: [f64; 2]) -> Self {
+        let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+        let count = kind.nodes.len();
+        (kind.shape)([xi[0], xi[1], 0.0], &mut n[..count], &mut dn[..count]);
+        Self { n: std::array::from_fn(|k| n[k]), dn: std::array::from_fn(|k| [dn[k][0], dn[k][1]]) }
+    }
+
+    /// The value of a field with nodal values `x`.
+    pub fn value(&self, x: &[Vec3]) -> Vec3 {
+        x.iter().zip(&self.n).fold(Vec3::zero(), |sum, (&x, &n)| sum + x * n)
+    }
+
+    /// Its derivatives along the reference coordinates; in the plane the second is `e_z`.
+    pub fn tangents(&self, x: &[Vec3], plane: bool) -> [Vec3; 2] {
+        let along = |a: usize| x.iter().zip(&self.dn).fold(Vec3::zero(), |sum, (&x, dn)| sum + x * dn[a]);
+        [along(0), if plane { Vec3::new(0.0, 0.0, 1.0) } else { along(1) }]
+    }
+}
+
+impl Face {
+    /// A side of the mesh.
+    pub fn new(mesh: &Mesh, side: Side) -> Self {
+        let (kind, nodes) = mesh.side(side);
+        Self { side, kind, nodes: nodes.collect() }
+    }
+
+    /// Number of its corners.
+    pub fn corners(&self) -> usize {
+        self.kind.linear.nodes.len()
+    }
+
+    /// Reference coordinates of a node.
+    pub fn place(&self, node: usize) -> [f64; 2] {
+        let [a, b, _] = self.kind.nodes[node];
+        [a, b]
+    }
+
+    /// Reference coordinates of its middle.
+    pub fn middle(&self) -> [f64; 2] {
+        let [a, b, _] = self.kind.center();
+        [a, b]
+    }
+
+    /// Its shape functions.
+    pub fn shape(&self, xi: [f64; 2]) -> ShapeFunctions {
+        ShapeFunctions::of(self.kind, xi)
+    }
+
+    /// The functions of first degree of its corners.
+    pub fn corner_functions(&self, xi: [f64; 2]) -> ShapeFunctions {
+        ShapeFunctions::of(self.kind.linear, xi)
+    }
+
+    /// Where its nodes are before any motion.
+    pub fn at_rest(&self, mesh: &Mesh) -> Placed {
+        let mut placed = Placed { x: [Vec3::zero(); MOST], count: self.nodes.len() };
+        placed.x.iter_mut().zip(&self.nodes).for_each(|(x, &node)| *x = mesh.points[node]);
+        placed
+    }
+
+    /// Where its nodes are at unknowns `u`.
+    pub fn placed(&self, mesh: &Mesh, dofs: &Dofs, u: &[f64]) -> Placed {
+        let mut placed = self.at_rest(mesh);
+        for (x, &node) in placed.x.iter_mut().zip(&self.nodes) {
+            let first = dofs.node(node);
+            (0..dofs.per_node()).for_each(|axis| x[axis] += u[first + axis]);
+        }
+        placed
+    }
+
+    /// Whether reference coordinates lie on it, up to a part `beyond` past its edges.
+    pub fn holds(&self, [a, b]: [f64; 2], beyond: f64) -> bool {
+        match self.corners() {
+            3 => a >= -beyond && b >= -beyond && a + b <= 1.0 + beyond,
+            _ => a.abs() <= 1.0 + beyond && b.abs() <= 1.0 + beyond,
+        }
+    }
+}
+
+/// The nodes of a face in place.
+#[derive(Debug, Clone, Copy)]
+pub struct Placed {
+    x: [Vec3; MOST],
+    count: usize,
+}
+
+impl Placed {
+    /// From positions.
+    pub fn new(positions: impl Iterator<Item = Vec3>) -> Self {
+        let mut placed = Self { x: [Vec3::zero(); MOST], count: 0 };
+        for (x, here) in placed.x.iter_mut().zip(positions) {
+            *x = here;
+            placed.count += 1;
+        }
+        placed
+    }
+    /// The positions.
+    pub fn nodes(&self) -> &[Vec3] {
+        &self.x[..self.count]
+    }
+}

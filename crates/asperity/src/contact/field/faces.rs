@@ -1,0 +1,168 @@
+//! Faces of bodies as a target: where rays from the surface meet them, by Newton's method on
+//! `x + gamma n = sum_K N_K(s) x_K`.
+
+use super::face::{Placed, ShapeFunctions};
+use super::surface::Surface;
+use crate::mesh::Mesh;
+use crate::system::Dofs;
+use crate::tensor::Vec3;
+use crate::tool::{Bounds, Tree};
+
+/// Iterations of a projection.
+const ITERATIONS: usize = 20;
+/// Reference coordinates farther out than this are given up.
+const ASTRAY: f64 = 1e3;
+/// A face looks at the surface if the cosine between the normals is at least this.
+pub const LEAST_COSINE: f64 = 0.1;
+
+/// A ray from the surface along its outward normal.
+#[derive(Debug, Clone, Copy)]
+pub struct Ray {
+    /// Its origin.
+    pub x: Vec3,
+    /// Outward unit normal.
+    pub n: Vec3,
+}
+
+/// Where a ray meets a face.
+#[derive(Debug, Clone, Copy)]
+pub struct Projection {
+    /// Signed distance along the ray, negative for penetration.
+    pub gap: f64,
+    /// Reference coordinates.
+    pub s: [f64; 2],
+    /// Shape functions there.
+    pub shape: ShapeFunctions,
+    /// Position.
+    pub y: Vec3,
+    /// Tangents there.
+    pub tangents: [Vec3; 2],
+}
+
+impl Projection {
+    /// Derivatives of gap and reference coordinates, for the derivative `r = dx + gamma dn - sum N_K dx_K` of what the
+    /// equation leaves along the ray's own motion.
+    pub fn follow(&self, n: Vec3, r: Vec3) -> (f64, [f64; 2]) {
+        let [a, b] = self.tangents;
+        let across = n.dot(a.cross(b)).recip();
+        (-r.dot(a.cross(b)) * across, [r.dot(b.cross(n)) * across, r.dot(n.cross(a)) * across])
+    }
+
+    /// The target's outward unit normal.
+    pub fn normal(&self) -> Vec3 {
+        let [a, b] = self.tangents;
+        a.cross(b).unit()
+    }
+}
+
+/// Target faces with their numbers.
+#[derive(Debug)]
+pub struct Faces {
+    /// Faces, smooth pieces, corners.
+    pub surface: Surface,
+    tree: Tree,
+    size: f64,
+}
+
+/// Target faces at given unknowns.
+pub struct FacesInPlace<'a> {
+    faces: &'a Faces,
+    placed: Vec<Placed>,
+    tree: Tree,
+}
+
+/// Margin of the boxes as a part of the size: what is found must not depend on rounding.
+const MARGIN: f64 = 1e-9;
+
+impl Faces {
+    /// Of a surface.
+    pub fn new(surface: Surface, mesh: &Mesh) -> Self {
+        let boxes: Vec<Bounds> = surface.faces.iter().map(|face| bounds(&face.at_rest(mesh))).collect();
+        let size = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b)).size();
+        let tree = Tree::new(&boxes, MARGIN * size);
+        Self { surface, tree, size }
+    }
+
+    /// Diagonal of the box around them before any motion, a length.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The faces at unknowns `u`.
+    pub fn in_place(&self, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> FacesInPlace<'_> {
+        let placed: Vec<Placed> = self.surface.faces.iter().map(|face| face.placed(mesh, dofs, u)).collect();
+        let boxes: Vec<Bounds> = placed.iter().map(bounds).collect();
+        FacesInPlace { faces: self, tree: self.tree.refit(&boxes, MARGIN * self.size), placed }
+    }
+
+    /// Where a ray meets face `number`, placed so, or what continues it.
+    pub fn project(&self, number: usize, placed: &Placed, ray: &Ray) -> Option<Projection> {
+        let face = &self.surface.faces[number];
+        let (mut s, mut gap) = (face.middle(), 0.0);
+        for _ in 0..ITERATIONS {
+            let here = self.at(number, placed, s, gap);
+            let r = ray.x + ray.n * gap - here.y;
+            let (dg, ds) = here.follow(ray.n, r);
+            let size = here.tangents[0].norm();
+            gap += dg;
+            (0..2).for_each(|a| s[a] += ds[a]);
+            if !s.iter().all(|s| s.abs() < ASTRAY) || !gap.is_finite() {
+                return None;
+            }
+            if ds.iter().all(|ds| ds.abs() < 1e-14) && dg.abs() <= 1e-14 * size {
+                break;
+            }
+        }
+        Some(self.at(number, placed, s, gap))
+    }
+
+    fn at(&self, number: usize, placed: &Placed, s: [f64; 2], gap: f64) -> Projection {
+        let shape = self.surface.faces[number].shape(s);
+        let tangents = shape.tangents(placed.nodes(), self.surface.plane);
+        Projection { gap, s, shape, y: shape.value(placed.nodes()), tangents }
+    }
+}
+
+fn bounds(placed: &Placed) -> Bounds {
+    let all = Bounds::of(placed.nodes().iter().copied());
+    // Faces of second degree bulge beyond the box around their nodes.
+    let wide = Vec3([if placed.nodes().len() > 4 || placed.nodes().len() == 3 { 0.25 * all.size() } else { 0.0 }; 3]);
+    Bounds { min: all.min - wide, max: all.max + wide }
+}
+
+impl FacesInPlace<'_> {
+    /// A face in place.
+    pub fn placed(&self, number: usize) -> &Placed {
+        &self.placed[number]
+    }
+
+    /// Numbers of the faces whose boxes come within `margin` of a box, ascending.
+    pub fn near(&self, around: &Bounds, margin: f64, out: &mut Vec<usize>) {
+        let wide = Vec3([margin; 3]);
+        out.clear();
+        self.tree.near(&Bounds { min: around.min - wide, max: around.max + wide }, &mut |number| out.push(number));
+        out.sort_unstable();
+    }
+
+    /// Where a ray meets the nearest face that `admits` (face, projection).
+    pub fn nearest(
+        &self,
+        ray: &Ray,
+        range: [f64; 2],
+        mut admits: impl FnMut(usize, &Projection) -> bool,
+    ) -> Option<(usize, Projection)> {
+        let mut best: Option<(usize, Projection)> = None;
+        let along = crate::tool::Ray { origin: ray.x, direction: ray.n };
+        let mut found = Vec::new();
+        self.tree.along(&along, range, &mut |number| found.push(number));
+        found.sort_unstable();
+        for number in found {
+            let Some(hit) = self.faces.project(number, &self.placed[number], ray) else { continue };
+            let inside = self.faces.surface.faces[number].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
+            if inside && admits(number, &hit) && best.is_none_or(|(_, b)| hit.gap.abs() < b.gap.abs()) {
+                best = Some((number, hit));
+            }
+        }
+        best
+    }
+}

@@ -1,0 +1,35 @@
+//! Contact stress as a field of nodal values: the mortar method with penalty regularisation.
+//!
+//! The surface carries pressure and shear at the *corner* nodes of its faces, with the functions `M_i` of first degree (on
+//! faces of second degree too). Gaps and slips are weighted means over the undeformed surface, a law is asked once a node,
+//! and the field is then integrated back to forces on both sides:
+//! ```text
+//! A_i = int M_i dA    g_i = int M_i g dA / A_i    s_i = int M_i T(x)^t ds dA / A_i
+//! (p_i, tau_i) = law(-g_i, s_i; history of the node)
+//! t(x) = sum M_i(x) (p_i n(x) + T(x) tau_i)       F_L = int N_L t dA,  F_K = -int N_K(B) t dA
+//! ```
+//! so that action is reaction to rounding. A stress at each quadrature point would constrain the interface at more places
+//! than the two traces can follow; one value a node is what they can (Puso & Laursen, CMAME 193, 2004; Yang, Laursen &
+//! Meng, IJNME 62, 2005; Popp, Gee & Wall, IJNME 79, 2009). Nothing is shared across a crease of the surface or between two
+//! smooth pieces of the target (Farah, Wall & Popp, IJNME 114, 2018).
+//!
+//! The way of a contact: [`surface`](Surface) and `target` are who may touch whom, `cover` finds which part of a face sees
+//! which part of the target, `point` places a quadrature point with the derivatives of all that follows from it, `stencil` sums
+//! the points of a node, and `term` with `attempt` are the only ones that know the rest. The plane is space with the second
+//! tangent `e_z`; what differs is the cover of a face and the pose of a tool.
+
+mod attempt;
+mod cover;
+mod face;
+mod faces;
+mod point;
+mod stencil;
+mod surface;
+mod term;
+mod tool;
+
+pub use surface::Surface;
+pub use term::{FieldContact, FieldParts, FieldTarget};
+
+#[cfg(test)]
+mod tests;

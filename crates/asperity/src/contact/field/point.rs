@@ -1,0 +1,329 @@
+//! A quadrature point of a patch: gap, slip, directions and weights there, and the derivative of each along one unknown.
+//!
+//! With `xi` the place on the face, `x = N_L(xi) x_L`. On a body `n` is the averaged normal of the surface and
+//! `x + gamma n = N_K(s) x_K`; on a tool `n` is the opposite of the tool's normal at the closest point and `gamma` the signed
+//! distance, so that pressure is along the gradient of the gap. The slip of the increment is the way between the target's
+//! material point that this place of the surface saw at the accepted state and the place itself, both as they are now: under
+//! a common rigid motion it is along `n`, and nothing is left of it in the tangent plane.
+
+use super::cover::{FaceInPlace, Frame, Patch, root_near};
+use super::face::{CORNERS, Placed, ShapeFunctions};
+use super::faces::{Projection, Ray};
+use super::surface::{NodalNormal, unit};
+use super::tool::{Foot, MOST, ToolInPlace};
+use crate::tensor::Vec3;
+
+/// What a point sees of the target.
+#[derive(Debug, Clone, Copy)]
+pub enum Sight {
+    /// A face of a body.
+    Face(Projection),
+    /// The closest point of a tool.
+    Tool(Foot),
+}
+
+/// The target's material point that a place of the surface saw at the accepted state, as it is now.
+#[derive(Debug, Clone, Copy)]
+pub struct Touched {
+    /// Present position.
+    pub now: Vec3,
+    /// Its derivatives along the reference coordinates of the place.
+    pub slopes: [Vec3; 2],
+    /// The face of a body and the shape functions there.
+    pub face: Option<(usize, ShapeFunctions)>,
+}
+
+/// A quadrature point of one node of the field.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    /// Its patch.
+    pub patch: usize,
+    /// Its place on the face.
+    pub xi: [f64; 2],
+    /// Undeformed area it stands for times the node's function there.
+    pub weight: f64,
+    /// Shape functions of the face.
+    pub shape: ShapeFunctions,
+    /// Gap, negative for penetration.
+    pub gap: f64,
+    /// Outward direction of the gap, and the two tangents.
+    pub n: Vec3,
+    /// Tangents.
+    pub e: [Vec3; 2],
+    /// Slip of the increment along them.
+    pub slip: [f64; 2],
+    /// Where the target is loaded.
+    pub y: Vec3,
+    /// What it sees.
+    pub sight: Sight,
+}
+
+/// Derivatives of a point along one unknown.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Rates {
+    /// Of the weight.
+    pub weight: f64,
+    /// Of the reference coordinates.
+    pub xi: [f64; 2],
+    /// Of the gap.
+    pub gap: f64,
+    /// Of the direction.
+    pub n: Vec3,
+    /// Of the tangents.
+    pub e: [Vec3; 2],
+    /// Of the slips.
+    pub slip: [f64; 2],
+    /// Of the reference coordinates of what is seen.
+    pub s: [f64; 2],
+    /// Of the place where the target is loaded.
+    pub y: Vec3,
+}
+
+/// One unknown of a stencil, and where its node is in what a patch depends on.
+#[derive(Debug, Clone, Copy)]
+pub enum Column {
+    /// A displacement of a node.
+    Node {
+        /// Axis.
+        axis: usize,
+        /// Its number on the face of the surface.
+        own: Option<usize>,
+        /// Its number on the face that is seen.
+        seen: Option<usize>,
+        /// The node of the mesh.
+        node: usize,
+    },
+    /// An unknown of the tool.
+    Tool(usize),
+}
+
+/// A node's function at a place: its value and its slopes.
+type Function = (f64, [f64; 2]);
+
+/// A patch in place, with all that its points have in common.
+pub struct PatchInPlace<'a> {
+    /// Its face.
+    pub face: FaceInPlace<'a>,
+    /// The averaged normals at the corners.
+    pub normals: [Option<NodalNormal>; CORNERS],
+    /// The tool, if it sees one.
+    pub tool: Option<ToolInPlace<'a>>,
+    /// The face that is seen, as it lies in the target's list, if it sees a body.
+    pub seen: Option<(&'a super::faces::Faces, Placed)>,
+    /// The patch itself.
+    pub patch: Patch,
+    /// Where its interval begins and ends.
+    pub interval: [f64; 2],
+}
+
+/// Ends of an interval and their derivatives along one unknown.
+pub type IntervalRates = [f64; 2];
+
+/// Cosines between the surface's own normal and that opposite to a tool's between which a place comes into sight.
+const SIGHT: [f64; 2] = [0.1, 0.5];
+
+/// Weight of a place by that cosine: zero, a cubic, one. With its slope.
+fn sight(cosine: f64) -> [f64; 2] {
+    let width = SIGHT[1] - SIGHT[0];
+    let t = ((cosine - SIGHT[0]) / width).clamp(0.0, 1.0);
+    [t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / width]
+}
+
+impl PatchInPlace<'_> {
+    /// Finds where the interval lies.
+    pub fn find_interval(&mut self) {
+        for k in 0..2 {
+            self.interval[k] = match self.patch.ends[k] {
+                None => [-1.0, 1.0][k],
+                Some(end) => root_near(self.patch.near[k], |xi| self.offset(xi, end)),
+            };
+        }
+    }
+
+    fn offset(&self, xi: f64, end: usize) -> [f64; 2] {
+        match (&self.tool, &self.seen) {
+            (Some(tool), _) => tool.ends(self.patch.target)[end].map_or([0.0, 1.0], |line| self.face.end_offset(xi, line)),
+            (None, Some((_, seen))) => self.face.vertex_offset(xi, seen.nodes()[end]),
+            (None, None) => [0.0, 1.0],
+        }
+    }
+
+    /// Derivatives of the ends of the interval along an unknown. `turning` are those of the sums of area vectors at the
+    /// corners.
+    pub fn interval_rates(&self, column: &Column, turning: &[Vec3; CORNERS]) -> IntervalRates {
+        let rate = |k: usize| {
+            let Some(end) = self.patch.ends[k] else { return 0.0 };
+            let xi = self.interval[k];
+            let at = self.face.at([xi, 0.0]);
+            let slope = self.offset(xi, end)[1];
+            let moved = self.moved(column, &self.face.face.shape([xi, 0.0]));
+            let change = match (&self.tool, &self.seen) {
+                (Some(tool), _) => {
+                    let Some((point, along)) = tool.ends(self.patch.target)[end] else { return 0.0 };
+                    let (rate, spin) = tool_motion(tool, column, point);
+                    (moved - rate).dot(along) + (at.x - point).dot(spin.cross(along))
+                }
+                (None, Some((_, seen))) => {
+                    let vertex = match column {
+                        Column::Node { axis, seen: Some(k), .. } if *k == end => unit(*axis),
+                        _ => Vec3::zero(),
+                    };
+                    let turned = self.sum_turned([xi, 0.0], turning);
+                    (vertex - moved).dot(at.normal.left()) + (seen.nodes()[end] - at.x).dot(turned.left())
+                }
+                (None, None) => 0.0,
+            };
+            -change / slope
+        };
+        [rate(0), rate(1)]
+    }
+
+    /// Displacement of a place of the face along an unknown, at fixed reference coordinates.
+    fn moved(&self, column: &Column, shape: &ShapeFunctions) -> Vec3 {
+        match column {
+            Column::Node { axis, own: Some(k), .. } => unit(*axis) * shape.n[*k],
+            _ => Vec3::zero(),
+        }
+    }
+
+    /// Derivative of the interpolated normal along an unknown, at fixed reference coordinates.
+    fn sum_turned(&self, xi: [f64; 2], turning: &[Vec3; CORNERS]) -> Vec3 {
+        let functions = self.face.face.corner_functions(xi);
+        let turned = self.normals.iter().zip(turning).zip(&functions.n);
+        turned.fold(Vec3::zero(), |sum, ((normal, dm), m)| sum + normal.map_or(Vec3::zero(), |n| n.turned(*dm)) * *m)
+    }
+
+    /// Where a point of the rule lies on the interval.
+    pub fn place(&self, eta: f64) -> f64 {
+        let [from, to] = self.interval;
+        0.5 * (from + to) + 0.5 * (to - from) * eta
+    }
+
+    /// What is seen from a place of the face.
+    pub fn look(&self, at: &Frame) -> Option<(Sight, Vec3, f64, Vec3)> {
+        if let Some(tool) = &self.tool {
+            let foot = tool.closest(self.patch.target, at.x);
+            return Some((Sight::Tool(foot), -foot.normal, foot.gap, foot.point));
+        }
+        let (faces, seen) = self.seen.as_ref()?;
+        let n = at.normal.unit();
+        let hit = faces.project(self.patch.target, seen, &Ray { x: at.x, n })?;
+        Some((Sight::Face(hit), n, hit.gap, hit.y))
+    }
+
+    /// The weight of a place by whether it looks at what it sees, and its slope along the cosine.
+    pub fn facing(&self, xi: [f64; 2], n: Vec3) -> [f64; 2] {
+        if self.tool.is_none() {
+            return [1.0, 0.0];
+        }
+        sight(self.face.own_normal(xi).dot(n))
+    }
+
+    /// Derivatives of a point along an unknown: `rule` is its place in the rule and its weight there, `density` the undeformed
+    /// area density with its slopes, `function` the node's function.
+    pub fn rates(
+        &self,
+        point: &Point,
+        column: &Column,
+        (eta, rule_weight): (f64, f64),
+        (density, function, touched): (&Function, &Function, &Option<Touched>),
+        (ends, turning): (&IntervalRates, &[Vec3; CORNERS]),
+    ) -> Rates {
+        let xi = [self.place(eta), 0.0];
+        let at = self.face.at(xi);
+        let half = 0.5 * (self.interval[1] - self.interval[0]);
+        let dxi = [0.5 * (ends[0] * (1.0 - eta) + ends[1] * (1.0 + eta)), 0.0];
+        let dhalf = 0.5 * (ends[1] - ends[0]);
+        let dx = self.moved(column, &point.shape) + at.tangents[0] * dxi[0];
+        let (gap, n, s, y) = self.sight_rates(point, column, (&at, dx, dxi), turning);
+        let facing = self.facing(xi, point.n);
+        let mut dfacing = 0.0;
+        if facing[1] != 0.0 {
+            let cosine = self.own_normal_rate(column, xi, dxi).dot(point.n) + self.face.own_normal(xi).dot(n);
+            dfacing = facing[1] * cosine;
+        }
+        let (density, density_slope) = (density.0, density.1[0] * dxi[0]);
+        let (function, function_slope) = (function.0, function.1[0] * dxi[0]);
+        let weight = rule_weight
+            * (dhalf * density * facing[0] * function
+                + half * (density_slope * facing[0] * function + density * dfacing * function + density * facing[0] * function_slope));
+        let e = [n.left(), Vec3::zero()];
+        let mut slip = [0.0; 2];
+        if let Some(touched) = touched {
+            let v = touched.now - at.x;
+            let dv = self.touched_rate(column, touched) + touched.slopes[0] * dxi[0] - dx;
+            (0..2).for_each(|a| slip[a] = e[a].dot(v) + point.e[a].dot(dv));
+        }
+        Rates { weight, xi: dxi, gap, n, e, slip, s, y }
+    }
+
+    /// Derivatives of gap, direction, coordinates of what is seen, and of the place where it is loaded.
+    fn sight_rates(
+        &self,
+        point: &Point,
+        column: &Column,
+        (at, dx, dxi): (&Frame, Vec3, [f64; 2]),
+        turning: &[Vec3; CORNERS],
+    ) -> (f64, Vec3, [f64; 2], Vec3) {
+        match (&point.sight, &self.tool) {
+            (Sight::Tool(foot), Some(tool)) => {
+                let (rate, spin) = tool_motion(tool, column, at.x);
+                let motion = dx - rate;
+                let n = -(foot.turned(motion) + spin.cross(foot.normal));
+                let (rate, _) = tool_motion(tool, column, foot.point);
+                (foot.normal.dot(motion), n, [0.0; 2], rate + foot.slide(motion))
+            }
+            (Sight::Face(hit), _) => {
+                let dm = self.sum_turned(point.xi, turning) + at.normal_slopes[0] * dxi[0];
+                let dn = (dm - point.n * point.n.dot(dm)) * at.normal.norm().recip();
+                let carried = match column {
+                    Column::Node { axis, seen: Some(k), .. } => unit(*axis) * hit.shape.n[*k],
+                    _ => Vec3::zero(),
+                };
+                let (gap, s) = hit.follow(point.n, dx + dn * hit.gap - carried);
+                let y = carried + hit.tangents[0] * s[0] + hit.tangents[1] * s[1];
+                (gap, dn, s, y)
+            }
+            (Sight::Tool(_), None) => (0.0, Vec3::zero(), [0.0; 2], Vec3::zero()),
+        }
+    }
+
+    /// Derivative of the face's own unit normal.
+    fn own_normal_rate(&self, column: &Column, xi: [f64; 2], dxi: [f64; 2]) -> Vec3 {
+        let face = self.face.face;
+        let shape = face.shape(xi);
+        let [a, b] = shape.tangents(self.face.placed.nodes(), self.face.plane);
+        let mut da = match column {
+            Column::Node { axis, own: Some(k), .. } => unit(*axis) * shape.dn[*k][0],
+            _ => Vec3::zero(),
+        };
+        if dxi[0] != 0.0 {
+            // Shape functions of second degree have linear slopes, of which a central difference is exact.
+            let slope = |step: f64| face.shape([xi[0] + step, xi[1]]).tangents(self.face.placed.nodes(), true)[0];
+            da += (slope(0.5) - slope(-0.5)) * dxi[0];
+        }
+        let (m, dm) = (a.cross(b), da.cross(b));
+        let unit = m.unit();
+        (dm - unit * unit.dot(dm)) * m.norm().recip()
+    }
+
+    fn touched_rate(&self, column: &Column, touched: &Touched) -> Vec3 {
+        match (column, &touched.face, &self.tool) {
+            (Column::Node { axis, node, .. }, Some((face, shape)), _) => {
+                let nodes = self.seen.as_ref().map(|(faces, _)| &faces.surface.faces[*face].nodes);
+                let place = nodes.and_then(|nodes| nodes.iter().position(|other| other == node));
+                place.map_or(Vec3::zero(), |k| unit(*axis) * shape.n[k])
+            }
+            (Column::Tool(j), None, Some(tool)) => tool.rates(touched.now)[*j],
+            _ => Vec3::zero(),
+        }
+    }
+}
+
+/// Velocity of the tool's material at a place, and its spin, along an unknown.
+fn tool_motion(tool: &ToolInPlace, column: &Column, at: Vec3) -> (Vec3, Vec3) {
+    match column {
+        Column::Tool(j) if *j < MOST => (tool.rates(at)[*j], tool.spins()[*j]),
+        _ => (Vec3::zero(), Vec3::zero()),
+    }
+}

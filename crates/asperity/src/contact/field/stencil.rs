@@ -1,0 +1,296 @@
+//! The stencil of one node of the field: weighted gap and slips with their gradients, and the forces of its stresses.
+//!
+//! With `y = (-g_i, s_i)` the coordinates and `t = (p_i, tau_i)` the stresses over them, the forces are `F = H(u) t`, and the tangent is
+//! `H C G + sum_c t_c dH_c`, `G = dy/du`. Two sweeps over the points of the node: the first finds `y`, `G` and `H`; then the law
+//! is asked; the second adds what turning and moving the stresses does.
+
+use super::cover::{FaceInPlace, Patch};
+use super::face::{CORNERS, Face, Placed};
+use super::point::{Column, PatchInPlace, Point, Rates, Sight, Touched};
+use super::surface::NodalNormal;
+use super::term::{FieldContact, FieldTarget};
+use crate::tensor::Vec3;
+
+/// Coordinates of a node: penetration and two slips.
+pub const COUNT: usize = 3;
+
+/// Which unknowns a stencil has, and the patches that it sums.
+#[derive(Debug, Clone, Default)]
+pub struct Support {
+    /// The patches; the node's own number among the corners of each face.
+    pub patches: Vec<(Patch, usize)>,
+    /// Nodes of the mesh on which they depend, ascending.
+    pub nodes: Vec<usize>,
+    /// The target came through the body here.
+    pub through: bool,
+}
+
+/// Sums over the points of a node. Its buffers are kept from stencil to stencil.
+#[derive(Debug, Default)]
+pub struct NodeSums {
+    /// Undeformed area of what the node stands for and sees.
+    pub area: f64,
+    /// Penetration and slips.
+    pub y: [f64; COUNT],
+    /// Derivatives of `y` along each unknown, coordinate after coordinate.
+    pub gradients: Vec<f64>,
+    /// Forces on each unknown of a unit of each stress, stress after stress.
+    pub forces: Vec<f64>,
+    /// Mean position, weighted by area.
+    pub place: Vec3,
+    points: Vec<Point>,
+    rates: Vec<Rates>,
+    columns: Vec<Column>,
+}
+
+/// A stencil at values of its unknowns.
+pub struct StencilInPlace<'a> {
+    /// The contact.
+    pub contact: &'a FieldContact,
+    /// Its unknowns and patches.
+    pub support: &'a Support,
+    /// Values of its unknowns: those of its nodes, then those of the tool.
+    pub u: &'a [f64],
+}
+
+/// What a place of the surface saw at the accepted state.
+pub type Recall<'a> = &'a dyn Fn(&Patch, [f64; 2]) -> Option<Touched>;
+
+impl<'a> StencilInPlace<'a> {
+    fn axes(&self) -> usize {
+        self.contact.dofs.per_node()
+    }
+
+    /// A face with its nodes in place.
+    pub(super) fn placed(&self, face: &Face) -> Placed {
+        let axes = self.axes();
+        Placed::new(face.nodes.iter().map(|node| {
+            let mut x = self.contact.mesh.points[*node];
+            if let Ok(place) = self.support.nodes.binary_search(node) {
+                (0..axes).for_each(|axis| x[axis] += self.u[place * axes + axis]);
+            }
+            x
+        }))
+    }
+
+    /// The unknowns of the tool.
+    pub(super) fn motion(&self) -> &'a [f64] {
+        &self.u[self.support.nodes.len() * self.axes()..]
+    }
+
+    fn patch(&self, patch: &Patch) -> PatchInPlace<'a> {
+        let surface = &self.contact.surface;
+        let face = &surface.faces[patch.face];
+        let (mut normals, mut units) = ([None; CORNERS], [Vec3::zero(); CORNERS]);
+        if self.contact.needs_normals() {
+            for c in 0..face.corners() {
+                let node = surface.field[patch.face][c];
+                let normal: NodalNormal = surface.normal(node, |f| self.placed(&surface.faces[f]));
+                (normals[c], units[c]) = (Some(normal), normal.unit);
+            }
+        }
+        let face = FaceInPlace { face, placed: self.placed(face), normals: units, plane: surface.plane };
+        let (tool, seen) = match &self.contact.target {
+            FieldTarget::Tool(rigid) => (Some(rigid.in_place(self.motion())), None),
+            FieldTarget::Faces(faces) => {
+                (None, Some((faces, self.placed(&faces.surface.faces[patch.target]))))
+            }
+        };
+        let mut patch = PatchInPlace { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0] };
+        patch.find_interval();
+        patch
+    }
+
+    fn list_columns(&self, patch: &Patch, columns: &mut Vec<Column>) {
+        columns.clear();
+        let own = &self.contact.surface.faces[patch.face].nodes;
+        let seen = match &self.contact.target {
+            FieldTarget::Tool(_) => &[][..],
+            FieldTarget::Faces(faces) => &faces.surface.faces[patch.target].nodes,
+        };
+        let place = |nodes: &[usize], node: usize| nodes.iter().position(|&other| other == node);
+        for &node in &self.support.nodes {
+            let (own, seen) = (place(own, node), place(seen, node));
+            columns.extend((0..self.axes()).map(|axis| Column::Node { axis, own, seen, node }));
+        }
+        columns.extend((0..self.motion().len()).map(Column::Tool));
+    }
+
+    /// Derivatives of the sums of area vectors at the corners of a face along each unknown.
+    fn turning(&self, patch: &Patch, out: &mut Vec<[Vec3; CORNERS]>) {
+        let (surface, axes) = (&self.contact.surface, self.axes());
+        out.clear();
+        out.resize(self.u.len(), [Vec3::zero(); CORNERS]);
+        if !self.contact.needs_normals() {
+            return;
+        }
+        for c in 0..surface.faces[patch.face].corners() {
+            let node = surface.field[patch.face][c];
+            surface.normal_rates(node, |f| self.placed(&surface.faces[f]), |node, rates| {
+                if let Ok(place) = self.support.nodes.binary_search(&node) {
+                    (0..axes).for_each(|axis| out[place * axes + axis][c] += rates[axis]);
+                }
+            });
+        }
+    }
+
+    /// First sweep. None where the node sees nothing, or a ray runs along the target.
+    pub fn sum(&self, recall: Recall, derivatives: bool, sums: &mut NodeSums) -> Option<()> {
+        let n = self.u.len();
+        sums.points.clear();
+        sums.rates.clear();
+        let (mut area, mut moments, mut place) = (0.0, [0.0; COUNT], Vec3::zero());
+        let mut turning = Vec::new();
+        for (number, (patch, corner)) in self.support.patches.iter().enumerate() {
+            let in_place = self.patch(patch);
+            let surface = &self.contact.surface;
+            let rest = in_place.face.face.at_rest(&self.contact.mesh);
+            let mut ends = Vec::new();
+            if derivatives {
+                self.list_columns(patch, &mut sums.columns);
+                self.turning(patch, &mut turning);
+                ends.extend(sums.columns.iter().zip(&turning).map(|(column, turning)| in_place.interval_rates(column, turning)));
+            }
+            let half = 0.5 * (in_place.interval[1] - in_place.interval[0]);
+            for &(eta, rule_weight) in self.contact.rule() {
+                let xi = [in_place.place(eta), 0.0];
+                let at = in_place.face.at(xi);
+                let (sight, n_out, gap, y) = in_place.look(&at)?;
+                let density = surface.density(in_place.face.face, &rest, xi);
+                let corners = in_place.face.face.corner_functions(xi);
+                let function = (corners.n[*corner], corners.dn[*corner]);
+                let facing = in_place.facing(xi, n_out)[0];
+                let weight = rule_weight * half * density.0 * facing * function.0;
+                let e = [n_out.left(), Vec3::new(0.0, 0.0, 1.0)];
+                let touched = recall(patch, xi);
+                let v = touched.map_or(Vec3::zero(), |touched| touched.now - at.x);
+                let slip = e.map(|e| e.dot(v));
+                let shape = in_place.face.face.shape(xi);
+                let point = Point { patch: number, xi, weight, shape, gap, n: n_out, e, slip, y, sight };
+                area += weight;
+                place += at.x * weight;
+                for (moment, value) in moments.iter_mut().zip([-gap, slip[0], slip[1]]) {
+                    *moment += weight * value;
+                }
+                if derivatives {
+                    for ((column, ends), turning) in sums.columns.iter().zip(&ends).zip(&turning) {
+                        let shapes = (&density, &function, &touched);
+                        sums.rates.push(in_place.rates(&point, column, (eta, rule_weight), shapes, (ends, turning)));
+                    }
+                }
+                sums.points.push(point);
+            }
+        }
+        if area <= 0.0 {
+            return None;
+        }
+        (sums.area, sums.place) = (area, place * area.recip());
+        sums.y = moments.map(|moment| moment / area);
+        if derivatives {
+            self.differentiate(n, sums);
+        }
+        Some(())
+    }
+
+    fn differentiate(&self, n: usize, sums: &mut NodeSums) {
+        let NodeSums { area, y, gradients, points, rates, .. } = sums;
+        gradients.clear();
+        gradients.resize(COUNT * n, 0.0);
+        for (point, rates) in points.iter().zip(rates.chunks_exact(n)) {
+            for (j, rate) in rates.iter().enumerate() {
+                let values = [-point.gap - y[0], point.slip[0] - y[1], point.slip[1] - y[2]];
+                let slopes = [-rate.gap, rate.slip[0], rate.slip[1]];
+                for c in 0..COUNT {
+                    gradients[c * n + j] += rate.weight * values[c] + point.weight * slopes[c];
+                }
+            }
+        }
+        gradients.iter_mut().for_each(|gradient| *gradient /= *area);
+    }
+
+    /// Forces of a unit of each stress on each unknown.
+    pub fn find_forces(&self, sums: &mut NodeSums) {
+        let n = self.u.len();
+        let NodeSums { forces, points, .. } = sums;
+        forces.clear();
+        forces.resize(COUNT * n, 0.0);
+        for point in points.iter() {
+            for (c, direction) in [-point.n, point.e[0], point.e[1]].into_iter().enumerate() {
+                self.load(point, direction * point.weight, &mut forces[c * n..(c + 1) * n]);
+            }
+        }
+    }
+
+    /// Adds what a force on the surface at a point does to the unknowns: `-N_L f` and the opposite on the target.
+    fn load(&self, point: &Point, f: Vec3, rows: &mut [f64]) {
+        let (patch, axes) = (&self.support.patches[point.patch].0, self.axes());
+        let mut push = |nodes: &[usize], shape: &[f64], sign: f64| {
+            for (node, n) in nodes.iter().zip(shape) {
+                let Ok(place) = self.support.nodes.binary_search(node) else { continue };
+                (0..axes).for_each(|axis| rows[place * axes + axis] += sign * n * f[axis]);
+            }
+        };
+        push(&self.contact.surface.faces[patch.face].nodes, &point.shape.n, -1.0);
+        match (&point.sight, &self.contact.target) {
+            (Sight::Face(hit), FieldTarget::Faces(faces)) => {
+                push(&faces.surface.faces[patch.target].nodes, &hit.shape.n, 1.0);
+            }
+            (Sight::Tool(_), FieldTarget::Tool(rigid)) => {
+                let received = rigid.in_place(self.motion()).receive(point.y, f);
+                let first = self.support.nodes.len() * axes;
+                rows[first..].iter_mut().zip(received).for_each(|(row, f)| *row += f);
+            }
+            _ => {}
+        }
+    }
+
+    /// Second sweep: adds `factor` times what turning and moving stresses `t` does to the tangent.
+    pub fn add_geometric(&self, t: [f64; COUNT], factor: f64, sums: &NodeSums, tangent: &mut [f64]) {
+        let (n, axes) = (self.u.len(), self.axes());
+        let NodeSums { points, rates, .. } = sums;
+        for (point, rates) in points.iter().zip(rates.chunks_exact(n)) {
+            let patch = &self.support.patches[point.patch].0;
+            let traction = (point.e[0] * t[1] + point.e[1] * t[2] - point.n * t[0]) * factor;
+            let own = &self.contact.surface.faces[patch.face].nodes;
+            for (j, rate) in rates.iter().enumerate() {
+                let turned = (rate.e[0] * t[1] + rate.e[1] * t[2] - rate.n * t[0]) * factor;
+                let mut push = |nodes: &[usize], shape: &super::face::ShapeFunctions, at: [f64; 2], sign: f64| {
+                    for (k, node) in nodes.iter().enumerate() {
+                        let Ok(place) = self.support.nodes.binary_search(node) else { continue };
+                        let (value, [a, b]) = (shape.n[k], shape.dn[k]);
+                        let slope = rate.weight * value + point.weight * (a * at[0] + b * at[1]);
+                        let change = (traction * slope + turned * (point.weight * value)) * sign;
+                        (0..axes).for_each(|axis| tangent[(place * axes + axis) * n + j] += change[axis]);
+                    }
+                };
+                push(own, &point.shape, rate.xi, -1.0);
+                match (&point.sight, &self.contact.target) {
+                    (Sight::Face(hit), FieldTarget::Faces(faces)) => {
+                        push(&faces.surface.faces[patch.target].nodes, &hit.shape, rate.s, 1.0);
+                    }
+                    (Sight::Tool(_), FieldTarget::Tool(rigid)) => {
+                        let tool = rigid.in_place(self.motion());
+                        let first = self.support.nodes.len() * axes;
+                        let along = j.checked_sub(first);
+                        let f = traction * point.weight;
+                        let df = traction * rate.weight + turned * point.weight;
+                        let received = tool.receive_rate((point.y, f), (rate.y, df), along);
+                        (first..n).for_each(|row| tangent[row * n + j] += received[row - first]);
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// Resultant of stresses `t` on the surface, the mean direction of pressure, and the mean first and second tangents.
+    pub fn directions(&self, sums: &NodeSums) -> [Vec3; COUNT] {
+        let mut mean = [Vec3::zero(); COUNT];
+        for point in &sums.points {
+            for (mean, direction) in mean.iter_mut().zip([-point.n, point.e[0], point.e[1]]) {
+                *mean += direction * (point.weight / sums.area);
+            }
+        }
+        mean
+    }
+}

@@ -1,0 +1,233 @@
+//! The surface that carries the field: its faces, and the nodes of the field with their averaged normals.
+//!
+//! A node of the field is a corner of the mesh together with the faces around it that meet without a crease: where they do,
+//! the corner belongs to several nodes, one for each smooth piece. Each node has the mean of the area vectors of its
+//! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
+
+use super::face::{CORNERS, Face, Placed};
+use crate::mesh::{Mesh, Side, Space};
+use crate::system::Dofs;
+use crate::tensor::Vec3;
+use std::collections::BTreeMap;
+
+/// Faces that meet at a larger angle, in radians, form a crease.
+pub const CREASE: f64 = 0.7;
+
+/// A node of the field.
+#[derive(Debug, Clone)]
+pub struct FieldNode {
+    /// The node of the mesh.
+    pub node: usize,
+    /// The faces around it, each with the number of the corner that the node is.
+    pub support: Vec<(usize, usize)>,
+    /// Whether the surface crosses the axis of revolution here without a crease, so that its normal stays along the axis.
+    on_axis: bool,
+}
+
+/// The sum of area vectors at a node of the field.
+#[derive(Debug, Clone, Copy)]
+pub struct NodalNormal {
+    /// Outward unit normal.
+    pub unit: Vec3,
+    /// Length of the sum.
+    length: f64,
+    on_axis: bool,
+}
+
+impl NodalNormal {
+    /// Derivative of the unit normal for a derivative `dm` of the sum.
+    pub fn turned(&self, mut dm: Vec3) -> Vec3 {
+        if self.on_axis {
+            dm[0] = 0.0;
+        }
+        (dm - self.unit * self.unit.dot(dm)) * self.length.recip()
+    }
+}
+
+/// Faces and nodes of the field.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    /// The faces.
+    pub faces: Vec<Face>,
+    /// The nodes of the field.
+    pub nodes: Vec<FieldNode>,
+    /// For each face the nodes of the field at its corners.
+    pub field: Vec<[usize; CORNERS]>,
+    /// For each face the smooth piece it belongs to.
+    pub pieces: Vec<usize>,
+    /// Whether faces are edges of a plane model.
+    pub plane: bool,
+    /// Whether the model is axisymmetric.
+    pub revolves: bool,
+    thickness: f64,
+}
+
+/// Sets of numbers that are joined pair by pair.
+struct Sets(Vec<usize>);
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Self((0..count).collect())
+    }
+    fn root(&self, mut i: usize) -> usize {
+        while self.0[i] != i {
+            i = self.0[i];
+        }
+        i
+    }
+    fn join(&mut self, i: usize, j: usize) {
+        let (i, j) = (self.root(i), self.root(j));
+        self.0[i.max(j)] = i.min(j);
+    }
+}
+
+impl Surface {
+    /// The faces `sides` of a mesh in a space; `thickness` counts in the plane cases.
+    pub fn new(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
+        let faces: Vec<Face> = sides.iter().map(|&side| Face::new(mesh, side)).collect();
+        let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
+        let thickness = if plane && !revolves { thickness } else { 1.0 };
+        let mut surface = Self { faces, nodes: vec![], field: vec![], pieces: vec![], plane, revolves, thickness };
+        surface.number(mesh);
+        surface
+    }
+
+    /// Finds the smooth pieces and numbers the nodes of the field.
+    fn number(&mut self, mesh: &Mesh) {
+        let mut around: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+        for (f, face) in self.faces.iter().enumerate() {
+            (0..face.corners()).for_each(|c| around.entry(face.nodes[c]).or_default().push((f, c)));
+        }
+        let normals: Vec<Vec3> = self.faces.iter().map(|face| self.middle_normal(face, mesh)).collect();
+        let smooth = |f: usize, g: usize| {
+            let cosine = normals[f].dot(normals[g]).clamp(-1.0, 1.0);
+            cosine.acos() < CREASE && shared(&self.faces[f], &self.faces[g]) >= if self.plane { 1 } else { 2 }
+        };
+        let (mut pieces, mut field) = (Sets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
+        let mut nodes = Vec::new();
+        for (&node, corners) in &around {
+            let mut sets = Sets::new(corners.len());
+            for i in 0..corners.len() {
+                for j in 0..i {
+                    if smooth(corners[i].0, corners[j].0) {
+                        sets.join(i, j);
+                        pieces.join(corners[i].0, corners[j].0);
+                    }
+                }
+            }
+            for root in (0..corners.len()).filter(|&i| sets.root(i) == i) {
+                let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
+                let support: Vec<(usize, usize)> = members.map(|i| corners[i]).collect();
+                support.iter().for_each(|&(f, c)| field[f][c] = nodes.len());
+                let on_axis = self.revolves
+                    && mesh.points[node][0].abs() <= 1e-9 * mesh.size()
+                    && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
+                nodes.push(FieldNode { node, support, on_axis });
+            }
+        }
+        self.pieces = (0..self.faces.len()).map(|f| pieces.root(f)).collect();
+        (self.nodes, self.field) = (nodes, field);
+    }
+
+    fn middle_normal(&self, face: &Face, mesh: &Mesh) -> Vec3 {
+        let [a, b] = face.shape(face.middle()).tangents(face.at_rest(mesh).nodes(), self.plane);
+        a.cross(b).unit()
+    }
+
+    /// The outward area vector at a corner of a face in place.
+    fn area_vector(&self, face: &Face, placed: &Placed, corner: usize) -> Vec3 {
+        let [a, b] = face.shape(face.place(corner)).tangents(placed.nodes(), self.plane);
+        a.cross(b)
+    }
+
+    /// The normal of a node of the field, with the faces placed by `placed`.
+    pub fn normal(&self, node: usize, placed: impl Fn(usize) -> Placed) -> NodalNormal {
+        let FieldNode { support, on_axis, .. } = &self.nodes[node];
+        let mut sum = Vec3::zero();
+        for &(f, corner) in support {
+            sum += self.area_vector(&self.faces[f], &placed(f), corner);
+        }
+        if *on_axis {
+            sum[0] = 0.0;
+        }
+        NodalNormal { unit: sum.unit(), length: sum.norm(), on_axis: *on_axis }
+    }
+
+    /// Calls `add` with a node of the mesh and the derivatives of that sum of area vectors along its three displacements.
+    pub fn normal_rates(&self, node: usize, placed: impl Fn(usize) -> Placed, mut add: impl FnMut(usize, [Vec3; 3])) {
+        for &(f, corner) in &self.nodes[node].support {
+            let (face, placed) = (&self.faces[f], placed(f));
+            let shape = face.shape(face.place(corner));
+            let [a, b] = shape.tangents(placed.nodes(), self.plane);
+            for (k, &node) in face.nodes.iter().enumerate() {
+                let [da, db] = shape.dn[k];
+                let db = if self.plane { 0.0 } else { db };
+                add(node, [0, 1, 2].map(|axis| unit(axis).cross(b) * da + a.cross(unit(axis)) * db));
+            }
+        }
+    }
+
+    /// Undeformed area for a unit of the reference coordinates at a place of a face, the circumference and the thickness
+    /// included, and its derivatives along them.
+    pub fn density(&self, face: &Face, rest: &Placed, xi: [f64; 2]) -> (f64, [f64; 2]) {
+        let value = |xi: [f64; 2]| self.density_at(face, rest, xi);
+        let slope = |axis: usize| {
+            // The density of straight-sided faces is a polynomial, of which a central difference leaves rounding.
+            let at = |step: f64| value(std::array::from_fn(|a| if a == axis { xi[a] + step } else { xi[a] }));
+            (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP)
+        };
+        (value(xi), [slope(0), if self.plane { 0.0 } else { slope(1) }])
+    }
+
+    /// The same in any placement, value alone.
+    pub fn density_at(&self, face: &Face, placed: &Placed, xi: [f64; 2]) -> f64 {
+        let shape = face.shape(xi);
+        let [a, b] = shape.tangents(placed.nodes(), self.plane);
+        let around = if self.revolves { std::f64::consts::TAU * shape.value(placed.nodes())[0] } else { 1.0 };
+        a.cross(b).norm() * around * self.thickness
+    }
+
+    /// Size of a face, a length: its chord, or the root of its area.
+    pub fn size(&self, face: usize, mesh: &Mesh) -> f64 {
+        let face = &self.faces[face];
+        let rest = face.at_rest(mesh);
+        let [a, b] = face.shape(face.middle()).tangents(rest.nodes(), self.plane);
+        if self.plane { 2.0 * a.norm() } else { (4.0 * a.cross(b).norm()).sqrt() }
+    }
+
+    /// Shortest and longest size of its faces.
+    pub fn sizes(&self, mesh: &Mesh) -> [f64; 2] {
+        let sizes = (0..self.faces.len()).map(|f| self.size(f, mesh));
+        sizes.fold([f64::INFINITY, 0.0], |[least, most], size| [least.min(size), most.max(size)])
+    }
+
+    /// For each node of the field the deformed over the undeformed area around it at unknowns `u`.
+    pub fn stretches(&self, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> Vec<f64> {
+        let mut areas = vec![[0.0; 2]; self.nodes.len()];
+        for (f, face) in self.faces.iter().enumerate() {
+            let (rest, now) = (face.at_rest(mesh), face.placed(mesh, dofs, u));
+            let Some(rule) = face.kind.gauss[1] else { continue };
+            for (point, weight) in rule.points.iter().zip(rule.weights) {
+                let xi = [point[0], point[1]];
+                let corners = face.corner_functions(xi);
+                let both = [&now, &rest].map(|placed| weight * self.density_at(face, placed, xi));
+                for c in 0..face.corners() {
+                    (0..2).for_each(|k| areas[self.field[f][c]][k] += corners.n[c] * both[k]);
+                }
+            }
+        }
+        areas.iter().map(|[now, rest]| if *rest > 0.0 { now / rest } else { 1.0 }).collect()
+    }
+}
+
+/// Step of the differences of the area density, in reference coordinates.
+const STEP: f64 = 1e-3;
+
+fn shared(one: &Face, other: &Face) -> usize {
+    one.nodes[..one.corners()].iter().filter(|node| other.nodes[..other.corners()].contains(node)).count()
+}
+
+/// The unit vector along an axis.
+pub fn unit(axis: usize) -> Vec3 {
+    Vec3(std::array::from_fn(|k| f64::from(u8::from(k == axis))))
+}

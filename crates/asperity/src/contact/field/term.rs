@@ -1,0 +1,434 @@
+//! The field as a term of equilibrium: one stencil for each node of the field and each smooth piece of the target.
+
+use super::attempt::{Configuration, FieldAttempt};
+use super::faces::{Faces, Ray};
+use super::stencil::{NodeSums, StencilInPlace, Support};
+use super::surface::Surface;
+use super::tool::RigidTool;
+use crate::contact::record::{PointRecord, PointStatus, entry, variables};
+use crate::contact::pair::{CLOSED, ahead};
+use crate::contact::search::reach;
+use crate::contact::{ContactOptions, Move};
+use crate::interface::Interface;
+use crate::mesh::{Mesh, Side, Space};
+use crate::system::{Attempt, Dofs, History, Instant, State, Term};
+use crate::tensor::Vec3;
+use crate::tool::Tool;
+use crate::{Error, Failure};
+use std::collections::BTreeMap;
+use std::sync::{Arc, RwLock};
+
+/// What the field may touch.
+#[derive(Debug)]
+pub enum FieldTarget {
+    /// A rigid tool.
+    Tool(RigidTool),
+    /// Faces of bodies.
+    Faces(Faces),
+}
+
+impl FieldTarget {
+    /// A rigid tool, number `number` in the numbering of the unknowns.
+    pub fn tool(tool: Arc<Tool>, number: usize, dofs: &Dofs) -> Self {
+        Self::Tool(RigidTool::new(tool, number, dofs))
+    }
+    /// Faces of bodies.
+    pub fn faces(surface: Surface, mesh: &Mesh) -> Self {
+        Self::Faces(Faces::new(surface, mesh))
+    }
+    /// The faces, if it is made of faces.
+    pub fn as_faces(&self) -> Option<&Faces> {
+        match self {
+            Self::Tool(_) => None,
+            Self::Faces(faces) => Some(faces),
+        }
+    }
+    /// The tool, if it is one.
+    pub fn as_tool(&self) -> Option<&RigidTool> {
+        match self {
+            Self::Tool(rigid) => Some(rigid),
+            Self::Faces(_) => None,
+        }
+    }
+}
+
+/// What a field is made of.
+pub struct FieldParts {
+    /// The user's name for it.
+    pub name: String,
+    /// The mesh.
+    pub mesh: Arc<Mesh>,
+    /// The numbering of the unknowns.
+    pub dofs: Dofs,
+    /// What the coordinates mean.
+    pub space: Space,
+    /// The faces that carry the field.
+    pub surface: Surface,
+    /// The whole outer boundary of the bodies behind the surface.
+    pub boundary: Vec<Side>,
+    /// What they may touch.
+    pub target: FieldTarget,
+    /// Whether that is the surface itself.
+    pub itself: bool,
+    /// The law of the interface.
+    pub law: Arc<dyn Interface>,
+    /// How it is computed.
+    pub options: ContactOptions,
+}
+
+/// Contact whose stress is a field of nodal values.
+pub struct FieldContact {
+    name: String,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) dofs: Dofs,
+    pub(super) surface: Surface,
+    pub(super) target: FieldTarget,
+    itself: bool,
+    boundary: Faces,
+    pub(super) law: Arc<dyn Interface>,
+    pub(super) options: ContactOptions,
+    /// Penetration from which a node counts as closed.
+    pub(super) least: f64,
+    /// For each face of a target its smooth piece, counted from zero.
+    labels: Vec<usize>,
+    /// Number of smooth pieces of the target.
+    pub(super) pieces: usize,
+    longest: f64,
+    sizes: Vec<f64>,
+    rule: Vec<(f64, f64)>,
+}
+
+impl FieldContact {
+    /// A contact of these parts.
+    pub fn new(parts: FieldParts) -> Self {
+        let FieldParts { name, mesh, dofs, space, surface, boundary, target, itself, law, options } = parts;
+        let boundary = Faces::new(Surface::new(&mesh, &boundary, space, 1.0), &mesh);
+        let (labels, pieces) = match &target {
+            FieldTarget::Tool(rigid) => (Vec::new(), rigid.pieces()),
+            FieldTarget::Faces(faces) => labels(&faces.surface.pieces),
+        };
+        let [mut shortest, mut longest] = surface.sizes(&mesh);
+        if let FieldTarget::Faces(faces) = &target {
+            let [least, most] = faces.surface.sizes(&mesh);
+            (shortest, longest) = (shortest.min(least), longest.max(most));
+        }
+        let size = |node: &super::surface::FieldNode| {
+            node.support.iter().map(|&(f, _)| surface.size(f, &mesh)).fold(f64::INFINITY, f64::min)
+        };
+        let sizes = surface.nodes.iter().map(size).collect();
+        let rule = rule(&surface);
+        let least = CLOSED * shortest;
+        Self {
+            name, mesh, dofs, surface, target, itself, boundary, law, options, least, labels, pieces, longest, sizes, rule,
+        }
+    }
+
+    /// The user's name for it.
+    pub fn title(&self) -> &str {
+        &self.name
+    }
+    /// The surface.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+    /// What it may touch.
+    pub fn target(&self) -> &FieldTarget {
+        &self.target
+    }
+    /// The law of the interface.
+    pub fn law(&self) -> &dyn Interface {
+        &*self.law
+    }
+    /// How it is computed.
+    pub fn options(&self) -> &ContactOptions {
+        &self.options
+    }
+    /// Where moments are taken about: the present place of a tool's reference point, or the origin.
+    pub fn pole(&self, u: &[f64]) -> Vec3 {
+        self.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.at(u).reference())
+    }
+
+    /// Number of stencils.
+    pub(super) fn slots(&self) -> usize {
+        self.surface.nodes.len() * self.pieces
+    }
+    /// The stencil of a node of the field and a piece of the target.
+    pub(super) fn slot(&self, node: usize, piece: usize) -> usize {
+        node * self.pieces + piece
+    }
+    /// The smooth piece of a target's segment.
+    pub(super) fn piece_of(&self, target: usize) -> usize {
+        self.labels.get(target).copied().unwrap_or(target)
+    }
+    /// Whether the averaged normals of the surface matter.
+    pub(super) fn needs_normals(&self) -> bool {
+        matches!(self.target, FieldTarget::Faces(_))
+    }
+    /// Number of coordinates of a node: penetration and slips.
+    pub(super) fn coordinates(&self) -> usize {
+        self.dofs.per_node()
+    }
+    /// Quadrature on an interval from -1 to 1: places and weights.
+    pub(super) fn rule(&self) -> &[(f64, f64)] {
+        &self.rule
+    }
+    /// Size of the faces at the node of a slot, a length.
+    pub(super) fn size_at(&self, slot: usize) -> f64 {
+        self.sizes[slot / self.pieces]
+    }
+
+    /// Whether a face of the surface may touch a face of the target. Where a surface touches itself, of two faces the one
+    /// that comes first carries the stress (unique roles: Yang & Laursen, Comput. Mech. 41, 2008).
+    pub(super) fn may_touch(&self, face: usize, target: usize) -> bool {
+        let Some(faces) = self.target.as_faces() else { return true };
+        let (own, other) = (&self.surface.faces[face].nodes, &faces.surface.faces[target].nodes);
+        (!self.itself || face < target) && !own.iter().any(|node| other.contains(node))
+    }
+
+    /// Half the distance from the middle of each face, along its inward normal, to where the ray leaves the body.
+    fn depths(&self, u: &[f64]) -> Vec<f64> {
+        let boundary = self.boundary.in_place((&*self.mesh, &self.dofs), u);
+        let depth = |face: &super::face::Face| {
+            let placed = face.placed(&self.mesh, &self.dofs, u);
+            let shape = face.shape(face.middle());
+            let [a, b] = shape.tangents(placed.nodes(), self.surface.plane);
+            let ray = Ray { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
+            let least = 1e-3 * a.norm();
+            let own = |number: usize| self.boundary.surface.faces[number].side == face.side;
+            let leaves = boundary.nearest(&ray, [least, f64::MAX], |number, hit| !own(number) && hit.gap > least);
+            leaves.map_or(f64::INFINITY, |(_, hit)| 0.5 * hit.gap)
+        };
+        self.surface.faces.iter().map(depth).collect()
+    }
+
+    /// What each node sees at displacements `u`, as far as the accepted state alone tells.
+    fn supports(&self, u: &[f64], reach: f64) -> Vec<Support> {
+        let (now, depths) = (Configuration::new(self, u), self.depths(u));
+        self.find(&now, reach, &depths, |_, _, _| {})
+    }
+
+    /// Values of a stencil's unknowns.
+    fn values(&self, support: &Support, u: &[f64]) -> Vec<f64> {
+        let axes = self.dofs.per_node();
+        let first = |&node: &usize| self.dofs.node(node)..self.dofs.node(node) + axes;
+        let mut values: Vec<f64> = support.nodes.iter().flat_map(first).map(|dof| u[dof]).collect();
+        values.extend(self.target.as_tool().into_iter().flat_map(|rigid| rigid.unknowns()).map(|dof| u[dof]));
+        values
+    }
+
+    /// Calls `take` with the slots that see something at displacements `u`.
+    fn each_seen(&self, u: &[f64], reach: f64, mut take: impl FnMut(usize, &StencilInPlace, &NodeSums)) {
+        let mut sums = NodeSums::default();
+        for (slot, support) in self.supports(u, reach).iter().enumerate().filter(|(_, s)| !s.patches.is_empty()) {
+            let values = self.values(support, u);
+            let stencil = StencilInPlace { contact: self, support, u: &values };
+            if stencil.sum(&|_, _| None, false, &mut sums).is_some() {
+                take(slot, &stencil, &sums);
+            }
+        }
+    }
+
+    fn reach(&self, last_change: &[f64]) -> f64 {
+        if self.needs_normals() { reach(self.longest, last_change) } else { f64::INFINITY }
+    }
+
+    /// Penetration at each node that sees the target before any motion, negative for a gap, and the same over the size of
+    /// the faces there.
+    pub fn initial_gaps(&self) -> Vec<(f64, f64)> {
+        let (still, mut found) = (vec![0.0; self.dofs.count()], Vec::new());
+        self.each_seen(&still, self.reach(&still), |slot, _, sums| {
+            found.push((sums.y[0], sums.y[0] / self.size_at(slot)));
+        });
+        found
+    }
+
+    /// Of these the penetrations.
+    pub fn initial_penetrations(&self) -> Vec<(f64, f64)> {
+        self.initial_gaps().into_iter().filter(|(penetration, _)| *penetration > self.least).collect()
+    }
+
+    /// What takes the nodes of the undeformed surface out of the target.
+    pub fn moves(&self) -> Vec<Move> {
+        let still = vec![0.0; self.dofs.count()];
+        let (now, mut moves) = (Configuration::new(self, &still), BTreeMap::new());
+        let supports = self.supports(&still, self.reach(&still));
+        for (patch, _) in supports.iter().flat_map(|support| &support.patches) {
+            let (face, own) = (now.face(patch.face), &self.surface.faces[patch.face]);
+            for (k, &node) in own.nodes.iter().enumerate() {
+                let at = face.at(own.place(k));
+                let by = match &now.target {
+                    super::attempt::TargetInPlace::Tool(tool) => {
+                        let foot = tool.closest(patch.target, at.x);
+                        (foot.beyond.is_none() && foot.gap < -self.least).then(|| foot.normal * -foot.gap)
+                    }
+                    super::attempt::TargetInPlace::Faces(faces) => {
+                        let ray = Ray { x: at.x, n: at.normal.unit() };
+                        let hit = self.target.as_faces().and_then(|all| {
+                            let hit = all.project(patch.target, faces.placed(patch.target), &ray)?;
+                            all.surface.faces[patch.target].holds(hit.s, 1e-6).then_some(hit)
+                        });
+                        hit.filter(|hit| hit.gap < -self.least).map(|hit| ray.n * hit.gap)
+                    }
+                };
+                let farther = |by: &Vec3, other: Option<&Move>| other.is_none_or(|other| by.norm() > other.by.norm());
+                if let Some(by) = by.filter(|by| farther(by, moves.get(&node))) {
+                    moves.insert(node, Move { node, by, cell: own.side.cell });
+                }
+            }
+        }
+        moves.into_values().collect()
+    }
+
+    /// All nodes in an accepted state, with this term's lane of its history: one record for each slot.
+    pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
+        let mut records: Vec<PointRecord> = (0..self.slots()).map(|slot| self.unseen(slot, u, history.slot(slot))).collect();
+        self.each_seen(u, self.reach(&vec![0.0; u.len()]), |slot, stencil, sums| {
+            let values = history.slot(slot);
+            if values[entry::SEGMENT] < 0.0 {
+                return;
+            }
+            let [thrust, e1, e2] = stencil.directions(sums);
+            let record = &mut records[slot];
+            let sheared = e1 * values[entry::SHEAR] + e2 * values[entry::SHEAR2];
+            let stretch = values[entry::HALF];
+            record.area = sums.area * stretch;
+            let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
+            record.resultant = Some([force, sums.place]);
+            (record.thrust, record.inward) = (thrust.unit(), thrust.unit());
+            record.along = e1.unit();
+            if !self.surface.plane && sheared.norm() > 0.0 {
+                record.along = sheared.unit();
+            }
+        });
+        records
+    }
+
+    /// The record of a node that sees nothing.
+    fn unseen(&self, slot: usize, u: &[f64], values: &[f64]) -> PointRecord {
+        let node = slot / self.pieces;
+        let super::surface::FieldNode { node: number, support, .. } = &self.surface.nodes[node];
+        let mut position = self.mesh.points[*number];
+        (0..self.dofs.per_node()).for_each(|axis| position[axis] += u[self.dofs.node(*number) + axis]);
+        let faces = &self.surface.faces;
+        let outward = self.surface.normal(node, |f| faces[f].placed(&self.mesh, &self.dofs, u)).unit;
+        let seen = values[entry::SEGMENT] >= 0.0;
+        let shear = values[entry::SHEAR];
+        PointRecord {
+            position,
+            inward: -outward,
+            thrust: -outward,
+            along: outward.left(),
+            area: 0.0,
+            resultant: None,
+            status: PointStatus::from_value(values[entry::STATUS]),
+            pressure: values[entry::PRESSURE],
+            shear: if self.surface.plane { shear } else { shear.hypot(values[entry::SHEAR2]) },
+            penetration: if seen { values[entry::PENETRATION] } else { f64::NAN },
+            slip: if self.surface.plane { values[entry::SLIP] } else { values[entry::SLIP].hypot(values[entry::SLIP2]) },
+            slipped: values[entry::SLIPPED],
+            dissipated: values[entry::DISSIPATED],
+            last_dissipated: values[entry::LAST_DISSIPATED],
+            rubbed: values[entry::RUBBED],
+            violation: values[entry::VIOLATION],
+            vars: variables(values),
+            segment: seen.then_some(slot % self.pieces),
+            edge: support.first().map_or(0, |(face, _)| *face),
+        }
+    }
+
+    /// The largest penetration that augmentation leaves at a node, over the size of its faces, where there is any.
+    pub fn nodal_penetration(&self, history: &History) -> Option<f64> {
+        self.options.augmentation?;
+        let closed = (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0);
+        Some(closed.map(|slot| history.slot(slot)[entry::PENETRATION] / self.size_at(slot)).fold(0.0, f64::max))
+    }
+
+    /// Words for a slot.
+    pub(super) fn describe(&self, slot: usize) -> String {
+        format!("node {} of contact '{}'", self.surface.nodes[slot / self.pieces].node, self.name)
+    }
+}
+
+/// Labels counted from zero, in the order of their first use.
+fn labels(roots: &[usize]) -> (Vec<usize>, usize) {
+    let mut numbers = BTreeMap::new();
+    for &root in roots {
+        let next = numbers.len();
+        numbers.entry(root).or_insert(next);
+    }
+    (roots.iter().map(|root| numbers[root]).collect(), numbers.len())
+}
+
+/// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
+fn rule(surface: &Surface) -> Vec<(f64, f64)> {
+    let (a, b) = ((3.0 / 7.0 - 2.0 / 7.0 * 1.2_f64.sqrt()).sqrt(), (3.0 / 7.0 + 2.0 / 7.0 * 1.2_f64.sqrt()).sqrt());
+    let [p, q] = [(18.0 + 30.0_f64.sqrt()) / 36.0, (18.0 - 30.0_f64.sqrt()) / 36.0];
+    debug_assert!(surface.plane);
+    vec![(-b, q), (-a, p), (a, p), (b, q)]
+}
+
+impl Term for FieldContact {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn initial(&self) -> History {
+        let vars: usize = self.law.variables().iter().map(|v| v.len()).sum();
+        let slots = (0..self.slots()).map(|_| entry::COUNT + vars);
+        let mut history = History::new(slots.chain(self.options.augmentation.map(|_| self.slots())));
+        for slot in 0..self.slots() {
+            let values = history.slot_mut(slot);
+            values[entry::SEGMENT] = -1.0;
+            values[entry::HALF] = 1.0;
+            self.law.initial(&mut values[entry::COUNT..]);
+        }
+        let still = vec![0.0; self.dofs.count()];
+        self.each_seen(&still, self.reach(&still), |slot, _, sums| {
+            let values = history.slot_mut(slot);
+            (values[entry::SEGMENT], values[entry::PENETRATION], values[entry::XI]) = (0.0, sums.y[0], sums.area);
+            self.options.overlap.begin(values, self.least);
+        });
+        history
+    }
+
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        history: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
+        let augmented = self.options.augmentation.is_some();
+        let shifts = if augmented { history.slot(self.slots()) } else { &[] };
+        Ok(Box::new(FieldAttempt {
+            contact: self,
+            history,
+            accepted: &accepted.u,
+            before: Configuration::new(self, &accepted.u),
+            stretches: self.surface.stretches((&*self.mesh, &self.dofs), &accepted.u),
+            depths: self.depths(&accepted.u),
+            reach: self.reach(&accepted.last_change),
+            ahead: ahead(accepted, at.dt),
+            shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
+            augmented: 0,
+            settled: self.options.overlap.settled(at),
+            dt: at.dt,
+            found: RwLock::default(),
+        }))
+    }
+
+    fn name_of(&self, stencil: usize) -> String {
+        self.describe(stencil)
+    }
+
+    fn verdict(&self, _: &State, _: &History) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn bends(&self) -> bool {
+        true
+    }
+
+    fn branches(&self) -> &'static [&'static str] {
+        &["open", "stick", "slip"]
+    }
+}

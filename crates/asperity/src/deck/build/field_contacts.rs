@@ -1,0 +1,103 @@
+//! Contacts whose stress is a field of nodal values.
+
+use super::Builder;
+use super::contacts::{Opposite, boundary_behind, moduli};
+use crate::contact::ContactForm;
+use crate::contact::field::{FieldContact, FieldParts, FieldTarget};
+use crate::deck::keys;
+use crate::deck::reader::Name;
+use crate::mesh::{Side, Space};
+use crate::solid::Body;
+use crate::tool::Tool;
+use std::sync::Arc;
+
+impl Builder<'_> {
+    /// Whether a contact is a field: unless the deck says otherwise, in the plane and in axial symmetry.
+    pub(super) fn is_field(&self, keys: &keys::Contact) -> bool {
+        match keys.form {
+            Some(form) => form.value == ContactForm::Field,
+            None => self.site.space != Space::Solid && !needs_points(keys),
+        }
+    }
+
+    /// The contacts that are fields.
+    pub(super) fn field_contacts(
+        &mut self,
+        tools: &Option<Vec<Arc<Tool>>>,
+        bodies: Option<&[(Body, usize)]>,
+    ) -> Option<Vec<FieldContact>> {
+        let deck = self.deck;
+        let fields: Vec<&(Name, keys::Contact)> = deck.contact.iter().filter(|(_, keys)| self.is_field(keys)).collect();
+        if fields.is_empty() {
+            return Some(Vec::new());
+        }
+        let moduli = moduli(&self.site.mesh, bodies?);
+        let contacts: Vec<_> =
+            fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools.as_deref()?, &moduli)).collect();
+        contacts.into_iter().collect()
+    }
+
+    fn field_contact(
+        &mut self,
+        name: &Name,
+        keys: &keys::Contact,
+        tools: &[Arc<Tool>],
+        moduli: &[f64],
+    ) -> Option<FieldContact> {
+        let law = self.interface(keys)?;
+        if !self.check_field(keys) {
+            return None;
+        }
+        let (mesh, dofs, space) = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
+        let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
+        let opposite = self.opposite(keys, &mesh)?;
+        let options = self.options(keys, (surface, opposite), moduli);
+        if !self.check_passes(name, keys, (surface, opposite)) {
+            return None;
+        }
+        let carrier = |sides: &[Side]| crate::contact::field::Surface::new(&mesh, sides, space, self.site.thickness);
+        let (target, itself) = match opposite {
+            Opposite::Tool(number) => (FieldTarget::tool(tools[number].clone(), number, &dofs), false),
+            Opposite::Sides(sides) => (FieldTarget::faces(carrier(sides), &mesh), sides == surface),
+        };
+        Some(FieldContact::new(FieldParts {
+            name: name.text.clone(),
+            surface: carrier(surface),
+            boundary: boundary_behind(&mesh, surface, &self.deck.body),
+            target,
+            itself,
+            law,
+            options,
+            space,
+            dofs,
+            mesh: mesh.clone(),
+        }))
+    }
+
+    /// What is said of contact points says nothing of a field.
+    fn check_field(&mut self, keys: &keys::Contact) -> bool {
+        let before = self.found.len();
+        let said = [
+            keys.gauss.map(|spot| ("gauss", spot.place)),
+            keys.parts.map(|spot| ("parts", spot.place)),
+            keys.passes.map(|spot| ("passes", spot.place)),
+            keys.coupling.map(|spot| ("coupling", spot.place)),
+            keys.guard.map(|spot| ("guard", spot.place)),
+        ];
+        for (key, place) in said.into_iter().flatten() {
+            self.refuse(format!("`{key}` is for stresses at points: form = \"paper\""), place);
+        }
+        if self.site.space == Space::Solid {
+            if let Some(form) = keys.form {
+                self.refuse("a field of nodal values is for plane and axisymmetric models", form.place);
+            }
+        }
+        self.found.len() == before
+    }
+}
+
+/// Whether a contact asks for what only stresses at points have.
+fn needs_points(keys: &keys::Contact) -> bool {
+    let local = keys.law.build().is_ok_and(|law| law.radius() == 0.0);
+    !local || keys.gauss.is_some() || keys.parts.is_some() || keys.passes.is_some() || keys.coupling.is_some() || keys.guard.is_some()
+}

@@ -1,0 +1,218 @@
+//! Signed distance to a profile: positive outside the material, with the closest point, the outward normal and the curvature
+//! of the line of equal distance there.
+//!
+//! Segments that meet at less than a crease form a smooth piece, over which the closest point moves without a jump of its
+//! normal that matters; across a crease nothing is continuous, and each piece is asked for itself. A piece ends where the
+//! profile ends or turns outward by a crease: beyond, nothing of it looks at what lies there. At an inward crease two faces
+//! bound one corner of the material around it, and each goes on straight.
+
+use super::tool::Tool;
+use crate::tensor::Vec3;
+
+/// Segments that meet at a larger angle, in radians, form a crease.
+const CREASE: f64 = 0.7;
+/// The closest point is at an end of its segment within this part of it.
+const AT_END: f64 = 1e-12;
+
+/// Segments of a profile without a crease.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothPiece {
+    segments: Vec<usize>,
+    /// Whether it goes on straight beyond its first and its last end.
+    goes_on: [bool; 2],
+    /// Whether its last segment ends where its first begins, without a crease.
+    closed: bool,
+}
+
+/// The point of a piece that is closest to another, in the tool's own frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosestPoint {
+    /// Signed distance, negative inside the material.
+    pub gap: f64,
+    /// Outward unit normal: the gradient of the distance.
+    pub normal: Vec3,
+    /// The point itself.
+    pub point: Vec3,
+    /// Curvature of the line of equal distance, positive where normals spread: `dn = curvature e (e . dx)`.
+    pub curvature: f64,
+    /// The end of the piece, 0 or 1, beyond which the other point lies.
+    pub beyond: Option<usize>,
+}
+
+/// An end of a piece: its point and the unit tangent there, along the profile.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PieceEnd {
+    /// The point.
+    pub point: Vec3,
+    /// Unit tangent.
+    pub along: Vec3,
+}
+
+impl Tool {
+    /// Its smooth pieces, profile by profile.
+    pub fn smooth_pieces(&self) -> Vec<SmoothPiece> {
+        let mut pieces = Vec::new();
+        for chain in self.chains() {
+            let count = chain.end - chain.first;
+            let turn = |i: usize| self.turn_behind(chain.first + i, chain.first + (i + 1) % count);
+            let joints = if chain.closed { count } else { count - 1 };
+            let creases: Vec<usize> = (0..joints).filter(|&i| turn(i).abs() >= CREASE).collect();
+            if chain.closed && creases.is_empty() {
+                let segments = (chain.first..chain.end).collect();
+                pieces.push(SmoothPiece { segments, goes_on: [false; 2], closed: true });
+                continue;
+            }
+            // From behind a crease or the beginning of an open profile on.
+            let begin = if chain.closed { creases[0] + 1 } else { 0 };
+            let inward = |i: usize| joints > i && turn(i) <= -CREASE;
+            let (mut segments, mut before) = (Vec::new(), chain.closed && inward(creases[0]));
+            for k in 0..count {
+                let i = (begin + k) % count;
+                segments.push(chain.first + i);
+                if k + 1 == count || creases.contains(&i) {
+                    let after = creases.contains(&i) && inward(i);
+                    let segments = std::mem::take(&mut segments);
+                    pieces.push(SmoothPiece { segments, goes_on: [before, after], closed: false });
+                    before = after;
+                }
+            }
+        }
+        pieces
+    }
+
+    /// By how much the profile turns to the left from one segment to the next, in radians.
+    fn turn_behind(&self, one: usize, next: usize) -> f64 {
+        let (a, b) = (self.segments()[one].tangent(1.0), self.segments()[next].tangent(0.0));
+        (a[0] * b[1] - a[1] * b[0]).atan2(a.dot(b))
+    }
+
+    /// The two ends of a piece beyond which it is not seen; none where it goes on.
+    pub fn piece_ends(&self, piece: &SmoothPiece) -> [Option<PieceEnd>; 2] {
+        let end = |k: usize| {
+            let segment = &self.segments()[*if k == 0 { piece.segments.first() } else { piece.segments.last() }?];
+            let open = !piece.closed && !piece.goes_on[k];
+            open.then(|| PieceEnd { point: segment.point(k as f64), along: segment.tangent(k as f64).unit() })
+        };
+        [end(0), end(1)]
+    }
+
+    /// The point of a piece closest to `x`, in the tool's own frame.
+    pub fn closest(&self, piece: &SmoothPiece, x: Vec3) -> ClosestPoint {
+        let (mut best, mut least) = ((0, 0.0), f64::INFINITY);
+        for (place, &number) in piece.segments.iter().enumerate() {
+            let segment = &self.segments()[number];
+            let s = segment.closest(x);
+            let distance = (x - segment.point(s)).norm();
+            // Of equals the first, but rather the inside of a segment than an end.
+            if distance < least * (1.0 - 1e-14) {
+                (best, least) = ((place, s), distance);
+            }
+        }
+        let (place, s) = best;
+        let segment = &self.segments()[piece.segments[place]];
+        let point = segment.point(s);
+        let normal = -segment.tangent(s).left().unit();
+        let smooth = |curvature: f64, beyond: Option<usize>| {
+            let gap = normal.dot(x - point);
+            ClosestPoint { gap, normal, point, curvature: curvature / (1.0 + curvature * gap), beyond }
+        };
+        let end = if s <= AT_END { 0 } else if s >= 1.0 - AT_END { 1 } else { return smooth(segment.curvature(s), None) };
+        let past = segment.tangent(s).unit().dot(x - point) * if end == 0 { -1.0 } else { 1.0 };
+        if past <= AT_END * segment.length() {
+            return smooth(segment.curvature(s), None);
+        }
+        let count = piece.segments.len();
+        let next = match (end, place) {
+            (0, 0) => piece.closed.then(|| count - 1),
+            (0, place) => Some(place - 1),
+            (_, place) if place + 1 == count => piece.closed.then_some(0),
+            (_, place) => Some(place + 1),
+        };
+        let Some(next) = next else {
+            // A straight continuation, whether or not it is seen.
+            let beyond = (!piece.goes_on[end]).then_some(end);
+            return ClosestPoint { point: x - normal * normal.dot(x - point), ..smooth(0.0, beyond) };
+        };
+        let other = &self.segments()[piece.segments[next]];
+        let both = normal - other.tangent(1.0 - end as f64).left().unit();
+        let sign = 1.0_f64.copysign(both.dot(x - point));
+        let gap = sign * (x - point).norm();
+        ClosestPoint { gap, normal: (x - point) * gap.recip(), point, curvature: gap.recip(), beyond: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tool::shapes::find;
+
+    fn tool(profiles: &[&[(&str, &[[f64; 2]])]]) -> Tool {
+        let profile = |segments: &&[(&str, &[[f64; 2]])]| {
+            let build = |(key, nodes): &(&str, &[[f64; 2]])| {
+                let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
+                find(key).unwrap().build(&nodes).unwrap()
+            };
+            segments.iter().map(build).collect()
+        };
+        Tool::new("t", profiles.iter().map(profile).collect(), Vec3::zero())
+    }
+
+    fn round() -> Tool {
+        // A stadium with a parabolic bottom would do as well: lines, arcs and a parabola that join smoothly or not.
+        tool(&[&[
+            ("line", &[[2.0, 0.0], [2.0, 1.0]]),
+            ("arc", &[[2.0, 1.0], [1.0, 2.0], [0.0, 1.0]]),
+            ("line", &[[0.0, 1.0], [0.0, 0.0]]),
+            ("parabola", &[[0.0, 0.0], [1.0, -0.3], [2.0, 0.0]]),
+        ]])
+    }
+
+    #[test]
+    fn pieces_end_at_creases() {
+        let round = round();
+        let pieces = round.smooth_pieces();
+        assert_eq!(pieces.iter().map(|piece| piece.segments.clone()).collect::<Vec<_>>(), [vec![3], vec![0, 1, 2]]);
+        assert!(pieces.iter().all(|piece| piece.goes_on == [false; 2] && !piece.closed));
+        let corner = tool(&[&[("line", &[[0.0, 5.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [5.0, 0.0]])]]);
+        let pieces = corner.smooth_pieces();
+        // Material on the left of a path down and then to the right: above it, a convex edge.
+        assert_eq!(pieces.iter().map(|piece| piece.goes_on).collect::<Vec<_>>(), [[false; 2]; 2]);
+        let inner = tool(&[&[("line", &[[5.0, 0.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [0.0, 5.0]])]]);
+        let pieces = inner.smooth_pieces();
+        assert_eq!(pieces.iter().map(|piece| piece.goes_on).collect::<Vec<_>>(), [[false, true], [true, false]]);
+    }
+
+    /// Distance, normal and curvature against brute force and differences.
+    #[test]
+    fn closest_points_are_the_closest() {
+        let round = round();
+        for piece in &round.smooth_pieces() {
+            for i in 0..400 {
+                let x = Vec3::new(-1.0 + 4.0 * f64::from(i % 20) / 19.0 + 0.01, -1.0 + 4.0 * f64::from(i / 20) / 19.0, 0.0);
+                let found = round.closest(piece, x);
+                if found.beyond.is_some() {
+                    continue;
+                }
+                let samples = piece.segments.iter().flat_map(|&number| {
+                    let segment = &round.segments()[number];
+                    (0..=2000).map(move |k| (x - segment.point(f64::from(k) / 2000.0)).norm())
+                });
+                let least = samples.fold(f64::INFINITY, f64::min);
+                assert!((found.gap.abs() - least).abs() < 1e-3 * (1.0 + least), "{x:?} {found:?} {least}");
+                assert!((found.point + found.normal * found.gap - x).norm() < 1e-12);
+                let h = 1e-6;
+                for axis in 0..2 {
+                    let step = Vec3(std::array::from_fn(|k| if k == axis { h } else { 0.0 }));
+                    let [up, down] = [x + step, x - step].map(|x| round.closest(piece, x));
+                    if (up.normal - down.normal).norm() > 1e-3 {
+                        continue;
+                    }
+                    assert!(((up.gap - down.gap) / (2.0 * h) - found.normal[axis]).abs() < 1e-5);
+                    let e = found.normal.left();
+                    let slope = (up.normal - down.normal) * (0.5 / h);
+                    assert!((slope - e * (found.curvature * e[axis])).norm() < 1e-3 * (1.0 + found.curvature.abs()), "{x:?}");
+                }
+            }
+        }
+    }
+}

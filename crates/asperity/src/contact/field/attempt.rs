@@ -33,8 +33,6 @@ pub struct FieldAttempt<'a> {
     pub accepted: &'a [f64],
     /// The accepted configuration.
     pub before: Configuration<'a>,
-    /// Deformed over undeformed area around each node, in the accepted state.
-    pub stretches: Vec<f64>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
     /// Largest gap at which the target is seen.
@@ -209,6 +207,13 @@ impl FieldContact {
             }
             support.nodes.sort_unstable();
             support.nodes.dedup();
+            let mut areas = [0.0; 2];
+            for (number, corner) in support.faces() {
+                let face = &self.surface.faces[number];
+                areas[0] += self.surface.corner_area(face, &now.placed[number], corner).0;
+                areas[1] += self.surface.corner_area(face, &face.at_rest(&self.mesh), corner).0;
+            }
+            support.stretch = if areas[1] > 0.0 { areas[0] / areas[1] } else { 1.0 };
         }
         supports
     }
@@ -301,14 +306,9 @@ impl FieldAttempt<'_> {
         self.shifts.get(slot).copied().unwrap_or_default()
     }
 
-    /// Deformed over undeformed area around the node of a slot.
-    fn stretch(&self, slot: usize) -> f64 {
-        self.stretches[slot / self.contact.pieces]
-    }
-
     /// What the law may know of a node. Penalties are for undeformed area, stresses for present.
-    fn past(&self, slot: usize) -> Past<'_> {
-        let (options, old, stretch) = (&self.contact.options, self.history.slot(slot), self.stretch(slot));
+    fn past(&self, slot: usize, stretch: f64) -> Past<'_> {
+        let (options, old) = (&self.contact.options, self.history.slot(slot));
         let (penalty, tangential_penalty) = (options.penalty / stretch, options.tangential_penalty / stretch);
         let [_, s, t] = self.shift(slot);
         let penetration = old[entry::PENETRATION] + old[entry::CLOSURE];
@@ -361,15 +361,16 @@ impl FieldAttempt<'_> {
             leave(&*contact.law, old, new);
             return Ok(0);
         }
-        let (past, law) = (self.past(slot), &*contact.law);
-        (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (0.0, sums.area, self.stretch(slot));
+        let (stretch, stretching) = stencil.stretch();
+        let (past, law) = (self.past(slot, stretch), &*contact.law);
+        (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (0.0, sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let seen = sums.y[0] + self.closure(slot);
         let slip = [sums.y[1], sums.y[2]];
         if seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
-            self.account(slot, sums.area, Carried::default(), local);
+            self.account(slot, (sums.area, stretch), Carried::default(), local);
             return Ok(0);
         }
         self.refuse_leap(slot, (stencil, sums))?;
@@ -381,7 +382,7 @@ impl FieldAttempt<'_> {
         let response = law.respond(&Motion { penetration, slip }, &entered, &mut new[entry::COUNT..])?;
         write(&response, slip, old, new);
         stencil.find_forces(sums);
-        let (n, stretch) = (local.force.len(), self.stretch(slot));
+        let n = local.force.len();
         let t = [response.pressure, response.shear[0], response.shear[1]];
         for (c, t) in t.iter().enumerate() {
             let unit = &sums.forces[c * n..(c + 1) * n];
@@ -393,10 +394,27 @@ impl FieldAttempt<'_> {
             add_material(&slopes, stretch, sums, &mut local.tangent);
             let acting = local.acting.map_or(t, |acting| [acting[0], acting[1], acting[2]]);
             stencil.add_geometric(acting, stretch, sums, &mut local.tangent);
+            let slopes = self.stretch_slopes((slot, stretch), y)?;
+            add_stretching(&slopes, &stretching, sums, &mut local.tangent);
         }
         let carried = Carried { pressure: t[0], shear: [t[1], t[2]], slip, slipped: response.slipped, closure: response.closure };
-        self.account(slot, sums.area, carried, local);
+        self.account(slot, (sums.area, stretch), carried, local);
         Ok(response.status as Branch)
+    }
+
+    /// Derivative of the stresses over undeformed area along the stretch, as a central difference: zero but for laws that know a
+    /// stress of their own.
+    fn stretch_slopes(&self, (slot, stretch): (usize, f64), y: Coordinates) -> Result<[f64; COUNT], Failure> {
+        let (law, step) = (&*self.contact.law, STRETCHED * stretch);
+        let at = |stretch: f64| {
+            let stress = answer(law, &self.past(slot, stretch), self.contact.least, &y)?.stress;
+            Ok::<_, Failure>(stress.map(|stress| stress * stretch))
+        };
+        let (up, down) = (at(stretch + step)?, at(stretch - step)?);
+        Ok(std::array::from_fn(|c| {
+            let (rise, size) = (up[c] - down[c], up[c].abs() + down[c].abs());
+            if rise.abs() <= 1e-9 * size { 0.0 } else { 0.5 * rise / step }
+        }))
     }
 
     /// Refuses a node that closes too deep, and a touching tool that turned too far.
@@ -416,8 +434,8 @@ impl FieldAttempt<'_> {
     /// Energy stored by the stresses of a node, and dissipated over the increment: the work of the mean friction stress on
     /// the slip less what of it is stored, and of the mean pressure on the closure that stays. A node that closes or opens takes
     /// part with half its stress. Where multipliers bear the stress nothing is stored by a slip.
-    fn account(&self, slot: usize, area: f64, now: Carried, local: &mut Local) {
-        let (options, old, stretch) = (&self.contact.options, self.history.slot(slot), self.stretch(slot));
+    fn account(&self, slot: usize, (area, stretch): (f64, f64), now: Carried, local: &mut Local) {
+        let (options, old) = (&self.contact.options, self.history.slot(slot));
         let area = area * stretch;
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
         let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(slot)[0] };
@@ -445,6 +463,19 @@ struct Carried {
     slip: [f64; 2],
     slipped: f64,
     closure: f64,
+}
+
+/// Step of the stretch in differences, as a part of it.
+const STRETCHED: f64 = 1e-5;
+
+/// Adds what stresses over undeformed area change with the stretch.
+fn add_stretching(slopes: &[f64; COUNT], stretching: &[f64], sums: &NodeSums, tangent: &mut [f64]) {
+    let n = stretching.len();
+    for (c, slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
+        for (force, row) in sums.forces[c * n..(c + 1) * n].iter().zip(tangent.chunks_exact_mut(n)) {
+            row.iter_mut().zip(stretching).for_each(|(entry, rate)| *entry += force * slope * rate);
+        }
+    }
 }
 
 /// Adds `factor H C G`.
@@ -502,7 +533,7 @@ impl Attempt for FieldAttempt<'_> {
                 return;
             }
             stencil.find_forces(sums);
-            let (n, stretch) = (u.len(), self.stretch(index));
+            let (n, stretch) = (u.len(), stencil.stretch().0);
             let y = [sums.y[0] + self.closure(index), sums.y[1], sums.y[2]];
             for (c, y) in y.into_iter().enumerate().take(self.contact.coordinates()) {
                 let range = c * n..(c + 1) * n;
@@ -518,7 +549,8 @@ impl Attempt for FieldAttempt<'_> {
     }
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        answer(&*self.contact.law, &self.past(stencil), self.contact.least, y)
+        let stretch = self.supports()[stencil].stretch;
+        answer(&*self.contact.law, &self.past(stencil, stretch), self.contact.least, y)
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
@@ -557,7 +589,7 @@ impl FieldAttempt<'_> {
                 shift[0] = 0.0;
                 continue;
             }
-            let stretch = self.stretch(slot);
+            let stretch = new[entry::HALF];
             let borne = new[entry::PRESSURE] * stretch / self.contact.options.penalty;
             let closed = new[entry::STATUS] > 0.0;
             let raised = if closed { borne } else { (shift[0] + new[entry::PENETRATION]).max(0.0) };

@@ -15,7 +15,7 @@ use crate::tensor::Vec3;
 pub const COUNT: usize = 3;
 
 /// Which unknowns a stencil has, and the patches that it sums.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Support {
     /// The patches; the node's own number among the corners of each face.
     pub patches: Vec<(Patch, usize)>,
@@ -23,6 +23,23 @@ pub struct Support {
     pub nodes: Vec<usize>,
     /// The target came through the body here.
     pub through: bool,
+    /// Deformed over undeformed area of the faces of the patches around the node.
+    pub stretch: f64,
+}
+
+impl Default for Support {
+    fn default() -> Self {
+        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0 }
+    }
+}
+
+impl Support {
+    /// The faces of its patches, each once, with the node's number among their corners.
+    pub fn faces(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let faces = self.patches.iter().enumerate();
+        let fresh = |i: usize, face: usize| !self.patches[..i].iter().any(|(other, _)| other.face == face);
+        faces.filter(move |(i, (patch, _))| fresh(*i, patch.face)).map(|(_, (patch, corner))| (patch.face, *corner))
+    }
 }
 
 /// Sums over the points of a node. Its buffers are kept from stencil to stencil.
@@ -132,6 +149,24 @@ impl<'a> StencilInPlace<'a> {
                 }
             });
         }
+    }
+
+    /// Deformed over undeformed area of the faces of the patches, and its derivatives along each unknown.
+    pub fn stretch(&self) -> (f64, Vec<f64>) {
+        let (surface, axes) = (&self.contact.surface, self.axes());
+        let (mut areas, mut slopes) = ([0.0; 2], vec![0.0; self.u.len()]);
+        for (number, corner) in self.support.faces() {
+            let face = &surface.faces[number];
+            areas[1] += surface.corner_area(face, &face.at_rest(&self.contact.mesh), corner).0;
+            let (area, rates) = surface.corner_area(face, &self.placed(face), corner);
+            areas[0] += area;
+            for (node, rate) in face.nodes.iter().zip(rates) {
+                let Ok(place) = self.support.nodes.binary_search(node) else { continue };
+                (0..axes).for_each(|axis| slopes[place * axes + axis] += rate[axis]);
+            }
+        }
+        slopes.iter_mut().for_each(|slope| *slope /= areas[1]);
+        (areas[0] / areas[1], slopes)
     }
 
     /// First sweep. None where the node sees nothing, or a ray runs along the target.

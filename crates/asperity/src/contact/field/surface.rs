@@ -4,9 +4,8 @@
 //! the corner belongs to several nodes, one for each smooth piece. Each node has the mean of the area vectors of its
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
-use super::face::{CORNERS, Face, Placed};
+use super::face::{CORNERS, Face, MOST, Placed};
 use crate::mesh::{Mesh, Side, Space};
-use crate::system::Dofs;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
 
@@ -201,22 +200,28 @@ impl Surface {
         sizes.fold([f64::INFINITY, 0.0], |[least, most], size| [least.min(size), most.max(size)])
     }
 
-    /// For each node of the field the deformed over the undeformed area around it at unknowns `u`.
-    pub fn stretches(&self, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> Vec<f64> {
-        let mut areas = vec![[0.0; 2]; self.nodes.len()];
-        for (f, face) in self.faces.iter().enumerate() {
-            let (rest, now) = (face.at_rest(mesh), face.placed(mesh, dofs, u));
-            let Some(rule) = face.kind.gauss[1] else { continue };
-            for (point, weight) in rule.points.iter().zip(rule.weights) {
-                let xi = [point[0], point[1]];
-                let corners = face.corner_functions(xi);
-                let both = [&now, &rest].map(|placed| weight * self.density_at(face, placed, xi));
-                for c in 0..face.corners() {
-                    (0..2).for_each(|k| areas[self.field[f][c]][k] += corners.n[c] * both[k]);
+    /// The part of a face in place that belongs to one of its corners, `int M_c da`, and its derivatives along the
+    /// displacements of its nodes.
+    pub fn corner_area(&self, face: &Face, placed: &Placed, corner: usize) -> (f64, [Vec3; MOST]) {
+        let (mut area, mut slopes) = (0.0, [Vec3::zero(); MOST]);
+        let Some(rule) = face.kind.gauss[1] else { return (area, slopes) };
+        for (point, weight) in rule.points.iter().zip(rule.weights) {
+            let xi = [point[0], point[1]];
+            let (shape, part) = (face.shape(xi), weight * self.thickness * face.corner_functions(xi).n[corner]);
+            let [a, b] = shape.tangents(placed.nodes(), self.plane);
+            let m = a.cross(b);
+            let around = if self.revolves { std::f64::consts::TAU * shape.value(placed.nodes())[0] } else { 1.0 };
+            area += part * m.norm() * around;
+            let (along_b, along_a) = (b.cross(m.unit()), m.unit().cross(a));
+            for (k, slope) in slopes[..face.nodes.len()].iter_mut().enumerate() {
+                let db = if self.plane { 0.0 } else { shape.dn[k][1] };
+                *slope += (along_b * shape.dn[k][0] + along_a * db) * (part * around);
+                if self.revolves {
+                    slope[0] += part * m.norm() * std::f64::consts::TAU * shape.n[k];
                 }
             }
         }
-        areas.iter().map(|[now, rest]| if *rest > 0.0 { now / rest } else { 1.0 }).collect()
+        (area, slopes)
     }
 }
 

@@ -404,7 +404,6 @@ impl Term for FieldContact {
             history,
             accepted: &accepted.u,
             before: Configuration::new(self, &accepted.u),
-            stretches: self.surface.stretches((&*self.mesh, &self.dofs), &accepted.u),
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),
             ahead: ahead(accepted, at.dt),

@@ -15,6 +15,8 @@ pub enum Overlap {
     Keep,
     /// It is removed over this time from the start.
     Ramp(f64),
+    /// The surfaces are meant to fit: what stands between them before the first increment counts as none for good.
+    Fit,
 }
 
 /// Archard's wear of a surface.
@@ -29,7 +31,7 @@ pub struct Wear {
 impl Overlap {
     /// Takes the overlap of a point into its first history; up to `least` it is none.
     pub fn begin(&self, values: &mut [f64], least: f64) {
-        if matches!(self, Self::Ramp(_)) && values[entry::PENETRATION] > least {
+        if !matches!(self, Self::Keep) && values[entry::PENETRATION] > least {
             values[entry::OVERLAP] = values[entry::PENETRATION];
             values[entry::CLOSURE] = -values[entry::PENETRATION];
         }
@@ -39,6 +41,7 @@ impl Overlap {
     pub fn settled(&self, at: Instant) -> [f64; 2] {
         match self {
             Self::Keep => [1.0; 2],
+            Self::Fit => [0.0; 2],
             Self::Ramp(time) => [at.time - at.dt, at.time].map(|t| (t / time).clamp(0.0, 1.0)),
         }
     }

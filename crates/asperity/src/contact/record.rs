@@ -171,6 +171,13 @@ impl PointRecord {
     pub fn force(&self) -> Vec3 {
         self.resultant.map_or_else(|| self.traction() * self.area, |[force, _]| force)
     }
+    /// The same as the other side sees it.
+    pub(super) fn turn(&mut self) {
+        for v in [&mut self.inward, &mut self.thrust, &mut self.along] {
+            *v = -*v;
+        }
+        self.resultant = self.resultant.map(|[force, center]| [-force, center]);
+    }
     /// Where that acts.
     pub fn center(&self) -> Vec3 {
         self.resultant.map_or(self.position, |[_, center]| center)

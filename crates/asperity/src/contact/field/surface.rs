@@ -194,6 +194,27 @@ impl Surface {
         if self.plane { 2.0 * a.norm() } else { (4.0 * a.cross(b).norm()).sqrt() }
     }
 
+    /// How far the faces around a node stand off a smooth surface, `h theta / 8` with `theta` the angle between neighbours; zero
+    /// for faces of second degree, which follow it.
+    pub fn sagitta(&self, node: usize, mesh: &Mesh) -> f64 {
+        let normal = self.normal(node, |f| self.faces[f].at_rest(mesh)).unit;
+        let of = |&(f, _): &(usize, usize)| {
+            let face = &self.faces[f];
+            if face.kind.degree > 1 {
+                return 0.0;
+            }
+            0.25 * self.size(f, mesh) * self.middle_normal(face, mesh).dot(normal).clamp(-1.0, 1.0).acos()
+        };
+        self.nodes[node].support.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// Mean size of its faces, and the largest sagitta over it.
+    pub fn coarseness(&self, mesh: &Mesh) -> [f64; 2] {
+        let mean = (0..self.faces.len()).map(|f| self.size(f, mesh)).sum::<f64>() / self.faces.len().max(1) as f64;
+        let sagitta = (0..self.nodes.len()).map(|node| self.sagitta(node, mesh)).fold(0.0, f64::max);
+        [mean, sagitta / mean]
+    }
+
     /// Shortest and longest size of its faces.
     pub fn sizes(&self, mesh: &Mesh) -> [f64; 2] {
         let sizes = (0..self.faces.len()).map(|f| self.size(f, mesh));

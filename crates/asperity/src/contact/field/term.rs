@@ -8,7 +8,7 @@ use super::tool::RigidTool;
 use crate::contact::record::{PointRecord, PointStatus, entry, variables};
 use crate::contact::pair::{CLOSED, ahead};
 use crate::contact::search::reach;
-use crate::contact::{ContactOptions, Move};
+use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
@@ -70,6 +70,8 @@ pub struct FieldParts {
     pub target: FieldTarget,
     /// Whether that is the surface itself.
     pub itself: bool,
+    /// Whether the user calls the target the surface: forces are reported on that.
+    pub swapped: bool,
     /// The law of the interface.
     pub law: Arc<dyn Interface>,
     /// How it is computed.
@@ -84,6 +86,7 @@ pub struct FieldContact {
     pub(super) surface: Surface,
     pub(super) target: FieldTarget,
     itself: bool,
+    swapped: bool,
     boundary: Faces,
     pub(super) law: Arc<dyn Interface>,
     pub(super) options: ContactOptions,
@@ -101,7 +104,7 @@ pub struct FieldContact {
 impl FieldContact {
     /// A contact of these parts.
     pub fn new(parts: FieldParts) -> Self {
-        let FieldParts { name, mesh, dofs, space, surface, boundary, target, itself, law, options } = parts;
+        let FieldParts { name, mesh, dofs, space, surface, boundary, target, itself, swapped, law, options } = parts;
         let boundary = Faces::new(Surface::new(&mesh, &boundary, space, 1.0), &mesh);
         let (labels, pieces) = match &target {
             FieldTarget::Tool(rigid) => (Vec::new(), rigid.pieces()),
@@ -119,7 +122,7 @@ impl FieldContact {
         let rule = rule(&surface);
         let least = CLOSED * shortest;
         Self {
-            name, mesh, dofs, surface, target, itself, boundary, law, options, least, labels, pieces, longest, sizes, rule,
+            name, mesh, dofs, surface, target, itself, swapped, boundary, law, options, least, labels, pieces, longest, sizes, rule,
         }
     }
 
@@ -300,6 +303,9 @@ impl FieldContact {
                 record.along = sheared.unit();
             }
         });
+        if self.swapped {
+            records.iter_mut().for_each(PointRecord::turn);
+        }
         records
     }
 
@@ -343,11 +349,22 @@ impl FieldContact {
         Some(closed.map(|slot| history.slot(slot)[entry::PENETRATION] / self.size_at(slot)).fold(0.0, f64::max))
     }
 
+    /// How far the facets of both sides stand off a smooth surface at most, a length.
+    fn sagitta(&self) -> f64 {
+        let most = |surface: &Surface| {
+            (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.mesh)).fold(0.0, f64::max)
+        };
+        most(&self.surface) + self.target.as_faces().map_or(0.0, |faces| most(&faces.surface))
+    }
+
     /// Words for a slot.
     pub(super) fn describe(&self, slot: usize) -> String {
         format!("node {} of contact '{}'", self.surface.nodes[slot / self.pieces].node, self.name)
     }
 }
+
+/// Gaps up to this multiple of what the facets of both sides stand off a smooth surface are theirs, where bodies fit.
+const FITS: f64 = 2.0;
 
 /// Labels counted from zero, in the order of their first use.
 fn labels(roots: &[usize]) -> (Vec<usize>, usize) {
@@ -382,10 +399,14 @@ impl Term for FieldContact {
             values[entry::HALF] = 1.0;
             self.law.initial(&mut values[entry::COUNT..]);
         }
-        let still = vec![0.0; self.dofs.count()];
+        let (still, fits) = (vec![0.0; self.dofs.count()], FITS * self.sagitta());
         self.each_seen(&still, self.reach(&still), |slot, _, sums| {
             let values = history.slot_mut(slot);
             (values[entry::SEGMENT], values[entry::PENETRATION], values[entry::XI]) = (0.0, sums.y[0], sums.area);
+            let gap = -sums.y[0];
+            if self.options.overlap == Overlap::Fit && gap > 0.0 && gap <= fits {
+                (values[entry::OVERLAP], values[entry::CLOSURE]) = (sums.y[0], gap);
+            }
             self.options.overlap.begin(values, self.least);
         });
         history

@@ -3,10 +3,10 @@
 use super::Builder;
 use super::contacts::{Opposite, boundary_behind, moduli};
 use crate::contact::ContactForm;
-use crate::contact::field::{FieldContact, FieldParts, FieldTarget};
-use crate::deck::keys;
+use crate::contact::field::{FieldContact, FieldParts, FieldTarget, Surface};
+use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
-use crate::mesh::{Side, Space};
+use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
 use crate::tool::Tool;
 use std::sync::Arc;
@@ -55,17 +55,24 @@ impl Builder<'_> {
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }
-        let carrier = |sides: &[Side]| crate::contact::field::Surface::new(&mesh, sides, space, self.site.thickness);
-        let (target, itself) = match opposite {
-            Opposite::Tool(number) => (FieldTarget::tool(tools[number].clone(), number, &dofs), false),
-            Opposite::Sides(sides) => (FieldTarget::faces(carrier(sides), &mesh), sides == surface),
+        let carrier = |sides: &[Side]| Surface::new(&mesh, sides, space, self.site.thickness);
+        let (mut sides, mut swapped, mut itself) = (surface, false, false);
+        let target = match opposite {
+            Opposite::Tool(number) => FieldTarget::tool(tools[number].clone(), number, &dofs),
+            Opposite::Sides(others) => {
+                itself = others == surface;
+                swapped = !itself && keys.roles == Roles::Auto && suits_better(&carrier(others), &carrier(surface), &mesh);
+                sides = if swapped { others } else { surface };
+                FieldTarget::faces(carrier(if swapped { surface } else { others }), &mesh)
+            }
         };
         Some(FieldContact::new(FieldParts {
             name: name.text.clone(),
-            surface: carrier(surface),
-            boundary: boundary_behind(&mesh, surface, &self.deck.body),
+            surface: carrier(sides),
+            boundary: boundary_behind(&mesh, sides, &self.deck.body),
             target,
             itself,
+            swapped,
             law,
             options,
             space,
@@ -94,6 +101,19 @@ impl Builder<'_> {
         }
         self.found.len() == before
     }
+}
+
+/// Sides whose faces differ in size by less than this factor are alike.
+const ALIKE: f64 = 1.2;
+/// Facets that stand off a smooth surface by more than this part of their size are those of a curve.
+const CURVED: f64 = 1e-3;
+
+/// Whether `other` is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
+/// facets the other side cannot all follow; else the finer, since a coarse field on a fine target misses what lies between its
+/// nodes.
+fn suits_better(other: &Surface, surface: &Surface, mesh: &Mesh) -> bool {
+    let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
+    if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
 }
 
 /// Whether a contact asks for what only stresses at points have.

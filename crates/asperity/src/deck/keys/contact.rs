@@ -39,8 +39,11 @@ table! {
         coupling: Option<Spot<bool>> = flag().spot().computed("true"),
         /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
         guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
-        /// How stresses become forces, with a tool.
-        form: Option<Spot<ContactForm>> = word().spot().computed("traction"),
+        /// Where contact stress lives, and how it becomes forces.
+        form: Option<Spot<ContactForm>> = word().spot().computed(
+            "field in plane and axisymmetric models, unless the law or a key asks for points; paper in space"),
+        /// Which of two bodies carries the field of contact stress.
+        roles: Roles = word().or("\"auto\""),
         /// Along which normals points look for the target and bear pressure. Averaged ones do not jump from edge to edge.
         normals: Normals = word().or("\"own\""),
         /// What becomes of points that lie inside the target before the first increment.
@@ -73,6 +76,8 @@ words! {
         Adjust = "adjust",
         /// the deck is refused
         Refuse = "refuse",
+        /// the surfaces are meant to fit, as a shaft in its bore: what stands between their facets counts as nothing
+        Fit = "fit",
     }
 }
 
@@ -82,6 +87,7 @@ impl OverlapWord {
         match self {
             Self::Keep => Overlap::Keep,
             Self::Ramp | Self::Adjust | Self::Refuse => Overlap::Ramp(step),
+            Self::Fit => Overlap::Fit,
         }
     }
 }
@@ -109,6 +115,16 @@ impl AugmentationKeys {
     /// What the keys say, for a contact of that role.
     pub fn augmentation(&self, role: Role) -> Augmentation {
         Augmentation { penetration: self.penetration, slip: self.slip, loops: self.loops, role }
+    }
+}
+
+words! {
+    /// Which of two bodies carries the field of contact stress.
+    pub enum Roles {
+        /// of curved faces of first degree the coarser side, else the finer one; the surface where they are alike
+        Auto = "auto",
+        /// the surface
+        Given = "given",
     }
 }
 

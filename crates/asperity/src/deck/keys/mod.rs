@@ -18,7 +18,7 @@ pub use condition::{
     BodyForce, Components, Displacement, Force, Gravity, Motion, Pressure, PressureKind, Spring, Temperature,
     ToolCondition, ToolLoad, Traction,
 };
-pub use contact::{Contact, OverlapWord, Passes, WearKeys};
+pub use contact::{Contact, OverlapWord, Passes, Roles, WearKeys};
 pub use initial_stress::InitialStressKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;

@@ -25,7 +25,9 @@ impl OpenContact<'_> {
                     let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), direction * present);
                     out.coordinate(y, rates, rows.into_iter().take(stencil.len).chain(beyond));
                 }
-                ContactForm::Variational | ContactForm::Field => out.coordinate(y, rates.clone(), rates.map(|rate| rate * undeformed)),
+                ContactForm::Variational | ContactForm::Field => {
+                    out.coordinate(y, rates.clone(), rates.map(|rate| rate * undeformed))
+                }
             }
         }
         if let Some(mean) = self.mean_pressure(index, g, u) {

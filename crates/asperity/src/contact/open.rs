@@ -178,7 +178,9 @@ impl OpenContact<'_> {
         write(&closed.response, [closed.slip, T::zero()], old, new);
         match contact.options.form {
             ContactForm::Traction => self.add(g, &closed, local),
-            ContactForm::Variational | ContactForm::Field => self.add_variational((index, stencil), g, &closed, local)?,
+            ContactForm::Variational | ContactForm::Field => {
+                self.add_variational((index, stencil), g, &closed, local)?
+            }
         }
         if let Some(mean) = mean.filter(|_| local.wants_tangent) {
             self.add_neighbours((g, closed.slip.re(), &past), &mean, local)?;

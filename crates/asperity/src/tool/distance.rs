@@ -116,7 +116,13 @@ impl Tool {
             let gap = normal.dot(x - point);
             ClosestPoint { gap, normal, point, curvature: curvature / (1.0 + curvature * gap), beyond }
         };
-        let end = if s <= AT_END { 0 } else if s >= 1.0 - AT_END { 1 } else { return smooth(segment.curvature(s), None) };
+        let end = if s <= AT_END {
+            0
+        } else if s >= 1.0 - AT_END {
+            1
+        } else {
+            return smooth(segment.curvature(s), None);
+        };
         let past = segment.tangent(s).unit().dot(x - point) * if end == 0 { -1.0 } else { 1.0 };
         if past <= AT_END * segment.length() {
             return smooth(segment.curvature(s), None);
@@ -188,7 +194,8 @@ mod tests {
         let round = round();
         for piece in &round.smooth_pieces() {
             for i in 0..400 {
-                let x = Vec3::new(-1.0 + 4.0 * f64::from(i % 20) / 19.0 + 0.01, -1.0 + 4.0 * f64::from(i / 20) / 19.0, 0.0);
+                let x =
+                    Vec3::new(-1.0 + 4.0 * f64::from(i % 20) / 19.0 + 0.01, -1.0 + 4.0 * f64::from(i / 20) / 19.0, 0.0);
                 let found = round.closest(piece, x);
                 if found.beyond.is_some() {
                     continue;
@@ -210,7 +217,10 @@ mod tests {
                     assert!(((up.gap - down.gap) / (2.0 * h) - found.normal[axis]).abs() < 1e-5);
                     let e = found.normal.left();
                     let slope = (up.normal - down.normal) * (0.5 / h);
-                    assert!((slope - e * (found.curvature * e[axis])).norm() < 1e-3 * (1.0 + found.curvature.abs()), "{x:?}");
+                    assert!(
+                        (slope - e * (found.curvature * e[axis])).norm() < 1e-3 * (1.0 + found.curvature.abs()),
+                        "{x:?}"
+                    );
                 }
             }
         }

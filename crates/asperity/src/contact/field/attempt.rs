@@ -149,7 +149,8 @@ impl Configuration<'_> {
                 }
                 TargetInPlace::Faces(faces) => {
                     let ray = Ray { x: at.x, n: at.normal.unit() };
-                    let hit = self.contact.target.as_faces()?.project(patch.target, faces.placed(patch.target), &ray)?;
+                    let hit =
+                        self.contact.target.as_faces()?.project(patch.target, faces.placed(patch.target), &ray)?;
                     looks |= -hit.normal().dot(ray.n) > LEAST_COSINE;
                     Some(hit.gap)
                 }
@@ -162,9 +163,8 @@ impl Configuration<'_> {
 
 /// Of patches of one face that lie over each other, keeps the nearest.
 fn keep_nearest(found: &mut Vec<Seen>) {
-    let overlap = |a: &Seen, b: &Seen| {
-        a.patch.near[1].min(b.patch.near[1]) - a.patch.near[0].max(b.patch.near[0]) > 1e-6
-    };
+    let overlap =
+        |a: &Seen, b: &Seen| a.patch.near[1].min(b.patch.near[1]) - a.patch.near[0].max(b.patch.near[0]) > 1e-6;
     let nearer = |a: &Seen, b: &Seen| (a.middle.abs(), a.patch.target) < (b.middle.abs(), b.patch.target);
     let all = found.clone();
     found.retain(|seen| !all.iter().any(|other| overlap(seen, other) && nearer(other, seen)));
@@ -397,7 +397,8 @@ impl FieldAttempt<'_> {
             let slopes = self.stretch_slopes((slot, stretch), y)?;
             add_stretching(&slopes, &stretching, sums, &mut local.tangent);
         }
-        let carried = Carried { pressure: t[0], shear: [t[1], t[2]], slip, slipped: response.slipped, closure: response.closure };
+        let carried =
+            Carried { pressure: t[0], shear: [t[1], t[2]], slip, slipped: response.slipped, closure: response.closure };
         self.account(slot, (sums.area, stretch), carried, local);
         Ok(response.status as Branch)
     }

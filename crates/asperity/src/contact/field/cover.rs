@@ -91,7 +91,11 @@ fn root([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> [f64; 2]) -> f64 {
     let mut xi = 0.5 * (from + to);
     for _ in 0..100 {
         let [value, slope] = f(xi);
-        if (value < 0.0) == below { from = xi } else { to = xi }
+        if (value < 0.0) == below {
+            from = xi
+        } else {
+            to = xi
+        }
         let newton = xi - value / slope;
         let inside = newton > from.min(to) && newton < from.max(to);
         let next = if inside { newton } else { 0.5 * (from + to) };

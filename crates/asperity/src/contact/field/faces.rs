@@ -158,7 +158,8 @@ impl FacesInPlace<'_> {
         found.sort_unstable();
         for number in found {
             let Some(hit) = self.faces.project(number, &self.placed[number], ray) else { continue };
-            let inside = self.faces.surface.faces[number].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
+            let inside =
+                self.faces.surface.faces[number].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
             if inside && admits(number, &hit) && best.is_none_or(|(_, b)| hit.gap.abs() < b.gap.abs()) {
                 best = Some((number, hit));
             }

@@ -142,7 +142,9 @@ impl PatchInPlace<'_> {
 
     fn offset(&self, xi: f64, end: usize) -> [f64; 2] {
         match (&self.tool, &self.seen) {
-            (Some(tool), _) => tool.ends(self.patch.target)[end].map_or([0.0, 1.0], |line| self.face.end_offset(xi, line)),
+            (Some(tool), _) => {
+                tool.ends(self.patch.target)[end].map_or([0.0, 1.0], |line| self.face.end_offset(xi, line))
+            }
             (None, Some((_, seen))) => self.face.vertex_offset(xi, seen.nodes()[end]),
             (None, None) => [0.0, 1.0],
         }
@@ -246,7 +248,10 @@ impl PatchInPlace<'_> {
         let (function, function_slope) = (function.0, function.1[0] * dxi[0]);
         let weight = rule_weight
             * (dhalf * density * facing[0] * function
-                + half * (density_slope * facing[0] * function + density * dfacing * function + density * facing[0] * function_slope));
+                + half
+                    * (density_slope * facing[0] * function
+                        + density * dfacing * function
+                        + density * facing[0] * function_slope));
         let e = [n.left(), Vec3::zero()];
         let mut slip = [0.0; 2];
         if let Some(touched) = touched {

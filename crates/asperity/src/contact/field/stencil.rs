@@ -109,9 +109,7 @@ impl<'a> StencilInPlace<'a> {
         let face = FaceInPlace { face, placed: self.placed(face), normals: units, plane: surface.plane };
         let (tool, seen) = match &self.contact.target {
             FieldTarget::Tool(rigid) => (Some(rigid.in_place(self.motion())), None),
-            FieldTarget::Faces(faces) => {
-                (None, Some((faces, self.placed(&faces.surface.faces[patch.target]))))
-            }
+            FieldTarget::Faces(faces) => (None, Some((faces, self.placed(&faces.surface.faces[patch.target])))),
         };
         let mut patch = PatchInPlace { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0] };
         patch.find_interval();
@@ -143,11 +141,15 @@ impl<'a> StencilInPlace<'a> {
         }
         for c in 0..surface.faces[patch.face].corners() {
             let node = surface.field[patch.face][c];
-            surface.normal_rates(node, |f| self.placed(&surface.faces[f]), |node, rates| {
-                if let Ok(place) = self.support.nodes.binary_search(&node) {
-                    (0..axes).for_each(|axis| out[place * axes + axis][c] += rates[axis]);
-                }
-            });
+            surface.normal_rates(
+                node,
+                |f| self.placed(&surface.faces[f]),
+                |node, rates| {
+                    if let Ok(place) = self.support.nodes.binary_search(&node) {
+                        (0..axes).for_each(|axis| out[place * axes + axis][c] += rates[axis]);
+                    }
+                },
+            );
         }
     }
 
@@ -184,7 +186,9 @@ impl<'a> StencilInPlace<'a> {
             if derivatives {
                 self.list_columns(patch, &mut sums.columns);
                 self.turning(patch, &mut turning);
-                ends.extend(sums.columns.iter().zip(&turning).map(|(column, turning)| in_place.interval_rates(column, turning)));
+                ends.extend(
+                    sums.columns.iter().zip(&turning).map(|(column, turning)| in_place.interval_rates(column, turning)),
+                );
             }
             let half = 0.5 * (in_place.interval[1] - in_place.interval[0]);
             for &(eta, rule_weight) in self.contact.rule() {

@@ -5,8 +5,8 @@ use super::faces::{Faces, Ray};
 use super::stencil::{NodeSums, StencilInPlace, Support};
 use super::surface::Surface;
 use super::tool::RigidTool;
-use crate::contact::record::{PointRecord, PointStatus, entry, variables};
 use crate::contact::pair::{CLOSED, ahead};
+use crate::contact::record::{PointRecord, PointStatus, entry, variables};
 use crate::contact::search::reach;
 use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::Interface;
@@ -122,7 +122,22 @@ impl FieldContact {
         let rule = rule(&surface);
         let least = CLOSED * shortest;
         Self {
-            name, mesh, dofs, surface, target, itself, swapped, boundary, law, options, least, labels, pieces, longest, sizes, rule,
+            name,
+            mesh,
+            dofs,
+            surface,
+            target,
+            itself,
+            swapped,
+            boundary,
+            law,
+            options,
+            least,
+            labels,
+            pieces,
+            longest,
+            sizes,
+            rule,
         }
     }
 
@@ -284,7 +299,8 @@ impl FieldContact {
 
     /// All nodes in an accepted state, with this term's lane of its history: one record for each slot.
     pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
-        let mut records: Vec<PointRecord> = (0..self.slots()).map(|slot| self.unseen(slot, u, history.slot(slot))).collect();
+        let mut records: Vec<PointRecord> =
+            (0..self.slots()).map(|slot| self.unseen(slot, u, history.slot(slot))).collect();
         self.each_seen(u, self.reach(&vec![0.0; u.len()]), |slot, stencil, sums| {
             let values = history.slot(slot);
             if values[entry::SEGMENT] < 0.0 {
@@ -330,7 +346,11 @@ impl FieldContact {
             pressure: values[entry::PRESSURE],
             shear: if self.surface.plane { shear } else { shear.hypot(values[entry::SHEAR2]) },
             penetration: if seen { values[entry::PENETRATION] } else { f64::NAN },
-            slip: if self.surface.plane { values[entry::SLIP] } else { values[entry::SLIP].hypot(values[entry::SLIP2]) },
+            slip: if self.surface.plane {
+                values[entry::SLIP]
+            } else {
+                values[entry::SLIP].hypot(values[entry::SLIP2])
+            },
             slipped: values[entry::SLIPPED],
             dissipated: values[entry::DISSIPATED],
             last_dissipated: values[entry::LAST_DISSIPATED],

@@ -129,7 +129,11 @@ impl Builder<'_> {
             guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
             augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation(role)),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
-            form: if self.is_field(keys) { ContactForm::Field } else { keys.form.map_or(ContactForm::Traction, |form| form.value) },
+            form: if self.is_field(keys) {
+                ContactForm::Field
+            } else {
+                keys.form.map_or(ContactForm::Traction, |form| form.value)
+            },
             normals: keys.normals,
             wear: keys.wear.as_ref().map(keys::WearKeys::wear),
         }

@@ -12,12 +12,9 @@ use crate::tool::Tool;
 use std::sync::Arc;
 
 impl Builder<'_> {
-    /// Whether a contact is a field: unless the deck says otherwise, in the plane and in axial symmetry.
+    /// Whether a contact is a field.
     pub(super) fn is_field(&self, keys: &keys::Contact) -> bool {
-        match keys.form {
-            Some(form) => form.value == ContactForm::Field,
-            None => self.site.space != Space::Solid && !needs_points(keys),
-        }
+        keys.form.is_some_and(|form| form.value == ContactForm::Field)
     }
 
     /// The contacts that are fields.
@@ -61,7 +58,8 @@ impl Builder<'_> {
             Opposite::Tool(number) => FieldTarget::tool(tools[number].clone(), number, &dofs),
             Opposite::Sides(others) => {
                 itself = others == surface;
-                swapped = !itself && keys.roles == Roles::Auto && suits_better(&carrier(others), &carrier(surface), &mesh);
+                swapped =
+                    !itself && keys.roles == Roles::Auto && suits_better(&carrier(others), &carrier(surface), &mesh);
                 sides = if swapped { others } else { surface };
                 FieldTarget::faces(carrier(if swapped { surface } else { others }), &mesh)
             }
@@ -94,6 +92,9 @@ impl Builder<'_> {
         for (key, place) in said.into_iter().flatten() {
             self.refuse(format!("`{key}` is for stresses at points: form = \"paper\""), place);
         }
+        if !keys.law.build().is_ok_and(|law| law.radius() == 0.0) {
+            self.refuse("a mean of the pressure is for stresses at points: form = \"paper\"", keys.law.place);
+        }
         if self.site.space == Space::Solid {
             if let Some(form) = keys.form {
                 self.refuse("a field of nodal values is for plane and axisymmetric models", form.place);
@@ -114,10 +115,4 @@ const CURVED: f64 = 1e-3;
 fn suits_better(other: &Surface, surface: &Surface, mesh: &Mesh) -> bool {
     let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
     if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
-}
-
-/// Whether a contact asks for what only stresses at points have.
-fn needs_points(keys: &keys::Contact) -> bool {
-    let local = keys.law.build().is_ok_and(|law| law.radius() == 0.0);
-    !local || keys.gauss.is_some() || keys.parts.is_some() || keys.passes.is_some() || keys.coupling.is_some() || keys.guard.is_some()
 }

@@ -40,8 +40,7 @@ table! {
         /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
         guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
         /// Where contact stress lives, and how it becomes forces.
-        form: Option<Spot<ContactForm>> = word().spot().computed(
-            "field in plane and axisymmetric models, unless the law or a key asks for points; paper in space"),
+        form: Option<Spot<ContactForm>> = word().spot().computed("paper"),
         /// Which of two bodies carries the field of contact stress.
         roles: Roles = word().or("\"auto\""),
         /// Along which normals points look for the target and bear pressure. Averaged ones do not jump from edge to edge.
@@ -144,7 +143,11 @@ impl Words for ContactForm {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         vec![
             (Self::Field, "field", "as a field of nodal values, along the normals of what is touched"),
-            (Self::Traction, "paper", "at the integration points, along the normal of the strained surface, over its present area"),
+            (
+                Self::Traction,
+                "paper",
+                "at the integration points, along the normal of the strained surface, over its present area",
+            ),
             (Self::Variational, "variational", "as the gradient of a potential over the undeformed area"),
         ]
     }

@@ -1,0 +1,311 @@
+//! Contact stress as a field of nodal values: exact tangents, balance of the two sides, Coulomb's limit, the patch test,
+//! curved non-matching interfaces, corners, and objectivity.
+
+mod perturbed;
+mod support;
+
+use asperity::contact::field::FieldContact;
+use asperity::model::Model;
+use asperity::system::{Dofs, State, Term};
+use perturbed::{Random, check, commit, instant, state};
+use support::{Keep, columns, model, run};
+
+/// Largest difference of an entry of a tangent over the largest entry.
+const ALLOWED: f64 = 1e-7;
+
+/// A block above a tool whose profile has smooth joints, a convex and a concave crease, and free ends.
+const OVER_TOOL: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.3, 0.0], to = [3.3, 1.0], cells = [5, 2], cell = "quad4" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.block = { material = "rubber" }
+tool.die = { profile = [
+    { line = [[4.0, -0.02], [2.6, -0.02]] },
+    { arc = [[2.6, -0.02], [2.2, 0.06], [1.8, -0.02]] },
+    { line = [[1.8, -0.02], [1.2, -0.02]] },
+    { line = [[1.2, -0.02], [1.2, -0.6]] },
+    { line = [[1.2, -0.6], [0.9, -0.6]] },
+    { line = [[0.9, -0.6], [0.8, 0.01]] },
+    { parabola = [[0.8, 0.01], [0.4, 0.03], [0.0, 0.01]] },
+] }
+contact.joint = { surface = "block.bottom", target = "die", form = "field", law.coulomb = { friction = 0.3 } }
+[[step]]
+displacement."block.top" = { x = 0.0, y = -0.1 }
+"#;
+
+/// Two blocks that do not match, the upper one narrower.
+const BLOCKS: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.low.rectangle = { from = [0.5, -1.0], to = [2.9, 0.0], cells = [3, 1], cell = "quad4" }
+mesh.part.high.rectangle = { from = [1.1, 0.0], to = [2.5, 1.0], cells = [2, 1], cell = "quad4" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.low = { material = "rubber" }
+body.high = { material = "rubber" }
+contact.joint = { surface = "high.bottom", target = "low.top", form = "field", roles = "given", law.coulomb = { friction = 0.3 } }
+[[step]]
+displacement."low.bottom" = { x = 0.0, y = 0.0 }
+displacement."high.top" = { x = 0.0, y = -0.1 }
+"#;
+
+fn second_degree(parts: &[&str]) -> Vec<String> {
+    parts.iter().map(|part| format!("mesh.part.{part}.rectangle.cell=quad8")).collect()
+}
+
+fn made(deck: &str, sets: &[String]) -> Model {
+    model(deck, &sets.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+/// Random states of a contact after random accepted ones: all nodes move by up to `size`, the upper ones down.
+fn look_at(contact: &FieldContact, dofs: &Dofs, (moving, size): (&[usize], f64)) -> ([usize; 3], usize, f64) {
+    let mut random = Random(11);
+    let start = state(vec![0.0; dofs.count()], contact.initial());
+    let mut motion = || {
+        let mut u: Vec<f64> = (0..dofs.count()).map(|_| size * random.next()).collect();
+        let down = 0.02 * random.next() - 0.02;
+        let along = 0.3 * random.next();
+        for &node in moving {
+            u[dofs.node(node)] += along;
+            u[dofs.node(node) + 1] += down;
+        }
+        u
+    };
+    let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
+    for _ in 0..400 {
+        let Ok(accepted) = commit(contact, &start, motion()) else { continue };
+        let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+        let Ok(results) = check(attempt.as_ref(), &motion()) else { continue };
+        for result in results {
+            met[usize::from(result.branch)] += 1;
+            skipped += usize::from(!result.smooth);
+            worst = if result.smooth { worst.max(result.error) } else { worst };
+        }
+    }
+    (met, skipped, worst)
+}
+
+#[test]
+fn tangents_of_the_field_are_exact() {
+    for (deck, part, others) in [(OVER_TOOL, "block", &["block"][..]), (BLOCKS, "high", &["low", "high"])] {
+        for degree in [1, 2] {
+            for space in ["plane-strain", "axisymmetric"] {
+                let mut sets = if degree == 2 { second_degree(others) } else { Vec::new() };
+                sets.push(format!("space={space}"));
+                let model = made(deck, &sets);
+                let contact = &model.field_contacts[0];
+                let moving = &model.mesh.groups[part].nodes;
+                let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.006));
+                let name = format!("{part}, degree {degree}, {space}: {met:?} skipped {skipped} worst {worst:.1e}");
+                assert!(met.iter().all(|&met| met >= 100), "{name}");
+                assert!(10 * skipped <= met.iter().sum::<usize>(), "{name}");
+                assert!(worst < ALLOWED, "{name}");
+            }
+        }
+    }
+}
+
+fn last(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> f64 {
+    *columns[name].last().unwrap()
+}
+
+/// Every closed node of a block that slides over a plane bears the limit, and so does their sum.
+#[test]
+fn a_sliding_block_bears_the_limit_of_friction() {
+    for cell in ["quad4", "quad8", "tri3", "tri6"] {
+        for friction in [0.0, 0.1, 0.5, 1.2] {
+            let deck = format!(
+                r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [4.0, 1.0], cells = [9, 3], cell = "{cell}" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block = {{ material = "rubber" }}
+tool.floor = {{ profile = [{{ line = [[20.0, 0.0], [-20.0, 0.0]] }}] }}
+contact.joint = {{ surface = "block.bottom", target = "floor", form = "field", law.coulomb = {{ friction = {friction} }} }}
+[[step]]
+increments.count = 2
+displacement."block.top" = {{ x = 0.0, y = -0.01 }}
+[[step]]
+increments.count = 4
+displacement."block.top" = {{ x = 1.0, y = -0.01 }}
+"#
+            );
+            let model = model(&deck, &[]);
+            let keep: Keep = run(&model);
+            let columns = columns(&model, &keep);
+            let [t, n] = ["x", "y"].map(|axis| last(&columns, &format!("tool.floor.force.{axis}")));
+            assert!((t.abs() - friction * n.abs()).abs() <= 1e-10 * n.abs(), "{cell} {friction}: {t} {n}");
+            let state = keep.states.last().unwrap();
+            let contact = &model.field_contacts[0];
+            let records = contact.records(&state.u, &state.histories[model.first_contact()]);
+            let closed = records.iter().filter(|record| record.pressure > 0.0);
+            closed.for_each(|r| assert!((r.shear.abs() - friction * r.pressure).abs() <= 1e-10 * r.pressure));
+        }
+    }
+}
+
+/// Blocks under their weight rest on each other with it, whatever their meshes.
+#[test]
+fn stacked_blocks_bear_their_weight() {
+    for (cell, edges) in [("quad4", [4, 5]), ("quad8", [5, 4]), ("quad8", [4, 8]), ("tri6", [3, 5])] {
+        for friction in [0.0, 0.4] {
+            let part = |name: &str, from: f64, edges: usize| {
+                format!(
+                    "mesh.part.{name}.rectangle = {{ from = [0.0, {from:.1}], to = [4.0, {:.1}], cells = [{edges}, 2], cell = \"{cell}\" }}\n",
+                    from + 1.0
+                )
+            };
+            let deck = format!(
+                r#"
+version = 1
+space = "plane-strain"
+{}{}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.low = {{ material = "rubber" }}
+body.high = {{ material = "rubber" }}
+tool.floor = {{ profile = [{{ line = [[20.0, 0.0], [-20.0, 0.0]] }}] }}
+contact.ground = {{ surface = "low.bottom", target = "floor", form = "field", law.coulomb = {{ friction = {friction} }} }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", law.coulomb = {{ friction = {friction} }} }}
+[solver]
+tolerance = 1e-10
+[[step]]
+body_force.low = {{ y = -1.0 }}
+body_force.high = {{ y = -1.0 }}
+displacement."low.left" = {{ x = 0.0 }}
+displacement."high.left" = {{ x = 0.0 }}
+"#,
+                part("low", 0.0, edges[0]),
+                part("high", 1.0, edges[1])
+            );
+            let model = model(&deck, &[]);
+            let keep: Keep = run(&model);
+            let columns = columns(&model, &keep);
+            let [ground, joint] = ["ground", "joint"].map(|name| last(&columns, &format!("contact.{name}.force.y")));
+            assert!((ground / 8.0 - 1.0).abs() < 1e-8 && (joint / 4.0 - 1.0).abs() < 1e-8, "{cell} {ground} {joint}");
+        }
+    }
+}
+
+fn rings(cells: [usize; 2], surface: &str, more: &str) -> String {
+    let target = if surface == "inner.outer" { "outer.inner" } else { "inner.outer" };
+    format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.inner.annulus = {{ from = [0.2, 0.0], to = [0.6, 90.0], cells = [10, {}], cell = "quad4" }}
+mesh.part.outer.annulus = {{ from = [0.6, 0.0], to = [1.0, 90.0], cells = [10, {}], cell = "quad4" }}
+material.steel.elastic = {{ young = 1e9, poisson = 0.2 }}
+body.inner = {{ material = "steel" }}
+body.outer = {{ material = "steel" }}
+contact.joint = {{ surface = "{surface}", target = "{target}", form = "field", law.coulomb = {{ friction = 0.0 }}, {more} }}
+[[step]]
+symmetry = ["inner.start", "outer.start", "inner.end", "outer.end"]
+pressure."outer.outer" = {{ value = 1e6 }}
+increments.count = 1
+"#,
+        cells[0], cells[1]
+    )
+}
+
+/// Lame's pressure between two rings, on facets that do not match: root mean square of the error, and open nodes.
+fn ring_error(cells: [usize; 2], surface: &str, more: &str) -> (f64, usize) {
+    let model = model(&rings(cells, surface, more), &[]);
+    let keep: Keep = run(&model);
+    let state: &State = keep.states.last().unwrap();
+    let records = model.field_contacts[0].records(&state.u, &state.histories[model.first_contact()]);
+    let (mut area, mut sum) = (0.0, 0.0);
+    for record in &records {
+        let error = record.pressure / 925_925.93 - 1.0;
+        (area, sum) = (area + record.area, sum + record.area * error * error);
+    }
+    ((sum / area).sqrt(), records.iter().filter(|record| record.pressure == 0.0).count())
+}
+
+/// The limits are those of the mortar method with small displacements on the same meshes, see the chapter on contact.
+#[test]
+fn pressure_between_rings_does_not_depend_on_their_facets() {
+    for (cells, own, other) in [([24, 31], 0.16, 0.28), ([48, 62], 0.06, 0.15)] {
+        for surface in ["inner.outer", "outer.inner"] {
+            let limit = if surface == "inner.outer" { own } else { other };
+            let (error, open) = ring_error(cells, surface, "roles = \"given\"");
+            assert!(error < limit && open == 0, "{cells:?} {surface}: {error} {open}");
+            let (error, open) = ring_error(cells, surface, "");
+            assert!(error < own && open == 0, "{cells:?} {surface} by default: {error} {open}");
+            let (error, _) = ring_error(cells, surface, "roles = \"given\", overlap = \"fit\"");
+            assert!(error < 0.003, "{cells:?} {surface} fitted: {error}");
+        }
+    }
+}
+
+/// A block pressed into a rigid corner by two different pressures bears each of them on its own wall.
+#[test]
+fn a_corner_bears_two_pressures() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [5, 3], cell = "quad4" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.block = { material = "rubber" }
+tool.corner = { profile = [{ line = [[9.0, 0.0], [0.0, 0.0]] }, { line = [[0.0, 0.0], [0.0, 9.0]] }] }
+group.sides = { join = ["block.bottom", "block.left"] }
+contact.floor = { surface = "block.bottom", target = "corner", form = "field", law.coulomb = { friction = 0.0 } }
+contact.wall = { surface = "block.left", target = "corner", form = "field", law.coulomb = { friction = 0.0 } }
+[solver]
+tolerance = 1e-12
+[[step]]
+increments.count = 1
+pressure."block.top" = { value = 10.0 }
+pressure."block.right" = { value = 3.0 }
+"#;
+    let deck = deck.replace("group.sides = { join = [\"block.bottom\", \"block.left\"] }\n", "");
+    let model = model(&deck, &[]);
+    let keep: Keep = run(&model);
+    let state = keep.states.last().unwrap();
+    for (number, stress) in [(0, 10.0), (1, 3.0)] {
+        let history = &state.histories[model.first_contact() + number];
+        let records = model.field_contacts[number].records(&state.u, history);
+        let closed: Vec<f64> = records.iter().filter(|r| r.pressure > 0.0).map(|r| r.pressure).collect();
+        assert!(!closed.is_empty());
+        closed.iter().for_each(|p| assert!((p / stress - 1.0).abs() < 1e-8, "{number}: {closed:?}"));
+    }
+}
+
+/// A press fit whose two rings are one group of cells is that of two groups.
+#[test]
+fn a_stick_state_that_is_turned_keeps_its_stress() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [5, 2], cell = "quad4" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.block = { material = "rubber" }
+tool.floor = { profile = [{ line = [[9.0, 0.0], [-9.0, 0.0]] }] }
+contact.joint = { surface = "block.bottom", target = "floor", form = "field", law.coulomb = { friction = 0.9 } }
+[[step]]
+increments.count = 2
+displacement."block.top" = { x = 0.004, y = -0.02 }
+"#;
+    let model = model(deck, &[]);
+    let keep: Keep = run(&model);
+    let (state, dofs) = (keep.states.last().unwrap(), &model.problem.dofs);
+    let contact: &FieldContact = &model.field_contacts[0];
+    let before = &state.histories[model.first_contact()];
+    // 63 degrees about the origin, in one increment.
+    let (sin, cos) = 63.0_f64.to_radians().sin_cos();
+    let mut u = state.u.clone();
+    for (node, x) in model.mesh.points.iter().enumerate() {
+        let first = dofs.node(node);
+        let [a, b] = [x[0] + u[first], x[1] + u[first + 1]];
+        (u[first], u[first + 1]) = (cos * a - sin * b - x[0], sin * a + cos * b - x[1]);
+    }
+    u[dofs.tool(0) + 2] = 63.0_f64.to_radians();
+    let accepted = State { histories: vec![before.clone()], u: state.u.clone(), ..State::default() };
+    let turned = commit(contact, &accepted, u.clone()).unwrap();
+    let [old, new] = [(&state.u, before), (&turned.u, &turned.histories[0])].map(|(u, h)| contact.records(u, h));
+    assert!(old.iter().any(|record| record.shear.abs() > 0.1));
+    for (old, new) in old.iter().zip(&new) {
+        assert!((old.pressure - new.pressure).abs() < 1e-9 * old.pressure.max(1.0), "{old:?} {new:?}");
+        assert!((old.shear - new.shear).abs() < 1e-9 * old.pressure.max(1.0), "{old:?} {new:?}");
+    }
+}

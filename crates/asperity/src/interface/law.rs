@@ -260,8 +260,8 @@ mod tests {
             vars: &[],
             dt: 1.0,
         };
-        let y =
-            [0, 1, 2].map(|i| Dual { re: 0.3 + 0.2 * f64::from(i), du: [1.0, -2.0, 0.5, 3.0, 0.1].map(|d| d.powi(i)) });
+        let y = [0, 1, 2]
+            .map(|i| Dual { re: 0.3 + 0.2 * f64::from(i), du: [1.0_f64, -2.0, 0.5, 3.0, 0.1].map(|d| d.powi(i)) });
         let lifted = Past::<Dual<5>> {
             penetration: past.penetration.into(),
             pressure: 0.0.into(),

@@ -9,7 +9,7 @@ use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
 use crate::interface::Interface;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
 use crate::tool::Tool;
 use std::sync::Arc;
@@ -81,7 +81,11 @@ impl Builder<'_> {
         let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), moduli);
         let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
-            let carrier = Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value));
+            let gauss = keys.gauss.map(|gauss| gauss.value);
+            let carrier = match self.site.space {
+                Space::Axisymmetric => Surface::around_axis(&mesh, sides, gauss),
+                _ => Surface::new(&mesh, sides, gauss),
+            };
             let carrier = carrier.divided(keys.parts.map_or(1, |parts| parts.value));
             let boundary = boundary_behind(&mesh, sides, &self.deck.body);
             let site = (mesh.clone(), self.site.dofs.clone(), self.site.space);

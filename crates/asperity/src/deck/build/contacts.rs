@@ -12,6 +12,7 @@ use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
 use crate::tool::Tool;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Which edges a contact joins.
@@ -240,12 +241,12 @@ pub(super) fn moduli(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<f64> {
     moduli
 }
 
-/// The whole outer boundary of the bodies whose cells lie behind the sides.
+/// The whole outer boundary of what hangs together with the cells behind the sides, in whatever groups.
 pub(super) fn boundary_behind(mesh: &Mesh, sides: &[Side], bodies: &[(Name, keys::Body)]) -> Vec<Side> {
+    let wholes = mesh.wholes();
+    let behind: BTreeSet<usize> = sides.iter().map(|side| wholes[side.cell]).collect();
     let groups = bodies.iter().filter_map(|(name, _)| mesh.groups.get(&name.text));
-    let behind = groups.filter(|group| sides.iter().any(|side| group.cells.binary_search(&side.cell).is_ok()));
-    let mut cells: Vec<usize> = behind.flat_map(|group| group.cells.iter().copied()).collect();
-    cells.sort_unstable();
-    cells.dedup();
-    mesh.boundary(&cells)
+    let cells = groups.flat_map(|group| group.cells.iter().copied());
+    let cells: BTreeSet<usize> = cells.filter(|&cell| behind.contains(&wholes[cell])).collect();
+    mesh.boundary(&cells.into_iter().collect::<Vec<_>>())
 }

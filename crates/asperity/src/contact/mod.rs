@@ -21,6 +21,7 @@ mod options;
 mod overlap;
 mod pair;
 mod partner;
+mod passage;
 mod penalty;
 mod placed;
 mod point;

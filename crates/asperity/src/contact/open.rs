@@ -119,6 +119,7 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        self.refuse_passage(u, new)?;
         self.improve(u, new)
     }
 

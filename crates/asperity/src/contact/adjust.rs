@@ -3,7 +3,6 @@
 //! A node is moved along the mean normal of the contact points around it to where that ray leaves the target. Between the
 //! nodes a curved target may still be penetrated by what the edges do not follow.
 
-use super::capture::depths;
 use super::pair::Contact;
 use super::point::triad;
 use super::space;
@@ -41,7 +40,7 @@ impl Contact {
         let points = &self.surface.points;
         let inward = |i: usize| triad(self.locate(&points[i], &still).1).1;
         let normals = gather((0..points.len()).map(|i| (self.surface.nodes(&points[i]), inward(i))));
-        let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &still);
+        let depths = self.depths(&still);
         let (standing, mut memory) = (self.target.stand(&still), Memory::default());
         let moved = normals.into_iter().filter_map(|(node, (sum, i))| {
             let ray = Ray { origin: self.mesh.points[node], direction: sum.unit() };

@@ -5,9 +5,9 @@ use super::open::OpenContact;
 use super::point::{in_contact, triad};
 use super::variational::ContactForm;
 use crate::Failure;
-use crate::interface::{Interface, MOST_VARIABLES, Motion, Past};
+use crate::interface::{Interface, MOST_VARIABLES, Past};
 use crate::system::{Answer, COORDINATES, Coordinates, Kinks, Stencil};
-use crate::tensor::{Dual, Scalar};
+use crate::tensor::Dual;
 
 impl OpenContact<'_> {
     /// Adds the coordinates of a point at values `u` of its unknowns to the stencil begun last.
@@ -52,16 +52,11 @@ pub(in crate::contact) fn answer_by_mean(
     if y[0] <= law.opens(past, [local[1], local[2]]) + least {
         return Ok(whole);
     }
-    let touch = law.touch(past);
-    let part = in_contact(Dual::<8>::variable(y[0] - least, 0) - touch, past.penetration - touch);
-    let slip = [1, 2].map(|i| Dual::variable(local[i], i) * part);
-    let motion = Motion { penetration: Dual::variable(y[mean], mean), slip };
-    let past = Past { penetration: past.penetration.max(touch), ..*past };
-    let mut vars = past.vars.to_vec();
-    let shear = law.respond_plane(&motion, &past, &mut vars)?.shear;
+    let mut motion = motion(law, past, least, &local);
+    motion[0] = Coordinate::variable(y[mean], mean);
+    let [_, shear @ ..] = stress_of(law, past, motion)?;
     for (i, shear) in shear.iter().enumerate().take(slips) {
-        whole.stress[i + 1] = shear.re();
-        whole.slopes[i + 1].copy_from_slice(&shear.du[..COORDINATES]);
+        (whole.stress[i + 1], whole.slopes[i + 1]) = (shear.re, shear.du);
     }
     (whole.stress[mean], whole.slopes[mean]) = (0.0, [0.0; COORDINATES]);
     Ok(whole)
@@ -75,22 +70,31 @@ pub(in crate::contact) fn answer(
     least: f64,
     y: &Coordinates,
 ) -> Result<Answer, Failure> {
-    let (touch, mut answer) = (law.touch(past), Answer::default());
+    let mut answer = Answer::default();
     if y[0] <= law.opens(past, [y[1], y[2]]) + least {
         return Ok(answer);
     }
-    let penetration = Dual::<8>::variable(y[0] - least, 0);
+    for (i, stress) in stress_of(law, past, motion(law, past, least, y))?.into_iter().enumerate() {
+        (answer.stress[i], answer.slopes[i]) = (stress.re, stress.du);
+    }
+    Ok(answer)
+}
+
+type Coordinate = Dual<COORDINATES>;
+
+/// What the law is asked at coordinates `y`: penetration, and the slips from the touch on.
+fn motion(law: &dyn Interface, past: &Past, least: f64, y: &Coordinates) -> [Coordinate; 3] {
+    let (touch, penetration) = (law.touch(past), Coordinate::variable(y[0] - least, 0));
     let part = in_contact(penetration - touch, past.penetration - touch);
-    let slip = [1, 2].map(|i| Dual::variable(y[i], i) * part);
-    let past = Past { penetration: past.penetration.max(touch), ..*past };
+    let [s, t] = [1, 2].map(|i| Coordinate::variable(y[i], i) * part);
+    [penetration, s, t]
+}
+
+/// The stresses of a motion with its derivatives.
+fn stress_of(law: &dyn Interface, past: &Past, motion: [Coordinate; 3]) -> Result<[Coordinate; 3], Failure> {
+    let past = Past { penetration: past.penetration.max(law.touch(past)), ..*past };
     let mut vars = [0.0; MOST_VARIABLES];
     let vars = &mut vars[..past.vars.len()];
     vars.copy_from_slice(past.vars);
-    let response = law.respond_plane(&Motion { penetration, slip }, &past, vars)?;
-    let [s, t] = response.shear;
-    for (i, stress) in [response.pressure, s, t].into_iter().enumerate() {
-        answer.stress[i] = stress.re();
-        answer.slopes[i].copy_from_slice(&stress.du[..COORDINATES]);
-    }
-    Ok(answer)
+    Ok(law.respond(motion.map(|y| y.re), &past, vars)?.chained(motion))
 }

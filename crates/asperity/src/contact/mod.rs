@@ -22,6 +22,7 @@ mod options;
 mod overlap;
 mod pair;
 mod partner;
+mod passage;
 mod penalty;
 mod placed;
 mod point;

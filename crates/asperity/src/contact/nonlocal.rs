@@ -10,12 +10,11 @@ use super::geometry::Geometry;
 use super::open::OpenContact;
 use super::pair::Contact;
 use super::point::triad;
-use super::seed::Ask;
 use super::target::{Cast, Memory};
 use crate::Failure;
-use crate::interface::{Interface, Motion, Past, Response};
+use crate::interface::{Interface, Linearised, Past};
 use crate::system::Local;
-use crate::tensor::{Dual, Vec3};
+use crate::tensor::Vec3;
 use crate::tool::Ray;
 use std::ops::Range;
 
@@ -148,21 +147,10 @@ impl OpenContact<'_> {
         }
     }
 
-    /// Adds to the tangent what the mean pressure does to the friction of a point that slips by `slip`.
-    ///
-    /// # Errors
-    /// As the law.
-    pub(super) fn add_neighbours(
-        &self,
-        (g, slip, past): (&Geometry, f64, &Past),
-        mean: &Mean,
-        local: &mut Local,
-    ) -> Result<(), Failure> {
+    /// Adds to the tangent what the mean pressure does to the friction of a point, `slope` the derivative of its shear
+    /// stress along the mean.
+    pub(super) fn add_neighbours(&self, (g, slope): (&Geometry, f64), mean: &Mean, local: &mut Local) {
         let (contact, n) = (self.contact, local.force.len());
-        let penetration = Dual::<8>::variable(mean.pressure / past.penalty, 0);
-        let motion = Motion { penetration, slip: [Dual::from(slip), Dual::from(0.0)] };
-        let mut vars = past.vars.to_vec();
-        let slope = contact.law.respond_plane(&motion, past, &mut vars)?.shear[0].du[0] / past.penalty;
         let (along, _, _) = triad(g.place.tangent);
         let area = contact.area(&g.spot, g.place.a, g.place.tangent);
         let rows = self.rows::<f64>((g, &local.u), (g.place.b, g.place.b), along * area);
@@ -171,24 +159,29 @@ impl OpenContact<'_> {
                 *entry += row * slope * change;
             }
         }
-        Ok(())
     }
 }
 
-/// The answer of a law, its friction that of the mean pressure `by` where there is one.
+/// The answer of a law, its friction that of the mean pressure `by` where there is one, and the derivatives of the two
+/// shear stresses along that mean.
 ///
 /// # Errors
 /// As the law.
-pub fn ask<const N: usize, T: Ask<N>>(
+pub fn ask(
     (law, by): (&dyn Interface, Option<f64>),
-    motion: &Motion<T>,
+    motion: [f64; 3],
     past: &Past,
     vars: &mut [f64],
-) -> Result<Response<T>, Failure> {
-    let local = T::ask(law, motion, past, vars)?;
-    let Some(mean) = by else { return Ok(local) };
-    let mean = T::ask(law, &Motion { penetration: T::from(mean / past.penalty), ..*motion }, past, vars)?;
-    Ok(Response { pressure: local.pressure, closure: local.closure, ..mean })
+) -> Result<(Linearised, [f64; 2]), Failure> {
+    let local = law.respond(motion, past, vars)?;
+    let Some(mean) = by else { return Ok((local, [0.0; 2])) };
+    let mean = law.respond([mean / past.penalty, motion[1], motion[2]], past, vars)?;
+    let ([_, s, t], [_, by_s, by_t]) = (mean.stress, mean.slopes);
+    // The mean does not follow the penetration of the point alone.
+    let fixed = |slopes: [f64; 3]| [0.0, slopes[1], slopes[2]];
+    let (stress, slopes) = ([local.pressure(), s, t], [local.slopes[0], fixed(by_s), fixed(by_t)]);
+    let response = Linearised { stress, slopes, closure: local.closure, ..mean };
+    Ok((response, [by_s[0], by_t[0]].map(|slope| slope / past.penalty)))
 }
 
 /// The radius of a law, if it is not local.

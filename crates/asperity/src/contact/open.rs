@@ -8,15 +8,15 @@ use super::nonlocal;
 use super::pair::Contact;
 use super::point::{self, Constants, Place};
 use super::record::{entry, leave, stresses, write};
-use super::seed::{Ask, Seed};
+use super::seed::Seed;
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
 use super::variational::ContactForm;
 use crate::Failure;
-use crate::interface::{Past, Response};
+use crate::interface::{Linearised, Past};
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
-use crate::tensor::{Dual, Scalar, Vec3};
+use crate::tensor::{Dual, Vec3};
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -119,6 +119,7 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        self.refuse_passage(u, new)?;
         self.improve(u, new)
     }
 
@@ -146,7 +147,7 @@ fn seeded<T: Seed<DIRECTIONS>>(g: &Geometry) -> Place<T> {
 }
 
 impl OpenContact<'_> {
-    fn evaluate_over<T: Ask<DIRECTIONS>>(
+    fn evaluate_over<T: Seed<DIRECTIONS>>(
         &self,
         (index, stencil): (usize, &Stencil),
         geometry: &Geometry,
@@ -158,15 +159,17 @@ impl OpenContact<'_> {
         if g.before.entered {
             past.penetration = contact.law.touch(&past);
         }
-        let (place, constants) = (seeded(g), self.constants(index, g, &past, local.acting));
+        let (place, constants) = (seeded::<T>(g), self.constants(index, g, &past, local.acting));
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(&g.spot, Some(g.hit), new);
         new[entry::CLOSURE] = constants.closure;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let mean = self.mean_pressure(index, g, &local.u);
-        let by = mean.as_ref().map(|mean| mean.pressure);
+        let (by, mut by_mean) = (mean.as_ref().map(|mean| mean.pressure), [0.0; 2]);
         let (_, closed) = point::evaluate(&place, &constants, |motion| {
-            nonlocal::ask((&*contact.law, by), motion, &past, &mut new[entry::COUNT..])
+            let (response, slopes) = nonlocal::ask((&*contact.law, by), motion, &past, &mut new[entry::COUNT..])?;
+            by_mean = slopes;
+            Ok(response)
         })?;
         let Some(closed) = closed else {
             leave(&*self.contact.law, self.history.slot(index), new);
@@ -175,7 +178,7 @@ impl OpenContact<'_> {
         };
         self.refuse_leap(index, (g, &local.u))?;
         new[entry::PENETRATION] -= constants.least;
-        write(&closed.response, [closed.slip, T::zero()], old, new);
+        write(&closed.response, [closed.slip.re(), 0.0], old, new);
         match contact.options.form {
             ContactForm::Traction => self.add(g, &closed, local),
             ContactForm::Variational | ContactForm::Field => {
@@ -183,7 +186,7 @@ impl OpenContact<'_> {
             }
         }
         if let Some(mean) = mean.filter(|_| local.wants_tangent) {
-            self.add_neighbours((g, closed.slip.re(), &past), &mean, local)?;
+            self.add_neighbours((g, by_mean[0]), &mean, local);
         }
         let response = &closed.response;
         self.account(index, g, Carried::of(response), local);
@@ -265,8 +268,8 @@ struct Carried {
 }
 
 impl Carried {
-    fn of<T: Scalar>(response: &Response<T>) -> Self {
-        let (pressure, shear) = (response.pressure.re(), response.shear[0].re());
+    fn of(response: &Linearised) -> Self {
+        let [pressure, shear, _] = response.stress;
         Self { pressure, shear, slipped: response.slipped.copysign(shear), closure: response.closure }
     }
 }

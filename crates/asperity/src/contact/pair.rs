@@ -33,6 +33,8 @@ pub struct Contact {
     pub(super) space: Space,
     pub(super) surface: Surface,
     pub(super) boundary: Vec<Side>,
+    /// The connected whole of each cell.
+    pub(super) wholes: Vec<usize>,
     pub(super) target: Target,
     pub(super) law: Arc<dyn Interface>,
     pub(super) options: ContactOptions,
@@ -69,8 +71,10 @@ impl Contact {
             Normals::Own => Vec::new(),
             Normals::Averaged => Around::of(&mesh, &surface.edges, space == Space::Axisymmetric),
         };
+        let wholes = mesh.wholes();
         let mut contact = Self {
             name,
+            wholes,
             mesh,
             dofs,
             space,
@@ -136,6 +140,11 @@ impl Contact {
     /// Where moments are taken about: the present place of a tool's reference point, or the origin.
     pub fn pole(&self, u: &[f64]) -> Vec3 {
         self.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.pole(u))
+    }
+
+    /// The largest admissible penetration at each point.
+    pub(super) fn depths(&self, u: &[f64]) -> Vec<f64> {
+        depths(&self.surface, (&self.mesh, &self.wholes), &self.dofs, &self.boundary, u)
     }
 
     /// Position and tangent of a point.
@@ -243,7 +252,7 @@ impl Term for Contact {
         history: &'a History,
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, &accepted.u);
+        let depths = self.depths(&accepted.u);
         let reach = self.reach(&accepted.last_change);
         let standing = self.target.deforms().then(|| self.target.stand(&accepted.u));
         Ok(Box::new(OpenContact {

@@ -6,7 +6,7 @@
 //! state, which is objective under any common rigid motion. The traction on the solid is `p e_R + tau e_S`.
 
 use crate::Failure;
-use crate::interface::{Motion, Response};
+use crate::interface::Linearised;
 use crate::system::Coordinates;
 use crate::tensor::{Scalar, Vec3};
 
@@ -65,8 +65,10 @@ pub struct Closed<T> {
     pub hit: Vec3<T>,
     /// Slip of the increment.
     pub slip: T,
+    /// Pressure, and shear stress along the tangent; the third is zero.
+    pub stress: [T; 3],
     /// Answer of the law.
-    pub response: Response<T>,
+    pub response: Linearised,
 }
 
 /// Unit tangent, inward normal, and length of the tangent.
@@ -80,7 +82,7 @@ pub fn triad<T: Scalar>(tangent: Vec3<T>) -> (Vec3<T>, Vec3<T>, T) {
 pub fn evaluate<T: Scalar>(
     place: &Place<T>,
     constants: &Constants,
-    law: impl FnOnce(&Motion<T>) -> Result<Response<T>, Failure>,
+    law: impl FnOnce([f64; 3]) -> Result<Linearised, Failure>,
 ) -> Result<(T, Option<Closed<T>>), Failure> {
     let (along, inward, length) = triad(place.tangent);
     let normal = constants.normal.lift::<T>();
@@ -97,15 +99,16 @@ pub fn evaluate<T: Scalar>(
             along.dot(touched - place.a) * in_contact(seen - constants.touch, constants.before - constants.touch)
         }
     };
-    let response = law(&Motion { penetration: seen, slip: [slip, T::zero()] })?;
+    let motion = [seen, slip, T::zero()];
+    let response = law(motion.map(T::re))?;
+    let stress = response.chained(motion);
     let mut area = length * constants.weight;
     if constants.axisymmetric {
         area = area * place.a[0] * std::f64::consts::TAU;
     }
     let force = |[p, s, _]: [T; 3]| (inward * p + along * s) * area;
-    let stress = [response.pressure, response.shear[0], response.shear[1]];
     let (force, linear) = (force(stress).re(), force(acting(stress, constants.acting)));
-    Ok((penetration, Some(Closed { force, linear, hit: place.a + inward * penetration, slip, response })))
+    Ok((penetration, Some(Closed { force, linear, hit: place.a + inward * penetration, slip, stress, response })))
 }
 
 /// Stresses of other values, where some are given, with the same derivatives.

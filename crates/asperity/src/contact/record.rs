@@ -1,9 +1,9 @@
 //! History of a contact point, and what outputs may ask of it.
 
 use super::ContactOptions;
-use crate::interface::{Interface, MOST_VARIABLES, Past, Response};
+use crate::interface::{Interface, Linearised, MOST_VARIABLES, Past};
 use crate::system::Coordinates;
-use crate::tensor::{Scalar, Vec3};
+use crate::tensor::Vec3;
 
 /// Places of the values in a point's history; the law's own variables follow.
 pub mod entry {
@@ -57,15 +57,15 @@ pub fn stresses(values: &[f64]) -> Coordinates {
 }
 
 /// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.
-pub fn write<T: Scalar>(response: &Response<T>, slip: [T; 2], old: &[f64], new: &mut [f64]) {
+pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]) {
     new[entry::OVERLAP] = old[entry::OVERLAP];
-    new[entry::PRESSURE] = response.pressure.re();
-    [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear.map(T::re);
-    new[entry::SLIP] = old[entry::SLIP] + slip[0].re();
-    new[entry::SLIP2] = old[entry::SLIP2] + slip[1].re();
+    new[entry::PRESSURE] = response.pressure();
+    [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear();
+    new[entry::SLIP] = old[entry::SLIP] + slip[0];
+    new[entry::SLIP2] = old[entry::SLIP2] + slip[1];
     new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
     new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
-    new[entry::RUBBED] = old[entry::RUBBED] + response.pressure.re().max(0.0) * response.slipped;
+    new[entry::RUBBED] = old[entry::RUBBED] + response.pressure().max(0.0) * response.slipped;
     new[entry::STATUS] = f64::from(response.status as u8);
     new[entry::VIOLATION] = response.violation;
     new[entry::LAST_DISSIPATED] = response.dissipated;

@@ -1,6 +1,6 @@
 //! The search: which segments the rays of a surface meet, and where on its edges the target ends.
 
-use super::capture::{depths, positions};
+use super::capture::positions;
 use super::geometry::laid;
 use super::open::OpenContact;
 use super::pair::Contact;
@@ -26,7 +26,7 @@ impl Contact {
     }
 
     pub(super) fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {
-        let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, u);
+        let depths = self.depths(u);
         let (standing, mut memory) = (self.target.stand(u), Memory::default());
         let points = self.surface.points.iter().zip(depths).enumerate();
         let hits = points.map(|(i, (point, depth))| {

@@ -4,6 +4,11 @@ use crate::mesh::cells::Cell;
 use crate::mesh::{Mesh, Side};
 use crate::tensor::{Scalar, Vec3};
 
+/// Change of the radius over an edge, as a part of the sum of those of its ends, from which one point does not integrate it:
+/// that of the tenth of equal edges from the axis on. Beyond, the nodes between two edges get what is theirs within a
+/// hundredth.
+const MARKED: f64 = 0.05;
+
 /// Most nodes of an edge.
 pub const MAX_EDGE_NODES: usize = 3;
 
@@ -77,10 +82,28 @@ impl Surface {
     /// edge. More points than the edge adds nodes enforce more conditions than it can meet: on a curved target the
     /// pressure then oscillates, and the force on a tool ripples as edges pass.
     pub fn new(mesh: &Mesh, sides: &[Side], gauss: Option<usize>) -> Self {
+        Self::with(mesh, sides, |edge| gauss.unwrap_or(edge.kind.degree))
+    }
+
+    /// The same around the axis of axial symmetry, where a point stands for a circumference: by default two points also on
+    /// an edge of first degree over which the radius changes markedly. One point would share a pressure out between the two
+    /// nodes evenly, by half of what belongs to the axis too much there.
+    pub fn around_axis(mesh: &Mesh, sides: &[Side], gauss: Option<usize>) -> Self {
+        let radius = |edge: &Edge, end: usize| mesh.points[edge.nodes[end]][0];
+        let changes = |edge: &Edge| {
+            let [from, to] = [0, 1].map(|end| radius(edge, end));
+            (to - from).abs() > MARKED * (from + to).abs()
+        };
+        let least = |edge: &Edge| if changes(edge) { 2 } else { 1 };
+        Self::with(mesh, sides, |edge| gauss.unwrap_or_else(|| edge.kind.degree.max(least(edge))))
+    }
+
+    /// The surface made of `sides`, with so many points on each edge.
+    fn with(mesh: &Mesh, sides: &[Side], order: impl Fn(&Edge) -> usize) -> Self {
         let mut surface = Self { edges: Vec::new(), points: Vec::new() };
         for &side in sides {
             let edge = Edge::new(mesh, side);
-            let order = gauss.unwrap_or(edge.kind.degree).clamp(1, 3);
+            let order = order(&edge).clamp(1, 3);
             let Some(rule) = edge.kind.gauss[order - 1] else { continue };
             for (&xi, &weight) in rule.points.iter().zip(rule.weights) {
                 let ((n, dn), number) = (edge.shape_at(xi[0]), surface.edges.len());
@@ -145,6 +168,23 @@ impl SurfacePoint {
 mod tests {
     use super::*;
     use crate::mesh::generate::Annulus;
+
+    /// Near the axis two points, and one on edges along it or far away; what the user says holds everywhere.
+    #[test]
+    fn edges_near_the_axis_have_two_points() {
+        let cell = crate::mesh::Cell::named("quad4").unwrap();
+        let plate =
+            crate::mesh::generate::Rectangle::new([0.0, 0.0], [15.0, 1.0], [15, 1], cell).mesh("plate").unwrap();
+        let counts = |group: &str, gauss| {
+            let surface = Surface::around_axis(&plate, &plate.groups[group].sides, gauss);
+            (0..surface.edges.len()).map(|edge| surface.points_of(edge).len()).collect::<Vec<_>>()
+        };
+        let mut top = counts("plate.top", None);
+        top.sort_unstable();
+        assert_eq!(top, [[1; 5].as_slice(), &[2; 10]].concat());
+        assert_eq!(counts("plate.right", None), [1]);
+        assert_eq!(counts("plate.top", Some(1)), [1; 15]);
+    }
 
     /// Edges with more points have the same length and the same moment.
     #[test]

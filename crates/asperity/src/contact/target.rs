@@ -198,6 +198,15 @@ impl Target {
 }
 
 impl Standing<'_> {
+    /// All that a ray meets within a range.
+    pub(super) fn all<'m>(&self, ray: &Ray, range: [f64; 2], memory: &'m mut Memory) -> &'m [tool::Hit] {
+        match self {
+            Self::Tool(rigid, pose) => rigid.tool().cast(pose, ray, range, &mut memory.hits),
+            Self::Faces(faces) => faces.cast(ray, range, &mut memory.hits),
+        }
+        &memory.hits
+    }
+
     /// What a ray meets by the rules against false contacts; what they reject is counted.
     pub fn cast(&self, cast: &Cast, memory: &mut Memory) -> Option<Hit> {
         match self {

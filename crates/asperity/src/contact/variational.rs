@@ -96,7 +96,7 @@ impl OpenContact<'_> {
     ) -> Result<(), Failure> {
         let area = self.contact.undeformed_area(index);
         let (_, rates) = self.rates(g, &local.u);
-        let stresses = [closed.response.pressure, closed.response.shear[0]];
+        let stresses = [closed.stress[0], closed.stress[1]];
         add_forces(&rates, &stresses, area, local);
         if !local.wants_tangent {
             return Ok(());

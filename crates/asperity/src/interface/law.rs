@@ -63,6 +63,53 @@ pub struct Response<T> {
     pub violation: f64,
 }
 
+/// What a law answers to three numbers, penetration and the two slips: `t(y + dy) = stress + slopes dy` to first order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linearised {
+    /// Pressure, positive in compression, and the shear stresses along the two tangents.
+    pub stress: [f64; 3],
+    /// Their derivatives, `slopes[i][k]` that of stress `i` along number `k`: a stress per length.
+    pub slopes: [[f64; 3]; 3],
+    /// As [`Response::status`].
+    pub status: Status,
+    /// As [`Response::slipped`].
+    pub slipped: f64,
+    /// As [`Response::closure`].
+    pub closure: f64,
+    /// As [`Response::dissipated`].
+    pub dissipated: f64,
+    /// As [`Response::violation`].
+    pub violation: f64,
+}
+
+impl Linearised {
+    fn of(response: &Response<Dual<3>>) -> Self {
+        let [s, t] = response.shear;
+        let rows = [response.pressure, s, t];
+        let &Response { status, slipped, closure, dissipated, violation, .. } = response;
+        let (stress, slopes) = (rows.map(|row| row.re), rows.map(|row| row.du));
+        Self { stress, slopes, status, slipped, closure, dissipated, violation }
+    }
+
+    /// Pressure.
+    pub fn pressure(&self) -> f64 {
+        self.stress[0]
+    }
+
+    /// Shear stresses along the two tangents.
+    pub fn shear(&self) -> [f64; 2] {
+        [self.stress[1], self.stress[2]]
+    }
+
+    /// The stresses with the derivatives that the three numbers carry, by the chain rule.
+    pub fn chained<T: Scalar>(&self, motion: [T; 3]) -> [T; 3] {
+        std::array::from_fn(|i| {
+            let [a, b, c] = self.slopes[i];
+            motion[0].chain(self.stress[i], a) + motion[1].chain(0.0, b) + motion[2].chain(0.0, c)
+        })
+    }
+}
+
 /// A law of an interface, written once over any scalar.
 pub trait InterfaceLaw: Clone + Send + Sync + 'static {
     /// Its history variables besides the shear stress, at most [`MOST_VARIABLES`] scalars.
@@ -106,7 +153,7 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
 /// Most variables that a law has.
 pub const MOST_VARIABLES: usize = 4;
 
-/// A law as the object that contacts hold: one method for each number of directions in use.
+/// A law as the object that contacts hold: a function of three numbers, whatever they depend on.
 pub trait Interface: Send + Sync {
     /// History variables besides the shear stress.
     fn variables(&self) -> &'static [Variable];
@@ -118,31 +165,12 @@ pub trait Interface: Send + Sync {
     fn touch(&self, past: &Past) -> f64;
     /// As [`InterfaceLaw::opens`] of a point that was in contact; as [`InterfaceLaw::touch`] of another.
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64;
-    /// Plain numbers; `vars` holds the old variables and takes the new ones.
+    /// The response to a penetration and the slips along the two tangents, lengths as in [`Motion`], with its
+    /// derivatives; `vars` holds the old variables and takes the new ones.
     ///
     /// # Errors
     /// As [`InterfaceLaw::respond`].
-    fn respond(&self, motion: &Motion<f64>, past: &Past, vars: &mut [f64]) -> Result<Response<f64>, Failure>;
-    /// With the derivatives of a contact point in the plane.
-    ///
-    /// # Errors
-    /// As [`InterfaceLaw::respond`].
-    fn respond_plane(
-        &self,
-        motion: &Motion<Dual<8>>,
-        past: &Past,
-        vars: &mut [f64],
-    ) -> Result<Response<Dual<8>>, Failure>;
-    /// With the derivatives of a contact point in space.
-    ///
-    /// # Errors
-    /// As [`InterfaceLaw::respond`].
-    fn respond_space(
-        &self,
-        motion: &Motion<Dual<15>>,
-        past: &Past,
-        vars: &mut [f64],
-    ) -> Result<Response<Dual<15>>, Failure>;
+    fn respond(&self, motion: [f64; 3], past: &Past, vars: &mut [f64]) -> Result<Linearised, Failure>;
     /// As [`InterfaceLaw::radius`].
     fn radius(&self) -> f64;
     /// The same law, its increments integrated in another way.
@@ -153,13 +181,10 @@ pub trait Interface: Send + Sync {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law<L>(pub L);
 
-/// The response of a law whose history is plain numbers.
-fn lifted<L: InterfaceLaw, T: Scalar>(
-    law: &L,
-    motion: &Motion<T>,
-    past: &Past,
-    vars: &mut [f64],
-) -> Result<Response<T>, Failure> {
+/// The response of a law whose history is plain numbers, differentiated along the three numbers of the motion.
+fn linearised<L: InterfaceLaw>(law: &L, y: [f64; 3], past: &Past, vars: &mut [f64]) -> Result<Linearised, Failure> {
+    type T = Dual<3>;
+    let motion = Motion { penetration: T::variable(y[0], 0), slip: [T::variable(y[1], 1), T::variable(y[2], 2)] };
     let old: [T; MOST_VARIABLES] = std::array::from_fn(|i| past.vars.get(i).map_or(T::zero(), |&v| T::from(v)));
     let (mut new, n) = (old, past.vars.len());
     let past = Past {
@@ -171,9 +196,9 @@ fn lifted<L: InterfaceLaw, T: Scalar>(
         vars: &old[..n],
         dt: past.dt,
     };
-    let response = law.respond(motion, &past, &mut new[..n])?;
+    let response = law.respond(&motion, &past, &mut new[..n])?;
     vars.iter_mut().zip(new).for_each(|(var, new)| *var = new.re());
-    Ok(response)
+    Ok(Linearised::of(&response))
 }
 
 impl<L: InterfaceLaw> Interface for Law<L> {
@@ -193,16 +218,8 @@ impl<L: InterfaceLaw> Interface for Law<L> {
         let touch = self.0.touch(past);
         if past.penetration < touch { touch } else { self.0.opens(past, slip) }
     }
-    fn respond(&self, motion: &Motion<f64>, past: &Past, vars: &mut [f64]) -> Result<Response<f64>, Failure> {
-        lifted(&self.0, motion, past, vars)
-    }
-    fn respond_plane(
-        &self,
-        motion: &Motion<Dual<8>>,
-        past: &Past,
-        vars: &mut [f64],
-    ) -> Result<Response<Dual<8>>, Failure> {
-        lifted(&self.0, motion, past, vars)
+    fn respond(&self, motion: [f64; 3], past: &Past, vars: &mut [f64]) -> Result<Linearised, Failure> {
+        linearised(&self.0, motion, past, vars)
     }
     fn radius(&self) -> f64 {
         self.0.radius()
@@ -210,12 +227,58 @@ impl<L: InterfaceLaw> Interface for Law<L> {
     fn with_update(&self, update: Update) -> Box<dyn Interface> {
         self.0.updated(update)
     }
-    fn respond_space(
-        &self,
-        motion: &Motion<Dual<15>>,
-        past: &Past,
-        vars: &mut [f64],
-    ) -> Result<Response<Dual<15>>, Failure> {
-        lifted(&self.0, motion, past, vars)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A law that remembers a penetration and is not symmetric.
+    #[derive(Clone)]
+    struct Odd;
+
+    impl InterfaceLaw for Odd {
+        const VARIABLES: &'static [Variable] = &[];
+        fn respond<T: Scalar>(&self, m: &Motion<T>, past: &Past<T>, _: &mut [T]) -> Result<Response<T>, Failure> {
+            let pressure = (m.penetration - past.penetration) * m.penetration * past.penalty;
+            let shear = [pressure * m.slip[0].tanh(), m.slip[1] * m.slip[0] + m.penetration];
+            let (status, slipped, closure, dissipated, violation) = (Status::Slip, 1.0, 2.0, 3.0, 4.0);
+            Ok(Response { pressure, shear, status, slipped, closure, dissipated, violation })
+        }
+    }
+
+    /// Through the three numbers and straight on, a law has the same stresses and derivatives, along as many directions
+    /// as one likes.
+    #[test]
+    fn the_chain_rule_gives_what_the_law_itself_would() {
+        let past = Past {
+            penalty: 7.0,
+            tangential_penalty: 5.0,
+            penetration: 0.1,
+            pressure: 0.0,
+            shear: [0.0; 2],
+            vars: &[],
+            dt: 1.0,
+        };
+        let y = [0, 1, 2]
+            .map(|i| Dual { re: 0.3 + 0.2 * f64::from(i), du: [1.0_f64, -2.0, 0.5, 3.0, 0.1].map(|d| d.powi(i)) });
+        let lifted = Past::<Dual<5>> {
+            penetration: past.penetration.into(),
+            pressure: 0.0.into(),
+            shear: [0.0.into(); 2],
+            vars: &[],
+            penalty: past.penalty,
+            tangential_penalty: past.tangential_penalty,
+            dt: past.dt,
+        };
+        let direct = Odd.respond(&Motion { penetration: y[0], slip: [y[1], y[2]] }, &lifted, &mut []).unwrap();
+        let law: &dyn Interface = &Law(Odd);
+        let response = law.respond(y.map(|y| y.re), &past, &mut []).unwrap();
+        let chained = response.chained(y);
+        for (a, b) in chained.iter().zip([direct.pressure, direct.shear[0], direct.shear[1]]) {
+            assert_eq!(a.re, b.re);
+            assert!(a.du.iter().zip(b.du).all(|(a, b)| (a - b).abs() < 1e-14 * b.abs().max(1.0)), "{a:?} {b:?}");
+        }
+        assert_eq!((response.slipped, response.closure, response.dissipated, response.violation), (1.0, 2.0, 3.0, 4.0));
     }
 }

@@ -12,7 +12,7 @@
 //! use asperity::Failure;
 //! use asperity::declare::Variable;
 //! use asperity::interface::{Interface, InterfaceLaw, Law, Motion, Past, Response, Status};
-//! use asperity::tensor::{Dual, Scalar};
+//! use asperity::tensor::Scalar;
 //!
 //! #[derive(Clone)]
 //! struct Skin {
@@ -47,15 +47,15 @@
 //! let (penalty, tangential_penalty) = (100.0, 100.0);
 //! let past =
 //!     Past { penalty, tangential_penalty, penetration: 0.0, pressure: 0.0, shear: [0.0; 2], vars: &[], dt: 1.0 };
-//! let motion = Motion { penetration: Dual::variable(0.25, 0), slip: [Dual::from(1.0), Dual::from(0.0)] };
-//! let response = law.respond_plane(&motion, &past, &mut []).unwrap();
-//! assert_eq!(response.shear[0].re, 2.0 * 25.0_f64.sqrt());
+//! let (penetration, slip) = (0.25, 1.0);
+//! let response = law.respond([penetration, slip, 0.0], &past, &mut []).unwrap();
+//! assert_eq!(response.stress[1], 2.0 * 25.0_f64.sqrt());
 //! // The derivative of `c (K u)^n` along `u` is exact, and was not written down.
-//! assert!((response.shear[0].du[0] - 2.0 * 0.5 * 100.0 / 25.0_f64.sqrt()).abs() < 1e-12);
+//! assert!((response.slopes[1][0] - 2.0 * 0.5 * 100.0 / 25.0_f64.sqrt()).abs() < 1e-12);
 //! ```
 
 mod integrated;
 mod law;
 pub mod laws;
 
-pub use law::{Interface, InterfaceLaw, Law, MOST_VARIABLES, Motion, Past, Response, Status};
+pub use law::{Interface, InterfaceLaw, Law, Linearised, MOST_VARIABLES, Motion, Past, Response, Status};

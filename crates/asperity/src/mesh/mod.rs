@@ -2,6 +2,7 @@
 
 mod boundary;
 pub mod cells;
+mod connected;
 pub mod formats;
 pub mod generate;
 mod groups;

@@ -4,7 +4,7 @@
 //! without a stress at which it sticks, or at which it slips, has none.
 
 use super::table::Record;
-use crate::interface::{Interface, Motion, Past, Response, Status};
+use crate::interface::{Interface, Linearised, Past, Status};
 
 /// Pressures at which it is sought.
 const PRESSURES: usize = 200;
@@ -27,9 +27,8 @@ impl Held<'_> {
     }
 
     /// What the law answers where nothing moves.
-    fn answer(&self, past: &Past) -> Option<Response<f64>> {
-        let motion = Motion { penetration: past.penetration, slip: [0.0; 2] };
-        self.law.respond(&motion, past, &mut self.vars.clone()).ok()
+    fn answer(&self, past: &Past) -> Option<Linearised> {
+        self.law.respond([past.penetration, 0.0, 0.0], past, &mut self.vars.clone()).ok()
     }
 
     fn slips(&self, penetration: f64, pressure: f64, shear: f64) -> Option<bool> {
@@ -39,7 +38,7 @@ impl Held<'_> {
     /// Pressure at a penetration and the largest shear stress there, sought from `scale` on; whether the surface ends.
     fn at(&self, penetration: f64, scale: f64) -> Option<([f64; 2], bool)> {
         let free = self.answer(&self.past(penetration, 0.0, 0.0))?;
-        let pressure = free.pressure;
+        let pressure = free.pressure();
         if free.status == Status::Slip || self.slips(penetration, pressure, NONE * scale)? {
             return Some(([pressure, 0.0], free.closure > 0.0));
         }

@@ -5,8 +5,7 @@
 //! as pressure is found by Newton's method with the law's derivative, kept inside a bracket.
 
 use super::table::Record;
-use crate::interface::{Interface, Motion, Past, Status};
-use crate::tensor::{Dual, Scalar};
+use crate::interface::{Interface, Past, Status};
 use crate::{Error, Failure};
 
 /// Most times that an increment is halved.
@@ -193,10 +192,8 @@ impl<'a> Slider<'a> {
         // Slip before the touch is none.
         let before = self.penetration - touch;
         let part = if before < 0.0 { (penetration - touch) / (penetration - self.penetration) } else { 1.0 };
-        let motion =
-            Motion { penetration: Dual::<8>::variable(penetration, 0), slip: slip.map(|slip| Dual::from(slip * part)) };
-        let response = self.law.respond_plane(&motion, &past, &mut next.vars)?;
-        let stress = [response.pressure.re(), response.shear[0].re(), response.shear[1].re()];
+        let response = self.law.respond([penetration, slip[0] * part, slip[1] * part], &past, &mut next.vars)?;
+        let stress = response.stress;
         if !stress.iter().chain(&next.vars).all(|x| x.is_finite()) {
             return Err(Failure::new("the stress is not finite"));
         }
@@ -206,7 +203,7 @@ impl<'a> Slider<'a> {
         next.closure += response.closure;
         next.dissipated += response.dissipated;
         next.violation = response.violation;
-        Ok((next, response.pressure.du[0]))
+        Ok((next, response.slopes[0][0]))
     }
 
     /// The end of an increment at which `p + k u` has a value.

@@ -2,7 +2,7 @@
 
 use asperity::Failure;
 use asperity::deck::{LoadedInterface, read_interface};
-use asperity::interface::{Interface, Motion, Past, Response};
+use asperity::interface::{Interface, Linearised, Motion, Past};
 use asperity::point::Record;
 use std::path::{Path, PathBuf};
 
@@ -110,12 +110,17 @@ impl State {
     }
 
     /// The state after a motion, and the response.
-    pub fn moved(&self, sample: &Sample, motion: &Motion<f64>, dt: f64) -> Result<(Self, Response<f64>), Failure> {
+    pub fn moved(&self, sample: &Sample, motion: &Motion<f64>, dt: f64) -> Result<(Self, Linearised), Failure> {
         let mut vars = self.vars.clone();
-        let response = sample.interface.respond(motion, &self.past(sample, dt), &mut vars)?;
-        let (pressure, shear) = (response.pressure, response.shear);
+        let response = sample.interface.respond(numbers(motion), &self.past(sample, dt), &mut vars)?;
+        let (pressure, shear) = (response.pressure(), response.shear());
         Ok((Self { penetration: motion.penetration, pressure, shear, vars }, response))
     }
+}
+
+/// What a law is asked.
+pub fn numbers(motion: &Motion<f64>) -> [f64; 3] {
+    [motion.penetration, motion.slip[0], motion.slip[1]]
 }
 
 /// A random increment from a state: pressed by up to one and a half of the usual pressure, slipped by anything from the

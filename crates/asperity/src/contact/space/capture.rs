@@ -3,7 +3,7 @@
 
 use super::point::Triad;
 use super::surface::{Surface, SurfacePoint};
-use crate::contact::capture::positions;
+use crate::contact::capture::{Crossing, end_of_body, positions};
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
@@ -14,6 +14,8 @@ use crate::tool::{Bounds, Ray, Tree};
 pub struct Boundary {
     /// Nodes of the triangles, and the side that each belongs to.
     triangles: Vec<(Side, [usize; 3])>,
+    /// The connected whole of each cell.
+    wholes: Vec<usize>,
     tree: Tree,
 }
 
@@ -48,7 +50,7 @@ impl Boundary {
             all.extend(triangles(nodes.len()).iter().map(|corners| (side, corners.map(|k| nodes[k]))));
         }
         let still = all.iter().map(|(_, nodes)| Triangle(nodes.map(|node| mesh.points[node])).bounds());
-        Self { tree: Tree::new(&still.collect::<Vec<_>>(), 0.0), triangles: all }
+        Self { tree: Tree::new(&still.collect::<Vec<_>>(), 0.0), triangles: all, wholes: mesh.wholes() }
     }
 
     /// The same at displacements `u`.
@@ -65,20 +67,22 @@ impl Boundary {
 }
 
 impl Standing<'_> {
-    /// Distance along a ray from a point on the side `own` to the next crossing. A point of a curved side lies off its
+    /// Distance along a ray from a point on the side `own` to where its body ends. A point of a curved side lies off its
     /// triangles, so that these are left out; `least` is a distance within rounding of a corner.
     fn depth(&self, ray: &Ray, own: Side, least: f64) -> f64 {
-        let mut depth = f64::INFINITY;
+        let (mut crossings, wholes) = (Vec::new(), &self.boundary.wholes);
         self.tree.along(ray, [least, f64::INFINITY], &mut |i| {
-            if self.boundary.triangles[i].0 != own {
+            let side = self.boundary.triangles[i].0;
+            if side != own && wholes[side.cell] == wholes[own.cell] {
                 self.triangles[i].cast(ray, &mut |place| {
                     if place.u > least {
-                        depth = depth.min(place.u);
+                        let leaves = ray.direction.dot(self.triangles[i].normal(place.s)) > 0.0;
+                        crossings.push(Crossing { u: place.u, leaves });
                     }
                 });
             }
         });
-        depth
+        end_of_body(crossings)
     }
 }
 

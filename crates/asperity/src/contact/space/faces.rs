@@ -199,7 +199,7 @@ impl Standing<'_> {
     }
 
     /// All places with `u` in `range` where a ray meets the faces, by face and then by `u`.
-    fn cast(&self, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+    pub(super) fn cast(&self, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
         hits.clear();
         self.tree.along(ray, range, &mut |segment| {
             let facet = self.patches[segment].facet();

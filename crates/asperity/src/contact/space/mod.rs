@@ -13,6 +13,7 @@ mod kink;
 mod nonlocal;
 mod open;
 mod pair;
+mod passage;
 mod patch;
 mod placed;
 mod point;

@@ -6,11 +6,8 @@ use super::pair::Contact;
 use super::point::Triad;
 use super::rigid;
 use super::target::{Cast, Memory, Standing};
-use crate::Failure;
 use crate::contact::nonlocal::Mean;
-use crate::interface::{Motion, Past};
 use crate::system::Local;
-use crate::tensor::Dual;
 use crate::tool::Ray;
 use std::ops::Range;
 
@@ -90,21 +87,10 @@ impl OpenContact<'_> {
         }
     }
 
-    /// Adds to the tangent what the mean pressure does to the friction of a point that slips by `slip`.
-    ///
-    /// # Errors
-    /// As the law.
-    pub(super) fn add_neighbours(
-        &self,
-        (g, slip, past): (&Geometry, [f64; 2], &Past),
-        mean: &Mean,
-        local: &mut Local,
-    ) -> Result<(), Failure> {
-        let (parts, n) = (&self.contact.parts, local.force.len());
-        let penetration = Dual::<8>::variable(mean.pressure / past.penalty, 0);
-        let motion = Motion { penetration, slip: slip.map(Dual::from) };
-        let mut vars = past.vars.to_vec();
-        let [s, t] = parts.law.respond_plane(&motion, past, &mut vars)?.shear.map(|shear| shear.du[0] / past.penalty);
+    /// Adds to the tangent what the mean pressure does to the friction of a point, `s` and `t` the derivatives of its
+    /// shear stresses along the mean.
+    pub(super) fn add_neighbours(&self, (g, [s, t]): (&Geometry, [f64; 2]), mean: &Mean, local: &mut Local) {
+        let n = local.force.len();
         let triad = Triad::new(g.place.tangents);
         let force = (triad.along[0] * s + triad.along[1] * t) * (triad.area * g.spot.weight);
         let rows = self.rows::<f64>((g, &local.u), (g.place.b, g.place.b), force);
@@ -113,6 +99,5 @@ impl OpenContact<'_> {
                 *entry += row * change;
             }
         }
-        Ok(())
     }
 }

@@ -13,10 +13,10 @@ use crate::contact::capture::{refuse_jump, refuse_turn};
 use crate::contact::kink::{answer, answer_by_mean};
 use crate::contact::nonlocal;
 use crate::contact::record::{entry, leave, stresses, write};
-use crate::contact::seed::{Ask, Seed};
-use crate::interface::{Past, Response};
+use crate::contact::seed::Seed;
+use crate::interface::{Linearised, Past};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
-use crate::tensor::{Dual, Scalar, Vec3};
+use crate::tensor::{Dual, Vec3};
 use crate::tool::space::Hit;
 
 pub(super) type D = Dual<DIRECTIONS>;
@@ -120,6 +120,7 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+        self.refuse_passage(u, new)?;
         self.improve(u, new)
     }
 
@@ -137,7 +138,7 @@ pub(super) fn seed<T: Seed<DIRECTIONS>>(v: Vec3, first: usize) -> Vec3<T> {
 }
 
 impl OpenContact<'_> {
-    fn evaluate_over<T: Ask<DIRECTIONS>>(
+    fn evaluate_over<T: Seed<DIRECTIONS>>(
         &self,
         (index, stencil): (usize, &Stencil),
         g: &Geometry,
@@ -157,8 +158,12 @@ impl OpenContact<'_> {
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let mean = self.mean_pressure(index, g, &local.u);
         let law = (&*self.contact.parts.law, mean.as_ref().map(|mean| mean.pressure));
-        let (_, closed) =
-            point::evaluate(&place, &constants, |motion| nonlocal::ask(law, motion, &past, &mut new[entry::COUNT..]))?;
+        let mut by_mean = [0.0; 2];
+        let (_, closed) = point::evaluate(&place, &constants, |motion| {
+            let (response, slopes) = nonlocal::ask(law, motion, &past, &mut new[entry::COUNT..])?;
+            by_mean = slopes;
+            Ok(response)
+        })?;
         let Some(closed) = closed else {
             leave(&*self.contact.parts.law, self.history.slot(index), new);
             self.account(index, g, Carried::default(), local);
@@ -169,7 +174,7 @@ impl OpenContact<'_> {
         }
         self.refuse_turn(index, (g, &local.u))?;
         new[entry::PENETRATION] -= constants.least;
-        write(&closed.response, closed.slip, old, new);
+        write(&closed.response, closed.slip.map(T::re), old, new);
         match self.contact.parts.options.form {
             ContactForm::Traction => self.add(g, &closed, local),
             ContactForm::Variational | ContactForm::Field => {
@@ -177,7 +182,7 @@ impl OpenContact<'_> {
             }
         }
         if let Some(mean) = mean.filter(|_| local.wants_tangent) {
-            self.add_neighbours((g, closed.slip.map(|slip| slip.re()), &past), &mean, local)?;
+            self.add_neighbours((g, by_mean), &mean, local);
         }
         let response = &closed.response;
         self.account(index, g, Carried::of(response), local);
@@ -257,9 +262,9 @@ struct Carried {
 }
 
 impl Carried {
-    fn of<T: Scalar>(response: &Response<T>) -> Self {
-        let shear = response.shear.map(T::re);
+    fn of(response: &Linearised) -> Self {
+        let shear = response.shear();
         let part = response.slipped / shear[0].hypot(shear[1]).max(f64::MIN_POSITIVE);
-        Self { pressure: response.pressure.re(), shear, slid: shear.map(|s| s * part), closure: response.closure }
+        Self { pressure: response.pressure(), shear, slid: shear.map(|s| s * part), closure: response.closure }
     }
 }

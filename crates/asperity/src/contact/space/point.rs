@@ -10,7 +10,7 @@
 
 use crate::Failure;
 use crate::contact::point::{acting, in_contact};
-use crate::interface::{Motion, Response};
+use crate::interface::Linearised;
 use crate::system::Coordinates;
 use crate::tensor::{Scalar, Vec3};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -68,8 +68,10 @@ pub struct Closed<T> {
     pub hit: Vec3<T>,
     /// Slip of the increment along the two tangents.
     pub slip: [T; 2],
+    /// Pressure, and shear stresses along the two tangents.
+    pub stress: [T; 3],
     /// Answer of the law.
-    pub response: Response<T>,
+    pub response: Linearised,
 }
 
 /// A right-handed set of unit vectors, and the area that the tangents span.
@@ -98,7 +100,7 @@ impl<T: Scalar> Triad<T> {
 pub fn evaluate<T: Scalar>(
     place: &Place<T>,
     constants: &Constants,
-    law: impl FnOnce(&Motion<T>) -> Result<Response<T>, Failure>,
+    law: impl FnOnce([f64; 3]) -> Result<Linearised, Failure>,
 ) -> Result<(T, Option<Closed<T>>), Failure> {
     let triad = Triad::new(place.tangents);
     let normal = constants.normal.lift::<T>();
@@ -113,13 +115,14 @@ pub fn evaluate<T: Scalar>(
         let part = in_contact(seen - constants.touch, constants.before - constants.touch);
         triad.along.map(|e| e.dot(touched - place.a) * part)
     });
-    let response = law(&Motion { penetration: seen, slip })?;
+    let motion = [seen, slip[0], slip[1]];
+    let response = law(motion.map(T::re))?;
+    let stress = response.chained(motion);
     let force = |[p, s, t]: [T; 3]| {
         (triad.inward * p + triad.along[0] * s + triad.along[1] * t) * (triad.area * constants.weight)
     };
-    let stress = [response.pressure, response.shear[0], response.shear[1]];
     let (force, linear) = (force(stress).re(), force(acting(stress, constants.acting)));
-    Ok((penetration, Some(Closed { force, linear, hit: place.a + triad.inward * penetration, slip, response })))
+    Ok((penetration, Some(Closed { force, linear, hit: place.a + triad.inward * penetration, slip, stress, response })))
 }
 
 #[cfg(test)]

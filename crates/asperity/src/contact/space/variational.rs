@@ -78,8 +78,7 @@ impl OpenContact<'_> {
     ) -> Result<(), Failure> {
         let area = self.contact.undeformed_area(index);
         let (_, rates) = self.rates(g, &local.u);
-        let [s, t] = closed.response.shear;
-        let stresses = [closed.response.pressure, s, t];
+        let stresses = closed.stress;
         add_forces(&rates, &stresses, area, local);
         if !local.wants_tangent {
             return Ok(());

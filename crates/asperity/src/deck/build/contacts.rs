@@ -9,9 +9,10 @@ use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
 use crate::interface::Interface;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
 use crate::tool::Tool;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Which edges a contact joins.
@@ -82,7 +83,11 @@ impl Builder<'_> {
         let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), moduli);
         let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
-            let carrier = Surface::new(&mesh, sides, keys.gauss.map(|gauss| gauss.value));
+            let gauss = keys.gauss.map(|gauss| gauss.value);
+            let carrier = match self.site.space {
+                Space::Axisymmetric => Surface::around_axis(&mesh, sides, gauss),
+                _ => Surface::new(&mesh, sides, gauss),
+            };
             let carrier = carrier.divided(keys.parts.map_or(1, |parts| parts.value));
             let boundary = boundary_behind(&mesh, sides, &self.deck.body);
             let site = (mesh.clone(), self.site.dofs.clone(), self.site.space);
@@ -241,12 +246,12 @@ pub(super) fn moduli(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<f64> {
     moduli
 }
 
-/// The whole outer boundary of the bodies whose cells lie behind the sides.
+/// The whole outer boundary of what hangs together with the cells behind the sides, in whatever groups.
 pub(super) fn boundary_behind(mesh: &Mesh, sides: &[Side], bodies: &[(Name, keys::Body)]) -> Vec<Side> {
+    let wholes = mesh.wholes();
+    let behind: BTreeSet<usize> = sides.iter().map(|side| wholes[side.cell]).collect();
     let groups = bodies.iter().filter_map(|(name, _)| mesh.groups.get(&name.text));
-    let behind = groups.filter(|group| sides.iter().any(|side| group.cells.binary_search(&side.cell).is_ok()));
-    let mut cells: Vec<usize> = behind.flat_map(|group| group.cells.iter().copied()).collect();
-    cells.sort_unstable();
-    cells.dedup();
-    mesh.boundary(&cells)
+    let cells = groups.flat_map(|group| group.cells.iter().copied());
+    let cells: BTreeSet<usize> = cells.filter(|&cell| behind.contains(&wholes[cell])).collect();
+    mesh.boundary(&cells.into_iter().collect::<Vec<_>>())
 }

@@ -22,7 +22,8 @@ table! {
         update: Option<UpdateKeys> = table_of().unless_given("in closed form where the law has one, else in one step"),
         /// Integration points along an edge; along each side of a quadrilateral face, and 1, 3 or 6 on a triangle.
         gauss: Option<Spot<usize>> =
-            whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree"),
+            whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree; in axial symmetry 2 \
+             also on edges of first degree within about ten of their lengths from the axis, over which the radius changes"),
         /// Equal parts of an edge that carry these points each: more than one where contact is narrower than an edge.
         parts: Option<Spot<usize>> = whole(1..=64).spot().computed("1"),
         /// Pressure for one unit of penetration.

@@ -155,6 +155,7 @@ impl InterfaceLaw for CamClay {
 mod tests {
     use super::random::Random;
     use super::*;
+    use crate::interface::Law;
 
     fn past(vars: &[f64]) -> Past<'_> {
         let (penalty, tangential_penalty) = (1e3, 700.0);
@@ -184,12 +185,12 @@ mod tests {
     fn the_constants_of_the_paper_make_the_same_ellipse() {
         let law = (PRINTED.build)(&[0.64, 100.0]).unwrap();
         let other = CamClay::perfect(0.8, 100.0, 0.0);
-        let motion = Motion { penetration: 0.03, slip: [0.1, 0.0] };
         let vars = [0.0; 2];
-        let a = law.respond(&motion, &past(&vars), &mut vars.clone()).unwrap();
-        let b = other.respond(&motion, &past(&vars), &mut vars.clone()).unwrap();
+        let a = law.respond([0.03, 0.1, 0.0], &past(&vars), &mut vars.clone()).unwrap();
+        let b = Law(other).respond([0.03, 0.1, 0.0], &past(&vars), &mut vars.clone()).unwrap();
         assert_eq!(a, b);
-        let f = a.shear[0] * a.shear[0] + 0.64 * a.pressure * (a.pressure - 100.0);
+        let ([shear, _], pressure) = (a.shear(), a.pressure());
+        let f = shear * shear + 0.64 * pressure * (pressure - 100.0);
         assert!(f.abs() < 1e-9, "{f}");
     }
 

@@ -1,0 +1,97 @@
+//! Targets that are driven through a body faster than it is thick: the increment is refused, so that it is cut where it may
+//! be, and the run stops with the place and the remedy where it may not. What is carried in the end is what small increments
+//! carry.
+
+mod support;
+
+use asperity::solve::RunOptions;
+use support::{Keep, columns, go_on, model};
+
+/// One strip is pressed down on another, 0.1 below it and as thick as it, by more than six thicknesses.
+const STRIPS: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.lower.rectangle = { from = [0.0, -0.2], to = [3.0, 0.0], cells = [6, 1], cell = "quad4" }
+mesh.part.upper.rectangle = { from = [0.6, 0.1], to = [2.4, 0.3], cells = [5, 1], cell = "quad4" }
+material.rubber.neo_hookean = { shear = 400.0, bulk = 800.0 }
+body.lower.material = "rubber"
+body.upper.material = "rubber"
+contact.sole = { surface = "upper.bottom", target = "lower.top", law.coulomb = { friction = 0.2 } }
+[[step]]
+increments.count = 7
+displacement."lower.left" = { x = 0.0, y = 0.0 }
+displacement."lower.right" = { x = 0.0, y = 0.0 }
+displacement."upper.top" = { x = 0.0, y = -1.3 }
+"#;
+
+/// The same in space.
+const SLABS: &str = r#"
+version = 1
+space = "solid"
+mesh.part.lower.box = { from = [0.0, 0.0, -0.2], to = [3.0, 3.0, 0.0], cells = [4, 2, 1], cell = "hex8" }
+mesh.part.upper.box = { from = [0.6, 0.6, 0.1], to = [2.4, 2.4, 0.3], cells = [3, 2, 1], cell = "hex8" }
+material.rubber.neo_hookean = { shear = 400.0, bulk = 800.0 }
+body.lower.material = "rubber"
+body.upper.material = "rubber"
+contact.sole = { surface = "upper.back", target = "lower.front", law.coulomb = { friction = 0.2 } }
+[[step]]
+increments.count = 7
+displacement."lower.left" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."lower.right" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."upper.front" = { x = 0.0, y = 0.0, z = -1.3 }
+"#;
+
+/// A ball through a held slab, without the steps that look for contact.
+const BALL: &str = r#"
+version = 1
+space = "solid"
+mesh.part.slab.box = { from = [0.0, 0.0, -0.5], to = [2.0, 2.0, 0.0], cells = [3, 3, 2], cell = "hex8" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.slab.material = "rubber"
+tool.ball.sphere = { center = [1.0, 1.0, 1.55], radius = 1.5 }
+contact.sole = { surface = "slab.front", target = "ball", law.coulomb = { friction = 0.2 } }
+solver.piecewise = false
+[[step]]
+increments.count = 1
+displacement."slab.bottom" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."slab.top" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."slab.back" = { x = 0.0, y = 0.0, z = 0.0 }
+motion.ball = { z = -8.0 }
+"#;
+
+/// The error with which a run stops that must not cut its increments.
+fn refusal(deck: &str, sets: &[&str]) -> String {
+    let model = model(deck, sets);
+    let mut run = model.run(model.problem.initial_state());
+    run.run(&RunOptions::default(), &mut Keep::default()).expect_err("the target passes").to_string()
+}
+
+#[test]
+fn strips_that_may_not_be_cut_are_refused_with_place_and_remedy() {
+    for (deck, count, share) in [(STRIPS, 3, "0.33"), (STRIPS, 1, "1.0"), (SLABS, 1, "1.0")] {
+        let (count, smallest) =
+            (format!("step.1.increments.count={count}"), format!("step.1.increments.smallest={share}"));
+        let said = refusal(deck, &[&count, &smallest]);
+        assert!(said.contains("the target came through at point") && said.contains("smaller increments"), "{said}");
+    }
+}
+
+#[test]
+fn a_tool_through_a_slab_in_one_increment_is_refused() {
+    let said = refusal(BALL, &["step.1.increments.smallest=1.0"]);
+    assert!(said.contains("the target came through at point"), "{said}");
+}
+
+#[test]
+fn cut_increments_carry_what_small_ones_do() {
+    let end = |count: &str| {
+        let model = model(STRIPS, &[&format!("step.1.increments.count={count}")]);
+        let keep = go_on(&model, model.problem.initial_state(), None);
+        *columns(&model, &keep)["contact.sole.force.y"].last().unwrap()
+    };
+    let fine = end("22");
+    for count in ["7", "3", "1"] {
+        let force = end(count);
+        assert!((force / fine - 1.0).abs() < 0.02, "{count}: {force} where {fine} is carried");
+    }
+}

@@ -181,6 +181,7 @@ impl Contact {
                 position: a,
                 inward,
                 along,
+                facing: self.facing(values, u, &Ray { origin: a, direction: inward }),
                 thrust: self.thrust(values, u, Ray { origin: a, direction: inward }),
                 area: self.acting_area(i, point, (a, tangent)),
                 status: PointStatus::from_value(values[entry::STATUS]),
@@ -198,6 +199,19 @@ impl Contact {
                 edge: point.edge,
             }
         })
+    }
+
+    /// Outward normal of the target where the ray of a closed point meets it; the direction of the ray elsewhere.
+    fn facing(&self, values: &[f64], u: &[f64], ray: &Ray) -> Vec3 {
+        let closed = PointStatus::from_value(values[entry::STATUS]) != PointStatus::Open;
+        let segment = Some(values[entry::SEGMENT]).filter(|segment| closed && *segment >= 0.0);
+        let meet = |segment: usize| {
+            let mut dofs = Vec::new();
+            self.target.unknowns(segment, &mut dofs);
+            let own: Vec<f64> = dofs.iter().map(|&dof| u[dof]).collect();
+            self.target.meet(segment, &own, ray, [values[entry::S], values[entry::S2]])
+        };
+        segment.and_then(|segment| meet(segment as usize)).map_or(ray.direction, |hit| hit.normal)
     }
 
     /// Where a point stands on its edge in an accepted state.

@@ -128,6 +128,8 @@ pub struct PointRecord {
     pub inward: Vec3,
     /// Where a unit of pressure acts: along the normal, or so that it does its work on the penetration.
     pub thrust: Vec3,
+    /// Outward unit normal of the target where a closed point meets it; the normal of the surface at an open one.
+    pub facing: Vec3,
     /// Unit tangent, the solid on its left.
     pub along: Vec3,
     /// Area the point stands for; the full circumference when axisymmetric.

@@ -201,7 +201,8 @@ impl<'a> Run<'a> {
             // What the jump did must not be carried on, nor its increment be the measure of the next.
             state.last_dt = 0.0;
             state.next_dt = dt.max(JUMPED * step.increments.first * step.duration);
-            state.released += balance(state) - before;
+            // A relaxation that ends higher than it began has set nothing free: that energy is missing.
+            state.released += (balance(state) - before).max(0.0);
             state.jumps += 1;
         }
         state.increment += 1;
@@ -233,12 +234,13 @@ impl<'a> Run<'a> {
             total.dissipated += new.dissipated;
         }
         state.u = converged.u;
+        state.held += usize::from(!converged.held.is_empty());
         std::mem::swap(&mut state.internal, &mut evaluation.internal);
         std::mem::swap(&mut state.load, &mut evaluation.load);
         std::mem::swap(&mut state.histories, &mut evaluation.histories);
         self.memory.spare = Some(evaluation);
         state.preconditioner = self.memory.preconditioner(self.solver.as_ref());
-        for (past, now) in state.reference.iter_mut().zip(converged.reference) {
+        for (past, now) in state.in_play.iter_mut().zip(converged.in_play) {
             *past = past.max(now);
         }
     }

@@ -91,8 +91,8 @@ pub struct State {
     pub internal: Vec<f64>,
     /// Forces of all loads on all unknowns.
     pub load: Vec<f64>,
-    /// Reference force and moment of the convergence test.
-    pub reference: [f64; 2],
+    /// The largest force and moment that have been in play: sums of the magnitudes of the forces of stencils on an unknown.
+    pub in_play: [f64; 2],
     /// Energies of each term.
     pub energies: Vec<Energies>,
     /// Work of supports and loads since the start.
@@ -101,6 +101,8 @@ pub struct State {
     pub jumps: usize,
     /// and the energy that was set free in them.
     pub released: f64,
+    /// Increments in which something that nothing held was held still.
+    pub held: usize,
     /// History of each term.
     pub histories: Vec<History>,
     /// What the linear solver begins the next increment with, where that is not a matrix of its own.

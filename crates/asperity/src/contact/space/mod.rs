@@ -18,6 +18,7 @@ mod placed;
 mod point;
 mod polygon;
 mod rigid;
+mod sampled;
 mod search;
 mod split;
 mod surface;

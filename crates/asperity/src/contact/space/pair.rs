@@ -170,6 +170,7 @@ impl Contact {
         PointRecord {
             position,
             inward,
+            facing: self.facing(values, u, &Ray { origin: position, direction: inward }),
             thrust: self.thrust(values, u, Ray { origin: position, direction: inward }),
             along: direction,
             area: self.acting_area(index, point, tangents),
@@ -187,6 +188,19 @@ impl Contact {
             segment,
             edge: point.face,
         }
+    }
+
+    /// Outward normal of the target where the ray of a closed point meets it; the direction of the ray elsewhere.
+    fn facing(&self, values: &[f64], u: &[f64], ray: &Ray) -> Vec3 {
+        let closed = PointStatus::from_value(values[entry::STATUS]) != PointStatus::Open;
+        let segment = Some(values[entry::SEGMENT]).filter(|segment| closed && *segment >= 0.0);
+        let meet = |segment: usize| {
+            let mut dofs = Vec::new();
+            self.parts.target.unknowns(segment, &mut dofs);
+            let own: Vec<f64> = dofs.iter().map(|&dof| u[dof]).collect();
+            self.parts.target.meet(segment, &own, ray, [values[entry::S], values[entry::S2]])
+        };
+        segment.and_then(|segment| meet(segment as usize)).map_or(ray.direction, |hit| hit.normal)
     }
 
     /// Where a point stands on its face in an accepted state.

@@ -1,6 +1,6 @@
 //! Contacts of the plane and of space under one roof, for reports.
 
-use crate::contact::{Contact, ContactOptions, PointRecord, space};
+use crate::contact::{Contact, ContactOptions, PointRecord, Sample, space};
 use crate::declare::Variable;
 use crate::system::{History, Term};
 use crate::tensor::Vec3;
@@ -55,6 +55,13 @@ impl Touching<'_> {
         match self {
             Self::Plane(contact) => contact.search(u).1.total(),
             Self::Solid(contact) => contact.search(u).1.total(),
+        }
+    }
+    /// The deepest place of the surface between its points.
+    pub fn sampled(&self, u: &[f64], history: &History) -> Option<Sample> {
+        match self {
+            Self::Plane(contact) => contact.sampled(u, history),
+            Self::Solid(contact) => contact.sampled(u, history),
         }
     }
     /// Whether its target carries points of its own: one of two passes.

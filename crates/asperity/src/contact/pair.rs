@@ -9,7 +9,7 @@ use super::nonlocal::{Neighbours, radius};
 use super::open::{OpenContact, write_hit};
 use super::options::{ContactOptions, Loads, Normals};
 use super::point::triad;
-use super::record::{PointRecord, PointStatus, entry, variables};
+use super::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
 use super::search::relatives;
 use super::surface::{Edge, Surface, SurfacePoint};
 use super::target::Target;
@@ -127,6 +127,10 @@ impl Contact {
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
         &*self.law
+    }
+    /// The largest penetration at a closed point, from the history of a state; a length.
+    pub fn largest_penetration(&self, history: &History) -> f64 {
+        largest_penetration(history, self.surface.points.len())
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {

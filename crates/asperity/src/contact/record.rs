@@ -2,7 +2,7 @@
 
 use super::ContactOptions;
 use crate::interface::{Interface, MOST_VARIABLES, Past, Response};
-use crate::system::Coordinates;
+use crate::system::{Coordinates, History};
 use crate::tensor::{Scalar, Vec3};
 
 /// Places of the values in a point's history; the law's own variables follow.
@@ -91,6 +91,13 @@ pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
         new[kept] = old[kept];
     }
     law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
+}
+
+/// The largest penetration at a closed point of the first so many slots, which are those of points.
+pub fn largest_penetration(history: &History, points: usize) -> f64 {
+    let slots = (0..points).map(|i| history.slot(i));
+    let closed = slots.filter(|values| values[entry::STATUS] > 0.0);
+    closed.map(|values| values[entry::PENETRATION]).filter(|depth| depth.is_finite()).fold(0.0, f64::max)
 }
 
 /// Whether a contact point is open, sticks or slips.

@@ -157,6 +157,7 @@ fn facets(model: &Model, state: &State) -> Vec<String> {
 fn account(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
+    summary.timings.insert("audit".into(), run.audited.as_secs_f64());
     summary.notes.extend(run.problem.newton.notes());
     let cut = summary.attempts.saturating_sub(summary.increments);
     if cut > summary.increments / 2 {

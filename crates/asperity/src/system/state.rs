@@ -61,6 +61,22 @@ impl Energies {
     }
 }
 
+/// How far a body lies in another, in itself or in a tool, beyond what contacts report and what the facets of curved
+/// boundaries explain.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Interpenetration {
+    /// The depth that nothing explains, over the size of the cell.
+    pub relative: f64,
+    /// The whole depth, a length.
+    pub depth: f64,
+    /// Where.
+    pub place: [f64; 3],
+    /// The two, in words; empty where nothing lies in anything.
+    pub pair: [String; 2],
+    /// The increment.
+    pub increment: usize,
+}
+
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -85,6 +101,10 @@ pub struct State {
     /// Motion of the last increment over the size of the model where it was many times as fast as that of the increment
     /// before, else zero.
     pub leap: f64,
+    /// What the audit found in the last increment.
+    pub interpenetration: Interpenetration,
+    /// The worst that it found in any.
+    pub worst_interpenetration: Interpenetration,
     /// Unknowns at the beginning of the step, from which prescribed values ramp.
     pub step_start: Vec<f64>,
     /// Forces of all internal terms on all unknowns: reactions and applied loads together.

@@ -10,7 +10,7 @@ use crate::contact::augment::Corners;
 use crate::contact::guard;
 use crate::contact::nonlocal::{Neighbours, radius};
 use crate::contact::pair::{CLOSED, ahead};
-use crate::contact::record::{PointRecord, PointStatus, entry, variables};
+use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
 use crate::contact::search::relatives;
 use crate::contact::{ContactOptions, Loads, Normals};
 use crate::interface::Interface;
@@ -123,6 +123,10 @@ impl Contact {
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
         &*self.parts.law
+    }
+    /// The largest penetration at a closed point, from the history of a state; a length.
+    pub fn largest_penetration(&self, history: &History) -> f64 {
+        largest_penetration(history, self.parts.surface.points.len())
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {

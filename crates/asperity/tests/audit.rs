@@ -191,7 +191,9 @@ fn the_worst_is_kept_through_a_restart() {
     let model = model(&slides, &[]);
     let whole = run(&model);
     let worst = &whole.states.last().unwrap().worst_interpenetration;
-    assert_eq!((worst.increment, worst.pair[0].as_str()), (1, "body 'driven'"), "{worst:?}");
+    let mut pair = worst.pair.clone();
+    pair.sort();
+    assert_eq!((worst.increment, pair), (1, ["body 'driven'", "body 'held'"].map(String::from)), "{worst:?}");
     let rest = go_on(&model, whole.states[1].clone(), None);
     assert_eq!(bytes(rest.states.last().unwrap()), bytes(whole.states.last().unwrap()));
 }

@@ -88,6 +88,9 @@ struct Found {
     through: bool,
 }
 
+/// The worst so far, and how bad it is.
+type Worst = Option<(f64, Found)>;
+
 /// A state between the accepted unknowns and new ones, with what explains depth between pairs.
 struct Look<'a> {
     subject: &'a Subject,
@@ -359,7 +362,10 @@ impl Look<'_> {
                     !tool.closed || is_inside(&tool.tree, tool.bounds, (here, out), &|_| true)
                 };
                 if let Some(deep) = deep.filter(|deep| truly(deep.piece)) {
-                    report(deep.depth, tool.bulge(here, deep.piece, a.length_at(vertex)), false);
+                    // Only a contact bears points, and lies in the tool between them.
+                    let bears = self.prepared.known[pair];
+                    let bulge = if bears { tool.bulge(here, deep.piece, a.length_at(vertex)) } else { 0.0 };
+                    report(deep.depth, bulge, false);
                 }
             }
             self.through_tool(&path, tool, self.near(own, other, size, sagitta), &mut report);
@@ -393,7 +399,8 @@ impl Look<'_> {
                 let size = a.size_of(piece);
                 // Between the points of a contact the nose of a tool lies in a straight side by its sagitta.
                 let length = a.length_of(piece);
-                let nose = (curvature * length * length / 8.0).min(0.5 * length);
+                let bears = f64::from(u8::from(self.prepared.known[self.prepared.pair(own, other)]));
+                let nose = bears * (curvature * length * length / 8.0).min(0.5 * length);
                 let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
                 found(Found { own, other, bodies: [body, body], depth, sagitta, size, place: here, through });
             };
@@ -415,7 +422,7 @@ impl Look<'_> {
 
     /// The worst of all, refused where it exceeds the limit and was not there before any motion.
     fn verdict(&self) -> Result<Interpenetration, Failure> {
-        let (mut worst, mut refused): (Option<(f64, Found)>, Option<(f64, Found)>) = (None, None);
+        let (mut worst, mut refused): (Worst, Worst) = (None, None);
         self.find(&mut |found| {
             let pair = self.prepared.pair(found.own, found.other);
             let initial = self.prepared.initial[pair];
@@ -481,7 +488,7 @@ fn along(path: &[Vec3], part: f64) -> Vec3 {
 }
 
 /// Keeps the larger; of equals the first.
-fn keep(worst: &mut Option<(f64, Found)>, new: (f64, Found)) {
+fn keep(worst: &mut Worst, new: (f64, Found)) {
     if new.0.is_finite() && worst.is_none_or(|(old, _)| new.0 > old) {
         *worst = Some(new);
     }

@@ -20,6 +20,8 @@ pub enum Exit {
     Stopped = 4,
     /// `check` found problems.
     Problems = 5,
+    /// A run was completed, and a figure of its certificate is beyond its limit.
+    Doubtful = 6,
 }
 
 /// What ends a verb early.

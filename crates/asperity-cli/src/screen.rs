@@ -1,7 +1,7 @@
 //! What a run shows while it goes, and the page at its end.
 
 use asperity::Error;
-use asperity::output::{Status, Summary};
+use asperity::output::{FIGURES, Status, Summary};
 use asperity::solve::{AttemptRecord, Observer, Problem};
 use asperity::system::State;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -94,6 +94,7 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     let mut text = String::from("\n");
     let word = match summary.status {
         Status::Converged => "converged",
+        Status::Doubtful => "doubtful",
         Status::Stopped => "stopped on request",
         _ => "not converged",
     };
@@ -109,32 +110,21 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     for note in &summary.notes {
         let _ = writeln!(text, "note: {note}");
     }
-    let _ = writeln!(text, "certificate, the worst of all increments:");
-    for (name, value) in figures(summary) {
-        let _ = writeln!(text, "  {name:<28}{value:>11.3e}");
-    }
-    if summary.status != Status::Converged {
+    let _ = writeln!(text, "certificate, the worst of all increments:               limit");
+    figures(summary).for_each(|line| text += &line);
+    if !matches!(summary.status, Status::Converged | Status::Doubtful) {
         let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {again}");
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));
     text
 }
 
-fn figures(summary: &Summary) -> impl Iterator<Item = (&'static str, f64)> {
-    let c = &summary.certificate;
-    let all = [
-        ("largest penetration", c.max_penetration),
-        ("  over the cell's size", c.max_penetration_relative),
-        ("  weighted, at nodes", c.nodal_penetration),
-        ("equilibrium error", c.equilibrium_error),
-        ("forces of the two sides differ by", c.imbalance),
-        ("missing energy", c.energy_balance),
-        ("excess over friction limit", c.coulomb_violation),
-        ("least dissipation", c.least_dissipation),
-        ("false contacts refused", c.rejected_false_contacts),
-        ("largest leap over the size", c.leap.filter(|leap| *leap > 0.0)),
-        ("unresisted part of motion", c.hourglass),
-        ("gradient in small strain", c.small_strain.values().copied().reduce(f64::max)),
-    ];
-    all.into_iter().filter_map(|(name, value)| Some((name, value?)))
+/// A line a figure that was read: its value, its limit, and where and when it was worst.
+fn figures(summary: &Summary) -> impl Iterator<Item = String> {
+    FIGURES.iter().filter_map(|figure| {
+        let worst = summary.worst.get(figure.name)?;
+        let limit = worst.limit.map_or(String::new(), |limit| format!("{limit}"));
+        let place = if worst.value == 0.0 { String::new() } else { worst.place() };
+        Some(format!("  {:<37}{:>10.3e}  {limit:>6} {place}", figure.words, worst.value).trim_end().to_owned() + "\n")
+    })
 }

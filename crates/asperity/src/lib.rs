@@ -6,7 +6,8 @@
 //!    [`amplitude`] values in time; [`integrate`] sub-steps and local equations of laws.
 //! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
 //! 3. [`system`] unknowns, state, terms, assembly.
-//! 4. [`solid`] bodies; [`contact`] contact with friction; [`load`] loads and springs.
+//! 4. [`solid`] bodies; [`contact`] contact with friction; [`load`] loads and springs;
+//!    [`audit`] whether anything lies in or went through anything.
 //! 5. [`solve`] increments, Newton's method.
 //! 6. The program: [`model`] what is to be solved; [`output`] files, tables, pictures; [`point`] one driven
 //!    material point; [`deck`] what a user writes.
@@ -14,6 +15,7 @@
 #![warn(missing_docs)]
 
 pub mod amplitude;
+pub mod audit;
 pub mod contact;
 pub mod deck;
 pub mod declare;

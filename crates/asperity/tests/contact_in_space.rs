@@ -8,7 +8,7 @@ use asperity::contact::ContactForm;
 use asperity::contact::space::{Contact, Rigid};
 use asperity::deck::{build, read};
 use asperity::interface::laws::Coulomb;
-use asperity::output::{Job, Start, simulate};
+use asperity::output::{Job, Limits, Start, simulate};
 use asperity::solve::{RunOptions, Silent, Stop};
 use asperity::system::{Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
@@ -173,6 +173,7 @@ increments.count = 30
         options: made.deck.output.options(),
         input: made.input,
         start: Start::Beginning,
+        limits: &Limits::default(),
         notes: &[],
     };
     simulate(&made.model, &job, &mut Silent).unwrap().1.unwrap();

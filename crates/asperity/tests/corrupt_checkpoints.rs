@@ -4,7 +4,7 @@
 
 use asperity::deck::{build, read};
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
-use asperity::output::{Job, ResultOptions, Start, simulate};
+use asperity::output::{Job, Limits, ResultOptions, Start, simulate};
 use asperity::solve::Silent;
 use asperity::system::{Energies, History, State};
 use sha2::{Digest, Sha256};
@@ -147,7 +147,8 @@ displacement."block.top" = { y = 0.01 }
 fn restart(deck: &str, directory: &Path) -> String {
     let made = read(deck, "deck.toml", Path::new(""), &[]).and_then(build).unwrap_or_else(|d| panic!("{d:?}"));
     let options = ResultOptions::default();
-    let job = Job { directory, options, input: made.input, start: Start::Checkpoint, notes: &[] };
+    let job =
+        Job { directory, options, input: made.input, start: Start::Checkpoint, limits: &Limits::default(), notes: &[] };
     simulate(&made.model, &job, &mut Silent).unwrap_err().to_string()
 }
 

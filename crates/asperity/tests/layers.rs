@@ -9,7 +9,7 @@ const LAYERS: &[&[&str]] = &[
     &["integrate"],
     &["mesh", "material", "interface", "tool"],
     &["system"],
-    &["solid", "contact", "load"],
+    &["solid", "contact", "load", "audit"],
     &["solve"],
     &["model"],
     &["output"],

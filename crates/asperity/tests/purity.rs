@@ -4,7 +4,7 @@
 mod support;
 
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
-use asperity::output::{CHECKPOINT, Job, ResultOptions, Start, simulate};
+use asperity::output::{CHECKPOINT, Job, Limits, ResultOptions, Start, simulate};
 use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run, RunOptions, Silent};
 use asperity::system::{Csr, State};
 use frontal::{Change, Service};
@@ -65,7 +65,14 @@ fn outputs_change_nothing() {
     let directory = tempfile::tempdir().unwrap();
     let options = ResultOptions { every: 1, checkpoint_every: 1, ..ResultOptions::default() };
     let input = InputHash::of(&[DECK.as_bytes()]);
-    let job = Job { directory: directory.path(), options, input, start: Start::Beginning, notes: &[] };
+    let job = Job {
+        directory: directory.path(),
+        options,
+        input,
+        start: Start::Beginning,
+        limits: &Limits::default(),
+        notes: &[],
+    };
     simulate(&model, &job, &mut Silent).unwrap().1.unwrap();
     let (_, last) = checkpoint::load::<State>(&directory.path().join(CHECKPOINT), &input).unwrap();
     assert_eq!(bytes(&last), bytes(without.states.last().unwrap()));

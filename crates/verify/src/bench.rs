@@ -19,7 +19,7 @@ pub struct Bench {
 }
 
 /// What all runs of a case took.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Effort {
     /// Accepted increments.
     pub increments: usize,
@@ -27,6 +27,10 @@ pub struct Effort {
     pub cuts: usize,
     /// Solved linear systems, those of increments that were cut too.
     pub iterations: usize,
+    /// The worst interpenetration that the audit found, over the size of the cell,
+    pub interpenetration: f64,
+    /// and the seconds that it took.
+    pub audited: f64,
 }
 
 impl Effort {
@@ -37,7 +41,13 @@ impl Effort {
             increments: self.increments + attempts.len() - cuts,
             cuts: self.cuts + cuts,
             iterations: self.iterations + attempts.iter().map(AttemptRecord::solutions).sum::<usize>(),
+            ..self
         }
+    }
+    /// What the audit found and took, in words, of a case that took so many seconds.
+    pub fn audit(&self, seconds: f64) -> String {
+        let share = 100.0 * self.audited / seconds.max(f64::MIN_POSITIVE);
+        format!("interpenetration {:.4}, audit {share:.1} % of the time", self.interpenetration)
     }
 }
 
@@ -155,8 +165,13 @@ impl Bench {
         let mut follower = Follower { model: &model, look, attempts: Vec::new() };
         let mut run = model.run(model.problem.initial_state());
         let end = run.run(&RunOptions::default(), &mut follower).map(|_| ());
+        let effort = self.effort().and(&follower.attempts);
+        self.effort.set(Effort {
+            interpenetration: effort.interpenetration.max(run.state.worst_interpenetration.relative),
+            audited: effort.audited + run.audited.as_secs_f64(),
+            ..effort
+        });
         let (state, attempts) = (run.state, follower.attempts);
-        self.effort.set(self.effort().and(&attempts));
         Ok((Solved { model, state, attempts }, end))
     }
 }

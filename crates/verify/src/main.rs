@@ -62,6 +62,7 @@ fn run(chosen: &[&Case], size: Size) -> ExitCode {
 
 fn show(report: &Report) {
     println!("{} ({}, {:.1} s, {})", report.title, report.name, report.seconds, report.effort);
+    println!("{}", report.effort.audit(report.seconds));
     report.lines.iter().for_each(|line| println!("{}", table::printed(line)));
     println!();
 }

@@ -5,7 +5,7 @@ use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, farewell};
 use crate::signals::Interrupts;
-use asperity::output::{Job, Start, simulate};
+use asperity::output::{Job, Start, Status, simulate};
 
 /// Runs a deck from its beginning.
 pub fn run(arguments: &arguments::Run, interrupts: &Interrupts) -> Outcome {
@@ -45,15 +45,16 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     let made = made(&arguments.deck)?;
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
     let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
-    let job =
-        Job { directory: &directory, options: made.deck.output.options(), input: made.input, start, notes: &notes };
+    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+    let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes };
     let mut screen = Screen::new(&made.model.problem, interrupts.heed());
     // On a thread of the pool: from outside, every parallel loop would hand over to it and wait.
     let simulated = rayon::scope(|_| simulate(&made.model, &job, &mut screen));
     screen.close();
     let (summary, ended) = simulated?;
     print(&farewell(&summary, &directory, &again(arguments)))?;
-    ended.map(|()| Exit::Done).map_err(Trouble::from)
+    let exit = if summary.status == Status::Doubtful { Exit::Doubtful } else { Exit::Done };
+    ended.map(|()| exit).map_err(Trouble::from)
 }
 
 #[cfg(test)]

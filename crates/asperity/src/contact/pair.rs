@@ -9,7 +9,7 @@ use super::nonlocal::{Neighbours, radius};
 use super::open::{OpenContact, write_hit};
 use super::options::{ContactOptions, Loads, Normals};
 use super::point::triad;
-use super::record::{PointRecord, PointStatus, entry, variables};
+use super::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
 use super::search::relatives;
 use super::surface::{Edge, Surface, SurfacePoint};
 use super::target::Target;
@@ -132,6 +132,10 @@ impl Contact {
     pub fn law(&self) -> &dyn Interface {
         &*self.law
     }
+    /// The largest penetration at a closed point, from the history of a state; a length.
+    pub fn largest_penetration(&self, history: &History) -> f64 {
+        largest_penetration(history, self.surface.points.len())
+    }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
         &self.options
@@ -190,6 +194,7 @@ impl Contact {
                 position: a,
                 inward,
                 along,
+                facing: self.facing(values, u, &Ray { origin: a, direction: inward }),
                 thrust: self.thrust(values, u, Ray { origin: a, direction: inward }),
                 area: self.acting_area(i, point, (a, tangent)),
                 resultant: None,
@@ -208,6 +213,19 @@ impl Contact {
                 edge: point.edge,
             }
         })
+    }
+
+    /// Outward normal of the target where the ray of a closed point meets it; the direction of the ray elsewhere.
+    fn facing(&self, values: &[f64], u: &[f64], ray: &Ray) -> Vec3 {
+        let closed = PointStatus::from_value(values[entry::STATUS]) != PointStatus::Open;
+        let segment = Some(values[entry::SEGMENT]).filter(|segment| closed && *segment >= 0.0);
+        let meet = |segment: usize| {
+            let mut dofs = Vec::new();
+            self.target.unknowns(segment, &mut dofs);
+            let own: Vec<f64> = dofs.iter().map(|&dof| u[dof]).collect();
+            self.target.meet(segment, &own, ray, [values[entry::S], values[entry::S2]])
+        };
+        segment.and_then(|segment| meet(segment as usize)).map_or(ray.direction, |hit| hit.normal)
     }
 
     /// Where a point stands on its edge in an accepted state.

@@ -2,7 +2,7 @@
 
 use super::ContactOptions;
 use crate::interface::{Interface, Linearised, MOST_VARIABLES, Past};
-use crate::system::Coordinates;
+use crate::system::{Coordinates, History};
 use crate::tensor::Vec3;
 
 /// Places of the values in a point's history; the law's own variables follow.
@@ -93,6 +93,13 @@ pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
     law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);
 }
 
+/// The largest penetration at a closed point of the first so many slots, which are those of points.
+pub fn largest_penetration(history: &History, points: usize) -> f64 {
+    let slots = (0..points).map(|i| history.slot(i));
+    let closed = slots.filter(|values| values[entry::STATUS] > 0.0);
+    closed.map(|values| values[entry::PENETRATION]).filter(|depth| depth.is_finite()).fold(0.0, f64::max)
+}
+
 /// Whether a contact point is open, sticks or slips.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PointStatus {
@@ -128,6 +135,8 @@ pub struct PointRecord {
     pub inward: Vec3,
     /// Where a unit of pressure acts: along the normal, or so that it does its work on the penetration.
     pub thrust: Vec3,
+    /// Outward unit normal of the target where a closed point meets it; the normal of the surface at an open one.
+    pub facing: Vec3,
     /// Unit tangent, the solid on its left.
     pub along: Vec3,
     /// Area the point stands for; the full circumference when axisymmetric.

@@ -1,5 +1,6 @@
 //! The model: what is to be solved, put together from parts and immutable from then on.
 
+mod audited;
 #[allow(clippy::module_inception)] // the room and the type it is about share the field's word
 mod model;
 

@@ -1,5 +1,7 @@
 //! A model owns its mesh, bodies, tools, contacts, springs, loads and steps; a run only reads it.
 
+use super::audited::claims;
+use crate::audit::{Audit, Subject};
 use crate::contact::field::FieldContact;
 use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
@@ -107,8 +109,21 @@ impl Model {
         terms.extend(field_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
         let cells = bodies.iter().flat_map(|(body, _)| body.cells());
+        let audit = Audit::new(Subject {
+            mesh: mesh.clone(),
+            dofs: dofs.clone(),
+            axisymmetric: space == Space::Axisymmetric,
+            bodies: bodies.iter().map(|(body, _)| (body.name().to_owned(), body.cells().to_vec())).collect(),
+            tools: tools.clone(),
+            solid_tools: solid_tools.clone(),
+            claims: claims(bodies.len(), (&contacts, &solid_contacts), &field_contacts),
+            cell_size: smallest_cell(&mesh),
+            limit: INTERPENETRATION[0],
+            contact_limit: INTERPENETRATION[1],
+        });
         let problem = Problem {
             terms,
+            audit: Some(audit),
             dofs,
             steps,
             newton,
@@ -155,6 +170,10 @@ impl Model {
         Run::new(&self.problem, state, Box::new(Frontal::new(self.problem.newton.factors)))
     }
 }
+
+/// An increment is refused that lets bodies lie in something by more than this part of a cell, beyond what is explained:
+/// where no contact is declared, and between the two sides of one, which is blind between its points.
+const INTERPENETRATION: [f64; 2] = [0.01, 0.25];
 
 fn smallest_cell(mesh: &Mesh) -> f64 {
     let size = |cell: usize| mesh.measure(cell).abs().powf(1.0 / mesh.kinds[cell].dimension as f64);

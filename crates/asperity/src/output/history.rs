@@ -34,22 +34,21 @@ impl HistoryTable {
     pub fn create(directory: &Path, plane: bool) -> Self {
         Self { path: directory.join(HISTORY), plane, columns: Vec::new(), table: None }
     }
-    /// Continues a history after a restart from `increment`; later rows are dropped. Returns also the rows that stay.
+    /// Continues a history after a restart from `increment`; later rows are dropped.
     ///
     /// # Errors
     /// [`Error::File`] when the old history cannot be read or rewritten.
-    pub fn resume(directory: &Path, plane: bool, increment: usize) -> Result<(Self, Columns), Error> {
+    pub fn resume(directory: &Path, plane: bool, increment: usize) -> Result<Self, Error> {
         let mut history = Self::create(directory, plane);
         if !history.path.exists() {
-            return Ok((history, Columns::default()));
+            return Ok(history);
         }
         history.table = Some(Table::resume(&history.path, |columns, row| {
             let at = columns.position("increment").and_then(|i| row[i].parse::<usize>().ok());
             at.is_some_and(|at| at <= increment)
         })?);
-        let kept = Columns::read(&history.path)?;
-        history.columns = kept.header.iter().skip(LEADING.len()).cloned().collect();
-        Ok((history, kept))
+        history.columns = Columns::read(&history.path)?.header.split_off(LEADING.len());
+        Ok(history)
     }
     /// Adds the row of a frame.
     ///
@@ -107,8 +106,8 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let mut history = HistoryTable::create(directory.path(), false);
         (1..=3).for_each(|i| history.push(&frame(i, &["a"])).unwrap());
-        let (mut history, kept) = HistoryTable::resume(directory.path(), false, 2).unwrap();
-        assert_eq!(kept.rows.len(), 2);
+        let mut history = HistoryTable::resume(directory.path(), false, 2).unwrap();
+        assert_eq!(Columns::read(&directory.path().join(HISTORY)).unwrap().rows.len(), 2);
         history.push(&frame(3, &["a"])).unwrap();
         assert!(history.push(&frame(4, &["a", "b"])).unwrap_err().to_string().contains("b.x"));
     }

@@ -5,6 +5,7 @@ mod average;
 mod certificate;
 pub mod checkpoint;
 pub mod figure;
+mod figures;
 pub mod file;
 #[cfg(test)]
 mod fixture;
@@ -13,6 +14,7 @@ mod history;
 mod log;
 mod quantities;
 mod quantity;
+mod readings;
 mod recorder;
 mod results;
 mod simulate;
@@ -21,7 +23,8 @@ mod summary;
 mod table;
 pub mod vtk;
 
-pub use certificate::Certificate;
+pub use certificate::{Certificate, Doubt, Limits, Occasion, Reading};
+pub use figures::{FIGURES, Figure, Fold, Limit};
 pub use history::{HistoryTable, global_columns};
 pub use log::RunLog;
 pub use quantities::{Parts, Source};

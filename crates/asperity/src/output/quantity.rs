@@ -2,6 +2,7 @@
 //! in one [`Frame`]. Files, tables, the summary and the pictures only read frames, so that they can never disagree.
 //! Nothing here knows how a quantity is computed or written.
 
+use super::certificate::Reading;
 use crate::Error;
 
 /// Where the values of a quantity live.
@@ -95,6 +96,7 @@ pub struct Frame {
     /// Total time.
     pub time: f64,
     quantities: Vec<Quantity>,
+    readings: Vec<Reading>,
 }
 
 impl Width {
@@ -171,7 +173,7 @@ impl Quantity {
 impl Frame {
     /// An empty frame.
     pub fn new(step: usize, increment: usize, time: f64) -> Self {
-        Self { step, increment, time, quantities: Vec::new() }
+        Self { step, increment, time, ..Self::default() }
     }
     /// Adds a quantity.
     ///
@@ -189,6 +191,14 @@ impl Frame {
         }
         self.quantities.push(quantity);
         Ok(())
+    }
+    /// Hands in a reading for the certificate.
+    pub fn certify(&mut self, reading: Reading) {
+        self.readings.push(reading);
+    }
+    /// The readings for the certificate, in the order in which they were handed in.
+    pub fn readings(&self) -> &[Reading] {
+        &self.readings
     }
     /// A quantity by place and name.
     pub fn get(&self, place: Place, name: &str) -> Option<&Quantity> {

@@ -4,16 +4,19 @@
 //! | --- | --- |
 //! | `bodies.pvd`, `points.pvd`, `contacts.pvd`, `tools.pvd` | frames: meshes, integration points, contact points, outlines |
 //! | `history.csv` | global quantities, a row an increment |
+//! | `certificate.csv` | readings for the certificate |
 //! | `summary.json` | how the run ended and its certificate |
 //! | `run.checkpoint` | the last checkpoint |
 
+use super::certificate::{Certificate, Limits};
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
 use super::file::{make_directory, remove, sweep};
 use super::grids::{BodyGrid, cloud, tools};
-use super::history::{HISTORY, HistoryTable, global_columns};
+use super::history::{HISTORY, HistoryTable};
 use super::quantities::{Parts, Source};
 use super::quantity::Place;
+use super::readings::{READINGS, ReadingTable};
 use super::summary::Summary;
 use super::vtk::{Encoding, Series};
 use crate::Error;
@@ -46,6 +49,11 @@ pub struct Results {
     grid: BodyGrid,
     series: Vec<(Fields, Series)>,
     history: HistoryTable,
+    readings: ReadingTable,
+    /// The worst figures so far.
+    pub certificate: Certificate,
+    /// What they may be.
+    pub limits: Limits,
     /// What `summary.json` will say; the caller fills in what the results do not know.
     pub summary: Summary,
     spent: Duration,
@@ -86,11 +94,12 @@ impl Results {
         make_directory(directory)?;
         sweep(directory)?;
         // What the run writes only later would else be that of an earlier one until then: a restart would go on from it.
-        remove(directory, [CHECKPOINT, HISTORY].map(String::from).into_iter().chain(pictures()))?;
+        remove(directory, [CHECKPOINT, HISTORY, READINGS].map(String::from).into_iter().chain(pictures()))?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
         let history = HistoryTable::create(directory, start.parts.is_plane());
-        let mut results = Self::new((directory, options, input), start.parts, (series, history))?;
+        let readings = ReadingTable::create(directory)?;
+        let mut results = Self::new((directory, options, input), start.parts, (series, history, readings))?;
         results.write_frame(start)?;
         results.write_summary()?;
         Ok(results)
@@ -108,19 +117,17 @@ impl Results {
             Ok((fields, series))
         };
         let series = fields_of(parts).map(series).collect::<Result<_, Error>>()?;
-        let (history, kept) = HistoryTable::resume(directory, parts.is_plane(), state.increment)?;
-        let mut results = Self::new((directory, options, input), parts, (series, history))?;
-        for row in &kept.rows {
-            let numbers = row.iter().map(|entry| entry.parse().unwrap_or(f64::NAN));
-            results.summary.certificate.observe(kept.header.iter().map(String::as_str).zip(numbers));
-        }
+        let history = HistoryTable::resume(directory, parts.is_plane(), state.increment)?;
+        let (readings, certificate) = ReadingTable::resume(directory, state.increment)?;
+        let mut results = Self::new((directory, options, input), parts, (series, history, readings))?;
+        results.certificate = certificate;
         results.write_summary()?;
         Ok(results)
     }
     fn new(
         (directory, options, input): (&Path, ResultOptions, InputHash),
         parts: &Parts,
-        (series, history): (Vec<(Fields, Series)>, HistoryTable),
+        (series, history, readings): (Vec<(Fields, Series)>, HistoryTable, ReadingTable),
     ) -> Result<Self, Error> {
         let mut summary = Summary::begin("", parts.space.name());
         summary.input_hash = Some(input.to_string());
@@ -131,7 +138,9 @@ impl Results {
         summary.tools = parts.tool_names().into_iter().map(str::to_owned).collect();
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
-        Ok(Self { directory, options, input, grid, series, history, summary, spent: Duration::ZERO })
+        let (certificate, limits) = (Certificate::default(), Limits::default());
+        let spent = Duration::ZERO;
+        Ok(Self { directory, options, input, grid, series, history, readings, certificate, limits, summary, spent })
     }
 
     /// Writes what is due after an accepted increment. `last` says that it ended its step.
@@ -143,9 +152,9 @@ impl Results {
         let (increment, plane) = (source.state.increment, source.parts.is_plane());
         let frame = source.gather()?;
         self.history.push(&frame)?;
+        self.readings.push(&frame)?;
         self.summary.observe(&frame, plane);
-        let columns = global_columns(&frame, plane);
-        self.summary.certificate.observe(columns.iter().map(|(name, value)| (name.as_str(), *value)));
+        self.certificate.observe(&frame);
         (self.summary.attempts, self.summary.iterations) = (source.state.attempts, source.state.iterations);
         self.summary.steps = source.state.step;
         if last || increment % self.options.every == 0 {
@@ -171,7 +180,9 @@ impl Results {
     /// # Errors
     /// [`Error::File`] when the summary cannot be written.
     pub fn finish(&mut self, outcome: &Result<(), Error>) -> Result<(), Error> {
-        self.summary.end(outcome);
+        let doubts = self.certificate.doubts(&self.limits);
+        self.summary.notes.extend(doubts.iter().map(ToString::to_string));
+        self.summary.end(outcome, !doubts.is_empty());
         self.summary.timings.insert("output".into(), self.spent.as_secs_f64());
         self.write_summary()?;
         let start = Instant::now();
@@ -202,12 +213,13 @@ impl Results {
     }
     pub(super) fn write_summary(&mut self) -> Result<(), Error> {
         self.summary.files = self.present_files();
+        self.summary.certify(&self.certificate, &self.limits);
         self.summary.write(&self.directory.join(SUMMARY))
     }
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
         let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
-        let tables = [HISTORY, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY].map(String::from);
+        let tables = [HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY].map(String::from);
         let all = frames.chain(tables).chain(pictures());
         all.filter(|name| self.directory.join(name).exists()).collect()
     }
@@ -289,7 +301,7 @@ mod tests {
         let summary = Summary::read(&directory.path().join(SUMMARY)).unwrap();
         assert_eq!((summary.status, summary.increments), (Status::Converged, 5));
         assert_eq!(summary.bodies, ["block"]);
-        assert_eq!(summary.files[..5], ["bodies.pvd", "points.pvd", "history.csv", CHECKPOINT, SUMMARY]);
+        assert_eq!(summary.files[..6], ["bodies.pvd", "points.pvd", "history.csv", READINGS, CHECKPOINT, SUMMARY]);
         assert!(summary.files.contains(&"von_mises.png".into()) && summary.notes.is_empty(), "{summary:?}");
         assert!(summary.files.iter().all(|file| directory.path().join(file).exists()));
     }
@@ -332,10 +344,10 @@ mod tests {
         let parts = fixture.parts();
         let source = Source { parts: &parts, state: &state, step: 0 };
         let mut results = Results::resume(cut.path(), &source, OPTIONS, input()).unwrap();
-        let balance = results.summary.certificate.energy_balance;
+        let balance = results.certificate.figure("energy_balance");
         assert!(balance.is_some(), "the certificate covers the rows before the restart");
         write(&mut results, &fixture, 3, 5);
-        let names = ["history.csv", "bodies.pvd", "bodies/bodies_000003.vtu", "points/points_000002.vtu"];
+        let names = ["history.csv", READINGS, "bodies.pvd", "bodies/bodies_000003.vtu", "points/points_000002.vtu"];
         for name in names {
             let read = |directory: &tempfile::TempDir| std::fs::read(directory.path().join(name)).unwrap();
             assert_eq!(read(&whole), read(&cut), "{name}");

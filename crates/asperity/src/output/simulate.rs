@@ -1,5 +1,6 @@
 //! A run with everything that is written of it, from its start or from the checkpoint in its result directory.
 
+use super::certificate::{Certificate, Limits};
 use super::checkpoint::{self, InputHash};
 use super::log::RunLog;
 use super::quantities::{Parts, Source};
@@ -7,6 +8,7 @@ use super::recorder::Recorder;
 use super::results::{CHECKPOINT, ResultOptions, Results};
 use super::summary::Summary;
 use crate::Error;
+use crate::mesh::Space;
 use crate::model::Model;
 use crate::solve::{Observer, Run, RunOptions, Stop};
 use crate::system::State;
@@ -24,6 +26,8 @@ pub struct Job<'a> {
     pub input: InputHash,
     /// Where the run begins.
     pub start: Start,
+    /// What the figures of the certificate may be.
+    pub limits: &'a Limits,
     /// What was said of the model beforehand, for the notes of the summary.
     pub notes: &'a [String],
 }
@@ -58,9 +62,9 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     let ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
     account(&mut results.summary, &run, seconds);
     results.summary.notes.extend(facets(model, &run.state));
-    results.summary.notes.extend(leap(&results.summary));
-    results.summary.notes.extend(imbalance(&results.summary));
-    results.summary.notes.extend(large_strain(&results.summary));
+    results.summary.notes.extend(leap(&results.certificate));
+    results.summary.notes.extend(large_strain(&results.certificate));
+    results.summary.notes.extend(rests(&results.certificate, model.space));
     results.finish(&ended)?;
     Ok((results.summary, ended))
 }
@@ -85,6 +89,7 @@ impl Job<'_> {
             Start::Beginning => Results::create(self.directory, start, self.options, self.input)?,
             Start::Checkpoint => Results::resume(self.directory, start, self.options, self.input)?,
         };
+        results.limits.clone_from(self.limits);
         results.summary.title.clone_from(&model.title);
         results.summary.notes.extend_from_slice(self.notes);
         results.summary.threads = rayon::current_num_threads();
@@ -98,25 +103,11 @@ impl Job<'_> {
 }
 
 /// What an increment that leaps means.
-fn leap(summary: &Summary) -> Option<String> {
-    let far = summary.certificate.leap.filter(|far| *far > 0.0)?;
+fn leap(certificate: &Certificate) -> Option<String> {
+    let far = certificate.figure("leap").filter(|far| *far > 0.0)?;
     Some(format!(
         "an increment moved the model by {far:.2} of its size, more than 20 times as fast as the increment before: past \
          a limit load that may be a remote equilibrium; prescribed displacements, or smaller increments, can tell"
-    ))
-}
-
-/// Part of their force by which two sides of a contact may differ without a word.
-const BALANCED: f64 = 0.02;
-
-/// What it means that two sides of a contact press with different forces.
-fn imbalance(summary: &Summary) -> Option<String> {
-    let left = summary.certificate.imbalance.filter(|left| *left > BALANCED)?;
-    Some(format!(
-        "the forces on the two sides of a contact differ by {:.1} % in the last increment: with two passes each side answers \
-         for itself, and action equals reaction only as far as the meshes agree; finer meshes bring them together, \
-         passes = \"one\" makes them equal",
-        100.0 * left
     ))
 }
 
@@ -124,16 +115,36 @@ fn imbalance(summary: &Summary) -> Option<String> {
 const SMALL: f64 = 0.1;
 
 /// What it means that a body in small strain moves by more than that.
-fn large_strain(summary: &Summary) -> Vec<String> {
-    let beyond = summary.certificate.small_strain.iter().filter(|(_, gradient)| **gradient > SMALL);
-    let said = |(body, gradient): (&String, &f64)| {
+fn large_strain(certificate: &Certificate) -> Vec<String> {
+    let beyond = certificate.each("small_strain").filter(|(_, gradient)| *gradient > SMALL);
+    let said = |(body, gradient): (&str, f64)| {
         format!(
-            "body '{body}' is computed in small strain, but the gradient of its displacements reaches {gradient:.2}: strains \
+            "{body} is computed in small strain, but the gradient of its displacements reaches {gradient:.2}: strains \
              and rotations beyond {SMALL} are not small, and results are wrong by a part of that order; \
              strain = \"finite\" has no such limit"
         )
     };
     beyond.map(said).collect()
+}
+
+/// Closed points along one direction below which the force of a contact is not smooth.
+const FEW: usize = 3;
+
+/// What it means that a contact never closed, or at so few points that its force changes with each of them.
+fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
+    let few = (if space == Space::Solid { FEW * FEW } else { FEW }) as f64;
+    let said = |(contact, most): (&str, f64)| match most {
+        0.0 => Some(format!(
+            "{contact} never closed in the whole run; `asperity check` says what its points see: the surface or the target \
+             may be another than is meant, a tool may have its material on the wrong side, or nothing moves them together"
+        )),
+        most if most < few => Some(format!(
+            "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves; a \
+             finer surface, a higher `gauss` or `parts` of an edge give it more"
+        )),
+        _ => None,
+    };
+    certificate.each("closed_points").filter_map(said).collect()
 }
 
 /// What contacts say of their facets in the last accepted state.
@@ -146,12 +157,20 @@ fn facets(model: &Model, state: &State) -> Vec<String> {
 fn account(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
+    summary.timings.insert("audit".into(), run.audited.as_secs_f64());
     summary.notes.extend(run.problem.newton.notes());
     let cut = summary.attempts.saturating_sub(summary.increments);
     if cut > summary.increments / 2 {
         summary.notes.push(format!(
             "{cut} of {} attempts at an increment were cut; the page \"When a run does not converge\" of the manual says what helps",
             summary.attempts
+        ));
+    }
+    if run.state.held > 0 {
+        summary.notes.push(format!(
+            "in {} increments something was held still that nothing holds, as `solver.if_free = \"hold\"` says; without \
+             it the run ends there and names it",
+            run.state.held
         ));
     }
     if run.state.jumps > 0 {
@@ -164,13 +183,18 @@ fn account(summary: &mut Summary, run: &Run, seconds: f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Frame, Reading};
     use super::*;
 
     #[test]
     fn a_body_that_leaves_small_strain_is_named() {
-        let mut summary = Summary::begin("", "solid");
-        summary.certificate.observe([("small_strain.soft", 0.137), ("small_strain.stiff", 0.099)]);
-        let [said] = &large_strain(&summary)[..] else { panic!("one note") };
+        let mut frame = Frame::new(1, 1, 1.0);
+        for (body, gradient) in [("body 'soft'", 0.137), ("body 'stiff'", 0.099)] {
+            frame.certify(Reading::new("small_strain", body, gradient));
+        }
+        let mut certificate = Certificate::default();
+        certificate.observe(&frame);
+        let [said] = &large_strain(&certificate)[..] else { panic!("one note") };
         assert!(said.contains("'soft'") && said.contains("0.14") && said.contains("beyond 0.1"), "{said}");
     }
 }

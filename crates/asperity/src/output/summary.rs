@@ -1,7 +1,8 @@
 //! `summary.json`: how a run ended and its figures, for scripts. It is written when the run begins, with status
 //! `running`, and again when it ends, however it ends: a killed run is told from a converged one.
 
-use super::certificate::Certificate;
+use super::certificate::{Certificate, Limits, Occasion};
+use super::figures::FIGURES;
 use super::file::{self, Durability, write_atomic};
 use super::quantity::{Frame, Place, Quantity};
 use crate::Error;
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Raised when a field changes its meaning or goes; new fields may come without it.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// How a run stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,6 +22,8 @@ pub enum Status {
     Running,
     /// All steps were completed.
     Converged,
+    /// All steps were completed, and a figure of the certificate is beyond its limit.
+    Doubtful,
     /// The increments shrank to nothing.
     NotConverged,
     /// It stopped on request and wrote a checkpoint.
@@ -46,7 +49,7 @@ pub struct Summary {
     pub space: String,
     /// How the run stands.
     pub status: Status,
-    /// Why it ended so, in words; null when it converged.
+    /// Why it ended so, in words; null when all steps were completed.
     pub reason: Option<String>,
     /// Hash of deck and mesh, the one that checkpoints carry.
     pub input_hash: Option<String>,
@@ -80,8 +83,10 @@ pub struct Summary {
     pub contact_order: Vec<String>,
     /// For each group the reaction of the last accepted increment.
     pub reactions: BTreeMap<String, Value>,
-    /// The worst figures over all accepted increments.
-    pub certificate: Certificate,
+    /// The worst figures over all accepted increments; null where nothing was to be read.
+    pub certificate: BTreeMap<String, Option<f64>>,
+    /// Of each figure that was read: where and when it was worst, and its limit.
+    pub worst: BTreeMap<String, Occasion>,
     /// Notes that the user must see: options that bend a promise, warnings.
     pub notes: Vec<String>,
     /// Result files, relative to the directory of this one.
@@ -114,7 +119,8 @@ impl Summary {
             contacts: BTreeMap::new(),
             contact_order: Vec::new(),
             reactions: BTreeMap::new(),
-            certificate: Certificate::default(),
+            certificate: FIGURES.iter().map(|figure| (figure.name.into(), None)).collect(),
+            worst: BTreeMap::new(),
             notes: Vec::new(),
             files: Vec::new(),
         }
@@ -131,9 +137,21 @@ impl Summary {
             }
         }
     }
-    /// Notes how the run ended.
-    pub fn end(&mut self, outcome: &Result<(), Error>) {
+    /// Takes the figures of the certificate.
+    pub fn certify(&mut self, certificate: &Certificate, limits: &Limits) {
+        for figure in FIGURES {
+            // What is no finite number is null, as JSON has it.
+            let value = certificate.figure(figure.name).filter(|value| value.is_finite());
+            self.certificate.insert(figure.name.into(), value);
+            if let Some(worst) = certificate.worst(figure.name, limits) {
+                self.worst.insert(figure.name.into(), worst);
+            }
+        }
+    }
+    /// Notes how the run ended, and whether its certificate is to be doubted.
+    pub fn end(&mut self, outcome: &Result<(), Error>, doubtful: bool) {
         self.status = match outcome {
+            Ok(()) if doubtful => Status::Doubtful,
             Ok(()) => Status::Converged,
             Err(Error::NotConverged(_)) => Status::NotConverged,
             Err(Error::Stopped) => Status::Stopped,
@@ -186,8 +204,9 @@ fn peak_memory() -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Unit, Width};
+    use super::super::{Reading, Unit, Width};
     use super::*;
+    use crate::tensor::Vec3;
 
     fn frame() -> Frame {
         let mut frame = Frame::new(1, 3, 0.5);
@@ -204,8 +223,13 @@ mod tests {
         let path = directory.path().join("summary.json");
         let mut summary = Summary::begin("A \"title\"", "axisymmetric");
         summary.observe(&frame(), true);
-        summary.certificate.max_penetration = Some(1e-3);
-        summary.end(&Err(Error::NotConverged("the increment is too small".into())));
+        let mut frame = frame();
+        frame.certify(Reading::new("max_penetration", "contact 'bore'", 1e-3).at(Vec3::new(0.1, 0.2, 0.0)));
+        let mut certificate = Certificate::default();
+        certificate.observe(&frame);
+        summary.certify(&certificate, &Limits::default());
+        assert_eq!(summary.certificate["max_penetration"], Some(1e-3));
+        summary.end(&Err(Error::NotConverged("the increment is too small".into())), false);
         summary.write(&path).unwrap();
         assert_eq!(Summary::read(&path).unwrap(), summary);
     }
@@ -224,10 +248,12 @@ mod tests {
     #[test]
     fn the_end_says_why() {
         let mut summary = Summary::begin("", "solid");
-        summary.end(&Ok(()));
+        summary.end(&Ok(()), false);
         assert_eq!((summary.status, summary.reason.as_deref()), (Status::Converged, None));
         assert!(summary.peak_memory.is_none_or(|bytes| bytes > 1 << 16));
-        summary.end(&Err(Error::Stopped));
+        summary.end(&Ok(()), true);
+        assert_eq!((summary.status, summary.reason.as_deref()), (Status::Doubtful, None));
+        summary.end(&Err(Error::Stopped), true);
         assert_eq!(summary.status, Status::Stopped);
         assert!(summary.reason.is_some());
     }
@@ -248,6 +274,7 @@ mod tests {
             "contacts",
             "reactions",
             "certificate",
+            "worst",
             "files",
         ];
         assert!(fields.iter().all(|field| json.get(field).is_some()));

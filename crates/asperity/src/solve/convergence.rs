@@ -28,6 +28,9 @@ pub struct Norms {
     pub worst: Worst,
     /// The yardsticks of force and moment.
     pub reference: [f64; 2],
+    /// Force and moment in play, without what the tolerance adds to the yardsticks; zero where there is no more than what
+    /// rounding makes.
+    pub in_play: [f64; 2],
 }
 
 /// What the yardsticks are made of besides the evaluation.
@@ -45,6 +48,8 @@ pub struct Yardstick {
 
 /// Part of the past yardstick that still counts: after unloading, equilibrium is asked to a tolerance of this.
 const MEMORY: f64 = 1e-3;
+/// Forces below this multiple of what rounding leaves at the stiffest unknown are no forces.
+const NOTHING: f64 = 100.0;
 /// By what factor an iteration makes unbalanced forces smaller that are not yet rounding.
 const FALLING: f64 = 10.0;
 
@@ -64,8 +69,10 @@ impl Norms {
         let rounding = 16.0 * f64::EPSILON * yardstick.stiffness * yardstick.size;
         let floor = [rounding, rounding * yardstick.size].map(|f| f / yardstick.tolerance);
         let scale = [0, 1].map(|k| largest[k].max(MEMORY * yardstick.past[k]).max(floor[k]));
-        let mut norms =
-            Self { rounding: rounding / scale[0], reference: scale, allowed: yardstick.tolerance, ..Self::default() };
+        let nothing = [rounding, rounding * yardstick.size].map(|rounding| NOTHING * rounding);
+        let in_play = [0, 1].map(|k| if largest[k] > nothing[k] { largest[k] } else { 0.0 });
+        let mut norms = Self { rounding: rounding / scale[0], reference: scale, in_play, ..Self::default() };
+        norms.allowed = yardstick.tolerance;
         for (&dof, &force) in constraints.free().iter().zip(residual) {
             let scale = scale[usize::from(dofs.is_rotation(dof))];
             let ratio = if force == 0.0 { 0.0 } else { force.abs() / scale };

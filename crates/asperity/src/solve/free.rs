@@ -1,9 +1,10 @@
 //! What is free: motions that meet no stiffness, in an iterate, in a solution, and before the first increment.
 
 use super::linear::LinearError;
-use super::newton::{Newton, Trouble};
-use crate::system::Tangent;
+use super::newton::{IfFree, Newton, Trouble};
+use crate::system::{Tangent, Term};
 use crate::{Error, Failure};
+use std::sync::Arc;
 
 /// Stiffness that props an iterate in which something is free, over the largest in the matrix.
 const PROP: f64 = 1e-4;
@@ -26,26 +27,63 @@ impl Newton<'_> {
         self.factorise_matrix().map_err(|e| self.explain(e, iteration))
     }
 
-    /// A solution that was reached with a propped matrix must stand without the prop: what still meets no stiffness must
-    /// meet a force when it moves by more than it did in the increment, as when everything slips and would slip back.
+    /// A solution that was reached with a propped matrix must stand without the prop, unless what is free is to be held.
     pub(super) fn stands(&mut self, u: &[f64], reference: f64) -> Result<(), Trouble> {
         if self.propped.is_empty() {
             return Ok(());
         }
+        self.propped = self.loose(u, reference)?;
+        if self.propped.is_empty() || self.problem.newton.if_free == IfFree::Hold {
+            return Ok(());
+        }
+        Err(Failure::new(self.propped.join("; ")).into())
+    }
+
+    /// Whether the first guess, which left no force unbalanced, carries something on that nothing holds any more: no matrix
+    /// was ever solved, and a body that has lost its contact would drift on as it last moved.
+    ///
+    /// # Errors
+    /// An error that names it, unless what is free is to be held.
+    pub(super) fn drifts(&mut self, u: &[f64], reference: f64) -> Result<bool, Trouble> {
+        let opened = |(term, branches): (&Arc<dyn Term>, &Vec<(u8, u32)>)| {
+            term.bends() && branches.iter().all(|(branch, _)| *branch == 0)
+        };
+        if !self.problem.terms.iter().zip(&self.evaluation.branches).any(opened) {
+            return Ok(false);
+        }
+        self.complete(u, None)?;
+        let motions = self.loose(u, reference)?;
+        match self.problem.newton.if_free {
+            _ if motions.is_empty() => Ok(false),
+            IfFree::Hold => Ok(true),
+            IfFree::Stop => Err(Trouble::Error(Error::NotConverged(format!(
+                "{}: nothing holds it any more at time {:.4}; support it, keep it in contact, or leave it where it is by \
+                 `solver.if_free = \"hold\"`",
+                motions.join("; "),
+                self.at.time
+            )))),
+        }
+    }
+
+    /// Motions that meet no stiffness at `u`, nor a force when they go on further than the increment did, as where everything
+    /// slips and would slip back; in words. The evaluation is then that of `u`.
+    fn loose(&mut self, u: &[f64], reference: f64) -> Result<Vec<String>, Trouble> {
         let motions = match self.factorise_matrix() {
             Err(LinearError::Singular(motions)) => motions,
             factorised => {
                 // Nothing is known of the inverse of this one.
                 self.solver.refuse();
-                return factorised.map_err(|e| self.explain(e, 1));
+                return factorised.map(|()| Vec::new()).map_err(|e| self.explain(e, 1));
             }
         };
+        let mut loose = Vec::new();
         for motion in motions {
             if !self.is_held(u, &motion, reference)? {
-                return Err(Failure::new(self.name_motions(&[motion]).join("; ")).into());
+                loose.push(motion);
             }
         }
-        Ok(self.evaluate(u, None, self.tangent())?)
+        self.evaluate(u, None, self.tangent())?;
+        Ok(self.name_motions(&loose))
     }
 
     /// Whether finite motion to either side meets a force.

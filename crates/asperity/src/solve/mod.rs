@@ -22,7 +22,7 @@ mod trail;
 
 pub use convergence::{Norms, Worst};
 pub use linear::{Factors, Frontal, LinearError, LinearSolver};
-pub use newton::{NewtonOptions, Variant};
+pub use newton::{IfFree, NewtonOptions, Variant};
 pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
 pub use problem::Problem;
 pub use run::{Run, RunOptions, Stop};

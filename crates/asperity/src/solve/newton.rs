@@ -26,6 +26,15 @@ pub enum Variant {
     Kept,
 }
 
+/// What becomes of a motion that nothing holds and nothing drives, as of a body that has lost its contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum IfFree {
+    /// The run ends and names it.
+    Stop,
+    /// What is free stays where it is until something touches it.
+    Hold,
+}
+
 /// Options of the iterations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NewtonOptions {
@@ -46,6 +55,8 @@ pub struct NewtonOptions {
     /// Whether an increment of a model with contact that cutting does not help is relaxed to an equilibrium beyond an
     /// instability.
     pub relax: bool,
+    /// What becomes of what nothing holds any more.
+    pub if_free: IfFree,
     /// Every attempt is made twice and the second kept, which must not change a bit. A check of the program itself.
     pub rehearse: bool,
 }
@@ -61,6 +72,7 @@ impl Default for NewtonOptions {
             piecewise: true,
             line_search: true,
             relax: true,
+            if_free: IfFree::Stop,
             rehearse: false,
         }
     }
@@ -125,8 +137,10 @@ pub struct Converged {
     pub u: Vec<f64>,
     /// Evaluation at these unknowns.
     pub evaluation: Evaluation,
-    /// Yardsticks of force and moment.
-    pub reference: [f64; 2],
+    /// Force and moment in play.
+    pub in_play: [f64; 2],
+    /// Motions that nothing held, and that were held still, in words.
+    pub held: Vec<String>,
 }
 
 /// One attempt.
@@ -209,7 +223,7 @@ impl<'a> Newton<'a> {
         let (mut u, mut missing) = self.predict()?;
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.begin_sequence();
-        let mut trail = Trail::default();
+        let (mut trail, mut still) = (Trail::default(), false);
         let (mut augmentation, mut begun, mut stalls) = (0, 0, 0);
         for iteration in 0.. {
             self.refresh_stiffness();
@@ -221,9 +235,15 @@ impl<'a> Newton<'a> {
             observer.iteration(record, &line);
             record.iterations.push(line);
             if missing.is_none() && norms.converged_from(ratio) {
+                if iteration == 0 && !still && self.drifts(&u, norms.reference[0])? {
+                    (u, missing) = self.begin(self.state.u.clone())?;
+                    still = true;
+                    continue;
+                }
                 self.stands(&u, norms.reference[0])?;
                 if !self.augment(&u)? {
-                    return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+                    let Self { evaluation, propped, .. } = self;
+                    return Ok(Converged { u, evaluation, in_play: norms.in_play, held: propped });
                 }
                 (augmentation, begun, self.bound) = (augmentation + 1, iteration + 1, SLOPE);
                 (correction, taken, factorised, ratio) = (0.0, 0.0, false, 0.0);
@@ -309,7 +329,7 @@ impl<'a> Newton<'a> {
 
     pub(super) fn measure(&self) -> Norms {
         let yardstick = Yardstick {
-            past: self.state.reference,
+            past: self.state.in_play,
             stiffness: self.stiffness,
             size: self.problem.size,
             tolerance: self.problem.newton.tolerance,

@@ -82,7 +82,7 @@ impl Newton<'_> {
     }
 
     /// A first guess at `u`.
-    fn begin(&mut self, mut u: Vec<f64>) -> Result<Start, Failure> {
+    pub(super) fn begin(&mut self, mut u: Vec<f64>) -> Result<Start, Failure> {
         let missing = self.missing(&mut u);
         self.evaluate(&u, missing.as_deref(), self.tangent())?;
         Ok((u, missing))

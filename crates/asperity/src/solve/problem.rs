@@ -3,6 +3,7 @@
 use super::newton::NewtonOptions;
 use super::observer::IterationRecord;
 use super::schedule::Step;
+use crate::audit::Audit;
 use crate::system::{Dofs, Energies, History, State, Term, Unknown, Whole};
 use std::sync::Arc;
 
@@ -22,6 +23,8 @@ pub struct Problem {
     pub cell_size: f64,
     /// What of the mesh hangs together.
     pub wholes: Vec<Whole>,
+    /// The independent check of every increment, if it is wanted.
+    pub audit: Option<Audit>,
     /// Names of the tools.
     pub tools: Vec<String>,
     /// Names a node in messages: its number and group.

@@ -96,7 +96,8 @@ impl Newton<'_> {
                 let norms = self.measure();
                 self.stands(&u, norms.reference[0])?;
                 if !self.augment(&u)? {
-                    return Ok(Converged { u, evaluation: self.evaluation, reference: norms.reference });
+                    let Self { evaluation, propped, .. } = self;
+                    return Ok(Converged { u, evaluation, in_play: norms.in_play, held: propped });
                 }
             }
         }

@@ -5,8 +5,9 @@ use super::newton::{Converged, Memory, Newton, Trouble};
 use super::observer::{AttemptRecord, Observer};
 use super::problem::Problem;
 use super::schedule::Step;
-use crate::Error;
-use crate::system::{Energies, State};
+use crate::system::{Energies, Interpenetration, State};
+use crate::{Error, Failure};
+use std::time::{Duration, Instant};
 
 /// Options of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -32,6 +33,8 @@ pub struct Run<'a> {
     pub state: State,
     /// Memory and counts of the solver.
     pub memory: Memory,
+    /// Time that the audit took.
+    pub audited: Duration,
     solver: Box<dyn LinearSolver>,
 }
 
@@ -59,7 +62,7 @@ fn leap([before, driven, moved]: [f64; 3], size: f64) -> f64 {
 impl<'a> Run<'a> {
     /// A run from a given state: the initial one or that of a checkpoint.
     pub fn new(problem: &'a Problem, state: State, solver: Box<dyn LinearSolver>) -> Self {
-        Self { problem, state, memory: Memory::default(), solver }
+        Self { problem, state, memory: Memory::default(), audited: Duration::ZERO, solver }
     }
 
     /// Runs to the end of the last step.
@@ -112,10 +115,12 @@ impl<'a> Run<'a> {
             let result = self.attempt(dt, &mut record, observer);
             self.state.attempts += 1;
             self.state.iterations += record.solutions();
+            let result = result.and_then(|converged| Ok((self.audit(&converged)?, converged)));
             match result {
-                Ok(converged) => {
+                Ok((found, converged)) => {
                     observer.attempt(&record);
                     self.accept(step, (&record, wanted), converged);
+                    self.note(found);
                     return Ok(record);
                 }
                 Err(Trouble::Error(error)) => {
@@ -136,6 +141,24 @@ impl<'a> Run<'a> {
             }
         }
         Err(self.give_up(step, wanted, "too many attempts at one increment"))
+    }
+
+    /// Looks whether anything lies in anything in a converged state, or came through something on the way to it.
+    fn audit(&mut self, converged: &Converged) -> Result<Interpenetration, Failure> {
+        let Some(audit) = &self.problem.audit else { return Ok(Interpenetration::default()) };
+        let begun = Instant::now();
+        let found = audit.check(&self.state.u, &converged.u, &converged.evaluation.histories);
+        self.audited += begun.elapsed();
+        found
+    }
+
+    /// Keeps what the audit found in the accepted increment.
+    fn note(&mut self, found: Interpenetration) {
+        let found = Interpenetration { increment: self.state.increment, ..found };
+        if found.relative > self.state.worst_interpenetration.relative {
+            self.state.worst_interpenetration = found.clone();
+        }
+        self.state.interpenetration = found;
     }
 
     fn begin(&self, attempt: usize, dt: f64, relaxed: bool) -> AttemptRecord {
@@ -201,7 +224,8 @@ impl<'a> Run<'a> {
             // What the jump did must not be carried on, nor its increment be the measure of the next.
             state.last_dt = 0.0;
             state.next_dt = dt.max(JUMPED * step.increments.first * step.duration);
-            state.released += balance(state) - before;
+            // A relaxation that ends higher than it began has set nothing free: that energy is missing.
+            state.released += (balance(state) - before).max(0.0);
             state.jumps += 1;
         }
         state.increment += 1;
@@ -233,12 +257,13 @@ impl<'a> Run<'a> {
             total.dissipated += new.dissipated;
         }
         state.u = converged.u;
+        state.held += usize::from(!converged.held.is_empty());
         std::mem::swap(&mut state.internal, &mut evaluation.internal);
         std::mem::swap(&mut state.load, &mut evaluation.load);
         std::mem::swap(&mut state.histories, &mut evaluation.histories);
         self.memory.spare = Some(evaluation);
         state.preconditioner = self.memory.preconditioner(self.solver.as_ref());
-        for (past, now) in state.reference.iter_mut().zip(converged.reference) {
+        for (past, now) in state.in_play.iter_mut().zip(converged.in_play) {
             *past = past.max(now);
         }
     }

@@ -61,6 +61,22 @@ impl Energies {
     }
 }
 
+/// How far a body lies in another, in itself or in a tool, beyond what contacts report and what the facets of curved
+/// boundaries explain.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Interpenetration {
+    /// The depth that nothing explains, over the size of the cell.
+    pub relative: f64,
+    /// The whole depth, a length.
+    pub depth: f64,
+    /// Where.
+    pub place: [f64; 3],
+    /// The two, in words; empty where nothing lies in anything.
+    pub pair: [String; 2],
+    /// The increment.
+    pub increment: usize,
+}
+
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -85,14 +101,18 @@ pub struct State {
     /// Motion of the last increment over the size of the model where it was many times as fast as that of the increment
     /// before, else zero.
     pub leap: f64,
+    /// What the audit found in the last increment.
+    pub interpenetration: Interpenetration,
+    /// The worst that it found in any.
+    pub worst_interpenetration: Interpenetration,
     /// Unknowns at the beginning of the step, from which prescribed values ramp.
     pub step_start: Vec<f64>,
     /// Forces of all internal terms on all unknowns: reactions and applied loads together.
     pub internal: Vec<f64>,
     /// Forces of all loads on all unknowns.
     pub load: Vec<f64>,
-    /// Reference force and moment of the convergence test.
-    pub reference: [f64; 2],
+    /// The largest force and moment that have been in play: sums of the magnitudes of the forces of stencils on an unknown.
+    pub in_play: [f64; 2],
     /// Energies of each term.
     pub energies: Vec<Energies>,
     /// Work of supports and loads since the start.
@@ -101,6 +121,8 @@ pub struct State {
     pub jumps: usize,
     /// and the energy that was set free in them.
     pub released: f64,
+    /// Increments in which something that nothing held was held still.
+    pub held: usize,
     /// History of each term.
     pub histories: Vec<History>,
     /// What the linear solver begins the next increment with, where that is not a matrix of its own.

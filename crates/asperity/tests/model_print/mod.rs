@@ -2,7 +2,7 @@
 
 use asperity::deck::Made;
 use asperity::model::Model;
-use asperity::output::{Job, Start, simulate};
+use asperity::output::{Job, Limits, Start, simulate};
 use asperity::solve::{AttemptRecord, Observer};
 use asperity::system::{History, Instant, Local, State, Stencils, Term};
 use std::fmt::Debug;
@@ -141,7 +141,14 @@ impl Observer for Listener {
 pub fn run_print(made: &Made) -> (bool, u64) {
     let directory = tempfile::tempdir().unwrap();
     let options = made.deck.output.options();
-    let job = Job { directory: directory.path(), options, input: made.input, start: Start::Beginning, notes: &[] };
+    let job = Job {
+        directory: directory.path(),
+        options,
+        input: made.input,
+        start: Start::Beginning,
+        limits: &Limits::default(),
+        notes: &[],
+    };
     let mut listener = Listener(Print(DefaultHasher::new()));
     let (_, ended) = simulate(&made.model, &job, &mut listener).unwrap();
     let checkpoint = asperity::output::checkpoint::inspect(&directory.path().join("run.checkpoint"));

@@ -3,7 +3,7 @@
 
 use asperity::deck::{Made, build, read};
 use asperity::model::Model;
-use asperity::output::{Certificate, Parts, Source, global_columns};
+use asperity::output::{Certificate, Frame, Parts, Source, global_columns};
 use asperity::solve::{AttemptRecord, Observer, RunOptions};
 use asperity::system::State;
 use std::collections::BTreeMap;
@@ -69,22 +69,26 @@ pub fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) ->
 /// The columns of the history of a run, by name, each with a value an increment.
 pub fn columns(model: &Model, keep: &Keep) -> BTreeMap<String, Vec<f64>> {
     let mut columns = BTreeMap::<String, Vec<f64>>::new();
-    let accepted = keep.attempts.iter().filter(|attempt| attempt.failure.is_none());
-    let parts = Parts::of(model);
-    for (state, attempt) in keep.states.iter().zip(accepted) {
-        let frame = Source { parts: &parts, state, step: attempt.step }.gather().unwrap();
-        for (name, value) in global_columns(&frame, parts.is_plane()) {
+    for frame in frames(model, keep) {
+        for (name, value) in global_columns(&frame, Parts::of(model).is_plane()) {
             columns.entry(name).or_default().push(value);
         }
     }
     columns
 }
 
+/// What is reported of each accepted increment of a run.
+fn frames(model: &Model, keep: &Keep) -> Vec<Frame> {
+    let accepted = keep.attempts.iter().filter(|attempt| attempt.failure.is_none());
+    let parts = Parts::of(model);
+    let gather =
+        |(state, attempt): (&State, &AttemptRecord)| Source { parts: &parts, state, step: attempt.step }.gather();
+    keep.states.iter().zip(accepted).map(|pair| gather(pair).unwrap()).collect()
+}
+
 /// The certificate of a run.
-pub fn certificate(columns: &BTreeMap<String, Vec<f64>>) -> Certificate {
+pub fn certificate(model: &Model, keep: &Keep) -> Certificate {
     let mut certificate = Certificate::default();
-    for increment in 0..columns.values().map(Vec::len).max().unwrap_or(0) {
-        certificate.observe(columns.iter().map(|(name, values)| (name.as_str(), values[increment])));
-    }
+    frames(model, keep).iter().for_each(|frame| certificate.observe(frame));
     certificate
 }

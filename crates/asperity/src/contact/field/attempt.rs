@@ -12,7 +12,7 @@ use crate::contact::kink::answer;
 use crate::contact::overlap::recession;
 use crate::contact::record::{entry, leave, stresses, write};
 use crate::contact::{augment, capture::refuse_turn, point::in_contact};
-use crate::interface::{Motion, Past};
+use crate::interface::Past;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::Vec3;
 use crate::tool::Bounds;
@@ -379,11 +379,11 @@ impl FieldAttempt<'_> {
         let part = in_contact(penetration - touch, past.penetration - touch);
         let slip = slip.map(|slip| slip * part);
         let entered = Past { penetration: past.penetration.max(touch), ..past };
-        let response = law.respond(&Motion { penetration, slip }, &entered, &mut new[entry::COUNT..])?;
+        let response = law.respond([penetration, slip[0], slip[1]], &entered, &mut new[entry::COUNT..])?;
         write(&response, slip, old, new);
         stencil.find_forces(sums);
         let n = local.force.len();
-        let t = [response.pressure, response.shear[0], response.shear[1]];
+        let t = response.stress;
         for (c, t) in t.iter().enumerate() {
             let unit = &sums.forces[c * n..(c + 1) * n];
             local.force.iter_mut().zip(unit).for_each(|(force, unit)| *force += stretch * t * unit);

@@ -19,6 +19,7 @@ mod placed;
 mod point;
 mod polygon;
 mod rigid;
+mod sampled;
 mod search;
 mod split;
 mod surface;

@@ -10,7 +10,7 @@ use crate::contact::augment::Corners;
 use crate::contact::guard;
 use crate::contact::nonlocal::{Neighbours, radius};
 use crate::contact::pair::{CLOSED, ahead};
-use crate::contact::record::{PointRecord, PointStatus, entry, variables};
+use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
 use crate::contact::search::relatives;
 use crate::contact::{ContactOptions, Loads, Normals};
 use crate::interface::Interface;
@@ -124,6 +124,10 @@ impl Contact {
     pub fn law(&self) -> &dyn Interface {
         &*self.parts.law
     }
+    /// The largest penetration at a closed point, from the history of a state; a length.
+    pub fn largest_penetration(&self, history: &History) -> f64 {
+        largest_penetration(history, self.parts.surface.points.len())
+    }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
         &self.parts.options
@@ -170,6 +174,7 @@ impl Contact {
         PointRecord {
             position,
             inward,
+            facing: self.facing(values, u, &Ray { origin: position, direction: inward }),
             thrust: self.thrust(values, u, Ray { origin: position, direction: inward }),
             along: direction,
             area: self.acting_area(index, point, tangents),
@@ -188,6 +193,19 @@ impl Contact {
             segment,
             edge: point.face,
         }
+    }
+
+    /// Outward normal of the target where the ray of a closed point meets it; the direction of the ray elsewhere.
+    fn facing(&self, values: &[f64], u: &[f64], ray: &Ray) -> Vec3 {
+        let closed = PointStatus::from_value(values[entry::STATUS]) != PointStatus::Open;
+        let segment = Some(values[entry::SEGMENT]).filter(|segment| closed && *segment >= 0.0);
+        let meet = |segment: usize| {
+            let mut dofs = Vec::new();
+            self.parts.target.unknowns(segment, &mut dofs);
+            let own: Vec<f64> = dofs.iter().map(|&dof| u[dof]).collect();
+            self.parts.target.meet(segment, &own, ray, [values[entry::S], values[entry::S2]])
+        };
+        segment.and_then(|segment| meet(segment as usize)).map_or(ray.direction, |hit| hit.normal)
     }
 
     /// Where a point stands on its face in an accepted state.

@@ -4,6 +4,7 @@
 mod condition;
 mod contact;
 mod initial_stress;
+mod limits;
 mod mesh;
 mod output;
 mod point;
@@ -20,6 +21,7 @@ pub use condition::{
 };
 pub use contact::{Contact, OverlapWord, Passes, Roles, WearKeys};
 pub use initial_stress::InitialStressKeys;
+pub use limits::LimitKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;
 pub use point::{PointCurve, PointDeck, PointStep};
@@ -70,6 +72,8 @@ table! {
         step: Vec<Step> = step::steps().required(),
         /// How the equations are solved.
         solver: Solver = table_of().or("{}"),
+        /// What the figures of the certificate may be; beyond one of them a run is doubtful.
+        limits: LimitKeys = table_of().or("{}"),
         /// What is written, and how often.
         output: Output = table_of().or("{}"),
     }

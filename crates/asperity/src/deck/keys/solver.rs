@@ -2,7 +2,7 @@
 
 use crate::deck::form::{Form, Words, flag, number, table, whole, word, words};
 use crate::declare::{Range, unit};
-use crate::solve::{Factors, NewtonOptions, Variant};
+use crate::solve::{Factors, IfFree, NewtonOptions, Variant};
 
 table! {
     /// How the equations are solved.
@@ -25,6 +25,8 @@ table! {
         /// Whether an increment that cutting does not help, as where a contact lets go, is relaxed at fixed load to the
         /// equilibrium beyond; in models with contact.
         relax: bool = flag().or("true"),
+        /// What becomes of what nothing holds any more, as of a body that has lost its contact.
+        if_free: IfFree = word().or("\"stop\""),
     }
 }
 
@@ -37,6 +39,13 @@ impl Words for Variant {
             (Self::Modified, "modified", "that of the attempt's first iteration"),
             (Self::Kept, "kept", kept),
         ]
+    }
+}
+
+impl Words for IfFree {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        let hold = "it stays where it is until something touches it; a load on it finds no equilibrium";
+        vec![(Self::Stop, "stop", "the run ends and names it"), (Self::Hold, "hold", hold)]
     }
 }
 
@@ -64,6 +73,7 @@ impl Solver {
             piecewise: self.piecewise,
             line_search: self.line_search,
             relax: self.relax,
+            if_free: self.if_free,
             rehearse: false,
         }
     }

@@ -6,7 +6,7 @@ use crate::Error;
 use crate::contact::{PointRecord, PointStatus, second_name};
 use crate::declare::Variable;
 use crate::mesh::Space;
-use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::output::{Frame, Place, Quantity, Reading, Unit, Width};
 use crate::system::History;
 use crate::tensor::Vec3;
 
@@ -17,6 +17,25 @@ struct Seen<'a> {
     reference: Vec<Vec3>,
     records: Vec<PointRecord>,
     history: &'a History,
+}
+
+impl Seen<'_> {
+    /// A reading of this contact.
+    fn reading(&self, figure: &'static str, value: f64) -> Reading {
+        Reading::new(figure, format!("contact '{}'", self.name), value)
+    }
+    /// The points that are closed.
+    fn closed(&self) -> impl Iterator<Item = &PointRecord> {
+        self.records.iter().filter(|record| record.status != PointStatus::Open)
+    }
+    /// Hands in the largest reading over the closed points, and where it is.
+    fn certify_largest(&self, frame: &mut Frame, figure: &'static str, of: impl Fn(&PointRecord) -> f64) {
+        let largest =
+            self.closed().map(|record| (of(record), record.position)).reduce(|a, b| if b.0 > a.0 { b } else { a });
+        if let Some((value, position)) = largest {
+            frame.certify(self.reading(figure, value.max(0.0)).at(position));
+        }
+    }
 }
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
@@ -36,9 +55,17 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         let second = second_name(first.name);
         if let Some(second) = all.iter().find(|other| other.name == second && other.contact.loads_itself()) {
             let name = format!("contact.{}.mismatch", first.name);
-            frame.push(Quantity::scalar(name, Unit::One, mismatch(first, second)))?;
+            let apart = mismatch(first, second);
+            frame.push(Quantity::scalar(name, Unit::One, apart))?;
+            frame.certify(first.reading("mismatch", apart));
             let name = format!("contact.{}.imbalance", first.name);
-            frame.push(Quantity::scalar(name, Unit::One, imbalance(source, first, second)))?;
+            let (left, larger) = imbalance(source, first, second);
+            frame.push(Quantity::scalar(name, Unit::One, if larger > 0.0 { left / larger } else { 0.0 }))?;
+            frame.certify(first.reading("imbalance", left).over(larger));
+            if source.parts.space != Space::Axisymmetric {
+                let (left, scale) = couple(first, Some(second));
+                frame.certify(first.reading("moment_imbalance", left).over(scale));
+            }
         }
     }
     Ok(())
@@ -54,16 +81,60 @@ fn mismatch(first: &Seen, second: &Seen) -> f64 {
     if one + other > 0.0 { 2.0 * (one - other).abs() / (one + other) } else { 0.0 }
 }
 
-/// What the forces on the two sides of a contact leave over, relative to the larger.
-fn imbalance(source: &Source, first: &Seen, second: &Seen) -> f64 {
+/// What the forces on the two sides of a contact leave over, and the larger of them.
+fn imbalance(source: &Source, first: &Seen, second: &Seen) -> (f64, f64) {
     // Radial forces of a full circumference have no sum.
     let radial = source.parts.space == Space::Axisymmetric;
     let [one, other] = [first, second].map(|seen| {
         let sum = seen.records.iter().fold(Vec3::zero(), |sum, record| sum + record.force());
         if radial { Vec3::new(0.0, sum[1], 0.0) } else { sum }
     });
-    let larger = one.norm().max(other.norm());
-    if larger > 0.0 { (one + other).norm() / larger } else { 0.0 }
+    ((one + other).norm(), one.norm().max(other.norm()))
+}
+
+/// Force and middle of what the closed points of a contact bear, the middle weighed by the forces.
+fn resultant(seen: &Seen) -> (f64, Vec3) {
+    let force = || seen.closed().map(|record| (record.force().norm(), record.position));
+    let total: f64 = force().map(|(force, _)| force).sum();
+    let middle = force().fold(Vec3::zero(), |sum, (force, x)| sum + x * force) * total.recip();
+    (total, middle)
+}
+
+/// The moment that the forces of a contact and those on its target leave over, and the largest that they could make: all
+/// forces at the ends of the contact. The target bears the forces of its own points, or those of the surface where their
+/// rays meet it.
+fn couple(first: &Seen, second: Option<&Seen>) -> (f64, f64) {
+    let (total, middle) = resultant(first);
+    let extent = first.closed().map(|record| (record.position - middle).norm()).fold(0.0, f64::max);
+    let about = |seen: &Seen| {
+        let moment = |record: &PointRecord| (record.position - middle).cross(record.force());
+        seen.closed().fold(Vec3::zero(), |sum, record| sum + moment(record))
+    };
+    let across = |record: &PointRecord| (record.inward * -record.penetration).cross(record.force());
+    let left = match second {
+        Some(second) => about(first) + about(second),
+        None => first.closed().fold(Vec3::zero(), |sum, record| sum + across(record)),
+    };
+    (left.norm(), total * extent)
+}
+
+/// By how much the shear force of a contact differs from what its law allows, both resolved on the normals of the target,
+/// over the points that slip; and that shear force. Where the law allows none, the shear force itself and the normal one.
+///
+/// The stress at a point follows the normal of its own edge or face. Where that is not the one of what it touches, the
+/// ratio of shear to pressure there is not the one of the law.
+fn friction(seen: &Seen, plane: bool) -> Option<(f64, f64)> {
+    let (mut excess, mut limit, mut thrust, mut shear) = (0.0, 0.0, 0.0, Vec3::zero());
+    for record in seen.closed().filter(|record| record.status == PointStatus::Slip && record.pressure > 0.0) {
+        let (force, normal) = (record.force(), record.facing);
+        let pressing = force.dot(normal);
+        let tangential = force - normal * pressing;
+        let allowed = record.shear.abs() / record.pressure * pressing;
+        (excess, limit, thrust) = (excess + tangential.norm() - allowed, limit + allowed, thrust + pressing);
+        // Along a curved target of the plane its tangents are one direction.
+        shear += if plane { Vec3::new(force.dot(normal.left()), 0.0, 0.0) } else { tangential };
+    }
+    if limit > 0.0 { Some((excess.abs(), limit)) } else { (thrust > 0.0).then(|| (shear.norm(), thrust)) }
 }
 
 fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
@@ -135,7 +206,8 @@ fn values_of(variable: &Variable, all: &[Seen]) -> Quantity {
 }
 
 fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(), Error> {
-    let closed = || seen.records.iter().filter(|record| record.status != PointStatus::Open);
+    certify(source, seen, frame);
+    let closed = || seen.closed();
     let sum = |of: &dyn Fn(&PointRecord) -> Vec3| closed().fold(Vec3::zero(), |sum, record| sum + of(record));
     let total = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).sum::<f64>();
     let most = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).fold(0.0, f64::max);
@@ -152,6 +224,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     // With two passes each side counts half of the energy of the interface.
     let share = seen.contact.share();
     let least = closed().map(|r| r.last_dissipated * r.area).reduce(f64::min).unwrap_or(0.0);
+    let refused = seen.contact.false_contacts(&source.state.u) as f64;
     let scalars = [
         ("area", Unit::Area, total(&|r| r.area)),
         ("thrust", Unit::Force, thrust),
@@ -163,8 +236,9 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("dissipation", Unit::Energy, share * seen.records.iter().map(|r| r.dissipated * r.area).sum::<f64>()),
         ("least_dissipation", Unit::Energy, least),
         ("coulomb_violation", Unit::One, most(&|r| r.violation)),
-        ("false_contacts", Unit::One, seen.contact.false_contacts(&source.state.u) as f64),
+        ("false_contacts", Unit::One, refused),
     ];
+    frame.certify(seen.reading("rejected_false_contacts", refused));
     let name = |what: &str| format!("contact.{}.{what}", seen.name);
     for (what, unit, width, value) in vectors {
         frame.push(Quantity::new(name(what), unit, Place::Global, width, value.0.to_vec()))?;
@@ -176,8 +250,34 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
         ("nodal_penetration", seen.contact.nodal_penetration(u, history)),
         ("facet_mismatch", seen.contact.facet_mismatch(u, history)),
     ];
-    let mut present = sometimes.into_iter().filter_map(|(what, value)| Some((what, value?)));
-    present.try_for_each(|(what, value)| frame.push(Quantity::scalar(name(what), Unit::One, value)))
+    for (what, value) in sometimes.into_iter().filter_map(|(what, value)| Some((what, value?))) {
+        frame.push(Quantity::scalar(name(what), Unit::One, value))?;
+        frame.certify(seen.reading(what, value));
+    }
+    Ok(())
+}
+
+/// The readings at the points of a contact.
+fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
+    let length = |record: &PointRecord| edge_length(source, seen.contact, record.edge);
+    seen.certify_largest(frame, "max_penetration", |record| record.penetration);
+    seen.certify_largest(frame, "max_penetration_relative", |record| record.penetration / length(record));
+    if let Some(sample) = seen.contact.sampled(&source.state.u, seen.history) {
+        let relative = sample.penetration / edge_length(source, seen.contact, sample.edge);
+        frame.certify(seen.reading("sampled_penetration", relative).at(sample.position));
+    }
+    seen.certify_largest(frame, "coulomb_violation", |record| record.violation);
+    if let Some((apart, scale)) = friction(seen, source.is_plane()) {
+        frame.certify(seen.reading("friction_deviation", apart).over(scale));
+    }
+    if !seen.contact.loads_itself() && source.parts.space != Space::Axisymmetric {
+        let (left, scale) = couple(seen, None);
+        frame.certify(seen.reading("moment_imbalance", left).over(scale));
+    }
+    frame.certify(seen.reading("closed_points", seen.closed().count() as f64));
+    if let Some(least) = seen.closed().map(|record| record.last_dissipated * record.area).reduce(f64::min) {
+        frame.certify(seen.reading("least_dissipation", least));
+    }
 }
 
 /// Present distance between the ends of an edge of the surface.

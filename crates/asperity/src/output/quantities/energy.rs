@@ -3,7 +3,7 @@
 
 use super::Source;
 use crate::Error;
-use crate::output::{Frame, Quantity, Unit};
+use crate::output::{Frame, Quantity, Reading, Unit};
 use crate::system::Energies;
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
@@ -32,9 +32,13 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         ("energy.released", source.state.released),
         ("energy.residue", all.residue),
     ];
+    let largest =
+        entries.iter().filter(|entry| entry.0 != "energy.residue").fold(0.0, |most: f64, e| most.max(e.1.abs()));
     for (name, value) in entries {
         frame.push(Quantity::scalar(name, Unit::Energy, value))?;
     }
     let missing = source.state.external_work - all.taken() - source.state.released;
+    frame.certify(Reading::new("energy_balance", "", missing.abs()).over(largest));
+    frame.certify(Reading::new("hypoelastic_residue", "", all.residue.abs()).over(largest));
     frame.push(Quantity::scalar("energy.missing", Unit::Energy, missing))
 }

@@ -1,31 +1,43 @@
 //! Equilibrium of the whole: what holds the supports and tools, what acts, and what is left over. The sum of all forces
-//! on supports, tools and from loads is the sum of the unbalanced forces of the free nodes, up to its sign.
+//! on supports, tools and from loads is the sum of the unbalanced forces of the free nodes, up to its sign, where the two
+//! sides of every contact bear the same force.
 
 use super::Source;
 use crate::Error;
 use crate::mesh::Space;
-use crate::output::{Frame, Quantity, Unit};
+use crate::output::{Frame, Quantity, Reading, Unit};
+use std::ops::Range;
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    let dofs = source.parts.dofs;
+    let (state, dofs) = (source.state, source.parts.dofs);
     let reactions: Vec<f64> = (0..dofs.count()).map(|dof| source.reaction(dof)).collect();
     let unbalanced = unbalanced(source, &reactions);
-    // Radial forces of a full circumference have no sum.
-    let axes = if source.parts.space == Space::Axisymmetric { 1..2 } else { 0..dofs.per_node() };
-    let along = |axis: usize| {
-        let nodes = (0..dofs.nodes()).map(move |node| dofs.node(node) + axis);
-        nodes.chain((0..dofs.tools()).map(move |tool| dofs.tool(tool) + axis))
-    };
-    // Where nothing is loaded yet, the yardstick of the iterations stands for the forces.
-    let (mut left, mut largest) = (0.0f64, source.state.reference[0]);
-    for axis in axes {
-        left = left.max(along(axis).map(|dof| unbalanced[dof]).sum::<f64>().abs());
-        let forces = |dof: usize| reactions[dof].abs().max(source.state.load[dof].abs());
-        largest = largest.max(along(axis).map(forces).sum());
+    let forces: Vec<f64> = reactions.iter().zip(&state.load).map(|(r, load)| r.abs().max(load.abs())).collect();
+    let largest = |of: &[f64]| axes(source).map(|axis| sum(source, of, axis).abs()).fold(0.0, f64::max);
+    let (left, in_play) = (largest(&unbalanced), largest(&forces).max(state.in_play[0]));
+    // Where no force is in play, what rounding leaves is out of no balance.
+    let part = |left: f64| if state.in_play[0] > 0.0 { left / in_play } else { 0.0 };
+    let scale = if state.in_play[0] > 0.0 { in_play } else { 0.0 };
+    frame.certify(Reading::new("leap", "", state.leap));
+    frame.certify(Reading::new("equilibrium_error", "", left).over(scale));
+    // Springs pull on the ground, which is no support.
+    if source.parts.springs.is_empty() {
+        frame.certify(Reading::new("reaction_balance", "", largest(&state.internal)).over(scale));
     }
-    let error = if largest > 0.0 { left / largest } else { 0.0 };
-    frame.push(Quantity::scalar("equilibrium.leap", Unit::One, source.state.leap))?;
-    frame.push(Quantity::scalar("equilibrium.error", Unit::One, error))
+    frame.push(Quantity::scalar("equilibrium.leap", Unit::One, state.leap))?;
+    frame.push(Quantity::scalar("equilibrium.error", Unit::One, part(left)))
+}
+
+/// The axes along which forces have a sum: radial forces of a full circumference have none.
+fn axes(source: &Source) -> Range<usize> {
+    if source.parts.space == Space::Axisymmetric { 1..2 } else { 0..source.parts.dofs.per_node() }
+}
+
+/// Sum of forces along an axis over all nodes and tools.
+fn sum(source: &Source, forces: &[f64], axis: usize) -> f64 {
+    let dofs = source.parts.dofs;
+    let nodes = (0..dofs.nodes()).map(|node| dofs.node(node) + axis);
+    nodes.chain((0..dofs.tools()).map(|tool| dofs.tool(tool) + axis)).map(|dof| forces[dof]).sum()
 }
 
 /// What is left over on the free unknowns, on those that follow others included; zero elsewhere.

@@ -5,6 +5,7 @@ mod contact;
 mod energy;
 mod equilibrium;
 mod hourglass;
+mod interpenetration;
 mod nodes;
 mod reactions;
 mod small_strain;
@@ -74,6 +75,7 @@ static ALL: &[Report] = &[
     tools::report,
     energy::report,
     equilibrium::report,
+    interpenetration::report,
     hourglass::report,
     small_strain::report,
 ];

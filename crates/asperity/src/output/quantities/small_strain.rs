@@ -2,12 +2,13 @@
 
 use super::Source;
 use crate::Error;
-use crate::output::{Frame, Quantity, Unit};
+use crate::output::{Frame, Quantity, Reading, Unit};
 use crate::system::Term;
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     for (_, body) in &source.parts.bodies {
         if let Some(gradient) = body.largest_gradient(&source.state.u) {
+            frame.certify(Reading::new("small_strain", format!("body '{}'", body.name()), gradient));
             frame.push(Quantity::scalar(format!("small_strain.{}", body.name()), Unit::One, gradient))?;
         }
     }

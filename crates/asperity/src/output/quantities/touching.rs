@@ -1,7 +1,7 @@
 //! Contacts of every kind under one roof, for reports.
 
 use crate::contact::field::FieldContact;
-use crate::contact::{Contact, ContactOptions, PointRecord, space};
+use crate::contact::{Contact, ContactOptions, PointRecord, Sample, space};
 use crate::declare::Variable;
 use crate::system::{History, Term};
 use crate::tensor::Vec3;
@@ -64,6 +64,14 @@ impl Touching<'_> {
             Self::Plane(contact) => contact.search(u).1.total(),
             Self::Solid(contact) => contact.search(u).1.total(),
             Self::Field(_) => 0,
+        }
+    }
+    /// The deepest place of the surface between its points.
+    pub fn sampled(&self, u: &[f64], history: &History) -> Option<Sample> {
+        match self {
+            Self::Plane(contact) => contact.sampled(u, history),
+            Self::Solid(contact) => contact.sampled(u, history),
+            Self::Field(_) => None,
         }
     }
     /// Whether its target carries points of its own: one of two passes.

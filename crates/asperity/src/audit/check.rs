@@ -1,0 +1,495 @@
+//! The check of a state: all pairs of wholes, tools and the axis, each point of one against the boundary of the other.
+
+use super::hierarchy::{bounds, meet};
+use super::inside::{Way, depth, is_inside};
+use super::rigid::Rigid;
+use super::surface::{Placed, Surface};
+use crate::Failure;
+use crate::mesh::Mesh;
+use crate::system::{Dofs, History, Interpenetration};
+use crate::tensor::Vec3;
+use std::sync::{Arc, OnceLock};
+
+/// What a contact claims, in the words of the audit.
+pub struct Claim {
+    /// Nodes of its surface.
+    pub surface: Vec<usize>,
+    /// Nodes of its target, or the number of a tool.
+    pub target: Result<Vec<usize>, usize>,
+    /// The term that it is.
+    pub term: usize,
+    /// The largest penetration that it reports of a state, from its history; a length.
+    pub penetration: Box<dyn Fn(&History) -> f64 + Send + Sync>,
+}
+
+/// What is audited.
+pub struct Subject {
+    /// The mesh.
+    pub mesh: Arc<Mesh>,
+    /// The numbering of the unknowns.
+    pub dofs: Dofs,
+    /// Whether `x = 0` is an axis that nothing may cross.
+    pub axisymmetric: bool,
+    /// Names and cells of the bodies.
+    pub bodies: Vec<(String, Vec<usize>)>,
+    /// The tools in the plane, in the order of their unknowns.
+    pub tools: Vec<Arc<crate::tool::Tool>>,
+    /// The tools in space, in the order of their unknowns.
+    pub solid_tools: Vec<Arc<crate::tool::space::Tool>>,
+    /// The contacts.
+    pub claims: Vec<Claim>,
+    /// Size of the smallest cell, a length.
+    pub cell_size: f64,
+    /// An increment is refused above this interpenetration, over the size of the cell: between what no contact is declared
+    /// for, and
+    pub limit: f64,
+    /// between the two sides of a contact, which bears its points and leaves a part of a cell between and beyond them.
+    pub contact_limit: f64,
+}
+
+/// The audit of a model.
+pub struct Audit {
+    subject: Subject,
+    prepared: OnceLock<Prepared>,
+}
+
+/// What follows from the undeformed model, found at the first check.
+struct Prepared {
+    surfaces: Vec<Surface>,
+    tools: Vec<Rigid>,
+    /// For each contact the pairs that it is about.
+    claimed: Vec<Vec<usize>>,
+    /// For each pair the depth before any motion, a length.
+    initial: Vec<f64>,
+    /// For each pair whether a contact knows of it.
+    known: Vec<bool>,
+}
+
+/// What a whole may lie in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Other {
+    Whole(usize),
+    Tool(usize),
+    Axis,
+}
+
+/// One point that lies where it must not, or came through.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    own: usize,
+    other: Other,
+    /// Bodies of the two sides, by number.
+    bodies: [usize; 2],
+    depth: f64,
+    /// What the shape of the two sides explains.
+    sagitta: f64,
+    size: f64,
+    place: Vec3,
+    through: bool,
+}
+
+/// The worst so far, and how bad it is.
+type Worst = Option<(f64, Found)>;
+
+/// A state between the accepted unknowns and new ones, with what explains depth between pairs.
+struct Look<'a> {
+    subject: &'a Subject,
+    prepared: &'a Prepared,
+    placed: Vec<Placed<'a>>,
+    accepted: &'a [f64],
+    u: &'a [f64],
+    /// For each pair the depth that contacts report.
+    reported: Vec<f64>,
+}
+
+/// Straight parts into which the way of a point is divided.
+const STEPS: usize = 4;
+
+impl Audit {
+    /// Of a model; nothing is computed before the first check.
+    pub fn new(subject: Subject) -> Self {
+        Self { subject, prepared: OnceLock::new() }
+    }
+
+    /// What of the state at `u`, with histories of the terms, lies where it must not, or came through something on the way
+    /// from the accepted unknowns.
+    ///
+    /// # Errors
+    /// A [`Failure`] when the interpenetration exceeds the limit.
+    pub fn check(&self, accepted: &[f64], u: &[f64], histories: &[History]) -> Result<Interpenetration, Failure> {
+        let prepared = self.prepared();
+        let mut reported = vec![0.0_f64; prepared.initial.len()];
+        for (claim, pairs) in self.subject.claims.iter().zip(&prepared.claimed) {
+            let most = histories.get(claim.term).map_or(0.0, |history| (claim.penetration)(history));
+            pairs.iter().for_each(|&pair| reported[pair] = reported[pair].max(most));
+        }
+        self.look(prepared, accepted, u, reported).verdict()
+    }
+
+    fn look<'a>(&'a self, prepared: &'a Prepared, accepted: &'a [f64], u: &'a [f64], reported: Vec<f64>) -> Look<'a> {
+        let model = (self.subject.mesh.as_ref(), &self.subject.dofs);
+        let placed = prepared.surfaces.iter().map(|surface| surface.place(model, accepted, u)).collect();
+        Look { subject: &self.subject, prepared, placed, accepted, u, reported }
+    }
+
+    fn prepared(&self) -> &Prepared {
+        self.prepared.get_or_init(|| {
+            let mut prepared = Prepared::new(&self.subject);
+            let still = vec![0.0; self.subject.dofs.count()];
+            let mut initial = vec![0.0_f64; prepared.initial.len()];
+            let look = self.look(&prepared, &still, &still, initial.clone());
+            look.find(&mut |found| {
+                let depth = &mut initial[prepared.pair(found.own, found.other)];
+                *depth = depth.max(found.depth - found.sagitta);
+            });
+            drop(look);
+            prepared.initial = initial;
+            prepared
+        })
+    }
+}
+
+impl Prepared {
+    fn new(subject: &Subject) -> Self {
+        let (mesh, dofs) = (&subject.mesh, &subject.dofs);
+        let plane = dofs.per_node() == 2;
+        let surfaces = surfaces(subject, plane);
+        let cell = subject.cell_size;
+        let flat = subject.tools.iter().enumerate().map(|(i, tool)| Rigid::plane(tool, i, dofs, cell));
+        let solid = subject.solid_tools.iter().enumerate().map(|(i, tool)| Rigid::space(tool, i, dofs, cell));
+        let tools: Vec<Rigid> = flat.chain(solid).collect();
+        let mut whole = vec![usize::MAX; mesh.points.len()];
+        for (i, surface) in surfaces.iter().enumerate() {
+            surface.nodes.iter().for_each(|&node| whole[node] = i);
+        }
+        let pairs = surfaces.len() * (surfaces.len() + tools.len() + 1);
+        let mut prepared =
+            Self { surfaces, tools, claimed: Vec::new(), initial: vec![0.0; pairs], known: vec![false; pairs] };
+        prepared.claimed = subject.claims.iter().map(|claim| prepared.pairs_of(claim, &whole)).collect();
+        let known: Vec<usize> = prepared.claimed.iter().flatten().copied().collect();
+        known.into_iter().for_each(|pair| prepared.known[pair] = true);
+        prepared
+    }
+
+    /// The number of a pair, which has no order.
+    fn pair(&self, own: usize, other: Other) -> usize {
+        let wholes = self.surfaces.len();
+        let (own, other) = match other {
+            Other::Whole(other) => (own.min(other), own.max(other)),
+            Other::Tool(tool) => (own, wholes + tool),
+            Other::Axis => (own, wholes + self.tools.len()),
+        };
+        own * (wholes + self.tools.len() + 1) + other
+    }
+
+    fn pairs_of(&self, claim: &Claim, whole: &[usize]) -> Vec<usize> {
+        let wholes = |nodes: &[usize]| {
+            let mut all: Vec<usize> = nodes.iter().map(|&node| whole[node]).filter(|&w| w != usize::MAX).collect();
+            all.sort_unstable();
+            all.dedup();
+            all
+        };
+        let others: Vec<Other> = match &claim.target {
+            Ok(nodes) => wholes(nodes).into_iter().map(Other::Whole).collect(),
+            Err(tool) => vec![Other::Tool(*tool)],
+        };
+        let own = wholes(&claim.surface);
+        own.iter().flat_map(|&own| others.iter().map(move |&other| self.pair(own, other))).collect()
+    }
+}
+
+/// The boundaries of what hangs together by nodes.
+fn surfaces(subject: &Subject, plane: bool) -> Vec<Surface> {
+    let mesh = &subject.mesh;
+    let mut body = vec![usize::MAX; mesh.cell_count()];
+    for (i, (_, cells)) in subject.bodies.iter().enumerate() {
+        cells.iter().for_each(|&cell| body[cell] = i);
+    }
+    let mut leader: Vec<usize> = (0..mesh.points.len()).collect();
+    let cells = || (0..mesh.cell_count()).filter(|&cell| body[cell] != usize::MAX);
+    for cell in cells() {
+        let nodes = mesh.cell(cell).nodes;
+        let first = nodes.iter().map(|&node| lead(&mut leader, node)).fold(usize::MAX, usize::min);
+        for &node in nodes {
+            let end = lead(&mut leader, node);
+            leader[end] = first;
+        }
+    }
+    let mut wholes: Vec<(usize, usize)> =
+        cells().map(|cell| (lead(&mut leader, mesh.cell(cell).nodes[0]), cell)).collect();
+    wholes.sort_unstable();
+    let whole = |run: &[(usize, usize)]| {
+        let cells: Vec<usize> = run.iter().map(|(_, cell)| *cell).collect();
+        Surface::new(mesh, &cells, &|cell| body[cell], plane)
+    };
+    wholes.chunk_by(|a, b| a.0 == b.0).map(whole).collect()
+}
+
+/// The node that stands for all which hang together with this one.
+fn lead(leader: &mut [usize], node: usize) -> usize {
+    let mut end = node;
+    while leader[end] != end {
+        end = leader[end];
+    }
+    leader[node] = end;
+    end
+}
+
+impl Look<'_> {
+    /// Shows every point that lies behind a boundary or came through one.
+    fn find(&self, found: &mut dyn FnMut(Found)) {
+        for own in 0..self.placed.len() {
+            self.in_itself(own, found);
+            self.beyond_axis(own, found);
+            for other in (0..self.placed.len()).filter(|&other| other != own) {
+                self.in_other(own, other, found);
+            }
+            for tool in 0..self.prepared.tools.len() {
+                self.in_tool(own, tool, found);
+                self.pierced(own, tool, found);
+            }
+        }
+    }
+
+    /// How far a point may lie below a piece and still rest on it.
+    fn near(&self, own: usize, other: Other, size: f64, sagitta: f64) -> f64 {
+        let pair = self.prepared.pair(own, other);
+        self.reported[pair] + self.prepared.initial[pair] + sagitta + self.limit(pair) * size
+    }
+
+    fn limit(&self, pair: usize) -> f64 {
+        if self.prepared.known[pair] { self.subject.contact_limit } else { self.subject.limit }
+    }
+
+    fn in_other(&self, own: usize, other: usize, found: &mut dyn FnMut(Found)) {
+        let (a, b) = (&self.placed[own], &self.placed[other]);
+        if !meet(&a.swept, &b.swept) {
+            return;
+        }
+        for vertex in 0..a.surface.len() {
+            let (from, to) = (a.before[vertex], a.now[vertex]);
+            if !meet(&bounds([from, to]), &b.swept) {
+                continue;
+            }
+            let mut report = |depth: f64, piece: usize, through: bool| {
+                let sagitta = a.sagitta_at(vertex) + b.sagitta_of(piece);
+                let size = a.size_at(vertex).min(b.size_of(piece));
+                let bodies = [a.surface.body_at(vertex), b.surface.body_of(piece)];
+                let other = Other::Whole(other);
+                found(Found { own, other, bodies, depth, sagitta, size, place: to, through });
+            };
+            if meet(&[to, to], &b.bounds) {
+                let deep = depth(&b.tree, to, (f64::INFINITY, false), &|_, _| true);
+                let truly = |piece: usize| is_inside(&b.tree, b.bounds, (to, b.normals[piece]), &|_| true);
+                if let Some(deep) = deep.filter(|deep| truly(deep.piece)) {
+                    report(deep.depth, deep.piece, false);
+                }
+            }
+            let (at, piece) = (|part| a.at(vertex, part), |number, part| b.piece_at(number, part));
+            let near = self.near(own, Other::Whole(other), a.size_at(vertex), a.sagitta_at(vertex));
+            let way = Way { at: &at, piece: &piece, steps: STEPS, near };
+            if let Some(passage) = way.passage(&b.tree, &|_| true) {
+                report(passage.depth, passage.piece, true);
+            }
+        }
+    }
+
+    fn in_itself(&self, own: usize, found: &mut dyn FnMut(Found)) {
+        let a = &self.placed[own];
+        for (vertex, normal) in a.vertex_normals().into_iter().enumerate() {
+            let place = a.now[vertex];
+            let far = |piece: usize| !a.surface.is_near(vertex, piece);
+            let mut report = |depth: f64, piece: usize, through: bool| {
+                let sagitta = a.sagitta_at(vertex) + a.sagitta_of(piece);
+                let size = a.size_at(vertex).min(a.size_of(piece));
+                let bodies = [a.surface.body_at(vertex), a.surface.body_of(piece)];
+                let other = Other::Whole(own);
+                found(Found { own, other, bodies, depth, sagitta, size, place, through });
+            };
+            if is_inside(&a.tree, a.bounds, (place, normal), &|piece| !a.surface.touches(vertex, piece)) {
+                let facing = |piece: usize| far(piece) && a.normals[piece].dot(normal) < 0.0;
+                if let Some(deep) = depth(&a.tree, place, (f64::INFINITY, false), &|piece, _| facing(piece)) {
+                    report(deep.depth, deep.piece, false);
+                }
+            }
+            let (at, piece) = (|part| a.at(vertex, part), |number, part| a.piece_at(number, part));
+            let near = self.near(own, Other::Whole(own), a.size_at(vertex), a.sagitta_at(vertex));
+            let way = Way { at: &at, piece: &piece, steps: STEPS, near };
+            if let Some(passage) = way.passage(&a.tree, &far) {
+                report(passage.depth, passage.piece, true);
+            }
+        }
+    }
+
+    fn beyond_axis(&self, own: usize, found: &mut dyn FnMut(Found)) {
+        let a = &self.placed[own];
+        if !self.subject.axisymmetric || a.bounds[0][0] >= 0.0 {
+            return;
+        }
+        for (vertex, &place) in a.now.iter().enumerate().filter(|(_, x)| x[0] < 0.0) {
+            let body = a.surface.body_at(vertex);
+            let size = a.size_at(vertex);
+            let (other, bodies) = (Other::Axis, [body, body]);
+            found(Found { own, other, bodies, depth: -place[0], sagitta: 0.0, size, place, through: false });
+        }
+    }
+
+    fn in_tool(&self, own: usize, number: usize, found: &mut dyn FnMut(Found)) {
+        let (a, tool) = (&self.placed[own], &self.prepared.tools[number]);
+        let other = Other::Tool(number);
+        let pair = self.prepared.pair(own, other);
+        // A profile without an inside has a side on which nothing is meant to be that began on the other.
+        if !tool.closed && self.prepared.initial[pair] > 0.0 && !self.prepared.known[pair] {
+            return;
+        }
+        let steps = STEPS.max(tool.turns(self.accepted, self.u));
+        let poses: Vec<_> = (0..=steps).map(|i| tool.pose(self.accepted, self.u, i as f64 / steps as f64)).collect();
+        for (vertex, &place) in a.now.iter().enumerate() {
+            let (size, sagitta) = (a.size_at(vertex), a.sagitta_at(vertex) + tool.sagitta);
+            let body = a.surface.body_at(vertex);
+            let mut report = |depth: f64, bulge: f64, through: bool| {
+                let sagitta = sagitta + bulge;
+                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place, through });
+            };
+            let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
+            let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
+            let here = path[steps];
+            if meet(&[here, here], &tool.bounds) {
+                let most = if tool.closed { f64::INFINITY } else { size };
+                let deep = depth(&tool.tree, here, (most, !tool.closed), &|_, _| true);
+                let truly = |piece: usize| {
+                    let out = tool.pieces[piece].direction();
+                    !tool.closed || is_inside(&tool.tree, tool.bounds, (here, out), &|_| true)
+                };
+                if let Some(deep) = deep.filter(|deep| truly(deep.piece)) {
+                    // Only a contact bears points, and lies in the tool between them.
+                    let bears = self.prepared.known[pair];
+                    let bulge = if bears { tool.bulge(here, deep.piece, a.length_at(vertex)) } else { 0.0 };
+                    report(deep.depth, bulge, false);
+                }
+            }
+            self.through_tool(&path, tool, self.near(own, other, size, sagitta), &mut report);
+        }
+    }
+
+    /// Reports a point that came through a tool: a thin one, or from behind.
+    fn through_tool(&self, path: &[Vec3], tool: &Rigid, near: f64, report: &mut dyn FnMut(f64, f64, bool)) {
+        if !meet(&bounds(path.iter().copied()), &tool.bounds) {
+            return;
+        }
+        let (at, piece) = (|part| along(path, part), |number: usize, _| tool.pieces[number]);
+        let way = Way { at: &at, piece: &piece, steps: path.len() - 1, near };
+        if let Some(passage) = way.passage(&tool.tree, &|_| true) {
+            report(passage.depth, 0.0, true);
+        }
+    }
+
+    /// Points of a tool in a body, or through it.
+    fn pierced(&self, own: usize, number: usize, found: &mut dyn FnMut(Found)) {
+        let (a, tool) = (&self.placed[own], &self.prepared.tools[number]);
+        let other = Other::Tool(number);
+        let poses: Vec<_> = (0..=STEPS).map(|i| tool.pose(self.accepted, self.u, i as f64 / STEPS as f64)).collect();
+        for &(point, curvature) in &tool.points {
+            let path: Vec<Vec3> = poses.iter().map(|pose| tool.place(pose, point)).collect();
+            let here = path[STEPS];
+            if !meet(&bounds(path.iter().copied()), &a.swept) {
+                continue;
+            }
+            let mut report = |depth: f64, piece: usize, through: bool| {
+                let size = a.size_of(piece);
+                // Between the points of a contact the nose of a tool lies in a straight side by its sagitta.
+                let length = a.length_of(piece);
+                let bears = f64::from(u8::from(self.prepared.known[self.prepared.pair(own, other)]));
+                let nose = bears * (curvature * length * length / 8.0).min(0.5 * length);
+                let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
+                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place: here, through });
+            };
+            if meet(&[here, here], &a.bounds) {
+                let deep = depth(&a.tree, here, (f64::INFINITY, false), &|_, _| true);
+                let truly = |piece: usize| is_inside(&a.tree, a.bounds, (here, a.normals[piece]), &|_| true);
+                if let Some(deep) = deep.filter(|deep| truly(deep.piece)) {
+                    report(deep.depth, deep.piece, false);
+                }
+            }
+            let (at, piece) = (|part| along(&path, part), |number, part| a.piece_at(number, part));
+            let way =
+                Way { at: &at, piece: &piece, steps: STEPS, near: self.near(own, other, self.subject.cell_size, 0.0) };
+            if let Some(passage) = way.passage(&a.tree, &|_| true) {
+                report(passage.depth, passage.piece, true);
+            }
+        }
+    }
+
+    /// The worst of all, refused where it exceeds the limit and was not there before any motion.
+    fn verdict(&self) -> Result<Interpenetration, Failure> {
+        let (mut worst, mut refused): (Worst, Worst) = (None, None);
+        self.find(&mut |found| {
+            let pair = self.prepared.pair(found.own, found.other);
+            let initial = self.prepared.initial[pair];
+            let known = if self.prepared.known[pair] { initial } else { 0.0 };
+            let beyond = |excused: f64| (found.depth - found.sagitta - self.reported[pair] - excused) / found.size;
+            keep(&mut worst, (beyond(known), found));
+            // What came through came through, whatever is left between the points of a contact.
+            let limit = if found.through { self.subject.limit } else { self.limit(pair) };
+            keep(&mut refused, (beyond(initial) / limit, found));
+        });
+        match refused.filter(|(part, _)| *part > 1.0) {
+            Some((_, found)) => Err(Failure::new(self.words(&found))),
+            None => Ok(worst
+                .filter(|(part, _)| *part > 0.0)
+                .map_or_else(Interpenetration::default, |(part, found)| self.describe(part, &found))),
+        }
+    }
+
+    fn names(&self, found: &Found) -> [String; 2] {
+        let body = |i: usize| format!("body '{}'", self.subject.bodies[i].0);
+        let other = match found.other {
+            Other::Whole(_) => body(found.bodies[1]),
+            Other::Tool(tool) => format!("tool '{}'", self.prepared.tools[tool].name),
+            Other::Axis => "the axis".into(),
+        };
+        [body(found.bodies[0]), other]
+    }
+
+    fn describe(&self, part: f64, found: &Found) -> Interpenetration {
+        Interpenetration {
+            relative: part.max(0.0),
+            depth: found.depth,
+            place: found.place.0,
+            pair: self.names(found),
+            increment: 0,
+        }
+    }
+
+    fn words(&self, found: &Found) -> String {
+        let ([own, other], Vec3([x, y, z])) = (self.names(found), found.place);
+        let place = if self.subject.dofs.per_node() == 2 {
+            format!("({x:.6}, {y:.6})")
+        } else {
+            format!("({x:.6}, {y:.6}, {z:.6})")
+        };
+        let part = found.depth / found.size;
+        match (found.other, found.through) {
+            (_, true) => format!("{own} passes through {other} at {place}, {part:.2} cells thick"),
+            (Other::Axis, _) => format!("{own} reaches {part:.2} cells beyond the axis at {place}"),
+            (Other::Whole(other), _) if other == found.own => {
+                format!("{own} lies {part:.2} cells deep in itself at {place}")
+            }
+            _ => format!("{own} lies {part:.2} cells deep in {other} at {place}"),
+        }
+    }
+}
+
+/// A place on a way that is straight between its points.
+fn along(path: &[Vec3], part: f64) -> Vec3 {
+    let scaled = part * (path.len() - 1) as f64;
+    let low = (scaled as usize).min(path.len() - 2);
+    path[low] + (path[low + 1] - path[low]) * (scaled - low as f64)
+}
+
+/// Keeps the larger; of equals the first.
+fn keep(worst: &mut Worst, new: (f64, Found)) {
+    if new.0.is_finite() && worst.is_none_or(|(old, _)| new.0 > old) {
+        *worst = Some(new);
+    }
+}

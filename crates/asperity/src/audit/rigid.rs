@@ -1,0 +1,183 @@
+//! Rigid tools as pieces in their own frame, and where they stand.
+
+use super::hierarchy::{Bounds, Hierarchy, bounds};
+use super::simplex::Simplex;
+use super::surface::CURVED;
+use crate::system::Dofs;
+use crate::tensor::Vec3;
+use crate::tool::space::Facet;
+use crate::tool::{self, Shape, Tool};
+
+/// A tool.
+#[derive(Debug)]
+pub struct Rigid {
+    /// The user's name for it.
+    pub name: String,
+    /// First of its unknowns.
+    first: usize,
+    plane: bool,
+    reference: Vec3,
+    /// Its surface, in its own frame.
+    pub tree: Hierarchy,
+    /// Its pieces, in its own frame.
+    pub pieces: Vec<Simplex>,
+    /// Points of its surface in its own frame, with the curvature there.
+    pub points: Vec<(Vec3, f64)>,
+    /// The box around it in its own frame.
+    pub bounds: Bounds,
+    /// Whether it has an inside.
+    pub closed: bool,
+    /// How far its pieces may lie from it.
+    pub sagitta: f64,
+}
+
+/// Where a tool stands.
+#[derive(Debug, Clone, Copy)]
+pub enum Pose {
+    /// In the plane.
+    Plane(tool::Pose),
+    /// In space.
+    Space(tool::space::Pose),
+}
+
+/// Sagitta of the pieces over the size of the smallest cell, but over the size of the tool at least
+const FINE: [f64; 2] = [1e-3, 5e-3];
+/// so much, in the plane and in space.
+const LEAST: [f64; 2] = [1e-8, 1e-4];
+/// Points of a tool are set with a sagitta of so many of the smallest cells,
+const SPARSE: f64 = 0.02;
+/// but no more than these parts a segment or along each direction of a facet.
+const MOST: usize = 64;
+/// Motion of a tool over an increment is followed in turns of no more than this angle.
+const TURN: f64 = 0.05;
+/// Most of them.
+const TURNS: f64 = 200.0;
+
+impl Rigid {
+    /// A tool in the plane, number `number`; `cell` is the size of the smallest cell.
+    pub fn plane(tool: &Tool, number: usize, dofs: &Dofs, cell: f64) -> Self {
+        let sagitta = (FINE[0] * cell).max(LEAST[0] * tool.size());
+        let flat = |shape: &dyn Shape, sagitta: f64| shape.flatten(sagitta);
+        let chords = |shape: &dyn Shape| -> Vec<Simplex> {
+            flat(shape, sagitta).windows(2).map(|ends| Simplex::segment(ends[0], ends[1])).collect()
+        };
+        let pieces: Vec<Simplex> = tool.segments().iter().flat_map(|shape| chords(shape.as_ref())).collect();
+        let points = tool.segments().iter().flat_map(|shape| points_of(shape.as_ref(), cell)).collect();
+        let closed = tool.chains().iter().all(|chain| chain.closed);
+        Self::new((tool.name(), tool.reference()), dofs.tool(number), true, pieces, points, (closed, sagitta))
+    }
+
+    /// A tool in space.
+    pub fn space(tool: &tool::space::Tool, number: usize, dofs: &Dofs, cell: f64) -> Self {
+        let sagitta = (FINE[1] * cell).max(LEAST[1] * tool.size());
+        let pieces: Vec<Simplex> = tool.facets().iter().flat_map(|facet| tiles(facet.as_ref(), sagitta)).collect();
+        let points = tool.facets().iter().flat_map(|facet| grid(facet.as_ref(), SPARSE * cell)).collect();
+        let open = |finding: &tool::space::Finding| matches!(finding, tool::space::Finding::OpenEdges(..));
+        let swept = tool.facets().iter().any(|facet| facet.corners().is_empty());
+        let closed = !swept && !tool.check().iter().any(open);
+        Self::new((tool.name(), tool.reference()), dofs.tool(number), false, pieces, points, (closed, sagitta))
+    }
+
+    fn new(
+        (name, reference): (&str, Vec3),
+        first: usize,
+        plane: bool,
+        pieces: Vec<Simplex>,
+        points: Vec<(Vec3, f64)>,
+        (closed, sagitta): (bool, f64),
+    ) -> Self {
+        let own = pieces.iter().map(|piece| (*piece, bounds(piece.corners)));
+        let tree = Hierarchy::new(plane, own);
+        let bounds = bounds(pieces.iter().flat_map(|piece| piece.corners));
+        Self { name: name.into(), first, plane, reference, tree, pieces, points, bounds, closed, sagitta }
+    }
+
+    /// Where it stands at a part of the way from the accepted unknowns to `u`.
+    pub fn pose(&self, accepted: &[f64], u: &[f64], part: f64) -> Pose {
+        let at = |i: usize| accepted[self.first + i] + (u[self.first + i] - accepted[self.first + i]) * part;
+        if self.plane {
+            Pose::Plane(tool::Pose::new(at(0), at(1), at(2)))
+        } else {
+            Pose::Space(tool::space::Pose::new(std::array::from_fn(at)))
+        }
+    }
+    /// Into how many parts its way is divided, so that it turns little in each.
+    pub fn turns(&self, accepted: &[f64], u: &[f64]) -> usize {
+        let angles = if self.plane { 2..3 } else { 3..6 };
+        let turn = |i: usize| (u[self.first + i] - accepted[self.first + i]).abs();
+        (angles.map(turn).sum::<f64>() / TURN).min(TURNS).ceil() as usize
+    }
+    /// How far a side of length `length` at `p` that the tool bears at some of its points may lie in it between and beyond them,
+    /// since its surface turns over that length: by an angle `t`, no farther than `t / 4` times the length.
+    pub fn bulge(&self, p: Vec3, piece: usize, length: f64) -> f64 {
+        let (own, reach) = (self.pieces[piece].direction(), Vec3([length; 3]));
+        let mut turn = 0.0_f64;
+        self.tree.within([p - reach, p + reach], &mut |_, other| {
+            let here = (other.direction() - own).norm();
+            if here < CURVED {
+                turn = turn.max(here);
+            }
+        });
+        0.25 * turn * length
+    }
+    /// Where a point in space stands in its own frame.
+    pub fn withdraw(&self, pose: &Pose, p: Vec3) -> Vec3 {
+        match pose {
+            Pose::Plane(pose) => pose.withdraw(self.reference, p),
+            Pose::Space(pose) => pose.withdraw(self.reference, p),
+        }
+    }
+    /// Where a point of its own frame stands in space.
+    pub fn place(&self, pose: &Pose, p: Vec3) -> Vec3 {
+        match pose {
+            Pose::Plane(pose) => pose.place(self.reference, p),
+            Pose::Space(pose) => pose.place(self.reference, p),
+        }
+    }
+}
+
+/// Points along a segment and its curvature at them.
+fn points_of(shape: &dyn Shape, cell: f64) -> Vec<(Vec3, f64)> {
+    let parts = shape.pieces(SPARSE * cell).clamp(1, MOST);
+    let s = |i: usize| i as f64 / parts as f64;
+    let turn = |i: usize| (shape.tangent(s(i + 1)).unit() - shape.tangent(s(i)).unit()).norm();
+    let chord = |i: usize| (shape.point(s(i + 1)) - shape.point(s(i))).norm();
+    let curvature = (0..parts).map(|i| turn(i) / chord(i)).fold(0.0, f64::max);
+    (0..=parts).map(|i| (shape.point(s(i)), curvature)).collect()
+}
+
+/// Points on a facet and its largest curvature.
+fn grid(facet: &dyn Facet, sagitta: f64) -> Vec<(Vec3, f64)> {
+    if !facet.corners().is_empty() {
+        return facet.corners().iter().map(|&corner| (corner, 0.0)).collect();
+    }
+    let [n, m] = facet.parts(sagitta).map(|parts| parts.clamp(1, MOST));
+    let s = |i: usize, j: usize| [i as f64 / n as f64, j as f64 / m as f64];
+    let bend = |a: [f64; 2], b: [f64; 2]| {
+        let far = (facet.point(b) - facet.point(a)).norm();
+        if far > 0.0 { (facet.normal(b) - facet.normal(a)).norm() / far } else { 0.0 }
+    };
+    let all = || (0..=n).flat_map(|i| (0..=m).map(move |j| (i, j)));
+    let bends = all().flat_map(|(i, j)| {
+        let along = (i < n).then(|| bend(s(i, j), s(i + 1, j)));
+        let across = (j < m).then(|| bend(s(i, j), s(i, j + 1)));
+        along.into_iter().chain(across)
+    });
+    let curvature = bends.filter(|bend| bend.is_finite()).fold(0.0, f64::max);
+    all().map(|(i, j)| (facet.point(s(i, j)), curvature)).collect()
+}
+
+/// Triangles nowhere much farther than `sagitta` from a facet.
+fn tiles(facet: &dyn Facet, sagitta: f64) -> Vec<Simplex> {
+    if let &[a, b, c] = facet.corners() {
+        return vec![Simplex::triangle([a, b, c])];
+    }
+    let [n, m] = facet.parts(sagitta);
+    let at = |i: usize, j: usize| facet.point([i as f64 / n as f64, j as f64 / m as f64]);
+    let both = |(i, j): (usize, usize)| {
+        let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[0, 1, 2], [0, 2, 3]].map(|three| Simplex::triangle(three.map(|k| corners[k])))
+    };
+    let all = (0..n).flat_map(|i| (0..m).map(move |j| (i, j))).flat_map(both);
+    all.filter(|tile| tile.normal().norm() > 0.0).collect()
+}

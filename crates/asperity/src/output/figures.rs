@@ -1,0 +1,121 @@
+//! The figures of the certificate, each declared once: what it is called, how the readings of many increments become one,
+//! and, where it has a limit, the limit's default, its words and what helps. To add one: its line in [`FIGURES`], and a
+//! report that hands in readings under its name (`Frame::certify`). Keys of a deck, manual, summary, screen and notes follow.
+
+/// A figure of the certificate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// Its name in `summary.json` and, where it has a limit, its key under `[limits]`.
+    pub name: &'static str,
+    /// What the screen and the notes call it.
+    pub words: &'static str,
+    /// How readings become one.
+    pub fold: Fold,
+    /// Beyond what a run is doubtful.
+    pub limit: Option<Limit>,
+}
+
+/// How the readings of several increments become one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fold {
+    /// The largest is the worst.
+    Largest,
+    /// The least is the worst.
+    Least,
+    /// They are counted together.
+    Sum,
+}
+
+/// The limit of a figure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// Its default, written as a deck would.
+    pub default: &'static str,
+    /// What the figure is, for the manual.
+    pub about: &'static str,
+    /// What helps where it is passed.
+    pub remedy: &'static str,
+}
+
+const fn largest(name: &'static str, words: &'static str) -> Figure {
+    Figure { name, words, fold: Fold::Largest, limit: None }
+}
+
+impl Figure {
+    const fn folded(self, fold: Fold) -> Self {
+        Self { fold, ..self }
+    }
+    const fn limited(self, default: &'static str, about: &'static str, remedy: &'static str) -> Self {
+        Self { limit: Some(Limit { default, about, remedy }), ..self }
+    }
+    /// The figure of that name.
+    pub fn named(name: &str) -> Option<&'static Figure> {
+        FIGURES.iter().find(|figure| figure.name == name)
+    }
+}
+
+/// All figures, in the order of the screen.
+pub static FIGURES: &[Figure] = &[
+    largest("max_penetration", "largest penetration"),
+    largest("max_penetration_relative", "  over the cell's size").limited(
+        "0.5",
+        "Largest penetration at a contact point, over the length of the edge or face there.",
+        "a stiffer `penalty`, `augmentation`, or smaller increments",
+    ),
+    largest("sampled_penetration", "  the same between the points").limited(
+        "0.5",
+        "Largest penetration found along rays between the contact points, over the length of the edge or face there.",
+        "a finer surface, more points (`gauss`, `parts` of an edge), or the finer side as the surface",
+    ),
+    largest("interpenetration", "interpenetration that nothing explains").limited(
+        "0.1",
+        "Depth to which a body lies in another, in itself, in a tool or beyond the axis, beyond what contacts report, what curved \
+         sides explain and what overlapped between two sides of a contact before any motion, over the size of the cell.",
+        "a finer surface, more points (`gauss`, `parts` of an edge), a stiffer `penalty`, or a contact where none is declared",
+    ),
+    largest("nodal_penetration", "  weighted, at nodes"),
+    largest("equilibrium_error", "equilibrium error").limited(
+        "1e-3",
+        "Unbalanced forces of the free nodes, summed, over the forces in play.",
+        "a smaller `solver.tolerance`",
+    ),
+    largest("imbalance", "forces of the two sides differ by").limited(
+        "0.02",
+        "What the forces on the two sides of a contact of two passes leave over, relative to the largest force of the contact.",
+        "with two passes each side answers for itself, and action equals reaction only as far as the meshes agree: finer \
+         meshes bring them together, passes = \"one\" makes them equal",
+    ),
+    largest("moment_imbalance", "moments of the two sides differ by").limited(
+        "0.02",
+        "Moment that the forces on the two sides of a contact leave over, relative to that of all its forces at its ends.",
+        "less penetration, finer meshes, or with two passes passes = \"one\"",
+    ),
+    largest("reaction_balance", "reactions and loads differ by").limited(
+        "0.01",
+        "What the forces on all supports and tools and all loads leave over, over the forces in play. Not read in models with springs.",
+        "where the two sides of a contact bear different forces, passes = \"one\" or matching meshes",
+    ),
+    largest("energy_balance", "missing energy").limited(
+        "0.2",
+        "Work of supports and loads that is neither stored nor dissipated nor left over by rate laws, over the largest energy.",
+        "smaller increments; the figure falls with them",
+    ),
+    largest("hypoelastic_residue", "work left over by rate laws"),
+    largest("coulomb_violation", "excess over friction limit"),
+    largest("friction_deviation", "friction differs from its law by").limited(
+        "0.05",
+        "Shear force of the slipping points of a contact on the target's normals, less what the law allows there, relative to \
+         what it allows; where that is nothing, the shear force relative to the normal force.",
+        "normals = \"averaged\", form = \"variational\", or a finer surface: forces follow the edges of the strained surface, \
+         which turn out of what they touch",
+    ),
+    largest("closed_points", "closed points, at most"),
+    largest("least_dissipation", "least dissipation").folded(Fold::Least),
+    largest("facet_ratio", "pressure that facets stand for"),
+    largest("facet_mismatch", "facets stand off by"),
+    largest("mismatch", "mean pressures of the sides differ by"),
+    largest("rejected_false_contacts", "false contacts refused").folded(Fold::Sum),
+    largest("leap", "largest leap over the size"),
+    largest("hourglass", "unresisted part of motion"),
+    largest("small_strain", "gradient in small strain"),
+];

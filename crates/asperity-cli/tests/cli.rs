@@ -79,7 +79,9 @@ fn a_run_says_what_looks_wrong() {
     assert_eq!(code(&run), 0, "{}", error(&run));
     let said = "no point of contact `sole` sees its target";
     assert!(error(&run).contains(said) && error(&run).contains("material on its left?"), "{}", error(&run));
-    assert_eq!(summary(&folder.path().join("block.results"))["notes"], serde_json::json!([said]));
+    let notes = &summary(&folder.path().join("block.results"))["notes"];
+    assert_eq!(notes[0], said);
+    assert!(notes[1].as_str().unwrap().starts_with("contact 'sole' never closed"), "{notes}");
 }
 
 #[test]
@@ -169,7 +171,11 @@ fn an_interrupted_run_goes_on() {
 
     assert_eq!(code(&asperity(folder.path(), &["restart", "block.toml", "--threads", "1"])), 0);
     assert_eq!(code(&asperity(folder.path(), &["run", "block.toml", "--out", "whole", "--threads", "2"])), 0);
-    for file in ["history.csv", "iterations.csv", "increments.csv"] {
+    let [parted, undisturbed] = [&results, &folder.path().join("whole")].map(|directory| summary(directory));
+    for what in ["certificate", "worst", "notes", "status"] {
+        assert_eq!(parted[what], undisturbed[what]);
+    }
+    for file in ["history.csv", "certificate.csv", "iterations.csv", "increments.csv"] {
         let read = |directory: &Path| std::fs::read(directory.join(file)).unwrap();
         assert_eq!(read(&results), read(&folder.path().join("whole")), "{file}");
     }

@@ -3,11 +3,12 @@
 use super::capture::depths;
 use super::pair::Contact;
 use super::point::triad;
-use super::record::entry;
+use super::record::{PointStatus, entry};
 use super::target::{Cast, Memory};
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::Ray;
+use std::ops::Range;
 
 /// Penetration at a place of the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +31,12 @@ impl Sample {
 /// Where an edge is sampled: from just within its ends.
 const PLACES: [f64; 5] = [-0.99, -0.5, 0.0, 0.5, 0.99];
 
+/// Whether a face with these points is sampled: against a tool always, against bodies where one of its points is closed,
+/// since rays from the corners of a body meet much that is no contact.
+pub(in crate::contact) fn is_sampled(deforms: bool, history: &History, mut points: Range<usize>) -> bool {
+    !deforms || points.any(|point| PointStatus::from_value(history.slot(point)[entry::STATUS]) != PointStatus::Open)
+}
+
 /// Overlap that is let stand at a point, from its history.
 pub(in crate::contact) fn admitted(values: &[f64]) -> f64 {
     (-values[entry::CLOSURE]).max(0.0)
@@ -48,7 +55,8 @@ impl Contact {
             let penetration = hit.u - admitted(history.slot(index));
             (penetration > 0.0).then_some(Sample { penetration, edge, position })
         };
-        let places = (0..self.surface.edges.len()).flat_map(|edge| PLACES.map(|xi| (edge, xi)));
+        let sampled = |edge: &usize| is_sampled(self.target.deforms(), history, self.surface.points_of(*edge));
+        let places = (0..self.surface.edges.len()).filter(sampled).flat_map(|edge| PLACES.map(|xi| (edge, xi)));
         places.filter_map(|(edge, xi)| sample(edge, xi)).reduce(Sample::deeper)
     }
 }

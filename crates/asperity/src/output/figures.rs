@@ -80,19 +80,19 @@ pub static FIGURES: &[Figure] = &[
         "a smaller `solver.tolerance`",
     ),
     largest("imbalance", "forces of the two sides differ by").limited(
-        "0.02",
+        "0.05",
         "What the forces on the two sides of a contact of two passes leave over, relative to the largest force of the contact.",
         "with two passes each side answers for itself, and action equals reaction only as far as the meshes agree: finer \
          meshes bring them together, passes = \"one\" makes them equal",
     ),
     largest("moment_imbalance", "moments of the two sides differ by").limited(
-        "0.02",
-        "Moment that the forces on the two sides of a contact leave over, relative to that of all its forces at its ends.",
+        "0.05",
+        "Moment that the forces on the two sides of a contact leave over, relative to that of all its forces at the ends of its surface.",
         "less penetration, finer meshes, or with two passes passes = \"one\"",
     ),
     largest("reaction_balance", "reactions and loads differ by").limited(
-        "0.01",
-        "What the forces on all supports and tools and all loads leave over, over the forces in play. Not read in models with springs.",
+        "0.05",
+        "What the forces on all supports and tools and all loads leave over, over the larger sum of both. Not read in models with springs.",
         "where the two sides of a contact bear different forces, passes = \"one\" or matching meshes",
     ),
     largest("energy_balance", "missing energy").limited(
@@ -103,15 +103,20 @@ pub static FIGURES: &[Figure] = &[
     largest("hypoelastic_residue", "work left over by rate laws"),
     largest("coulomb_violation", "excess over friction limit"),
     largest("friction_deviation", "friction differs from its law by").limited(
-        "0.05",
+        "0.075",
         "Shear force of the slipping points of a contact on the target's normals, less what the law allows there, relative to \
-         what it allows; where that is nothing, the shear force relative to the normal force.",
+         the shear force of the contact; where that is nothing, the shear force relative to the normal force.",
         "normals = \"averaged\", form = \"variational\", or a finer surface: forces follow the edges of the strained surface, \
          which turn out of what they touch",
     ),
     largest("closed_points", "closed points, at most"),
     largest("least_dissipation", "least dissipation").folded(Fold::Least),
-    largest("facet_ratio", "pressure that facets stand for"),
+    largest("facet_ratio", "pressure that facets stand for").limited(
+        "1.0",
+        "Pressure that the facets of curved faces of bodies stand for, relative to the pressure that is carried.",
+        "a finer mesh, edges of second degree, matching nodes, or a softer `penalty`: above one the pressure of points may be \
+         anything",
+    ),
     largest("facet_mismatch", "facets stand off by"),
     largest("mismatch", "mean pressures of the sides differ by"),
     largest("rejected_false_contacts", "false contacts refused").folded(Fold::Sum),

@@ -63,6 +63,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     account(&mut results.summary, &run, seconds);
     results.summary.notes.extend(facets(model, &run.state));
     results.summary.notes.extend(leap(&results.certificate));
+    results.summary.notes.extend(imbalance(&results.certificate, job.limits));
     results.summary.notes.extend(large_strain(&results.certificate));
     results.summary.notes.extend(rests(&results.certificate, model.space));
     results.finish(&ended)?;
@@ -109,6 +110,23 @@ fn leap(certificate: &Certificate) -> Option<String> {
         "an increment moved the model by {far:.2} of its size, more than 20 times as fast as the increment before: past \
          a limit load that may be a remote equilibrium; prescribed displacements, or smaller increments, can tell"
     ))
+}
+
+/// Part of their force by which two sides of a contact may differ without a word.
+const BALANCED: f64 = 0.02;
+
+/// What it means that two sides of a contact press with different forces, where that is no doubt yet.
+fn imbalance(certificate: &Certificate, limits: &Limits) -> Option<String> {
+    let worst = certificate.worst("imbalance", limits)?;
+    let noted = worst.value > BALANCED && worst.limit.is_some_and(|limit| worst.value <= limit);
+    noted.then(|| {
+        format!(
+            "the forces on the two sides differ by {:.1} %{}: with two passes each side answers for itself, and action equals \
+             reaction only as far as the meshes agree; finer meshes bring them together, passes = \"one\" makes them equal",
+            100.0 * worst.value,
+            worst.place()
+        )
+    })
 }
 
 /// Displacement gradient up to which small strain is taken at its word.

@@ -2,9 +2,9 @@
 
 use super::linear::LinearError;
 use super::newton::{IfFree, Newton, Trouble};
-use crate::system::{Tangent, Term};
+use super::observer::AttemptRecord;
+use crate::system::Tangent;
 use crate::{Error, Failure};
-use std::sync::Arc;
 
 /// Stiffness that props an iterate in which something is free, over the largest in the matrix.
 const PROP: f64 = 1e-4;
@@ -40,29 +40,46 @@ impl Newton<'_> {
     }
 
     /// Whether the first guess, which left no force unbalanced, carries something on that nothing holds any more: no matrix
-    /// was ever solved, and a body that has lost its contact would drift on as it last moved.
+    /// was solved, and a body that has lost its contact would drift on as it last moved. A contact that lets go in the
+    /// iterations is judged likewise, since the matrix that was solved last may still have held it.
     ///
     /// # Errors
-    /// An error that names it, unless what is free is to be held.
-    pub(super) fn drifts(&mut self, u: &[f64], reference: f64) -> Result<bool, Trouble> {
-        let opened = |(term, branches): (&Arc<dyn Term>, &Vec<(u8, u32)>)| {
-            term.bends() && branches.iter().all(|(branch, _)| *branch == 0)
-        };
-        if !self.problem.terms.iter().zip(&self.evaluation.branches).any(opened) {
+    /// What is free in words, unless it is to be held.
+    pub(super) fn drifts(&mut self, u: &[f64], record: &AttemptRecord, reference: f64) -> Result<bool, Trouble> {
+        let guessed = record.iterations.len() == 1;
+        if !guessed && !self.lets_go(record) || !self.opened().any(|opened| opened) {
             return Ok(false);
         }
         self.complete(u, None)?;
         let motions = self.loose(u, reference)?;
-        match self.problem.newton.if_free {
-            _ if motions.is_empty() => Ok(false),
-            IfFree::Hold => Ok(true),
-            IfFree::Stop => Err(Trouble::Error(Error::NotConverged(format!(
-                "{}: nothing holds it any more at time {:.4}; support it, keep it in contact, or leave it where it is by \
-                 `solver.if_free = \"hold\"`",
-                motions.join("; "),
-                self.at.time
-            )))),
+        let hold = self.problem.newton.if_free == IfFree::Hold;
+        if motions.is_empty() || hold {
+            let drifts = guessed && !motions.is_empty();
+            self.propped = motions;
+            // What was factorised last may be singular.
+            self.solver.refuse();
+            return Ok(drifts);
         }
+        let text = format!("{}: nothing holds it any more at time {:.4}", motions.join("; "), self.at.time);
+        if !guessed {
+            return Err(Failure::new(text).into());
+        }
+        Err(Trouble::Error(Error::NotConverged(format!(
+            "{text}; support it, keep it in contact, or leave it where it is by `solver.if_free = \"hold\"`"
+        ))))
+    }
+
+    /// For each term with contact, whether all of it is open.
+    fn opened(&self) -> impl Iterator<Item = bool> {
+        let terms = self.problem.terms.iter().zip(&self.evaluation.branches).filter(|(term, _)| term.bends());
+        terms.map(|(_, branches)| branches.iter().all(|(branch, _)| *branch == 0))
+    }
+
+    /// Whether a contact that touched in the first iterations is open all over now.
+    fn lets_go(&self, record: &AttemptRecord) -> bool {
+        let Some(first) = record.iterations.first() else { return false };
+        let touched = self.problem.terms.iter().zip(&first.branches).filter(|(term, _)| term.bends());
+        touched.zip(self.opened()).any(|((_, counts), opened)| opened && counts.iter().skip(1).any(|count| *count > 0))
     }
 
     /// Motions that meet no stiffness at `u`, nor a force when they go on further than the increment did, as where everything
@@ -76,9 +93,11 @@ impl Newton<'_> {
                 return factorised.map(|()| Vec::new()).map_err(|e| self.explain(e, 1));
             }
         };
+        // Where nothing touches, what a body would run into does not hold it.
+        let touches = self.opened().any(|opened| !opened);
         let mut loose = Vec::new();
         for motion in motions {
-            if !self.is_held(u, &motion, reference)? {
+            if !touches || !self.is_held(u, &motion, reference)? {
                 loose.push(motion);
             }
         }

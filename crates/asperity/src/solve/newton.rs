@@ -235,7 +235,7 @@ impl<'a> Newton<'a> {
             observer.iteration(record, &line);
             record.iterations.push(line);
             if missing.is_none() && norms.converged_from(ratio) {
-                if iteration == 0 && !still && self.drifts(&u, norms.reference[0])? {
+                if !still && self.drifts(&u, record, norms.reference[0])? {
                     (u, missing) = self.begin(self.state.u.clone())?;
                     still = true;
                     continue;

@@ -27,7 +27,7 @@ pub fn print(made: &Made) -> u64 {
     print.add((&model.title, model.space, model.thickness, &model.materials, &model.supports));
     mesh(model, &mut print);
     parts(model, &mut print);
-    print.add((&model.problem.steps, &model.problem.newton, made.deck.output.options()));
+    print.add((&model.problem.steps, &model.problem.newton, made.deck.output.options(), &made.deck.limits.limits));
     for (i, term) in model.problem.terms.iter().enumerate() {
         forces(model, i, term.as_ref(), &mut print);
     }

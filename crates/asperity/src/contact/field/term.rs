@@ -6,7 +6,7 @@ use super::stencil::{NodeSums, StencilInPlace, Support};
 use super::surface::Surface;
 use super::tool::RigidTool;
 use crate::contact::pair::{CLOSED, ahead};
-use crate::contact::record::{PointRecord, PointStatus, entry, variables};
+use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
 use crate::contact::search::reach;
 use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::Interface;
@@ -156,6 +156,10 @@ impl FieldContact {
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
         &*self.law
+    }
+    /// The largest penetration of a closed node in an accepted state.
+    pub fn largest_penetration(&self, history: &History) -> f64 {
+        largest_penetration(history, self.slots())
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {

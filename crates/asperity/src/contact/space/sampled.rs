@@ -2,7 +2,7 @@
 
 use super::pair::Contact;
 use super::target::{Cast, Memory};
-use crate::contact::sampled::{Sample, admitted};
+use crate::contact::sampled::{Sample, admitted, is_sampled};
 use crate::system::History;
 
 /// Where a face with four sides is sampled, and one with three: in the middle and just within the corners.
@@ -23,6 +23,9 @@ impl Contact {
         };
         let mut deepest: Option<Sample> = None;
         for (number, face) in surface.faces.iter().enumerate() {
+            if !is_sampled(self.target().deforms(), history, surface.points_of(number)) {
+                continue;
+            }
             let places = if face.nodes.len() % 3 == 0 && face.nodes.len() < 9 { &TRIANGLE[..] } else { &QUADRILATERAL };
             for found in places.iter().filter_map(|&xi| sample(number, xi)) {
                 deepest = Some(deepest.map_or(found, |old| old.deeper(found)));

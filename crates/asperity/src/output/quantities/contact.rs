@@ -101,11 +101,11 @@ fn resultant(seen: &Seen) -> (f64, Vec3) {
 }
 
 /// The moment that the forces of a contact and those on its target leave over, and the largest that they could make: all
-/// forces at the ends of the contact. The target bears the forces of its own points, or those of the surface where their
+/// forces at the ends of the surface. The target bears the forces of its own points, or those of the surface where their
 /// rays meet it.
 fn couple(first: &Seen, second: Option<&Seen>) -> (f64, f64) {
     let (total, middle) = resultant(first);
-    let extent = first.closed().map(|record| (record.position - middle).norm()).fold(0.0, f64::max);
+    let extent = first.records.iter().map(|record| (record.position - middle).norm()).fold(0.0, f64::max);
     let about = |seen: &Seen| {
         let moment = |record: &PointRecord| (record.position - middle).cross(record.force());
         seen.closed().fold(Vec3::zero(), |sum, record| sum + moment(record))
@@ -118,23 +118,27 @@ fn couple(first: &Seen, second: Option<&Seen>) -> (f64, f64) {
     (left.norm(), total * extent)
 }
 
-/// By how much the shear force of a contact differs from what its law allows, both resolved on the normals of the target,
-/// over the points that slip; and that shear force. Where the law allows none, the shear force itself and the normal one.
+/// By how much the shear force of the points that slip differs from what their law allows, both resolved on the normals of
+/// the target; and the shear force of all points. Where the law allows none, the shear force itself and the normal one. None
+/// where nothing slips.
 ///
 /// The stress at a point follows the normal of its own edge or face. Where that is not the one of what it touches, the
 /// ratio of shear to pressure there is not the one of the law.
 fn friction(seen: &Seen, plane: bool) -> Option<(f64, f64)> {
-    let (mut excess, mut limit, mut thrust, mut shear) = (0.0, 0.0, 0.0, Vec3::zero());
-    for record in seen.closed().filter(|record| record.status == PointStatus::Slip && record.pressure > 0.0) {
+    let (mut excess, mut carried, mut thrust, mut shear, mut slips) = (0.0, 0.0, 0.0, Vec3::zero(), false);
+    for record in seen.closed().filter(|record| record.pressure > 0.0) {
         let (force, normal) = (record.force(), record.facing);
         let pressing = force.dot(normal);
-        let tangential = force - normal * pressing;
         let allowed = record.shear.abs() / record.pressure * pressing;
-        (excess, limit, thrust) = (excess + tangential.norm() - allowed, limit + allowed, thrust + pressing);
-        // Along a curved target of the plane its tangents are one direction.
-        shear += if plane { Vec3::new(force.dot(normal.left()), 0.0, 0.0) } else { tangential };
+        (carried, thrust) = (carried + allowed, thrust + pressing);
+        if record.status == PointStatus::Slip {
+            let tangential = force - normal * pressing;
+            (excess, slips) = (excess + tangential.norm() - allowed, true);
+            // Along a curved target of the plane its tangents are one direction.
+            shear += if plane { Vec3::new(force.dot(normal.left()), 0.0, 0.0) } else { tangential };
+        }
     }
-    if limit > 0.0 { Some((excess.abs(), limit)) } else { (thrust > 0.0).then(|| (shear.norm(), thrust)) }
+    slips.then(|| if carried > 0.0 { (excess.abs(), carried) } else { (shear.norm(), thrust) })
 }
 
 fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
@@ -252,7 +256,12 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     ];
     for (what, value) in sometimes.into_iter().filter_map(|(what, value)| Some((what, value?))) {
         frame.push(Quantity::scalar(name(what), Unit::One, value))?;
-        frame.certify(seen.reading(what, value));
+        // Facets are worth a pressure of their own, however little is carried.
+        frame.certify(if what == "facet_ratio" {
+            seen.reading(what, value * thrust).over(thrust)
+        } else {
+            seen.reading(what, value)
+        });
     }
     Ok(())
 }

@@ -32,8 +32,10 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         ("energy.released", source.state.released),
         ("energy.residue", all.residue),
     ];
-    let largest =
-        entries.iter().filter(|entry| entry.0 != "energy.residue").fold(0.0, |most: f64, e| most.max(e.1.abs()));
+    // Where no force is in play, energies are rounding, and their balance too.
+    let acting = source.state.in_play[0] > 0.0;
+    let sizes = entries.iter().filter(|entry| acting && entry.0 != "energy.residue").map(|entry| entry.1.abs());
+    let largest = sizes.fold(0.0, f64::max);
     for (name, value) in entries {
         frame.push(Quantity::scalar(name, Unit::Energy, value))?;
     }

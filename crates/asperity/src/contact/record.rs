@@ -182,7 +182,7 @@ impl PointRecord {
     }
     /// The same as the other side sees it.
     pub(super) fn turn(&mut self) {
-        for v in [&mut self.inward, &mut self.thrust, &mut self.along] {
+        for v in [&mut self.inward, &mut self.thrust, &mut self.facing, &mut self.along] {
             *v = -*v;
         }
         self.resultant = self.resultant.map(|[force, center]| [-force, center]);

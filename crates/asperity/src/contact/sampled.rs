@@ -1,6 +1,5 @@
 //! Penetration between the contact points: what no point sees, as an edge of the target that stands between two of them.
 
-use super::capture::depths;
 use super::pair::Contact;
 use super::point::triad;
 use super::record::{PointStatus, entry};
@@ -45,7 +44,7 @@ pub(in crate::contact) fn admitted(values: &[f64]) -> f64 {
 impl Contact {
     /// The deepest place of the surface in an accepted state, sought along rays between its points; none without penetration.
     pub fn sampled(&self, u: &[f64], history: &History) -> Option<Sample> {
-        let depths = depths(&self.surface, &self.mesh, &self.dofs, &self.boundary, u);
+        let depths = self.depths(u);
         let (standing, mut memory) = (self.target.stand(u), Memory::default());
         let mut sample = |edge: usize, xi: f64| {
             let index = self.surface.points_of(edge).next()?;

@@ -317,7 +317,7 @@ impl FieldContact {
             record.area = sums.area * stretch;
             let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
             record.resultant = Some([force, sums.place]);
-            (record.thrust, record.inward) = (thrust.unit(), thrust.unit());
+            (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), thrust.unit());
             record.along = e1.unit();
             if !self.surface.plane && sheared.norm() > 0.0 {
                 record.along = sheared.unit();
@@ -343,6 +343,7 @@ impl FieldContact {
             position,
             inward: -outward,
             thrust: -outward,
+            facing: -outward,
             along: outward.left(),
             area: 0.0,
             resultant: None,

@@ -1,6 +1,7 @@
 //! What a run shows while it goes, and the page at its end.
 
 use asperity::Error;
+use asperity::error::visible;
 use asperity::output::{Status, Summary};
 use asperity::solve::{AttemptRecord, Observer, Problem};
 use asperity::system::State;
@@ -37,6 +38,7 @@ impl<'a> Screen<'a> {
     }
 
     fn line(&self, line: &str) {
+        let line = visible(line);
         match &self.bar {
             Some(bar) => bar.println(line),
             // A reader that has gone is no reason to end a run.
@@ -95,6 +97,7 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     let word = match summary.status {
         Status::Converged => "converged",
         Status::Stopped => "stopped on request",
+        Status::FileError => "broken off",
         _ => "not converged",
     };
     let (increments, attempts, iterations) = (summary.increments, summary.attempts, summary.iterations);
@@ -113,7 +116,7 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     for (name, value) in figures(summary) {
         let _ = writeln!(text, "  {name:<28}{value:>11.3e}");
     }
-    if summary.status != Status::Converged {
+    if !matches!(summary.status, Status::Converged | Status::FileError) {
         let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {again}");
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));

@@ -4,6 +4,7 @@
 mod average;
 mod certificate;
 pub mod checkpoint;
+mod claim;
 pub mod figure;
 pub mod file;
 #[cfg(test)]
@@ -22,6 +23,7 @@ mod table;
 pub mod vtk;
 
 pub use certificate::Certificate;
+pub use claim::{Claim, Others};
 pub use history::{HistoryTable, global_columns};
 pub use log::RunLog;
 pub use quantities::{Parts, Source};

@@ -9,7 +9,7 @@
 
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
-use super::file::{make_directory, remove, sweep};
+use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HISTORY, HistoryTable, global_columns};
 use super::quantities::{Parts, Source};
@@ -65,6 +65,16 @@ pub const CHECKPOINT: &str = "run.checkpoint";
 /// Name of the summary in the result directory.
 pub const SUMMARY: &str = "summary.json";
 
+/// Room on the disk that is given back at the end of a run, so that its summary can be written where the disk is full. It
+/// goes by the name of a temporary file, which the next run removes.
+const RESERVE: &str = ".writing-reserve";
+/// Bytes of that room.
+const RESERVED: usize = 1 << 16;
+
+fn reserve(directory: &Path) -> Result<(), Error> {
+    write_atomic(&directory.join(RESERVE), &vec![0; RESERVED], Durability::Machine)
+}
+
 impl Fields {
     const ALL: [Self; 4] = [Self::Bodies, Self::Points, Self::Contacts, Self::Tools];
     fn name(self) -> &'static str {
@@ -83,17 +93,25 @@ impl Results {
     /// # Errors
     /// [`Error::File`] when something cannot be written.
     pub fn create(directory: &Path, start: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
-        make_directory(directory)?;
-        sweep(directory)?;
-        // What the run writes only later would else be that of an earlier one until then: a restart would go on from it.
-        remove(directory, [CHECKPOINT, HISTORY].map(String::from).into_iter().chain(pictures()))?;
+        Self::clear(directory)?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
         let history = HistoryTable::create(directory, start.parts.is_plane());
         let mut results = Self::new((directory, options, input), start.parts, (series, history))?;
         results.write_frame(start)?;
+        reserve(directory)?;
         results.write_summary()?;
         Ok(results)
+    }
+    /// Makes the directory and removes what an earlier run left there that this one writes only later: a restart would go on
+    /// from it.
+    ///
+    /// # Errors
+    /// [`Error::File`] when the directory cannot be made or a file not removed.
+    pub fn clear(directory: &Path) -> Result<(), Error> {
+        make_directory(directory)?;
+        sweep(directory)?;
+        remove(directory, [CHECKPOINT, HISTORY].map(String::from).into_iter().chain(pictures()))
     }
     /// Continues the results of a run from a checkpoint: what came after it is dropped.
     ///
@@ -114,6 +132,12 @@ impl Results {
             let numbers = row.iter().map(|entry| entry.parse().unwrap_or(f64::NAN));
             results.summary.certificate.observe(kept.header.iter().map(String::as_str).zip(numbers));
         }
+        if state.increment > 0 {
+            results.summary.observe(&at.gather()?, parts.is_plane());
+        }
+        (results.summary.steps, results.summary.attempts) = (state.step, state.attempts);
+        results.summary.iterations = state.iterations;
+        reserve(directory)?;
         results.write_summary()?;
         Ok(results)
     }
@@ -173,6 +197,7 @@ impl Results {
     pub fn finish(&mut self, outcome: &Result<(), Error>) -> Result<(), Error> {
         self.summary.end(outcome);
         self.summary.timings.insert("output".into(), self.spent.as_secs_f64());
+        remove(&self.directory, [RESERVE.to_owned()])?;
         self.write_summary()?;
         let start = Instant::now();
         if let Err(error) = draw_standard(&self.directory, &FigureOptions::default()) {

@@ -15,8 +15,9 @@ pub struct Line {
     pub command: Command,
 }
 
-const EXITS: &str = "Exit codes: 0 done, 1 fault of the program, 2 wrong input, 3 not converged, 4 stopped on \
-                     request, 5 check found problems, 6 a run was completed but its certificate is doubtful.";
+const EXITS: &str = "Exit codes: 0 done, 1 fault of the program or results that cannot be written, 2 wrong input, \
+                     3 not converged, 4 stopped on request, 5 check found problems, 6 a run was completed but its \
+                     certificate is doubtful.";
 
 /// The verbs.
 #[derive(Debug, Subcommand)]

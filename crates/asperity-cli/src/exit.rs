@@ -2,6 +2,7 @@
 
 use asperity::Error;
 use asperity::deck::Diagnostics;
+use asperity::error::visible;
 use std::io::IsTerminal;
 use std::process::ExitCode;
 
@@ -10,7 +11,7 @@ use std::process::ExitCode;
 pub enum Exit {
     /// Done; a run has converged to its end.
     Done = 0,
-    /// A fault of the program itself, or of the system under it.
+    /// A fault of the program itself, or of the system under it: a full disk.
     Fault = 1,
     /// The input is wrong.
     Input = 2,
@@ -62,7 +63,7 @@ impl Exit {
             // The page at the end of the run has said so.
             Trouble::Other(Error::Stopped) => Self::Stopped,
             Trouble::Other(error) => {
-                eprintln!("error: {error}");
+                eprintln!("error: {}", visible(&error.to_string()));
                 Self::of(&error)
             }
         }
@@ -73,7 +74,7 @@ impl Exit {
             Error::Input(_) | Error::File { .. } => Self::Input,
             Error::NotConverged(_) => Self::NotConverged,
             Error::Stopped => Self::Stopped,
-            Error::Internal(_) => Self::Fault,
+            Error::Write { .. } | Error::Internal(_) => Self::Fault,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a run shows while it goes, and the page at its end.
 
 use asperity::Error;
+use asperity::error::visible;
 use asperity::output::{FIGURES, Status, Summary};
 use asperity::solve::{AttemptRecord, Observer, Problem};
 use asperity::system::State;
@@ -37,6 +38,7 @@ impl<'a> Screen<'a> {
     }
 
     fn line(&self, line: &str) {
+        let line = visible(line);
         match &self.bar {
             Some(bar) => bar.println(line),
             // A reader that has gone is no reason to end a run.
@@ -96,6 +98,7 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
         Status::Converged => "converged",
         Status::Doubtful => "doubtful",
         Status::Stopped => "stopped on request",
+        Status::FileError => "broken off",
         _ => "not converged",
     };
     let (increments, attempts, iterations) = (summary.increments, summary.attempts, summary.iterations);
@@ -112,7 +115,7 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     }
     let _ = writeln!(text, "certificate, the worst of all increments:               limit");
     figures(summary).for_each(|line| text += &line);
-    if !matches!(summary.status, Status::Converged | Status::Doubtful) {
+    if !matches!(summary.status, Status::Converged | Status::Doubtful | Status::FileError) {
         let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {again}");
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));

@@ -27,6 +27,8 @@ impl Interrupts {
         let internal = |error: std::io::Error| Error::Internal(error.to_string());
         let signals = SigSet::from_iter([Signal::SIGINT, Signal::SIGTERM]);
         signals.thread_block().map_err(|error| internal(error.into()))?;
+        // A file that grows beyond a limit is an error of its writer, not the end of the program.
+        SigSet::from(Signal::SIGXFSZ).thread_block().map_err(|error| internal(error.into()))?;
         let interrupts = Self { raised: Arc::default(), heeded: Arc::default() };
         let (raised, heeded) = (interrupts.raised.clone(), interrupts.heeded.clone());
         let take = move || {

@@ -1,5 +1,6 @@
 //! What can go wrong: an [`Error`] stops the run, a [`Failure`] only cuts the increment. Layer 0, used by all rooms.
 
+use std::borrow::Cow;
 use std::fmt;
 
 /// Something that stops the run and that the user must be told in words.
@@ -9,6 +10,13 @@ pub enum Error {
     Input(String),
     /// A file cannot be read or written.
     File {
+        /// The file.
+        path: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// A result cannot be written: the disk is full, or a limit is reached.
+    Write {
         /// The file.
         path: String,
         /// What the system said.
@@ -27,17 +35,36 @@ impl Error {
     pub fn input(text: impl Into<String>) -> Self {
         Self::Input(text.into())
     }
+    /// A result that cannot be written.
+    pub fn write(path: impl AsRef<std::path::Path>, reason: impl fmt::Display) -> Self {
+        Self::Write { path: path.as_ref().display().to_string(), reason: reason.to_string() }
+    }
     /// A file that cannot be read or written.
     pub fn file(path: impl AsRef<std::path::Path>, reason: impl fmt::Display) -> Self {
         Self::File { path: path.as_ref().display().to_string(), reason: reason.to_string() }
     }
 }
 
+/// A text as it may be shown on a terminal: characters that would steer the terminal or turn the direction of writing are
+/// replaced by others of the same length in UTF-8, so that places in the text stay what they are.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    let shown = |(at, c): (usize, char)| match c {
+        '\n' | '\t' => c,
+        '\r' if text[at + 1..].starts_with('\n') => c,
+        c if c.is_ascii_control() => '?',
+        c if c.is_control() => '\u{bf}',
+        '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
+        c => c,
+    };
+    let shown = || text.char_indices().map(shown);
+    if shown().eq(text.chars()) { text.into() } else { shown().collect::<String>().into() }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input(text) | Self::NotConverged(text) => f.write_str(text),
-            Self::File { path, reason } => write!(f, "{path}: {reason}"),
+            Self::File { path, reason } | Self::Write { path, reason } => write!(f, "{path}: {reason}"),
             Self::Stopped => f.write_str("stopped on request; the checkpoint is written"),
             Self::Internal(text) => write!(f, "internal error: {text}; please report it"),
         }
@@ -67,3 +94,18 @@ impl fmt::Display for Failure {
 }
 
 impl std::error::Error for Failure {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_steers_a_terminal_is_shown_as_something_else() {
+        assert_eq!(visible("a\u{1b}[31mre\rd\r\n\tend"), "a?[31mre?d\r\n\tend");
+        for text in ["\u{9b}2J", "\u{202e}gnp.exe", "plain"] {
+            assert_eq!(visible(text).len(), text.len());
+            assert!(!visible(text).contains(['\u{9b}', '\u{202e}']));
+        }
+        assert!(matches!(visible("plain é"), Cow::Borrowed(_)));
+    }
+}

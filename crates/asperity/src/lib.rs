@@ -3,7 +3,8 @@
 //! The rooms, by layer; a room may use rooms of lower layers only (`tests/layers.rs` holds the rule):
 //!
 //! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names;
-//!    [`amplitude`] values in time; [`integrate`] sub-steps and local equations of laws.
+//!    [`amplitude`] values in time; [`machine`] memory there is; [`integrate`] sub-steps and local equations of laws;
+//!    [`files`] reading what a user names.
 //! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
 //! 3. [`system`] unknowns, state, terms, assembly.
 //! 4. [`solid`] bodies; [`contact`] contact with friction; [`load`] loads and springs;
@@ -20,9 +21,11 @@ pub mod contact;
 pub mod deck;
 pub mod declare;
 pub mod error;
+pub mod files;
 pub mod integrate;
 pub mod interface;
 pub mod load;
+pub mod machine;
 pub mod material;
 pub mod mesh;
 pub mod model;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 const LAYERS: &[&[&str]] = &[
     &["error"],
-    &["tensor", "declare", "amplitude"],
-    &["integrate"],
+    &["tensor", "declare", "amplitude", "machine"],
+    &["integrate", "files"],
     &["mesh", "material", "interface", "tool"],
     &["system"],
     &["solid", "contact", "load", "audit"],

@@ -136,6 +136,31 @@ impl AssemblyTree {
         Ok(tree)
     }
 
+    /// The fronts and how they hang together, without what is in them: enough to know what a factorisation costs.
+    ///
+    /// # Errors
+    /// As [`AssemblyTree::new`].
+    pub fn outline(supernodes: &[Supernode], symmetric: bool) -> Result<Self, Error> {
+        let (supernodes, parents) = in_final_order(supernodes);
+        let (child_starts, child_list) = children(&parents);
+        let mut tree = AssemblyTree {
+            fronts: Vec::with_capacity(supernodes.len()),
+            child_starts,
+            child_list,
+            rows: Vec::new(),
+            relative: Vec::new(),
+            entries: Vec::new(),
+            order: Vec::new(),
+            position: Vec::new(),
+        };
+        for supernode in supernodes {
+            let (pivots, size) = (supernode.pivots as usize, supernode.size as usize);
+            tree.push_front((pivots, size - pivots), 0, symmetric)?;
+        }
+        tree.find_depths(&parents);
+        Ok(tree)
+    }
+
     /// Which fronts hold a pivot among these positions or lie above one that does.
     pub fn above(&self, positions: &[u32]) -> Vec<bool> {
         let mut marked = vec![false; self.order.len()];
@@ -185,20 +210,29 @@ impl AssemblyTree {
             let pivots = supernode.pivots as usize;
             let rows = self.rows.len();
             self.append_rows(pattern, s, first..first + pivots, &mut seen_by);
-            let first_descendant =
-                self.children(s).first().map_or(s, |&child| self.fronts[child as usize].first_descendant);
-            let border = self.rows.len() - rows;
-            let factor = self.factor_len();
-            let front =
-                Front { first, pivots, border, rows, factor, entries: 0, first_descendant, symmetric, depth: 0 };
-            u32::try_from(front.factor_len()).map_err(|_| Error::TooLarge)?;
-            self.fronts.push(front);
+            self.push_front((pivots, self.rows.len() - rows), rows, symmetric)?;
             first += pivots;
         }
+        self.find_depths(parents);
+        Ok(())
+    }
+
+    /// Adds a front whose border's rows start at `rows`.
+    fn push_front(&mut self, (pivots, border): (usize, usize), rows: usize, symmetric: bool) -> Result<(), Error> {
+        let s = self.fronts.len();
+        let first = self.fronts.last().map_or(0, |front| front.pivot_range().end);
+        let first_descendant = self.children(s).first().map_or(s, |&c| self.fronts[c as usize].first_descendant);
+        let factor = self.factor_len();
+        let front = Front { first, pivots, border, rows, factor, entries: 0, first_descendant, symmetric, depth: 0 };
+        u32::try_from(front.factor_len()).map_err(|_| Error::TooLarge)?;
+        self.fronts.push(front);
+        Ok(())
+    }
+
+    fn find_depths(&mut self, parents: &[u32]) {
         for s in (0..self.fronts.len()).rev().filter(|&s| parents[s] != NONE) {
             self.fronts[s].depth = self.fronts[parents[s] as usize].depth + 1;
         }
-        Ok(())
     }
 
     /// Rows of the border: those of the children and of the matrix, past the pivots.

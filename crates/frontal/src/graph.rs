@@ -29,6 +29,12 @@ impl Graph {
         Self::quotient(pattern, (0..pattern.len() as u32).collect())
     }
 
+    /// Of nodes alone, whose unknowns are counted and not known.
+    pub fn of_nodes(starts: Vec<usize>, neighbours: Vec<u32>, weights: Vec<u32>) -> Self {
+        let empty = Vec::new;
+        Graph { starts, neighbours, weights, members: empty(), member_starts: Vec::new(), node_of: empty() }
+    }
+
     fn quotient(pattern: &Pattern, node_of: Vec<u32>) -> Self {
         let (member_starts, members) = group(&node_of);
         let weights = member_starts.windows(2).map(|pair| (pair[1] - pair[0]) as u32).collect::<Vec<_>>();
@@ -80,9 +86,7 @@ impl Graph {
             starts.push(neighbours.len());
         }
         let weights = kept.iter().map(|&node| self.weights[node as usize]).collect();
-        let empty = Vec::new;
-        let rest = Graph { starts, neighbours, weights, members: empty(), member_starts: Vec::new(), node_of: empty() };
-        (rest, kept)
+        (Graph::of_nodes(starts, neighbours, weights), kept)
     }
 }
 

@@ -17,20 +17,37 @@ pub(crate) fn order(pattern: &Pattern, options: &Options) -> Result<(Graph, Vec<
         Ordering::Given(_) => Graph::of_unknowns(pattern),
     };
     let (last, is_last) = nodes_of(&graph, &options.last);
-    let mut order = match &options.ordering {
+    let order = match &options.ordering {
         Ordering::Given(order) => {
             check_length("the given order", pattern.len(), order.len())?;
             check_distinct(order, pattern.len())?;
-            order.iter().map(|&unknown| unknown as u32).filter(|&node| !is_last[node as usize]).collect()
+            let nodes = order.iter().map(|&unknown| unknown as u32).filter(|&node| !is_last[node as usize]);
+            nodes.chain(last).collect()
         }
-        by if last.is_empty() => reduce_fill(by, &graph)?,
-        by => {
-            let (rest, kept) = graph.without(&is_last);
-            reduce_fill(by, &rest)?.into_iter().map(|node| kept[node as usize]).collect::<Vec<_>>()
-        }
+        by => with_last(&graph, (last, &is_last), by)?,
     };
-    order.extend(last);
     Ok((graph, order))
+}
+
+/// The order of the nodes of a graph by a library, with those to come last behind it.
+///
+/// # Errors
+/// [`Error::InvalidOrder`] for a node that is not there or stands twice in `last`; [`Error::OrderingNotBuilt`] for a given
+/// order, which is one of unknowns; those of METIS.
+pub(crate) fn order_nodes(graph: &Graph, last: &[usize], by: &Ordering) -> Result<Vec<u32>, Error> {
+    check_distinct(last, graph.len())?;
+    let mut is_last = vec![false; graph.len()];
+    last.iter().for_each(|&node| is_last[node] = true);
+    with_last(graph, (last.iter().map(|&node| node as u32).collect(), &is_last), by)
+}
+
+fn with_last(graph: &Graph, (last, is_last): (Vec<u32>, &[bool]), by: &Ordering) -> Result<Vec<u32>, Error> {
+    if last.is_empty() {
+        return reduce_fill(by, graph);
+    }
+    let (rest, kept) = graph.without(is_last);
+    let order = reduce_fill(by, &rest)?;
+    Ok(order.into_iter().map(|node| kept[node as usize]).chain(last).collect())
 }
 
 /// The order of a library that was built in.

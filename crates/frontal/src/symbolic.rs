@@ -4,11 +4,12 @@ use crate::assembly_tree::AssemblyTree;
 use crate::error::Error;
 use crate::etree::{NONE, children, column_counts, elimination_tree, postorder};
 use crate::factor::{Factor, Memory};
+use crate::graph::Graph;
 use crate::options::Options;
 use crate::ordering;
 use crate::pattern::Pattern;
 use crate::plan::Plan;
-use crate::supernode::supernodes;
+use crate::supernode::{Supernode, supernodes};
 use std::sync::Arc;
 
 /// What a factorisation will cost, known exactly from the pattern.
@@ -63,14 +64,9 @@ impl Symbolic {
     pub fn analyse(pattern: &Pattern, options: &Options) -> Result<Self, Error> {
         u32::try_from(pattern.nonzeros().max(pattern.len() + 1)).map_err(|_| Error::TooLarge)?;
         let (graph, order) = ordering::order(pattern, options)?;
-        let order = postordered(&graph, order);
-        let position = inverse(&order);
-        let parent = elimination_tree(&graph, &order, &position);
-        let counts = column_counts(&graph, &order, &position, &parent);
-        let weight = |k: usize| u64::from(graph.weights[order[k] as usize]);
-        let supernodes = supernodes(&parent, &counts, weight, &options.amalgamation);
+        let (order, supernodes) = divided(&graph, order, options);
         let tree = AssemblyTree::new(pattern, &graph, &order, &supernodes, options.symmetric)?;
-        let prediction = predict(pattern, &tree, Plan::new(&tree, 1).len());
+        let prediction = predict((pattern.len(), pattern.nonzeros()), &tree, Plan::new(&tree, 1).len());
         check_limit(prediction.bytes, options.memory_limit)?;
         let inner = Inner { pattern: pattern.clone(), options: options.clone(), tree, prediction };
         Ok(Symbolic { inner: Arc::new(inner) })
@@ -111,8 +107,74 @@ impl Symbolic {
     }
 }
 
+/// Nodes with a number of unknowns each, all of which couple to all of their neighbours': a pattern in a twentieth of its
+/// memory, for finite elements in space.
+#[derive(Debug, Clone)]
+pub struct NodeGraph {
+    /// Row starts: one more than there are nodes.
+    pub starts: Vec<usize>,
+    /// Neighbours of all nodes, never themselves, in ascending order for each.
+    pub neighbours: Vec<u32>,
+    /// Unknowns of each node.
+    pub weights: Vec<u32>,
+}
+
+impl NodeGraph {
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.weights.iter().map(|&weight| weight as usize).sum()
+    }
+
+    /// Entries of a row of each node.
+    fn row_lengths(&self) -> impl Iterator<Item = usize> + '_ {
+        let weight = |node: u32| self.weights[node as usize] as usize;
+        let neighbours = |node: usize| &self.neighbours[self.starts[node]..self.starts[node + 1]];
+        (0..self.weights.len())
+            .map(move |node| weight(node as u32) + neighbours(node).iter().map(|&other| weight(other)).sum::<usize>())
+    }
+
+    /// Entries of the matrix.
+    pub fn nonzeros(&self) -> usize {
+        self.row_lengths().zip(&self.weights).map(|(length, &weight)| length * weight as usize).sum()
+    }
+
+    /// Nodes whose rows have more entries than `most`.
+    pub fn rows_beyond(&self, most: f64) -> Vec<usize> {
+        self.row_lengths().enumerate().filter(|&(_, length)| length as f64 > most).map(|(node, _)| node).collect()
+    }
+}
+
+impl Prediction {
+    /// The cost of factorising with so many threads, from the graph of the nodes alone: the same as that of
+    /// [`Symbolic::prediction`] for the pattern of all unknowns, the stack being that of so many threads. `last` are the
+    /// nodes to eliminate after all others; the ordering must be one that works on nodes.
+    ///
+    /// # Errors
+    /// Those of [`Symbolic::analyse`].
+    pub fn of_nodes(graph: NodeGraph, last: &[usize], options: &Options, threads: usize) -> Result<Self, Error> {
+        let (unknowns, nonzeros) = (graph.unknowns(), graph.nonzeros());
+        u32::try_from(nonzeros.max(unknowns + 1)).map_err(|_| Error::TooLarge)?;
+        let graph = Graph::of_nodes(graph.starts, graph.neighbours, graph.weights);
+        let order = ordering::order_nodes(&graph, last, &options.ordering)?;
+        let (_, supernodes) = divided(&graph, order, options);
+        let tree = AssemblyTree::outline(&supernodes, options.symmetric)?;
+        Ok(predict((unknowns, nonzeros), &tree, Plan::new(&tree, threads).len()))
+    }
+}
+
+/// The order with every subtree contiguous, and the supernodes in it.
+fn divided(graph: &Graph, order: Vec<u32>, options: &Options) -> (Vec<u32>, Vec<Supernode>) {
+    let order = postordered(graph, order);
+    let position = inverse(&order);
+    let parent = elimination_tree(graph, &order, &position);
+    let counts = column_counts(graph, &order, &position, &parent);
+    let weight = |k: usize| u64::from(graph.weights[order[k] as usize]);
+    let supernodes = supernodes(&parent, &counts, weight, &options.amalgamation);
+    (order, supernodes)
+}
+
 /// The same elimination with every subtree of the elimination tree contiguous.
-fn postordered(graph: &crate::graph::Graph, order: Vec<u32>) -> Vec<u32> {
+fn postordered(graph: &Graph, order: Vec<u32>) -> Vec<u32> {
     let parent = elimination_tree(graph, &order, &inverse(&order));
     let (starts, list) = children(&parent);
     postorder(&starts, &list).into_iter().map(|k| order[k as usize]).collect()
@@ -138,10 +200,12 @@ impl Inner {
     }
 }
 
-fn predict(pattern: &Pattern, tree: &AssemblyTree, stack_entries: usize) -> Prediction {
-    let indices = 4 * (tree.rows.len() * 2 + tree.order.len() * 3) + 8 * tree.entries.len();
-    let pattern_bytes = 8 * (pattern.starts().len() + pattern.columns().len());
-    let values = 8 * (pattern.nonzeros() + 2 * pattern.len());
+fn predict((unknowns, nonzeros): (usize, usize), tree: &AssemblyTree, stack_entries: usize) -> Prediction {
+    let rows: usize = tree.fronts.iter().map(|front| front.border).sum();
+    let entries = if tree.fronts.iter().any(|front| front.symmetric) { nonzeros.midpoint(unknowns) } else { nonzeros };
+    let indices = 4 * (rows * 2 + unknowns * 3) + 8 * entries;
+    let pattern_bytes = 8 * (unknowns + 1 + nonzeros);
+    let values = 8 * (nonzeros + 2 * unknowns);
     Prediction {
         flops: tree.fronts.iter().map(|front| front.flops()).sum(),
         factor_entries: tree.factor_len(),

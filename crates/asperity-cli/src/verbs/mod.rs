@@ -23,6 +23,8 @@ pub use schema::schema;
 use crate::arguments;
 use crate::exit::{Exit, Trouble, tell};
 use asperity::deck::{self, Made};
+use asperity::error::visible;
+use asperity::output::{Claim, Others};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -31,7 +33,7 @@ pub type Outcome = Result<Exit, Trouble>;
 
 /// Prints on standard output. A reader that has seen enough (`| head`) is no fault.
 fn print(text: &str) -> Outcome {
-    match std::io::stdout().write_all(text.as_bytes()) {
+    match std::io::stdout().write_all(visible(text).as_bytes()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(asperity::Error::file("standard output", error).into())
         }
@@ -45,6 +47,13 @@ fn made(arguments: &arguments::Deck) -> Result<Made, Trouble> {
     made.diagnostics.list = deck::warnings(&made);
     tell(&made.diagnostics);
     Ok(made)
+}
+
+/// The result directory of a deck, which is claimed for it.
+fn claim(out: Option<&Path>, deck: &Path) -> Result<(PathBuf, Claim), asperity::Error> {
+    let directory = out.map_or_else(|| results_of(deck), Path::to_path_buf);
+    let claim = Claim::take(&directory, deck, if out.is_some() { Others::Replace } else { Others::Spare })?;
+    Ok((directory, claim))
 }
 
 /// `tube.results` beside the user, for a deck `anywhere/tube.toml`.

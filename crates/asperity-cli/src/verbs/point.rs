@@ -1,10 +1,9 @@
 //! `asperity point`: drive laws of solids along a path of strains and stresses, those of interfaces along one of slip.
 
-use super::{Outcome, print, results_of};
+use super::{Outcome, claim, print};
 use crate::arguments::Point;
 use crate::exit::tell;
 use asperity::deck;
-use asperity::output::file::make_directory;
 use asperity::point::{draw, write};
 
 /// Runs the deck of a point, writes its tables and pictures, and says what it wrote.
@@ -12,8 +11,7 @@ pub fn point(arguments: &Point) -> Outcome {
     let loaded = deck::load_driven(&arguments.deck.path, &arguments.deck.sets)?;
     tell(loaded.diagnostics());
     let records = loaded.run()?;
-    let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
-    make_directory(&directory)?;
+    let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     let mut written = write(&records, &directory)?;
     let drawn = [&records[..], &loaded.surfaces(&records)].concat();
     written.extend(draw(&drawn, loaded.curves(), loaded.title(), &directory)?);

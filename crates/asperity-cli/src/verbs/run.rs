@@ -1,6 +1,6 @@
 //! `asperity run` and `asperity restart`: solve a deck and write its results.
 
-use super::{Outcome, made, print, results_of};
+use super::{Outcome, claim, made, print, results_of};
 use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, farewell};
@@ -42,9 +42,13 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
         pool.map_err(|error| asperity::Error::Internal(error.to_string()))?;
     }
+    if start == Start::Checkpoint {
+        let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
+        Job::checkpoint_in(&directory)?;
+    }
     let made = made(&arguments.deck)?;
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
-    let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
+    let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
     let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes };
     let mut screen = Screen::new(&made.model.problem, interrupts.heed());

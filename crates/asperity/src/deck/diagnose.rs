@@ -1,6 +1,7 @@
 //! Messages about a deck: what is wrong, the line with its caret, the nearest valid name and what to do.
 
 use super::source::{Place, Source};
+use crate::error::visible;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
@@ -107,8 +108,22 @@ impl Diagnostics {
     pub fn render(&self, colour: bool) -> String {
         let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.decor_style(DecorStyle::Ascii);
-        let one = |diagnostic: &Diagnostic| renderer.render(&[self.group(diagnostic)]);
-        self.list.iter().map(one).collect::<Vec<_>>().join("\n\n")
+        let shown = self.shown();
+        let one = |diagnostic: &Diagnostic| renderer.render(&[shown.group(diagnostic)]);
+        shown.list.iter().map(one).collect::<Vec<_>>().join("\n\n")
+    }
+
+    /// The same without what would steer a terminal, of the same lengths, so that places still point where they did.
+    fn shown(&self) -> Self {
+        let text = |text: &str| visible(text).into_owned();
+        let source = |s: &Source| Source { name: text(&s.name), text: text(&s.text), first_line: s.first_line };
+        let message = |d: &Diagnostic| Diagnostic {
+            what: text(&d.what),
+            label: text(&d.label),
+            help: d.help.iter().map(|help| text(help)).collect(),
+            ..d.clone()
+        };
+        Self { sources: self.sources.iter().map(source).collect(), list: self.list.iter().map(message).collect() }
     }
 
     fn group<'a>(&'a self, diagnostic: &'a Diagnostic) -> Group<'a> {

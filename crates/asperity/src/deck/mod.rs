@@ -31,6 +31,7 @@ pub use review::{Review, review, warnings};
 pub use slide::{Driven, LoadedInterface, load_driven, read_interface};
 
 use crate::error::Error;
+use crate::files;
 use crate::mesh::Mesh;
 use form::Table;
 use kind::Kind;
@@ -67,7 +68,10 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
 fn text_of(path: &Path) -> Result<(String, String), Diagnostics> {
     let name = path.display().to_string();
     let lost = |why: String| Diagnostics { sources: vec![], list: vec![Diagnostic::error(format!("{name}: {why}"))] };
-    let bytes = std::fs::read(path).map_err(|error| lost(error.to_string()))?;
+    let bytes = files::read(path).map_err(|error| match error {
+        Error::File { reason, .. } => lost(reason),
+        other => lost(other.to_string()),
+    })?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|&&b| b == b'\n').count();
         lost(format!("line {line} is not UTF-8 text; save the file as UTF-8"))

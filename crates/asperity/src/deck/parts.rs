@@ -77,7 +77,7 @@ fn refuse_file(path: &Path, error: &str, key: Place, reader: &mut Reader) {
         let lost = || diagnostic.clone().help("a mesh file is looked for from the folder of the deck");
         return reader.report(if path.is_file() { diagnostic } else { lost() });
     };
-    let bytes = std::fs::read(path).unwrap_or_default();
+    let bytes = crate::files::read(path).unwrap_or_default();
     let text = bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default();
     let text: String = String::from_utf8_lossy(text).trim_end().chars().take(LINE_SHOWN).collect();
     let place = Place::new(reader.sources.len(), 0..text.len());

@@ -12,6 +12,6 @@ mod variable;
 
 pub use nearest::nearest;
 pub use parameter::{Parameter, unit};
-pub use range::Range;
+pub use range::{Range, short};
 pub use registry::{Entry, Pairs, find};
 pub use variable::{Variable, VariableKind};

@@ -44,12 +44,22 @@ impl Range {
     }
 }
 
+/// A number as people write it: with a power of ten where it would else be a row of zeros.
+pub fn short(x: f64) -> String {
+    if x != 0.0 && !(1e-5..1e16).contains(&x.abs()) { format!("{x:e}") } else { x.to_string() }
+}
+
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.least, self.most) {
+        let short = |end: Option<(f64, bool)>| end.map(|(x, included)| (short(x), included));
+        if self.least == Some((0.0, false)) && self.most.is_none() {
+            return f.write_str("positive");
+        }
+        if self.least == Some((0.0, true)) && self.most.is_none() {
+            return f.write_str("zero or positive");
+        }
+        match (short(self.least), short(self.most)) {
             (None, None) => f.write_str("a finite number"),
-            (Some((0.0, false)), None) => f.write_str("positive"),
-            (Some((0.0, true)), None) => f.write_str("zero or positive"),
             (Some(a), None) => write!(f, "{} {}", if a.1 { "at least" } else { "above" }, a.0),
             (None, Some(b)) => write!(f, "{} {}", if b.1 { "at most" } else { "below" }, b.0),
             (Some((a, true)), Some((b, true))) => write!(f, "from {a} to {b}"),
@@ -79,5 +89,6 @@ mod tests {
         assert_eq!(Range::between(-1.0, 0.5).to_string(), "between -1 and 0.5, both excluded");
         assert_eq!(Range::POSITIVE.to_string(), "positive");
         assert_eq!(Range::at_least(3.0).to_string(), "at least 3");
+        assert_eq!(Range::from_to(1e-12, 1.0).to_string(), "from 1e-12 to 1");
     }
 }

@@ -21,13 +21,13 @@ pub enum Durability {
 /// Writes `bytes` to `path`, replacing what stood there in one step.
 ///
 /// # Errors
-/// [`Error::File`] with what the system said; the old file is then untouched.
+/// [`Error::Write`] with what the system said; the old file is then untouched.
 pub fn write_atomic(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), Error> {
     let directory = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    let failed = |error: &dyn std::fmt::Display| Error::file(path, error);
+    let failed = |error: &dyn std::fmt::Display| Error::write(path, error);
     let mut file = NamedTempFile::with_prefix_in(TEMPORARY, directory).map_err(|e| failed(&e))?;
     file.write_all(bytes).map_err(|e| failed(&e))?;
     share_with_others(&file).map_err(|e| failed(&e))?;
@@ -85,7 +85,7 @@ pub fn make_directory(path: &Path) -> Result<(), Error> {
 /// # Errors
 /// [`Error::File`] with what the system said.
 pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    std::fs::read(path).map_err(|error| Error::file(path, error))
+    crate::files::read(path)
 }
 
 /// A temporary file is made for its owner only; results are ordinary files that colleagues may read.

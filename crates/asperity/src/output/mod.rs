@@ -4,6 +4,7 @@
 mod average;
 mod certificate;
 pub mod checkpoint;
+mod claim;
 pub mod figure;
 mod figures;
 pub mod file;
@@ -24,6 +25,7 @@ mod table;
 pub mod vtk;
 
 pub use certificate::{Certificate, Doubt, Limits, Occasion, Reading};
+pub use claim::{Claim, Others};
 pub use figures::{FIGURES, Figure, Fold, Limit};
 pub use history::{HistoryTable, global_columns};
 pub use log::RunLog;

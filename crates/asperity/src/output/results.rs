@@ -11,7 +11,7 @@
 use super::certificate::{Certificate, Limits};
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
-use super::file::{make_directory, remove, sweep};
+use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HISTORY, HistoryTable};
 use super::quantities::{Parts, Source};
@@ -73,6 +73,16 @@ pub const CHECKPOINT: &str = "run.checkpoint";
 /// Name of the summary in the result directory.
 pub const SUMMARY: &str = "summary.json";
 
+/// Room on the disk that is given back at the end of a run, so that its summary can be written where the disk is full. It
+/// goes by the name of a temporary file, which the next run removes.
+const RESERVE: &str = ".writing-reserve";
+/// Bytes of that room.
+const RESERVED: usize = 1 << 16;
+
+fn reserve(directory: &Path) -> Result<(), Error> {
+    write_atomic(&directory.join(RESERVE), &vec![0; RESERVED], Durability::Machine)
+}
+
 impl Fields {
     const ALL: [Self; 4] = [Self::Bodies, Self::Points, Self::Contacts, Self::Tools];
     fn name(self) -> &'static str {
@@ -91,18 +101,26 @@ impl Results {
     /// # Errors
     /// [`Error::File`] when something cannot be written.
     pub fn create(directory: &Path, start: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
-        make_directory(directory)?;
-        sweep(directory)?;
-        // What the run writes only later would else be that of an earlier one until then: a restart would go on from it.
-        remove(directory, [CHECKPOINT, HISTORY, READINGS].map(String::from).into_iter().chain(pictures()))?;
+        Self::clear(directory)?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
         let history = HistoryTable::create(directory, start.parts.is_plane());
         let readings = ReadingTable::create(directory)?;
         let mut results = Self::new((directory, options, input), start.parts, (series, history, readings))?;
         results.write_frame(start)?;
+        reserve(directory)?;
         results.write_summary()?;
         Ok(results)
+    }
+    /// Makes the directory and removes what an earlier run left there that this one writes only later: a restart would go on
+    /// from it.
+    ///
+    /// # Errors
+    /// [`Error::File`] when the directory cannot be made or a file not removed.
+    pub fn clear(directory: &Path) -> Result<(), Error> {
+        make_directory(directory)?;
+        sweep(directory)?;
+        remove(directory, [CHECKPOINT, HISTORY, READINGS].map(String::from).into_iter().chain(pictures()))
     }
     /// Continues the results of a run from a checkpoint: what came after it is dropped.
     ///
@@ -121,6 +139,12 @@ impl Results {
         let (readings, certificate) = ReadingTable::resume(directory, state.increment)?;
         let mut results = Self::new((directory, options, input), parts, (series, history, readings))?;
         results.certificate = certificate;
+        if state.increment > 0 {
+            results.summary.observe(&at.gather()?, parts.is_plane());
+        }
+        (results.summary.steps, results.summary.attempts) = (state.step, state.attempts);
+        results.summary.iterations = state.iterations;
+        reserve(directory)?;
         results.write_summary()?;
         Ok(results)
     }
@@ -184,6 +208,7 @@ impl Results {
         self.summary.notes.extend(doubts.iter().map(ToString::to_string));
         self.summary.end(outcome, !doubts.is_empty());
         self.summary.timings.insert("output".into(), self.spent.as_secs_f64());
+        remove(&self.directory, [RESERVE.to_owned()])?;
         self.write_summary()?;
         let start = Instant::now();
         if let Err(error) = draw_standard(&self.directory, &FigureOptions::default()) {

@@ -5,14 +5,14 @@ use super::checkpoint::{self, InputHash};
 use super::log::RunLog;
 use super::quantities::{Parts, Source};
 use super::recorder::Recorder;
-use super::results::{CHECKPOINT, ResultOptions, Results};
-use super::summary::Summary;
+use super::results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
+use super::summary::{Status, Summary};
 use crate::Error;
 use crate::mesh::Space;
 use crate::model::Model;
 use crate::solve::{Observer, Run, RunOptions, Stop};
 use crate::system::State;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Where and how the results of a run are written.
@@ -49,6 +49,9 @@ pub enum Start {
 pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result<(Summary, Result<(), Error>), Error> {
     let parts = Parts::of(model);
     let state = job.state(model)?;
+    if let Some(finished) = job.finished(model, &state) {
+        return Ok((finished, Ok(())));
+    }
     let (results, log) = job.open(model, &Source { parts: &parts, state: &state, step: state.step })?;
     let mut recorder = Recorder::new((&parts, &model.problem), results, log, audience);
     let mut run = model.run(state);
@@ -56,10 +59,15 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     let ended = run.run(&RunOptions::default(), &mut recorder);
     let seconds = begun.elapsed().as_secs_f64();
     let mut results = recorder.results;
-    if !matches!(ended, Ok(Stop::Done)) {
-        results.checkpoint(&run.state)?;
+    let mut ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
+    if ended.is_err()
+        && let Err(error) = results.checkpoint(&run.state)
+    {
+        results.summary.notes.push(format!("the last accepted increment is not kept: {error}"));
+        if ended == Err(Error::Stopped) {
+            ended = Err(error);
+        }
     }
-    let ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
     account(&mut results.summary, &run, seconds);
     results.summary.notes.extend(facets(model, &run.state));
     results.summary.notes.extend(leap(&results.certificate));
@@ -71,18 +79,35 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
 }
 
 impl Job<'_> {
+    /// The checkpoint in a result directory.
+    ///
+    /// # Errors
+    /// [`Error::File`] when there is none.
+    pub fn checkpoint_in(directory: &Path) -> Result<PathBuf, Error> {
+        let path = directory.join(CHECKPOINT);
+        let reason = "there is no checkpoint to go on from; `asperity run` begins at the first increment";
+        if path.exists() { Ok(path) } else { Err(Error::file(&path, reason)) }
+    }
+
     fn state(&self, model: &Model) -> Result<State, Error> {
         if self.start == Start::Beginning {
             return Ok(model.problem.initial_state());
         }
-        let path = self.directory.join(CHECKPOINT);
-        if !path.exists() {
-            let reason = "there is no checkpoint to go on from; `asperity run` begins at the first increment";
-            return Err(Error::file(&path, reason));
-        }
+        let path = Self::checkpoint_in(self.directory)?;
         let (_, state) = checkpoint::load::<State>(&path, &self.input)?;
         model.problem.fits(&state).map_err(|reason| Error::file(&path, reason))?;
         Ok(state)
+    }
+
+    /// The summary of the run, where it goes on from its own end: that tells more than a run of no increments could.
+    fn finished(&self, model: &Model, state: &State) -> Option<Summary> {
+        if self.start == Start::Beginning || state.step < model.problem.steps.len() {
+            return None;
+        }
+        let mut summary = Summary::read(&self.directory.join(SUMMARY)).ok()?;
+        let same = summary.status == Status::Converged && summary.input_hash == Some(self.input.to_string());
+        summary.notes.push("this run had come to its end before; nothing was computed or written".into());
+        same.then_some(summary)
     }
 
     fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {

@@ -5,7 +5,7 @@ use super::certificate::{Certificate, Limits, Occasion};
 use super::figures::FIGURES;
 use super::file::{self, Durability, write_atomic};
 use super::quantity::{Frame, Place, Quantity};
-use crate::Error;
+use crate::{Error, machine};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ pub enum Status {
     Stopped,
     /// The input is wrong.
     InputError,
-    /// A file could not be read or written.
+    /// A file could not be read, or a result not be written.
     FileError,
     /// A fault of the program.
     InternalError,
@@ -156,11 +156,11 @@ impl Summary {
             Err(Error::NotConverged(_)) => Status::NotConverged,
             Err(Error::Stopped) => Status::Stopped,
             Err(Error::Input(_)) => Status::InputError,
-            Err(Error::File { .. }) => Status::FileError,
+            Err(Error::File { .. } | Error::Write { .. }) => Status::FileError,
             Err(Error::Internal(_)) => Status::InternalError,
         };
         self.reason = outcome.as_ref().err().map(Error::to_string);
-        self.peak_memory = peak_memory();
+        self.peak_memory = machine::usage().map(|usage| usage.peak);
     }
     /// Writes the file.
     ///
@@ -192,14 +192,6 @@ fn value(quantity: &Quantity, plane: bool) -> Value {
         [(0, "")] => Value::from(quantity.values[0]),
         _ => columns.iter().map(|&(c, suffix)| (suffix[1..].to_string(), Value::from(quantity.values[c]))).collect(),
     }
-}
-
-/// The high-water mark of resident memory.
-fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(1024 * kilobytes)
 }
 
 #[cfg(test)]

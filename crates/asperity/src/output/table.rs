@@ -97,13 +97,13 @@ impl Table {
             text.extend(line(path, row)?);
         }
         write_atomic(path, &text, Durability::Process)?;
-        let file = OpenOptions::new().append(true).open(path).map_err(|error| Error::file(path, error))?;
+        let file = OpenOptions::new().append(true).open(path).map_err(|error| Error::write(path, error))?;
         Ok(Self { path: path.into(), file, width: start.header.len() })
     }
     /// Adds a row.
     ///
     /// # Errors
-    /// [`Error::File`] when it cannot be written, [`Error::Internal`] when it is not as long as the header.
+    /// [`Error::Write`] when it cannot be written, [`Error::Internal`] when it is not as long as the header.
     pub fn push(&mut self, row: &[Field]) -> Result<(), Error> {
         if row.len() != self.width {
             let name = self.path.display();
@@ -111,7 +111,13 @@ impl Table {
         }
         let entries: Vec<String> = row.iter().map(Field::to_string).collect();
         let bytes = line(&self.path, &entries)?;
-        self.file.write_all(&bytes).map_err(|error| Error::file(&self.path, error))
+        self.append(&bytes).map_err(|error| Error::write(&self.path, error))
+    }
+
+    /// Appends a row, or nothing of it: half a row, as a full disk leaves it, is taken back.
+    fn append(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        let length = self.file.metadata()?.len();
+        self.file.write_all(bytes).inspect_err(|_| drop(self.file.set_len(length)))
     }
 }
 

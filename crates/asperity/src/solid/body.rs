@@ -1,6 +1,7 @@
 //! A body as a term of equilibrium: one stencil a cell.
 
 use super::attempt::OpenBody;
+use super::free::Free;
 use super::gradient::Shapes;
 use super::{Heat, InitialStress, Strain};
 use crate::material::Material;
@@ -268,23 +269,11 @@ impl Term for Body {
         format!("cell {} of body '{}'", self.cells[stencil], self.name)
     }
 
-    fn describe_motion(&self, motion: &[f64]) -> Option<String> {
-        let largest = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    fn describe_motions(&self, motions: &[Vec<f64>]) -> Vec<String> {
         let mut nodes: Vec<usize> = self.cells.iter().flat_map(|&c| self.mesh.cell(c).nodes.iter().copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let (dim, count) = (self.dofs.per_node(), nodes.len() as f64);
-        let along = |axis: usize| nodes.iter().map(move |&n| motion[self.dofs.node(n) + axis]);
-        let size = (0..dim).flat_map(along).map(|x| x * x).sum::<f64>().sqrt() / count.sqrt();
-        // Another body moves, and this one only goes along a little.
-        if size < 0.05 * largest {
-            return None;
-        }
-        let mean = |axis: usize| along(axis).sum::<f64>().abs() / count;
-        let free: Vec<&str> = (0..dim).filter(|&a| mean(a) > 0.5 * size).map(|a| self.space.axes()[a]).collect();
-        Some(match free.as_slice() {
-            [] => format!("body '{}' is free to turn", self.name),
-            axes => format!("body '{}' is free along {}", self.name, axes.join(" and ")),
-        })
+        let found = Free::of(motions, (&self.dofs, &self.mesh.points), &nodes, self.space);
+        found.words(self.space).into_iter().map(|words| format!("body '{}' {words}", self.name)).collect()
     }
 }

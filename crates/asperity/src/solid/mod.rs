@@ -7,6 +7,7 @@
 
 mod attempt;
 mod body;
+mod free;
 mod gradient;
 mod heat;
 mod hourglass;

@@ -1,4 +1,4 @@
-//! What is free: motions that meet no stiffness, in an iterate, in a solution, and before the first increment.
+//! What is free: motions that meet no stiffness, in an iterate and in a solution.
 
 use super::linear::LinearError;
 use super::newton::{IfFree, Newton, Trouble};
@@ -142,26 +142,11 @@ impl Newton<'_> {
     }
 
     pub(super) fn name_motions(&self, motions: &[Vec<f64>]) -> Vec<String> {
-        let mut named: Vec<String> = Vec::new();
-        for motion in motions {
+        let expanded = |motion: &Vec<f64>| {
             let mut full = vec![0.0; self.state.u.len()];
             self.step.constraints.expand(motion, &mut full);
-            let names = self.problem.terms.iter().filter_map(|term| term.describe_motion(&full)).collect::<Vec<_>>();
-            named.extend(if names.is_empty() { vec![self.problem.name_of_largest(&full)] } else { names });
-        }
-        named.sort();
-        named.dedup();
-        named
-    }
-
-    /// Motions that meet no stiffness at the accepted state, in words: what would stop the first iteration.
-    pub fn free_motions(mut self) -> Result<Vec<String>, Trouble> {
-        let u = self.state.u.clone();
-        self.evaluate(&u, None, Tangent::Exact)?;
-        match self.factorise_matrix() {
-            Ok(()) => Ok(Vec::new()),
-            Err(LinearError::Singular(motions)) => Ok(self.name_motions(&motions)),
-            Err(other) => Err(Trouble::Error(Error::Internal(other.to_string()))),
-        }
+            full
+        };
+        self.problem.name_motions(&motions.iter().map(expanded).collect::<Vec<_>>())
     }
 }

@@ -100,8 +100,26 @@ impl Problem {
         })
     }
 
-    pub(super) fn name_of_largest(&self, motion: &[f64]) -> String {
-        let largest = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
-        largest.map_or_else(|| "the model".into(), |dof| format!("{} is free", self.name_of(dof)))
+    /// Words for motions of all unknowns, in any mixture: what moves, and how.
+    pub(super) fn name_motions(&self, motions: &[Vec<f64>]) -> Vec<String> {
+        let mut named: Vec<String> = self.terms.iter().flat_map(|term| term.describe_motions(motions)).collect();
+        let bodies = self.dofs.nodes() * self.dofs.per_node();
+        let of_a_tool = |motion: &&Vec<f64>| largest(motion).is_some_and(|dof| dof >= bodies);
+        named.extend(motions.iter().filter(of_a_tool).map(|motion| self.name_of_largest(motion)));
+        if named.is_empty() {
+            named.extend(motions.iter().map(|motion| self.name_of_largest(motion)));
+        }
+        named.sort();
+        named.dedup();
+        named
     }
+
+    pub(super) fn name_of_largest(&self, motion: &[f64]) -> String {
+        largest(motion).map_or_else(|| "the model".into(), |dof| format!("{} is free", self.name_of(dof)))
+    }
+}
+
+/// The unknown that moves most.
+fn largest(motion: &[f64]) -> Option<usize> {
+    (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()))
 }

@@ -4,7 +4,8 @@ use super::linear::LinearSolver;
 use super::newton::{Converged, Memory, Newton, Trouble};
 use super::observer::{AttemptRecord, Observer};
 use super::problem::Problem;
-use super::schedule::Step;
+use super::rigid::free_motions;
+use super::schedule::{SMALLEST, Step};
 use crate::system::{Energies, Interpenetration, State};
 use crate::{Error, Failure};
 use std::time::{Duration, Instant};
@@ -90,25 +91,24 @@ impl<'a> Run<'a> {
         Ok(Stop::Done)
     }
 
-    /// Motions that meet no stiffness at the accepted state, in words: "body 'billet' is free along y". Contact that has
-    /// not closed yet holds nothing.
+    /// Rigid motions that meet no stiffness at the accepted state, in words: "body 'billet' is free along y". Contact that
+    /// has not closed yet holds nothing. Nothing is factorised.
     ///
     /// # Errors
     /// An error when the state cannot be evaluated, or there is no step left.
-    pub fn free_motions(&mut self) -> Result<Vec<String>, Error> {
+    pub fn free_motions(&self) -> Result<Vec<String>, Error> {
         let Some(step) = self.problem.steps.get(self.state.step) else { return Ok(Vec::new()) };
         let dt = step.next(self.state.next_dt, self.state.step_time);
-        let newton = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut());
-        newton.map_err(Trouble::from).and_then(Newton::free_motions).map_err(|trouble| match trouble {
-            Trouble::Failure(failure) => Error::NotConverged(failure.reason),
-            Trouble::Error(error) => error,
-        })
+        let motions = free_motions(self.problem, &self.state, dt).map_err(|f| Error::NotConverged(f.reason))?;
+        Ok(if motions.is_empty() { Vec::new() } else { self.problem.name_motions(&motions) })
     }
 
     /// Solves one increment, cutting it as often as needed, and accepts it.
     fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
         let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, !self.problem.relaxes());
-        let [first, smallest] = [step.increments.first, step.increments.smallest].map(|part| part * step.duration);
+        let smallest = step.increments.smallest.max(SMALLEST);
+        let [first, smallest] = [step.increments.first, smallest].map(|part| part * step.duration);
+        let mut cause = String::new();
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
             let mut record = self.begin(attempt, dt, relaxing);
@@ -131,11 +131,17 @@ impl<'a> Run<'a> {
                 Err(Trouble::Failure(failure)) => {
                     record.failure = Some(failure.reason.clone());
                     observer.attempt(&record);
+                    // Relaxation is the last resort: what made it one is why the increment failed.
+                    if !relaxing || cause.is_empty() {
+                        cause = failure.reason;
+                    } else {
+                        cause = format!("{cause}; {}", failure.reason);
+                    }
                     relaxed |= relaxing;
                     relaxing = !relaxed && dt <= RELAX * first;
                     wanted = if relaxing { dt } else { 0.5 * dt };
                     if wanted < smallest {
-                        return Err(self.give_up(step, dt, &failure.reason));
+                        return Err(self.give_up(step, dt, &cause));
                     }
                 }
             }

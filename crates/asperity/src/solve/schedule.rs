@@ -63,6 +63,10 @@ pub struct Increments {
     pub most: usize,
 }
 
+/// Part of its step below which an increment is given up whatever the deck says: the load then changes by so little that
+/// rounding decides whether it converges, and a run would creep on for ever.
+pub const SMALLEST: f64 = 1e-12;
+
 impl Default for Increments {
     fn default() -> Self {
         Self { first: 0.1, largest: 0.1, smallest: 1e-6, most: 10_000 }

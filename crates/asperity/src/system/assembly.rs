@@ -141,12 +141,21 @@ impl Workspace {
     /// # Errors
     /// A [`Failure`] of a search at the accepted state.
     pub fn prepare(&mut self, assembly: &Assembly, accepted: &State) -> Result<(), Failure> {
+        self.list_stencils(assembly, accepted)?;
+        self.structure.prepare(assembly, &self.stencils);
+        Ok(())
+    }
+
+    /// Lists the stencils at the accepted state, which is enough to evaluate forces without a matrix.
+    ///
+    /// # Errors
+    /// A [`Failure`] of a search at the accepted state.
+    pub fn list_stencils(&mut self, assembly: &Assembly, accepted: &State) -> Result<(), Failure> {
         self.stencils.resize_with(assembly.terms.len(), Stencils::default);
         for (attempt, stencils) in assembly.attempts.iter().zip(&mut self.stencils) {
             stencils.clear();
             attempt.stencils(&accepted.u, stencils)?;
         }
-        self.structure.prepare(assembly, &self.stencils);
         Ok(())
     }
 

@@ -174,10 +174,10 @@ pub trait Term: Send + Sync {
     fn bends(&self) -> bool {
         false
     }
-    /// Words for a motion of all unknowns that meets no stiffness, if it is a motion of this term as a whole: "body
-    /// 'billet' is free along y".
-    fn describe_motion(&self, _motion: &[f64]) -> Option<String> {
-        None
+    /// Words for motions of all unknowns that meet no stiffness, as far as they move this term, whatever mixture of them the
+    /// vectors are: "body 'billet' is free along y".
+    fn describe_motions(&self, _motions: &[Vec<f64>]) -> Vec<String> {
+        Vec::new()
     }
     /// Words for a branch in tables; empty when the term has only one.
     fn branches(&self) -> &'static [&'static str] {

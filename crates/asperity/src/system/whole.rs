@@ -52,6 +52,31 @@ impl Whole {
         }
     }
 
+    /// Its rigid motions in the undeformed mesh as motions of all unknowns: translations, then rotations about the mean of
+    /// its nodes, of largest entry one.
+    pub fn rigid_motions(&self, dofs: &Dofs) -> Vec<Vec<f64>> {
+        let (_, arms) = self.placed(dofs, |_| 0.0);
+        let axis = |axis: usize| Vec3(std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 }));
+        let (shifts, turns) = match self.space {
+            Space::Solid => (vec![0, 1, 2], vec![0, 1, 2]),
+            Space::Axisymmetric => (vec![1], vec![]),
+            Space::PlaneStrain | Space::PlaneStress => (vec![0, 1], vec![2]),
+        };
+        let size = arms.iter().map(|arm| arm.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+        let shift = shifts.into_iter().map(|a| self.motion(dofs, |_| axis(a)));
+        let turn = turns.into_iter().map(|a| self.motion(dofs, |k| axis(a).cross(arms[k]) * size.recip()));
+        shift.chain(turn).collect()
+    }
+
+    /// The motion of all unknowns that moves node number `k` of this whole by `of(k)`.
+    fn motion(&self, dofs: &Dofs, of: impl Fn(usize) -> Vec3) -> Vec<f64> {
+        let mut motion = vec![0.0; dofs.count()];
+        for (k, (node, _)) in self.nodes.iter().enumerate() {
+            (0..dofs.per_node()).for_each(|axis| motion[dofs.node(*node) + axis] = of(k)[axis]);
+        }
+        motion
+    }
+
     /// The mean of the nodes' positions, and their arms from there.
     fn placed(&self, dofs: &Dofs, u: impl Fn(usize) -> f64) -> (Vec3, Vec<Vec3>) {
         let at = |&(node, mut x): &(usize, Vec3)| {

@@ -22,6 +22,9 @@ pub(super) enum Opposite<'a> {
     Sides(&'a [Side]),
 }
 
+/// Multiple of the computed penalty beyond which a matrix in double precision holds next to nothing of the cells.
+const LARGEST_PENALTY: f64 = 1e12;
+
 impl Builder<'_> {
     /// The contacts, those of the second of two passes right behind those of the first.
     pub(super) fn contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
@@ -82,6 +85,7 @@ impl Builder<'_> {
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), moduli);
+        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), moduli));
         let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
             let gauss = keys.gauss.map(|gauss| gauss.value);
             let carrier = match self.site.space {
@@ -115,14 +119,8 @@ impl Builder<'_> {
         (surface, opposite): (&[Side], Opposite),
         moduli: &[f64],
     ) -> ContactOptions {
-        let mut sides = surface.to_vec();
-        if let Opposite::Sides(others) = opposite {
-            sides.extend_from_slice(others);
-        }
         let loads = self.carried(keys, (surface, opposite));
-        let part = if loads == Loads::Own { TWO_PASSES } else { 1.0 };
-        let computed = || part * default_penalty(&self.site.mesh, &sides, |cell| moduli[cell]);
-        let penalty = keys.penalty.unwrap_or_else(computed);
+        let penalty = keys.penalty.unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), moduli));
         let itself = matches!(opposite, Opposite::Sides(others) if same_sides(surface, others));
         let role = if itself { Role::Itself } else { Role::Leads };
         ContactOptions {
@@ -141,6 +139,35 @@ impl Builder<'_> {
             },
             normals: keys.normals,
             wear: keys.wear.as_ref().map(keys::WearKeys::wear),
+        }
+    }
+
+    /// The penalty that holds where a deck gives none.
+    pub(super) fn computed_penalty(
+        &self,
+        keys: &keys::Contact,
+        (surface, opposite): (&[Side], Opposite),
+        moduli: &[f64],
+    ) -> f64 {
+        let mut sides = surface.to_vec();
+        if let Opposite::Sides(others) = opposite {
+            sides.extend_from_slice(others);
+        }
+        let part = if self.carried(keys, (surface, opposite)) == Loads::Own { TWO_PASSES } else { 1.0 };
+        part * default_penalty(&self.site.mesh, &sides, |cell| moduli[cell])
+    }
+
+    /// A penalty must leave the equations some digits of the stiffness of the cells.
+    pub(super) fn check_penalties(&mut self, name: &Name, keys: &keys::Contact, computed: f64) {
+        for (key, penalty) in [("penalty", keys.penalty), ("tangential_penalty", keys.tangential_penalty)] {
+            if let Some(penalty) = penalty.filter(|penalty| *penalty > LARGEST_PENALTY * computed) {
+                let what = format!(
+                    "`contact.{name}.{key}` of {penalty:.1e} is more than {LARGEST_PENALTY:.0e} times the computed one, \
+                     {computed:.4e}"
+                );
+                let help = "beside it rounding hides the stiffness of the cells; leave it out, or stay below a thousand times that";
+                self.found.push(Diagnostic::error(what).at(name.place).help(help));
+            }
         }
     }
 

@@ -41,6 +41,7 @@ impl Builder<'_> {
             return None;
         }
         let options = self.options(keys, (sides, opposite), moduli);
+        self.check_penalties(name, keys, self.computed_penalty(keys, (sides, opposite), moduli));
         let build = |name: &str, sides: &[Side], target: Target, options| {
             Contact::new(Parts {
                 name: name.into(),

@@ -80,7 +80,7 @@ impl Builder<'_> {
     fn triangles(&mut self, keys: &StlKeys) -> Option<Facets> {
         let path = self.folder.join(&keys.file.value);
         let told = |why: String| crate::Error::input(format!("{}: {why}", path.display()));
-        let bytes = std::fs::read(&path).map_err(|error| told(error.to_string()));
+        let bytes = crate::files::read(&path);
         let bytes = self.keep(bytes, keys.file.place)?;
         let read = stl::read(&bytes).map_err(told);
         self.files.push(bytes);

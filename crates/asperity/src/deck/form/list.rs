@@ -124,6 +124,11 @@ impl<F: Form> Form for Map<F> {
                 let what = format!("a {} needs a name that is not empty", self.names.names.noun());
                 reader.report(Diagnostic::error(what).at(name.place));
             }
+            if name.text.contains(char::is_control) && self.names.defines {
+                let what = format!("the name of a {} holds control characters", self.names.names.noun());
+                let help = "names stand in tables and on screens: give it another";
+                reader.report(Diagnostic::error(what).at(name.place).help(help));
+            }
             reader.mention(self.names.names, name.clone(), self.names.defines);
             let value = reader.under(entry.key.clone(), |reader| self.item.read(&entry.node, reader));
             values.push(value.map(|value| (name, value)));

@@ -6,7 +6,7 @@ use crate::deck::reader::Reader;
 use crate::deck::schema::Schema;
 use crate::deck::source::Place;
 use crate::deck::tree::{Node, Value};
-use crate::declare::Range;
+use crate::declare::{Range, short};
 use std::ops::RangeInclusive;
 
 /// Refuses a value of another kind; what only stands in quotes is to be written without them.
@@ -44,7 +44,7 @@ impl Number {
         let path = reader.path();
         let what = match x.is_infinite() {
             true => format!("`{path}` is infinite, or too large for a number; it must be {}", self.range),
-            false => format!("`{path}` must be {}, not {x}", self.range),
+            false => format!("`{path}` must be {}, not {}", self.range, short(x)),
         };
         let words = [self.meaning, self.unit].iter().filter(|w| !w.is_empty()).copied().collect::<Vec<_>>();
         let diagnostic = Diagnostic::error(what).at(place);

@@ -13,6 +13,7 @@ use crate::deck::schema::{Names, Schema};
 use crate::deck::source::Spot;
 use crate::deck::tree::Node;
 use crate::declare::{Range, unit};
+use crate::solve::SMALLEST;
 use std::collections::BTreeSet;
 
 table! {
@@ -62,7 +63,7 @@ table! {
         /// The largest.
         largest: Option<Spot<f64>> = fraction().spot().computed("0.1"),
         /// The smallest; a step that needs a smaller one fails.
-        smallest: Spot<f64> = fraction().spot().or("1e-6"),
+        smallest: Spot<f64> = number(unit::NONE, Range::from_to(SMALLEST, 1.0)).spot().or("1e-6"),
         /// The most increments of the step.
         most: usize = whole(1..=100_000_000).or("100000"),
     }

@@ -16,7 +16,8 @@ mod numbering;
 pub use note::Note;
 
 use super::Mesh;
-use crate::error::Error;
+use crate::error::{Error, visible};
+use crate::files;
 use std::path::Path;
 
 /// Makes a mesh of a file's content; the path serves messages and included files only.
@@ -54,6 +55,14 @@ pub fn read(path: impl AsRef<Path>) -> Result<(Mesh, Vec<Note>), Error> {
             known.join(" or ")
         )));
     };
-    let bytes = std::fs::read(path).map_err(|reason| Error::file(path, reason))?;
-    (format.read)(path, &bytes)
+    let (mesh, notes) = (format.read)(path, &files::read(path)?)?;
+    check_names(path, &mesh)?;
+    Ok((mesh, notes))
+}
+
+/// Names of groups become columns of tables and words on a terminal, which control characters would steer.
+fn check_names(path: &Path, mesh: &Mesh) -> Result<(), Error> {
+    let Some(name) = mesh.groups.keys().find(|name| name.contains(char::is_control)) else { return Ok(()) };
+    let (path, name) = (path.display(), visible(name));
+    Err(Error::input(format!("{path}: the name of the group '{name}' holds control characters; give it another")))
 }

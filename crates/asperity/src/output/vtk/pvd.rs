@@ -66,12 +66,12 @@ impl Series {
     /// Writes the next frame and the list.
     ///
     /// # Errors
-    /// [`Error::File`] when a file cannot be written; the frames before stay listed and readable.
+    /// [`Error::Write`] when a file cannot be written; the frames before stay listed and readable.
     pub fn push(&mut self, grid: &Grid) -> Result<(), Error> {
         let relative = format!("{0}/{0}_{1:06}.vtu", self.name, self.frames.len());
         let path = self.directory.join(&relative);
         // Whole before the list names it; readers go by the list.
-        std::fs::write(&path, grid.to_bytes(self.encoding)?).map_err(|error| Error::file(&path, error))?;
+        write_atomic(&path, &grid.to_bytes(self.encoding)?, Durability::Process)?;
         self.frames.push((grid.time, relative));
         write_atomic(&self.path(), self.list().as_bytes(), Durability::Process)
     }

@@ -138,3 +138,26 @@ proptest! {
         let _ = read::parse(&bytes[..cut % bytes.len()]).map(|grid| grid.to_mesh());
     }
 }
+
+/// Four contact points, whose arrays meshio 5.3 mistook for one another: raw offset 196 of the fourth array is that of the
+/// third in base64.
+#[test]
+fn offsets_that_are_mistaken_are_not_written() {
+    let reals = |n: usize| Values::Real((0..n).map(|i| i as f64).collect());
+    let grid = |count: usize| Grid {
+        points: vec![[0.0; 3]; count],
+        cells: Cells::vertices(count),
+        point_data: vec![
+            DataArray::new("displacement", 3, reals(3 * count)),
+            DataArray::new("contact", 1, Values::Integer(vec![0; count])),
+            DataArray::new("contact_status", 1, Values::Byte(vec![1; count])),
+            DataArray::new("contact_pressure", 1, reals(count)),
+            DataArray::new("contact_traction", 3, reals(3 * count)),
+        ],
+        ..Grid::default()
+    };
+    let bytes = |count: usize| grid(count).to_bytes(Encoding::default()).unwrap();
+    let is_raw = |bytes: &[u8]| bytes.windows(14).any(|window| window == b"encoding=\"raw\"");
+    assert!(!is_raw(&bytes(4)) && is_raw(&bytes(5)));
+    assert_eq!(read::parse(&bytes(4)).unwrap(), grid(4));
+}

@@ -7,6 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
@@ -33,7 +34,7 @@ impl Grid {
     ///
     /// # Errors
     /// [`Error::Internal`] when an array does not fit the grid, or a block cannot be compressed.
-    pub fn to_bytes(&self, encoding: Encoding) -> Result<Vec<u8>, Error> {
+    pub fn to_bytes(&self, mut encoding: Encoding) -> Result<Vec<u8>, Error> {
         let (coordinates, cells) = ([self.coordinates()], self.cell_arrays());
         let (count, cell_count) = (Some(self.points.len()), Some(self.cells.len()));
         let sections = [
@@ -42,6 +43,7 @@ impl Grid {
             Section { name: "Points", arrays: &coordinates, count },
             Section { name: "Cells", arrays: &cells, count: None },
         ];
+        encoding.base64 |= encoding == Encoding::default() && is_misread(&sections);
         let mut appended = Appended { encoding, bytes: Vec::new() };
         let mut head = self.head(encoding);
         appended.bytes.reserve(sections.iter().map(Section::size).sum());
@@ -100,6 +102,22 @@ impl Section<'_> {
         let _ = writeln!(head, "</{name}>");
         Ok(())
     }
+}
+
+/// Whether raw arrays at these offsets are mistaken for one another by meshio 5, which turns them into base64 one by one,
+/// writes down their new offsets and looks for the next one by its old offset, first from the front.
+fn is_misread(sections: &[Section]) -> bool {
+    let sizes = sections.iter().flat_map(|section| section.arrays).map(|array| array.values.size() + 8);
+    let (mut old, mut new, mut before) = (0, 0, BTreeSet::new());
+    for size in sizes {
+        if before.contains(&old) {
+            return true;
+        }
+        before.insert(new);
+        old += size;
+        new += 4 * size.div_ceil(3);
+    }
+    false
 }
 
 fn tag(array: &DataArray, offset: usize) -> String {

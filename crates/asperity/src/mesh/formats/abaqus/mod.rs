@@ -15,6 +15,7 @@ mod surfaces;
 use super::Note;
 use super::draft::Draft;
 use crate::error::Error;
+use crate::files;
 use crate::mesh::Mesh;
 use elements::Elements;
 use lexer::{Keyword, Statement, Statements};
@@ -140,8 +141,11 @@ impl Reader {
         if self.files.len() >= MOST_FILES {
             return Err(self.error(place, format!("more than {MOST_FILES} files are included; join some of them")));
         }
-        let bytes = std::fs::read(&path);
-        let bytes = bytes.map_err(|reason| {
+        let bytes = files::read(&path).map_err(|error| {
+            let reason = match error {
+                Error::File { reason, .. } => reason,
+                other => other.to_string(),
+            };
             let path = path.display();
             self.error(place, format!("'{path}' cannot be read ({reason}); paths count from the including file"))
         })?;

@@ -218,6 +218,19 @@ fn a_point_is_driven_and_leaves_table_and_curves() {
 }
 
 #[test]
+fn a_path_that_fails_leaves_what_was_reached_and_the_reason() {
+    let folder = folder("");
+    let deck = "version = 1\ninterface.joint.cohesive = { friction = 0.6, cohesion = 4.0, tension = 5.0 }\npenalty = 1e4\n\
+                [[step]]\npressure = -8.0\nincrements = 8\n";
+    std::fs::write(folder.path().join("joint.toml"), deck).unwrap();
+    let run = asperity(folder.path(), &["point", "joint.toml"]);
+    assert_eq!(code(&run), 3, "{}", error(&run));
+    assert!(error(&run).contains("joint, step 1") && error(&run).contains("out of reach"), "{}", error(&run));
+    let table = std::fs::read_to_string(folder.path().join("joint.results/joint.csv")).unwrap();
+    assert_eq!(table.lines().count(), 2 + 5, "{table}");
+}
+
+#[test]
 fn laws_are_listed_with_their_numbers() {
     let laws = asperity(Path::new("."), &["laws"]);
     let text = String::from_utf8(laws.stdout).unwrap();

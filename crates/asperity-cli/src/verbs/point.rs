@@ -10,10 +10,12 @@ use asperity::point::{draw, write};
 pub fn point(arguments: &Point) -> Outcome {
     let loaded = deck::load_driven(&arguments.deck.path, &arguments.deck.sets)?;
     tell(loaded.diagnostics());
-    let records = loaded.run()?;
+    let (records, stopped) = loaded.follow();
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     let mut written = write(&records, &directory)?;
     let drawn = [&records[..], &loaded.surfaces(&records)].concat();
     written.extend(draw(&drawn, loaded.curves(), loaded.title(), &directory)?);
-    print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
+    let done = print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())?;
+    // What was reached is written; that it is not all, and why, is said at last.
+    stopped.map_or(Ok(done), |error| Err(error.into()))
 }

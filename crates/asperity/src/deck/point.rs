@@ -58,7 +58,11 @@ fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<
     let mut materials = Vec::new();
     for (name, law) in &deck.material {
         match integrated(deck, law) {
-            Ok(material) => materials.push((name.text.clone(), material)),
+            Ok(material) => {
+                let note = material.advice().map(|advice| Diagnostic::note(format!("`material.{name}`: {advice}")));
+                found.extend(note.map(|note| note.at(law.place)));
+                materials.push((name.text.clone(), material));
+            }
             Err(why) => found.push(Diagnostic::error(why).at(law.place)),
         }
         refuse_name(name, found);
@@ -101,16 +105,37 @@ impl LoadedPoint {
     /// # Errors
     /// [`Error::NotConverged`] where the path of one cannot be followed.
     pub fn run(&self) -> Result<Vec<Record>, Error> {
-        let stress = self.deck.initial_stress.as_ref().map(|s| s.all().map(|s| s.unwrap_or(0.0)));
-        let one = |(name, material): &(String, Box<dyn Material>)| {
-            let mut probe = Probe::new(material.as_ref(), stress);
-            let mut record = Record::new(name, material.as_ref());
-            record.push(&probe);
-            for stage in &self.stages {
-                probe.follow(stage, |probe| record.push(probe))?;
-            }
-            Ok(record)
-        };
-        self.materials.iter().map(one).collect()
+        whole(self.follow())
     }
+
+    /// Drives every material along the path as far as it can be followed; with what stopped the first that was stopped.
+    pub fn follow(&self) -> (Vec<Record>, Option<Error>) {
+        let stress = self.deck.initial_stress.as_ref().map(|s| s.all().map(|s| s.unwrap_or(0.0)));
+        all(self.materials.iter().map(|(name, material)| self.drive(name, material.as_ref(), stress)))
+    }
+
+    fn drive(&self, name: &str, material: &dyn Material, stress: Option<[f64; 6]>) -> (Record, Option<Error>) {
+        let mut probe = Probe::new(material, stress);
+        let mut record = Record::new(name, material);
+        record.push(&probe);
+        let mut follow = |stage| probe.follow(stage, |probe| record.push(probe));
+        let stopped = self.stages.iter().try_for_each(&mut follow).err();
+        (record, stopped)
+    }
+}
+
+/// All records, and the first thing that stopped one, with its name.
+pub(super) fn all(driven: impl Iterator<Item = (Record, Option<Error>)>) -> (Vec<Record>, Option<Error>) {
+    let mut first = None;
+    let records = driven.map(|(record, stopped)| {
+        let named = stopped.map(|error| Error::NotConverged(format!("{}, {error}", record.name)));
+        first = first.take().or(named);
+        record
+    });
+    (records.collect(), first)
+}
+
+/// The records of paths that were followed to their ends.
+pub(super) fn whole((records, stopped): (Vec<Record>, Option<Error>)) -> Result<Vec<Record>, Error> {
+    stopped.map_or(Ok(records), Err)
 }

@@ -93,6 +93,9 @@ impl Page {
             let law = &made.deck.material[*material].1;
             let cells = body.cells().len();
             self.line(format!("body {}: {cells} cells of {} ({law:?})", body.name(), made.model.materials[*material]));
+            if let Some(advice) = body.material().advice() {
+                self.line(format!("  note: {advice}"));
+            }
             if body.unseen() > 0 {
                 self.line(format!(
                     "  {} motions of each of its cells of first degree meet no stiffness with reduced integration \

@@ -4,7 +4,7 @@ use super::diagnose::{Diagnostic, Diagnostics};
 use super::form::Table;
 use super::keys::InterfaceDeck;
 use super::kind::Kind;
-use super::point::{LoadedPoint, curves, refuse_name};
+use super::point::{LoadedPoint, all, curves, refuse_name, whole};
 use super::tree::{self, Value};
 use super::{gathered, text_of, understood};
 use crate::Error;
@@ -73,20 +73,24 @@ pub fn read_interface(text: &str, name: &str, sets: &[String]) -> Result<LoadedI
 fn laws(deck: &InterfaceDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<dyn Interface>)> {
     let mut laws = Vec::new();
     for (name, law_keys) in &deck.interface {
-        match law_keys.build() {
+        match law_keys.build().and_then(|law| integrated(deck, law)) {
             Ok(law) if law.radius() > 0.0 => {
                 let what = "a single point has no neighbours over which `radius` could take the mean of the pressure";
                 found.push(Diagnostic::error(what).at(law_keys.place));
             }
-            Ok(law) => {
-                let update = deck.update.as_ref().map(|keys| law.with_update(keys.update()));
-                laws.push((name.text.clone(), update.unwrap_or(law)));
-            }
+            Ok(law) => laws.push((name.text.clone(), law)),
             Err(why) => found.push(Diagnostic::error(why).at(law_keys.place)),
         }
         refuse_name(name, found);
     }
     laws
+}
+
+fn integrated(deck: &InterfaceDeck, law: Box<dyn Interface>) -> Result<Box<dyn Interface>, String> {
+    match &deck.update {
+        Some(keys) => law.with_update(keys.update()),
+        None => Ok(law),
+    }
 }
 
 impl LoadedInterface {
@@ -95,8 +99,13 @@ impl LoadedInterface {
     /// # Errors
     /// [`Error::NotConverged`] where the path of one cannot be followed.
     pub fn run(&self) -> Result<Vec<Record>, Error> {
+        whole(self.follow())
+    }
+
+    /// Drives every law along the path as far as it can be followed; with what stopped the first that was stopped.
+    pub fn follow(&self) -> (Vec<Record>, Option<Error>) {
         let penalties = [self.deck.penalty, self.deck.tangential_penalty.unwrap_or(self.deck.penalty)];
-        self.laws.iter().map(|(name, law)| drive(name, law.as_ref(), penalties, &self.stages)).collect()
+        all(self.laws.iter().map(|(name, law)| drive(name, law.as_ref(), penalties, &self.stages)))
     }
 
     /// The yield surfaces of the laws before any motion, up to twice the pressure of their records; of those that have one.
@@ -139,14 +148,11 @@ impl Driven {
             Self::Interface(loaded) => loaded.surfaces(records),
         }
     }
-    /// Drives every law along the path.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`] where the path of one cannot be followed.
-    pub fn run(&self) -> Result<Vec<Record>, Error> {
+    /// Drives every law along the path as far as it can be followed; with what stopped the first that was stopped.
+    pub fn follow(&self) -> (Vec<Record>, Option<Error>) {
         match self {
-            Self::Solid(loaded) => loaded.run(),
-            Self::Interface(loaded) => loaded.run(),
+            Self::Solid(loaded) => loaded.follow(),
+            Self::Interface(loaded) => loaded.follow(),
         }
     }
 }

@@ -71,7 +71,7 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
         self.law.radius()
     }
     /// Integrated once, not twice.
-    fn updated(&self, update: Update) -> Box<dyn Interface> {
+    fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
         self.law.updated(update)
     }
 
@@ -81,11 +81,17 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
         let step = |from: &Point<T>, part: f64| {
             let penetration = from.penetration + way * part;
             let (pressure, shear) = (from.response.pressure, from.response.shear);
+            // Only the extrapolation of the midpoint rule can lead beyond the slip.
+            let shear = if part == 0.0 { before_slip(past.shear, shear, motion.slip) } else { shear };
             let here = Past { penetration: from.penetration, pressure, shear, vars: &from.vars[..n], ..*past };
             let motion = Motion { penetration, slip: motion.slip.map(|s| s * part) };
             let mut vars = from.vars;
             let here = Past { dt: part * past.dt, ..here };
             let mut response = self.law.respond(&motion, &here, &mut vars[..n])?;
+            if part == 0.0 {
+                // Nothing has moved: whether the point slips was found before.
+                response.status = from.response.status;
+            }
             response.slipped += from.response.slipped;
             response.closure += from.response.closure;
             response.dissipated += from.response.dissipated;
@@ -95,6 +101,17 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
         vars.copy_from_slice(&end.vars[..n]);
         Ok(end.response)
     }
+}
+
+/// A shear stress that began as `start`, without what has carried it across the direction of the slip: slip turns a stress
+/// towards itself and never beyond.
+fn before_slip<T: Scalar>(start: [T; 2], shear: [T; 2], slip: [T; 2]) -> [T; 2] {
+    let left = |a: [T; 2]| slip[0].re() * a[1].re() - slip[1].re() * a[0].re();
+    if left(start) * left(shear) >= 0.0 {
+        return shear;
+    }
+    let along = (shear[0] * slip[0] + shear[1] * slip[1]) / (slip[0] * slip[0] + slip[1] * slip[1]);
+    slip.map(|slip| slip * along)
 }
 
 fn start<T: Scalar>(past: &Past<T>) -> Point<T> {

@@ -115,7 +115,8 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
     /// Its history variables besides the shear stress, at most [`MOST_VARIABLES`] scalars.
     const VARIABLES: &'static [Variable];
 
-    /// The response to a motion; `vars` holds the old variables and takes the new ones.
+    /// The response to a motion; `vars` holds the old variables and takes the new ones. With no motion and no time
+    /// (`dt` zero) the nearest admissible stress: a scheme has come to a state that only has to be put right.
     ///
     /// # Errors
     /// A [`Failure`] when a local iteration does not converge.
@@ -145,8 +146,11 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
         0.0
     }
     /// The same law, its increments integrated as said.
-    fn updated(&self, update: Update) -> Box<dyn Interface> {
-        Box::new(Law(Integrated { law: self.clone(), update }))
+    ///
+    /// # Errors
+    /// In words, where the law cannot serve the scheme or has nothing to integrate.
+    fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
+        Ok(Box::new(Law(Integrated { law: self.clone(), update })))
     }
 }
 
@@ -174,7 +178,10 @@ pub trait Interface: Send + Sync {
     /// As [`InterfaceLaw::radius`].
     fn radius(&self) -> f64;
     /// The same law, its increments integrated in another way.
-    fn with_update(&self, update: Update) -> Box<dyn Interface>;
+    ///
+    /// # Errors
+    /// As [`InterfaceLaw::updated`].
+    fn with_update(&self, update: Update) -> Result<Box<dyn Interface>, String>;
 }
 
 /// An [`InterfaceLaw`] as an [`Interface`]: increments are one step.
@@ -224,7 +231,7 @@ impl<L: InterfaceLaw> Interface for Law<L> {
     fn radius(&self) -> f64 {
         self.0.radius()
     }
-    fn with_update(&self, update: Update) -> Box<dyn Interface> {
+    fn with_update(&self, update: Update) -> Result<Box<dyn Interface>, String> {
         self.0.updated(update)
     }
 }

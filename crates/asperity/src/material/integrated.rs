@@ -66,6 +66,9 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     fn dissipation(&self, old: (&Tensor2, &Self::Vars<f64>), new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         self.law.dissipation(old, new)
     }
+    fn advice(&self) -> Option<&'static str> {
+        self.law.advice()
+    }
     /// Integrated once, not twice.
     fn updated(&self, update: Update) -> Box<dyn Material> {
         self.law.updated(update)

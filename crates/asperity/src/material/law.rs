@@ -151,6 +151,10 @@ pub trait Material: Send + Sync {
     fn is_conservative(&self) -> bool {
         false
     }
+    /// What a user should know of the law in its frame before it is used, in words; none where there is nothing to know.
+    fn advice(&self) -> Option<&'static str> {
+        None
+    }
     /// Confined modulus `lambda + 2 G` and shear modulus `G` of the undeformed solid.
     fn moduli(&self) -> [f64; 2] {
         let mut state = vec![0.0; self.state_len()];

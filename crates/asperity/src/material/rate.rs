@@ -49,6 +49,10 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     fn dissipation(&self, _old: (&Tensor2, &Self::Vars<f64>), _new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         0.0
     }
+    /// What a user should know of the law in Jaumann's frame, in words.
+    fn advice(&self) -> Option<&'static str> {
+        None
+    }
     /// The law as a material whose increments are integrated as said.
     fn updated(&self, update: Update) -> Box<dyn Material> {
         Box::new(Rate(Integrated { law: self.clone(), update }))
@@ -179,6 +183,10 @@ impl<L: RateLaw> Material for Rate<L> {
         directions: Directions,
     ) -> Result<(), Failure> {
         self.advance_along(f, dt, old, out, directions)
+    }
+
+    fn advice(&self) -> Option<&'static str> {
+        self.0.advice()
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

@@ -239,16 +239,42 @@ impl<'a> Slider<'a> {
     ) -> Result<[f64; 2], Failure> {
         let unit = (wanted.abs() + self.pressure.abs()) / self.penalties[0] + f64::EPSILON * self.penetration.abs();
         let unit = unit.max(f64::MIN_POSITIVE);
+        let beyond = || Failure::new("the prescribed pressure is out of reach");
         let reach = |sign: f64| -> Result<f64, Failure> {
-            let tried = (0..60).map(|k| self.penetration + sign * unit * 2.0_f64.powi(k));
-            for u in tried {
-                if miss(&at(u)?) * sign >= 0.0 {
+            let mut closed = self.penetration;
+            for u in (0..60).map(|k| self.penetration + sign * unit * 2.0_f64.powi(k)) {
+                let trial = at(u)?;
+                if miss(&trial) * sign >= 0.0 {
                     return Ok(u);
                 }
+                if trial.0.status.is_some() {
+                    closed = u;
+                } else if sign < 0.0 {
+                    // A bond lets go at its tension: the least pressure is that of the last closed point.
+                    let last = self.last_closed([u, closed], at)?;
+                    let rounding = TOLERANCE * wanted.abs();
+                    return if miss(&at(last)?) <= rounding { Ok(last) } else { Err(beyond()) };
+                }
             }
-            Err(Failure::new("the prescribed pressure is out of reach"))
+            Err(beyond())
         };
         Ok([reach(-1.0)?, reach(1.0)?])
+    }
+
+    /// The last penetration of a closed point between an open and a closed one.
+    fn last_closed(
+        &self,
+        [mut open, mut closed]: [f64; 2],
+        at: &impl Fn(f64) -> Result<Trial<'a>, Failure>,
+    ) -> Result<f64, Failure> {
+        for _ in 0..LIMIT {
+            let middle = 0.5 * (open + closed);
+            if middle == open || middle == closed {
+                break;
+            }
+            *(if at(middle)?.0.status.is_some() { &mut closed } else { &mut open }) = middle;
+        }
+        Ok(closed)
     }
 }
 
@@ -277,18 +303,14 @@ pub fn columns(law: &dyn Interface) -> Vec<String> {
     COLUMNS.into_iter().chain(new).map(str::to_string).collect()
 }
 
-/// Drives a law along a path and records a row at the beginning and at the end of each increment.
-///
-/// # Errors
-/// [`Error::NotConverged`] where the path cannot be followed.
-pub fn drive(name: &str, law: &dyn Interface, penalties: [f64; 2], stages: &[Slide]) -> Result<Record, Error> {
+/// Drives a law along a path and records a row at the beginning and at the end of each increment; with what stopped it
+/// where the path cannot be followed to its end.
+pub fn drive(name: &str, law: &dyn Interface, penalties: [f64; 2], stages: &[Slide]) -> (Record, Option<Error>) {
     let mut slider = Slider::new(law, penalties);
-    let mut record = Record { name: name.into(), columns: columns(law), rows: Vec::new() };
-    record.rows.push(slider.row());
-    for stage in stages {
-        slider.follow(stage, |slider| record.rows.push(slider.row()))?;
-    }
-    Ok(record)
+    let mut record = Record { name: name.into(), columns: columns(law), rows: vec![slider.row()] };
+    let mut follow = |stage| slider.follow(stage, |slider| record.rows.push(slider.row()));
+    let stopped = stages.iter().try_for_each(&mut follow).err();
+    (record, stopped)
 }
 
 impl Slider<'_> {

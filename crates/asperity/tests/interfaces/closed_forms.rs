@@ -1,6 +1,7 @@
 //! The decks of `cases/interface` against closed forms.
 
 use super::samples::{decks, load, run};
+use asperity::deck::read_interface;
 use asperity::point::Record;
 
 fn of<'a>(records: &'a [Record], name: &str) -> &'a Record {
@@ -142,8 +143,8 @@ fn friction_that_depends_on_velocity() {
 /// Below the criterion the slip is not unique, and this is said.
 #[test]
 fn stick_slip_is_named() {
-    let path = decks().into_iter().find(|path| path.ends_with("velocity.toml")).unwrap();
-    let text = load(&path, &["penalty=1e3", "step.2.increments=1000"]).run().unwrap_err().to_string();
+    let path = decks().into_iter().find(|path| path.ends_with("decay.toml")).unwrap();
+    let text = load(&path, &["penalty=1.5e3"]).run().unwrap_err().to_string();
     assert!(text.contains("stick-slip, the slip is not unique") && text.contains("tangential penalty"), "{text}");
 }
 
@@ -167,11 +168,39 @@ fn velocity_step_of_a_gouge() {
     near(at(&records, "slip", ("slip", 1.1e-4), "shear"), 6.01193e6, 1e-5);
 }
 
+/// From rest `tanh(s / e)`; back elastic to no stress, then along the same curve.
 #[test]
-fn regularised_friction_follows_the_increment() {
-    let records = run("oden_pires", &[]);
-    let shear = column(&records, "coarse", "shear_s");
-    near(shear[50], 30.0 * 0.1_f64.tanh(), 1e-9);
-    near(shear[150], -30.0 * 0.1_f64.tanh(), 1e-9);
-    near(column(&records, "smooth", "shear_s")[50], 30.0 * 1.0_f64.tanh(), 1e-9);
+fn regularised_friction_follows_the_slip() {
+    for increments in [10, 100, 1000] {
+        let more = [2, 3].map(|step| format!("step.{step}.increments={increments}"));
+        let records = run("oden_pires", &[&more[0], &more[1]]);
+        for (name, length) in [("smooth", 1e-4_f64), ("coarse", 1e-3)] {
+            let shear = column(&records, name, "shear_s");
+            near(shear[1 + increments], 30.0 * (0.01 / length).tanh(), 1e-9);
+            near(*shear.last().unwrap(), -30.0 * (0.01 / length - (0.01 / length).tanh()).tanh(), 1e-9);
+        }
+    }
+}
+
+/// A bond under a prescribed pressure: up to its tension it is found at any part of it, beyond it out of reach.
+#[test]
+fn a_bond_is_drawn_up_to_its_tension() {
+    for (tension, steps) in [(0.3, 100), (1.5, 1), (4.9, 1), (4.9, 7), (4.999, 100)] {
+        let text = format!(
+            "version = 1\ninterface.joint.cohesive = {{ friction = 0.6, cohesion = 4.0, tension = 5.0 }}\npenalty = 1e4\n\
+             [[step]]\npressure = -{tension}\nincrements = {steps}\n[[step]]\npressure = 10.0\nincrements = {steps}\n"
+        );
+        let records =
+            read_interface(&text, "deck.toml", &[]).unwrap().run().unwrap_or_else(|e| panic!("{tension}: {e}"));
+        near(column(&records, "joint", "pressure")[steps], -tension, 1e-9);
+        near(last(&records, "joint", "pressure"), 10.0, 1e-9);
+        assert_eq!(last(&records, "joint", "bond_broken"), 0.0);
+    }
+    let beyond = "version = 1\ninterface.joint.cohesive = { friction = 0.6, cohesion = 4.0, tension = 5.0 }\npenalty = 1e4\n\
+                  [[step]]\npressure = -5.1\nincrements = 51\n";
+    let (records, stopped) = read_interface(beyond, "deck.toml", &[]).unwrap().follow();
+    assert!(stopped.unwrap().to_string().contains("out of reach"));
+    // What was reached is there.
+    near(last(&records, "joint", "pressure"), -5.0, 1e-9);
+    assert_eq!(records[0].rows.len(), 51);
 }

@@ -3,6 +3,7 @@
 
 mod closed_forms;
 mod conformance;
+mod increments;
 mod refusals;
 mod samples;
 mod schemes;

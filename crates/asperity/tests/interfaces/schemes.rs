@@ -1,4 +1,4 @@
-//! Orders of the schemes, measured for every smooth law on a path whose direction turns from the stress.
+//! Orders of the schemes, measured for every law of the registry on a path whose direction turns from the stress.
 
 use super::samples::{Sample, State, numbers, samples};
 use asperity::integrate::{Scheme, Update};
@@ -11,45 +11,125 @@ fn end(sample: &Sample, update: Update) -> [f64; 3] {
     let press = 0.8 * sample.pressure / sample.penalties[0];
     let first = Motion { penetration: press, slip: [2.0 * reach, 0.0] };
     let (state, _) = State::initial(sample.interface.as_ref()).moved(sample, &first, 1e-2 * sample.time).unwrap();
-    let law = sample.interface.with_update(update);
+    let law = sample.interface.with_update(update).unwrap();
     let turn = Motion { penetration: 0.95 * press, slip: [0.2 * reach, 0.6 * reach] };
     let mut vars = state.vars.clone();
     law.respond(numbers(&turn), &state.past(sample, 1e-2 * sample.time), &mut vars).unwrap().stress
 }
 
-/// Errors fall with the order of the scheme: the mean order over six halvings.
+/// What the guide says of the schemes of a law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Claim {
+    /// Two-step and midpoint are of second order where the law is smooth.
+    Second,
+    /// Two-step is; there is no midpoint rule.
+    TwoStep,
+    /// Its increments are closed forms, and there is nothing to choose.
+    Closed,
+}
+
+/// Every law of the registry has a line here, or the test fails.
+fn claim(law: &str) -> Claim {
+    match law {
+        "frictionless" | "sticking" | "oden_pires" => Claim::Closed,
+        "velocity_dependent" | "rate_and_state" | "rate_and_state_slip" => Claim::TwoStep,
+        "coulomb" | "cohesive" | "dilatant" | "cam_clay" | "cam_clay_phi_a" | "orowan" | "orowan_smooth" | "shaw"
+        | "shear_factor" | "static_kinetic" | "slip_dependent" | "work_dependent" => Claim::Second,
+        other => panic!("say in this test and in the guide what the schemes of `{other}` are worth"),
+    }
+}
+
+/// Errors fall with the order of the scheme, for every law of the registry: the mean order over several
+/// halvings.
 #[test]
 fn errors_fall_with_the_order_of_the_scheme() {
-    let smooth = ["cohesive", "dilatant", "cam_clay", "cam_clay_phi_a", "orowan_smooth", "shaw", "slip_dependent"];
-    let mut met = 0;
-    for sample in samples().iter().filter(|sample| smooth.contains(&sample.law)) {
-        let by = |scheme: Scheme, substeps: usize| end(sample, Update { scheme, substeps, tolerance: None });
-        let exact = by(Scheme::TwoStep, 8192);
-        for (scheme, order) in [(Scheme::BackwardEuler, 1.0), (Scheme::TwoStep, 2.0), (Scheme::Midpoint(0.5), 2.0)] {
-            let error = |substeps| {
-                let stress = by(scheme, substeps);
-                (0..3).map(|i| (stress[i] - exact[i]).powi(2)).sum::<f64>().sqrt() / sample.pressure
-            };
-            let measured = (error(8) / error(512)).log2() / 6.0;
-            eprintln!("{}: {scheme:?} order {measured:.2}, error {:.1e}", sample.name, error(512));
-            assert!(measured > order - 0.15, "{}: {scheme:?} has the order {measured}", sample.name);
-            met += 1;
+    for sample in samples() {
+        let claim = claim(sample.law);
+        let serves = |scheme: Scheme| sample.interface.with_update(Update { scheme, ..Update::default() }).is_ok();
+        assert_eq!(serves(Scheme::TwoStep), claim != Claim::Closed, "{}", sample.name);
+        assert_eq!(serves(Scheme::Midpoint(0.5)), claim == Claim::Second, "{}", sample.name);
+        if claim == Claim::Closed {
+            continue;
+        }
+        let by = |scheme: Scheme, substeps: usize| end(&sample, Update { scheme, substeps, tolerance: None });
+        // A velocity that jumps at the beginning of the turn has to be resolved before an order is seen.
+        let (few, many) = if claim == Claim::TwoStep { (128, 2048) } else { (8, 512) };
+        let exact = by(Scheme::TwoStep, 16 * many);
+        for (scheme, least) in [(Scheme::BackwardEuler, 0.9), (Scheme::TwoStep, 1.9), (Scheme::Midpoint(0.5), 1.9)] {
+            if !serves(scheme) {
+                continue;
+            }
+            let error = |substeps| distance(by(scheme, substeps), exact) / sample.pressure;
+            let order = (error(few) / error(many)).log2() / (many as f64 / few as f64).log2();
+            eprintln!("| {} | {scheme:?} | {order:.2} | {:.1e} |", sample.name, error(many));
+            // What is exact but for rounding has no order.
+            assert!(order > least || error(few) < 1e-11, "{}: {scheme:?} has the order {order}", sample.name);
         }
     }
-    assert!(met >= 3 * smooth.len());
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// A slider that is loaded three times as fast as it crept, over a slip in which its state is renewed.
+#[test]
+fn the_state_of_a_gouge_is_carried_with_second_order() {
+    use asperity::interface::Past;
+    use asperity::interface::laws::{Course, Evolution, RateState};
+    let (distance_c, pressure, velocity) = (1e-5, 1e7, 1e-6);
+    for evolution in [Evolution::Ageing, Evolution::Slip] {
+        let law = RateState {
+            friction: 0.6,
+            direct: 0.01,
+            evolution: 0.015,
+            distance: distance_c,
+            velocity,
+            state: 1.0,
+            damping: 0.0,
+            law: evolution,
+            course: Course::Exact,
+        };
+        let stiffness = 20.0 * 0.015 * pressure / distance_c;
+        let end = |scheme: Scheme, substeps: usize| {
+            let update = Update { scheme, substeps, tolerance: None };
+            let law = asperity::interface::InterfaceLaw::updated(&law, update).unwrap();
+            let vars = [0.0, velocity];
+            let past = Past {
+                penalty: pressure,
+                tangential_penalty: stiffness,
+                penetration: 1.0,
+                pressure,
+                shear: [0.6 * pressure, 0.0],
+                vars: &vars,
+                dt: 0.5 * distance_c / velocity,
+            };
+            let motion = asperity::interface::Motion { penetration: 1.0, slip: [1.5 * distance_c, 0.0] };
+            let mut new = vars;
+            let response = law.respond(&motion, &past, &mut new).unwrap();
+            [response.shear[0] / pressure, new[0], new[1] / velocity]
+        };
+        let exact = end(Scheme::TwoStep, 65_536);
+        for (scheme, least) in [(Scheme::BackwardEuler, 0.9), (Scheme::TwoStep, 1.9)] {
+            let error = |substeps| distance(end(scheme, substeps), exact);
+            let order = (error(128) / error(2048)).log2() / 4.0;
+            eprintln!("| rate and state, {evolution:?} | {scheme:?} | {order:.2} | {:.1e} |", error(2048));
+            assert!(order > least, "{evolution:?}: {scheme:?} has the order {order}");
+        }
+    }
 }
 
 /// The tangent of sub-steps is that of the whole.
 #[test]
 fn tangents_of_sub_steps_are_those_of_differences() {
     let update = Update { scheme: Scheme::TwoStep, substeps: 3, tolerance: None };
-    for sample in samples().iter().filter(|sample| sample.law != "oden_pires") {
+    for sample in samples().iter().filter(|sample| claim(sample.law) != Claim::Closed) {
         let reach = sample.pressure / sample.penalties[1];
         let press = 0.8 * sample.pressure / sample.penalties[0];
         let first = Motion { penetration: press, slip: [2.0 * reach, 0.0] };
         let dt = 1e-2 * sample.time;
         let (state, _) = State::initial(sample.interface.as_ref()).moved(sample, &first, dt).unwrap();
-        let law = sample.interface.with_update(update);
+        let law = sample.interface.with_update(update).unwrap();
         let at = |x: [f64; 3]| law.respond(x, &state.past(sample, dt), &mut state.vars.clone()).unwrap();
         let here = [1.1 * press, 0.2 * reach, 0.6 * reach];
         let rows = at(here).slopes;

@@ -102,6 +102,37 @@ fn rubber_in_tension() {
     near(last(&records, "rubber", "stress_xx"), exact, 2e-6);
 }
 
+/// Slopes of the energies of `rubbers.toml` and `rubber_shear.toml` along both invariants, by their formulas.
+fn slopes(material: &str, first: f64) -> [f64; 2] {
+    let x = first - 3.0;
+    match material {
+        "mooney" => [0.3, 0.2],
+        "yeoh" => [0.5 - 0.02 * x + 6e-4 * x * x, 0.0],
+        _ => {
+            let y = first / 9.0;
+            let series =
+                0.5 + y / 10.0 + 11.0 / 350.0 * y * y + 19.0 / 1750.0 * y.powi(3) + 519.0 / 134_750.0 * y.powi(4);
+            [0.5 * series, 0.0]
+        }
+    }
+}
+
+#[test]
+fn rubbers_in_tension_and_shear() {
+    let (drawn, sheared) = (run("rubbers", &[]), run("rubber_shear", &[]));
+    for material in ["mooney", "yeoh", "chains"] {
+        let l = 1.0_f64.exp();
+        let [along, across] = slopes(material, l * l + 2.0 / l);
+        near(last(&drawn, material, "stress_xx"), 2.0 * (l * l - 1.0 / l) * (along + across / l), 1e-4);
+        let g: f64 = 1.5;
+        let [along, across] = slopes(material, 3.0 + g * g);
+        let [xx, yy, zz, xy] = ["xx", "yy", "zz", "xy"].map(|c| last(&sheared, material, &format!("stress_{c}")));
+        near(xy, 2.0 * (along + across) * g, 1e-12);
+        near(xx - yy, g * xy, 1e-12);
+        assert!((zz - yy - 2.0 * across * g * g).abs() < 1e-12, "{material}: {zz} {yy}");
+    }
+}
+
 #[test]
 fn billet_steel() {
     let records = run("von_mises", &[]);
@@ -201,6 +232,21 @@ fn cam_clay_drained_and_confined() {
 }
 
 /// Hydrostatic tension: the surface p/s = 2/3 acosh((1 + q3 f^2)/(2 q1 f)) with f = 1 - (1 - f0) exp(-ev).
+/// The same with matrices that harden, each on its own curve.
+#[test]
+fn porous_metals_that_harden_follow_the_curve_of_their_matrix() {
+    let records = run("gurson_curves", &[]);
+    let swift: &dyn Fn(f64) -> f64 = &|em| 500.0 * (0.01 + em).powf(0.2);
+    let table: &dyn Fn(f64) -> f64 = &|em| if em < 0.1 { 300.0 + 500.0 * em } else { 350.0 + 250.0 * (em - 0.1) };
+    for (name, curve) in [("power", swift), ("measured", table)] {
+        let [f, em, ev] =
+            ["porosity", "matrix_plastic_strain", "plastic_volume_strain"].map(|c| last(&records, name, c));
+        near(f, 1.0 - 0.995 * (-ev).exp(), 1e-4);
+        assert!(em > 0.2, "{em}");
+        near(last(&records, name, "mean_stress"), curve(em) / 1.5 * ((1.0 + 2.25 * f * f) / (3.0 * f)).acosh(), 1e-9);
+    }
+}
+
 #[test]
 fn gurson_in_hydrostatic_tension() {
     let records = run("gurson", &["step.1.increments=4000"]);

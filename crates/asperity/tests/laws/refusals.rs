@@ -37,6 +37,9 @@ fn impossible_sets_are_refused_by_name() {
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 1.0], [0.0, 2.0]] }".into(), "must rise"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 0.0]] }".into(), "positive, not 0"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 9.0], [0.1, 1.0]] }".into(), "steeper"),
+        ("mooney_rivlin = { c10 = 0.0, c01 = 0.0, bulk = 1.0 }".into(), "both zero"),
+        ("yeoh = { c10 = 1.0, c20 = -2.0, c30 = 1.0, bulk = 1.0 }".into(), "stiffness falls to nothing"),
+        ("arruda_boyce = { modulus = 1.0, locking_stretch = 1.0, bulk = 1.0 }".into(), "locking_stretch"),
         ("ogden = { bulk = 1.0, terms = [[1.0, -2.0]] }".into(), "positive product"),
         (
             format!("drucker_prager = {{ {sand}, friction = 20.0, dilatancy = 21.0 }}"),
@@ -90,4 +93,17 @@ fn hyperelastic_laws_have_no_rate() {
     let text = "version = 1\nrate = \"green-naghdi\"\nmaterial.m.neo_hookean = { shear = 1.0, bulk = 1.0 }\n[[step]]\n";
     let Err(found) = read_point(text, "deck.toml", &[]) else { panic!("accepted") };
     assert!(found.render(false).contains("no objective rate enters it"));
+}
+
+#[test]
+fn a_back_stress_in_the_frame_of_jaumann_has_a_note() {
+    let notes = |more: &str, rate: &str| {
+        let steel = format!("young = 200e3, poisson = 0.3, yield_stress = 200.0{more}");
+        let text = format!("version = 1\n{rate}material.m.von_mises = {{ {steel} }}\n[[step]]\nstrain.xx = 0.1\n");
+        read_point(&text, "deck.toml", &[]).unwrap_or_else(|e| panic!("{}", e.render(false))).diagnostics.render(false)
+    };
+    assert!(notes(", kinematic = 20e3", "").contains("a back stress turns with the spin"));
+    assert!(notes(", kinematic = 20e3", "update.substeps = 2\n").contains("a back stress turns with the spin"));
+    assert_eq!(notes(", kinematic = 20e3", "rate = \"green-naghdi\"\n"), "");
+    assert_eq!(notes("", ""), "");
 }

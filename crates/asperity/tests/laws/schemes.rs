@@ -1,17 +1,18 @@
-//! Orders of the schemes, measured on a path whose direction turns from the stress.
+//! Orders of the schemes, measured for every law of the registry on a path whose direction turns from the stress.
 
 use super::samples::samples;
 use asperity::integrate::{Scheme, Update};
 use asperity::material::Material;
 use asperity::tensor::Tensor2;
 
-/// Stress after a stretch to yield and then a large shear in one increment.
+/// Stress after a stretch to yield and then a large shear in one increment, with a mean stress in tension throughout: voids
+/// nucleate from its first sign on.
 fn stress(material: &dyn Material, scheme: Scheme, substeps: usize) -> Tensor2 {
     let law = material.with_update(Update { scheme, substeps, tolerance: None }).unwrap();
     let mut state = vec![0.0; law.state_len()];
     law.initialise(&mut state);
     let mut stretch = Tensor2::identity() * 0.995;
-    stretch[(0, 0)] = 1.01;
+    stretch[(0, 0)] = 1.0105;
     let mut new = state.clone();
     material.update(&stretch, 1e-3, &state, &mut new).unwrap();
     let mut shear = Tensor2::identity();
@@ -21,21 +22,62 @@ fn stress(material: &dyn Material, scheme: Scheme, substeps: usize) -> Tensor2 {
     super::samples::stress(&end)
 }
 
-/// Errors fall with the order of the scheme: the mean order over six halvings.
+/// What the guide says of the schemes of a law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Claim {
+    /// Two-step and midpoint are of second order.
+    Second,
+    /// So they are until the stress comes to an edge of the surface, or to a corner of the curve.
+    Kinks,
+    /// Nothing is integrated.
+    Closed,
+}
+
+/// Every law of the registry has a line here, or the test fails.
+fn claim(law: &str) -> Claim {
+    match law {
+        "neo_hookean" | "ogden" | "mooney_rivlin" | "yeoh" | "arruda_boyce" => Claim::Closed,
+        "mohr_coulomb" | "ubiquitous_joint" | "von_mises_table" | "gurson_table" => Claim::Kinks,
+        "elastic"
+        | "von_mises"
+        | "von_mises_swift"
+        | "perzyna"
+        | "norton_hoff"
+        | "drucker_prager"
+        | "drucker_prager_inner"
+        | "drucker_prager_plane_strain"
+        | "modified_cam_clay"
+        | "gurson"
+        | "gurson_swift" => Claim::Second,
+        other => panic!("say in this test and in the guide what the schemes of `{other}` are worth"),
+    }
+}
+
+/// Errors fall with the order of the scheme, for every law of the registry: the mean order over five halvings.
 #[test]
 fn errors_fall_with_the_order_of_the_scheme() {
-    let smooth = ["von_mises", "von_mises_swift", "perzyna", "norton_hoff", "drucker_prager"];
-    for sample in samples().iter().filter(|sample| smooth.contains(&sample.law)) {
+    for sample in samples().iter().filter(|sample| claim(sample.law) != Claim::Closed) {
         let material = sample.material.as_ref();
         let exact = stress(material, Scheme::TwoStep, 8192);
-        for (scheme, order) in [(Scheme::BackwardEuler, 1.0), (Scheme::TwoStep, 2.0), (Scheme::Midpoint(0.5), 2.0)] {
+        let second = if claim(sample.law) == Claim::Second { 1.9 } else { 0.85 };
+        for (scheme, least) in
+            [(Scheme::BackwardEuler, 0.85), (Scheme::TwoStep, second), (Scheme::Midpoint(0.5), second)]
+        {
             let error = |substeps| {
                 let e = stress(material, scheme, substeps) - exact;
-                e.contract(e).sqrt()
+                (e.contract(e) / exact.contract(exact)).sqrt()
             };
-            let measured = (error(16) / error(1024)).log2() / 6.0;
-            eprintln!("{}: {scheme:?} order {measured:.2}, error {:.1e}", sample.name, error(1024));
-            assert!(measured > order - 0.15, "{}: {scheme:?} has the order {measured}", sample.name);
+            let order = (error(32) / error(1024)).log2() / 5.0;
+            eprintln!("| {} | {scheme:?} | {order:.2} | {:.1e} |", sample.name, error(1024));
+            // What is exact but for rounding has no order.
+            assert!(order > least || error(32) < 1e-11, "{}: {scheme:?} has the order {order}", sample.name);
         }
+    }
+}
+
+#[test]
+fn what_has_nothing_to_integrate_is_refused() {
+    for sample in samples().iter().filter(|sample| claim(sample.law) == Claim::Closed) {
+        assert!(sample.material.with_update(Update::default()).is_err(), "{}", sample.name);
     }
 }

@@ -41,10 +41,9 @@ impl Builder<'_> {
     pub(super) fn interface(&mut self, keys: &keys::Contact) -> Option<Arc<dyn Interface>> {
         let law = keys.law.build().map_err(crate::Error::input);
         let law = self.keep(law, keys.law.place)?;
-        Some(Arc::from(match &keys.update {
-            Some(update) => law.with_update(update.update()),
-            None => law,
-        }))
+        let Some(update) = &keys.update else { return Some(Arc::from(law)) };
+        let integrated = law.with_update(update.update()).map_err(crate::Error::input);
+        self.keep(integrated, update.place).map(Arc::from)
     }
 
     pub(super) fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {

@@ -6,7 +6,8 @@
 //! `tan(w_b / 2) = tan(w_a / 2) exp(-K_t |slip| ln(y_b / y_a) / (y_b - y_a))`, and `|tau| = y`.
 //! *Backward Euler*: radial return, order 1. *Midpoint*: the sub-incremented scheme of Charlier & Habraken (1990): after
 //! the crossing each sub-increment is carried along the cone in two steps, the second with the normal that the first,
-//! over the part `theta` of it, leads to; order 2 at `theta = 1/2`. In the plane all of them coincide.
+//! over the part `theta` of it, leads to; order 2 at `theta = 1/2`. Where the two steps would carry the stress beyond the
+//! direction of the slip, which the solution never crosses, it ends along the slip. In the plane all of them coincide.
 
 use crate::tensor::Scalar;
 
@@ -47,6 +48,11 @@ const OUTSIDE: f64 = 1e-9;
 
 fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
     a[0] * b[0] + a[1] * b[1]
+}
+
+/// Positive where `b` lies to the left of `a`.
+fn cross<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+    a[0] * b[1] - a[1] * b[0]
 }
 
 /// `a + f b`.
@@ -180,11 +186,18 @@ impl<T: Scalar> Sliding<T> {
             let out = dot(m, self.step);
             (plus(shear, plus(self.step, m, -out), T::from(part)), out)
         };
+        let limit = |i: f64| self.from + (self.to - self.from) * (i * part);
         for i in 1..=n {
-            let y = self.from + (self.to - self.from) * (i as f64 * part);
-            let before = self.from.re() + (self.to.re() - self.from.re()) * ((i - 1) as f64 * part);
+            let (i, first) = (i as f64, limit(i as f64 - 1.0));
+            let (y, before) = (limit(i), first.re());
             let (half, _) = carried(shear, shear, theta * part);
-            let (end, out) = carried(shear, half, part);
+            // On the way the stress has the size of the limit there: with that of the beginning a limit that moves would
+            // leave the order at one.
+            let on_the_way = limit(i - 1.0 + theta) / first;
+            let (end, out) = carried(shear.map(|t| t * on_the_way), half, part);
+            // Slip turns the stress towards itself and never beyond: a part that is long beside the elastic slip ends there.
+            let beyond = cross(self.step, shear).re() * cross(self.step, end).re() < 0.0;
+            let end = if beyond { self.step } else { end };
             let size = norm(end);
             shear = end.map(|t| t / size * y);
             let slipped = (out.re() * part - (y.re() - before)).max(0.0);

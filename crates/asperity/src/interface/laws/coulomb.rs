@@ -66,17 +66,17 @@ impl InterfaceLaw for Coulomb {
     }
 
     /// The schemes of the cone itself; with a tolerance, and by two implicit stages, as any other law.
-    fn updated(&self, update: Update) -> Box<dyn Interface> {
+    fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
         let scheme = match update.scheme {
             Scheme::BackwardEuler => ConeScheme::BackwardEuler(update.substeps),
             Scheme::Midpoint(theta) => ConeScheme::Midpoint(update.substeps, theta),
             Scheme::TwoStep => ConeScheme::Exact,
         };
         if update.tolerance.is_none() && scheme != ConeScheme::Exact {
-            return law(Self { scheme, ..*self });
+            return Ok(law(Self { scheme, ..*self }));
         }
         let one = Self { scheme: ConeScheme::BackwardEuler(1), ..*self };
-        Box::new(Law(Integrated { law: one, update }))
+        Ok(Box::new(Law(Integrated { law: one, update })))
     }
 }
 

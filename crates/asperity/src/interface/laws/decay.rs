@@ -1,15 +1,22 @@
 //! Friction coefficients that go from one value to another, `mu = mu_1 + (mu_0 - mu_1) exp(-x / x_c)`:
 //!
-//! - `static_kinetic`: `x` is the slip since the point last stuck;
+//! - `static_kinetic`: `x` is the slip since the point last stuck, if only on the way through an increment: where the
+//!   elastic path of an increment first leads inside the limit, as on reversal, the point has stuck;
 //! - `slip_dependent`: `x` is all slip so far, and friction may rise (hardening, wear) or fall;
 //! - `work_dependent`: `x` is all work of friction so far per area;
-//! - `velocity_dependent`: `x` is the slip velocity.
+//! - `velocity_dependent`: `x` is the slip velocity. Friction that falls with it follows it with a delay,
+//!   `x' = (V - x) / t`: without one the slip of a short increment is not unique, since friction would fall at once by
+//!   more than the tangential penalty follows. Unless said `t = 2 p mu_fall / K_t`, the time in which the steepest fall of
+//!   friction lets the elastic slip go twice: it vanishes with growing penalty, as elastic slip does. Friction that rises
+//!   needs no delay.
 
-use super::implicit::{self, Limit, Sliding};
+use super::implicit::{self, Limit, Sliding, no_midpoint};
 use super::law;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, VariableKind, unit};
-use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
+use crate::integrate::Update;
+use crate::interface::integrated::Integrated;
+use crate::interface::{Interface, InterfaceLaw, Law, Motion, Past, Response, Status};
 use crate::tensor::Scalar;
 
 const fn friction(key: &'static str, meaning: &'static str) -> Parameter {
@@ -25,6 +32,14 @@ const KINETIC: Parameter = friction("kinetic", "coefficient of friction in motio
 const INITIAL: Parameter = friction("initial", "coefficient of friction at the beginning");
 const FINAL: Parameter = friction("final", "coefficient of friction that it tends to");
 
+const DELAY: Parameter = Parameter {
+    key: "delay",
+    meaning: "time in which friction follows the velocity; where friction falls, at least what the tangential penalty needs for a unique slip",
+    unit: unit::TIME,
+    range: Range::NOT_NEGATIVE,
+    default: Some(0.0),
+};
+
 pub(super) const STATIC_KINETIC: Entry<Box<dyn Interface>> = Entry {
     name: "static_kinetic",
     meaning: "friction that falls from its static to its kinetic value with the slip since it last stuck",
@@ -36,9 +51,9 @@ pub(super) const STATIC_KINETIC: Entry<Box<dyn Interface>> = Entry {
 pub(super) const VELOCITY: Entry<Box<dyn Interface>> = Entry {
     name: "velocity_dependent",
     meaning: "friction that goes from its static to its kinetic value with the slip velocity",
-    parameters: &[STATIC, KINETIC, scale("velocity", "velocity at which the difference is 1/e", unit::VELOCITY)],
+    parameters: &[STATIC, KINETIC, scale("velocity", "velocity at which the difference is 1/e", unit::VELOCITY), DELAY],
     pairs: None,
-    build: |v| Ok(law(VelocityDependent(Decay::of(v)))),
+    build: |v| Ok(law(VelocityDependent { friction: Decay::of(v), delay: v[3] })),
 };
 
 pub(super) const SLIP: Entry<Box<dyn Interface>> = Entry {
@@ -95,7 +110,12 @@ impl Decay {
 pub struct StaticKinetic(pub Decay);
 /// See `velocity_dependent`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct VelocityDependent(pub Decay);
+pub struct VelocityDependent {
+    /// The coefficient over the velocity.
+    pub friction: Decay,
+    /// Least time in which it follows the velocity.
+    pub delay: f64,
+}
 /// See `slip_dependent`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlipDependent(pub Decay);
@@ -113,13 +133,39 @@ impl Limit for Decay {
     }
 }
 
-impl Limit for VelocityDependent {
+/// Friction at one pressure that follows the velocity in part.
+struct Following {
+    friction: Decay,
+    delay: f64,
+    /// The delay for one unit of pressure, where it is what the penalty needs.
+    needed: f64,
+}
+
+impl VelocityDependent {
+    fn following(&self, stiffness: f64) -> Following {
+        let needed = SAFETY * Decay::fall(&self.friction) / stiffness;
+        Following { friction: self.friction, delay: self.delay, needed }
+    }
+}
+
+impl Following {
+    /// The velocity that friction sees after an increment that begins with `memory`.
+    fn seen<T: Scalar>(&self, at: &Sliding<T>) -> T {
+        if at.dt == 0.0 {
+            return at.memory;
+        }
+        let delay = (at.pressure * self.needed).max(T::from(self.delay));
+        (at.memory * delay + at.slip) / (delay + at.dt)
+    }
+}
+
+impl Limit for Following {
     const NAME: &'static str = "friction that depends on velocity";
     fn limit<T: Scalar>(&self, at: &Sliding<T>) -> T {
-        at.pressure * self.0.at(at.slip / at.dt)
+        at.pressure * self.friction.at(self.seen(at))
     }
     fn fall(&self, pressure: f64, _: f64, dt: f64) -> f64 {
-        pressure * self.0.fall() / dt
+        pressure * self.friction.fall() / (self.delay.max(pressure * self.needed) + dt)
     }
 }
 
@@ -133,25 +179,54 @@ impl Limit for WorkDependent {
     }
 }
 
+/// How many times the shortest delay with a unique slip.
+const SAFETY: f64 = 2.0;
+
 const fn variable(name: &'static str) -> Variable {
     Variable { name, kind: VariableKind::Scalar }
+}
+
+/// Whether the elastic path of an increment first leads inside the limit `mu p`, so that the point sticks at least on the
+/// way: the shear stress grows more slowly than its limit.
+fn sticks_first<T: Scalar>(friction: f64, motion: &Motion<T>, past: &Past<T>) -> bool {
+    let (shear, slip) = (past.shear.map(T::re), motion.slip.map(T::re));
+    let size = shear[0].hypot(shear[1]);
+    let rise = motion.penetration.re() * past.penalty - past.pressure.re();
+    let along = if size > 0.0 { (shear[0] * slip[0] + shear[1] * slip[1]) / size } else { slip[0].hypot(slip[1]) };
+    past.tangential_penalty * along < friction * rise
 }
 
 impl InterfaceLaw for StaticKinetic {
     const VARIABLES: &'static [Variable] = &[variable("slip_since_stick")];
 
     fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, vars: &mut [T]) -> Result<Response<T>, Failure> {
-        let (response, slip) = implicit::respond(&self.0, motion, past, past.vars[0])?;
-        vars[0] = if response.status == Status::Stick { T::zero() } else { past.vars[0] + slip };
+        // A scheme may have led beyond the beginning of the slip.
+        let before = past.vars[0].max(T::zero());
+        let (still, rested) = (past.dt == 0.0, sticks_first(self.0.at(before.re()), motion, past));
+        let before = if rested && !still { T::zero() } else { before };
+        let (response, slip) = implicit::respond(&self.0, motion, past, before)?;
+        // Without time nothing has come to rest.
+        let rests = response.status == Status::Stick && !still;
+        vars[0] = if rests { T::zero() } else { before + slip };
         Ok(response)
     }
 }
 
 impl InterfaceLaw for VelocityDependent {
-    const VARIABLES: &'static [Variable] = &[];
+    const VARIABLES: &'static [Variable] = &[variable("friction_velocity")];
 
-    fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, _: &mut [T]) -> Result<Response<T>, Failure> {
-        Ok(implicit::respond(self, motion, past, T::zero())?.0)
+    fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, vars: &mut [T]) -> Result<Response<T>, Failure> {
+        let following = self.following(past.tangential_penalty);
+        let (response, slip) = implicit::respond(&following, motion, past, past.vars[0])?;
+        let (pressure, memory) = (response.pressure, past.vars[0]);
+        vars[0] = following.seen(&Sliding { pressure, shear: slip, slip, memory, dt: past.dt });
+        Ok(response)
+    }
+
+    /// The midpoint rule would carry the velocity on from the middle of an increment, to twice what it is after rest.
+    fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
+        no_midpoint(update)?;
+        Ok(Box::new(Law(Integrated { law: *self, update })))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Contact without friction: `p = K_p u`, no shear.
 
-use super::law;
+use super::{law, nothing_to_integrate};
 use crate::Failure;
 use crate::declare::{Entry, Variable};
+use crate::integrate::Update;
 use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
 use crate::tensor::Scalar;
 
@@ -32,5 +33,9 @@ impl InterfaceLaw for Frictionless {
             dissipated: 0.0,
             violation: 0.0,
         })
+    }
+
+    fn updated(&self, _: Update) -> Result<Box<dyn Interface>, String> {
+        nothing_to_integrate("the stress follows from the motion alone")
     }
 }

@@ -6,9 +6,24 @@
 
 use super::trial::Trial;
 use crate::Failure;
-use crate::integrate::{System, root};
+use crate::integrate::{Scheme, System, Update, root};
 use crate::interface::{Motion, Past, Response, Status};
 use crate::tensor::Scalar;
+
+/// Refuses the midpoint rule for friction that depends on the velocity.
+///
+/// # Errors
+/// In words.
+pub(super) fn no_midpoint(update: Update) -> Result<(), String> {
+    match update.scheme {
+        Scheme::Midpoint(_) => Err(
+            "the midpoint rule ends with a return in which no time passes, and friction that depends on the velocity has none \
+             then: use scheme = \"two-step\", of second order too"
+                .into(),
+        ),
+        _ => Ok(()),
+    }
+}
 
 /// What the limit may depend on.
 #[derive(Debug, Clone, Copy)]

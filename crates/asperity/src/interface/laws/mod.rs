@@ -20,7 +20,7 @@ pub use decay::{Decay, SlipDependent, StaticKinetic, VelocityDependent, WorkDepe
 pub use dilatant::Dilatant;
 pub use frictionless::Frictionless;
 pub use oden_pires::OdenPires;
-pub use rate_state::{Evolution, RateState};
+pub use rate_state::{Course, Evolution, RateState};
 pub use shear_limited::{ShearLimited, Transition};
 pub use sticking::Sticking;
 
@@ -52,4 +52,9 @@ pub static ALL: &[Entry<Box<dyn Interface>>] = &[
 /// A law as the object a registry hands out.
 fn law<L: super::InterfaceLaw + 'static>(law: L) -> Box<dyn Interface> {
     Box::new(Law(law))
+}
+
+/// Refuses an update of a law whose increments are exact as they are.
+fn nothing_to_integrate(why: &str) -> Result<Box<dyn Interface>, String> {
+    Err(format!("{why}: there is nothing to sub-step; remove `update`"))
 }

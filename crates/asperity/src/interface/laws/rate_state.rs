@@ -6,15 +6,20 @@
 //! `theta' = -(V theta / D_c) ln(V theta / D_c)`, so that the logarithm fades by `exp(-x)`. The slip velocity solves
 //! `|tau_trial| - K_t V dt = tau_y(V)` in `ln V`; there is no stick, slow slip only.
 //!
+//! Schemes of second order are made of steps of backward Euler in `ln theta`, which what is exact at constant velocity is
+//! not: by `update` with such a scheme the state follows that (see [`Course`]).
+//!
 //! The solution is unique where slip in the increment stays below `a p / (b p / D_c - K_t)`, or everywhere if `K_t` is
 //! above `b p / D_c`; a faster solution is refused, so that the increment is cut.
 
+use super::implicit::no_midpoint;
 use super::law;
 use super::trial::Trial;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, VariableKind, unit};
-use crate::integrate::{System, root};
-use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
+use crate::integrate::{Scheme, System, Update, root};
+use crate::interface::integrated::Integrated;
+use crate::interface::{Interface, InterfaceLaw, Law, Motion, Past, Response, Status};
 use crate::tensor::Scalar;
 
 const fn number(key: &'static str, meaning: &'static str, unit: &'static str, range: Range) -> Parameter {
@@ -62,6 +67,15 @@ pub enum Evolution {
     Slip,
 }
 
+/// How the state is carried over a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Course {
+    /// Exactly at a constant velocity.
+    Exact,
+    /// By backward Euler in the logarithm of the state.
+    Implicit,
+}
+
 /// The law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateState {
@@ -81,6 +95,8 @@ pub struct RateState {
     pub damping: f64,
     /// How the state changes.
     pub law: Evolution,
+    /// How a step carries it.
+    pub course: Course,
 }
 
 /// The equation in `ln(V / V_0)`; data are the size of the trial stress, the pressure and `ln(V_0 theta / D_c)`.
@@ -121,10 +137,31 @@ fn mean_fade<T: Scalar>(x: T) -> T {
     x.chain(value, ((-r).exp() - value) / r)
 }
 
+/// The root `u` of `u - c exp(-u) = d`: with `w = c exp(-u)` it is that of `w + ln w = ln c - d`, by Newton's method, which
+/// climbs to it, and once more for the derivatives.
+fn aged_implicitly<T: Scalar>(d: T, c: f64) -> T {
+    let level = c.ln() - d.re();
+    if level < -700.0 {
+        return d;
+    }
+    let mut w = if level > 1.0 { level - level.ln() } else { level.exp() / (1.0 + level.exp()) };
+    for _ in 0..40 {
+        let next = w * (1.0 + level - w.ln()) / (1.0 + w);
+        let change = (next - w).abs();
+        w = next;
+        if change <= 2.0 * f64::EPSILON * w {
+            break;
+        }
+    }
+    // The form that does not subtract what is nearly equal.
+    let value = if w > 1.0 { c.ln() - w.ln() } else { d.re() + w };
+    d.chain(value, 1.0 / (1.0 + w))
+}
+
 impl RateState {
     fn of(v: &[f64], law: Evolution) -> Self {
         let [friction, direct, evolution, distance, velocity, state, damping] = std::array::from_fn(|i| v[i]);
-        Self { friction, direct, evolution, distance, velocity, state, damping, law }
+        Self { friction, direct, evolution, distance, velocity, state, damping, law, course: Course::Exact }
     }
 
     fn speed<T: Scalar>(&self, rate: T) -> T {
@@ -140,10 +177,12 @@ impl RateState {
 
     /// The logarithm of the state after `dt` at a constant velocity.
     pub fn state_after<T: Scalar>(&self, rate: T, before: T, dt: f64) -> T {
-        let x = self.speed(rate) * (dt / self.distance);
-        match self.law {
-            Evolution::Ageing => (before.exp() * (-x).exp() + mean_fade(x) * (self.velocity * dt / self.distance)).ln(),
-            Evolution::Slip => (rate + before) * (-x).exp() - rate,
+        let (x, aged) = (self.speed(rate) * (dt / self.distance), self.velocity * dt / self.distance);
+        match (self.law, self.course) {
+            (Evolution::Ageing, Course::Exact) => (before.exp() * (-x).exp() + mean_fade(x) * aged).ln(),
+            (Evolution::Slip, Course::Exact) => (rate + before) * (-x).exp() - rate,
+            (Evolution::Ageing, Course::Implicit) => aged_implicitly(before - x, aged),
+            (Evolution::Slip, Course::Implicit) => (before - x * rate) / (x + 1.0),
         }
     }
 
@@ -184,6 +223,12 @@ impl InterfaceLaw for RateState {
         vars[0] = self.state.ln();
     }
 
+    fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
+        no_midpoint(update)?;
+        let course = if update.scheme == Scheme::BackwardEuler { Course::Exact } else { Course::Implicit };
+        Ok(Box::new(Law(Integrated { law: Self { course, ..*self }, update })))
+    }
+
     fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, vars: &mut [T]) -> Result<Response<T>, Failure> {
         let (trial, pressure) = (Trial::new(motion, past), motion.penetration * past.penalty);
         let (before, dt) = (past.vars[0], past.dt);
@@ -217,7 +262,23 @@ mod tests {
         state: 1.0,
         damping: 0.0,
         law: Evolution::Ageing,
+        course: Course::Exact,
     };
+
+    #[test]
+    fn implicit_ageing_solves_its_equation() {
+        use crate::tensor::Dual;
+        for d in [-1e6, -800.0, -30.0, -1.0, 0.0, 2.0, 40.0, 800.0] {
+            for c in [1e-30, 1e-6, 0.3, 1.0, 50.0, 1e9] {
+                let u = aged_implicitly(Dual::<1>::variable(d, 0), c);
+                // `u = d + w`, `w = c exp(-u)`, in logarithms where it is large.
+                let w = u.re - d;
+                let miss = if w > 1.0 { w.ln() - (c.ln() - u.re) } else { w - c * (-u.re).exp() };
+                assert!(miss.abs() < 1e-12 * (1.0 + d.abs()), "{d} {c}: {miss}");
+                assert!((u.du[0] * (1.0 + w) - 1.0).abs() < 1e-9 * (1.0 + d.abs()), "{d} {c}");
+            }
+        }
+    }
 
     #[test]
     fn helpers_are_smooth_where_their_formulas_change() {

@@ -1,9 +1,10 @@
 //! Contact that never slips while it is closed: `p = K_p u`, `tau = tau_n + K_t d`.
 
-use super::law;
 use super::trial::Trial;
+use super::{law, nothing_to_integrate};
 use crate::Failure;
 use crate::declare::{Entry, Variable};
+use crate::integrate::Update;
 use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response};
 use crate::tensor::Scalar;
 
@@ -24,5 +25,9 @@ impl InterfaceLaw for Sticking {
 
     fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, _: &mut [T]) -> Result<Response<T>, Failure> {
         Ok(Trial::new(motion, past).stick(motion.penetration * past.penalty))
+    }
+
+    fn updated(&self, _: Update) -> Result<Box<dyn Interface>, String> {
+        nothing_to_integrate("the stress follows from the motion alone")
     }
 }

@@ -5,13 +5,18 @@
 //! `pc = pc_n exp(v de_v^p/(lambda - kappa))`, with the specific volume `v` of the beginning; the shear modulus is the
 //! secant of the bulk modulus at constant Poisson's ratio, `G = r (p - p_n)/de_v^e`, `r = 3 (1 - 2 nu)/(2 (1 + nu))`.
 //! Two unknowns are left, the plastic compaction and the multiplier of the flow.
+//!
+//! Schemes of second order are made of steps of backward Euler, of which the exponentials are none: by `update` with such
+//! a scheme the pressures are `p = p_n/(1 - v de_v^e/kappa)` and `pc = pc_n/(1 - v de_v^p/(lambda - kappa))`, and `G = r K(p)`
+//! is that of the end (see [`Course`]).
 
 use super::elastic::POISSON;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, solve};
-use crate::material::{Material, RateLaw, Variable};
+use crate::integrate::{Scheme, System, Update, solve};
+use crate::material::integrated::Integrated;
+use crate::material::{Material, Rate, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn positive(key: &'static str, meaning: &'static str, unit: &'static str) -> Parameter {
@@ -55,9 +60,19 @@ pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
             shear_ratio: 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson),
             pressure,
             preconsolidation,
+            course: Course::Exact,
         }))
     },
 };
+
+/// How a step carries the pressures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Course {
+    /// By their exponentials.
+    Exact,
+    /// By backward Euler, of which schemes of second order are made.
+    Implicit,
+}
 
 /// The law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +89,8 @@ pub struct CamClay {
     pub pressure: f64,
     /// Preconsolidation at the beginning.
     pub preconsolidation: f64,
+    /// How a step carries both.
+    pub course: Course,
 }
 
 /// `(exp(x) - 1)/x`, smooth through zero.
@@ -105,8 +122,14 @@ impl<S: Scalar> Step<S> {
 
     /// Pressure and twice the shear modulus after the elastic compaction `de`.
     fn elastic(&self, law: &CamClay, de: S) -> (S, S) {
-        let x = de / law.elastic;
-        (self.p * x.exp(), self.p * growth(x) * (2.0 * law.shear_ratio / law.elastic))
+        let (x, ratio) = (de / law.elastic, 2.0 * law.shear_ratio / law.elastic);
+        match law.course {
+            Course::Exact => (self.p * x.exp(), self.p * growth(x) * ratio),
+            Course::Implicit => {
+                let p = self.p * law.grown(x);
+                (p, p * ratio)
+            }
+        }
     }
 
     /// Equivalent stress of the deviator `s + 2 G e`.
@@ -122,7 +145,16 @@ impl CamClay {
     }
 
     fn hardened<S: Scalar>(&self, pc: S, plastic: S) -> S {
-        pc * (plastic / self.plastic).exp()
+        pc * self.grown(plastic / self.plastic)
+    }
+
+    /// A pressure after the compaction `x`, both as ratios. By backward Euler there is none beyond `x = 1`.
+    fn grown<S: Scalar>(&self, x: S) -> S {
+        match self.course {
+            Course::Exact => x.exp(),
+            Course::Implicit if x.re() < 1.0 => (-x + 1.0).recip(),
+            Course::Implicit => S::from(f64::NAN),
+        }
     }
 }
 
@@ -152,6 +184,11 @@ impl RateLaw for CamClay {
         state[6] = self.preconsolidation;
     }
 
+    fn updated(&self, update: Update) -> Box<dyn Material> {
+        let course = if update.scheme == Scheme::BackwardEuler { Course::Exact } else { Course::Implicit };
+        Box::new(Rate(Integrated { law: Self { course, ..*self }, update }))
+    }
+
     fn update<T: Scalar>(
         &self,
         de: Tensor2<T>,
@@ -167,6 +204,9 @@ impl RateLaw for CamClay {
         let step = Step::of(&data);
         let (p_trial, double_shear) = step.elastic(self, step.compaction);
         let q = step.deviator(double_shear);
+        if !p_trial.re().is_finite() {
+            return Err(Failure::new("Cam-clay: the increment compacts more than a step can follow"));
+        }
         let trial = (q * q * (1.0 / (self.slope * self.slope)) + p_trial * (p_trial - pc)).re();
         let finish = |p: T, double_shear: T, scale: T| {
             Tensor2::from_fn(|i, j| {

@@ -6,14 +6,17 @@
 //! Implicit step after Aravas (1987): unknowns are the plastic volume strain `ev`, the plastic shear strain `eq` and the
 //! matrix strain; with `p = p_trial - K ev`, `q = q_trial - 3 G eq` they satisfy the flow rule, the surface and the
 //! equality of works `(1 - f) s dem = p ev + q eq`.
+//!
+//! Under pressure voids close, ever more slowly: a porosity below 1e-9, which bears more than thirteen times the flow stress,
+//! is taken for none, and the solid is its matrix from then on, of von Mises, until tension nucleates voids.
 
 use super::elastic::{Elastic, POISSON, YOUNG};
-use super::hardening::{Hardening, LINEAR, SATURATION, SATURATION_RATE, YIELD};
+use super::hardening::{CURVE, EXPONENT, Hardening, LINEAR, OFFSET, SATURATION, SATURATION_RATE, STRENGTH, YIELD};
 use super::invariants::Invariants;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, solve};
+use crate::integrate::{System, root, solve};
 use crate::material::{Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
@@ -23,7 +26,18 @@ const fn number(key: &'static str, meaning: &'static str, range: Range, default:
 
 const FRACTION: Range = Range { least: Some((0.0, true)), most: Some((1.0, false)) };
 
-pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
+const POROSITY: Parameter = number("porosity", "porosity at the beginning", Range::between(0.0, 0.5), None);
+const Q1: Parameter = number("q1", "Tvergaard's factor of the porosity", Range::from_to(0.5, 3.0), Some(1.5));
+const Q2: Parameter = number("q2", "Tvergaard's factor of the mean stress", Range::from_to(0.5, 2.0), Some(1.0));
+const Q3: Parameter = number("q3", "Tvergaard's factor of the squared porosity", Range::from_to(0.0, 9.0), Some(2.25));
+const NUCLEATED: Parameter = number("nucleated", "porosity of the voids that may nucleate", FRACTION, Some(0.0));
+const MEAN: Parameter = number("nucleation_strain", "mean matrix strain of nucleation", Range::NOT_NEGATIVE, Some(0.3));
+const SPREAD: Parameter = number("nucleation_spread", "standard deviation of that strain", Range::POSITIVE, Some(0.1));
+const CRITICAL: Parameter =
+    number("critical_porosity", "porosity at which voids begin to coalesce", FRACTION, Some(0.15));
+const FAILURE: Parameter = number("failure_porosity", "porosity at which nothing is left", FRACTION, Some(0.25));
+
+pub(super) const COMBINED: Entry<Box<dyn Material>> = Entry {
     name: "gurson",
     meaning: "porous plasticity of Gurson, Tvergaard and Needleman",
     parameters: &[
@@ -33,36 +47,54 @@ pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
         LINEAR,
         SATURATION,
         SATURATION_RATE,
-        number("porosity", "porosity at the beginning", Range::between(0.0, 0.5), None),
-        number("q1", "Tvergaard's factor of the porosity", Range::from_to(0.5, 3.0), Some(1.5)),
-        number("q2", "Tvergaard's factor of the mean stress", Range::from_to(0.5, 2.0), Some(1.0)),
-        number("q3", "Tvergaard's factor of the squared porosity", Range::from_to(0.0, 9.0), Some(2.25)),
-        number("nucleated", "porosity of the voids that may nucleate", FRACTION, Some(0.0)),
-        number("nucleation_strain", "mean matrix strain of nucleation", Range::NOT_NEGATIVE, Some(0.3)),
-        number("nucleation_spread", "standard deviation of that strain", Range::POSITIVE, Some(0.1)),
-        number("critical_porosity", "porosity at which voids begin to coalesce", FRACTION, Some(0.15)),
-        number("failure_porosity", "porosity at which nothing is left", FRACTION, Some(0.25)),
+        POROSITY,
+        Q1,
+        Q2,
+        Q3,
+        NUCLEATED,
+        MEAN,
+        SPREAD,
+        CRITICAL,
+        FAILURE,
     ],
     pairs: None,
-    build,
+    build: |v| build(v, Hardening::Combined { first: v[2], linear: v[3], saturation: v[4], rate: v[5] }, &v[6..15]),
 };
 
-fn build(v: &[f64]) -> Result<Box<dyn Material>, String> {
-    let elastic = Elastic::new(v[0], v[1]);
-    let matrix = Hardening::Combined { first: v[2], linear: v[3], saturation: v[4], rate: v[5] };
+pub(super) const SWIFT: Entry<Box<dyn Material>> = Entry {
+    name: "gurson_swift",
+    meaning: "the same with Swift's power law for the matrix",
+    parameters: &[
+        YOUNG, POISSON, STRENGTH, OFFSET, EXPONENT, POROSITY, Q1, Q2, Q3, NUCLEATED, MEAN, SPREAD, CRITICAL, FAILURE,
+    ],
+    pairs: None,
+    build: |v| build(v, Hardening::Swift { strength: v[2], offset: v[3], exponent: v[4] }, &v[5..14]),
+};
+
+pub(super) const TABLE: Entry<Box<dyn Material>> = Entry {
+    name: "gurson_table",
+    meaning: "the same with a measured flow curve of the matrix",
+    parameters: &[YOUNG, POISSON, POROSITY, Q1, Q2, Q3, NUCLEATED, MEAN, SPREAD, CRITICAL, FAILURE],
+    pairs: Some(CURVE),
+    build: |v| build(v, Hardening::table(&v[11..])?, &v[2..11]),
+};
+
+/// From the elastic constants, the flow curve of the matrix and the numbers of the voids.
+fn build(elastic: &[f64], matrix: Hardening, voids: &[f64]) -> Result<Box<dyn Material>, String> {
+    let elastic = Elastic::new(elastic[0], elastic[1]);
     matrix.check(3.0 * elastic.shear)?;
-    let [critical, failure] = [v[13], v[14]];
+    let [porosity, q1, q2, q3, nucleated, strain, spread, critical, failure] = std::array::from_fn(|i| voids[i]);
     if critical >= failure {
         return Err(format!("`critical_porosity`, {critical}, must be smaller than `failure_porosity`, {failure}"));
     }
-    if v[6] >= critical {
-        return Err(format!("`porosity`, {}, must be smaller than `critical_porosity`, {critical}", v[6]));
+    if porosity >= critical {
+        return Err(format!("`porosity`, {porosity}, must be smaller than `critical_porosity`, {critical}"));
     }
-    if v[7] * critical >= 1.0 || v[9] > v[7] * v[7] {
+    if q1 * critical >= 1.0 || q3 > q1 * q1 {
         return Err("`q1` times `critical_porosity` must be below 1, and `q3` at most `q1` squared".into());
     }
-    let nucleation = Nucleation { porosity: v[10], strain: v[11], spread: v[12] };
-    Ok(rate(Gurson { elastic, matrix, porosity: v[6], q: [v[7], v[8], v[9]], nucleation, critical, failure }))
+    let nucleation = Nucleation { porosity: nucleated, strain, spread };
+    Ok(rate(Gurson { elastic, matrix, porosity, q: [q1, q2, q3], nucleation, critical, failure }))
 }
 
 /// Voids that nucleate by a normal distribution of the matrix strain.
@@ -94,6 +126,9 @@ pub struct Gurson {
     /// Porosity where nothing is left.
     pub failure: f64,
 }
+
+/// Porosity that is none.
+const CLOSED: f64 = 1e-9;
 
 /// The effective porosity stays below this part of the largest, so that a dead point keeps a surface.
 const ALIVE: f64 = 0.98;
@@ -128,8 +163,62 @@ impl Gurson {
     /// The surface and its slopes along `p/s` and `q/s`.
     fn surface<S: Scalar>(&self, p: S, q: S, star: S) -> [S; 3] {
         let [q1, q2, q3] = self.q;
+        if star.re() == 0.0 {
+            // Without voids the hyperbolic cosine has no part in it, nor the range of numbers.
+            return [q * q - 1.0, S::zero(), q * 2.0];
+        }
         let x = p * (1.5 * q2);
         [q * q + star * x.cosh() * (2.0 * q1) - 1.0 - star * star * q3, star * x.sinh() * (3.0 * q1 * q2), q * 2.0]
+    }
+}
+
+impl Gurson {
+    /// The volume strain that returns a pressure, `p < 0`, to its limit as the voids close; none where no void is left.
+    fn closing(&self, [p, s]: [f64; 2], f: f64) -> Option<f64> {
+        let strain = |left: f64| (left - f) / (1.0 - left);
+        let beyond = |left: f64| -p + self.elastic.bulk() * strain(left) > self.hydrostatic_limit(s, left);
+        if f <= CLOSED || beyond(CLOSED) {
+            return None;
+        }
+        let (mut low, mut high) = (CLOSED.ln(), f.ln());
+        if !beyond(f) {
+            return Some(0.0);
+        }
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            *(if beyond(middle.exp()) { &mut high } else { &mut low }) = middle;
+        }
+        Some(strain(high.exp()))
+    }
+
+    /// What is left of a trial stress when all voids have closed.
+    fn close<T: Scalar>(&self, at: &Invariants<T>, [f, em, volume]: [T; 3]) -> Result<(Tensor2<T>, [T; 3]), Failure> {
+        let p = at.p + f * self.elastic.bulk();
+        let dm = -f * p / self.matrix.stress(em);
+        let (stress, vars) = (at.with(p, at.q), [T::zero(), em + dm, volume - f]);
+        let within = at.q.re() <= self.matrix.stress(vars[1]).re();
+        if within { Ok((stress, vars)) } else { self.dense(&Invariants { p, ..*at }, vars) }
+    }
+
+    /// The matrix without voids: the shear strain that returns to its flow stress.
+    fn dense<T: Scalar>(&self, at: &Invariants<T>, [f, em, volume]: [T; 3]) -> Result<(Tensor2<T>, [T; 3]), Failure> {
+        let stiffness = 3.0 * self.elastic.shear;
+        let most = at.q.re() / stiffness;
+        let equation = Dense { law: self, scale: at.q.re() };
+        let eq = root(&equation, [0.0, most], &[at.q, em], "Gurson's matrix")?;
+        Ok((at.with(at.p, at.q - eq * stiffness), [f, em + eq, volume]))
+    }
+}
+
+/// The shear strain of a solid without voids; data are `q` of the trial stress and the matrix strain at the beginning.
+struct Dense<'a> {
+    law: &'a Gurson,
+    scale: f64,
+}
+
+impl System<1, 2> for Dense<'_> {
+    fn residual<S: Scalar>(&self, &[eq]: &[S; 1], &[q, em]: &[S; 2]) -> [S; 1] {
+        [(q - eq * (3.0 * self.law.elastic.shear) - self.law.matrix.stress(em + eq)) / self.scale]
     }
 }
 
@@ -178,18 +267,24 @@ impl RateLaw for Gurson {
         if self.surface(p / s, q / s, self.effective(f.re()))[0] <= 0.0 {
             return Ok((trial, [f, em, volume]));
         }
+        if f.re() == 0.0 && !(p > 0.0 && self.nucleation.porosity > 0.0) {
+            return self.dense(&at, [f, em, volume]);
+        }
         let (shear, bulk) = (self.elastic.shear, self.elastic.bulk());
         let flow = Flow { law: self, scale: s / shear, tension: p > 0.0 };
         // From near the surface: far outside of it the hyperbolic cosine is beyond any number.
         let limit = self.hydrostatic_limit(s, f.re());
-        let ev = p.signum() * (p.abs() - limit).max(0.0) / bulk;
+        let Some(ev) = (if p > 0.0 { Some((p - limit).max(0.0) / bulk) } else { self.closing([p, s], f.re()) }) else {
+            return self.close(&at, [f, em, volume]);
+        };
         let eq = (q - s).max(0.0) / (3.0 * shear);
         let start = [ev, eq, eq].map(|x| x / flow.scale);
         let [ev, eq, dm] = solve(&flow, start, &[at.p, at.q, f, em], "Gurson")?.map(|x| x * flow.scale);
         let grown = self.grown(f, ev, (em, dm), flow.tension);
-        if dm.re() < 0.0 || eq.re() < 0.0 || !(grown.re() > 0.0 && grown.re() < 1.0) {
+        if dm.re() < 0.0 || eq.re() < 0.0 || !(grown.re() > -CLOSED && grown.re() < 1.0) {
             return Err(Failure::new("Gurson: the local iteration finds another branch"));
         }
+        let grown = if grown.re() < CLOSED { T::zero() } else { grown };
         Ok((at.with(at.p - ev * bulk, at.q - eq * (3.0 * shear)), [grown, em + dm, volume + ev]))
     }
 
@@ -200,5 +295,49 @@ impl RateLaw for Gurson {
     /// The work of the matrix.
     fn dissipation(&self, old: (&Tensor2, &[f64; 3]), new: (&Tensor2, &[f64; 3])) -> f64 {
         (1.0 - new.1[0]) * self.matrix.stress(new.1[1]) * (new.1[1] - old.1[1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn law() -> Gurson {
+        Gurson {
+            elastic: Elastic::new(200e3, 0.3),
+            matrix: Hardening::Combined { first: 300.0, linear: 0.0, saturation: 0.0, rate: 0.0 },
+            porosity: 0.01,
+            q: [1.5, 1.0, 2.25],
+            nucleation: Nucleation { porosity: 0.0, strain: 0.3, spread: 0.1 },
+            critical: 0.15,
+            failure: 0.25,
+        }
+    }
+
+    /// Pressed together until no void is left, in increments of any length: elastic in its volume from there, and sheared
+    /// its matrix.
+    #[test]
+    fn voids_that_close_leave_the_matrix() {
+        let law = law();
+        for increments in [30, 300, 3000] {
+            let (mut stress, mut vars) = (Tensor2::zero(), [law.porosity, 0.0, 0.0]);
+            let de = Tensor2::identity() * (-0.1 / f64::from(increments));
+            for _ in 0..increments {
+                (stress, vars) = law.update(de, stress, &vars, 1.0).unwrap();
+            }
+            assert_eq!(vars[0], 0.0, "{increments}");
+            // All that was void has gone: the rest of the strain is elastic.
+            let pressure = law.elastic.bulk() * (0.3 + vars[2]);
+            assert!((stress.trace() / -3.0 / pressure - 1.0).abs() < 1e-9 && (vars[2] + 0.01).abs() < 2e-4, "{vars:?}");
+            let mut shear = Tensor2::zero();
+            (shear[(0, 1)], shear[(1, 0)]) = (0.01, 0.01);
+            for _ in 0..20 {
+                (stress, vars) = law.update(shear, stress, &vars, 1.0).unwrap();
+            }
+            assert!((Invariants::of(&stress).q / 300.0 - 1.0).abs() < 1e-12);
+            // Drawn, what has no voids bears any mean stress.
+            let (drawn, _) = law.update(Tensor2::identity() * 0.5, stress, &vars, 1.0).unwrap();
+            assert!((Invariants::of(&drawn).q / 300.0 - 1.0).abs() < 1e-12 && drawn.trace() > 0.0);
+        }
     }
 }

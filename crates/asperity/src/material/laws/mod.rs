@@ -1,30 +1,37 @@
 //! The laws, one file each, and their registry.
 
+mod arruda_boyce;
 mod cam_clay;
 mod drucker_prager;
 mod elastic;
 mod gurson;
 mod hardening;
 mod invariants;
+mod isochoric;
 mod mohr_coulomb;
+mod mooney_rivlin;
 mod neo_hookean;
 mod norton_hoff;
 mod ogden;
 mod perzyna;
 mod ubiquitous_joint;
 mod von_mises;
+mod yeoh;
 
-pub use cam_clay::CamClay;
+pub use arruda_boyce::ArrudaBoyce;
+pub use cam_clay::{CamClay, Course};
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::Elastic;
 pub use gurson::{Gurson, Nucleation};
 pub use hardening::Hardening;
 pub use mohr_coulomb::MohrCoulomb;
+pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
 pub use norton_hoff::NortonHoff;
 pub use ogden::Ogden;
 pub use perzyna::Perzyna;
 pub use von_mises::VonMises;
+pub use yeoh::Yeoh;
 
 use super::{Hyper, HyperLaw, Material, Rate, RateLaw};
 use crate::declare::Entry;
@@ -34,6 +41,9 @@ pub static ALL: &[Entry<Box<dyn Material>>] = &[
     elastic::ENTRY,
     neo_hookean::ENTRY,
     ogden::ENTRY,
+    mooney_rivlin::ENTRY,
+    yeoh::ENTRY,
+    arruda_boyce::ENTRY,
     von_mises::COMBINED,
     von_mises::SWIFT,
     von_mises::TABLE,
@@ -44,7 +54,9 @@ pub static ALL: &[Entry<Box<dyn Material>>] = &[
     drucker_prager::PLANE_STRAIN,
     mohr_coulomb::ENTRY,
     cam_clay::ENTRY,
-    gurson::ENTRY,
+    gurson::COMBINED,
+    gurson::SWIFT,
+    gurson::TABLE,
     ubiquitous_joint::ENTRY,
 ];
 

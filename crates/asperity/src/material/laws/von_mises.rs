@@ -146,6 +146,13 @@ impl RateLaw for VonMises {
         Ok(self.relax(&trial, vars, dp))
     }
 
+    fn advice(&self) -> Option<&'static str> {
+        (self.kinematic > 0.0).then_some(
+            "a back stress turns with the spin of the solid in Jaumann's frame: in shear beyond about one half the stress \
+             swings; rate = \"green-naghdi\" keeps it from swinging",
+        )
+    }
+
     fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64>) -> Option<[f64; 2]> {
         let (s, x) = ((*stress + self.elastic.stress(de)).deviator(), vars.tensor);
         let bears = self.bears([s.contract(s), s.contract(x), x.contract(x), vars.scalars[0]]);

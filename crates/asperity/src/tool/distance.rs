@@ -152,9 +152,12 @@ mod tests {
     use super::*;
     use crate::tool::shapes::find;
 
-    fn tool(profiles: &[&[(&str, &[[f64; 2]])]]) -> Tool {
-        let profile = |segments: &&[(&str, &[[f64; 2]])]| {
-            let build = |(key, nodes): &(&str, &[[f64; 2]])| {
+    /// A segment by its key and its nodes.
+    type Segment<'a> = (&'a str, &'a [[f64; 2]]);
+
+    fn tool(profiles: &[&[Segment]]) -> Tool {
+        let profile = |segments: &&[Segment]| {
+            let build = |(key, nodes): &Segment| {
                 let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
                 find(key).unwrap().build(&nodes).unwrap()
             };

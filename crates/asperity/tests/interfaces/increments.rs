@@ -36,8 +36,8 @@ fn slid(law: &dyn Interface, way: &[[f64; 2]], increments: usize, time: f64) -> 
                 dt: time / count as f64,
             };
             let motion = Motion { penetration, slip: slip.map(|s| s / count as f64) };
-            let response = law.respond(&motion, &past, &mut vars).unwrap();
-            (shear, pressure) = (response.shear, response.pressure);
+            let response = law.respond(super::samples::numbers(&motion), &past, &mut vars).unwrap();
+            (shear, pressure) = (response.shear(), response.pressure());
         }
     }
     shear

@@ -106,8 +106,8 @@ fn the_state_of_a_gouge_is_carried_with_second_order() {
             };
             let motion = asperity::interface::Motion { penetration: 1.0, slip: [1.5 * distance_c, 0.0] };
             let mut new = vars;
-            let response = law.respond(&motion, &past, &mut new).unwrap();
-            [response.shear[0] / pressure, new[0], new[1] / velocity]
+            let response = law.respond(numbers(&motion), &past, &mut new).unwrap();
+            [response.shear()[0] / pressure, new[0], new[1] / velocity]
         };
         let exact = end(Scheme::TwoStep, 65_536);
         for (scheme, least) in [(Scheme::BackwardEuler, 0.9), (Scheme::TwoStep, 1.9)] {

@@ -181,9 +181,9 @@ impl FieldContact {
     ) -> Vec<Support> {
         let mut near = Vec::new();
         let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
-        for number in 0..self.surface.faces.len() {
+        for (number, &depth) in depths.iter().enumerate() {
             for seen in now.patches(number, reach, &mut near) {
-                let (piece, depth) = (self.piece_of(seen.patch.target), depths[number]);
+                let piece = self.piece_of(seen.patch.target);
                 let deep = -seen.middle > depth;
                 for corner in 0..self.surface.faces[number].corners() {
                     let slot = self.slot(self.surface.field[number][corner], piece);

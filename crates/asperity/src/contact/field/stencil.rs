@@ -139,8 +139,8 @@ impl<'a> StencilInPlace<'a> {
         if !self.contact.needs_normals() {
             return;
         }
-        for c in 0..surface.faces[patch.face].corners() {
-            let node = surface.field[patch.face][c];
+        let corners = surface.faces[patch.face].corners();
+        for (c, &node) in surface.field[patch.face][..corners].iter().enumerate() {
             surface.normal_rates(
                 node,
                 |f| self.placed(&surface.faces[f]),

@@ -95,10 +95,8 @@ impl Builder<'_> {
         if !keys.law.build().is_ok_and(|law| law.radius() == 0.0) {
             self.refuse("a mean of the pressure is for stresses at points: form = \"paper\"", keys.law.place);
         }
-        if self.site.space == Space::Solid {
-            if let Some(form) = keys.form {
-                self.refuse("a field of nodal values is for plane and axisymmetric models", form.place);
-            }
+        if let Some(form) = keys.form.filter(|_| self.site.space == Space::Solid) {
+            self.refuse("a field of nodal values is for plane and axisymmetric models", form.place);
         }
         self.found.len() == before
     }

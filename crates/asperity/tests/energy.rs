@@ -27,7 +27,7 @@ fn limit(sets: &[&str]) -> (f64, f64) {
 fn the_variational_form_keeps_the_energy() {
     let (left, order) = limit(&[]);
     assert!(left.abs() < 1e-6 && order > 1.8, "{left:.2e} {order}");
-    let (traction, _) = limit(&["contact.base.form=traction"]);
+    let (traction, _) = limit(&["contact.base.form=paper"]);
     assert!(traction.abs() > 1e-5, "{traction:.2e}");
 }
 
@@ -37,7 +37,7 @@ fn the_residue_of_a_rate_law_stands_apart() {
     let rate = "material.rubber={ elastic = { young = 7.5, poisson = 0.25 } }";
     let (left, order) = limit(&[rate]);
     assert!(left.abs() < 1e-6 && order > 1.8, "{left:.2e} {order}");
-    let (traction, _) = limit(&[rate, "contact.base.form=traction"]);
+    let (traction, _) = limit(&[rate, "contact.base.form=paper"]);
     assert!(traction.abs() > 1e-5, "{traction:.2e}");
     let residue = |sets: &[&str]| {
         let model = model(BLOCK, sets);

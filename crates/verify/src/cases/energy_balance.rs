@@ -12,7 +12,7 @@ pub const CASE: Case = Case { name: "energy-balance", measure };
 /// The linear law between Cauchy's stress and Jaumann's rate in place of rubber.
 const RATE: &str = "material.rubber={ elastic = { young = 7.5, poisson = 0.25 } }";
 /// The paper's forces.
-const TRACTION: &str = "contact.base.form=traction";
+const TRACTION: &str = "contact.base.form=paper";
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let ideal = limit(bench, &[])?;

@@ -166,7 +166,7 @@ fn what_nothing_holds_any_more() {
     let held = Run::of(LEFT, &["solver.if_free=hold"]);
     assert_ne!(held.code(), 3, "{}", held.error());
     assert!(held.notes().contains("held still"), "{}", held.notes());
-    assert_eq!(held.summary["time"], 2.0);
+    assert!(held.summary["time"].as_f64().is_some_and(|time| (time - 2.0).abs() < 1e-9));
 }
 
 #[test]

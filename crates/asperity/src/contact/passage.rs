@@ -26,6 +26,8 @@ pub struct Way {
     pub ray: Ray,
     /// Its largest admissible penetration in the accepted state, a length.
     pub depth: f64,
+    /// Whether it saw the target in the accepted state, and may have been in touch with it; else it must have been in front.
+    pub saw: bool,
 }
 
 /// How deep a face lies that passed a point, if one did. `cast` lists what a ray meets within a range, `motion` tells by how
@@ -47,7 +49,7 @@ impl Way {
         // Where the point was, seen from the face as it is now.
         let start = self.from + motion;
         let behind = face.normal().dot(self.ray.point(face.u()) - start);
-        if behind > self.depth {
+        if behind > if self.saw { self.depth } else { OFF * self.depth } {
             return false;
         }
         let start = start + face.normal() * (behind + OFF * self.depth).max(0.0);
@@ -78,7 +80,8 @@ impl OpenContact<'_> {
         for index in (0..contact.surface.points.len()).filter(blind) {
             let place = |u: &[f64]| contact.locate(&contact.surface.points[index], u);
             let ((origin, tangent), (from, _)) = (place(u), place(self.accepted));
-            let way = Way { from, ray: Ray { origin, direction: triad(tangent).1 }, depth: self.depths[index] };
+            let (direction, saw) = (triad(tangent).1, self.history.slot(index)[entry::SEGMENT] >= 0.0);
+            let way = Way { from, ray: Ray { origin, direction }, depth: self.depths[index], saw };
             let motion = |hit: &tool::Hit| {
                 dofs.clear();
                 contact.target.unknowns(hit.segment, &mut dofs);
@@ -108,7 +111,7 @@ mod tests {
     /// plate moved by `plate`, and ends beside the way of the point or not.
     fn falls(to: f64, plate: f64, beside: bool) -> Option<f64> {
         let (origin, direction) = (Vec3::new(0.0, plate - to, 0.0), Vec3::new(0.0, 1.0, 0.0));
-        let way = Way { from: Vec3::new(0.0, 0.2, 0.0), ray: Ray { origin, direction }, depth: 0.5 };
+        let way = Way { from: Vec3::new(0.0, 0.2, 0.0), ray: Ray { origin, direction }, depth: 0.5, saw: true };
         let cast = |ray: &Ray, [least, most]: [f64; 2]| {
             let u = (plate - ray.origin[1]) / ray.direction[1];
             let upwards = ray.direction[1] > 0.0;
@@ -129,7 +132,7 @@ mod tests {
     #[test]
     fn a_face_that_was_behind_already_has_not() {
         let still = Ray { origin: Vec3::zero(), direction: Vec3::new(0.0, 1.0, 0.0) };
-        let way = Way { from: Vec3::zero(), ray: still, depth: 0.5 };
+        let way = Way { from: Vec3::zero(), ray: still, depth: 0.5, saw: true };
         assert_eq!(passed(&way, |_, _| vec![hit(1.0, 1.0)], |_| Vec3::zero()), None);
         assert_eq!(passed(&way, |_, _| vec![hit(1.0, -1.0)], |_| Vec3::zero()), None);
     }

@@ -20,7 +20,8 @@ impl OpenContact<'_> {
         for index in (0..parts.surface.points.len()).filter(blind) {
             let place = |u: &[f64]| self.contact.ray(&parts.surface.points[index], u);
             let (ray, from) = (place(u), place(self.accepted).origin);
-            let way = Way { from, ray, depth: self.depths[index] };
+            let saw = self.history.slot(index)[entry::SEGMENT] >= 0.0;
+            let way = Way { from, ray, depth: self.depths[index], saw };
             let motion = |hit: &Hit| {
                 dofs.clear();
                 parts.target.unknowns(hit.facet, &mut dofs);

@@ -174,6 +174,9 @@ impl Builder<'_> {
     /// facets into which contact bends it. A surface that touches itself carries the points of both sides anyhow.
     fn carried(&self, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> Loads {
         let Opposite::Sides(others) = opposite else { return Loads::Both };
+        if self.is_field(keys) {
+            return Loads::Both;
+        }
         let passes = keys.passes.map_or(Passes::Auto, |passes| passes.value);
         let smooth = |sides: &[Side]| sides.iter().all(|side| self.site.mesh.side(*side).0.degree > 1);
         let two = match passes {

@@ -49,6 +49,7 @@ impl Builder<'_> {
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), moduli);
+        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), moduli));
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }

@@ -3,6 +3,7 @@
 mod billet;
 mod capstan;
 mod claw;
+mod contact_field;
 mod contact_patch;
 mod crushed_ring;
 mod dragged_ball;
@@ -36,6 +37,7 @@ use crate::Case;
 pub const ALL: &[&Case] = &[
     &tube::CASE,
     &contact_patch::CASE,
+    &contact_field::CASE,
     &two_body_patch::CASE,
     &interference_fit::CASE,
     &partial_slip::CASE,

@@ -10,9 +10,10 @@ use asperity::system::{Dofs, State, Term};
 use perturbed::{Random, check, commit, instant, state};
 use support::{Keep, columns, model, run};
 
-/// Largest difference of an entry of a tangent over the largest entry: central differences of states that were deformed at random
-/// pass close by kinks of a profile's distance.
-const ALLOWED: f64 = 1e-5;
+/// Largest difference of an entry of a tangent over the largest entry, between bodies,
+const ALLOWED: f64 = 1e-7;
+/// and over a tool, where up to 1.2e-6 was seen at edges of second degree; why is not known.
+const OVER_TOOLS: f64 = 1e-5;
 
 /// A block above a tool whose profile has curved pieces, convex and concave creases, and free ends.
 const OVER_TOOL: &str = r#"
@@ -98,7 +99,7 @@ fn tangents_of_the_field_are_exact() {
                 let name = format!("{part}, degree {degree}, {space}: {met:?} skipped {skipped} worst {worst:.1e}");
                 assert!(met.iter().all(|&met| met >= 10), "{name}");
                 assert!(10 * skipped <= met.iter().sum::<usize>(), "{name}");
-                assert!(worst < ALLOWED, "{name}");
+                assert!(worst < if part == "block" { OVER_TOOLS } else { ALLOWED }, "{name}");
             }
         }
     }
@@ -247,7 +248,6 @@ mesh.part.block.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [5, 3]
 material.rubber.elastic = { young = 1e3, poisson = 0.3 }
 body.block = { material = "rubber" }
 tool.corner = { profile = [{ line = [[9.0, 0.0], [0.0, 0.0]] }, { line = [[0.0, 0.0], [0.0, 9.0]] }] }
-group.sides = { join = ["block.bottom", "block.left"] }
 contact.floor = { surface = "block.bottom", target = "corner", form = "field", law.coulomb = { friction = 0.0 } }
 contact.wall = { surface = "block.left", target = "corner", form = "field", law.coulomb = { friction = 0.0 } }
 [solver]
@@ -257,8 +257,7 @@ increments.count = 1
 pressure."block.top" = { value = 10.0 }
 pressure."block.right" = { value = 3.0 }
 "#;
-    let deck = deck.replace("group.sides = { join = [\"block.bottom\", \"block.left\"] }\n", "");
-    let model = model(&deck, &[]);
+    let model = model(deck, &[]);
     let keep: Keep = run(&model);
     let state = keep.states.last().unwrap();
     for (number, stress) in [(0, 10.0), (1, 3.0)] {
@@ -270,7 +269,7 @@ pressure."block.right" = { value = 3.0 }
     }
 }
 
-/// A press fit whose two rings are one group of cells is that of two groups.
+/// A common rotation of 63 degrees in one increment leaves pressure and shear of every node as they are.
 #[test]
 fn a_stick_state_that_is_turned_keeps_its_stress() {
     let deck = r#"

@@ -1,8 +1,10 @@
 //! When an iteration is good enough: unbalanced forces against a yardstick of the forces in play.
 //!
 //! The yardstick of a force is the largest sum of absolute stencil forces on any displacement, that of a moment the
-//! same over the rotations of tools. Below it stands the rounding of the stiffest unknown over the size of the model,
-//! so that a body that carries nothing converges too. All are ratios: a change of units changes nothing.
+//! same over the rotations of tools. Below it stands what the rounding of positions leaves of each equation, its largest
+//! coefficient times the size of the model (Oettli & Prager, Numer. Math. 6, 1964), so that a body that carries nothing
+//! converges too; one of all equations together would let a stiff corner hide the forces of a soft contact. All are
+//! ratios: a change of units changes nothing.
 
 use crate::system::{Constraints, Dofs, Evaluation};
 
@@ -22,7 +24,7 @@ pub struct Norms {
     pub ratio: f64,
     /// The largest ratio there may be: the tolerance, or rounding where that is larger.
     pub allowed: f64,
-    /// The ratio that the rounding of positions leaves at the stiffest unknown.
+    /// The ratio that the rounding of positions leaves where the largest is.
     pub rounding: f64,
     /// Where the largest ratio is.
     pub worst: Worst,
@@ -35,11 +37,11 @@ pub struct Norms {
 
 /// What the yardsticks are made of besides the evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Yardstick {
+pub struct Yardstick<'a> {
     /// Largest forces and moments of the past.
     pub past: [f64; 2],
-    /// Largest diagonal entry of the matrix.
-    pub stiffness: f64,
+    /// Largest coefficient of a displacement in each equation; empty before there is a matrix.
+    pub coefficients: &'a [f64],
     /// Size of the model, a length.
     pub size: f64,
     /// Relative tolerance.
@@ -48,7 +50,7 @@ pub struct Yardstick {
 
 /// Part of the past yardstick that still counts: after unloading, equilibrium is asked to a tolerance of this.
 const MEMORY: f64 = 1e-3;
-/// Forces below this multiple of what rounding leaves at the stiffest unknown are no forces.
+/// Forces below this multiple of what rounding leaves of their equation are no forces.
 const NOTHING: f64 = 100.0;
 /// By what factor an iteration makes unbalanced forces smaller that are not yet rounding.
 const FALLING: f64 = 10.0;
@@ -66,18 +68,22 @@ impl Norms {
             let kind = usize::from(dofs.is_rotation(dof));
             largest[kind] = largest[kind].max(magnitude);
         }
-        let rounding = 16.0 * f64::EPSILON * yardstick.stiffness * yardstick.size;
-        let floor = [rounding, rounding * yardstick.size].map(|f| f / yardstick.tolerance);
-        let scale = [0, 1].map(|k| largest[k].max(MEMORY * yardstick.past[k]).max(floor[k]));
-        let nothing = [rounding, rounding * yardstick.size].map(|rounding| NOTHING * rounding);
-        let in_play = [0, 1].map(|k| if largest[k] > nothing[k] { largest[k] } else { 0.0 });
-        let mut norms = Self { rounding: rounding / scale[0], reference: scale, in_play, ..Self::default() };
-        norms.allowed = yardstick.tolerance;
-        for (&dof, &force) in constraints.free().iter().zip(residual) {
-            let scale = scale[usize::from(dofs.is_rotation(dof))];
+        let rounding = |row: usize| {
+            let coefficient = yardstick.coefficients.get(row).copied().unwrap_or(0.0);
+            16.0 * f64::EPSILON * coefficient * yardstick.size
+        };
+        let scale = [0, 1].map(|k| largest[k].max(MEMORY * yardstick.past[k]));
+        let mut norms = Self { allowed: yardstick.tolerance, ..Self::default() };
+        for (row, (&dof, &force)) in constraints.free().iter().zip(residual).enumerate() {
+            let (kind, rounding) = (usize::from(dofs.is_rotation(dof)), rounding(row));
+            let scale = scale[kind].max(rounding / yardstick.tolerance);
+            norms.reference[kind] = norms.reference[kind].max(scale);
+            if evaluation.magnitude[dof] > NOTHING * rounding {
+                norms.in_play[kind] = largest[kind];
+            }
             let ratio = if force == 0.0 { 0.0 } else { force.abs() / scale };
             if ratio > norms.ratio || ratio.is_nan() {
-                (norms.ratio, norms.worst) = (ratio, Worst { dof, force });
+                (norms.ratio, norms.worst, norms.rounding) = (ratio, Worst { dof, force }, rounding / scale);
             }
         }
         norms

@@ -157,6 +157,8 @@ pub struct Newton<'a> {
     pub(super) linearised: bool,
     pub(super) residual: Vec<f64>,
     pub(super) stiffness: f64,
+    /// Largest coefficient of a displacement in each equation.
+    pub(super) coefficients: Vec<f64>,
     /// Multiple of the initial slope that the line search allows at the end of a step.
     pub(super) bound: f64,
     /// Motions that the last matrix was propped against, in words.
@@ -211,6 +213,7 @@ impl<'a> Newton<'a> {
             linearised: false,
             residual,
             stiffness: 0.0,
+            coefficients: Vec::new(),
             bound: SLOPE,
             propped: Vec::new(),
             medium: None,
@@ -330,7 +333,7 @@ impl<'a> Newton<'a> {
     pub(super) fn measure(&self) -> Norms {
         let yardstick = Yardstick {
             past: self.state.in_play,
-            stiffness: self.stiffness,
+            coefficients: &self.coefficients,
             size: self.problem.size,
             tolerance: self.problem.newton.tolerance,
         };
@@ -338,7 +341,8 @@ impl<'a> Newton<'a> {
         Norms::measure(&self.evaluation, &self.residual, numbering, &yardstick)
     }
 
-    /// Largest diagonal entry of a displacement, where the matrix was found.
+    /// Largest diagonal entry of a displacement, and the largest coefficient of one in each equation, where the matrix was
+    /// found.
     pub(super) fn refresh_stiffness(&mut self) {
         let pattern = self.memory.workspace.pattern();
         if !self.linearised {
@@ -348,6 +352,13 @@ impl<'a> Newton<'a> {
         let displacements = free.filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
         let diagonal = displacements.map(|(row, _)| pattern.diagonal[row]);
         self.stiffness = diagonal.map(|place| self.evaluation.values[place].abs()).fold(0.0, f64::max);
+        let (free, values) = (self.step.constraints.free(), &self.evaluation.values);
+        self.coefficients.clear();
+        self.coefficients.extend((0..free.len()).map(|row| {
+            let places = pattern.starts[row]..pattern.starts[row + 1];
+            let displacements = places.filter(|&place| !self.problem.dofs.is_rotation(free[pattern.columns[place]]));
+            displacements.map(|place| values[place].abs()).fold(0.0, f64::max)
+        }));
     }
 
     pub(super) fn describe(&self, iteration: usize, norms: &Norms, trail: &Trail) -> IterationRecord {

@@ -197,7 +197,7 @@ impl OpenContact<'_> {
         };
         let Some(faces) = self.contact.target.as_faces() else { return Vec3::zero() };
         let (along, _, _) = triad(g.place.tangent);
-        let stress = along * (g.before.shear_slope / self.contact.options.tangential_penalty);
+        let stress = along * (g.before.shear_slope / self.tangential_penalty);
         faces.tangent(segment, s[0], &u[range]) * g.before.sliding + stress
     }
 

@@ -42,6 +42,8 @@ pub struct OpenContact<'a> {
     pub augmented: usize,
     /// The part of the overlap that is removed at the beginning and at the end.
     pub settled: [f64; 2],
+    /// Tangential penalty of the attempt.
+    pub tangential_penalty: f64,
     /// Length of the increment.
     pub dt: f64,
 }
@@ -218,10 +220,10 @@ impl OpenContact<'_> {
         let (options, old) = (&self.contact.options, self.history.slot(index));
         Past {
             penalty: options.penalty,
-            tangential_penalty: options.tangential_penalty,
+            tangential_penalty: self.tangential_penalty,
             penetration: old[entry::PENETRATION] + old[entry::CLOSURE],
             pressure: old[entry::PRESSURE],
-            shear: [shear + options.tangential_penalty * self.shift(index).slip[0], 0.0],
+            shear: [shear + self.tangential_penalty * self.shift(index).slip[0], 0.0],
             vars: &old[entry::COUNT..],
             dt: self.dt,
         }
@@ -243,7 +245,7 @@ impl OpenContact<'_> {
         let friction = if options.augmentation.is_some() {
             mean * now.slipped
         } else {
-            let stored = |shear: f64| 0.5 * shear * shear / options.tangential_penalty;
+            let stored = |shear: f64| 0.5 * shear * shear / self.tangential_penalty;
             local.stored += area * stored(now.shear);
             mean * g.place.slip() - (stored(now.shear) - stored(before))
         };

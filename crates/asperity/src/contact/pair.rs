@@ -3,6 +3,7 @@
 use super::augment::Corners;
 use super::averaged::Around;
 use super::capture::depths;
+use super::elastic_slip::tangential_penalty;
 use super::faces::Faces;
 use super::guard;
 use super::nonlocal::{Neighbours, radius};
@@ -143,6 +144,13 @@ impl Contact {
         self.placed(point.edge, u).stand(point)
     }
 
+    /// The tangential penalty of an attempt after this accepted history.
+    fn tangential_penalty(&self, history: &History) -> f64 {
+        let points = 0..self.surface.points.len();
+        let points = points.map(|i| (history.slot(i)[entry::PRESSURE], self.edge_length(i)));
+        tangential_penalty((&*self.law, &self.options), points)
+    }
+
     /// Length of the undeformed edge of a point, as its tangent there measures it.
     pub fn edge_length(&self, point: usize) -> f64 {
         let point = &self.surface.points[point];
@@ -256,6 +264,7 @@ impl Term for Contact {
             shifts: self.begun(&accepted.u, history),
             augmented: 0,
             settled: self.options.overlap.settled(at),
+            tangential_penalty: self.tangential_penalty(history),
             dt: at.dt,
         }))
     }

@@ -97,6 +97,10 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
     fn radius(&self) -> f64 {
         0.0
     }
+    /// The friction stress at which a point under this pressure slides, where pressure alone decides it.
+    fn sliding_stress(&self, _pressure: f64) -> Option<f64> {
+        None
+    }
     /// The same law, its increments integrated as said.
     fn updated(&self, update: Update) -> Box<dyn Interface> {
         Box::new(Law(Integrated { law: self.clone(), update }))
@@ -145,6 +149,8 @@ pub trait Interface: Send + Sync {
     ) -> Result<Response<Dual<15>>, Failure>;
     /// As [`InterfaceLaw::radius`].
     fn radius(&self) -> f64;
+    /// As [`InterfaceLaw::sliding_stress`].
+    fn sliding_stress(&self, pressure: f64) -> Option<f64>;
     /// The same law, its increments integrated in another way.
     fn with_update(&self, update: Update) -> Box<dyn Interface>;
 }
@@ -206,6 +212,9 @@ impl<L: InterfaceLaw> Interface for Law<L> {
     }
     fn radius(&self) -> f64 {
         self.0.radius()
+    }
+    fn sliding_stress(&self, pressure: f64) -> Option<f64> {
+        self.0.sliding_stress(pressure)
     }
     fn with_update(&self, update: Update) -> Box<dyn Interface> {
         self.0.updated(update)

@@ -6,7 +6,7 @@ use super::observer::{AttemptRecord, Observer};
 use super::problem::Problem;
 use super::schedule::Step;
 use crate::Error;
-use crate::system::{Energies, State};
+use crate::system::{Caution, Energies, State};
 
 /// Options of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -35,8 +35,8 @@ pub struct Run<'a> {
     solver: Box<dyn LinearSolver>,
 }
 
-/// Part of a step's first increment from which on an increment that fails is relaxed, and what the next one is after that,
-/// at least.
+/// Part of the size that served last, at most the first of the step, from which on an increment that fails is relaxed, and what
+/// the next one is after that, at least.
 const RELAX: f64 = 0.125;
 const JUMPED: f64 = 0.25;
 /// Attempts at one increment before the run gives up.
@@ -105,7 +105,9 @@ impl<'a> Run<'a> {
     /// Solves one increment, cutting it as often as needed, and accepts it.
     fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
         let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, !self.problem.relaxes());
-        let [first, smallest] = [step.increments.first, step.increments.smallest].map(|part| part * step.duration);
+        let smallest = step.increments.smallest * step.duration;
+        let mut caution = self.state.caution;
+        let usual = caution.usual(step);
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
             let mut record = self.begin(attempt, dt, relaxing);
@@ -115,6 +117,7 @@ impl<'a> Run<'a> {
             match result {
                 Ok(converged) => {
                     observer.attempt(&record);
+                    self.state.caution = caution;
                     self.accept(step, (&record, wanted), converged);
                     return Ok(record);
                 }
@@ -126,8 +129,9 @@ impl<'a> Run<'a> {
                 Err(Trouble::Failure(failure)) => {
                     record.failure = Some(failure.reason.clone());
                     observer.attempt(&record);
+                    caution.fail(dt);
                     relaxed |= relaxing;
-                    relaxing = !relaxed && dt <= RELAX * first;
+                    relaxing = !relaxed && dt <= RELAX * usual;
                     wanted = if relaxing { dt } else { 0.5 * dt };
                     if wanted < smallest {
                         return Err(self.give_up(step, dt, &failure.reason));
@@ -196,11 +200,13 @@ impl<'a> Run<'a> {
         let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
         state.leap = leap([expected, driven, moved], self.problem.size);
         state.last_dt = dt;
-        state.next_dt = step.after(dt, wanted, record.first_solutions());
-        if record.relaxed {
+        if !record.relaxed {
+            state.next_dt = state.caution.hold(dt, step.after(dt, wanted, record.first_solutions()));
+            state.caution.proven = dt;
+        } else {
             // What the jump did must not be carried on, nor its increment be the measure of the next.
             state.last_dt = 0.0;
-            state.next_dt = dt.max(JUMPED * step.increments.first * step.duration);
+            state.next_dt = dt.max(JUMPED * state.caution.usual(step));
             state.released += balance(state) - before;
             state.jumps += 1;
         }
@@ -248,6 +254,7 @@ impl<'a> Run<'a> {
         state.step += 1;
         (state.step_increment, state.step_time) = (0, 0.0);
         state.last_dt = 0.0;
+        state.caution = Caution::default();
         state.step_start.clone_from(&state.u);
         if let Some(next) = self.problem.steps.get(state.step) {
             state.next_dt = next.increments.first * next.duration;

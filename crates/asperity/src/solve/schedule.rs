@@ -1,7 +1,7 @@
 //! Steps, what is prescribed in them, and the size of increments.
 
 use crate::amplitude::Amplitude;
-use crate::system::Constraints;
+use crate::system::{Caution, Constraints};
 
 /// How a prescribed value runs over a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,6 +110,40 @@ impl Step {
     }
 }
 
+/// Increments that must succeed before a size that failed is tried again; twice as many each time that it fails again, up to
+/// the most.
+const PATIENCE: usize = 4;
+const MOST_PATIENCE: usize = 64;
+
+impl Caution {
+    /// Takes note of a size that failed.
+    pub(super) fn fail(&mut self, dt: f64) {
+        let again = self.failed > 0.0 && self.rest == 0;
+        self.patience = if again { (2 * self.patience).min(MOST_PATIENCE) } else { self.patience.max(PATIENCE) };
+        (self.failed, self.rest) = (dt, self.patience);
+    }
+
+    /// The size after an increment of size `dt` where the controller wants `wanted`: below what failed, until enough have
+    /// succeeded.
+    pub(super) fn hold(&mut self, dt: f64, wanted: f64) -> f64 {
+        if self.failed == 0.0 {
+            return wanted;
+        }
+        if dt >= self.failed * (1.0 - 1e-9) {
+            *self = Self { proven: self.proven, ..Self::default() };
+            return wanted;
+        }
+        self.rest = self.rest.saturating_sub(1);
+        if self.rest == 0 || wanted < self.failed * (1.0 - 1e-9) { wanted } else { dt.min(wanted) }
+    }
+
+    /// The size that serves in a step: the last that did, at most the first of the step.
+    pub(super) fn usual(&self, step: &Step) -> f64 {
+        let first = step.increments.first * step.duration;
+        if self.proven > 0.0 { first.min(self.proven) } else { first }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,6 +154,20 @@ mod tests {
         assert_eq!(Course::To(5.0, Amplitude::ramp()).at(3.0, 0.5, 1.0), 4.0);
         assert_eq!(Course::To(0.3, Amplitude::ramp()).at(0.1, 2.0, 2.0), 0.3);
         assert_eq!(Course::To(5.0, Amplitude::ramp()).scaled(-2.0).at(3.0, 1.0, 1.0), -10.0);
+    }
+
+    #[test]
+    fn a_size_that_failed_waits_and_waits_longer_when_it_fails_again() {
+        let mut caution = Caution::default();
+        assert_eq!(caution.hold(1.0, 1.5), 1.5, "nothing failed");
+        caution.fail(1.0);
+        assert_eq!(caution.hold(0.5, 0.75), 0.75, "below what failed");
+        assert_eq!([caution.hold(0.75, 1.125), caution.hold(0.75, 1.125)], [0.75; 2]);
+        assert_eq!(caution.hold(0.75, 1.125), 1.125, "after so many it is tried again");
+        caution.fail(1.125);
+        assert_eq!((caution.failed, caution.rest), (1.125, 2 * PATIENCE));
+        assert_eq!(caution.hold(1.125, 1.6), 1.6, "passed");
+        assert_eq!(caution, Caution::default());
     }
 
     #[test]

@@ -28,6 +28,6 @@ pub use dofs::{Dofs, Unknown};
 pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};
 pub use pattern::{Couplings, Csr};
 pub use preconditioner::{Factorised, Near, Preconditioner};
-pub use state::{Energies, History, State};
+pub use state::{Caution, Energies, History, State};
 pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};
 pub use whole::Whole;

@@ -47,6 +47,8 @@ pub struct OpenContact<'a> {
     pub augmented: usize,
     /// The part of the overlap that is removed at the beginning and at the end.
     pub settled: [f64; 2],
+    /// Tangential penalty of the attempt.
+    pub tangential_penalty: f64,
     /// Length of the increment.
     pub dt: f64,
 }
@@ -200,10 +202,10 @@ impl OpenContact<'_> {
     fn past(&self, index: usize) -> Past<'_> {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         let slips = self.shift(index).1;
-        let shear = |k: usize, entry: usize| old[entry] + options.tangential_penalty * slips[k];
+        let shear = |k: usize, entry: usize| old[entry] + self.tangential_penalty * slips[k];
         Past {
             penalty: options.penalty,
-            tangential_penalty: options.tangential_penalty,
+            tangential_penalty: self.tangential_penalty,
             penetration: old[entry::PENETRATION] + old[entry::CLOSURE],
             pressure: old[entry::PRESSURE],
             shear: [shear(0, entry::SHEAR), shear(1, entry::SHEAR2)],
@@ -226,7 +228,7 @@ impl OpenContact<'_> {
         let friction = if options.augmentation.is_some() {
             work(now.slid)
         } else {
-            let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
+            let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / self.tangential_penalty;
             local.stored += area * stored(now.shear);
             work(g.place.slip()) - (stored(now.shear) - stored(before))
         };

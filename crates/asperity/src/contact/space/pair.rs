@@ -7,6 +7,7 @@ use super::point::Triad;
 use super::surface::{Face, Surface, SurfacePoint};
 use super::target::Target;
 use crate::contact::augment::Corners;
+use crate::contact::elastic_slip::tangential_penalty;
 use crate::contact::guard;
 use crate::contact::nonlocal::{Neighbours, radius};
 use crate::contact::pair::{CLOSED, ahead};
@@ -145,6 +146,13 @@ impl Contact {
         self.placed(point.face, u).stand(point)
     }
 
+    /// The tangential penalty of an attempt after this accepted history.
+    fn tangential_penalty(&self, history: &History) -> f64 {
+        let points = 0..self.parts.surface.points.len();
+        let points = points.map(|i| (history.slot(i)[entry::PRESSURE], self.face_length(i)));
+        tangential_penalty((&*self.parts.law, &self.parts.options), points)
+    }
+
     /// Size of the undeformed face of a point, a length.
     pub fn face_length(&self, point: usize) -> f64 {
         self.parts.length(&self.parts.surface.faces[self.parts.surface.points[point].face])
@@ -246,6 +254,7 @@ impl Term for Contact {
             frames: self.frames(&accepted.u),
             augmented: 0,
             settled: parts.options.overlap.settled(at),
+            tangential_penalty: self.tangential_penalty(history),
             dt: at.dt,
         }))
     }

@@ -51,5 +51,5 @@ pub use record::{PointRecord, PointStatus};
 pub use rigid::Rigid;
 pub use surface::{Edge, Surface};
 pub use target::{Hit, Target};
-pub use thin::thicknesses;
+pub use thin::{Plate, plates};
 pub use variational::ContactForm;

@@ -2,7 +2,7 @@
 //! by squeezing the cell behind it, `M / h`, with `M` the lesser of `lambda + 2 G` and `4 G` of the undeformed law and `h` the
 //! size of the cell (its volume over the area of the face); that of a thin body by bending, which is softer.
 
-use super::thin::{curvature, stiffness};
+use super::thin::{Plate, area, curvature, stiffness};
 use crate::mesh::{CellView, Mesh, Side, Space};
 
 /// Ratio of the penalty to the stiffness behind a face.
@@ -17,19 +17,23 @@ pub const TWO_PASSES: f64 = 0.2;
 pub struct Backing {
     /// Stiffness of the material against pressure.
     pub modulus: f64,
-    /// Thickness of the body, infinite where it is not thin.
-    pub thickness: f64,
+    /// The body where it is thin.
+    pub plate: Option<Plate>,
 }
+
+/// Part of half of the boundary of a thin body that a surface must be to be a face of the plate and not its rim.
+const FACE: f64 = 0.5;
 
 /// Default penalty between the `surfaces`, with what stands behind the faces of a cell.
 pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behind: impl Fn(usize) -> Backing) -> f64 {
     let least = |sides: &&[Side]| {
-        let curvature = curvature(mesh, sides, space);
+        let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
         let followed = |side: &Side| {
-            let Backing { modulus, thickness } = behind(side.cell);
+            let Backing { modulus, plate } = behind(side.cell);
             let squeezed = 1.0 / depth(mesh, *side);
-            let bent = if thickness.is_finite() { stiffness(thickness, curvature) } else { f64::INFINITY };
-            modulus * squeezed.min(bent)
+            let bent =
+                plate.filter(|plate| area > FACE * plate.area).map(|plate| stiffness(plate.thickness, curvature));
+            modulus * bent.map_or(squeezed, |bent| bent.min(squeezed))
         };
         sides.iter().map(followed).fold(f64::INFINITY, f64::min)
     };

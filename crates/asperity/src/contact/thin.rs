@@ -15,24 +15,38 @@ const THIN: f64 = 20.0;
 const WAVE: f64 = 5.0;
 /// Share of the membrane against that of bending: what presses a curved body is mostly how far it is driven apart, and the
 /// penetration is missing there.
-const MEMBRANE: f64 = 20.0;
+const MEMBRANE: f64 = 200.0;
 /// Edges or faces that meet at more than this angle, in radians, meet at a corner.
 const CORNER: f64 = 0.5;
 
-/// Thickness of what hangs together behind each cell: its volume over half of its boundary; infinite where that is not thin.
-pub fn thicknesses<'a>(mesh: &'a Mesh, cells: &[usize]) -> impl Iterator<Item = (usize, f64)> + 'a {
+/// A body that is longer than many of its thicknesses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plate {
+    /// Its thickness: its volume over half of its boundary.
+    pub thickness: f64,
+    /// Half of its boundary.
+    pub area: f64,
+}
+
+/// What hangs together behind each cell, where it is thin.
+pub fn plates<'a>(mesh: &'a Mesh, cells: &[usize]) -> impl Iterator<Item = (usize, Option<Plate>)> + 'a {
     pieces(mesh, cells).into_iter().flat_map(|piece| {
-        let thickness = thickness(mesh, &piece);
-        piece.into_iter().map(move |cell| (cell, thickness))
+        let plate = plate(mesh, &piece);
+        piece.into_iter().map(move |cell| (cell, plate))
     })
 }
 
-fn thickness(mesh: &Mesh, cells: &[usize]) -> f64 {
+fn plate(mesh: &Mesh, cells: &[usize]) -> Option<Plate> {
     let volume: f64 = cells.iter().map(|&cell| mesh.measure(cell)).sum();
-    let half = 0.5 * mesh.boundary(cells).iter().map(|&side| extent(mesh, side)).sum::<f64>();
-    let thickness = volume / half;
-    let length = if mesh.dimension() == 3 { half.sqrt() } else { half };
-    if length > THIN * thickness { thickness } else { f64::INFINITY }
+    let area = 0.5 * area(mesh, &mesh.boundary(cells));
+    let thickness = volume / area;
+    let length = if mesh.dimension() == 3 { area.sqrt() } else { area };
+    (length > THIN * thickness).then_some(Plate { thickness, area })
+}
+
+/// Area of sides, in the plane their length.
+pub fn area(mesh: &Mesh, sides: &[Side]) -> f64 {
+    sides.iter().map(|&side| extent(mesh, side)).sum()
 }
 
 /// The cells that hang together by nodes, from the lowest on.

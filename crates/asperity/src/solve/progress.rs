@@ -7,7 +7,7 @@
 /// Iterations that are judged together; as many and the first guess come before them.
 const WINDOW: usize = 6;
 /// Part of the forces in play above which unbalanced forces are large,
-const LARGE: f64 = 0.1;
+const LARGE: f64 = 0.01;
 /// what the least of them must fall to within the window,
 const FALL: f64 = 0.5;
 /// and the part of Newton's step below which it counts as shortened; it is so in most iterations that wander.

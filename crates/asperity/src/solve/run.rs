@@ -131,7 +131,7 @@ impl<'a> Run<'a> {
                     observer.attempt(&record);
                     caution.fail(dt);
                     relaxed |= relaxing;
-                    relaxing = !relaxed && dt <= RELAX * usual;
+                    relaxing = !relaxed && (dt <= RELAX * usual || 0.5 * dt < smallest);
                     wanted = if relaxing { dt } else { 0.5 * dt };
                     if wanted < smallest {
                         return Err(self.give_up(step, dt, &failure.reason));
@@ -207,6 +207,7 @@ impl<'a> Run<'a> {
             // What the jump did must not be carried on, nor its increment be the measure of the next.
             state.last_dt = 0.0;
             state.next_dt = dt.max(JUMPED * state.caution.usual(step));
+            state.caution.forget();
             state.released += balance(state) - before;
             state.jumps += 1;
         }

@@ -110,10 +110,12 @@ impl Step {
     }
 }
 
-/// Increments that must succeed before a size that failed is tried again; twice as many each time that it fails again, up to
-/// the most.
+/// Increments that must succeed after one that failed before a larger one is tried; twice as many each time that this fails, up
+/// to the most. An attempt that fails costs about as much as three or four increments that succeed.
 const PATIENCE: usize = 4;
-const MOST_PATIENCE: usize = 64;
+const MOST_PATIENCE: usize = 16;
+/// Part of the first increment of a step below which no size counts as usual.
+const USUAL: f64 = 1.0 / 16.0;
 
 impl Caution {
     /// Takes note of a size that failed.
@@ -123,24 +125,28 @@ impl Caution {
         (self.failed, self.rest) = (dt, self.patience);
     }
 
-    /// The size after an increment of size `dt` where the controller wants `wanted`: below what failed, until enough have
-    /// succeeded.
+    /// The size after an increment of size `dt` where the controller wants `wanted`: no larger until enough have succeeded.
     pub(super) fn hold(&mut self, dt: f64, wanted: f64) -> f64 {
         if self.failed == 0.0 {
             return wanted;
         }
         if dt >= self.failed * (1.0 - 1e-9) {
-            *self = Self { proven: self.proven, ..Self::default() };
+            self.forget();
             return wanted;
         }
         self.rest = self.rest.saturating_sub(1);
-        if self.rest == 0 || wanted < self.failed * (1.0 - 1e-9) { wanted } else { dt.min(wanted) }
+        if self.rest == 0 { wanted } else { dt.min(wanted) }
     }
 
-    /// The size that serves in a step: the last that did, at most the first of the step.
+    /// The size that serves in a step: the last that did, at most the first of the step and not far below it.
     pub(super) fn usual(&self, step: &Step) -> f64 {
         let first = step.increments.first * step.duration;
-        if self.proven > 0.0 { first.min(self.proven) } else { first }
+        if self.proven > 0.0 { self.proven.clamp(USUAL * first, first) } else { first }
+    }
+
+    /// Forgets what failed: it is passed.
+    pub(super) fn forget(&mut self) {
+        *self = Self { proven: self.proven, ..Self::default() };
     }
 }
 
@@ -161,12 +167,11 @@ mod tests {
         let mut caution = Caution::default();
         assert_eq!(caution.hold(1.0, 1.5), 1.5, "nothing failed");
         caution.fail(1.0);
-        assert_eq!(caution.hold(0.5, 0.75), 0.75, "below what failed");
-        assert_eq!([caution.hold(0.75, 1.125), caution.hold(0.75, 1.125)], [0.75; 2]);
-        assert_eq!(caution.hold(0.75, 1.125), 1.125, "after so many it is tried again");
-        caution.fail(1.125);
-        assert_eq!((caution.failed, caution.rest), (1.125, 2 * PATIENCE));
-        assert_eq!(caution.hold(1.125, 1.6), 1.6, "passed");
+        assert_eq!([(); PATIENCE - 1].map(|()| caution.hold(0.5, 0.75)), [0.5; PATIENCE - 1]);
+        assert_eq!(caution.hold(0.5, 0.75), 0.75, "after so many a larger one is tried");
+        caution.fail(0.75);
+        assert_eq!((caution.failed, caution.rest), (0.75, 2 * PATIENCE));
+        assert_eq!(caution.hold(0.75, 1.125), 1.125, "passed");
         assert_eq!(caution, Caution::default());
     }
 

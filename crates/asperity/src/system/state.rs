@@ -66,7 +66,7 @@ impl Energies {
 pub struct Caution {
     /// The size that failed last and that none has passed since; zero if there is none.
     pub failed: f64,
-    /// Increments that must still succeed before it is tried again,
+    /// Increments that must still succeed before a larger one is tried,
     pub rest: usize,
     /// and how many had to when it failed.
     pub patience: usize,

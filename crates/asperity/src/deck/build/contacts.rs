@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::contact::{
     Augmentation, Backing, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES,
-    Target, default_penalty, second_name, thicknesses,
+    Target, default_penalty, plates, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -250,12 +250,12 @@ const SURFACE: f64 = 4.0;
 /// What stands behind the faces of each cell: the confined modulus of its material, at most four shear moduli, and the
 /// thickness of what it belongs to.
 pub(super) fn backings(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<Backing> {
-    let mut backings = vec![Backing { modulus: 0.0, thickness: f64::INFINITY }; mesh.cell_count()];
+    let mut backings = vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()];
     for (body, _) in bodies {
         let [confined, shear] = body.material().moduli();
         let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
         body.cells().iter().for_each(|&cell| backings[cell].modulus = modulus);
-        thicknesses(mesh, body.cells()).for_each(|(cell, thickness)| backings[cell].thickness = thickness);
+        plates(mesh, body.cells()).for_each(|(cell, plate)| backings[cell].plate = plate);
     }
     backings
 }

@@ -19,7 +19,7 @@ const SAMPLES: usize = 96;
 type Curve = Vec<(f64, f64)>;
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let (quad8, mut measured) = draw(bench, "quad8", &[])?;
+    let (quad8, mut measured) = draw(bench, "quad8", bench.pick(&["step.2.motion.punch.y=-1.0"][..], &[]))?;
     if bench.pick(false, true) {
         let linear = ["mesh.part.blank.rectangle.cells=[100, 3]", "mesh.part.blank.rectangle.cell=quad4"];
         let body = ["body.blank.formulation=f-bar", "body.blank.integration=full"];

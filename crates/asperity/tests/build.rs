@@ -239,6 +239,75 @@ fn penalties_and_thickness_have_their_printed_defaults() {
 }
 
 #[test]
+fn the_elastic_slip_is_said_or_a_default_and_refused_where_nothing_follows_it() {
+    let deck = |more: &str| {
+        format!(
+            "{HEAD}{TOOL}
+            [contact.base]
+            surface = 'block.bottom'
+            target = 'plate'
+            law.coulomb = {{ friction = 0.3 }}
+            {more}
+            [[step]]
+            symmetry = ['block.left']"
+        )
+    };
+    let part = |more: &str| made(&deck(more)).contacts[0].options().elastic_slip;
+    assert_eq!([part(""), part("elastic_slip = 0.02")], [Some(0.005), Some(0.02)]);
+    assert_eq!([part("tangential_penalty = 3.0"), part("augmentation = {}")], [None, None]);
+    let sticking = deck("").replace("coulomb = { friction = 0.3 }", "sticking = {}");
+    assert_eq!(made(&sticking).contacts[0].options().elastic_slip, None);
+    for more in ["tangential_penalty = 3.0", "augmentation = {}"] {
+        let told = refused(&deck(&format!("{more}\nelastic_slip = 0.01")));
+        assert!(told.contains("`elastic_slip` is for friction by the pressure"), "{told}");
+    }
+}
+
+/// A strip of 60 by 1 follows pressure by bending, a block of 2 by 1 by squeezing its cells.
+#[test]
+fn a_thin_body_has_the_penalty_of_its_bending() {
+    let deck = format!(
+        "{HEAD}{TOOL}
+        [contact.base]
+        surface = 'block.bottom'
+        target = 'plate'
+        law.coulomb = {{ friction = 0.3 }}
+        [[step]]
+        symmetry = ['block.left']"
+    );
+    let deck = deck.replace("to = [2.0, 1.0], cells = [2, 1]", "to = [60.0, 1.0], cells = [60, 2]");
+    let modulus = 210e3 * 0.7 / (1.3 * 0.4);
+    let thickness: f64 = 60.0 / 61.0;
+    let bending = modulus * thickness.powi(3) / 12.0 * (std::f64::consts::PI / (5.0 * thickness)).powi(4);
+    let penalty = made(&deck).contacts[0].options().penalty;
+    assert!((penalty / (50.0 * bending) - 1.0).abs() < 1e-12, "{penalty} {bending}");
+}
+
+/// A half ring of radius 50 and thickness 1 also stretches: `200 M t / R^2` more, but for the chords of its edges.
+#[test]
+fn a_curved_thin_body_also_follows_by_stretching() {
+    let deck = format!(
+        "{HEAD}{TOOL}
+        [contact.base]
+        surface = 'block.inner'
+        target = 'plate'
+        law.coulomb = {{ friction = 0.3 }}
+        [[step]]
+        symmetry = ['block.start']"
+    );
+    let part =
+        "mesh.part.block.annulus = { from = [50.0, 0.0], to = [51.0, 180.0], cells = [2, 90], cell = \"quad8\" }";
+    let line = HEAD.lines().find(|line| line.starts_with("mesh")).unwrap();
+    let deck = deck.replace(line, part);
+    let (modulus, thickness) =
+        (210e3 * 0.7 / (1.3 * 0.4), 50.5 * std::f64::consts::PI / (50.5 * std::f64::consts::PI + 1.0));
+    let bending = std::f64::consts::PI.powi(4) / (12.0 * 625.0 * thickness);
+    let expected = 50.0 * modulus * (bending + 200.0 * thickness / 2500.0);
+    let penalty = made(&deck).contacts[0].options().penalty;
+    assert!((penalty / expected - 1.0).abs() < 1e-3, "{penalty} {expected}");
+}
+
+#[test]
 fn increments_are_fractions_of_their_step() {
     let deck = format!("{HEAD}\n[[step]]\nsymmetry = ['block.left']\nduration = 4.0\nincrements = {{ count = 8 }}");
     let step = &made(&deck).problem.steps[0];

@@ -10,8 +10,11 @@ use super::variational::ContactForm;
 pub struct ContactOptions {
     /// Normal penalty, a stress per length.
     pub penalty: f64,
-    /// Tangential penalty, a stress per length.
+    /// Tangential penalty, a stress per length; the largest where it follows from an elastic slip.
     pub tangential_penalty: f64,
+    /// Elastic slip under the friction that the pressure of the accepted state allows, over the length of an edge or face;
+    /// none where the tangential penalty stays as it is.
+    pub elastic_slip: Option<f64>,
     /// Thickness in the plane cases.
     pub thickness: f64,
     /// Which side a contact point loads.

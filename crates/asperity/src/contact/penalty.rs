@@ -1,19 +1,43 @@
-//! The penalty that needs no guess: `K = 50 min(M / h)` over the faces of both sides, with `M` the lesser of `lambda + 2 G`
-//! and `4 G` of the undeformed law and `h` the size of the cell behind the face (its volume over the area of the face).
+//! The penalty that needs no guess: 50 times what the surface can follow, the least over the faces of both sides. A face follows
+//! by squeezing the cell behind it, `M / h`, with `M` the lesser of `lambda + 2 G` and `4 G` of the undeformed law and `h` the
+//! size of the cell (its volume over the area of the face); that of a thin body by bending, which is softer.
 
-use crate::mesh::{CellView, Mesh, Side};
+use super::thin::{Plate, area, curvature, stiffness};
+use crate::mesh::{CellView, Mesh, Side, Space};
 
-/// Ratio of the penalty to the stiffness of the cell behind a face.
+/// Ratio of the penalty to the stiffness behind a face.
 const RATIO: f64 = 50.0;
 
 /// Part of it that serves with two passes: each side answers the other with a penalty of its own, and what a stiffer pair
 /// disagrees about from point to point, friction least of all, leaves Newton's method without an end.
 pub const TWO_PASSES: f64 = 0.2;
 
-/// Default penalty for faces `sides`, with `modulus` that of a cell's material.
-pub fn default_penalty(mesh: &Mesh, sides: &[Side], modulus: impl Fn(usize) -> f64) -> f64 {
-    let stiffness = |side: &Side| modulus(side.cell) / depth(mesh, *side);
-    RATIO * sides.iter().map(stiffness).fold(f64::INFINITY, f64::min)
+/// What stands behind a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Backing {
+    /// Stiffness of the material against pressure.
+    pub modulus: f64,
+    /// The body where it is thin.
+    pub plate: Option<Plate>,
+}
+
+/// Part of half of the boundary of a thin body that a surface must be to be a face of the plate and not its rim.
+const FACE: f64 = 0.5;
+
+/// Default penalty between the `surfaces`, with what stands behind the faces of a cell.
+pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behind: impl Fn(usize) -> Backing) -> f64 {
+    let least = |sides: &&[Side]| {
+        let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
+        let followed = |side: &Side| {
+            let Backing { modulus, plate } = behind(side.cell);
+            let squeezed = 1.0 / depth(mesh, *side);
+            let bent =
+                plate.filter(|plate| area > FACE * plate.area).map(|plate| stiffness(plate.thickness, curvature));
+            modulus * bent.map_or(squeezed, |bent| bent.min(squeezed))
+        };
+        sides.iter().map(followed).fold(f64::INFINITY, f64::min)
+    };
+    RATIO * surfaces.iter().map(least).fold(f64::INFINITY, f64::min)
 }
 
 /// Volume of the cell behind a side over the area of the side.

@@ -145,7 +145,10 @@ impl Page {
         }
         let (options, origin) = (seen.options, if keys.penalty.is_some() { "given" } else { "computed" });
         let (penalty, tangential) = (options.penalty, options.tangential_penalty);
-        self.line(format!("  penalty {penalty:.4e} ({origin}), tangential {tangential:.4e}"));
+        self.line(match options.elastic_slip {
+            None => format!("  penalty {penalty:.4e} ({origin}), tangential {tangential:.4e}"),
+            Some(part) => format!("  penalty {penalty:.4e} ({origin}), elastic slip {part} of an edge or face"),
+        });
     }
 
     fn steps(&mut self, made: &Made) {

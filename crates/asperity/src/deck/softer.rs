@@ -1,6 +1,7 @@
 //! The same deck with softer penalties.
 
 use super::Loaded;
+use super::source::Spot;
 use crate::Error;
 use crate::model::Model;
 use crate::output::Parts;
@@ -16,7 +17,10 @@ impl Loaded {
             let options = contacts.iter().find(|(_, other, _)| *other == name.text).map(|(_, _, c)| c.options());
             let Some(options) = options else { continue };
             keys.penalty = Some(options.penalty / ratio);
-            keys.tangential_penalty = Some(options.tangential_penalty / ratio);
+            match options.elastic_slip {
+                None => keys.tangential_penalty = Some(options.tangential_penalty / ratio),
+                Some(part) => keys.elastic_slip = Some(Spot { value: part * ratio, place: name.place }),
+            }
         }
         if self.deck.contact.is_empty() {
             return Err(Error::Input("there is no contact in this deck, and no penalty to study".into()));

@@ -70,6 +70,9 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
     fn radius(&self) -> f64 {
         self.law.radius()
     }
+    fn sliding_stress(&self, pressure: f64) -> Option<f64> {
+        self.law.sliding_stress(pressure)
+    }
     /// Integrated once, not twice.
     fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
         self.law.updated(update)

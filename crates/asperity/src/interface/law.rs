@@ -145,6 +145,10 @@ pub trait InterfaceLaw: Clone + Send + Sync + 'static {
     fn radius(&self) -> f64 {
         0.0
     }
+    /// The friction stress at which a point under this pressure slides, where pressure alone decides it.
+    fn sliding_stress(&self, _pressure: f64) -> Option<f64> {
+        None
+    }
     /// The same law, its increments integrated as said.
     ///
     /// # Errors
@@ -177,6 +181,8 @@ pub trait Interface: Send + Sync {
     fn respond(&self, motion: [f64; 3], past: &Past, vars: &mut [f64]) -> Result<Linearised, Failure>;
     /// As [`InterfaceLaw::radius`].
     fn radius(&self) -> f64;
+    /// As [`InterfaceLaw::sliding_stress`].
+    fn sliding_stress(&self, pressure: f64) -> Option<f64>;
     /// The same law, its increments integrated in another way.
     ///
     /// # Errors
@@ -230,6 +236,9 @@ impl<L: InterfaceLaw> Interface for Law<L> {
     }
     fn radius(&self) -> f64 {
         self.0.radius()
+    }
+    fn sliding_stress(&self, pressure: f64) -> Option<f64> {
+        self.0.sliding_stress(pressure)
     }
     fn with_update(&self, update: Update) -> Result<Box<dyn Interface>, String> {
         self.0.updated(update)

@@ -14,6 +14,7 @@ mod piecewise;
 mod preconditioner;
 mod predict;
 mod problem;
+mod progress;
 mod relax;
 mod rigid;
 mod run;

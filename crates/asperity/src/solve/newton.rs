@@ -6,6 +6,7 @@ use super::linear::{Factors, LinearSolver};
 use super::mixed::Mixed;
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::problem::Problem;
+use super::progress::Progress;
 use super::relax::Drag;
 use super::schedule::Step;
 use super::step::forcing;
@@ -226,7 +227,7 @@ impl<'a> Newton<'a> {
         let (mut u, mut missing) = self.predict()?;
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.begin_sequence();
-        let (mut trail, mut still) = (Trail::default(), false);
+        let (mut trail, mut progress, mut still) = (Trail::default(), Progress::default(), false);
         let (mut augmentation, mut begun, mut stalls) = (0, 0, 0);
         for iteration in 0.. {
             self.refresh_stiffness();
@@ -255,7 +256,8 @@ impl<'a> Newton<'a> {
             if !norms.ratio.is_finite() {
                 return Err(Failure::new("the forces are not finite").into());
             }
-            if iteration - begun == options.iterations {
+            progress.push(iteration == begun, norms.ratio, taken);
+            if iteration - begun == options.iterations || progress.wanders() {
                 break;
             }
             if iteration - begun >= PATIENCE {

@@ -6,7 +6,7 @@ use super::observer::{AttemptRecord, Observer};
 use super::problem::Problem;
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
-use crate::system::{Energies, Interpenetration, State};
+use crate::system::{Caution, Energies, Interpenetration, State};
 use crate::{Error, Failure};
 use std::time::{Duration, Instant};
 
@@ -39,8 +39,8 @@ pub struct Run<'a> {
     solver: Box<dyn LinearSolver>,
 }
 
-/// Part of a step's first increment from which on an increment that fails is relaxed, and what the next one is after that,
-/// at least.
+/// Part of the size that served last, at most the first of the step, from which on an increment that fails is relaxed, and what
+/// the next one is after that, at least.
 const RELAX: f64 = 0.125;
 const JUMPED: f64 = 0.25;
 /// Attempts at one increment before the run gives up.
@@ -106,8 +106,9 @@ impl<'a> Run<'a> {
     /// Solves one increment, cutting it as often as needed, and accepts it.
     fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
         let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, !self.problem.relaxes());
-        let smallest = step.increments.smallest.max(SMALLEST);
-        let [first, smallest] = [step.increments.first, smallest].map(|part| part * step.duration);
+        let smallest = step.increments.smallest.max(SMALLEST) * step.duration;
+        let mut caution = self.state.caution;
+        let usual = caution.usual(step);
         let mut cause = String::new();
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
@@ -119,6 +120,7 @@ impl<'a> Run<'a> {
             match result {
                 Ok((found, converged)) => {
                     observer.attempt(&record);
+                    self.state.caution = caution;
                     self.accept(step, (&record, wanted), converged);
                     self.note(found);
                     return Ok(record);
@@ -137,8 +139,9 @@ impl<'a> Run<'a> {
                     } else {
                         cause = format!("{cause}; {}", failure.reason);
                     }
+                    caution.fail(dt);
                     relaxed |= relaxing;
-                    relaxing = !relaxed && dt <= RELAX * first;
+                    relaxing = !relaxed && (dt <= RELAX * usual || 0.5 * dt < smallest);
                     wanted = if relaxing { dt } else { 0.5 * dt };
                     if wanted < smallest {
                         return Err(self.give_up(step, dt, &cause));
@@ -225,11 +228,14 @@ impl<'a> Run<'a> {
         let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
         state.leap = leap([expected, driven, moved], self.problem.size);
         state.last_dt = dt;
-        state.next_dt = step.after(dt, wanted, record.first_solutions());
-        if record.relaxed {
+        if !record.relaxed {
+            state.next_dt = state.caution.hold(dt, step.after(dt, wanted, record.first_solutions()));
+            state.caution.proven = dt;
+        } else {
             // What the jump did must not be carried on, nor its increment be the measure of the next.
             state.last_dt = 0.0;
-            state.next_dt = dt.max(JUMPED * step.increments.first * step.duration);
+            state.next_dt = dt.max(JUMPED * state.caution.usual(step));
+            state.caution.forget();
             // A relaxation that ends higher than it began has set nothing free: that energy is missing.
             state.released += (balance(state) - before).max(0.0);
             state.jumps += 1;
@@ -279,6 +285,7 @@ impl<'a> Run<'a> {
         state.step += 1;
         (state.step_increment, state.step_time) = (0, 0.0);
         state.last_dt = 0.0;
+        state.caution = Caution::default();
         state.step_start.clone_from(&state.u);
         if let Some(next) = self.problem.steps.get(state.step) {
             state.next_dt = next.increments.first * next.duration;

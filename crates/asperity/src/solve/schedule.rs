@@ -1,7 +1,7 @@
 //! Steps, what is prescribed in them, and the size of increments.
 
 use crate::amplitude::Amplitude;
-use crate::system::Constraints;
+use crate::system::{Caution, Constraints};
 
 /// How a prescribed value runs over a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,6 +114,46 @@ impl Step {
     }
 }
 
+/// Increments that must succeed after one that failed before a larger one is tried; twice as many each time that this fails, up
+/// to the most. An attempt that fails costs about as much as three or four increments that succeed.
+const PATIENCE: usize = 4;
+const MOST_PATIENCE: usize = 16;
+/// Part of the first increment of a step below which no size counts as usual.
+const USUAL: f64 = 1.0 / 16.0;
+
+impl Caution {
+    /// Takes note of a size that failed.
+    pub(super) fn fail(&mut self, dt: f64) {
+        let again = self.failed > 0.0 && self.rest == 0;
+        self.patience = if again { (2 * self.patience).min(MOST_PATIENCE) } else { self.patience.max(PATIENCE) };
+        (self.failed, self.rest) = (dt, self.patience);
+    }
+
+    /// The size after an increment of size `dt` where the controller wants `wanted`: no larger until enough have succeeded.
+    pub(super) fn hold(&mut self, dt: f64, wanted: f64) -> f64 {
+        if self.failed == 0.0 {
+            return wanted;
+        }
+        if dt >= self.failed * (1.0 - 1e-9) {
+            self.forget();
+            return wanted;
+        }
+        self.rest = self.rest.saturating_sub(1);
+        if self.rest == 0 { wanted } else { dt.min(wanted) }
+    }
+
+    /// The size that serves in a step: the last that did, at most the first of the step and not far below it.
+    pub(super) fn usual(&self, step: &Step) -> f64 {
+        let first = step.increments.first * step.duration;
+        if self.proven > 0.0 { self.proven.clamp(USUAL * first, first) } else { first }
+    }
+
+    /// Forgets what failed: it is passed.
+    pub(super) fn forget(&mut self) {
+        *self = Self { proven: self.proven, ..Self::default() };
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,6 +164,19 @@ mod tests {
         assert_eq!(Course::To(5.0, Amplitude::ramp()).at(3.0, 0.5, 1.0), 4.0);
         assert_eq!(Course::To(0.3, Amplitude::ramp()).at(0.1, 2.0, 2.0), 0.3);
         assert_eq!(Course::To(5.0, Amplitude::ramp()).scaled(-2.0).at(3.0, 1.0, 1.0), -10.0);
+    }
+
+    #[test]
+    fn a_size_that_failed_waits_and_waits_longer_when_it_fails_again() {
+        let mut caution = Caution::default();
+        assert_eq!(caution.hold(1.0, 1.5), 1.5, "nothing failed");
+        caution.fail(1.0);
+        assert_eq!([(); PATIENCE - 1].map(|()| caution.hold(0.5, 0.75)), [0.5; PATIENCE - 1]);
+        assert_eq!(caution.hold(0.5, 0.75), 0.75, "after so many a larger one is tried");
+        caution.fail(0.75);
+        assert_eq!((caution.failed, caution.rest), (0.75, 2 * PATIENCE));
+        assert_eq!(caution.hold(0.75, 1.125), 1.125, "passed");
+        assert_eq!(caution, Caution::default());
     }
 
     #[test]

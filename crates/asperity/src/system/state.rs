@@ -77,6 +77,19 @@ pub struct Interpenetration {
     pub increment: usize,
 }
 
+/// What attempts that failed teach about the size of the increments that follow.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Caution {
+    /// The size that failed last and that none has passed since; zero if there is none.
+    pub failed: f64,
+    /// Increments that must still succeed before a larger one is tried,
+    pub rest: usize,
+    /// and how many had to when it failed.
+    pub patience: usize,
+    /// The size accepted last without relaxation; zero before the first of a step.
+    pub proven: f64,
+}
+
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -98,6 +111,8 @@ pub struct State {
     pub last_dt: f64,
     /// Size the controller wants for the next increment.
     pub next_dt: f64,
+    /// What sizes that failed have taught.
+    pub caution: Caution,
     /// Motion of the last increment over the size of the model where it was many times as fast as that of the increment
     /// before, else zero.
     pub leap: f64,

@@ -43,6 +43,7 @@ pub fn options(loads: Loads) -> ContactOptions {
     ContactOptions {
         penalty: 1.0,
         tangential_penalty: 0.7,
+        elastic_slip: None,
         thickness: 1.0,
         loads,
         coupling: true,

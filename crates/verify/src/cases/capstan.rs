@@ -21,7 +21,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         }
     }
     if bench.pick(false, true) {
-        measured.push(("stiffer".into(), ratio(bench, (90.0, 0.4), "contact.wrap.penalty=1e4")?));
+        measured.push(("stiffer".into(), ratio(bench, (90.0, 0.4), "contact.wrap.penalty=4e5")?));
     }
     // The strip is 2 wide.
     let [x, _] = bench.solve("strip.toml", &[])?.reaction("end");

@@ -6,6 +6,7 @@ mod claw;
 mod contact_field;
 mod contact_patch;
 mod crushed_ring;
+mod cup;
 mod dragged_ball;
 mod energy_balance;
 mod flat_punch;
@@ -17,6 +18,7 @@ mod inclined_block;
 mod interface;
 mod interference_fit;
 mod ironing_3d;
+mod o_ring;
 mod partial_slip;
 mod partial_slip_3d;
 mod pile;
@@ -30,6 +32,7 @@ mod strip_punch;
 mod thick_shells;
 mod tube;
 mod two_body_patch;
+mod upsetting;
 
 use crate::Case;
 
@@ -55,6 +58,9 @@ pub const ALL: &[&Case] = &[
     &energy_balance::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
+    &o_ring::CASE,
+    &upsetting::CASE,
+    &cup::CASE,
     &claw::CASE,
     &interface::CASE,
     &pull_out::CASE,

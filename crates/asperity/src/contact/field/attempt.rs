@@ -45,6 +45,8 @@ pub struct FieldAttempt<'a> {
     pub augmented: usize,
     /// The part of the overlap that is removed at the beginning and at the end.
     pub settled: [f64; 2],
+    /// Tangential penalties of the attempt, slot by slot.
+    pub tangential: Vec<f64>,
     /// Length of the increment.
     pub dt: f64,
     /// What the last search found, slot by slot.
@@ -309,7 +311,7 @@ impl FieldAttempt<'_> {
     /// What the law may know of a node. Penalties are for undeformed area, stresses for present.
     fn past(&self, slot: usize, stretch: f64) -> Past<'_> {
         let (options, old) = (&self.contact.options, self.history.slot(slot));
-        let (penalty, tangential_penalty) = (options.penalty / stretch, options.tangential_penalty / stretch);
+        let (penalty, tangential_penalty) = (options.penalty / stretch, self.tangential[slot] / stretch);
         let [_, s, t] = self.shift(slot);
         let penetration = old[entry::PENETRATION] + old[entry::CLOSURE];
         let mut past = Past {
@@ -446,7 +448,7 @@ impl FieldAttempt<'_> {
             let shear = now.shear[0].hypot(now.shear[1]);
             if shear > 0.0 { (mean[0] * now.shear[0] + mean[1] * now.shear[1]) / shear * now.slipped } else { 0.0 }
         } else {
-            let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) * stretch / options.tangential_penalty;
+            let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) * stretch / self.tangential[slot];
             local.stored += area * stored(now.shear);
             mean[0] * now.slip[0] + mean[1] * now.slip[1] - (stored(now.shear) - stored(before))
         };
@@ -599,7 +601,7 @@ impl FieldAttempt<'_> {
             if closed && self.contact.options.augmentation.is_some() {
                 let old = self.history.slot(slot);
                 let elastic = [(entry::SHEAR, 1), (entry::SHEAR2, 2)].map(|(shear, c)| {
-                    ((new[shear] - old[shear]) * stretch / self.contact.options.tangential_penalty, c)
+                    ((new[shear] - old[shear]) * stretch / self.tangential[slot], c)
                 });
                 let sticks = new[entry::STATUS] == 1.0;
                 for (borne, c) in elastic {

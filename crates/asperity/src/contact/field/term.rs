@@ -250,6 +250,22 @@ impl FieldContact {
         }
     }
 
+    /// The tangential penalties of an attempt after an accepted history: a node that is about to slide under its pressure has
+    /// slipped elastically by the stated part of its faces, and one under less than the mean pressure as under that. A stiffer
+    /// interface resolves nothing that the mesh shows, and has nodes change between stick and slip with every small motion.
+    fn tangential_penalties(&self, history: &History) -> Vec<f64> {
+        let most = self.options.tangential_penalty;
+        let Some(part) = self.options.elastic_slip else { return vec![most; self.slots()] };
+        let stiffness = |slot: usize| {
+            let values = history.slot(slot);
+            let sliding = self.law.sliding_stress(values[entry::PRESSURE]).unwrap_or(0.0);
+            (values[entry::STATUS] > 0.0).then(|| sliding * values[entry::HALF] / (part * self.size_at(slot)))
+        };
+        let closed: Vec<f64> = (0..self.slots()).filter_map(stiffness).filter(|found| *found > 0.0).collect();
+        let mean = if closed.is_empty() { FIRST * most } else { closed.iter().sum::<f64>() / closed.len() as f64 };
+        (0..self.slots()).map(|slot| stiffness(slot).unwrap_or(0.0).max(mean).min(most)).collect()
+    }
+
     fn reach(&self, last_change: &[f64]) -> f64 {
         if self.needs_normals() { reach(self.longest, last_change) } else { f64::INFINITY }
     }
@@ -388,6 +404,8 @@ impl FieldContact {
     }
 }
 
+/// Part of the largest tangential penalty before the contact has borne pressure.
+const FIRST: f64 = 0.01;
 /// Gaps up to this multiple of what the facets of both sides stand off a smooth surface are theirs, where bodies fit.
 const FITS: f64 = 2.0;
 
@@ -456,6 +474,7 @@ impl Term for FieldContact {
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
             augmented: 0,
             settled: self.options.overlap.settled(at),
+            tangential: self.tangential_penalties(history),
             dt: at.dt,
             found: RwLock::default(),
         }))

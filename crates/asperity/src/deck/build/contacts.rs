@@ -2,8 +2,8 @@
 
 use super::Builder;
 use crate::contact::{
-    Augmentation, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES, Target,
-    default_penalty, second_name,
+    Augmentation, Backing, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES,
+    Target, default_penalty, plates, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -14,6 +14,9 @@ use crate::solid::Body;
 use crate::tool::Tool;
 use std::collections::BTreeSet;
 use std::sync::Arc;
+
+/// Elastic slip under the friction that the pressure allows, over the length of an edge or face.
+const ELASTIC_SLIP: f64 = 0.005;
 
 /// Which edges a contact joins.
 #[derive(Clone, Copy)]
@@ -28,12 +31,12 @@ const LARGEST_PENALTY: f64 = 1e12;
 impl Builder<'_> {
     /// The contacts, those of the second of two passes right behind those of the first.
     pub(super) fn contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
-        let moduli = moduli(&self.site.mesh, bodies);
+        let backings = backings(&self.site.mesh, bodies);
         let deck = self.deck;
         self.check_doubles();
         let of_points: Vec<_> = deck.contact.iter().filter(|(_, keys)| !self.is_field(keys)).collect();
         let contacts: Vec<_> =
-            of_points.into_iter().map(|(name, keys)| self.contact(name, keys, tools, &moduli)).collect();
+            of_points.into_iter().map(|(name, keys)| self.contact(name, keys, tools, &backings)).collect();
         Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
@@ -77,14 +80,15 @@ impl Builder<'_> {
         name: &Name,
         keys: &keys::Contact,
         tools: &[Arc<Tool>],
-        moduli: &[f64],
+        backings: &[Backing],
     ) -> Option<Vec<Contact>> {
         let law = self.interface(keys)?;
         let mesh = self.site.mesh.clone();
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
-        let options = self.options(keys, (surface, opposite), moduli);
-        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), moduli));
+        let options = self.options(keys, (surface, opposite), backings);
+        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings));
+        self.check_elastic_slip(keys, &options);
         let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
             let gauss = keys.gauss.map(|gauss| gauss.value);
             let carrier = match self.site.space {
@@ -116,15 +120,16 @@ impl Builder<'_> {
         &self,
         keys: &keys::Contact,
         (surface, opposite): (&[Side], Opposite),
-        moduli: &[f64],
+        backings: &[Backing],
     ) -> ContactOptions {
         let loads = self.carried(keys, (surface, opposite));
-        let penalty = keys.penalty.unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), moduli));
+        let penalty = keys.penalty.unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), backings));
         let itself = matches!(opposite, Opposite::Sides(others) if same_sides(surface, others));
         let role = if itself { Role::Itself } else { Role::Leads };
         ContactOptions {
             penalty,
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
+            elastic_slip: self.elastic_slip(keys),
             thickness: self.site.thickness,
             loads,
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
@@ -141,19 +146,35 @@ impl Builder<'_> {
         }
     }
 
+    /// Where the tangential penalty of a field is not said it follows from an elastic slip. Multipliers take elastic slip out by
+    /// themselves.
+    fn elastic_slip(&self, keys: &keys::Contact) -> Option<f64> {
+        let slides = keys.law.build().is_ok_and(|law| law.sliding_stress(1.0).is_some());
+        let follows = self.is_field(keys) && keys.tangential_penalty.is_none() && keys.augmentation.is_none();
+        (slides && follows).then(|| keys.elastic_slip.map_or(ELASTIC_SLIP, |part| part.value))
+    }
+
+    /// An elastic slip that nothing would follow must not be said.
+    pub(super) fn check_elastic_slip(&mut self, keys: &keys::Contact, options: &ContactOptions) {
+        if let Some(part) = keys.elastic_slip.filter(|_| options.elastic_slip.is_none()) {
+            let what = "`elastic_slip` is for friction by the pressure in a field, without augmentation and `tangential_penalty`";
+            self.refuse(what, part.place);
+        }
+    }
+
     /// The penalty that holds where a deck gives none.
     pub(super) fn computed_penalty(
         &self,
         keys: &keys::Contact,
         (surface, opposite): (&[Side], Opposite),
-        moduli: &[f64],
+        backings: &[Backing],
     ) -> f64 {
-        let mut sides = surface.to_vec();
-        if let Opposite::Sides(others) = opposite {
-            sides.extend_from_slice(others);
-        }
+        let surfaces = match opposite {
+            Opposite::Sides(others) => vec![surface, others],
+            Opposite::Tool(_) => vec![surface],
+        };
         let part = if self.carried(keys, (surface, opposite)) == Loads::Own { TWO_PASSES } else { 1.0 };
-        part * default_penalty(&self.site.mesh, &sides, |cell| moduli[cell])
+        part * default_penalty((&*self.site.mesh, self.site.space), &surfaces, |cell| backings[cell])
     }
 
     /// A penalty must leave the equations some digits of the stiffness of the cells.
@@ -264,15 +285,17 @@ fn same_sides(one: &[Side], other: &[Side]) -> bool {
 /// by `2 G / (1 - nu)`, the incompressible one by `4 G`.
 const SURFACE: f64 = 4.0;
 
-/// Stiffness against pressure of the material of each cell: the confined modulus, at most four shear moduli.
-pub(super) fn moduli(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<f64> {
-    let mut moduli = vec![0.0; mesh.cell_count()];
+/// What stands behind the faces of each cell: the confined modulus of its material, at most four shear moduli, and the
+/// thickness of what it belongs to.
+pub(super) fn backings(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<Backing> {
+    let mut backings = vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()];
     for (body, _) in bodies {
         let [confined, shear] = body.material().moduli();
         let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
-        body.cells().iter().for_each(|&cell| moduli[cell] = modulus);
+        body.cells().iter().for_each(|&cell| backings[cell].modulus = modulus);
+        plates(mesh, body.cells()).for_each(|(cell, plate)| backings[cell].plate = plate);
     }
-    moduli
+    backings
 }
 
 /// The whole outer boundary of what hangs together with the cells behind the sides, in whatever groups.

@@ -1,8 +1,8 @@
 //! Contacts whose stress is a field of nodal values.
 
 use super::Builder;
-use super::contacts::{Opposite, boundary_behind, moduli};
-use crate::contact::ContactForm;
+use super::contacts::{Opposite, backings, boundary_behind};
+use crate::contact::{Backing, ContactForm};
 use crate::contact::field::{FieldContact, FieldParts, FieldTarget, Surface};
 use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
@@ -14,7 +14,10 @@ use std::sync::Arc;
 impl Builder<'_> {
     /// Whether a contact is a field.
     pub(super) fn is_field(&self, keys: &keys::Contact) -> bool {
-        keys.form.is_some_and(|form| form.value == ContactForm::Field)
+        match keys.form {
+            Some(form) => form.value == ContactForm::Field,
+            None => self.site.space != Space::Solid && !self.is_of_points(keys),
+        }
     }
 
     /// The contacts that are fields.
@@ -28,9 +31,9 @@ impl Builder<'_> {
         if fields.is_empty() {
             return Some(Vec::new());
         }
-        let moduli = moduli(&self.site.mesh, bodies?);
+        let backings = backings(&self.site.mesh, bodies?);
         let contacts: Vec<_> =
-            fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools.as_deref()?, &moduli)).collect();
+            fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools.as_deref()?, &backings)).collect();
         contacts.into_iter().collect()
     }
 
@@ -39,7 +42,7 @@ impl Builder<'_> {
         name: &Name,
         keys: &keys::Contact,
         tools: &[Arc<Tool>],
-        moduli: &[f64],
+        backings: &[Backing],
     ) -> Option<FieldContact> {
         let law = self.interface(keys)?;
         if !self.check_field(keys) {
@@ -48,8 +51,9 @@ impl Builder<'_> {
         let (mesh, dofs, space) = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
-        let options = self.options(keys, (surface, opposite), moduli);
-        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), moduli));
+        let options = self.options(keys, (surface, opposite), backings);
+        self.check_elastic_slip(keys, &options);
+        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings));
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }
@@ -78,6 +82,17 @@ impl Builder<'_> {
             dofs,
             mesh: mesh.clone(),
         }))
+    }
+
+    /// Whether a deck asks for what only stresses at points have.
+    fn is_of_points(&self, keys: &keys::Contact) -> bool {
+        let law = keys.law.build().is_ok_and(|law| law.radius() == 0.0);
+        keys.gauss.is_some()
+            || keys.parts.is_some()
+            || keys.passes.is_some()
+            || keys.coupling.is_some()
+            || keys.guard.is_some()
+            || !law
     }
 
     /// What is said of contact points says nothing of a field.

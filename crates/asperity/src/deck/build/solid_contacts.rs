@@ -1,9 +1,9 @@
 //! Contacts of a model in space.
 
 use super::Builder;
-use super::contacts::{Opposite, boundary_behind, following, is_double, moduli};
-use crate::contact::second_name;
+use super::contacts::{Opposite, backings, boundary_behind, following, is_double};
 use crate::contact::space::{Contact, Faces, Parts, Surface, Target};
+use crate::contact::{Backing, second_name};
 use crate::deck::keys;
 use crate::deck::reader::Name;
 use crate::mesh::Side;
@@ -14,10 +14,10 @@ use std::sync::Arc;
 impl Builder<'_> {
     /// The contacts in space, those of the second of two passes right behind those of the first.
     pub(super) fn solid_contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
-        let moduli = moduli(&self.site.mesh, bodies);
+        let backings = backings(&self.site.mesh, bodies);
         let deck = self.deck;
         self.check_doubles();
-        let contact = |(name, keys): &(Name, keys::Contact)| self.solid_contact(name, keys, tools, &moduli);
+        let contact = |(name, keys): &(Name, keys::Contact)| self.solid_contact(name, keys, tools, &backings);
         let contacts: Vec<_> = deck.contact.iter().map(contact).collect();
         Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
@@ -27,7 +27,7 @@ impl Builder<'_> {
         name: &Name,
         keys: &keys::Contact,
         tools: &[Arc<Tool>],
-        moduli: &[f64],
+        backings: &[Backing],
     ) -> Option<Vec<Contact>> {
         let law = self.interface(keys)?;
         let (mesh, dofs) = (self.site.mesh.clone(), self.site.dofs.clone());
@@ -40,8 +40,9 @@ impl Builder<'_> {
             self.refuse("`parts` divides edges, which carry contact in the plane and in axial symmetry", parts.place);
             return None;
         }
-        let options = self.options(keys, (sides, opposite), moduli);
-        self.check_penalties(name, keys, self.computed_penalty(keys, (sides, opposite), moduli));
+        let options = self.options(keys, (sides, opposite), backings);
+        self.check_penalties(name, keys, self.computed_penalty(keys, (sides, opposite), backings));
+        self.check_elastic_slip(keys, &options);
         let build = |name: &str, sides: &[Side], target: Target, options| {
             Contact::new(Parts {
                 name: name.into(),

@@ -28,11 +28,16 @@ table! {
         parts: Option<Spot<usize>> = whole(1..=64).spot().computed("1"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
-            .computed("50 times the modulus over the depth of the cells behind the faces, the least of both sides, 10 times with two passes; \
-             the modulus is the confined one, at most four shear moduli"),
+            .computed("50 times the modulus over the depth of the cells behind the faces, or what bending of a thin body makes of it, the \
+             least of both sides, 10 times with two passes; the modulus is the confined one, at most four shear moduli"),
         /// Friction stress for one unit of elastic slip.
         tangential_penalty: Option<f64> =
-            number(unit::PENALTY, Range::POSITIVE).computed("equal to the penalty"),
+            number(unit::PENALTY, Range::POSITIVE)
+            .computed("that of the elastic slip, at most the penalty; equal to the penalty where there is none"),
+        /// Elastic slip of a point that is about to slide under the mean pressure before the increment, over the length of its edge
+        /// or face: the tangential penalty follows from it.
+        elastic_slip: Option<Spot<f64>> = number(unit::NONE, Range::above_to(0.0, 1.0)).spot().computed(
+            "0.005 with friction by the pressure, in one pass and without augmentation; else none"),
         /// Which sides of two bodies carry contact points.
         passes: Option<Spot<Passes>> = word().spot().computed(
             "two between sides of second degree, one where a side is of first degree; a tool carries none"),

@@ -65,6 +65,10 @@ impl InterfaceLaw for Coulomb {
         })
     }
 
+    fn sliding_stress(&self, pressure: f64) -> Option<f64> {
+        Some(self.friction * pressure)
+    }
+
     /// The schemes of the cone itself; with a tolerance, and by two implicit stages, as any other law.
     fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
         let scheme = match update.scheme {

@@ -118,6 +118,10 @@ impl InterfaceLaw for ShearLimited {
         let pressure = motion.penetration * past.penalty;
         Ok(Trial::new(motion, past).within(pressure, self.limit(pressure)))
     }
+
+    fn sliding_stress(&self, pressure: f64) -> Option<f64> {
+        Some(self.limit(pressure))
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,65 @@
+//! The drawing of a cup: complete by default on two meshes, whose forces agree, and what the way costs.
+
+use crate::bench::{Bench, points};
+use crate::{Case, Measured};
+use asperity::Error;
+use asperity::model::Model;
+use asperity::system::State;
+
+/// The case.
+pub const CASE: Case = Case { name: "cup", measure };
+
+/// The punch is the first contact of the deck.
+const PUNCH: usize = 0;
+/// First and last travel over which forces are compared, and how often.
+const TRAVEL: [f64; 2] = [1.0, 20.0];
+const SAMPLES: usize = 96;
+
+/// Travel of the punch and its force.
+type Curve = Vec<(f64, f64)>;
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let (quad8, mut measured) = draw(bench, "quad8", bench.pick(&["step.2.motion.punch.y=-1.0"][..], &[]))?;
+    if bench.pick(false, true) {
+        let linear = ["mesh.part.blank.rectangle.cells=[100, 3]", "mesh.part.blank.rectangle.cell=quad4"];
+        let body = ["body.blank.formulation=f-bar", "body.blank.integration=full"];
+        let (quad4, more) = draw(bench, "quad4", &[linear, body].concat())?;
+        measured.extend(more);
+        measured.push(("apart".into(), apart(&quad8, &quad4)));
+    }
+    Ok(measured)
+}
+
+fn draw(bench: &Bench, name: &str, sets: &[&str]) -> Result<(Curve, Measured), Error> {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let mut curve = Curve::new();
+    let run = bench.follow("cup.toml", &sets, |model, state| {
+        if state.step == 1 {
+            curve.push((state.step_time, punch(model, state)));
+        }
+    })?;
+    let peak = curve.iter().map(|(_, force)| *force).fold(0.0, f64::max);
+    let iterations = run.attempts.iter().map(|attempt| attempt.solutions()).sum::<usize>();
+    let measured = [("peak", peak), ("iterations", iterations as f64), ("cuts", run.cuts() as f64)];
+    Ok((curve, measured.map(|(key, value)| (format!("{name}_{key}"), value)).into()))
+}
+
+/// Force of the punch on the blank, downwards.
+fn punch(model: &Model, state: &State) -> f64 {
+    -points(model, state, PUNCH).iter().map(|point| point.force()[1]).sum::<f64>()
+}
+
+/// Root mean square of the difference of two curves over the peak of the first.
+fn apart(one: &Curve, other: &Curve) -> f64 {
+    let places = (0..SAMPLES).map(|i| TRAVEL[0] + (TRAVEL[1] - TRAVEL[0]) * i as f64 / SAMPLES as f64);
+    let square: f64 = places.map(|x| (at(one, x) - at(other, x)).powi(2)).sum();
+    let peak = one.iter().map(|(_, force)| *force).fold(0.0, f64::max);
+    (square / SAMPLES as f64).sqrt() / peak
+}
+
+/// The force at a travel, between the points of the curve.
+fn at(curve: &Curve, x: f64) -> f64 {
+    let after = curve.partition_point(|(travel, _)| *travel < x).clamp(1, curve.len() - 1);
+    let ((x0, f0), (x1, f1)) = (curve[after - 1], curve[after]);
+    f0 + (f1 - f0) * (x - x0) / (x1 - x0)
+}

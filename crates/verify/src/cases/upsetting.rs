@@ -1,0 +1,25 @@
+//! A cube upset by half: its force between that without friction and the slab's with it, and what the way costs.
+
+use crate::bench::Bench;
+use crate::{Case, Measured};
+use asperity::Error;
+
+/// The case.
+pub const CASE: Case = Case { name: "upsetting", measure };
+
+/// Force on an eighth of the cube at half its height without friction: twice the area at the flow stress of `ln 2`.
+fn uniform() -> f64 {
+    200.0 * (400.0 + 500.0 * 2.0_f64.ln())
+}
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let n = bench.pick(6, 12);
+    let run = bench.solve("upsetting.toml", &[format!("mesh.part.cube.box.cells=[{n}, {n}, {n}]")])?;
+    let force: f64 = run.points(0).iter().map(|point| point.force()[2].abs()).sum();
+    let solved = run.attempts.iter().map(|attempt| attempt.solutions()).sum::<usize>();
+    Ok(vec![
+        ("force".into(), force / uniform()),
+        ("iterations".into(), solved as f64),
+        ("cuts".into(), run.cuts() as f64),
+    ])
+}

@@ -11,10 +11,11 @@ const FLUSH: &str = include_str!("../../../cases/two-body-patch/flush.toml");
 const FLUSH_BOX: &str = include_str!("../../../cases/two-body-patch/flush_box.toml");
 const RING: &str = include_str!("../../../cases/crushed-ring/ring.toml");
 const HALF: &str = include_str!("../../../cases/crushed-ring/half.toml");
-const COARSE: [&str; 4] = [
+const COARSE: [&str; 5] = [
     "mesh.part.roller.annulus.along_radius=[{ to = 49.0, cells = 6, ratio = 0.01 }, { to = 50.0, cells = 5 }]",
     "mesh.part.roller.annulus.along_angle=[{ to = -89.0, cells = 5 }, { to = 0.0, cells = 8, smooth = true }]",
     "step.load.increments.count=5",
+    "contact.foot.form=paper",
     "contact.foot.augmentation={}",
 ];
 
@@ -26,7 +27,7 @@ mesh.part.block.rectangle = { from = [0.0, 0.0], to = [4.0, 2.0], cells = [4, 2]
 material.rubber.elastic = { young = 10.0, poisson = 0.3 }
 body.block.material = "rubber"
 tool.plate.profile = [{ line = [[9.0, 0.0], [-9.0, 0.0]] }]
-contact.base = { surface = "block.bottom", target = "plate", law.coulomb = { friction = 0.5 }, augmentation = { loops = 40 } }
+contact.base = { surface = "block.bottom", target = "plate", form = "paper", law.coulomb = { friction = 0.5 }, augmentation = { loops = 40 } }
 [[step]]
 increments.count = 2
 displacement."block.top" = { x = 0.0, y = -0.1 }
@@ -204,7 +205,8 @@ displacement."punch.top" = { x = 0.002, y = -0.01 }
 #[test]
 fn a_surface_that_touches_itself_is_augmented() {
     let crushed = |deck: &str, sets: [&str; 2]| {
-        let model = model(deck, &["contact.bore.augmentation={ loops = 60 }", sets[0], sets[1]]);
+        let model =
+            model(deck, &["contact.bore.form=paper", "contact.bore.augmentation={ loops = 60 }", sets[0], sets[1]]);
         let keep = run(&model);
         assert!(keep.attempts.iter().any(|attempt| attempt.augmentations() > 0));
         columns(&model, &keep)
@@ -213,7 +215,8 @@ fn a_surface_that_touches_itself_is_augmented() {
     let (stiff, soft) = (ring("contact.bore.penalty=1e4"), ring("contact.bore.penalty=3e3"));
     assert!([&stiff, &soft].into_iter().all(|columns| nodal(columns, "bore")[0] <= 1e-6));
     let half = crushed(HALF, ["mesh.part.ring.annulus.cells=[1, 96]", "contact.bore.penalty=2e4"]);
-    let bare = model(RING, &["mesh.part.ring.annulus.cells=[1, 192]", "contact.bore.penalty=3e3"]);
+    let bare =
+        model(RING, &["mesh.part.ring.annulus.cells=[1, 192]", "contact.bore.form=paper", "contact.bore.penalty=3e3"]);
     let bare = columns(&bare, &run(&bare));
     let [force, soft, half, bare] = [&stiff, &soft, &half, &bare].map(|columns| last(columns, "reaction.top.y"));
     assert!((force / half - 1.0).abs() < 1e-5, "{force} {half}");

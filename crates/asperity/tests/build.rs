@@ -227,14 +227,14 @@ fn penalties_and_thickness_have_their_printed_defaults() {
     );
     let built = made(&deck);
     let modulus = 210e3 * 0.7 / (1.3 * 0.4);
-    let options = built.contacts[0].options();
+    let options = built.field_contacts[0].options();
     // One cell deep: h = 1.
     assert!((options.penalty / (50.0 * modulus) - 1.0).abs() < 1e-12);
     assert_eq!((options.tangential_penalty, options.thickness), (options.penalty, 1.0));
     let given = deck
         .replace("law.coulomb", "penalty = 7.0\nlaw.coulomb")
         .replace("version = 1", "version = 1\nthickness = 3.0");
-    let options = *made(&given).contacts[0].options();
+    let options = *made(&given).field_contacts[0].options();
     assert_eq!((options.penalty, options.tangential_penalty, options.thickness), (7.0, 7.0, 3.0));
 }
 
@@ -252,11 +252,11 @@ fn the_elastic_slip_is_said_or_a_default_and_refused_where_nothing_follows_it() 
             symmetry = ['block.left']"
         )
     };
-    let part = |more: &str| made(&deck(more)).contacts[0].options().elastic_slip;
+    let part = |more: &str| made(&deck(more)).field_contacts[0].options().elastic_slip;
     assert_eq!([part(""), part("elastic_slip = 0.02")], [Some(0.005), Some(0.02)]);
     assert_eq!([part("tangential_penalty = 3.0"), part("augmentation = {}")], [None, None]);
     let sticking = deck("").replace("coulomb = { friction = 0.3 }", "sticking = {}");
-    assert_eq!(made(&sticking).contacts[0].options().elastic_slip, None);
+    assert_eq!(made(&sticking).field_contacts[0].options().elastic_slip, None);
     for more in ["tangential_penalty = 3.0", "augmentation = {}"] {
         let told = refused(&deck(&format!("{more}\nelastic_slip = 0.01")));
         assert!(told.contains("`elastic_slip` is for friction by the pressure"), "{told}");
@@ -279,7 +279,7 @@ fn a_thin_body_has_the_penalty_of_its_bending() {
     let modulus = 210e3 * 0.7 / (1.3 * 0.4);
     let thickness: f64 = 60.0 / 61.0;
     let bending = modulus * thickness.powi(3) / 12.0 * (std::f64::consts::PI / (5.0 * thickness)).powi(4);
-    let penalty = made(&deck).contacts[0].options().penalty;
+    let penalty = made(&deck).field_contacts[0].options().penalty;
     assert!((penalty / (50.0 * bending) - 1.0).abs() < 1e-12, "{penalty} {bending}");
 }
 
@@ -303,7 +303,7 @@ fn a_curved_thin_body_also_follows_by_stretching() {
         (210e3 * 0.7 / (1.3 * 0.4), 50.5 * std::f64::consts::PI / (50.5 * std::f64::consts::PI + 1.0));
     let bending = std::f64::consts::PI.powi(4) / (12.0 * 625.0 * thickness);
     let expected = 50.0 * modulus * (bending + 200.0 * thickness / 2500.0);
-    let penalty = made(&deck).contacts[0].options().penalty;
+    let penalty = made(&deck).field_contacts[0].options().penalty;
     assert!((penalty / expected - 1.0).abs() < 1e-3, "{penalty} {expected}");
 }
 

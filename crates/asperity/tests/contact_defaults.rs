@@ -13,7 +13,7 @@ mesh.part.small.rectangle = { from = [2.0, 2.0], to = [3.5, 3.0], cells = [5, 3]
 material.rubber.elastic = { young = 1e3, poisson = 0.3 }
 body.big = { material = "rubber", formulation = "f-bar" }
 body.small = { material = "rubber", formulation = "f-bar" }
-contact.joint = { surface = "small.bottom", target = "big.top", law.coulomb = { friction = 0.3 } }
+contact.joint = { surface = "small.bottom", target = "big.top", form = "paper", law.coulomb = { friction = 0.3 } }
 [[step]]
 increments.count = 4
 displacement."big.bottom" = { x = 0.0, y = 0.0 }

@@ -141,7 +141,7 @@ mesh.part.block.rectangle = { from = [0.0, 0.0], to = [4.0, 2.0], cells = [4, 2]
 material.rubber.elastic = { young = 10.0, poisson = 0.3 }
 body.block.material = "rubber"
 tool.plate.profile = [{ line = [[9.0, -0.1], [-9.0, -0.05]] }]
-contact.base = { surface = "block.bottom", target = "plate", law.coulomb = { friction = 0.3 } }
+contact.base = { surface = "block.bottom", target = "plate", elastic_slip = 1e-6, law.coulomb = { friction = 0.3 } }
 solver = { tolerance = 1e-6 }
 [[step]]
 increments = { first = 0.2, largest = 0.2 }

@@ -16,7 +16,7 @@ mesh.part.upper.rectangle = { from = [0.6, 0.1], to = [2.4, 0.3], cells = [5, 1]
 material.rubber.neo_hookean = { shear = 400.0, bulk = 800.0 }
 body.lower.material = "rubber"
 body.upper.material = "rubber"
-contact.sole = { surface = "upper.bottom", target = "lower.top", law.coulomb = { friction = 0.2 } }
+contact.sole = { surface = "upper.bottom", target = "lower.top", form = "paper", law.coulomb = { friction = 0.2 } }
 [[step]]
 increments.count = 7
 displacement."lower.left" = { x = 0.0, y = 0.0 }

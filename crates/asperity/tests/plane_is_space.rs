@@ -62,7 +62,7 @@ const CASES: &[Case] = &[
         blocks: ONE,
         tool: Some(LINE),
         contact: [["block", "top"], ["die", ""]],
-        keys: "law.coulomb = { friction = 0.3 }",
+        keys: "form = \"paper\", law.coulomb = { friction = 0.3 }",
         steps: TOOLED,
     },
     Case {
@@ -71,7 +71,7 @@ const CASES: &[Case] = &[
         blocks: ONE,
         tool: Some(ARC),
         contact: [["block", "top"], ["die", ""]],
-        keys: "law.coulomb = { friction = 0.3 }",
+        keys: "form = \"paper\", law.coulomb = { friction = 0.3 }",
         steps: TOOLED,
     },
     Case {

@@ -28,7 +28,7 @@ fn deck(length: f64, force: f64) -> String {
         solver.tolerance = 1e-10 # what is left is then rounding, the same relative one in all units
         body.tube = {{ material = 'steel', integration = 'reduced' }}
         tool.mandrel.profile = [{}]
-        contact.bore = {{ surface = 'tube.left', target = 'mandrel', law.coulomb.friction = 0.2 }}
+        contact.bore = {{ surface = 'tube.left', target = 'mandrel', form = 'paper', law.coulomb.friction = 0.2 }}
         step = [{{ increments.count = 20, displacement.'tube.top' = {{ y = {:?} }} }}]",
         point(50.0, 0.0),
         point(55.0, 90.0),

@@ -214,6 +214,14 @@ pub fn points(model: &Model, state: &State, contact: usize) -> Vec<PointRecord> 
     }
 }
 
+/// The penalty of the first contact, whatever its kind.
+pub fn penalty(model: &Model) -> f64 {
+    let plane = model.contacts.first().map(|contact| contact.options().penalty);
+    let solid = model.solid_contacts.first().map(|contact| contact.options().penalty);
+    let field = model.field_contacts.first().map(|contact| contact.options().penalty);
+    plane.or(solid).or(field).unwrap_or(f64::NAN)
+}
+
 /// Force of the supports on the nodes of a group: what the terms exert there beyond the loads.
 pub fn reaction(model: &Model, state: &State, group: &str) -> [f64; 2] {
     let nodes = model.mesh.groups.get(group).map_or(&[][..], |group| &group.nodes);

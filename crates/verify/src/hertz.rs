@@ -21,9 +21,16 @@ pub struct Study {
 }
 
 impl Study {
-    /// `a`, `p0`, the error of the pressure and the force on the finest mesh; the order of the error if there are more.
+    /// With the contact that is the default, and with points.
     pub fn measure(&self, bench: &Bench) -> Result<Measured, Error> {
-        let levels = (0..bench.pick(1, 3)).map(|level| self.solve(bench, 1 << level));
+        let points = self.measure_form(bench, &["contact.foot.form=paper".to_owned()])?;
+        let points = points.into_iter().map(|(key, value)| (format!("points-{key}"), value));
+        Ok(self.measure_form(bench, &[])?.into_iter().chain(points).collect())
+    }
+
+    /// `a`, `p0`, the error of the pressure and the force on the finest mesh; the order of the error if there are more.
+    fn measure_form(&self, bench: &Bench, form: &[String]) -> Result<Measured, Error> {
+        let levels = (0..bench.pick(1, 3)).map(|level| self.solve(bench, 1 << level, form));
         let levels = levels.collect::<Result<Vec<_>, _>>()?;
         let errors: Vec<f64> = levels.iter().map(|(_, error)| *error).collect();
         let finest = &levels[levels.len() - 1].0;
@@ -42,9 +49,9 @@ impl Study {
 
     /// The points at the end, and the mean error of the pressure over the increments of the second half of the load, as it
     /// depends on where within an edge the contact ends.
-    fn solve(&self, bench: &Bench, n: usize) -> Result<(Vec<PointRecord>, f64), Error> {
+    fn solve(&self, bench: &Bench, n: usize, form: &[String]) -> Result<(Vec<PointRecord>, f64), Error> {
         let mut errors = Vec::new();
-        let run = bench.follow(self.deck, &(self.refined)(n), |model, state| {
+        let run = bench.follow(self.deck, &[&(self.refined)(n), form].concat(), |model, state| {
             let points = points(model, state, 0);
             if self.carried(&points) > 0.5 * self.force {
                 errors.push(self.pressure_error(&points));

@@ -218,7 +218,7 @@ impl<'a> Seen<'a> {
             pieces: format!("{} edges", contact.surface().edges.len()),
             found: hits.iter().enumerate().filter_map(part).collect(),
             rejected,
-            advice: "is the surface the right one, and does the profile run with the tool's material on its left?",
+            advice: PROFILE_ADVICE,
         }
     }
 
@@ -233,7 +233,7 @@ impl<'a> Seen<'a> {
             pieces: format!("{} faces", contact.surface().faces.len()),
             found: hits.iter().enumerate().filter_map(part).collect(),
             rejected,
-            advice: "is the surface the right one, and do the tool's facets look outward?",
+            advice: FACETS_ADVICE,
         }
     }
 
@@ -247,7 +247,7 @@ impl<'a> Seen<'a> {
             pieces: format!("{} {}", surface.faces.len(), if surface.plane { "edges" } else { "faces" }),
             found: contact.initial_gaps(),
             rejected: Rejected::default(),
-            advice: "is the surface the right one, and does the tool look outward?",
+            advice: if surface.plane { PROFILE_ADVICE } else { FACETS_ADVICE },
         }
     }
 
@@ -271,6 +271,10 @@ impl<'a> Seen<'a> {
         (*part > OVERLAP).then(|| Diagnostic::warning(what).at(name.place).label(label).help(help))
     }
 }
+
+const PROFILE_ADVICE: &str =
+    "is the surface the right one, and does the profile run with the tool's material on its left?";
+const FACETS_ADVICE: &str = "is the surface the right one, and do the tool's facets look outward?";
 
 fn profile(tool: &Tool) -> String {
     let closed = tool.chains().iter().all(|chain| chain.closed);

@@ -53,7 +53,8 @@ fn force(run: &Solved) -> f64 {
 fn pressures(run: &Solved) -> [f64; 2] {
     let points = run.points(0);
     let at = |from: f64, to: f64, x: f64| {
-        let near = points.iter().filter(|point| (from * A..to * A).contains(&point.position[0]));
+        let closed = points.iter().filter(|point| point.pressure > 0.0);
+        let near = closed.filter(|point| (from * A..to * A).contains(&point.position[0]));
         let line =
             fit::line(&near.map(|point| (point.position[0].powi(2), point.pressure.powi(-2))).collect::<Vec<_>>());
         (line.0 + line.1 * (x * A).powi(2)).powf(-0.5)

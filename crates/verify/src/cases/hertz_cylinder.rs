@@ -1,7 +1,7 @@
 //! Hertz's line contact: an elastic roller pressed on a rigid plane. `p(x) = p0 sqrt(1 - x^2/a^2)` with
 //! `a^2 = 4 P R / (pi E*)` and `p0 = 2 P / (pi a)`.
 
-use crate::bench::Bench;
+use crate::bench::{Bench, penalty};
 use crate::hertz::Study;
 use crate::{Case, Measured};
 use asperity::Error;
@@ -31,7 +31,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 fn augmented(bench: &Bench) -> Result<Measured, Error> {
     let augmentation = "contact.foot.augmentation={ penetration = 1e-6, loops = 6 }".to_owned();
     let (mut nodal, mut mismatch) = (0.0_f64, 0.0);
-    let run = bench.follow("roller.toml", &[augmentation], |model, state| {
+    let run = bench.follow("roller.toml", &[augmentation, "contact.foot.form=paper".to_owned()], |model, state| {
         let (contact, history) = (&model.contacts[0], &state.histories[model.first_contact()]);
         nodal = nodal.max(contact.nodal_penetration(&state.u, history).unwrap_or(f64::NAN));
         mismatch = contact.facet_mismatch(&state.u, history);
@@ -53,7 +53,7 @@ fn augmented(bench: &Bench) -> Result<Measured, Error> {
 /// sixteen times the penalty, over the error that it states, and that error over the approach.
 fn study(bench: &Bench) -> Result<Measured, Error> {
     let model = bench.model("roller.toml", &[])?;
-    let computed = model.contacts[0].options().penalty;
+    let computed = penalty(&model);
     let ends = |times: f64| {
         let penalty = format!("contact.foot.penalty={:e}", times * computed);
         forces(&bench.model("roller.toml", &[penalty])?, &mut Silent)

@@ -1,6 +1,6 @@
 //! A rigid pile drawn through elastic soil that holds its dilatant skin: `p = p0 + k_e psi0 s_c (1 - exp(-s / s_c))`.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, penalty, points};
 use crate::{Case, Measured};
 use asperity::Error;
 
@@ -25,7 +25,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let end = run.points(0);
     let (pressure, slip) = mean(&end, |point| (point.pressure, point.slipped));
     let (shear, _) = mean(&end, |point| (point.shear.abs(), 0.0));
-    let dilated = risen(run.model.contacts[0].options().penalty, [slipped, slip]);
+    let dilated = risen(penalty(&run.model), [slipped, slip]);
     let wedge = bench.solve("wedge.toml", std::slice::from_ref(&increments))?.points(0);
     let (in_space, shear_in_space) = mean(&wedge, |point| (point.pressure, point.shear.abs()));
     let skin = bench.solve("skin.toml", std::slice::from_ref(&increments))?;

@@ -16,15 +16,21 @@ const END: f64 = 90.0;
 /// Length of the coarsest cells. The ridge is as long, so that only finer ones see it.
 const PITCH: f64 = 4.0;
 
-/// An element of the tube.
+/// An element of the tube, with a form of contact.
 struct Element {
     name: &'static str,
     sets: [&'static str; 3],
+    form: &'static str,
 }
 
-const ELEMENTS: [Element; 2] = [
-    Element { name: "quad8", sets: ["cell=quad8", "formulation=standard", "integration=reduced"] },
-    Element { name: "quad4", sets: ["cell=quad4", "formulation=f-bar", "integration=full"] },
+const QUAD8: [&str; 3] = ["cell=quad8", "formulation=standard", "integration=reduced"];
+const QUAD4: [&str; 3] = ["cell=quad4", "formulation=f-bar", "integration=full"];
+/// The paper's element, and the field that is the default.
+const ELEMENTS: [Element; 4] = [
+    Element { name: "quad8", sets: QUAD8, form: "paper" },
+    Element { name: "quad4", sets: QUAD4, form: "paper" },
+    Element { name: "quad8-field", sets: QUAD8, form: "field" },
+    Element { name: "quad4-field", sets: QUAD4, form: "field" },
 ];
 
 /// Travel and force along the axis after each increment.
@@ -73,6 +79,7 @@ fn run(bench: &Bench, element: &Element, course: Course, more: &[&str]) -> Resul
         format!("{part}.cells=[{}, {}]", (2 * n).max(4), 38 * n),
         format!("body.tube.{formulation}"),
         format!("body.tube.{integration}"),
+        format!("contact.bore.form={}", element.form),
         format!("step.push.increments.count={increments}"),
         format!("step.push.displacement.\"tube.top\".y=-{travel:?}"),
     ];

@@ -600,9 +600,8 @@ impl FieldAttempt<'_> {
             shift[0] = raised;
             if closed && self.contact.options.augmentation.is_some() {
                 let old = self.history.slot(slot);
-                let elastic = [(entry::SHEAR, 1), (entry::SHEAR2, 2)].map(|(shear, c)| {
-                    ((new[shear] - old[shear]) * stretch / self.tangential[slot], c)
-                });
+                let elastic = [(entry::SHEAR, 1), (entry::SHEAR2, 2)]
+                    .map(|(shear, c)| ((new[shear] - old[shear]) * stretch / self.tangential[slot], c));
                 let sticks = new[entry::STATUS] == 1.0;
                 for (borne, c) in elastic {
                     if sticks {

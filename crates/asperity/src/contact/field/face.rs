@@ -10,7 +10,10 @@ pub const MOST: usize = 9;
 /// Most corners of a face.
 pub const CORNERS: usize = 4;
 
-/// A face of the boundary.
+/// The part that is the whole of an edge.
+const WHOLE: [f64; 2] = [-1.0, 1.0];
+
+/// A face of the boundary, or half of an edge of second degree.
 #[derive(Debug, Clone)]
 pub struct Face {
     /// Where it lies in the mesh.
@@ -19,6 +22,8 @@ pub struct Face {
     pub kind: &'static Cell,
     /// Its nodes, the corners first.
     pub nodes: Vec<usize>,
+    /// The part of an edge that it is, in reference coordinates of the edge.
+    part: [f64; 2],
 }
 
 /// Shape functions and their derivatives at a place of a face.
@@ -55,7 +60,20 @@ impl Face {
     /// A side of the mesh.
     pub fn new(mesh: &Mesh, side: Side) -> Self {
         let (kind, nodes) = mesh.side(side);
-        Self { side, kind, nodes: nodes.collect() }
+        Self { side, kind, nodes: nodes.collect(), part: WHOLE }
+    }
+
+    /// Both halves of an edge of second degree; else itself.
+    pub fn halves(self) -> impl Iterator<Item = Self> {
+        let parts =
+            if self.kind.degree > 1 && self.corners() == 2 { vec![[-1.0, 0.0], [0.0, 1.0]] } else { vec![WHOLE] };
+        parts.into_iter().map(move |part| Self { part, ..self.clone() })
+    }
+
+    /// The node at a corner, that of the middle where a half ends there.
+    pub fn corner_node(&self, corner: usize) -> usize {
+        let middle = self.corners() == 2 && self.part[corner] == 0.0;
+        self.nodes[if middle { 2 } else { corner }]
     }
 
     /// Number of its corners.
@@ -77,7 +95,14 @@ impl Face {
 
     /// Its shape functions.
     pub fn shape(&self, xi: [f64; 2]) -> ShapeFunctions {
-        ShapeFunctions::of(self.kind, xi)
+        if self.part == WHOLE {
+            return ShapeFunctions::of(self.kind, xi);
+        }
+        let [from, to] = self.part;
+        let half = 0.5 * (to - from);
+        let mut shape = ShapeFunctions::of(self.kind, [0.5 * (from + to) + half * xi[0], xi[1]]);
+        shape.dn.iter_mut().for_each(|dn| dn[0] *= half);
+        shape
     }
 
     /// The functions of first degree of its corners.

@@ -83,6 +83,15 @@ impl Sets {
 impl Surface {
     /// The faces `sides` of a mesh in a space; `thickness` counts in the plane cases.
     pub fn new(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
+        let whole = Self::whole(mesh, sides, space, thickness);
+        let faces = whole.faces.into_iter().flat_map(Face::halves).collect();
+        let mut surface = Self { faces, ..whole };
+        surface.number(mesh);
+        surface
+    }
+
+    /// The same with edges of second degree in one piece, as a target has them.
+    pub fn whole(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
         let faces: Vec<Face> = sides.iter().map(|&side| Face::new(mesh, side)).collect();
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
@@ -95,7 +104,7 @@ impl Surface {
     fn number(&mut self, mesh: &Mesh) {
         let mut around: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (f, face) in self.faces.iter().enumerate() {
-            (0..face.corners()).for_each(|c| around.entry(face.nodes[c]).or_default().push((f, c)));
+            (0..face.corners()).for_each(|c| around.entry(face.corner_node(c)).or_default().push((f, c)));
         }
         let normals: Vec<Vec3> = self.faces.iter().map(|face| self.middle_normal(face, mesh)).collect();
         let smooth = |f: usize, g: usize| {
@@ -250,7 +259,8 @@ impl Surface {
 const STEP: f64 = 1e-3;
 
 fn shared(one: &Face, other: &Face) -> usize {
-    one.nodes[..one.corners()].iter().filter(|node| other.nodes[..other.corners()].contains(node)).count()
+    let corners = |face: &Face| (0..face.corners()).map(|c| face.corner_node(c)).collect::<Vec<_>>();
+    corners(one).iter().filter(|node| corners(other).contains(node)).count()
 }
 
 /// The unit vector along an axis.

@@ -105,7 +105,7 @@ impl FieldContact {
     /// A contact of these parts.
     pub fn new(parts: FieldParts) -> Self {
         let FieldParts { name, mesh, dofs, space, surface, boundary, target, itself, swapped, law, options } = parts;
-        let boundary = Faces::new(Surface::new(&mesh, &boundary, space, 1.0), &mesh);
+        let boundary = Faces::new(Surface::whole(&mesh, &boundary, space, 1.0), &mesh);
         let (labels, pieces) = match &target {
             FieldTarget::Tool(rigid) => (Vec::new(), rigid.pieces()),
             FieldTarget::Faces(faces) => labels(&faces.surface.pieces),
@@ -203,8 +203,8 @@ impl FieldContact {
     /// that comes first carries the stress (unique roles: Yang & Laursen, Comput. Mech. 41, 2008).
     pub(super) fn may_touch(&self, face: usize, target: usize) -> bool {
         let Some(faces) = self.target.as_faces() else { return true };
-        let (own, other) = (&self.surface.faces[face].nodes, &faces.surface.faces[target].nodes);
-        (!self.itself || face < target) && !own.iter().any(|node| other.contains(node))
+        let (own, other) = (&self.surface.faces[face], &faces.surface.faces[target]);
+        (!self.itself || own.side < other.side) && !own.nodes.iter().any(|node| other.nodes.contains(node))
     }
 
     /// Half the distance from the middle of each face, along its inward normal, to where the ray leaves the body.

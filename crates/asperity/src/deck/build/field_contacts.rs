@@ -2,8 +2,8 @@
 
 use super::Builder;
 use super::contacts::{Opposite, backings, boundary_behind};
-use crate::contact::{Backing, ContactForm};
 use crate::contact::field::{FieldContact, FieldParts, FieldTarget, Surface};
+use crate::contact::{Backing, ContactForm, Normals};
 use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
 use crate::mesh::{Mesh, Side, Space};
@@ -32,8 +32,10 @@ impl Builder<'_> {
             return Some(Vec::new());
         }
         let backings = backings(&self.site.mesh, bodies?);
-        let contacts: Vec<_> =
-            fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools.as_deref()?, &backings)).collect();
+        let contacts: Vec<_> = fields
+            .into_iter()
+            .map(|(name, keys)| self.field_contact(name, keys, tools.as_deref()?, &backings))
+            .collect();
         contacts.into_iter().collect()
     }
 
@@ -57,16 +59,16 @@ impl Builder<'_> {
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }
+        let whole = |sides: &[Side]| Surface::whole(&mesh, sides, space, self.site.thickness);
         let carrier = |sides: &[Side]| Surface::new(&mesh, sides, space, self.site.thickness);
         let (mut sides, mut swapped, mut itself) = (surface, false, false);
         let target = match opposite {
             Opposite::Tool(number) => FieldTarget::tool(tools[number].clone(), number, &dofs),
             Opposite::Sides(others) => {
                 itself = others == surface;
-                swapped =
-                    !itself && keys.roles == Roles::Auto && suits_better(&carrier(others), &carrier(surface), &mesh);
+                swapped = !itself && keys.roles == Roles::Auto && suits_better(&whole(others), &whole(surface), &mesh);
                 sides = if swapped { others } else { surface };
-                FieldTarget::faces(carrier(if swapped { surface } else { others }), &mesh)
+                FieldTarget::faces(whole(if swapped { surface } else { others }), &mesh)
             }
         };
         Some(FieldContact::new(FieldParts {
@@ -92,6 +94,7 @@ impl Builder<'_> {
             || keys.passes.is_some()
             || keys.coupling.is_some()
             || keys.guard.is_some()
+            || keys.normals != Normals::Own
             || !law
     }
 
@@ -107,6 +110,9 @@ impl Builder<'_> {
         ];
         for (key, place) in said.into_iter().flatten() {
             self.refuse(format!("`{key}` is for stresses at points: form = \"paper\""), place);
+        }
+        if let Some(form) = keys.form.filter(|_| keys.normals != Normals::Own) {
+            self.refuse("`normals` are those of stresses at points: form = \"paper\"", form.place);
         }
         if !keys.law.build().is_ok_and(|law| law.radius() == 0.0) {
             self.refuse("a mean of the pressure is for stresses at points: form = \"paper\"", keys.law.place);

@@ -34,10 +34,10 @@ table! {
         tangential_penalty: Option<f64> =
             number(unit::PENALTY, Range::POSITIVE)
             .computed("that of the elastic slip, at most the penalty; equal to the penalty where there is none"),
-        /// Elastic slip of a point that is about to slide under the mean pressure before the increment, over the length of its edge
-        /// or face: the tangential penalty follows from it.
+        /// Elastic slip of a node of a field that is about to slide under its pressure before the increment, over the length of its
+        /// edges: the tangential penalty follows from it.
         elastic_slip: Option<Spot<f64>> = number(unit::NONE, Range::above_to(0.0, 1.0)).spot().computed(
-            "0.005 with friction by the pressure, in one pass and without augmentation; else none"),
+            "0.005 in a field, with friction by the pressure and without augmentation; else none"),
         /// Which sides of two bodies carry contact points.
         passes: Option<Spot<Passes>> = word().spot().computed(
             "two between sides of second degree, one where a side is of first degree; a tool carries none"),
@@ -46,7 +46,8 @@ table! {
         /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
         guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
         /// Where contact stress lives, and how it becomes forces.
-        form: Option<Spot<ContactForm>> = word().spot().computed("paper"),
+        form: Option<Spot<ContactForm>> = word().spot().computed("field in plane and axisymmetric models, paper in space and where \
+             `gauss`, `parts`, `passes`, `coupling`, `guard`, averaged `normals` or a law over a mean of the pressure are said"),
         /// Which of two bodies carries the field of contact stress.
         roles: Roles = word().or("\"auto\""),
         /// Along which normals points look for the target and bear pressure. Averaged ones do not jump from edge to edge.

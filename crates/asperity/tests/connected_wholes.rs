@@ -61,7 +61,7 @@ const DECK: &str = r#"
 version = 1
 solver.tolerance = 1e-12
 material.steel.elastic = { young = 1e3, poisson = 0.3 }
-contact.seat = { SEAT, law.coulomb = { friction = 0.1 } }
+contact.seat = { SEAT, form = "paper", law.coulomb = { friction = 0.1 } }
 [[step]]
 increments.count = 4
 displacement.hub_right = { x = 0.0, y = 0.0 }

@@ -3,8 +3,9 @@
 //!
 //! Segments that meet at less than a crease form a smooth piece, over which the closest point moves without a jump of its
 //! normal that matters; across a crease nothing is continuous, and each piece is asked for itself. A piece ends where the
-//! profile ends or turns outward by a crease: beyond, nothing of it looks at what lies there. At an inward crease two faces
-//! bound one corner of the material around it, and each goes on straight.
+//! profile ends, across its tangent there, and where it turns outward by a crease, at the bisector: of two flanks a place
+//! within an edge of the material is asked of the nearer one. At an inward crease two faces bound one corner of the material
+//! around it, and each goes on straight.
 
 use super::tool::Tool;
 use crate::tensor::Vec3;
@@ -18,8 +19,8 @@ const AT_END: f64 = 1e-12;
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmoothPiece {
     segments: Vec<usize>,
-    /// Whether it goes on straight beyond its first and its last end.
-    goes_on: [bool; 2],
+    /// The lines across its first and its last end beyond which it is not seen; none where it goes on straight.
+    ends: [Option<PieceEnd>; 2],
     /// Whether its last segment ends where its first begins, without a crease.
     closed: bool,
 }
@@ -39,12 +40,12 @@ pub struct ClosestPoint {
     pub beyond: Option<usize>,
 }
 
-/// An end of a piece: its point and the unit tangent there, along the profile.
+/// An end of a piece: its point, and the normal of the line there beyond which the piece is not seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PieceEnd {
     /// The point.
     pub point: Vec3,
-    /// Unit tangent.
+    /// Unit normal of the line that ends the piece, along the profile.
     pub along: Vec3,
 }
 
@@ -59,20 +60,25 @@ impl Tool {
             let creases: Vec<usize> = (0..joints).filter(|&i| turn(i).abs() >= CREASE).collect();
             if chain.closed && creases.is_empty() {
                 let segments = (chain.first..chain.end).collect();
-                pieces.push(SmoothPiece { segments, goes_on: [false; 2], closed: true });
+                pieces.push(SmoothPiece { segments, ends: [None; 2], closed: true });
                 continue;
             }
             // From behind a crease or the beginning of an open profile on.
             let begin = if chain.closed { creases[0] + 1 } else { 0 };
-            let inward = |i: usize| joints > i && turn(i) <= -CREASE;
-            let (mut segments, mut before) = (Vec::new(), chain.closed && inward(creases[0]));
+            let crease = |i: usize| self.crease(turn(i), chain.first + i, chain.first + (i + 1) % count);
+            let tip = |i: usize, s: f64| {
+                let segment = &self.segments()[chain.first + i];
+                Some(PieceEnd { point: segment.point(s), along: segment.tangent(s).unit() })
+            };
+            let mut before = if chain.closed { crease(creases[0]) } else { tip(0, 0.0) };
+            let mut segments = Vec::new();
             for k in 0..count {
                 let i = (begin + k) % count;
                 segments.push(chain.first + i);
                 if k + 1 == count || creases.contains(&i) {
-                    let after = creases.contains(&i) && inward(i);
+                    let after = if creases.contains(&i) { crease(i) } else { tip(i, 1.0) };
                     let segments = std::mem::take(&mut segments);
-                    pieces.push(SmoothPiece { segments, goes_on: [before, after], closed: false });
+                    pieces.push(SmoothPiece { segments, ends: [before, after], closed: false });
                     before = after;
                 }
             }
@@ -86,14 +92,19 @@ impl Tool {
         (a[0] * b[1] - a[1] * b[0]).atan2(a.dot(b))
     }
 
+    /// Where the piece before a crease ends and the one behind it begins: the bisector where the profile turns outward, none where
+    /// it turns inward.
+    fn crease(&self, turn: f64, one: usize, next: usize) -> Option<PieceEnd> {
+        let (one, next) = (&self.segments()[one], &self.segments()[next]);
+        let along = one.tangent(1.0).unit() + next.tangent(0.0).unit();
+        // A profile that turns right back ends across its tangent.
+        let along = if along.norm() > 1e-6 { along.unit() } else { one.tangent(1.0).unit() };
+        (turn > 0.0).then(|| PieceEnd { point: one.point(1.0), along })
+    }
+
     /// The two ends of a piece beyond which it is not seen; none where it goes on.
     pub fn piece_ends(&self, piece: &SmoothPiece) -> [Option<PieceEnd>; 2] {
-        let end = |k: usize| {
-            let segment = &self.segments()[*if k == 0 { piece.segments.first() } else { piece.segments.last() }?];
-            let open = !piece.closed && !piece.goes_on[k];
-            open.then(|| PieceEnd { point: segment.point(k as f64), along: segment.tangent(k as f64).unit() })
-        };
-        [end(0), end(1)]
+        piece.ends
     }
 
     /// The point of a piece closest to `x`, in the tool's own frame.
@@ -112,7 +123,14 @@ impl Tool {
         let segment = &self.segments()[piece.segments[place]];
         let point = segment.point(s);
         let normal = -segment.tangent(s).left().unit();
-        let smooth = |curvature: f64, beyond: Option<usize>| {
+        let last = piece.segments.len() - 1;
+        let past = |k: usize| {
+            let end = piece.ends[k].filter(|_| place == [0, last][k])?;
+            let past = end.along.dot(x - end.point) * [-1.0, 1.0][k];
+            (past > AT_END * segment.length()).then_some(k)
+        };
+        let beyond = past(0).or_else(|| past(1));
+        let smooth = |curvature: f64| {
             let gap = normal.dot(x - point);
             ClosestPoint { gap, normal, point, curvature: curvature / (1.0 + curvature * gap), beyond }
         };
@@ -121,11 +139,11 @@ impl Tool {
         } else if s >= 1.0 - AT_END {
             1
         } else {
-            return smooth(segment.curvature(s), None);
+            return smooth(segment.curvature(s));
         };
         let past = segment.tangent(s).unit().dot(x - point) * if end == 0 { -1.0 } else { 1.0 };
         if past <= AT_END * segment.length() {
-            return smooth(segment.curvature(s), None);
+            return smooth(segment.curvature(s));
         }
         let count = piece.segments.len();
         let next = match (end, place) {
@@ -136,8 +154,7 @@ impl Tool {
         };
         let Some(next) = next else {
             // A straight continuation, whether or not it is seen.
-            let beyond = (!piece.goes_on[end]).then_some(end);
-            return ClosestPoint { point: x - normal * normal.dot(x - point), ..smooth(0.0, beyond) };
+            return ClosestPoint { point: x - normal * normal.dot(x - point), ..smooth(0.0) };
         };
         let other = &self.segments()[piece.segments[next]];
         let both = normal - other.tangent(1.0 - end as f64).left().unit();
@@ -181,14 +198,20 @@ mod tests {
         let round = round();
         let pieces = round.smooth_pieces();
         assert_eq!(pieces.iter().map(|piece| piece.segments.clone()).collect::<Vec<_>>(), [vec![3], vec![0, 1, 2]]);
-        assert!(pieces.iter().all(|piece| piece.goes_on == [false; 2] && !piece.closed));
+        assert!(pieces.iter().all(|piece| piece.ends.iter().all(Option::is_some) && !piece.closed));
         let corner = tool(&[&[("line", &[[0.0, 5.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [5.0, 0.0]])]]);
         let pieces = corner.smooth_pieces();
         // Material on the left of a path down and then to the right: above it, a convex edge.
-        assert_eq!(pieces.iter().map(|piece| piece.goes_on).collect::<Vec<_>>(), [[false; 2]; 2]);
+        let seen = |piece: &SmoothPiece| piece.ends.map(|end| end.is_some());
+        assert_eq!(pieces.iter().map(seen).collect::<Vec<_>>(), [[true; 2]; 2]);
+        // Within the edge the nearer face is seen, and one of the two everywhere.
+        for (x, y, face) in [(0.5, 0.1, 1), (0.1, 0.5, 0), (-0.2, -0.1, 0), (-0.1, -0.2, 1)] {
+            let beyond = |piece| corner.closest(piece, Vec3::new(x, y, 0.0)).beyond;
+            assert_eq!([0, 1].map(|k| beyond(&pieces[k]).is_none()), [face == 0, face == 1], "{x} {y}");
+        }
         let inner = tool(&[&[("line", &[[5.0, 0.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [0.0, 5.0]])]]);
         let pieces = inner.smooth_pieces();
-        assert_eq!(pieces.iter().map(|piece| piece.goes_on).collect::<Vec<_>>(), [[false, true], [true, false]]);
+        assert_eq!(pieces.iter().map(seen).collect::<Vec<_>>(), [[true, false], [false, true]]);
     }
 
     /// Distance, normal and curvature against brute force and differences.

@@ -1,7 +1,7 @@
 //! Contact stress as a field of nodal values: the mortar method with penalty regularisation.
 //!
-//! The surface carries pressure and shear at the *corner* nodes of its faces, with the functions `M_i` of first degree (on
-//! faces of second degree too). Gaps and slips are weighted means over the undeformed surface, a law is asked once a node,
+//! The surface carries pressure and shear at the corner nodes of its faces, with the functions `M_i` of first degree (an edge of
+//! second degree counts as two). Gaps and slips are weighted means over the undeformed surface, a law is asked once a node,
 //! and the field is then integrated back to forces on both sides:
 //! ```text
 //! A_i = int M_i dA    g_i = int M_i g dA / A_i    s_i = int M_i T(x)^t ds dA / A_i

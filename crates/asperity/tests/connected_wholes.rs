@@ -68,7 +68,7 @@ displacement.hub_right = { x = 0.0, y = 0.0 }
 displacement.shaft_left = { x = 0.0, y = 0.0 }
 [[step]]
 increments.count = 4
-displacement.shaft_left = { y = 0.05 }
+displacement.shaft_left = { y = 0.02 }
 "#;
 
 /// The sides of a surface of a mesh file.

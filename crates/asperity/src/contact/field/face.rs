@@ -84,6 +84,13 @@ impl Face {
     /// Reference coordinates of a node.
     pub fn place(&self, node: usize) -> [f64; 2] {
         let [a, b, _] = self.kind.nodes[node];
+        let [from, to] = self.part;
+        if self.part == WHOLE { [a, b] } else { [(2.0 * a - from - to) / (to - from), b] }
+    }
+
+    /// Reference coordinates of a corner.
+    pub fn corner_place(&self, corner: usize) -> [f64; 2] {
+        let [a, b, _] = self.kind.nodes[corner];
         [a, b]
     }
 

@@ -144,7 +144,7 @@ impl Surface {
 
     /// The outward area vector at a corner of a face in place.
     fn area_vector(&self, face: &Face, placed: &Placed, corner: usize) -> Vec3 {
-        let [a, b] = face.shape(face.place(corner)).tangents(placed.nodes(), self.plane);
+        let [a, b] = face.shape(face.corner_place(corner)).tangents(placed.nodes(), self.plane);
         a.cross(b)
     }
 
@@ -165,7 +165,7 @@ impl Surface {
     pub fn normal_rates(&self, node: usize, placed: impl Fn(usize) -> Placed, mut add: impl FnMut(usize, [Vec3; 3])) {
         for &(f, corner) in &self.nodes[node].support {
             let (face, placed) = (&self.faces[f], placed(f));
-            let shape = face.shape(face.place(corner));
+            let shape = face.shape(face.corner_place(corner));
             let [a, b] = shape.tangents(placed.nodes(), self.plane);
             for (k, &node) in face.nodes.iter().enumerate() {
                 let [da, db] = shape.dn[k];

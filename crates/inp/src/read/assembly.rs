@@ -23,7 +23,10 @@ impl Reader {
                     }
                     part = Some(name);
                 }
-                "END PART" => part = None,
+                "END PART" => {
+                    self.known(block);
+                    part = None;
+                }
                 "INSTANCE" => {
                     self.known(block);
                     instance = self.open_instance(block);
@@ -40,7 +43,10 @@ impl Reader {
                         _ => {}
                     }
                 }
-                "END INSTANCE" => instance = None,
+                "END INSTANCE" => {
+                    self.known(block);
+                    instance = None;
+                }
                 "ASSEMBLY" | "END ASSEMBLY" => {
                     self.known(block);
                 }
@@ -53,6 +59,10 @@ impl Reader {
             if block.name != "NODE" && block.name != "ELEMENT" && !is_structure(&block.name) {
                 self.known(block);
             }
+        }
+        if let Some(last) = blocks.last().filter(|_| part.is_some() || instance.is_some()) {
+            let (what, end) = if part.is_some() { ("part", "*END PART") } else { ("instance", "*END INSTANCE") };
+            self.error(last.place, format!("the deck ends within a {what}; end it with {end}"));
         }
         for (name, blocks) in parts.iter().filter(|(name, _)| !used.contains(name)) {
             if let Some(first) = blocks.first() {

@@ -126,10 +126,10 @@ impl Reader {
                 }
             }
         }
-        let last = blocks.last().map_or(Place::default(), |block| block.place);
+        let last = blocks.last().map_or(Place { file: 0, line: 1 }, |block| block.place);
         if within {
             self.error(last, "the deck ends within a step; end it with *END STEP");
-        } else if self.model.steps.is_empty() && !blocks.is_empty() {
+        } else if self.model.steps.is_empty() && !(blocks.is_empty() && self.messages.has_errors()) {
             self.error(last, "the deck has no *STEP, so that there is nothing to solve");
         }
         let idle: Vec<(Place, String)> = self

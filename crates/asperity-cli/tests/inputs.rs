@@ -1,0 +1,113 @@
+//! Every input deck of `crates/inp/tests/decks`, translated and run, against what its own comments expect:
+//!
+//! ```text
+//! ** expect u NODE AXIS = VALUE within ERROR             a displacement at the end
+//! ** expect COLUMN [at TIME] = VALUE within ERROR        a column of history.csv
+//! ** expect ratio COLUMN COLUMN = VALUE within ERROR     one over the other, at the end
+//! ```
+
+use asperity::deck;
+use asperity::output::{Job, Start, Status, simulate};
+use asperity::solve::{RunOptions, Silent};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+struct Expected {
+    what: Vec<String>,
+    value: f64,
+    within: f64,
+}
+
+fn decks() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../inp/tests/decks");
+    let mut decks: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    decks.retain(|path| path.extension().is_some_and(|extension| extension == "inp"));
+    decks.sort();
+    decks
+}
+
+fn expected(text: &str) -> Vec<Expected> {
+    let lines = text.lines().filter_map(|line| line.strip_prefix("** expect "));
+    lines
+        .map(|line| {
+            let (what, rest) = line.split_once(" = ").unwrap();
+            let (value, within) = rest.split_once(" within ").unwrap();
+            let what = what.split_whitespace().map(str::to_owned).collect();
+            Expected { what, value: value.trim().parse().unwrap(), within: within.trim().parse().unwrap() }
+        })
+        .collect()
+}
+
+/// The columns of `history.csv`.
+fn history(directory: &Path) -> BTreeMap<String, Vec<f64>> {
+    let text = std::fs::read_to_string(directory.join("history.csv")).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let column = |at: usize| rows.iter().map(|row| row[at].parse().unwrap_or(f64::NAN)).collect();
+    names.iter().enumerate().map(|(at, name)| ((*name).to_owned(), column(at))).collect()
+}
+
+/// What differs from what a deck expects, one line each.
+fn differences(path: &Path) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |what: &dyn std::fmt::Display| vec![format!("{}: {what}", path.file_name().unwrap().display())];
+    let translation = match inp::translate(path, "mesh.inp") {
+        Ok(translation) => translation,
+        Err(errors) => return told(&errors.join("\n")),
+    };
+    std::fs::write(folder.path().join("mesh.inp"), &translation.mesh).unwrap();
+    let made = match deck::read(&translation.deck, "deck", folder.path(), &[]).and_then(deck::build) {
+        Ok(made) => made,
+        Err(diagnostics) => return told(&diagnostics.render(false)),
+    };
+    let mut run = made.model.run(made.model.problem.initial_state());
+    if let Err(error) = run.run(&RunOptions::default(), &mut Silent) {
+        return told(&error);
+    }
+    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+    let job = Job { directory: folder.path(), options, input: made.input, start: Start::Beginning, limits, notes: &[] };
+    let (summary, _) = simulate(&made.model, &job, &mut Silent).unwrap();
+    if summary.status != Status::Converged {
+        return told(&format!("{:?}", summary.status));
+    }
+    let (history, mesh) = (history(folder.path()), &made.model.mesh);
+    let column = |name: &str| {
+        history.get(name).unwrap_or_else(|| panic!("{}: no column {name}: {:?}", path.display(), history.keys()))
+    };
+    let found = |what: &[&str]| match what {
+        ["u", node, axis] => {
+            let number: u64 = node.parse().unwrap();
+            let node = (0..mesh.points.len()).find(|&node| mesh.node_number(node) == number).unwrap();
+            // The unknowns of the nodes come first.
+            run.state.u[node * mesh.dimension() + axis.parse::<usize>().unwrap() - 1]
+        }
+        ["ratio", one, other] => column(one).last().unwrap() / column(other).last().unwrap(),
+        [name, "at", time] => {
+            let time: f64 = time.parse().unwrap();
+            let row = column("time").iter().position(|t| (t - time).abs() < 1e-9).unwrap();
+            column(name)[row]
+        }
+        [name] => *column(name).last().unwrap(),
+        _ => panic!("{}: {what:?} is no expectation", path.display()),
+    };
+    let expected = expected(&std::fs::read_to_string(path).unwrap());
+    assert!(!expected.is_empty(), "{} expects nothing", path.display());
+    let wrong = expected.iter().filter_map(|expected| {
+        let what: Vec<&str> = expected.what.iter().map(String::as_str).collect();
+        let found = found(&what);
+        let off = (found - expected.value).abs();
+        let line = || format!("{}: {} is {found}, not {}", path.display(), what.join(" "), expected.value);
+        (off.is_nan() || off > expected.within).then(line)
+    });
+    wrong.collect()
+}
+
+#[test]
+fn every_input_deck_gives_its_closed_form() {
+    let decks = decks();
+    assert!(decks.len() > 40, "only {} decks found", decks.len());
+    let wrong: Vec<String> = decks.par_iter().flat_map(|path| differences(path)).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -86,6 +86,16 @@ pub fn named(name: &str) -> Option<(&'static Type, String)> {
     TYPES.iter().find_map(|found| Some((found, variant(found)?)))
 }
 
+/// Whose input deck it is: the same element names mean different formulations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Dialect {
+    /// Plain full integration of bricks of first degree.
+    #[default]
+    CalculiX,
+    /// Bricks of first degree with a mean change of volume.
+    Abaqus,
+}
+
 /// How a cell is integrated, in our words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Formulation {
@@ -114,22 +124,29 @@ impl Type {
         !matches!(self.family, Family::Rigid | Family::Skin)
     }
 
-    /// What stands for a variant of this type, and a remark where that is not the same.
-    pub fn formulation(&self, variant: &str) -> (Formulation, Option<&'static str>) {
+    /// What stands for a variant of this type in a dialect, and a remark where that is not the same.
+    pub fn formulation(&self, variant: &str, dialect: Dialect) -> (Formulation, Option<&'static str>) {
         let brick = matches!(self.faces.len(), 4 | 6) && self.faces != TET;
         let (reduced, modes) = (variant.contains('R'), variant.contains('I'));
         match (self.degree, brick, self.family) {
             (2, true, _) if reduced => (Formulation::Reduced, hybrid(variant)),
             (2, ..) => (Formulation::Standard, modified(variant).or(hybrid(variant))),
-            (1, true, _) if modes => (Formulation::FBar, Some("incompatible modes become F-bar: stiffer in bending")),
-            (1, true, Family::PlaneStress) if reduced => {
-                (Formulation::Standard, Some("one point with hourglass control becomes full integration"))
-            }
+            (1, true, Family::PlaneStress) if reduced || modes => (
+                Formulation::Standard,
+                Some(
+                    "one point with hourglass control, or incompatible modes, become full integration: stiffer in bending",
+                ),
+            ),
             (1, true, Family::PlaneStress) => (Formulation::Standard, None),
+            (1, true, _) if modes => (Formulation::FBar, Some("incompatible modes become F-bar: stiffer in bending")),
             (1, true, _) if reduced => {
                 (Formulation::FBar, Some("one point with hourglass control becomes F-bar: stiffer in bending"))
             }
-            (1, true, _) => (Formulation::FBar, None),
+            (1, true, _) if dialect == Dialect::Abaqus => (Formulation::FBar, None),
+            (1, true, _) => (
+                Formulation::Standard,
+                Some("full integration as in CalculiX; `formulation = \"f-bar\"` does not lock"),
+            ),
             _ => (Formulation::Standard, hybrid(variant)),
         }
     }
@@ -159,19 +176,25 @@ mod tests {
     }
 
     #[test]
-    fn bricks_of_first_degree_are_f_bar_and_those_of_second_as_they_say() {
-        let of = |name: &str| {
+    fn bricks_of_first_degree_are_what_their_dialect_means() {
+        let of = |name: &str, dialect| {
             let (found, variant) = named(name).unwrap();
-            found.formulation(&variant).0
+            found.formulation(&variant, dialect).0
         };
-        for name in ["C3D8", "C3D8R", "C3D8I", "CPE4", "CAX4R"] {
-            assert_eq!(of(name), Formulation::FBar, "{name}");
+        for name in ["C3D8", "CPE4", "CAX4"] {
+            assert_eq!(of(name, Dialect::Abaqus), Formulation::FBar, "{name}");
+            assert_eq!(of(name, Dialect::CalculiX), Formulation::Standard, "{name}");
         }
-        for name in ["C3D20R", "CPE8R", "CPS8R"] {
-            assert_eq!(of(name), Formulation::Reduced, "{name}");
-        }
-        for name in ["C3D20", "C3D4", "C3D10", "CPS4R", "CPE6", "C3D6", "C3D15"] {
-            assert_eq!(of(name), Formulation::Standard, "{name}");
+        for dialect in [Dialect::Abaqus, Dialect::CalculiX] {
+            for name in ["C3D8R", "C3D8I", "CAX4R"] {
+                assert_eq!(of(name, dialect), Formulation::FBar, "{name}");
+            }
+            for name in ["C3D20R", "CPE8R", "CPS8R"] {
+                assert_eq!(of(name, dialect), Formulation::Reduced, "{name}");
+            }
+            for name in ["C3D20", "C3D4", "C3D10", "CPS4R", "CPE6", "C3D6", "C3D15"] {
+                assert_eq!(of(name, dialect), Formulation::Standard, "{name}");
+            }
         }
     }
 }

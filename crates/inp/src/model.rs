@@ -1,6 +1,6 @@
 //! What an input deck says, with instances laid out and names resolved.
 
-use crate::elements::Type;
+use crate::elements::{Dialect, Type};
 use crate::message::Place;
 use crate::source::Block;
 use std::collections::BTreeMap;
@@ -226,6 +226,8 @@ pub struct Pair {
     pub interaction: usize,
     /// Whether nodes are moved onto the surface at the beginning.
     pub adjust: bool,
+    /// Whether contact stress is a field on the surface (mortar), and not at points of it.
+    pub field: bool,
 }
 
 /// A rigid body: what follows a reference node.
@@ -331,6 +333,8 @@ pub struct Step {
 /// All that a deck says.
 #[derive(Debug, Default)]
 pub struct Model {
+    /// Whose deck it is.
+    pub dialect: Dialect,
     /// The heading.
     pub title: String,
     /// Nodes.

@@ -1,6 +1,7 @@
 //! What happens where surfaces touch, and which may.
 
 use super::Reader;
+use crate::elements::Dialect;
 use crate::message::{Place, suggestion};
 use crate::model::{Interaction, Pair};
 use crate::source::Block;
@@ -93,7 +94,9 @@ impl Reader {
             let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
             if let (Some(slave), Some(master)) = (slave, master) {
                 let adjust = block.has("ADJUST");
-                self.model.pairs.push(Pair { place: line.place, slave, master, interaction, adjust });
+                let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
+                let field = mortar || self.model.dialect == Dialect::Abaqus;
+                self.model.pairs.push(Pair { place: line.place, slave, master, interaction, adjust, field });
             }
         }
     }

@@ -8,6 +8,7 @@ mod names;
 mod rigid;
 mod steps;
 
+use crate::elements::Dialect;
 use crate::keywords::{self, KEYWORDS, Treated, Value, Where};
 use crate::message::{Messages, Place, suggestion};
 use crate::model::{Model, Step};
@@ -35,6 +36,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
         interaction: None,
         step: None,
     };
+    reader.model.dialect = dialect(blocks);
     let laid_out = reader.lay_out(blocks);
     for (scope, block) in &laid_out {
         reader.scope = *scope;
@@ -52,6 +54,17 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
     reader.finish(blocks);
     *messages = reader.messages;
     reader.model
+}
+
+/// Whose deck it is: Abaqus' where it has what CalculiX has not, parts, analytical surfaces, rigid elements.
+fn dialect(blocks: &[Block]) -> Dialect {
+    let foreign = |block: &Block| match block.name.as_str() {
+        "PART" | "ASSEMBLY" | "INSTANCE" | "PREPRINT" => true,
+        "SURFACE" => matches!(block.word("TYPE").as_deref(), Some("SEGMENTS" | "CYLINDER" | "REVOLUTION")),
+        "ELEMENT" => block.word("TYPE").is_some_and(|name| name.starts_with('R')),
+        _ => false,
+    };
+    if blocks.iter().any(foreign) { Dialect::Abaqus } else { Dialect::CalculiX }
 }
 
 impl Reader {

@@ -165,7 +165,7 @@ impl Writer<'_> {
         let mut sorted: BTreeMap<(usize, Formulation), Vec<usize>> = BTreeMap::new();
         for (at, element) in model.elements.iter().enumerate() {
             let Some(section) = self.section[at] else { continue };
-            let (formulation, remark) = element.kind.formulation(&element.variant);
+            let (formulation, remark) = element.kind.formulation(&element.variant, model.dialect);
             if let Some(remark) = remark {
                 let (name, variant) = (element.kind.name, &element.variant);
                 self.note(model.sections[section].place, format!("{name}{variant}: {remark}"));

@@ -4,7 +4,7 @@ use super::{Writer, quoted};
 use crate::elements::Family;
 use crate::message::Place;
 use crate::model::{Interaction, Pair, SurfaceKind};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A side of a contact.
 enum Sided {
@@ -16,13 +16,15 @@ impl Writer<'_> {
     /// One contact for each pair.
     pub(super) fn contacts(&mut self) {
         let model = self.model;
-        if let Some(pair) = model.pairs.first() {
-            let what = match self.family {
-                Family::Solid => {
-                    "contact stresses live at points of the faces: forces are shared out otherwise than between nodes and faces"
+        for pair in &model.pairs {
+            let what = match (pair.field, self.family) {
+                (true, Family::Solid) => {
+                    "a field of contact stress becomes stresses at points of the faces (`form = \"field\"` is for the plane)"
                 }
-                _ => {
-                    "contact stress is a field of nodal values (`form = \"field\"`): the limit of fine meshes is the same, single nodes differ"
+                (true, _) => "contact stress is a field of nodal values: `form = \"field\"`",
+                (false, _) => {
+                    "contact stress lives at three points along each edge of the slave faces, as CalculiX' face to face does; \
+                               `form = \"field\"` in the plane makes a field of it"
                 }
             };
             self.note(pair.place, what);
@@ -34,6 +36,7 @@ impl Writer<'_> {
 
     fn contact(&mut self, number: usize, pair: &Pair) -> Option<()> {
         let (slave, master) = (self.sided(pair, &pair.slave)?, self.sided(pair, &pair.master)?);
+        let of_bodies = matches!((&slave, &master), (Sided::Sides(_), Sided::Sides(_)));
         let (surface, target) = match (slave, master) {
             (Sided::Sides(surface), Sided::Sides(target) | Sided::Tool(target)) => (surface, target),
             (Sided::Tool(target), Sided::Sides(surface)) => {
@@ -58,8 +61,10 @@ impl Writer<'_> {
             quoted(&surface),
             quoted(&target)
         );
-        if self.family != Family::Solid {
-            text += "form = \"field\"\n";
+        match (pair.field && self.family != Family::Solid, of_bodies) {
+            (true, _) => text += "form = \"field\"\n",
+            (false, true) => text += "passes = \"one\"\ngauss = 3\n",
+            (false, false) => text += "gauss = 3\n",
         }
         text += &law;
         if let Some(slope) = interaction.slope {
@@ -121,9 +126,22 @@ impl Writer<'_> {
                     .filter(|(element, ..)| self.section[*element].is_some())
                     .map(|&(element, face, _)| (element, face))
                     .collect();
+                let (count, boundary) = (faces.len(), self.boundary());
+                let outer = |(element, face): &(usize, Option<usize>)| {
+                    face.is_none_or(|face| boundary.contains(&(*element, face)))
+                };
+                let faces: Vec<_> = faces.into_iter().filter(outer).collect();
                 if faces.is_empty() {
-                    self.error(pair.place, format!("surface '{}' lies on no body", surface.name));
+                    self.error(pair.place, format!("surface '{}' has no face on the outside of a body", surface.name));
                     return None;
+                }
+                if faces.len() < count {
+                    let what = format!(
+                        "{} faces of surface '{}' lie within bodies and are left out",
+                        count - faces.len(),
+                        surface.name
+                    );
+                    self.note(surface.place, what);
                 }
                 Some(Sided::Sides(self.groups.sides(&surface.name, faces)))
             }
@@ -141,19 +159,26 @@ impl Writer<'_> {
         }
     }
 
-    /// The faces of cells whose corners are all among the nodes and that no other cell has.
-    fn faces_of_nodes(&self, nodes: &[usize]) -> Vec<(usize, Option<usize>)> {
+    /// The faces of the outer boundary whose corners are all among the nodes.
+    fn faces_of_nodes(&mut self, nodes: &[usize]) -> Vec<(usize, Option<usize>)> {
         let chosen: BTreeSet<usize> = nodes.iter().copied().collect();
-        let mut faces = std::collections::BTreeMap::<Vec<usize>, Vec<(usize, Option<usize>)>>::new();
+        let held = |&(element, face): &(usize, usize)| {
+            let element = &self.model.elements[element];
+            element.kind.faces[face - 1].iter().all(|&corner| chosen.contains(&element.nodes[corner]))
+        };
+        self.boundary().iter().filter(|face| held(face)).map(|&(element, face)| (element, Some(face))).collect()
+    }
+
+    /// The faces that only one element with a section has, by their numbers.
+    fn boundary(&self) -> BTreeSet<(usize, usize)> {
+        let mut faces = BTreeMap::<Vec<usize>, Option<(usize, usize)>>::new();
         for (at, element) in self.model.elements.iter().enumerate().filter(|(at, _)| self.section[*at].is_some()) {
             for (face, corners) in element.kind.faces.iter().enumerate() {
                 let mut corners: Vec<usize> = corners.iter().map(|&corner| element.nodes[corner]).collect();
-                if corners.iter().all(|corner| chosen.contains(corner)) {
-                    corners.sort_unstable();
-                    faces.entry(corners).or_default().push((at, Some(face + 1)));
-                }
+                corners.sort_unstable();
+                faces.entry(corners).and_modify(|owner| *owner = None).or_insert(Some((at, face + 1)));
             }
         }
-        faces.into_values().filter(|found| found.len() == 1).flatten().collect()
+        faces.into_values().flatten().collect()
     }
 }

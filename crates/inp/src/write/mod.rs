@@ -60,7 +60,7 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
     writer.named_sets();
     let mesh = writer.groups.mesh(model, &writer.section);
     let title = if model.title.is_empty() { name } else { &model.title };
-    let mut deck = format!("# Translated from {name}.\n");
+    let mut deck = format!("# Translated from {name}, read as a deck of {:?}.\n", model.dialect);
     let notes = writer.messages.notes();
     if !notes.is_empty() {
         deck += "#\n# What was left out or became something else:\n";

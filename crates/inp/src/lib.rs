@@ -38,7 +38,26 @@ pub struct Translation {
 pub fn translate(path: &Path, mesh_file: &str) -> Result<Translation, Vec<String>> {
     let mut messages = Messages::default();
     let blocks = source::blocks(path, &mut messages);
-    let model = read::model(&blocks, &mut messages);
+    translated(path, &blocks, mesh_file, messages)
+}
+
+/// The same of a text as if it stood in the file at `path`.
+///
+/// # Errors
+/// As [`translate`].
+pub fn translate_text(path: &Path, text: &str, mesh_file: &str) -> Result<Translation, Vec<String>> {
+    let mut messages = Messages::default();
+    let blocks = source::blocks_of(path, text, &mut messages);
+    translated(path, &blocks, mesh_file, messages)
+}
+
+fn translated(
+    path: &Path,
+    blocks: &[source::Block],
+    mesh_file: &str,
+    mut messages: Messages,
+) -> Result<Translation, Vec<String>> {
+    let model = read::model(blocks, &mut messages);
     if messages.has_errors() {
         return Err(messages.errors());
     }

@@ -68,6 +68,13 @@ pub fn blocks(path: &Path, messages: &mut Messages) -> Vec<Block> {
     cutter.blocks
 }
 
+/// The blocks of a text as if it stood in the file at `path`.
+pub fn blocks_of(path: &Path, text: &str, messages: &mut Messages) -> Vec<Block> {
+    let mut cutter = Cutter { blocks: vec![], open: vec![], messages };
+    cutter.text(path, text);
+    cutter.blocks
+}
+
 struct Cutter<'m> {
     blocks: Vec<Block>,
     /// Files that are open, the innermost last.
@@ -100,9 +107,13 @@ impl Cutter<'_> {
                 return self.messages.error(at, what);
             }
         };
+        self.text(path, &String::from_utf8_lossy(&bytes));
+    }
+
+    fn text(&mut self, path: &Path, text: &str) {
         let file = self.messages.open(path.display().to_string());
         self.open.push(path.to_path_buf());
-        self.cut(file, &Rc::from(String::from_utf8_lossy(&bytes)));
+        self.cut(file, &Rc::from(text));
         self.open.pop();
     }
 

@@ -20,9 +20,7 @@ fn folder() -> tempfile::TempDir {
 
 /// The errors of a text, none if it can be translated.
 fn errors(folder: &Path, text: &str) -> Vec<String> {
-    let path = folder.join("deck.inp");
-    std::fs::write(&path, text).unwrap();
-    let errors = inp::translate(&path, "mesh.inp").err().unwrap_or_default();
+    let errors = inp::translate_text(&folder.join("deck.inp"), text, "mesh.inp").err().unwrap_or_default();
     for error in &errors {
         let rest = error.starts_with("and ") && error.ends_with(" more like these");
         assert!(rest || error.contains("deck.inp") || error.contains("spelling.inc"), "without a place: {error}");

@@ -109,9 +109,7 @@ impl Writer<'_> {
                 return None;
             }
             let (law, remark) = rubber::law(given)?;
-            if let Some(remark) = remark {
-                self.note(given.place, remark);
-            }
+            self.note(given.place, remark);
             return Some(law);
         }
         let Some([young, poisson]) = material.elastic else {

@@ -11,6 +11,8 @@ pub enum Treated {
     Mesh(fn(&mut Reader, &Block)),
     /// Read.
     Read(fn(&mut Reader, &Block)),
+    /// Read after all others, since it names what may stand below it.
+    Late(fn(&mut Reader, &Block)),
     /// Part of the structure of the deck itself.
     Structure,
     /// Left out, since the answer does not depend on it; why.
@@ -93,6 +95,15 @@ const fn of_model(
     becomes: &'static str,
 ) -> Keyword {
     Keyword { name, place: Where::Model, treated: Treated::Read(read), parameters, becomes }
+}
+
+const fn late(
+    name: &'static str,
+    read: fn(&mut Reader, &Block),
+    parameters: &'static [Parameter],
+    becomes: &'static str,
+) -> Keyword {
+    Keyword { name, place: Where::Model, treated: Treated::Late(read), parameters, becomes }
 }
 
 const fn of_step(
@@ -199,7 +210,7 @@ pub static KEYWORDS: &[Keyword] = &[
         ],
         "group of sides; with SEGMENTS, CYLINDER, REVOLUTION the profile of a tool",
     ),
-    of_model(
+    late(
         "RIGID BODY",
         Reader::rigid_body,
         &[
@@ -262,7 +273,7 @@ pub static KEYWORDS: &[Keyword] = &[
         &[one_of("TYPE", &["ISO", "ISOTROPIC"]), used("ZERO"), refused("DEPENDENCIES", TABLE_OF_TEMPERATURE)],
         "`expansion`",
     ),
-    of_model(
+    late(
         "SOLID SECTION",
         Reader::solid_section,
         &[
@@ -318,7 +329,7 @@ pub static KEYWORDS: &[Keyword] = &[
         ],
         becomes: "`coulomb`, `sticking`, `orowan`, `velocity_dependent`; without it `frictionless`",
     },
-    of_model(
+    late(
         "CONTACT PAIR",
         Reader::contact_pair,
         &[
@@ -564,9 +575,15 @@ impl Parameter {
     }
 }
 
-/// The keyword of a name.
+/// The keyword of a name in capitals; blanks do not count.
 pub fn named(name: &str) -> Option<&'static Keyword> {
-    KEYWORDS.iter().find(|keyword| keyword.name == name)
+    KEYWORDS.iter().find(|keyword| same(keyword.name, name))
+}
+
+/// Whether two names are the same but for blanks.
+pub fn same(one: &str, other: &str) -> bool {
+    let letters = |name: &'_ str| name.chars().filter(|c| !c.is_whitespace()).collect::<String>();
+    one == other || letters(one) == letters(other)
 }
 
 /// The manual's page, in Markdown.
@@ -576,7 +593,7 @@ pub fn manual() -> String {
          nearest keyword.\n\n## Read\n\n| keyword | becomes | parameters |\n|---|---|---|\n",
     );
     for keyword in KEYWORDS {
-        if matches!(keyword.treated, Treated::Mesh(_) | Treated::Read(_) | Treated::Structure) {
+        if matches!(keyword.treated, Treated::Mesh(_) | Treated::Read(_) | Treated::Late(_) | Treated::Structure) {
             let parameters: Vec<String> = keyword.parameters.iter().filter_map(described).collect();
             let _ = writeln!(text, "| `*{}` | {} | {} |", keyword.name, keyword.becomes, parameters.join(", "));
         }

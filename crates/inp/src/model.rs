@@ -2,7 +2,6 @@
 
 use crate::elements::{Dialect, Type};
 use crate::message::Place;
-use crate::source::Block;
 use std::collections::BTreeMap;
 
 /// A node.
@@ -347,8 +346,6 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// Sections.
     pub sections: Vec<Section>,
-    /// Sections whose materials come after them, with their instances.
-    pub late_sections: Vec<(Block, usize)>,
     /// Amplitudes by their names in capitals.
     pub amplitudes: Vec<(String, Amplitude)>,
     /// Interactions.

@@ -1,5 +1,6 @@
 //! A file and those it includes, cut into blocks: a keyword line with its parameters, and the data lines below it.
 
+use crate::keywords;
 use crate::message::{Messages, Place};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -50,9 +51,9 @@ impl Block {
         found.map(|parameter| parameter.1.as_str()).filter(|value| !value.is_empty())
     }
 
-    /// The value of a parameter in capitals.
+    /// The value of a parameter in capitals without blanks.
     pub fn word(&self, name: &str) -> Option<String> {
-        self.value(name).map(|value| value.split_whitespace().collect::<Vec<_>>().join(" ").to_ascii_uppercase())
+        self.value(name).map(|value| value.split_whitespace().collect::<String>().to_ascii_uppercase())
     }
 
     /// Whether a parameter is there, with or without a value.
@@ -156,7 +157,14 @@ impl Cutter<'_> {
             let (name, value) = part.split_once('=').unwrap_or((part, ""));
             (words(name), value.trim().trim_matches('"').to_string())
         };
-        let parameters = parts.map(parameter).filter(|(name, _)| !name.is_empty()).collect();
+        let mut parameters: Vec<(String, String)> = parts.map(parameter).filter(|(name, _)| !name.is_empty()).collect();
+        // Blanks do not count: the names are those of the declarations.
+        let keyword = keywords::named(&name);
+        let name = keyword.map_or(name, |keyword| keyword.name.to_string());
+        for (name, _) in &mut parameters {
+            let declared = keyword.and_then(|keyword| keyword.parameters.iter().find(|p| keywords::same(p.name, name)));
+            *name = declared.map_or_else(|| name.clone(), |declared| declared.name.to_string());
+        }
         let block = Block { name, parameters, place, lines: vec![] };
         let input = block.value("INPUT").map(str::to_string);
         let is_include = block.name == "INCLUDE";
@@ -197,6 +205,6 @@ fn is_skipped(line: &str) -> bool {
 fn continues(line: &str) -> bool {
     let flag = words(line.trim().trim_end_matches(','));
     let parameter =
-        !line.trim_start().starts_with('*') && (line.contains('=') || crate::keywords::FLAGS.contains(&flag.as_str()));
+        !line.trim_start().starts_with('*') && (line.contains('=') || keywords::FLAGS.contains(&flag.as_str()));
     parameter || is_skipped(line)
 }

@@ -31,10 +31,13 @@ fn every_keyword_that_is_read_stands_in_a_deck() {
     let decks = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks");
     let texts = std::fs::read_dir(decks).unwrap().map(|entry| std::fs::read_to_string(entry.unwrap().path()).unwrap());
     let all = texts.collect::<String>().to_uppercase();
-    let names: BTreeSet<&str> =
-        all.lines().filter_map(|line| line.strip_prefix('*')).map(|line| line.split(',').next().unwrap().trim()).collect();
+    let names: BTreeSet<&str> = all
+        .lines()
+        .filter_map(|line| line.strip_prefix('*'))
+        .map(|line| line.split(',').next().unwrap().trim())
+        .collect();
     for keyword in KEYWORDS {
-        if matches!(keyword.treated, Treated::Read(_) | Treated::Mesh(_) | Treated::Structure) {
+        if matches!(keyword.treated, Treated::Read(_) | Treated::Late(_) | Treated::Mesh(_) | Treated::Structure) {
             assert!(names.contains(keyword.name), "*{} stands in no deck", keyword.name);
         }
     }

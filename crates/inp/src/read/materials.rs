@@ -160,9 +160,8 @@ impl Reader {
         let Some(target) = self.members(block.place, set, Of::Elements) else { return };
         let known = &self.model.materials;
         let Some(material) = known.iter().position(|material| material.name.eq_ignore_ascii_case(name)) else {
-            // A part names materials that come after it.
-            self.model.late_sections.push((block.clone(), self.scope));
-            return;
+            let near = suggestion(name, known.iter().map(|material| material.name.as_str()));
+            return self.error(block.place, format!("there is no material '{name}'{near}"));
         };
         let thickness = match block.lines.first() {
             Some(line) if line.fields().first().is_some_and(|field| !field.is_empty()) => {
@@ -174,19 +173,6 @@ impl Reader {
         let section =
             Section { set: self.full_name(set), elements: target.members, material, thickness, place: block.place };
         self.model.sections.push(section);
-    }
-
-    /// Sections that came before their materials.
-    pub(super) fn late_sections(&mut self) {
-        for (block, scope) in std::mem::take(&mut self.model.late_sections) {
-            self.scope = scope;
-            self.solid_section(&block);
-        }
-        for (block, _) in std::mem::take(&mut self.model.late_sections) {
-            let name = block.value("MATERIAL").unwrap_or_default();
-            let near = suggestion(name, self.model.materials.iter().map(|material| material.name.as_str()));
-            self.error(block.place, format!("there is no material '{name}'{near}"));
-        }
     }
 
     /// `*AMPLITUDE`.
@@ -213,7 +199,7 @@ impl Reader {
             let what = format!("the times of amplitude '{name}' must rise, but {} follows {}", two[1][0], two[0][0]);
             return self.error(block.place, what);
         }
-        let total = block.word("TIME").as_deref() == Some("TOTAL TIME");
+        let total = block.word("TIME").as_deref() == Some("TOTALTIME");
         let amplitude = Amplitude { points: pairs.to_vec(), total };
         self.model.amplitudes.push((name.to_ascii_uppercase(), amplitude));
     }

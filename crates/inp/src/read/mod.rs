@@ -50,7 +50,12 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
             read(&mut reader, block);
         }
     }
-    reader.late_sections();
+    for (scope, block) in &laid_out {
+        reader.scope = *scope;
+        if let Some(Treated::Late(read)) = keywords::named(&block.name).map(|keyword| &keyword.treated) {
+            read(&mut reader, block);
+        }
+    }
     reader.finish(blocks);
     *messages = reader.messages;
     reader.model
@@ -103,7 +108,7 @@ impl Reader {
             match parameter.treated {
                 Value::OneOf(words) => {
                     let word = block.word(name).unwrap_or_default();
-                    if !words.contains(&word.as_str()) {
+                    if !words.iter().any(|known| keywords::same(known, &word)) {
                         let words: Vec<&str> = words.iter().copied().filter(|word| !word.is_empty()).collect();
                         let what = format!(
                             "*{}: {name}={value} cannot be translated; {name} may be {}",

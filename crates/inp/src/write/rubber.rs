@@ -14,7 +14,8 @@ pub fn law(rubber: &Rubber) -> Option<((&'static str, String), String)> {
     } else {
         format!("; D1 is zero, which means no change of volume, and becomes that of Poisson's ratio {POISSON}")
     };
-    let remark = format!("the change of volume stores K/2 ((J^2 - 1)/2 - ln J) in place of (J - 1)^2/D1, K = 2/D1{given}");
+    let remark =
+        format!("the change of volume stores K/2 ((J^2 - 1)/2 - ln J) in place of (J - 1)^2/D1, K = 2/D1{given}");
     let bulk = if rubber.d1 > 0.0 { 2.0 / rubber.d1 } else { shear * 2.0 * (1.0 + POISSON) / (3.0 - 6.0 * POISSON) };
     let bulk = format!("bulk = {bulk:?}\n");
     let law = match (rubber.form, c.as_slice()) {

@@ -13,6 +13,7 @@ use asperity::solve::{RunOptions, Silent};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 struct Expected {
     what: Vec<String>,
@@ -118,4 +119,59 @@ fn every_input_deck_gives_what_it_expects() {
     assert!(decks.len() > 40, "only {} decks found", decks.len());
     let wrong: Vec<String> = decks.par_iter().flat_map(|path| differences(path)).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Runs the command in a folder.
+fn asperity(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_asperity")).args(arguments).current_dir(folder).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    (output.status.code().unwrap(), told)
+}
+
+#[test]
+fn the_command_takes_input_decks_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../inp/tests/decks/friction_block.inp");
+    std::fs::copy(&deck, folder.path().join("block.inp")).unwrap();
+    for verb in ["check", "info"] {
+        let (code, told) = asperity(folder.path(), &[verb, "block.inp"]);
+        assert_eq!(code, 0, "{told}");
+        assert!(told.contains("SOLE") && told.contains("block.inp:"), "{told}");
+    }
+    let (code, told) = asperity(folder.path(), &["run", "block.inp"]);
+    assert_eq!(code, 0, "{told}");
+    let kept = folder.path().join("block.results/block.toml");
+    assert!(std::fs::read_to_string(&kept).unwrap().starts_with("# Translated from block.inp"));
+    let (code, told) = asperity(folder.path(), &["check", "block.results/block.toml"]);
+    assert_eq!(code, 0, "the kept deck stands for itself: {told}");
+    let (code, told) = asperity(folder.path(), &["restart", "block.inp"]);
+    assert_eq!(code, 0, "{told}");
+
+    let (code, told) = asperity(folder.path(), &["translate", "block.inp"]);
+    assert!(code == 0 && told.contains("block.toml\nblock.mesh.inp\n"), "{told}");
+    assert_eq!(
+        asperity(folder.path(), &["translate", "block.inp", "--out", "block.toml"]).0,
+        0,
+        "a translation is replaced"
+    );
+    std::fs::write(folder.path().join("mine.toml"), "version = 1\n").unwrap();
+    let (code, told) = asperity(folder.path(), &["translate", "block.inp", "--out", "mine.toml"]);
+    assert!(code == 2 && told.contains("was not translated"), "{told}");
+}
+
+#[test]
+fn the_command_tells_all_that_is_wrong_in_an_input_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bad.inp"), "*NODE\n1, 0., x\n*TIE\n*BOUNDERY\n*STEP\n*STATIC\n*END STEP\n")
+        .unwrap();
+    let (code, told) = asperity(folder.path(), &["run", "bad.inp"]);
+    assert_eq!(code, 2);
+    for said in [
+        "bad.inp:2: a coordinate is 'x'",
+        "bad.inp:3: *TIE cannot be translated",
+        "bad.inp:4: there is no keyword *BOUNDERY",
+    ] {
+        assert!(told.contains(said), "{told}");
+    }
+    assert!(!folder.path().join("bad.results").exists());
 }

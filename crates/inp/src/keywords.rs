@@ -349,6 +349,7 @@ pub static KEYWORDS: &[Keyword] = &[
         ],
         "`contact`",
     ),
+    late("EQUATION", Reader::equation, &[used("INPUT")], "`equation`"),
     of_model("INITIAL CONDITIONS", Reader::initial_conditions, &[used("TYPE")], "temperature free of stress"),
     Keyword {
         name: "STEP",
@@ -488,7 +489,6 @@ pub static KEYWORDS: &[Keyword] = &[
     without_effect("MASS", "nothing moves by inertia in a static step"),
     without_effect("ROTARY INERTIA", "nothing moves by inertia in a static step"),
     no("TIE", CONSTRAINTS),
-    no("EQUATION", CONSTRAINTS),
     no("MPC", CONSTRAINTS),
     no("COUPLING", CONSTRAINTS),
     no("KINEMATIC", CONSTRAINTS),

@@ -253,6 +253,15 @@ pub enum RigidPart {
     Nodes(Vec<usize>, String),
 }
 
+/// A sum of displacements with factors that is zero.
+#[derive(Debug, Clone)]
+pub struct Equation {
+    /// Where it stands.
+    pub place: Place,
+    /// Node, axis and factor.
+    pub terms: Vec<(usize, usize, f64)>,
+}
+
 /// How a value is laid on: the course, or the ramp of the step.
 pub type Course = Option<usize>;
 
@@ -354,6 +363,8 @@ pub struct Model {
     pub pairs: Vec<Pair>,
     /// Rigid bodies.
     pub rigid: Vec<Rigid>,
+    /// Linear equations.
+    pub equations: Vec<Equation>,
     /// Temperatures at the beginning, by nodes.
     pub initial_temperature: BTreeMap<usize, f64>,
     /// What holds before the first step.

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod contacts;
+mod equations;
 mod materials;
 mod mesh;
 mod names;

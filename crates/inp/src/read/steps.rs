@@ -110,7 +110,7 @@ impl Reader {
     }
 
     /// A degree of freedom from 1 to 6, counted from zero.
-    fn axis(&mut self, line: &Line, at: usize) -> Option<usize> {
+    pub(super) fn axis(&mut self, line: &Line, at: usize) -> Option<usize> {
         let fields = line.fields();
         let field = fields.get(at).copied().unwrap_or("");
         match field.parse::<usize>() {

@@ -38,6 +38,9 @@ impl Writer<'_> {
         for (element, _) in model.elements.iter().zip(&self.section).filter(|(_, section)| section.is_some()) {
             element.nodes.iter().for_each(|&node| self.used[node] = true);
         }
+        for equation in &model.equations {
+            equation.terms.iter().for_each(|term| self.used[term.0] = true);
+        }
         let kept = || model.elements.iter().zip(self.section.clone()).filter(|(_, section)| section.is_some());
         let families: BTreeSet<Family> = kept().map(|(element, _)| element.kind.family).collect();
         match families.iter().copied().collect::<Vec<_>>().as_slice() {

@@ -75,14 +75,9 @@ impl Groups {
         base
     }
 
-    /// Nodes, elements and groups as an input deck; elements without a section are left out, and nodes of none.
-    pub fn mesh(&self, model: &Model, section: &[Option<usize>]) -> String {
+    /// Nodes, elements and groups as an input deck; elements without a section and nodes that are not used are left out.
+    pub fn mesh(&self, model: &Model, section: &[Option<usize>], used: &[bool]) -> String {
         let kept = |element: usize| section.get(element).copied().flatten().is_some();
-        let mut used = vec![false; model.nodes.len()];
-        for (at, element) in model.elements.iter().enumerate().filter(|(at, _)| kept(*at)) {
-            let _ = at;
-            element.nodes.iter().for_each(|&node| used[node] = true);
-        }
         let (nodes, elements) = (shifts(model, |scope| &scope.nodes), shifts(model, |scope| &scope.elements));
         let node = |at: usize| model.nodes[at].label + nodes[model.nodes[at].scope];
         let element = |at: usize| model.elements[at].label + elements[model.elements[at].scope];

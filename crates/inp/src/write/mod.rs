@@ -4,6 +4,7 @@ mod bodies;
 mod conditions;
 mod contacts;
 mod courses;
+mod equations;
 mod groups;
 mod loads;
 mod rubber;
@@ -33,7 +34,7 @@ struct Writer<'m> {
     family: Family,
     /// The section of each element, if it has one.
     section: Vec<Option<usize>>,
-    /// Whether each node belongs to an element with a section.
+    /// Whether each node belongs to an element with a section or stands in an equation.
     used: Vec<bool>,
     tools: Vec<Tool>,
     text: String,
@@ -56,9 +57,10 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
     writer.bodies();
     writer.tools();
     writer.contacts();
+    writer.equations();
     writer.steps();
     writer.named_sets();
-    let mesh = writer.groups.mesh(model, &writer.section);
+    let mesh = writer.groups.mesh(model, &writer.section, &writer.used);
     let title = if model.title.is_empty() { name } else { &model.title };
     let mut deck = format!("# Translated from {name}, read as a deck of {:?}.\n", model.dialect);
     let notes = writer.messages.notes();

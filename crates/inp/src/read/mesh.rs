@@ -10,6 +10,9 @@ use crate::source::{Block, Line};
 /// More members than this of all sets together are taken for sets that copy one another without end.
 const MOST_MEMBERS: usize = 100_000_000;
 
+/// The largest number of a node or element.
+const MOST_NUMBER: u64 = 1_000_000_000_000;
+
 impl Reader {
     /// `*NODE`.
     pub(crate) fn nodes(&mut self, block: &Block) {
@@ -46,11 +49,11 @@ impl Reader {
     fn whole(&mut self, line: &Line, at: usize, what: &str) -> Option<u64> {
         let fields = line.fields();
         let field = fields.get(at).copied().unwrap_or("");
-        let number = field.parse::<u64>().ok().filter(|&number| number > 0);
+        let number = field.parse::<u64>().ok().filter(|number| (1..=MOST_NUMBER).contains(number));
         if number.is_none() {
             self.error(
                 line.place,
-                format!("{what} is '{}', which is not a whole number above zero", super::shorten(field)),
+                format!("{what} is '{}', which is not a whole number from 1 to {MOST_NUMBER}", super::shorten(field)),
             );
         }
         number

@@ -10,7 +10,7 @@ mod rigid;
 mod steps;
 
 use crate::elements::Dialect;
-use crate::keywords::{self, KEYWORDS, Treated, Value, Where};
+use crate::keywords::{self, Treated, Value, Where};
 use crate::message::{Messages, Place, suggestion};
 use crate::model::{Model, Step};
 use crate::source::{Block, Line};
@@ -85,7 +85,7 @@ impl Reader {
     /// What is done with a block; its keyword and parameters are checked against their declarations.
     fn known(&mut self, block: &Block) -> Option<&'static Treated> {
         let Some(keyword) = keywords::named(&block.name) else {
-            let near = suggestion(&block.name, KEYWORDS.iter().map(|keyword| keyword.name));
+            let near = suggestion(&block.name, keywords::all().map(|keyword| keyword.name));
             self.error(block.place, format!("there is no keyword *{}{near}", block.name));
             return None;
         };

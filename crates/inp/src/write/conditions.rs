@@ -58,14 +58,14 @@ impl Writer<'_> {
     /// Says some components of a key under a name.
     fn say(&mut self, kind: &Kind, name: &str, components: &[usize], key: &str, table: &Table, said: &mut [Said]) {
         let at = |step: usize, component: usize| table[step].get(&(key.to_owned(), component));
-        for step in 0..table.len() {
+        for (step, said) in said.iter_mut().enumerate() {
             let before = |component: usize| step.checked_sub(1).and_then(|step| at(step, component));
             let held: Vec<(usize, &Item)> = components.iter().filter_map(|&c| Some((c, at(step, c)?))).collect();
             if held.is_empty()
                 && components.iter().any(|&component| before(component).is_some())
                 && kind.key != "motion"
             {
-                said[step].released.push(format!("{}.{name}", kind.key));
+                said.released.push(format!("{}.{name}", kind.key));
             }
             let new: Vec<(usize, &Item)> = held.into_iter().filter(|(c, item)| changes(item, before(*c))).collect();
             let Some((_, first)) = new.first() else { continue };
@@ -79,7 +79,7 @@ impl Writer<'_> {
                 parts.push(format!("amplitude = [{}]", pairs.join(", ")));
             }
             let from = self.from(first.place);
-            said[step].lines.push(format!("{}.{} = {{ {} }}{from}\n", kind.key, quoted(name), parts.join(", ")));
+            said.lines.push(format!("{}.{} = {{ {} }}{from}\n", kind.key, quoted(name), parts.join(", ")));
         }
     }
 }

@@ -111,7 +111,7 @@ impl Writer<'_> {
                 None
             }),
             SurfaceKind::Faces(faces) if faces.iter().any(|&(element, ..)| rigid(element)) => {
-                let found = faces.first().and_then(|&(element, _, negative)| self.tool_of_element(element, negative));
+                let found = faces.first().and_then(|&(element, ..)| self.tool_of_element(element));
                 found.map(Sided::Tool).or_else(|| {
                     self.error(
                         pair.place,

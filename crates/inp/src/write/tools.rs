@@ -60,7 +60,7 @@ impl Writer<'_> {
     }
 
     /// The tool of a rigid element.
-    pub(super) fn tool_of_element(&mut self, element: usize, _: bool) -> Option<String> {
+    pub(super) fn tool_of_element(&self, element: usize) -> Option<String> {
         let of = |tool: &&Tool| match &self.model.rigid[tool.rigid].what {
             RigidPart::Elements(elements) => elements.contains(&element),
             _ => false,

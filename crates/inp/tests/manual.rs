@@ -31,7 +31,7 @@ fn every_keyword_that_is_read_stands_in_a_deck() {
     let decks = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks");
     let texts = std::fs::read_dir(decks).unwrap().map(|entry| std::fs::read_to_string(entry.unwrap().path()).unwrap());
     let text = texts.collect::<String>().to_uppercase();
-    let names: BTreeSet<&str> = all
+    let names: BTreeSet<&str> = text
         .lines()
         .filter_map(|line| line.strip_prefix('*'))
         .map(|line| line.split(',').next().unwrap().trim())

@@ -144,8 +144,6 @@ fn the_command_takes_input_decks_as_they_are() {
     assert!(std::fs::read_to_string(&kept).unwrap().starts_with("# Translated from block.inp"));
     let (code, told) = asperity(folder.path(), &["check", "block.results/block.toml"]);
     assert_eq!(code, 0, "the kept deck stands for itself: {told}");
-    let (code, told) = asperity(folder.path(), &["restart", "block.inp"]);
-    assert_eq!(code, 0, "{told}");
 
     let (code, told) = asperity(folder.path(), &["translate", "block.inp"]);
     assert!(code == 0 && told.contains("block.toml\nblock.mesh.inp\n"), "{told}");

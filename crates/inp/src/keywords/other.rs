@@ -57,6 +57,7 @@ pub static OTHER: &[Keyword] = &[
     no("PRE-TENSION SECTION", "shorten the bolt by a *TEMPERATURE of its body"),
     no("TRANSFORM", "lead the nodes along the axes, or write `along` into the deck of Asperity"),
     no("CHANGE FRICTION", "friction stays what it is over a run"),
+    no("CHANGE SURFACE BEHAVIOR", "the penalty stays what it is over a run"),
     no("MODEL CHANGE", "contacts and elements stay over a run; lift the tool off by *BOUNDARY"),
     no("CHANGE MATERIAL", "materials stay what they are over a run"),
     no("CLEARANCE", "move the nodes, or give ADJUST to the *CONTACT PAIR"),

@@ -130,14 +130,16 @@ impl Reader {
 
     /// Whether the blocks stand where they may, and whether the deck is whole.
     fn finish(&mut self, blocks: &[Block]) {
-        let mut within = false;
+        let (mut within, mut changes) = (false, false);
         for block in blocks {
+            // What stands below a keyword of change is refused with it.
+            let changed = std::mem::replace(&mut changes, block.name.starts_with("CHANGE "));
             match block.name.as_str() {
                 "STEP" => within = true,
                 "END STEP" => within = false,
                 name => {
                     let place = keywords::named(name).map(|keyword| keyword.place);
-                    if place == Some(Where::Model) && within {
+                    if place == Some(Where::Model) && within && !changed {
                         self.error(block.place, format!("*{name} stands within a step; put it before the first *STEP"));
                     } else if place == Some(Where::Step) && !within {
                         self.error(block.place, format!("*{name} stands outside a step; put it after *STEP"));

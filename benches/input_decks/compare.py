@@ -12,7 +12,7 @@ import numpy as np
 
 
 def calculix(deck, folder):
-    """Displacements by node of the last table of the .dat file, and the number of its increments; None if it failed."""
+    """Displacements by node of the last table of the .dat file; None if it failed."""
     name = deck.stem
     (folder / f"{name}.inp").write_text(deck.read_text())
     environment = dict(os.environ, OMP_NUM_THREADS="1")
@@ -21,12 +21,14 @@ def calculix(deck, folder):
     tables = re.split(r"displacements \(vx,vy,vz\)[^\n]*\n", (folder / f"{name}.dat").read_text())
     if "*ERROR" in run.stdout or len(tables) < 2:
         return None
-    rows = [line.split() for line in tables[-1].splitlines() if line.strip()]
+    # The table ends where the next one begins.
+    table = re.split(r"\n\s*[a-zA-Z]", tables[-1])[0]
+    rows = [line.split() for line in table.splitlines() if line.strip()]
     return {int(row[0]): np.array(row[1:4], dtype=float) for row in rows if len(row) == 4 and row[0].isdigit()}
 
 
 def ours(deck, folder, program):
-    """Displacements by node at the end of our run, and what ended it."""
+    """Displacements by node at the end of our run; None if it failed."""
     run = subprocess.run([program, "translate", deck.resolve()], cwd=folder, capture_output=True, text=True)
     if run.returncode == 0:
         run = subprocess.run([program, "run", f"{deck.stem}.toml", "--out", "ours"], cwd=folder, capture_output=True, text=True)

@@ -28,6 +28,12 @@ impl Writer<'_> {
                 }
             };
             self.note(pair.place, what);
+            if pair.adjust {
+                self.note(
+                    pair.place,
+                    "ADJUST moves the nodes that lie inside the other surface out of it; gaps stay as wide as they are",
+                );
+            }
         }
         for (number, pair) in model.pairs.iter().enumerate() {
             self.contact(number + 1, pair);

@@ -98,7 +98,12 @@ impl Cutter<'_> {
             let what = format!("'{}' includes itself; take the *INCLUDE out of the circle", path.display());
             return self.messages.error(here, what);
         }
-        let bytes = match std::fs::read(path) {
+        // Pipes and devices may never end.
+        let read = || match path.metadata()?.is_file() {
+            true => std::fs::read(path),
+            false => Err(std::io::Error::other("it is no regular file")),
+        };
+        let bytes = match read() {
             Ok(bytes) => bytes,
             Err(error) => {
                 let at =

@@ -156,6 +156,7 @@ fn files_that_are_no_decks_are_told() {
     assert!(errors(folder.path(), "\u{0}\u{1}*\n*,\n,,,\n*NODE\n")[0].contains("deck.inp:1"));
     assert!(errors(folder.path(), "*INCLUDE, INPUT=deck.inp\n")[0].contains("includes itself"));
     assert!(errors(folder.path(), "*INCLUDE, INPUT=gone.inc\n")[0].contains("cannot be read"));
+    assert!(errors(folder.path(), "*INCLUDE, INPUT=.\n")[0].contains("no regular file"));
     let errors = inp::translate(&folder.path().join("gone.inp"), "mesh.inp").unwrap_err();
     assert!(errors[0].contains("gone.inp") && errors[0].contains("cannot be read"));
 }

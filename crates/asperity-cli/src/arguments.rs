@@ -32,6 +32,8 @@ pub enum Command {
     Check(Check),
     /// Say what a mesh file holds, and what is wrong with it.
     Info(Info),
+    /// Translate an input deck of Abaqus or CalculiX into a deck to read and to change.
+    Translate(Translate),
     /// Drive laws of solids along a path of strains and stresses, or those of interfaces along a path of slip.
     Point(Point),
     /// List every law with its parameters.
@@ -48,7 +50,7 @@ pub enum Command {
 /// A deck and what is changed in it.
 #[derive(Debug, Args)]
 pub struct Deck {
-    /// The deck, a TOML file.
+    /// The deck, a TOML file; or an input deck of Abaqus or CalculiX (.inp), which is translated first.
     #[arg(value_name = "DECK")]
     pub path: PathBuf,
     /// Change one value of the deck: --set step.push.duration=2. May be given many times.
@@ -98,9 +100,20 @@ pub struct Check {
 /// Arguments of `info`.
 #[derive(Debug, Args)]
 pub struct Info {
-    /// A mesh file.
+    /// A mesh file, or an input deck.
     #[arg(value_name = "MESH")]
     pub mesh: PathBuf,
+}
+
+/// Arguments of `translate`.
+#[derive(Debug, Args)]
+pub struct Translate {
+    /// The input deck.
+    #[arg(value_name = "INPUT.inp")]
+    pub input: PathBuf,
+    /// The deck to write, its mesh beside it; by default NAME.toml and NAME.mesh.inp here for an input deck NAME.inp.
+    #[arg(long, value_name = "DECK.toml")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `point`.
@@ -138,6 +151,9 @@ pub struct Schema {
     /// Print the manual's page of all keys, in Markdown.
     #[arg(long)]
     pub manual: bool,
+    /// Print the manual's page of the keywords of input decks.
+    #[arg(long, conflicts_with_all = ["manual", "point", "interface"])]
+    pub keywords: bool,
     /// Of the decks of `point` for solids instead.
     #[arg(long, conflicts_with = "interface")]
     pub point: bool,

@@ -32,6 +32,7 @@ fn obey(line: Line, interrupts: &Interrupts) -> Outcome {
         Command::Figure(figure) => verbs::figure(&figure),
         Command::Check(check) => verbs::check(&check),
         Command::Info(info) => verbs::info(&info),
+        Command::Translate(translate) => verbs::translate(&translate),
         Command::Schema(schema) => verbs::schema(&schema),
         Command::Point(point) => verbs::point(&point),
         Command::Laws => verbs::laws(),

@@ -1,13 +1,13 @@
 //! `asperity check`: everything that can be said before solving.
 
-use super::{Outcome, print};
+use super::{Outcome, loaded, print};
 use crate::arguments::Check;
 use crate::exit::{Exit, tell};
 use asperity::deck::{self, Diagnostics};
 
 /// Makes the model, prints what it is and what wants attention. Exit code 5 when something does.
 pub fn check(arguments: &Check) -> Outcome {
-    let made = deck::build(deck::load(&arguments.deck.path, &arguments.deck.sets)?)?;
+    let made = deck::build(loaded(&arguments.deck)?.0)?;
     let review = deck::review(&made)?;
     print(&review.text)?;
     let exit = if review.problems.is_empty() { Exit::Done } else { Exit::Problems };

@@ -1,16 +1,23 @@
 //! `asperity info`: what a mesh file holds, and what is wrong with it.
 
-use super::{Outcome, print};
+use super::{Outcome, print, translate};
 use crate::arguments::Info;
-use crate::exit::Exit;
+use crate::exit::{Exit, tell};
 use asperity::mesh::lint::{self, Severity};
 use asperity::mesh::{Mesh, formats};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Prints counts, extents, groups and findings.
+/// Prints counts, extents, groups and findings. Of an input deck with parts or steps those of the mesh that they make.
 pub fn info(arguments: &Info) -> Outcome {
-    let (mut mesh, notes) = formats::read(&arguments.mesh)?;
+    let (mut mesh, notes) = match translate::has_model(&arguments.mesh) {
+        true => {
+            let translated = translate::translated(&arguments.mesh, &arguments.mesh)?;
+            tell(&translated.notes());
+            (translated.load(&[])?.mesh, vec![])
+        }
+        false => formats::read(&arguments.mesh)?,
+    };
     let findings: Vec<_> = mesh.orient().into_iter().chain(lint::check(&mesh)).collect();
     let mut text = format!("{}\n{}\n{}", arguments.mesh.display(), size(&mesh), groups(&mesh));
     for note in &notes {

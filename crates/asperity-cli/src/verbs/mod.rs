@@ -9,6 +9,7 @@ mod penalty;
 mod point;
 mod run;
 mod schema;
+mod translate;
 
 pub use check::check;
 pub use completions::completions;
@@ -19,14 +20,16 @@ pub use penalty::penalty;
 pub use point::point;
 pub use run::{restart, run};
 pub use schema::schema;
+pub use translate::translate;
 
 use crate::arguments;
 use crate::exit::{Exit, Trouble, tell};
-use asperity::deck::{self, Made};
+use asperity::deck::{self, Loaded, Made};
 use asperity::error::visible;
 use asperity::output::{Claim, Others};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use translate::Translated;
 
 /// How a verb ends.
 pub type Outcome = Result<Exit, Trouble>;
@@ -41,12 +44,23 @@ fn print(text: &str) -> Outcome {
     }
 }
 
+/// Reads a deck; an input deck is translated first, and what that changed is told.
+fn loaded(arguments: &arguments::Deck) -> Result<(Loaded, Option<Translated>), Trouble> {
+    if !translate::is_input(&arguments.path) {
+        return Ok((deck::load(&arguments.path, &arguments.sets)?, None));
+    }
+    let translated = translate::translated(&arguments.path, &arguments.path)?;
+    tell(&translated.notes());
+    Ok((translated.load(&arguments.sets)?, Some(translated)))
+}
+
 /// Reads a deck and makes its model; warnings are told, notes are for `check`.
-fn made(arguments: &arguments::Deck) -> Result<Made, Trouble> {
-    let mut made = deck::build(deck::load(&arguments.path, &arguments.sets)?)?;
+fn made(arguments: &arguments::Deck) -> Result<(Made, Option<Translated>), Trouble> {
+    let (loaded, translated) = loaded(arguments)?;
+    let mut made = deck::build(loaded)?;
     made.diagnostics.list = deck::warnings(&made);
     tell(&made.diagnostics);
-    Ok(made)
+    Ok((made, translated))
 }
 
 /// The result directory of a deck, which is claimed for it.

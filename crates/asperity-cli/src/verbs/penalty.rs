@@ -20,8 +20,11 @@ pub fn penalty(command: &PenaltyCommand, interrupts: &Interrupts) -> Outcome {
 
 /// Runs the deck with its penalties and with softer ones, and prints the forces of a rigid interface with their errors.
 fn study(arguments: &Study, interrupts: &Interrupts) -> Outcome {
-    let stiff = made(&arguments.deck)?;
-    let loaded = deck::load(&arguments.deck.path, &arguments.deck.sets)?;
+    let (stiff, translated) = made(&arguments.deck)?;
+    let loaded = match translated {
+        Some(translated) => translated.load(&arguments.deck.sets)?,
+        None => deck::load(&arguments.deck.path, &arguments.deck.sets)?,
+    };
     let soft = deck::build(loaded.softened(&stiff.model, arguments.ratio)?)?;
     let stop = interrupts.heed();
     print(&format!("with penalties divided by {}:\n", arguments.ratio))?;

@@ -1,6 +1,6 @@
 //! `asperity run` and `asperity restart`: solve a deck and write its results.
 
-use super::{Outcome, claim, made, print, results_of};
+use super::{Outcome, claim, made, print, results_of, translate};
 use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, farewell};
@@ -46,9 +46,12 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
         let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
         Job::checkpoint_in(&directory)?;
     }
-    let made = made(&arguments.deck)?;
+    let (made, translated) = made(&arguments.deck)?;
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
+    if let Some(translated) = translated {
+        translated.write(&directory.join(format!("{}.toml", translate::stem(&arguments.deck.path))))?;
+    }
     let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
     let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes };
     let mut screen = Screen::new(&made.model.problem, interrupts.heed());

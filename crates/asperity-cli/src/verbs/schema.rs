@@ -8,6 +8,9 @@ use asperity::deck::schema::{
 
 /// Prints the JSON Schema, or the manual's page.
 pub fn schema(arguments: &Schema) -> Outcome {
+    if arguments.keywords {
+        return print(&inp::manual());
+    }
     let (page, schema): (fn() -> String, fn() -> _) = match (arguments.point, arguments.interface) {
         (true, _) => (point_manual, point_json_schema),
         (_, true) => (interface_manual, interface_json_schema),

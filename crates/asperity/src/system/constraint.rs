@@ -19,7 +19,12 @@ pub enum Row {
 pub struct Constraints {
     rows: Vec<Row>,
     free: Vec<usize>,
+    /// Unknowns that follow others by equations, with what they follow, prescribed ones included.
+    tied: Vec<Tied>,
 }
+
+/// An unknown and those that it follows, each with its coefficient.
+pub type Tied = (usize, Vec<(usize, f64)>);
 
 impl Constraints {
     /// From what is prescribed: `fixed` unknowns, and combinations `(unknown, [(other unknown, coefficient)])`. A
@@ -44,7 +49,20 @@ impl Constraints {
             let terms = terms.iter().filter_map(|(other, c)| Some((number(other)?, *c))).collect();
             rows[*dof] = Row::Combined(terms);
         }
-        Self { rows, free }
+        Self { rows, free, tied: Vec::new() }
+    }
+
+    /// The same, some of whose combinations are equations: what holds their unknowns is borne by those that they follow.
+    pub fn tied(self, tied: Vec<Tied>) -> Self {
+        Self { tied, ..self }
+    }
+
+    /// Moves forces on unknowns that follow others by equations to those that they follow.
+    pub fn carry(&self, forces: &mut [f64]) {
+        for (dof, others) in &self.tied {
+            let force = std::mem::take(&mut forces[*dof]);
+            others.iter().for_each(|&(other, c)| forces[other] += c * force);
+        }
     }
 
     /// Number of all unknowns.

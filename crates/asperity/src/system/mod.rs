@@ -24,7 +24,7 @@ mod whole;
 
 pub use assembly::{Assembly, Evaluation, Tangent, Trial, Workspace};
 pub use check::{TangentCheck, check_tangent};
-pub use constraint::{Constraints, Row};
+pub use constraint::{Constraints, Row, Tied};
 pub use dofs::{Dofs, Unknown};
 pub use kernel::kernel;
 pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};

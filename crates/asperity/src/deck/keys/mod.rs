@@ -3,6 +3,7 @@
 
 mod condition;
 mod contact;
+mod equation;
 mod initial_stress;
 mod limits;
 mod mesh;
@@ -20,6 +21,7 @@ pub use condition::{
     ToolCondition, ToolLoad, Traction,
 };
 pub use contact::{Contact, OverlapWord, Passes, Roles, WearKeys};
+pub use equation::{Equation, EquationTerm};
 pub use initial_stress::InitialStressKeys;
 pub use limits::LimitKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
@@ -33,7 +35,7 @@ pub use tool::{Segment, ToolKeys};
 pub use update::{ObjectiveRate, UpdateKeys, integrated};
 
 use super::diagnose::Diagnostic;
-use super::form::{Form, Law, Words, defines, law, map, number, refers, table, table_of, text, whole, word};
+use super::form::{Form, Law, Words, defines, law, list, map, number, refers, table, table_of, text, whole, word};
 use super::reader::{Name, Reader};
 use super::schema::Names;
 use super::source::Spot;
@@ -68,6 +70,8 @@ table! {
         tool: Vec<(Name, ToolKeys)> = map(defines(Names::Tool), table_of()).or("{}"),
         /// Surfaces and what they may touch.
         contact: Vec<(Name, Contact)> = map(defines(Names::Contact), table_of()).or("{}"),
+        /// Linear equations between displacements, in all steps.
+        equation: Vec<Equation> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// What is done, in order.
         step: Vec<Step> = step::steps().required(),
         /// How the equations are solved.

@@ -3,11 +3,12 @@
 
 use super::Builder;
 use super::claim::{Claim, What};
+use super::equations::{Equation, Relation, Relations};
 use super::flat::ROUNDING;
 use crate::deck::diagnose::Diagnostic;
 use crate::solve::{Course, Prescribed};
 use crate::system::Constraints;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Claims sorted by the unknown that each takes.
 #[derive(Default)]
@@ -29,11 +30,14 @@ struct Combination {
 }
 
 impl Builder<'_> {
-    /// Constraints and prescribed values from all claims of a step.
-    pub(super) fn constrain(&mut self, claims: &[&Claim]) -> (Constraints, Vec<Prescribed>) {
+    /// Constraints and prescribed values from all claims of a step and the equations.
+    pub(super) fn constrain(&mut self, claims: &[&Claim], equations: &[Equation]) -> (Constraints, Vec<Prescribed>) {
         let mut sorted = Sorted::default();
+        // A node of no cell is held, but not where an equation says what it does.
+        let related: BTreeSet<usize> = equations.iter().flat_map(|e| e.terms.iter().map(|term| term.0)).collect();
+        let held = |claim: &Claim, dof: &usize| !(claim.is_weak() && related.contains(dof));
         for claim in claims {
-            if let Some(dof) = claim.single() {
+            if let Some(dof) = claim.single().filter(|dof| held(claim, dof)) {
                 sorted.fix(dof, claim);
             }
         }
@@ -45,7 +49,13 @@ impl Builder<'_> {
         for (dof, one, other) in &sorted.quarrels {
             self.quarrel(*dof, one, other);
         }
-        sorted.constraints(self.site.dofs.count())
+        let fixed: BTreeMap<usize, bool> =
+            sorted.fixed.iter().map(|(&dof, claim)| (dof, claim.course != Course::Hold)).collect();
+        let relations = Relations::of(sorted.relations(), &fixed, equations);
+        for (equation, why) in &relations.refused {
+            self.refuse(format!("`equation` cannot hold: {why}"), equations[*equation].place);
+        }
+        sorted.constraints(self.site.dofs.count(), &relations)
     }
 
     /// Reports two claims that do not agree; the same two once, at however many nodes.
@@ -103,13 +113,24 @@ impl<'c> Sorted<'c> {
         }
     }
 
-    fn constraints(&self, count: usize) -> (Constraints, Vec<Prescribed>) {
-        let rows: Vec<_> = self.combined.iter().map(|(&dof, (c, _))| (dof, c.others())).collect();
+    /// The directions as relations between unknowns.
+    fn relations(&self) -> BTreeMap<usize, Relation> {
+        let relation = |(&dof, (c, _)): (&usize, &(Combination, &Claim))| {
+            (dof, Relation { others: c.others(), course: c.course.scaled(c.scale()), equation: false })
+        };
+        self.combined.iter().map(relation).collect()
+    }
+
+    fn constraints(&self, count: usize, relations: &Relations) -> (Constraints, Vec<Prescribed>) {
+        let list = &relations.list;
+        let rows: Vec<_> = list.iter().map(|(&dof, relation)| (dof, relation.others.clone())).collect();
         let simple = self.fixed.iter().map(|(&dof, claim)| (dof, vec![], claim.course.clone()));
-        let inclined = self.combined.iter().map(|(&dof, (c, _))| (dof, c.others(), c.course.scaled(c.scale())));
-        let prescribed = simple.chain(inclined).map(|(dof, others, course)| Prescribed { dof, others, course });
+        let related = list.iter().map(|(&dof, relation)| (dof, relation.others.clone(), relation.course.clone()));
+        let prescribed = simple.chain(related).map(|(dof, others, course)| Prescribed { dof, others, course });
         let fixed: Vec<usize> = self.fixed.keys().copied().collect();
-        (Constraints::new(count, &fixed, &rows), prescribed.collect())
+        let tied = list.iter().filter(|(_, relation)| relation.equation);
+        let tied = tied.map(|(&dof, relation)| (dof, relation.others.clone())).collect();
+        (Constraints::new(count, &fixed, &rows).tied(tied), prescribed.collect())
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod claim;
 mod combine;
+mod equations;
 mod flat;
 
 use super::Builder;
@@ -29,13 +30,14 @@ impl Builder<'_> {
     pub(super) fn supports(&mut self) -> (Vec<Held>, Vec<Nodes>) {
         let mut claims = self.standing();
         let (deck, mut known) = (self.deck, Known::new(self.site.dofs.count()));
+        let equations = self.equations();
         let steps = deck.step.iter().map(|step| {
             self.release(step, &mut claims);
             hold(&mut claims);
             self.claim(step, &mut claims);
             claims.values_mut().flatten().for_each(|claim| known.settle(claim));
             known.pass(claims.values().flatten());
-            let held = self.constrain(&claims.values().flatten().collect::<Vec<_>>());
+            let held = self.constrain(&claims.values().flatten().collect::<Vec<_>>(), &equations);
             self.look_for_idle_forces(step, &held.0);
             held
         });

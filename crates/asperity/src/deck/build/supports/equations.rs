@@ -1,0 +1,156 @@
+//! Linear equations between unknowns, solved for one unknown each, so that what follows depends on free and prescribed
+//! unknowns only.
+
+use super::Builder;
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::source::Place;
+use crate::solve::Course;
+use std::collections::BTreeMap;
+
+/// A factor below this part of the largest of its equation is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A sum of unknowns with factors that is zero.
+pub struct Equation {
+    /// Unknowns and factors.
+    pub terms: Vec<(usize, f64)>,
+    /// Where the deck says it.
+    pub place: Place,
+}
+
+/// What an unknown follows: a combination of others, plus a course.
+#[derive(Debug, Clone)]
+pub struct Relation {
+    /// Other unknowns with their coefficients.
+    pub others: Vec<(usize, f64)>,
+    /// What is added.
+    pub course: Course,
+    /// Whether it comes of an equation.
+    pub equation: bool,
+}
+
+/// Relations by the unknown that follows, none of which is followed by another.
+pub struct Relations {
+    /// The relations.
+    pub list: BTreeMap<usize, Relation>,
+    /// Equations that cannot hold, and why.
+    pub refused: Vec<(usize, String)>,
+}
+
+impl Relations {
+    /// Solves each equation for its first unknown that is free and has a factor to speak of. `fixed` are the prescribed
+    /// unknowns, and whether they move. An equation that follows from others is left out.
+    pub fn of(given: BTreeMap<usize, Relation>, fixed: &BTreeMap<usize, bool>, equations: &[Equation]) -> Self {
+        let mut relations = Self { list: given, refused: vec![] };
+        for (number, equation) in equations.iter().enumerate() {
+            if let Err(why) = relations.add(equation, fixed) {
+                relations.refused.push((number, why));
+            }
+        }
+        relations
+    }
+
+    fn add(&mut self, equation: &Equation, fixed: &BTreeMap<usize, bool>) -> Result<(), String> {
+        let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+        for &(dof, factor) in &equation.terms {
+            match self.list.get(&dof) {
+                None => *sum.entry(dof).or_default() += factor,
+                Some(relation) if relation.course == Course::Hold => {
+                    relation.others.iter().for_each(|&(other, c)| *sum.entry(other).or_default() += factor * c);
+                }
+                Some(_) => return Err("a support leads one of its nodes along a direction".into()),
+            }
+        }
+        let largest = equation.terms.iter().fold(0.0_f64, |largest, term| largest.max(term.1.abs()));
+        sum.retain(|_, factor| factor.abs() > ROUNDING * largest);
+        let free = |dof: &usize| sum.contains_key(dof) && !fixed.contains_key(dof);
+        let most = sum.iter().filter(|(dof, _)| free(dof)).fold(0.0_f64, |most, (_, c)| most.max(c.abs()));
+        let order = equation.terms.iter().map(|term| term.0).chain(sum.keys().copied());
+        let Some(pivot) = order.into_iter().find(|dof| free(dof) && sum[dof].abs() >= 0.1 * most) else {
+            return match sum.keys().any(|dof| fixed.get(dof) == Some(&true)) {
+                true => Err("all its nodes are held or led, not all alike".into()),
+                false => Ok(()),
+            };
+        };
+        let scale = -1.0 / sum[&pivot];
+        let others: Vec<(usize, f64)> =
+            sum.iter().filter(|(dof, _)| **dof != pivot).map(|(&dof, factor)| (dof, factor * scale)).collect();
+        for relation in self.list.values_mut() {
+            relation.replace(pivot, &others);
+        }
+        self.list.insert(pivot, Relation { others, course: Course::Hold, equation: true });
+        Ok(())
+    }
+}
+
+impl Relation {
+    /// Puts what an unknown follows in its place.
+    fn replace(&mut self, dof: usize, by: &[(usize, f64)]) {
+        let Some(at) = self.others.iter().position(|other| other.0 == dof) else { return };
+        let (_, factor) = self.others.swap_remove(at);
+        let mut sum: BTreeMap<usize, f64> = self.others.drain(..).collect();
+        by.iter().for_each(|&(other, c)| *sum.entry(other).or_default() += factor * c);
+        self.others = sum.into_iter().filter(|(_, c)| *c != 0.0).collect();
+    }
+}
+
+impl Builder<'_> {
+    /// The equations of the deck: one for each node of the group of its first term.
+    pub(super) fn equations(&mut self) -> Vec<Equation> {
+        let (deck, mut equations) = (self.deck, Vec::new());
+        for said in &deck.equation {
+            let foreign = said.terms.iter().find(|term| term.axis.value.0 >= self.site.space.dimension());
+            if let Some(term) = foreign {
+                self.refuse("an equation has a term along z, but the model is plane", term.axis.place);
+                continue;
+            }
+            let many = said.terms.iter().skip(1).find(|term| self.nodes(&term.group.text).len() != 1);
+            if let Some(term) = many {
+                let count = self.nodes(&term.group.text).len();
+                let what =
+                    format!("`{}` holds {count} nodes; a term of an equation after the first is of one", term.group);
+                let help = "choose one by [group.NAME], or put this term first";
+                self.found.push(Diagnostic::error(what).at(term.group.place).help(help));
+                continue;
+            }
+            let unknown = |node: usize, axis: usize| self.site.dofs.node(node) + axis;
+            let [first, rest @ ..] = said.terms.as_slice() else { continue };
+            for &node in self.nodes(&first.group.text) {
+                let rest =
+                    rest.iter().map(|term| (unknown(self.nodes(&term.group.text)[0], term.axis.value.0), term.factor));
+                let terms = std::iter::once((unknown(node, first.axis.value.0), first.factor)).chain(rest).collect();
+                equations.push(Equation { terms, place: said.place });
+            }
+        }
+        equations
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn equation(terms: &[(usize, f64)]) -> Equation {
+        Equation { terms: terms.to_vec(), place: Place::default() }
+    }
+
+    #[test]
+    fn chains_are_followed_to_what_is_free_or_prescribed() {
+        let equations =
+            [equation(&[(0, 1.0), (1, -1.0)]), equation(&[(1, 2.0), (2, -1.0)]), equation(&[(0, 2.0), (2, -1.0)])];
+        let relations = Relations::of(BTreeMap::new(), &BTreeMap::from([(2, true)]), &equations);
+        assert!(relations.refused.is_empty());
+        assert_eq!(relations.list[&0].others, [(2, 0.5)]);
+        assert_eq!(relations.list[&1].others, [(2, 0.5)]);
+        assert_eq!(relations.list.len(), 2, "the third follows from the others");
+    }
+
+    #[test]
+    fn what_is_led_all_over_cannot_follow() {
+        let fixed = BTreeMap::from([(0, true), (1, false)]);
+        let refused = Relations::of(BTreeMap::new(), &fixed, &[equation(&[(0, 1.0), (1, -1.0)])]).refused;
+        assert!(refused[0].1.contains("held or led"));
+        let held = BTreeMap::from([(0, false), (1, false)]);
+        assert!(Relations::of(BTreeMap::new(), &held, &[equation(&[(0, 1.0), (1, -1.0)])]).refused.is_empty());
+    }
+}

@@ -1,0 +1,103 @@
+//! What happens where surfaces touch, and which may.
+
+use super::Reader;
+use crate::elements::Dialect;
+use crate::message::{Place, suggestion};
+use crate::model::{Interaction, Pair};
+use crate::source::Block;
+
+impl Reader {
+    /// `*SURFACE INTERACTION`.
+    pub(crate) fn surface_interaction(&mut self, block: &Block) {
+        let Some(name) = self.required(block, "NAME") else { return };
+        self.model.interactions.push(Interaction { name: name.to_string(), ..Interaction::default() });
+        self.interaction = Some(self.model.interactions.len() - 1);
+    }
+
+    fn of_interaction(&mut self, place: Place, name: &str, change: impl FnOnce(&mut Interaction)) {
+        match self.interaction.and_then(|at| self.model.interactions.get_mut(at)) {
+            Some(interaction) => change(interaction),
+            None => {
+                self.error(place, format!("*{name} belongs to no interaction; put it below a *SURFACE INTERACTION"))
+            }
+        }
+    }
+
+    /// `*SURFACE BEHAVIOR`.
+    pub(crate) fn surface_behavior(&mut self, block: &Block) {
+        let linear = block.word("PRESSURE-OVERCLOSURE").as_deref() == Some("LINEAR")
+            || block.word("PENALTY").is_some_and(|kind| kind == "LINEAR") && !block.lines.is_empty();
+        if !linear {
+            return;
+        }
+        let Some(line) = self.first_line(block, "the slope of pressure over penetration") else { return };
+        let Some(slope) = self.positive(line, 0, "the slope of pressure over penetration") else { return };
+        let Some(tension) = self.real_or(line, 1, "the tension far away", 0.0) else { return };
+        if tension != 0.0 {
+            let what = format!("surfaces that are apart pull each other by nothing here, in place of up to {tension}");
+            self.note(line.place, what);
+        }
+        self.of_interaction(block.place, "SURFACE BEHAVIOR", |interaction| interaction.slope = Some(slope));
+    }
+
+    /// `*FRICTION`.
+    pub(crate) fn friction(&mut self, block: &Block) {
+        if block.has("ROUGH") {
+            return self.of_interaction(block.place, "FRICTION", |interaction| interaction.rough = true);
+        }
+        let Some(line) = self.first_line(block, "the coefficient of friction") else { return };
+        let Some(friction) = self.real(line, 0, "the coefficient of friction") else { return };
+        if friction < 0.0 {
+            return self
+                .error(line.place, format!("the coefficient of friction is {friction}; it must not be negative"));
+        }
+        if let Some(other) = block.lines.get(1) {
+            return self.error(
+                other.place,
+                "friction that changes with pressure, slip or temperature cannot be translated; give one row",
+            );
+        }
+        let mut changed = Interaction { friction: Some(friction), ..Interaction::default() };
+        if block.has("EXPONENTIAL DECAY") {
+            let Some(kinetic) = self.real(line, 1, "the kinetic coefficient") else { return };
+            let Some(decay) = self.real_or(line, 2, "the decay", 0.0) else { return };
+            changed.decay = Some([kinetic, decay]).filter(|_| decay > 0.0);
+            changed.friction = Some(if decay > 0.0 { friction } else { kinetic });
+        } else {
+            let Some(slope) = self.real_or(line, 1, "the slope of stick", 0.0) else { return };
+            changed.stick_slope = Some(slope).filter(|&slope| slope > 0.0);
+        }
+        if let Some(limit) = block.value("TAUMAX") {
+            let Some(limit) = self.number(block.place, limit, "TAUMAX") else { return };
+            changed.shear_limit = Some(limit).filter(|&limit| limit > 0.0);
+        }
+        self.of_interaction(block.place, "FRICTION", |interaction| {
+            *interaction = Interaction { name: interaction.name.clone(), slope: interaction.slope, ..changed };
+        });
+    }
+
+    /// `*CONTACT PAIR`.
+    pub(crate) fn contact_pair(&mut self, block: &Block) {
+        let Some(name) = self.required(block, "INTERACTION") else { return };
+        let found = self.model.interactions.iter().position(|one| one.name.eq_ignore_ascii_case(name));
+        let Some(interaction) = found else {
+            let near = suggestion(name, self.model.interactions.iter().map(|one| one.name.as_str()));
+            return self.error(block.place, format!("there is no surface interaction '{name}'{near}"));
+        };
+        if self.first_line(block, "the two surfaces").is_none() {
+            return;
+        }
+        for line in &block.lines {
+            let fields = line.fields();
+            let first = fields.first().copied().unwrap_or("");
+            let second = fields.get(1).copied().filter(|field| !field.is_empty()).unwrap_or(first);
+            let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
+            if let (Some(slave), Some(master)) = (slave, master) {
+                let adjust = block.has("ADJUST");
+                let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
+                let field = mortar || self.model.dialect == Dialect::Abaqus;
+                self.model.pairs.push(Pair { place: line.place, slave, master, interaction, adjust, field });
+            }
+        }
+    }
+}

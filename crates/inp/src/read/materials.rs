@@ -1,0 +1,206 @@
+//! Materials, sections and amplitudes.
+
+use super::Reader;
+use super::names::Of;
+use crate::message::{Place, suggestion};
+use crate::model::{Amplitude, Form, Material, Rubber, Section};
+use crate::source::{Block, Line};
+
+impl Reader {
+    /// `*MATERIAL`.
+    pub(crate) fn material(&mut self, block: &Block) {
+        let Some(name) = self.required(block, "NAME") else { return };
+        if self.model.materials.iter().any(|material| material.name.eq_ignore_ascii_case(name)) {
+            self.error(block.place, format!("material '{name}' is there twice; give each its own name"));
+        }
+        self.model.materials.push(Material { name: name.to_string(), place: block.place, ..Material::default() });
+        self.material = Some(self.model.materials.len() - 1);
+    }
+
+    /// Changes the material that a block belongs to.
+    fn of_material(&mut self, place: Place, name: &str, change: impl FnOnce(&mut Material)) {
+        match self.material.and_then(|at| self.model.materials.get_mut(at)) {
+            Some(material) => change(material),
+            None => self.error(place, format!("*{name} belongs to no material; put it below a *MATERIAL")),
+        }
+    }
+
+    /// Rows of a table of constants: `count` constants and a temperature; rows that differ are refused.
+    fn constants(&mut self, block: &Block, names: &[&str]) -> Option<Vec<f64>> {
+        let first = self.first_line(block, &names.join(", "))?;
+        let row = |reader: &mut Self, line: &Line| -> Option<Vec<f64>> {
+            names.iter().enumerate().map(|(at, name)| reader.real(line, at, name)).collect()
+        };
+        let constants = row(self, first)?;
+        for line in &block.lines[1..] {
+            if row(self, line)? != constants {
+                self.error(line.place, format!("*{} changes with temperature; give one row of constants", block.name));
+                return None;
+            }
+        }
+        Some(constants)
+    }
+
+    /// `*ELASTIC`.
+    pub(crate) fn elastic(&mut self, block: &Block) {
+        let Some(constants) = self.constants(block, &["Young's modulus", "Poisson's ratio"]) else { return };
+        let [young, poisson] = [constants[0], constants[1]];
+        if young <= 0.0 || poisson <= -1.0 || poisson >= 0.5 {
+            let what = format!(
+                "a modulus of {young} with Poisson's ratio {poisson} is no elastic solid; the modulus is positive, the ratio between -1 and 0.5"
+            );
+            return self.error(block.place, what);
+        }
+        self.of_material(block.place, "ELASTIC", |material| material.elastic = Some([young, poisson]));
+    }
+
+    /// `*PLASTIC`.
+    pub(crate) fn plastic(&mut self, block: &Block) {
+        if self.first_line(block, "yield stress and plastic strain").is_none() {
+            return;
+        }
+        let mut curve: Vec<[f64; 2]> = Vec::new();
+        for line in &block.lines {
+            let Some(stress) = self.positive(line, 0, "the yield stress") else { return };
+            let Some(strain) = self.real_or(line, 1, "the plastic strain", 0.0) else { return };
+            let wrong = match curve.last() {
+                None => strain != 0.0,
+                Some(last) => strain <= last[1],
+            };
+            if wrong {
+                let what = "plastic strains begin at zero and rise from row to row; a table for each temperature cannot be translated";
+                return self.error(line.place, what);
+            }
+            curve.push([stress, strain]);
+        }
+        let kinematic = block.word("HARDENING").as_deref() == Some("KINEMATIC");
+        if kinematic && curve.len() > 2 {
+            return self.error(block.place, "kinematic hardening is linear; give two rows");
+        }
+        self.of_material(block.place, "PLASTIC", |material| {
+            material.plastic = curve;
+            material.kinematic = kinematic;
+        });
+    }
+
+    /// `*HYPERELASTIC`.
+    pub(crate) fn hyperelastic(&mut self, block: &Block) {
+        let place = block.place;
+        let order = match block.value("N").map(str::parse::<usize>) {
+            None => 1,
+            Some(Ok(order @ 1..=6)) => order,
+            Some(_) => return self.error(place, "N is a whole number from 1 to 6"),
+        };
+        let has = |name: &str| block.has(name);
+        let form = if has("NEO HOOKE") || (has("REDUCED POLYNOMIAL") && order == 1) {
+            (Form::NeoHooke, 1, 1)
+        } else if has("MOONEY-RIVLIN") || (has("POLYNOMIAL") && order == 1) {
+            (Form::MooneyRivlin, 2, 1)
+        } else if has("YEOH") || (has("REDUCED POLYNOMIAL") && order == 3) {
+            (Form::Yeoh, 3, 3)
+        } else if has("OGDEN") {
+            (Form::Ogden, 2 * order, order)
+        } else if has("ARRUDA-BOYCE") {
+            (Form::ArrudaBoyce, 2, 1)
+        } else {
+            let what = "this form of *HYPERELASTIC cannot be translated; NEO HOOKE, MOONEY-RIVLIN, YEOH, OGDEN, ARRUDA-BOYCE can";
+            return self.error(place, what);
+        };
+        let (form, shape, volume) = form;
+        let mut numbers = Vec::new();
+        for line in &block.lines {
+            let last = line.fields().len();
+            for at in 0..last {
+                let Some(number) = self.real_or(line, at, "a constant", 0.0) else { return };
+                numbers.push(number);
+            }
+        }
+        if numbers.len() < shape {
+            return self.error(
+                place,
+                format!(
+                    "*HYPERELASTIC has {} constants; this form needs {shape} and {volume} of volume",
+                    numbers.len()
+                ),
+            );
+        }
+        if numbers.len() > shape + volume + 1 {
+            return self
+                .error(place, "*HYPERELASTIC has more constants than its form; give one row for one temperature");
+        }
+        let volumes = numbers.split_off(shape);
+        if volumes.iter().take(volume).skip(1).any(|&d| d != 0.0) {
+            return self.error(place, "only D1 of the change of volume can be translated; set D2, D3 to zero");
+        }
+        let d1 = volumes.first().copied().unwrap_or(0.0);
+        if d1 < 0.0 {
+            return self.error(place, format!("D1 is {d1}; it must not be negative"));
+        }
+        let rubber = Rubber { form, constants: numbers, d1, place };
+        self.of_material(place, "HYPERELASTIC", |material| material.hyperelastic = Some(rubber));
+    }
+
+    /// `*DENSITY`.
+    pub(crate) fn density(&mut self, block: &Block) {
+        if let Some(constants) = self.constants(block, &["the density"]) {
+            self.of_material(block.place, "DENSITY", |material| material.density = Some(constants[0]));
+        }
+    }
+
+    /// `*EXPANSION`.
+    pub(crate) fn expansion(&mut self, block: &Block) {
+        if let Some(constants) = self.constants(block, &["the expansion"]) {
+            self.of_material(block.place, "EXPANSION", |material| material.expansion = Some(constants[0]));
+        }
+    }
+
+    /// `*SOLID SECTION`.
+    pub(crate) fn solid_section(&mut self, block: &Block) {
+        let (Some(set), Some(name)) = (self.required(block, "ELSET"), self.required(block, "MATERIAL")) else { return };
+        let Some(target) = self.members(block.place, set, Of::Elements) else { return };
+        let known = &self.model.materials;
+        let Some(material) = known.iter().position(|material| material.name.eq_ignore_ascii_case(name)) else {
+            let near = suggestion(name, known.iter().map(|material| material.name.as_str()));
+            return self.error(block.place, format!("there is no material '{name}'{near}"));
+        };
+        let thickness = match block.lines.first() {
+            Some(line) if line.fields().first().is_some_and(|field| !field.is_empty()) => {
+                let Some(thickness) = self.positive(line, 0, "the thickness") else { return };
+                Some(thickness)
+            }
+            _ => None,
+        };
+        let section =
+            Section { set: self.full_name(set), elements: target.members, material, thickness, place: block.place };
+        self.model.sections.push(section);
+    }
+
+    /// `*AMPLITUDE`.
+    pub(crate) fn amplitude(&mut self, block: &Block) {
+        let Some(name) = self.required(block, "NAME") else { return };
+        if self.first_line(block, "pairs of a time and a factor").is_none() {
+            return;
+        }
+        let mut numbers = Vec::new();
+        for line in &block.lines {
+            for at in 0..line.fields().len() {
+                let Some(number) = self.real(line, at, "a number of the amplitude") else { return };
+                numbers.push(number);
+            }
+        }
+        let (pairs, rest) = numbers.as_chunks::<2>();
+        if !rest.is_empty() {
+            return self.error(
+                block.place,
+                format!("amplitude '{name}' has {} numbers; it holds pairs of a time and a factor", numbers.len()),
+            );
+        }
+        if let Some(two) = pairs.windows(2).find(|two| two[0][0] >= two[1][0]) {
+            let what = format!("the times of amplitude '{name}' must rise, but {} follows {}", two[1][0], two[0][0]);
+            return self.error(block.place, what);
+        }
+        let total = block.word("TIME").as_deref() == Some("TOTALTIME");
+        let amplitude = Amplitude { points: pairs.to_vec(), total };
+        self.model.amplitudes.push((name.to_ascii_uppercase(), amplitude));
+    }
+}

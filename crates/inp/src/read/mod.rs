@@ -1,0 +1,243 @@
+//! From blocks to the model: structure first, then nodes and elements, then everything else in its order.
+
+mod assembly;
+mod contacts;
+mod equations;
+mod materials;
+mod mesh;
+mod names;
+mod rigid;
+mod steps;
+
+use crate::elements::Dialect;
+use crate::keywords::{self, Treated, Value, Where};
+use crate::message::{Messages, Place, suggestion};
+use crate::model::{Model, Step};
+use crate::source::{Block, Line};
+
+/// What reads the blocks.
+pub struct Reader {
+    model: Model,
+    messages: Messages,
+    /// The instance whose blocks are read, 0 for the assembly.
+    scope: usize,
+    /// What the blocks below `*MATERIAL`, `*SURFACE INTERACTION` and `*STEP` belong to.
+    material: Option<usize>,
+    interaction: Option<usize>,
+    step: Option<usize>,
+}
+
+/// The model that blocks say.
+pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
+    let mut reader = Reader {
+        model: Model::default(),
+        messages: std::mem::take(messages),
+        scope: 0,
+        material: None,
+        interaction: None,
+        step: None,
+    };
+    reader.model.dialect = dialect(blocks);
+    let laid_out = reader.lay_out(blocks);
+    for (scope, block) in &laid_out {
+        reader.scope = *scope;
+        if let Some(Treated::Mesh(read)) = reader.known(block) {
+            read(&mut reader, block);
+        }
+    }
+    for (scope, block) in &laid_out {
+        reader.scope = *scope;
+        if let Some(Treated::Read(read)) = keywords::named(&block.name).map(|keyword| &keyword.treated) {
+            read(&mut reader, block);
+        }
+    }
+    for (scope, block) in &laid_out {
+        reader.scope = *scope;
+        if let Some(Treated::Late(read)) = keywords::named(&block.name).map(|keyword| &keyword.treated) {
+            read(&mut reader, block);
+        }
+    }
+    reader.finish(blocks);
+    *messages = reader.messages;
+    reader.model
+}
+
+/// Whose deck it is: Abaqus' where it has what CalculiX has not, parts, analytical surfaces, rigid elements.
+fn dialect(blocks: &[Block]) -> Dialect {
+    let foreign = |block: &Block| match block.name.as_str() {
+        "PART" | "ASSEMBLY" | "INSTANCE" | "PREPRINT" => true,
+        "SURFACE" => matches!(block.word("TYPE").as_deref(), Some("SEGMENTS" | "CYLINDER" | "REVOLUTION")),
+        "ELEMENT" => block.word("TYPE").is_some_and(|name| name.starts_with('R')),
+        _ => false,
+    };
+    if blocks.iter().any(foreign) { Dialect::Abaqus } else { Dialect::CalculiX }
+}
+
+impl Reader {
+    fn error(&mut self, place: Place, text: impl Into<String>) {
+        self.messages.error(place, text);
+    }
+
+    fn note(&mut self, place: Place, text: impl Into<String>) {
+        self.messages.note(place, text);
+    }
+
+    /// What is done with a block; its keyword and parameters are checked against their declarations.
+    fn known(&mut self, block: &Block) -> Option<&'static Treated> {
+        let Some(keyword) = keywords::named(&block.name) else {
+            let near = suggestion(&block.name, keywords::all().map(|keyword| keyword.name));
+            self.error(block.place, format!("there is no keyword *{}{near}", block.name));
+            return None;
+        };
+        match keyword.treated {
+            Treated::Refused(instead) => {
+                self.error(block.place, format!("*{} cannot be translated; {instead}", block.name));
+            }
+            Treated::Left(why) => self.note(block.place, format!("*{} left out: {why}", block.name)),
+            _ => self.check_parameters(block, keyword),
+        }
+        Some(&keyword.treated)
+    }
+
+    fn check_parameters(&mut self, block: &Block, keyword: &keywords::Keyword) {
+        for (name, value) in &block.parameters {
+            let Some(parameter) = keyword.parameters.iter().find(|parameter| parameter.name == name) else {
+                let near = suggestion(name, keyword.parameters.iter().map(|parameter| parameter.name));
+                self.error(block.place, format!("*{} has no parameter {name} here{near}", block.name));
+                continue;
+            };
+            match parameter.treated {
+                Value::OneOf(words) => {
+                    let word = block.word(name).unwrap_or_default();
+                    if !words.iter().any(|known| keywords::same(known, &word)) {
+                        let words: Vec<&str> = words.iter().copied().filter(|word| !word.is_empty()).collect();
+                        let what = format!(
+                            "*{}: {name}={value} cannot be translated; {name} may be {}",
+                            block.name,
+                            words.join(", ")
+                        );
+                        self.error(block.place, what);
+                    }
+                }
+                Value::Noted(what) => self.note(block.place, format!("*{}, {name} left out: {what}", block.name)),
+                Value::Refused(instead) => {
+                    self.error(block.place, format!("*{}, {name} cannot be translated; {instead}", block.name));
+                }
+                Value::Used | Value::Left => {}
+            }
+        }
+    }
+
+    /// Whether the blocks stand where they may, and whether the deck is whole.
+    fn finish(&mut self, blocks: &[Block]) {
+        let (mut within, mut changes) = (false, false);
+        for block in blocks {
+            // What stands below a keyword of change is refused with it.
+            let changed = std::mem::replace(&mut changes, block.name.starts_with("CHANGE "));
+            match block.name.as_str() {
+                "STEP" => within = true,
+                "END STEP" => within = false,
+                name => {
+                    let place = keywords::named(name).map(|keyword| keyword.place);
+                    if place == Some(Where::Model) && within && !changed {
+                        self.error(block.place, format!("*{name} stands within a step; put it before the first *STEP"));
+                    } else if place == Some(Where::Step) && !within {
+                        self.error(block.place, format!("*{name} stands outside a step; put it after *STEP"));
+                    }
+                }
+            }
+        }
+        let last = blocks.last().map_or(Place { file: 0, line: 1 }, |block| block.place);
+        if within {
+            self.error(last, "the deck ends within a step; end it with *END STEP");
+        } else if self.model.steps.is_empty() && !(blocks.is_empty() && self.messages.has_errors()) {
+            self.error(last, "the deck has no *STEP, so that there is nothing to solve");
+        }
+        let idle: Vec<(Place, String)> = self
+            .model
+            .steps
+            .iter()
+            .filter(|step| !step.procedure)
+            .map(|step: &Step| (step.place, step.name.clone()))
+            .collect();
+        for (place, name) in idle {
+            self.error(place, format!("step '{name}' has no procedure; write *STATIC below its *STEP"));
+        }
+    }
+
+    /// A field as a number; none is an error.
+    fn real(&mut self, line: &Line, at: usize, what: &str) -> Option<f64> {
+        let fields = line.fields();
+        match fields.get(at).copied().unwrap_or("") {
+            "" => {
+                self.error(line.place, format!("{what} is missing; it is field {} of the line", at + 1));
+                None
+            }
+            field => self.number(line.place, field, what),
+        }
+    }
+
+    /// A field as a number, with a value for an empty one.
+    fn real_or(&mut self, line: &Line, at: usize, what: &str, otherwise: f64) -> Option<f64> {
+        let fields = line.fields();
+        match fields.get(at).copied().unwrap_or("") {
+            "" => Some(otherwise),
+            field => self.number(line.place, field, what),
+        }
+    }
+
+    fn number(&mut self, place: Place, field: &str, what: &str) -> Option<f64> {
+        let number: Result<f64, _> = field.parse().or_else(|_| field.replace(['d', 'D'], "e").parse());
+        match number {
+            Ok(number) if number.is_finite() => Some(number),
+            Ok(_) => {
+                self.error(place, format!("{what} is '{}', which is not finite", shorten(field)));
+                None
+            }
+            Err(_) => {
+                self.error(place, format!("{what} is '{}', which is not a number", shorten(field)));
+                None
+            }
+        }
+    }
+
+    /// A positive number.
+    fn positive(&mut self, line: &Line, at: usize, what: &str) -> Option<f64> {
+        let number = self.real(line, at, what)?;
+        if number > 0.0 {
+            return Some(number);
+        }
+        self.error(line.place, format!("{what} is {number}; it must be positive"));
+        None
+    }
+
+    /// The first line of a block; none is an error.
+    fn first_line<'b>(&mut self, block: &'b Block, what: &str) -> Option<&'b Line> {
+        if block.lines.is_empty() {
+            self.error(block.place, format!("*{} has no data; give {what} on the line below", block.name));
+        }
+        block.lines.first()
+    }
+
+    /// The value of a parameter that must be there.
+    fn required<'b>(&mut self, block: &'b Block, name: &str) -> Option<&'b str> {
+        if block.value(name).is_none() {
+            self.error(block.place, format!("*{} names no {name}; write *{0}, {name}=...", block.name));
+        }
+        block.value(name)
+    }
+
+    /// `*HEADING`.
+    pub(crate) fn heading(&mut self, block: &Block) {
+        let clean = |line: &Line| line.text().chars().filter(|c| !c.is_control()).collect::<String>();
+        self.model.title = block.lines.first().map(clean).unwrap_or_default();
+    }
+}
+
+/// A field short enough for a message.
+fn shorten(field: &str) -> String {
+    match field.char_indices().nth(24) {
+        Some((end, _)) => format!("{}...", &field[..end]),
+        None => field.to_string(),
+    }
+}

@@ -1,0 +1,261 @@
+//! Steps and what they say.
+
+use super::Reader;
+use super::names::Of;
+use crate::message::{Place, suggestion};
+use crate::model::{Action, ActionKind, Condition, Course, Step, SurfaceKind, Target};
+use crate::source::{Block, Line};
+
+impl Reader {
+    /// `*STEP`.
+    pub(crate) fn step(&mut self, block: &Block) {
+        let number = self.model.steps.len() + 1;
+        let name = block.value("NAME").map_or_else(|| format!("step {number}"), str::to_string);
+        let large = block.has("NLGEOM") && block.word("NLGEOM").as_deref() != Some("NO");
+        // Once strains are large they stay so.
+        let large = large || self.model.steps.last().is_some_and(|step| step.large);
+        let at_once = block.word("AMPLITUDE").as_deref() == Some("STEP");
+        self.model.steps.push(Step { place: block.place, name, large, at_once, duration: 1.0, ..Step::default() });
+        self.step = Some(self.model.steps.len() - 1);
+    }
+
+    /// `*END STEP`.
+    pub(crate) fn end_step(&mut self, _: &Block) {
+        self.step = None;
+    }
+
+    /// `*STATIC`.
+    pub(crate) fn static_step(&mut self, block: &Block) {
+        let mut given = [None; 4];
+        if let Some(line) = block.lines.first() {
+            for (at, value) in given.iter_mut().enumerate() {
+                let Some(number) = self.real_or(line, at, "a time", 0.0) else { return };
+                if number < 0.0 {
+                    return self.error(line.place, format!("a time is {number}; it must be positive"));
+                }
+                *value = Some(number).filter(|&number| number > 0.0);
+            }
+        }
+        let Some(step) = self.step.and_then(|at| self.model.steps.get_mut(at)) else { return };
+        step.procedure = true;
+        step.direct = block.has("DIRECT");
+        step.duration = given[1].unwrap_or(1.0);
+        step.increments = [given[0], given[2], given[3]];
+    }
+
+    /// Adds to the present step, or to what holds before the first.
+    fn act(&mut self, place: Place, course: Course, kind: ActionKind) {
+        let action = Action { place, course, kind };
+        match self.step.and_then(|at| self.model.steps.get_mut(at)) {
+            Some(step) => step.actions.push(action),
+            None => self.model.initial.push(action),
+        }
+    }
+
+    /// The amplitude of a block; conditions of its kind end where it says OP=NEW.
+    fn begin(&mut self, block: &Block, condition: Condition) -> Option<Course> {
+        if block.word("OP").as_deref() == Some("NEW") {
+            self.act(block.place, None, ActionKind::Fresh(condition));
+        }
+        let Some(name) = block.value("AMPLITUDE").map(str::to_ascii_uppercase) else { return Some(None) };
+        let found = self.model.amplitudes.iter().position(|(known, _)| *known == name);
+        if found.is_none() {
+            let near = suggestion(&name, self.model.amplitudes.iter().map(|(known, _)| known.as_str()));
+            self.error(block.place, format!("there is no amplitude '{name}'{near}"));
+            return None;
+        }
+        Some(found)
+    }
+
+    /// `*BOUNDARY`.
+    pub(crate) fn boundary(&mut self, block: &Block) {
+        let Some(course) = self.begin(block, Condition::Boundary) else { return };
+        for line in &block.lines {
+            let fields = line.fields();
+            let name = fields.first().copied().unwrap_or("").to_string();
+            let Some(target) = self.members(line.place, &name, Of::Nodes) else { continue };
+            let Some((axes, value)) = self.led(line) else { continue };
+            for axis in axes {
+                self.act(line.place, course, ActionKind::Lead(target.clone(), axis, value));
+            }
+        }
+    }
+
+    /// The axes that a line of *BOUNDARY holds, and the value.
+    fn led(&mut self, line: &Line) -> Option<(Vec<usize>, f64)> {
+        let fields = line.fields();
+        let first = fields.get(1).copied().unwrap_or("").to_ascii_uppercase();
+        let symmetry: Option<&[usize]> = match first.as_str() {
+            "XSYMM" => Some(&[0, 4, 5]),
+            "YSYMM" => Some(&[1, 3, 5]),
+            "ZSYMM" => Some(&[2, 3, 4]),
+            "XASYMM" => Some(&[1, 2, 3]),
+            "YASYMM" => Some(&[0, 2, 4]),
+            "ZASYMM" => Some(&[0, 1, 5]),
+            "ENCASTRE" => Some(&[0, 1, 2, 3, 4, 5]),
+            "PINNED" => Some(&[0, 1, 2]),
+            _ => None,
+        };
+        if let Some(axes) = symmetry {
+            return Some((axes.to_vec(), 0.0));
+        }
+        let first = self.axis(line, 1)?;
+        let last = if fields.get(2).is_none_or(|field| field.is_empty()) { first } else { self.axis(line, 2)? };
+        if last < first {
+            self.error(line.place, "the last degree of freedom lies before the first; mend the line");
+            return None;
+        }
+        let value = self.real_or(line, 3, "the value", 0.0)?;
+        Some(((first..=last).collect(), value))
+    }
+
+    /// A degree of freedom from 1 to 6, counted from zero.
+    pub(super) fn axis(&mut self, line: &Line, at: usize) -> Option<usize> {
+        let fields = line.fields();
+        let field = fields.get(at).copied().unwrap_or("");
+        match field.parse::<usize>() {
+            Ok(axis @ 1..=6) => Some(axis - 1),
+            _ => {
+                let what = format!(
+                    "'{}' is no degree of freedom; it is 1 to 3 along the axes, 4 to 6 about them",
+                    super::shorten(field)
+                );
+                self.error(line.place, what);
+                None
+            }
+        }
+    }
+
+    /// `*CLOAD`.
+    pub(crate) fn cload(&mut self, block: &Block) {
+        let Some(course) = self.begin(block, Condition::Force) else { return };
+        for line in &block.lines {
+            let name = line.fields().first().copied().unwrap_or("").to_string();
+            let Some(target) = self.members(line.place, &name, Of::Nodes) else { continue };
+            let (Some(axis), Some(value)) = (self.axis(line, 1), self.real(line, 2, "the force")) else { continue };
+            self.act(line.place, course, ActionKind::Force(target, axis, value));
+        }
+    }
+
+    /// `*DLOAD`.
+    pub(crate) fn dload(&mut self, block: &Block) {
+        let Some(course) = self.begin(block, Condition::Distributed) else { return };
+        for line in &block.lines {
+            self.load(line, course);
+        }
+    }
+
+    fn load(&mut self, line: &Line, course: Course) -> Option<()> {
+        let fields = line.fields();
+        let label = fields.get(1).copied().unwrap_or("").to_ascii_uppercase();
+        let name = fields.first().copied().unwrap_or("").to_string();
+        let target = match name.as_str() {
+            // Abaqus takes the whole model.
+            "" => Target { name: "ALL".into(), members: (0..self.model.elements.len()).collect() },
+            name => self.members(line.place, name, Of::Elements)?,
+        };
+        let kind = match label.as_str() {
+            "GRAV" => {
+                let size = self.real(line, 2, "the acceleration")?;
+                let mut direction = [0.0; 3];
+                for (axis, value) in direction.iter_mut().enumerate() {
+                    *value = self.real_or(line, 3 + axis, "a component of the direction", 0.0)?;
+                }
+                let length = direction.iter().fold(0.0_f64, |length, x| length.hypot(*x));
+                if length <= 0.0 {
+                    self.error(line.place, "gravity has no direction; give it after the acceleration");
+                    return None;
+                }
+                ActionKind::Volume(target, direction.map(|x| size * x / length), true)
+            }
+            "BX" | "BY" | "BZ" => {
+                let value = self.real(line, 2, "the force per volume")?;
+                let axis = usize::from(label.as_bytes()[1] - b'X');
+                ActionKind::Volume(target, std::array::from_fn(|i| if i == axis { value } else { 0.0 }), false)
+            }
+            "CENTRIF" | "CENT" | "CENTRIFUGAL" | "CORIO" | "ROTA" => {
+                self.error(
+                    line.place,
+                    format!("loads of type {label} cannot be translated; GRAV, BX, BY, BZ, P and P1 to P6 can"),
+                );
+                return None;
+            }
+            _ => {
+                let value = self.real(line, 2, "the pressure")?;
+                let faces = self.pressed(line.place, &target.members, &label)?;
+                ActionKind::Pressure(Target { name: format!("{name}.{label}"), members: vec![] }, faces, value)
+            }
+        };
+        self.act(line.place, course, kind);
+        Some(())
+    }
+
+    /// The faces of elements that a label P, P1 to P6 loads.
+    fn pressed(&mut self, place: Place, elements: &[usize], label: &str) -> Option<Vec<(usize, Option<usize>)>> {
+        let Some(number) = label.strip_prefix('P').filter(|number| number.chars().all(|c| c.is_ascii_digit())) else {
+            let what = format!(
+                "loads of type '{}' cannot be translated; GRAV, BX, BY, BZ, P and P1 to P6 can",
+                super::shorten(label)
+            );
+            self.error(place, what);
+            return None;
+        };
+        let label = if number.is_empty() { String::new() } else { format!("S{number}") };
+        let mut faces = Vec::new();
+        for &element in elements {
+            faces.push((element, self.face(place, element, &label)?.0));
+        }
+        Some(faces)
+    }
+
+    /// `*DSLOAD`.
+    pub(crate) fn dsload(&mut self, block: &Block) {
+        let Some(course) = self.begin(block, Condition::Distributed) else { return };
+        for line in &block.lines {
+            let fields = line.fields();
+            let (name, label) = (fields.first().copied().unwrap_or(""), fields.get(1).copied().unwrap_or(""));
+            if !label.eq_ignore_ascii_case("P") {
+                let what = format!("loads of type '{}' on surfaces cannot be translated; P can", super::shorten(label));
+                self.error(line.place, what);
+                continue;
+            }
+            let Some(surface) = self.named_surface(line.place, name) else { continue };
+            let Some(value) = self.real(line, 2, "the pressure") else { continue };
+            let found = self.model.surface(&surface).map(|surface| (surface.name.clone(), surface.kind.clone()));
+            match found {
+                Some((name, SurfaceKind::Faces(faces))) => {
+                    let faces = faces.iter().map(|&(element, face, _)| (element, face)).collect();
+                    self.act(line.place, course, ActionKind::Pressure(Target { name, members: vec![] }, faces, value));
+                }
+                _ => self.error(line.place, format!("surface '{name}' has no faces that pressure could act on")),
+            }
+        }
+    }
+
+    /// `*TEMPERATURE`.
+    pub(crate) fn temperature(&mut self, block: &Block) {
+        let Some(course) = self.begin(block, Condition::Temperature) else { return };
+        for line in &block.lines {
+            let name = line.fields().first().copied().unwrap_or("").to_string();
+            let target = self.members(line.place, &name, Of::Nodes);
+            if let (Some(target), Some(value)) = (target, self.real(line, 1, "the temperature")) {
+                self.act(line.place, course, ActionKind::Temperature(target, value));
+            }
+        }
+    }
+
+    /// `*INITIAL CONDITIONS`.
+    pub(crate) fn initial_conditions(&mut self, block: &Block) {
+        if block.word("TYPE").as_deref() != Some("TEMPERATURE") {
+            let what = "only TYPE=TEMPERATURE can be translated; stresses at the beginning are `initial_stress` of a body in the deck of Asperity";
+            return self.error(block.place, what);
+        }
+        for line in &block.lines {
+            let name = line.fields().first().copied().unwrap_or("").to_string();
+            let target = self.members(line.place, &name, Of::Nodes);
+            if let (Some(target), Some(value)) = (target, self.real(line, 1, "the temperature")) {
+                self.model.initial_temperature.extend(target.members.iter().map(|&node| (node, value)));
+            }
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Materials and bodies.
+
+use super::{Writer, list, quoted, rubber};
+use crate::elements::{Family, Formulation};
+use crate::model::{ActionKind, Material};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A body: its group, material and formulation.
+pub struct Body {
+    /// The group of its cells.
+    pub group: String,
+    /// Its elements.
+    pub elements: Vec<usize>,
+    /// The material's number.
+    pub material: usize,
+}
+
+impl Writer<'_> {
+    /// Which section each element has, the last one that names it; and what the coordinates mean.
+    pub(super) fn sort_elements(&mut self) {
+        let model = self.model;
+        self.section = vec![None; model.elements.len()];
+        for (number, section) in model.sections.iter().enumerate() {
+            for &element in &section.elements {
+                let found = &model.elements[element];
+                if !found.kind.is_cell() {
+                    let what = format!(
+                        "elements of type {} are no part of a body; take them out of '{}'",
+                        found.kind.name, section.set
+                    );
+                    self.error(section.place, what);
+                    break;
+                }
+                self.section[element] = Some(number);
+            }
+        }
+        self.used = vec![false; model.nodes.len()];
+        for (element, _) in model.elements.iter().zip(&self.section).filter(|(_, section)| section.is_some()) {
+            element.nodes.iter().for_each(|&node| self.used[node] = true);
+        }
+        for equation in &model.equations {
+            equation.terms.iter().for_each(|term| self.used[term.0] = true);
+        }
+        let kept = || model.elements.iter().zip(self.section.clone()).filter(|(_, section)| section.is_some());
+        let families: BTreeSet<Family> = kept().map(|(element, _)| element.kind.family).collect();
+        match families.iter().copied().collect::<Vec<_>>().as_slice() {
+            [] => {
+                let place = model.steps.first().map(|step| step.place).unwrap_or_default();
+                self.error(place, "no element has a material; give the sets of elements a *SOLID SECTION");
+            }
+            [one] => self.family = *one,
+            [one, other, ..] => {
+                let name = |family: Family| family.space();
+                if let Some((element, _)) = kept().find(|(element, _)| element.kind.family == *other) {
+                    let what = format!("{} and {} elements cannot be one model", name(*one), name(*other));
+                    self.error(element.place, what);
+                }
+            }
+        }
+        let bare = model
+            .elements
+            .iter()
+            .zip(&self.section)
+            .find(|(element, section)| element.kind.is_cell() && section.is_none());
+        if let Some((element, _)) = bare {
+            let count =
+                model.elements.iter().zip(&self.section).filter(|(e, s)| e.kind.is_cell() && s.is_none()).count();
+            self.messages.note(element.place, format!("{count} elements have no *SOLID SECTION and are left out"));
+        }
+    }
+
+    /// The thickness of all sections, if one is given.
+    pub(super) fn thickness(&mut self) -> Option<f64> {
+        if !matches!(self.family, Family::PlaneStrain | Family::PlaneStress) {
+            return None;
+        }
+        let given: Vec<_> =
+            self.model.sections.iter().map(|section| (section.thickness.unwrap_or(1.0), section.place)).collect();
+        let (first, _) = *given.first()?;
+        if let Some((other, place)) = given.iter().find(|(thickness, _)| *thickness != first) {
+            self.messages.error(
+                *place,
+                format!("all sections must have one thickness; this one has {other}, the first has {first}"),
+            );
+        }
+        Some(first).filter(|&thickness| thickness != 1.0)
+    }
+
+    /// Whether the bodies of a material strain by little.
+    fn small(&self, material: &Material) -> bool {
+        !self.model.steps.iter().any(|step| step.large) && material.hyperelastic.is_none()
+    }
+
+    /// The materials that sections name.
+    pub(super) fn materials(&mut self) {
+        let model = self.model;
+        let used: BTreeSet<usize> = model.sections.iter().map(|section| section.material).collect();
+        for number in used {
+            let Some(material) = model.materials.get(number) else { continue };
+            let Some(law) = self.law(material) else { continue };
+            let from = self.from(material.place);
+            self.text += &format!("\n[material.{}.{}]{from}\n{}", quoted(&material.name), law.0, law.1);
+        }
+    }
+
+    /// The law of a material with its constants.
+    fn law(&mut self, material: &Material) -> Option<(&'static str, String)> {
+        let place = material.place;
+        if let Some(given) = &material.hyperelastic {
+            if !material.plastic.is_empty() {
+                self.error(place, format!("material '{}' is rubber and flows; keep one of the two", material.name));
+                return None;
+            }
+            let (law, remark) = rubber::law(given)?;
+            self.note(given.place, remark);
+            return Some(law);
+        }
+        let Some([young, poisson]) = material.elastic else {
+            self.error(place, format!("material '{}' has no *ELASTIC and no *HYPERELASTIC", material.name));
+            return None;
+        };
+        if !self.small(material) && material.plastic.is_empty() {
+            let what = "*ELASTIC at large strain: stress rates are Jaumann's, as in Abaqus; CalculiX' law is linear in Green's strain";
+            self.note(place, what);
+        }
+        let elastic = format!("young = {young:?}\npoisson = {poisson:?}\n");
+        Some(match material.plastic.as_slice() {
+            [] => ("elastic", elastic),
+            [[stress, _]] => ("von_mises", format!("{elastic}yield_stress = {stress:?}\n")),
+            [[stress, _], [later, strain]] if material.kinematic => {
+                let slope = (later - stress) / strain;
+                ("von_mises", format!("{elastic}yield_stress = {stress:?}\nkinematic = {slope:?}\n"))
+            }
+            curve => {
+                let points: Vec<String> = curve.iter().map(|[stress, strain]| list(&[*strain, *stress])).collect();
+                ("von_mises_table", format!("{elastic}curve = [{}]\n", points.join(", ")))
+            }
+        })
+    }
+
+    /// The bodies: the elements of a section that are integrated alike.
+    pub(super) fn bodies(&mut self) {
+        let heated = self
+            .model
+            .steps
+            .iter()
+            .flat_map(|step| &step.actions)
+            .any(|a| matches!(a.kind, ActionKind::Temperature(..)));
+        for (body, formulation) in self.sorted_bodies() {
+            let material = &self.model.materials[body.material];
+            let mut text = format!("\n[body.{}]\nmaterial = {}\n", quoted(&body.group), quoted(&material.name));
+            text += formulation.keys();
+            if self.small(material) {
+                text += "strain = \"small\"\n";
+            }
+            if let Some(expansion) = material.expansion.filter(|_| heated) {
+                text += &format!("expansion = {expansion:?}\n");
+            }
+            self.text += &text;
+        }
+    }
+
+    /// All bodies with their formulations; remarks on those that change.
+    pub(super) fn sorted_bodies(&mut self) -> Vec<(Body, Formulation)> {
+        let model = self.model;
+        let mut sorted: BTreeMap<(usize, Formulation), Vec<usize>> = BTreeMap::new();
+        for (at, element) in model.elements.iter().enumerate() {
+            let Some(section) = self.section[at] else { continue };
+            let (formulation, remark) = element.kind.formulation(&element.variant, model.dialect);
+            if let Some(remark) = remark {
+                let (name, variant) = (element.kind.name, &element.variant);
+                self.note(model.sections[section].place, format!("{name}{variant}: {remark}"));
+            }
+            sorted.entry((section, formulation)).or_default().push(at);
+        }
+        let body = |((number, formulation), elements): ((usize, Formulation), Vec<usize>)| {
+            let section = &model.sections[number];
+            let name = match elements.len() == section.elements.len() {
+                true => section.set.clone(),
+                false => format!("{}.{}", section.set, model.elements[elements[0]].kind.name),
+            };
+            let group = self.groups.cells(&name, elements.clone());
+            (Body { group, elements, material: section.material }, formulation)
+        };
+        sorted.into_iter().map(body).collect()
+    }
+}

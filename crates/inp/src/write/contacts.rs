@@ -1,0 +1,190 @@
+//! Contacts.
+
+use super::{Writer, quoted};
+use crate::elements::Family;
+use crate::message::Place;
+use crate::model::{Interaction, Pair, SurfaceKind};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A side of a contact.
+enum Sided {
+    Sides(String),
+    Tool(String),
+}
+
+impl Writer<'_> {
+    /// One contact for each pair.
+    pub(super) fn contacts(&mut self) {
+        let model = self.model;
+        for pair in &model.pairs {
+            let what = match (pair.field, self.family) {
+                (true, Family::Solid) => {
+                    "a field of contact stress becomes stresses at points of the faces (`form = \"field\"` is for the plane)"
+                }
+                (true, _) => "contact stress is a field of nodal values: `form = \"field\"`",
+                (false, _) => {
+                    "contact stress lives at three points along each edge of the slave faces, as CalculiX' face to face does; \
+                               `form = \"field\"` in the plane makes a field of it"
+                }
+            };
+            self.note(pair.place, what);
+            if pair.adjust {
+                self.note(
+                    pair.place,
+                    "ADJUST moves the nodes that lie inside the other surface out of it; gaps stay as wide as they are",
+                );
+            }
+        }
+        for (number, pair) in model.pairs.iter().enumerate() {
+            self.contact(number + 1, pair);
+        }
+    }
+
+    fn contact(&mut self, number: usize, pair: &Pair) -> Option<()> {
+        let (slave, master) = (self.sided(pair, &pair.slave)?, self.sided(pair, &pair.master)?);
+        let of_bodies = matches!((&slave, &master), (Sided::Sides(_), Sided::Sides(_)));
+        let (surface, target) = match (slave, master) {
+            (Sided::Sides(surface), Sided::Sides(target) | Sided::Tool(target)) => (surface, target),
+            (Sided::Tool(target), Sided::Sides(surface)) => {
+                self.note(pair.place, "the rigid surface is the target, though it was named first");
+                (surface, target)
+            }
+            (Sided::Tool(_), Sided::Tool(_)) => {
+                self.error(pair.place, "two rigid surfaces cannot touch; one side must be that of a body");
+                return None;
+            }
+        };
+        let interaction = self.model.interactions.get(pair.interaction)?;
+        let law = self.friction(interaction, pair.place);
+        let name = match self.model.pairs.iter().filter(|other| other.interaction == pair.interaction).count() {
+            1 => interaction.name.clone(),
+            _ => format!("{} {number}", interaction.name),
+        };
+        let from = self.from(pair.place);
+        let mut text = format!(
+            "\n[contact.{}]{from}\nsurface = {}\ntarget = {}\n",
+            quoted(&name),
+            quoted(&surface),
+            quoted(&target)
+        );
+        match (pair.field && self.family != Family::Solid, of_bodies) {
+            (true, _) => text += "form = \"field\"\n",
+            (false, true) => text += "passes = \"one\"\ngauss = 3\n",
+            (false, false) => text += "gauss = 3\n",
+        }
+        text += &law;
+        if let Some(slope) = interaction.slope {
+            text += &format!("penalty = {slope:?}\n");
+        }
+        if let Some(slope) = interaction.stick_slope.filter(|_| interaction.friction.is_some_and(|f| f > 0.0)) {
+            text += &format!("tangential_penalty = {slope:?}\n");
+        }
+        text += &format!("overlap = \"{}\"\n", if pair.adjust { "adjust" } else { "keep" });
+        self.text += &text;
+        Some(())
+    }
+
+    /// The law of an interaction.
+    fn friction(&mut self, interaction: &Interaction, place: Place) -> String {
+        match (interaction.friction, interaction.shear_limit, interaction.decay) {
+            _ if interaction.rough => "law.sticking = {}\n".into(),
+            (None | Some(0.0), _, None) => "law.frictionless = {}\n".into(),
+            (Some(friction), Some(limit), None) => {
+                format!("law.orowan = {{ friction = {friction:?}, shear_strength = {limit:?} }}\n")
+            }
+            (Some(friction), limit, Some([kinetic, decay])) => {
+                if limit.is_some() {
+                    self.note(place, "TAUMAX left out: friction that decays with velocity has no limit of its shear");
+                }
+                let velocity = 1.0 / decay;
+                format!(
+                    "law.velocity_dependent = {{ static = {friction:?}, kinetic = {kinetic:?}, velocity = {velocity:?} }}\n"
+                )
+            }
+            (Some(friction), None, None) => format!("law.coulomb = {{ friction = {friction:?} }}\n"),
+            (None, _, Some(_)) => "law.frictionless = {}\n".into(),
+        }
+    }
+
+    /// What a surface of a pair is here.
+    fn sided(&mut self, pair: &Pair, name: &(usize, String)) -> Option<Sided> {
+        let surface = self.model.surface(name)?;
+        let rigid = |element: usize| self.model.elements[element].kind.family == Family::Rigid;
+        match &surface.kind {
+            SurfaceKind::Analytical(_) => self.tool_of_surface(name).map(Sided::Tool).or_else(|| {
+                let what = format!("surface '{}' has no *RIGID BODY, which says what it follows", surface.name);
+                self.error(pair.place, what);
+                None
+            }),
+            SurfaceKind::Faces(faces) if faces.iter().any(|&(element, ..)| rigid(element)) => {
+                let found = faces.first().and_then(|&(element, ..)| self.tool_of_element(element));
+                found.map(Sided::Tool).or_else(|| {
+                    self.error(
+                        pair.place,
+                        format!("surface '{}' lies on rigid elements of no *RIGID BODY", surface.name),
+                    );
+                    None
+                })
+            }
+            SurfaceKind::Faces(faces) => {
+                let faces: Vec<_> = faces
+                    .iter()
+                    .filter(|(element, ..)| self.section[*element].is_some())
+                    .map(|&(element, face, _)| (element, face))
+                    .collect();
+                let (count, boundary) = (faces.len(), self.boundary());
+                let outer = |(element, face): &(usize, Option<usize>)| {
+                    face.is_none_or(|face| boundary.contains(&(*element, face)))
+                };
+                let faces: Vec<_> = faces.into_iter().filter(outer).collect();
+                if faces.is_empty() {
+                    self.error(pair.place, format!("surface '{}' has no face on the outside of a body", surface.name));
+                    return None;
+                }
+                if faces.len() < count {
+                    let what = format!(
+                        "{} faces of surface '{}' lie within bodies and are left out",
+                        count - faces.len(),
+                        surface.name
+                    );
+                    self.note(surface.place, what);
+                }
+                Some(Sided::Sides(self.groups.sides(&surface.name, faces)))
+            }
+            SurfaceKind::Nodes(nodes) => {
+                let faces = self.faces_of_nodes(nodes);
+                if faces.is_empty() {
+                    let what =
+                        format!("the nodes of surface '{}' make up no face; name faces of elements", surface.name);
+                    self.error(pair.place, what);
+                    return None;
+                }
+                self.note(surface.place, format!("surface '{}' of nodes becomes the faces between them", surface.name));
+                Some(Sided::Sides(self.groups.sides(&surface.name, faces)))
+            }
+        }
+    }
+
+    /// The faces of the outer boundary whose corners are all among the nodes.
+    fn faces_of_nodes(&mut self, nodes: &[usize]) -> Vec<(usize, Option<usize>)> {
+        let chosen: BTreeSet<usize> = nodes.iter().copied().collect();
+        let held = |&(element, face): &(usize, usize)| {
+            let element = &self.model.elements[element];
+            element.kind.faces[face - 1].iter().all(|&corner| chosen.contains(&element.nodes[corner]))
+        };
+        self.boundary().iter().filter(|face| held(face)).map(|&(element, face)| (element, Some(face))).collect()
+    }
+
+    /// The faces that only one element with a section has, by their numbers.
+    fn boundary(&self) -> BTreeSet<(usize, usize)> {
+        let mut faces = BTreeMap::<Vec<usize>, Option<(usize, usize)>>::new();
+        for (at, element) in self.model.elements.iter().enumerate().filter(|(at, _)| self.section[*at].is_some()) {
+            for (face, corners) in element.kind.faces.iter().enumerate() {
+                let mut corners: Vec<usize> = corners.iter().map(|&corner| element.nodes[corner]).collect();
+                corners.sort_unstable();
+                faces.entry(corners).and_modify(|owner| *owner = None).or_insert(Some((at, face + 1)));
+            }
+        }
+        faces.into_values().flatten().collect()
+    }
+}

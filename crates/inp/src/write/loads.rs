@@ -1,0 +1,273 @@
+//! Loads and temperatures, step by step.
+
+use super::Writer;
+use super::conditions::Table;
+use super::courses::{Item, Record};
+use crate::model::{Action, ActionKind, Condition, Target};
+use std::collections::BTreeMap;
+
+/// Loads of each kind.
+#[derive(Default)]
+pub struct Loads {
+    /// On nodes.
+    pub force: Table,
+    /// On tools, by axis from 0 to 5.
+    pub tool: Table,
+    /// On sides.
+    pub pressure: Table,
+    /// On cells.
+    pub body_force: Table,
+    /// Of bodies.
+    pub temperature: Table,
+}
+
+/// A step's values by name and component.
+type Row = BTreeMap<(String, usize), Item>;
+
+impl Writer<'_> {
+    /// All loads.
+    pub(super) fn loads(&mut self) -> Loads {
+        let forces = self.forces();
+        let (pressure, body_force) = self.distributed();
+        Loads { force: forces.0, tool: forces.1, pressure, body_force, temperature: self.temperatures() }
+    }
+
+    /// Forces: within a step they add up, a later step replaces those at the same node and axis.
+    fn forces(&mut self) -> (Table, Table) {
+        let model = self.model;
+        let mut owners: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+        let mut records: Vec<Record> = Vec::new();
+        let (mut on_nodes, mut on_tools) = (Table::new(), Table::new());
+        for (number, step) in model.steps.iter().enumerate() {
+            let initial = model.initial.iter().filter(|_| number == 0);
+            for action in initial.chain(&step.actions) {
+                match &action.kind {
+                    ActionKind::Fresh(Condition::Force) => owners.clear(),
+                    ActionKind::Force(target, axis, value) => {
+                        records.push(record(target, *value, action, number));
+                        for &node in &target.members {
+                            let owner = owners.entry((node, *axis)).or_default();
+                            owner.retain(|&other| records[other].step == number);
+                            owner.push(records.len() - 1);
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            let mut pieces: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+            let mut tools = Row::new();
+            for ((node, axis), owner) in &owners {
+                for &record in owner {
+                    let (end, course) = self.followed(&records[record], number);
+                    let place = records[record].place;
+                    if let Some(tool) = self.tools.iter().find(|tool| tool.node == *node) {
+                        add(&mut tools, (tool.name.clone(), *axis), Item { end, start: None, course, place });
+                    } else if self.used[*node] && *axis < self.dimension() {
+                        pieces.entry((record, *axis)).or_default().push(*node);
+                    } else if !self.used[*node] && !model.rigid.iter().any(|rigid| rigid.node == *node) {
+                        self.error(place, format!("'{}' loads nodes of no body", records[record].name));
+                    } else if self.used[*node] && end != 0.0 {
+                        self.error(place, "nodes of bodies bear no moments; lay a pressure or forces on several nodes");
+                    }
+                }
+            }
+            let mut row = Row::new();
+            for ((record, axis), nodes) in pieces {
+                let (end, course) = self.followed(&records[record], number);
+                let group = self.groups.nodes(&records[record].name, nodes);
+                let item = Item { end, start: None, course, place: records[record].place };
+                self.lay(&mut row, group, axis, item);
+            }
+            begin(&mut row, on_nodes.last());
+            begin(&mut tools, on_tools.last());
+            on_nodes.push(row);
+            on_tools.push(tools);
+            self.reach(&mut records, number);
+        }
+        (on_nodes, on_tools)
+    }
+
+    /// Lays a value on a group; a second one of the same step adds up, under another name where its course differs.
+    fn lay(&mut self, row: &mut Row, group: String, component: usize, item: Item) {
+        let key = (group, component);
+        match row.get(&key) {
+            Some(there) if there.course.is_some() || item.course.is_some() => {
+                let other = self.groups.again(&key.0, "more");
+                row.insert((other, component), item);
+            }
+            _ => add(row, key, item),
+        }
+    }
+
+    fn reach(&self, records: &mut [Record], step: usize) {
+        let reached: Vec<f64> = records.iter().map(|record| self.followed(record, step).0).collect();
+        records.iter_mut().zip(reached).for_each(|(record, reached)| record.reached = reached);
+    }
+
+    /// Pressures and forces per volume; a later line of the same name and label replaces the earlier one.
+    fn distributed(&mut self) -> (Table, Table) {
+        let model = self.model;
+        let mut standing: BTreeMap<(String, bool), (Record, &ActionKind)> = BTreeMap::new();
+        let (mut pressures, mut volumes) = (Table::new(), Table::new());
+        for (number, step) in model.steps.iter().enumerate() {
+            let initial = model.initial.iter().filter(|_| number == 0);
+            for action in initial.chain(&step.actions) {
+                match &action.kind {
+                    ActionKind::Fresh(Condition::Distributed) => standing.clear(),
+                    ActionKind::Pressure(target, _, value) => {
+                        let key = (target.name.to_ascii_uppercase(), true);
+                        standing.insert(key, (record(target, *value, action, number), &action.kind));
+                    }
+                    ActionKind::Volume(target, vector, weight) => {
+                        let axis = vector.iter().position(|&x| x != 0.0).filter(|_| !*weight);
+                        let key = (format!("{} {axis:?}", target.name.to_ascii_uppercase()), false);
+                        standing.insert(key, (record(target, 1.0, action, number), &action.kind));
+                    }
+                    _ => {}
+                }
+            }
+            let (mut pressed, mut heavy) = (Row::new(), Row::new());
+            for (record, kind) in standing.values() {
+                let (end, course) = self.followed(record, number);
+                let item = Item { end, start: None, course, place: record.place };
+                match kind {
+                    ActionKind::Pressure(_, faces, _) => {
+                        let kept =
+                            faces.iter().copied().filter(|(element, _)| self.section[*element].is_some()).collect();
+                        let group = self.groups.sides(&record.name, kept);
+                        self.lay(&mut pressed, group, 0, item);
+                    }
+                    ActionKind::Volume(target, vector, weight) => {
+                        self.pull(&mut heavy, target, *vector, *weight, &item)
+                    }
+                    _ => {}
+                }
+            }
+            begin(&mut pressed, pressures.last());
+            begin(&mut heavy, volumes.last());
+            pressures.push(pressed);
+            volumes.push(heavy);
+            for (record, _) in standing.values_mut() {
+                record.reached = self.followed(record, number).0;
+            }
+        }
+        (pressures, volumes)
+    }
+
+    /// A force per volume on elements: times their density where it is gravity.
+    fn pull(&mut self, row: &mut Row, target: &Target, vector: [f64; 3], weight: bool, item: &Item) {
+        let model = self.model;
+        let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for &element in &target.members {
+            if let Some(section) = self.section[element] {
+                parts.entry(if weight { model.sections[section].material } else { 0 }).or_default().push(element);
+            }
+        }
+        let several = parts.len() > 1;
+        for (material, cells) in parts {
+            let found = &model.materials[material];
+            let density = match (weight, found.density) {
+                (false, _) => 1.0,
+                (true, Some(density)) => density,
+                (true, None) => {
+                    self.error(item.place, format!("material '{}' has no *DENSITY, on which gravity acts", found.name));
+                    continue;
+                }
+            };
+            let name = if several { format!("{}.{}", target.name, found.name) } else { target.name.clone() };
+            let group = self.groups.cells(&name, cells);
+            for axis in (0..self.dimension()).filter(|&axis| vector[axis] != 0.0) {
+                let factor = density * vector[axis];
+                let course = item.course.as_ref().map(|points| points.iter().map(|[t, v]| [*t, v * factor]).collect());
+                let part = Item { end: item.end * factor, start: None, course, place: item.place };
+                self.lay(row, group.clone(), axis, part);
+            }
+        }
+    }
+
+    /// Temperatures above that free of stress, one for each body that expands.
+    fn temperatures(&mut self) -> Table {
+        let model = self.model;
+        let heated =
+            model.steps.iter().flat_map(|step| &step.actions).any(|a| matches!(a.kind, ActionKind::Temperature(..)));
+        if !heated {
+            return vec![Row::new(); model.steps.len()];
+        }
+        let bodies: Vec<_> = self.sorted_bodies().into_iter().map(|(body, _)| body).collect();
+        let bodies: Vec<_> =
+            bodies.into_iter().filter(|body| model.materials[body.material].expansion.is_some()).collect();
+        let mut owners: BTreeMap<usize, usize> = BTreeMap::new();
+        let (mut records, mut table) = (Vec::<Record>::new(), Table::new());
+        for (number, step) in model.steps.iter().enumerate() {
+            for action in &step.actions {
+                match &action.kind {
+                    ActionKind::Fresh(Condition::Temperature) => owners.clear(),
+                    ActionKind::Temperature(target, value) => {
+                        records.push(record(target, *value, action, number));
+                        owners.extend(target.members.iter().map(|&node| (node, records.len() - 1)));
+                    }
+                    _ => {}
+                }
+            }
+            let mut row = Row::new();
+            for body in &bodies {
+                let nodes = body.elements.iter().flat_map(|&element| &model.elements[element].nodes);
+                let given: Vec<_> = nodes
+                    .map(|node| {
+                        (owners.get(node).copied(), model.initial_temperature.get(node).copied().unwrap_or(0.0))
+                    })
+                    .collect();
+                let Some(&(first, free)) = given.first() else { continue };
+                let of = |record: Option<usize>| {
+                    record.map(|record| (records[record].value, records[record].course, records[record].step))
+                };
+                let alike = given.iter().all(|(record, start)| of(*record) == of(first) && *start == free);
+                match (alike, first) {
+                    (true, Some(first)) => {
+                        let (end, course) = self.followed(&records[first], number);
+                        let course = course.map(|points| points.iter().map(|[t, v]| [*t, v - free]).collect());
+                        let item = Item { end: end - free, start: None, course, place: records[first].place };
+                        row.insert((body.group.clone(), 0), item);
+                    }
+                    (true, None) => {}
+                    (false, _) => {
+                        let place =
+                            given.iter().find_map(|(record, _)| Some(records[(*record)?].place)).unwrap_or(step.place);
+                        self.error(
+                            place,
+                            format!(
+                                "body '{}' has several temperatures; one for all its nodes can be translated",
+                                body.group
+                            ),
+                        );
+                    }
+                }
+            }
+            begin(&mut row, table.last());
+            table.push(row);
+            self.reach(&mut records, number);
+        }
+        table
+    }
+}
+
+fn record(target: &Target, value: f64, action: &Action, step: usize) -> Record {
+    Record { name: target.name.clone(), value, course: action.course, place: action.place, step, reached: 0.0 }
+}
+
+/// Adds to what is there.
+fn add(row: &mut Row, key: (String, usize), item: Item) {
+    match row.get_mut(&key) {
+        Some(there) => there.end += item.end,
+        None => {
+            row.insert(key, item);
+        }
+    }
+}
+
+/// Loads begin at what the step before left, or at nothing.
+fn begin(row: &mut Row, before: Option<&Row>) {
+    for (key, item) in row.iter_mut() {
+        item.start = Some(before.and_then(|before| before.get(key)).map_or(0.0, |item| item.end));
+    }
+}

@@ -7,8 +7,10 @@ mod info;
 mod laws;
 mod penalty;
 mod point;
+mod report;
 mod run;
 mod schema;
+mod watch;
 
 pub use check::check;
 pub use completions::completions;
@@ -17,8 +19,10 @@ pub use info::info;
 pub use laws::laws;
 pub use penalty::penalty;
 pub use point::point;
+pub use report::report;
 pub use run::{restart, run};
 pub use schema::schema;
+pub use watch::watch;
 
 use crate::arguments;
 use crate::exit::{Exit, Trouble, tell};
@@ -43,9 +47,13 @@ fn print(text: &str) -> Outcome {
 
 /// Reads a deck and makes its model; warnings are told, notes are for `check`.
 fn made(arguments: &arguments::Deck) -> Result<Made, Trouble> {
+    made_quietly(arguments).inspect(|made| tell(&made.diagnostics))
+}
+
+/// The same without a word about warnings.
+fn made_quietly(arguments: &arguments::Deck) -> Result<Made, Trouble> {
     let mut made = deck::build(deck::load(&arguments.path, &arguments.sets)?)?;
     made.diagnostics.list = deck::warnings(&made);
-    tell(&made.diagnostics);
     Ok(made)
 }
 

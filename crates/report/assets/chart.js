@@ -2,6 +2,15 @@
 const LINES = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#8a8a8a', '#e69f00', '#56b4e9'];
 const DASHES = ['', '6 3', '1.5 2.5', '7 2.5 1.5 2.5'];
 
+/** Round values of a logarithmic axis, by their logarithms: decades, and 2 and 5 between few of them. */
+function decades(low, high, count) {
+  if (high - low > 3) return ticks(low, high, Math.min(count, high - low)).filter((y) => Math.abs(y - Math.round(y)) < 1e-9);
+  const out = [];
+  for (let decade = Math.floor(low); decade <= high; decade++) [1, 2, 5].forEach((m) => out.push(decade + Math.log10(m)));
+  const inside = out.filter((y) => y >= low && y <= high);
+  return inside.length > 1 ? inside : ticks(low, high, count);
+}
+
 class Chart {
   /** `host` is an element; `title` is what is read aloud. */
   constructor(host, title) {
@@ -92,9 +101,8 @@ class Chart {
     for (const x of ticks(view.x0, view.x1, Math.max(2, w / 90))) {
       parts.push(element('line', { x1: X(x), x2: X(x), y1: top, y2: top + h, class: 'grid' }), element('text', { x: X(x), y: top + h + 15, 'text-anchor': 'middle' }, shown(Number(x.toPrecision(12)))));
     }
-    for (const y of ticks(view.y0, view.y1, Math.max(2, h / 45))) {
-      const whole = !this.log || Math.abs(y - Math.round(y)) < 1e-6;
-      const label = this.log ? (whole ? `1e${Math.round(y)}`.replace('-', '−') : '') : shown(Number(y.toPrecision(12)));
+    for (const y of this.log ? decades(view.y0, view.y1, h / 45) : ticks(view.y0, view.y1, Math.max(2, h / 45))) {
+      const label = shown(this.log ? Number((10 ** y).toPrecision(3)) : Number(y.toPrecision(12)));
       parts.push(element('line', { x1: left, x2: left + w, y1: Y(y), y2: Y(y), class: 'grid' }), element('text', { x: left - 6, y: Y(y) + 4, 'text-anchor': 'end' }, label));
     }
     const lines = element('g', { 'clip-path': `url(#${id})` });

@@ -38,7 +38,7 @@ const rgb = (text) => { const n = parseInt(text.replace('#', ''), 16); return [n
 class View {
   constructor(scene, canvas, overlay) {
     Object.assign(this, { scene, canvas, overlay, frame: 0, factor: 1, bands: 0, mesh: true, vectors: true, stretch: 1, showTools: true, clip: null, picked: null, mark: null, range: [0, 1] });
-    const gl = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
+    const gl = canvas.getContext('webgl2', { alpha: false, antialias: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error('this browser has no WebGL2');
     this.gl = gl;
     this.rows = scene.plane ? SIDES.z : SIDES.corner;

@@ -51,12 +51,16 @@ class Page {
     this.options();
     await this.show();
     view.fit();
-    const node = /\bnode (\d+)\b/.exec(DATA.reason || '');
-    if (node && !$('to-reason')) {
-      const button = element('button', { type: 'button', id: 'to-reason' }, `show node ${node[1]}`);
-      button.addEventListener('click', () => this.goToNode(Number(node[1])));
-      $('reason').append(' ', button);
-    }
+    this.reason();
+  }
+
+  /** A button that leads to the node or cell which the reason of a failure names. */
+  reason() {
+    const named = /\b(node|cell) (\d+)\b/.exec(DATA.reason || '');
+    if (!named || $('to-reason') || (named[1] === 'cell' && !this.scene.hasCell(Number(named[2])))) return;
+    const button = element('button', { type: 'button', id: 'to-reason' }, `show ${named[0]}`);
+    button.addEventListener('click', () => (named[1] === 'node' ? this.goToNode(Number(named[2])) : this.goToCell(Number(named[2]))));
+    $('reason').append(' ', button);
   }
 
   /** Listens to the controls; they are there once. */
@@ -185,6 +189,14 @@ class Page {
     }
     this.pick(place);
     if (far) { this.view.goTo(this.view.nodeAt(place)); $('body').scrollIntoView(); }
+  }
+
+  async goToCell(number) {
+    const nodes = (await this.scene.cellNodes(number)).map((place) => this.view.nodeAt(place));
+    this.view.mark = [0, 1, 2].map((a) => nodes.reduce((sum, p) => sum + p[a], 0) / nodes.length);
+    this.view.goTo(this.view.mark);
+    $('view-told').textContent = `Cell ${number} is at the ring.`;
+    $('body').scrollIntoView();
   }
 
   goToWorst(name) {

@@ -103,4 +103,14 @@ class Scene {
     const place = this.numbers ? this.numbers.indexOf(number) : number;
     return Number.isInteger(place) && place >= 0 && place < this.body.count ? place : null;
   }
+
+  /** Whether a cell of the mesh is here, and its nodes by their places. */
+  hasCell(number) { return !this.numbers && number < this.body.cell_count; }
+  async cellNodes(number) {
+    const found = new Set();
+    const look = (cells, nodes, each) => cells.forEach((cell, i) => { if (cell === number) for (let k = 0; k < each; k++) found.add(nodes[each * i + k]); });
+    look(this.triangleCells, this.triangles, 3);
+    if (!found.size && await this.solids()) look(this.tetrahedronCells, this.tetrahedra, 4);
+    return [...found];
+  }
 }

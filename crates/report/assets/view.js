@@ -120,7 +120,7 @@ class View {
     this.upload(1, scene.points.displacement.subarray(3 * first, 3 * (first + count)), 3);
     this.now = list.values.subarray(list.starts[frame], list.starts[frame] + list.counts[frame]);
     this.upload(2, field.where === 'contact' ? new Float32Array(1) : this.now, 1);
-    this.cutTriangles = null;
+    this.cutKey = undefined;
     this.draw();
   }
 
@@ -298,7 +298,14 @@ class View {
     gl.uniform3f(at.centre, ...this.centre); gl.uniform3f(at.scale, ...scale);
     gl.uniform1f(at.factor, this.factor); gl.uniform1f(at.bands, this.bands); gl.uniform2f(at.range, ...this.range);
     gl.uniform1i(at.by_cell, this.field.where === 'cell' ? 1 : 0); gl.uniform1f(at.dot_size, 5 * ratio);
-    const cut = this.plane();
+    // The cut is made anew when it or what it cuts has changed, not when the view turns.
+    const key = this.clip && `${this.clip.axis} ${this.clip.at} ${this.clip.flip} ${this.factor}`;
+    if (this.cutKey !== key) {
+      this.cutPlane = this.plane();
+      this.cutTriangles = this.clip && this.section(this.cutPlane);
+      this.cutKey = key;
+    }
+    const cut = this.cutPlane;
     gl.uniform4f(at.cut, ...cut);
     const contact = this.field.where === 'contact', grey = rgb(styleColor('--solid'));
     gl.bindVertexArray(this.faces);
@@ -306,7 +313,6 @@ class View {
     this.style({ color: contact ? grey : null, lit: solid });
     gl.drawArrays(gl.TRIANGLES, 0, scene.triangles.length);
     if (this.clip) {
-      this.cutTriangles = this.section(cut);
       gl.uniform4f(at.cut, 0, 0, 0, 1);
       if (this.cutTriangles) this.loose(gl.TRIANGLES, this.cutTriangles.points, this.cutTriangles.values, {});
       gl.uniform4f(at.cut, ...cut);

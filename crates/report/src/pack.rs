@@ -154,7 +154,8 @@ mod tests {
             first += count;
         }
         let step = (packed.high - packed.low) / f64::from(packed.steps.max(1));
-        let value = |&code: &i64| if code > i64::from(packed.steps) { f64::NAN } else { packed.low + step * code as f64 };
+        let value =
+            |&code: &i64| if code > i64::from(packed.steps) { f64::NAN } else { packed.low + step * code as f64 };
         codes.iter().map(value).collect()
     }
 

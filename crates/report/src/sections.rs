@@ -22,7 +22,9 @@ pub fn all(folder: &Folder, live: bool) -> String {
         ("course", "How it went", course(folder)),
         ("asked", "What was asked", asked(folder)),
     ];
-    let mut out = String::from("<a class=\"skip\" href=\"#main\">Skip to the content</a>\n<nav aria-label=\"Parts of the page\">");
+    let mut out = String::from(
+        "<a class=\"skip\" href=\"#main\">Skip to the content</a>\n<nav aria-label=\"Parts of the page\">",
+    );
     for (id, heading, _) in &sections {
         // Writing into a String cannot fail.
         let _ = write!(out, "<a href=\"#{id}\">{heading}</a>");
@@ -34,7 +36,10 @@ pub fn all(folder: &Folder, live: bool) -> String {
         out += LIVE;
     }
     for (id, heading, content) in &sections {
-        let _ = write!(out, "<section id=\"{id}\" aria-labelledby=\"{id}-heading\"><h2 id=\"{id}-heading\">{heading}</h2>\n{content}\n</section>\n");
+        let _ = write!(
+            out,
+            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\"><h2 id=\"{id}-heading\">{heading}</h2>\n{content}\n</section>\n"
+        );
     }
     let version = escape(&folder.summary.version);
     let _ = write!(out, "</main>\n<footer>Written by Asperity {version}. Units are those of the deck.</footer>\n");
@@ -90,7 +95,9 @@ fn trust(folder: &Folder) -> String {
         let about = figure.limit.map_or("", |limit| limit.about);
         let place = if worst.value == 0.0 { String::new() } else { worst.place().trim_start().to_owned() };
         let show = match worst.position {
-            Some(_) if worst.value != 0.0 => format!("<button type=\"button\" class=\"show\" data-figure=\"{}\">show</button>", figure.name),
+            Some(_) if worst.value != 0.0 => {
+                format!("<button type=\"button\" class=\"show\" data-figure=\"{}\">show</button>", figure.name)
+            }
             _ => String::new(),
         };
         let _ = write!(
@@ -138,7 +145,8 @@ fn course(folder: &Folder) -> String {
         ("threads", summary.threads.to_string()),
         ("largest memory", summary.peak_memory.map_or(String::new(), |bytes| format!("{:.1} MB", bytes as f64 / 1e6))),
     ];
-    let timings: Vec<(String, f64)> = summary.timings.iter().map(|(name, seconds)| (format!("seconds of {name}"), *seconds)).collect();
+    let timings: Vec<(String, f64)> =
+        summary.timings.iter().map(|(name, seconds)| (format!("seconds of {name}"), *seconds)).collect();
     lines.extend(timings.iter().map(|(name, seconds)| (name.as_str(), format!("{seconds:.3}"))));
     let files: String = summary.files.iter().map(|file| format!("<li>{}</li>", escape(file))).collect();
     format!(
@@ -180,7 +188,9 @@ fn asked(folder: &Folder) -> String {
     let defaults: String = asked
         .defaults
         .iter()
-        .map(|(key, value)| format!("<tr><th scope=\"row\"><code>{}</code></th><td>{}</td></tr>\n", escape(key), escape(value)))
+        .map(|(key, value)| {
+            format!("<tr><th scope=\"row\"><code>{}</code></th><td>{}</td></tr>\n", escape(key), escape(value))
+        })
         .collect();
     if !defaults.is_empty() {
         let _ = write!(

@@ -21,15 +21,15 @@ pub struct Table {
 impl Table {
     /// The columns of a table that `keep` names, in the rows that are wanted.
     pub fn of(all: &Columns, keep: impl Fn(&str) -> bool, wanted: impl Fn(usize) -> bool) -> Self {
-        let rows: Vec<&Vec<String>> = (0..all.rows.len()).filter(|&row| wanted(row)).map(|row| &all.rows[row]).collect();
+        let rows: Vec<&Vec<String>> =
+            (0..all.rows.len()).filter(|&row| wanted(row)).map(|row| &all.rows[row]).collect();
         let count = rows.len();
         let stride = count.div_ceil(ROWS).max(1);
         let chosen: Vec<&Vec<String>> =
             rows.into_iter().enumerate().filter(|(i, _)| (count - 1 - i) % stride == 0).map(|(_, row)| row).collect();
         let kept = all.header.iter().enumerate().filter(|(_, name)| keep(name));
-        let column = |(at, name): (usize, &String)| {
-            (name.clone(), chosen.iter().map(|row| value(&row[at])).collect::<Vec<_>>())
-        };
+        let column =
+            |(at, name): (usize, &String)| (name.clone(), chosen.iter().map(|row| value(&row[at])).collect::<Vec<_>>());
         let (header, columns) = kept.map(column).unzip();
         Self { header, columns, rows: all.rows.len() }
     }
@@ -57,7 +57,8 @@ mod tests {
 
     #[test]
     fn a_long_table_is_thinned_and_keeps_its_last_row() {
-        let rows = (0..10_000).map(|i| vec![i.to_string(), "0.123456789".into(), "NaN".into(), "a <b>".into()]).collect();
+        let rows =
+            (0..10_000).map(|i| vec![i.to_string(), "0.123456789".into(), "NaN".into(), "a <b>".into()]).collect();
         let header = ["n", "x", "nan", "text"].map(String::from).to_vec();
         let table = Table::of(&Columns { header, rows }, |name| name != "skip", |_| true);
         assert!(table.columns[0].len() <= ROWS && table.rows == 10_000);

@@ -49,7 +49,13 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
         let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
         Job::checkpoint_in(&directory)?;
     }
-    let voice = if arguments.quiet { Voice::Quiet } else if arguments.json { Voice::Json } else { Voice::Page };
+    let voice = if arguments.quiet {
+        Voice::Quiet
+    } else if arguments.json {
+        Voice::Json
+    } else {
+        Voice::Page
+    };
     let made = if voice == Voice::Quiet { made_quietly(&arguments.deck)? } else { made(&arguments.deck)? };
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;

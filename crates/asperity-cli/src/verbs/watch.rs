@@ -12,7 +12,9 @@ pub fn watch(arguments: &Watch, interrupts: &Interrupts) -> Outcome {
     report::status(&arguments.directory)?;
     let server = Server::open(&arguments.directory, arguments.port)?;
     let address = server.address();
-    print(&format!("{address}\nopen this address in a browser on this machine; Ctrl-C ends the server, not the run\n"))?;
+    print(&format!(
+        "{address}\nopen this address in a browser on this machine; Ctrl-C ends the server, not the run\n"
+    ))?;
     server.serve(&interrupts.heed())?;
     Ok(Exit::Done)
 }

@@ -73,7 +73,9 @@ impl Request {
     }
     /// A value after `?`; the values of this program need no decoding.
     pub fn query(&self, name: &str) -> Option<&str> {
-        self.query.split('&').find_map(|pair| pair.split_once('=').filter(|(key, _)| *key == name).map(|(_, value)| value))
+        self.query
+            .split('&')
+            .find_map(|pair| pair.split_once('=').filter(|(key, _)| *key == name).map(|(_, value)| value))
     }
 }
 
@@ -130,7 +132,14 @@ mod tests {
         assert_eq!((request.header("host"), request.header("origin")), (Some("127.0.0.1:1"), None));
         let twice = Request::parse("GET / HTTP/1.1\nHost: a\nHost: b\n\n".as_bytes()).unwrap();
         assert!(twice.header("host").is_none() && twice.has("host"));
-        for nonsense in ["", "GET /", "GET / HTTP/2\n\n", "GET / HTTP/1.1 more\n\n", "GET / HTTP/1.1\nno colon\n\n", "GET / HTTP/1.1\nHost: a"] {
+        for nonsense in [
+            "",
+            "GET /",
+            "GET / HTTP/2\n\n",
+            "GET / HTTP/1.1 more\n\n",
+            "GET / HTTP/1.1\nno colon\n\n",
+            "GET / HTTP/1.1\nHost: a",
+        ] {
             assert_eq!(Request::parse(nonsense.as_bytes()), None, "{nonsense}");
         }
     }

@@ -40,7 +40,9 @@ impl Server {
     /// # Errors
     /// [`Error::Input`] when the port is taken; [`Error::Internal`] when the system gives no random numbers.
     pub fn open(directory: &Path, port: u16) -> Result<Self, Error> {
-        let taken = |error| Error::input(format!("port {port} of 127.0.0.1 cannot be used: {error}; another is chosen with --port"));
+        let taken = |error| {
+            Error::input(format!("port {port} of 127.0.0.1 cannot be used: {error}; another is chosen with --port"))
+        };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(taken)?;
         let internal = |error: std::io::Error| Error::Internal(error.to_string());
         listener.set_nonblocking(true).map_err(internal)?;
@@ -81,7 +83,8 @@ impl Site {
     fn converse(&self, stream: &TcpStream) {
         // A client that cannot be heard or told is left alone.
         if stream.set_nonblocking(false).is_ok() {
-            let answer = Request::read(stream).map_or_else(|| Answer::refusal(400, "this is no request"), |r| self.answer(&r));
+            let answer =
+                Request::read(stream).map_or_else(|| Answer::refusal(400, "this is no request"), |r| self.answer(&r));
             drop(answer.send(stream));
         }
     }
@@ -90,7 +93,9 @@ impl Site {
         if let Some(refusal) = self.refusal(request) {
             return refusal;
         }
-        let said = |content: Result<String, Error>| content.map_or_else(|error| Answer::refusal(500, error.to_string()), Answer::json);
+        let said = |content: Result<String, Error>| {
+            content.map_or_else(|error| Answer::refusal(500, error.to_string()), Answer::json)
+        };
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => match report::page(&self.directory, Some(&Live { token: self.token.clone() })) {
                 Ok(page) => Answer::page(page),
@@ -124,7 +129,8 @@ impl Site {
         if !request.header("host").is_some_and(|host| hosts.iter().any(|own| own == host)) {
             return Some(Answer::refusal(403, "this host is not served"));
         }
-        let own = |origin: &str| origin.strip_prefix("http://").is_some_and(|origin| hosts.iter().any(|own| own == origin));
+        let own =
+            |origin: &str| origin.strip_prefix("http://").is_some_and(|origin| hosts.iter().any(|own| own == origin));
         if request.has("origin") && !request.header("origin").is_some_and(own) {
             return Some(Answer::refusal(403, "another page may not ask"));
         }
@@ -133,7 +139,8 @@ impl Site {
         }
         // The page is opened by its address; everything else carries a header, which a foreign page cannot add.
         let given = if request.path == "/" { request.query("token") } else { request.header(TOKEN) };
-        (!given.is_some_and(|given| same(given, &self.token))).then(|| Answer::refusal(403, "the token is missing or wrong"))
+        (!given.is_some_and(|given| same(given, &self.token)))
+            .then(|| Answer::refusal(403, "the token is missing or wrong"))
     }
 }
 

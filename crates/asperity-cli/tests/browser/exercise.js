@@ -1,12 +1,12 @@
 // Uses every control of the page that is seen, and tells which of them changed the picture.
 (async () => {
   const canvas = document.getElementById('canvas'), gl = canvas.getContext('webgl2');
-  const settled = async () => { for (let i = 0; i < 3; i++) await new Promise((done) => requestAnimationFrame(done)); await new Promise((done) => setTimeout(done, 30)); };
+  const settled = async () => { for (let i = 0; i < 2; i++) await new Promise((done) => requestAnimationFrame(done)); await new Promise((done) => setTimeout(done, 5)); };
   const picture = () => {
     const pixels = new Uint8Array(4 * canvas.width * canvas.height), colors = new Set();
     gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     let print = 0;
-    for (let i = 0; i < pixels.length; i += 4) {
+    for (let i = 0; i < pixels.length; i += 12) {
       const color = pixels[i] << 16 | pixels[i + 1] << 8 | pixels[i + 2];
       colors.add(color);
       print = (print * 31 + color) >>> 0;
@@ -18,14 +18,17 @@
   const name = (control) => control.id || control.dataset.side || control.dataset.figure || control.textContent;
   const use = async (control, act) => {
     if (!seen(control)) return;
-    const before = picture().print;
     await act(control);
     await settled();
     used.push(name(control));
-    changed[name(control)] ||= picture().print !== before;
+    const now = picture().print;
+    changed[name(control)] ||= now !== before;
+    before = now;
   };
   const set = (control, value) => { control.value = value; control.dispatchEvent(new Event('input', { bubbles: true })); control.dispatchEvent(new Event('change', { bubbles: true })); };
-  const first = picture(), id = (name) => document.getElementById(name);
+  const first = picture();
+  let before = first.print;
+  const id = (name) => document.getElementById(name);
   document.querySelectorAll('details').forEach((details) => { details.open = true; });
   await settled();
 
@@ -34,6 +37,7 @@
     for (const option of [...id(name).options]) await use(id(name), (control) => set(control, option.value));
     set(id(name), held);
     await settled();
+    before = picture().print;
   }
   await use(id('least'), (control) => set(control, '0'));
   await use(id('greatest'), (control) => set(control, '1e3'));
@@ -54,6 +58,8 @@
     for (let i = 0; i < 2; i++) await use(id('clip-flip'), (control) => control.click());
   }
   if (seen(id('clip'))) set(id('clip'), '');
+  await settled();
+  before = picture().print;
   for (const name of ['nearer', 'farther', 'nearer', 'fit']) await use(id(name), (control) => control.click());
   await use(id('node'), (control) => set(control, '999999999'));
   await use(id('node'), (control) => set(control, '3'));

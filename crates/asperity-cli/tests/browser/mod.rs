@@ -75,7 +75,9 @@ impl Browser {
         let target = browser.send("Target.createTarget", json!({ "url": "about:blank" }))["targetId"].clone();
         let attached = browser.send("Target.attachToTarget", json!({ "targetId": target, "flatten": true }));
         browser.session = attached["sessionId"].as_str().map(str::to_owned);
-        ["Runtime.enable", "Log.enable", "Network.enable", "Page.enable"].iter().for_each(|method| drop(browser.send(method, json!({}))));
+        ["Runtime.enable", "Log.enable", "Network.enable", "Page.enable"]
+            .iter()
+            .for_each(|method| drop(browser.send(method, json!({}))));
         browser.send("Browser.setDownloadBehavior", json!({ "behavior": "deny" }));
         Some(browser)
     }
@@ -145,7 +147,10 @@ impl Browser {
         let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
         self.send("Emulation.setDeviceMetricsOverride", size);
         let scheme = if dark { "dark" } else { "light" };
-        self.send("Emulation.setEmulatedMedia", json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] }));
+        self.send(
+            "Emulation.setEmulatedMedia",
+            json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] }),
+        );
     }
 
     /// Writes a picture of the window.

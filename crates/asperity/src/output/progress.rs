@@ -113,7 +113,8 @@ impl Reporter {
         (progress.step_number, progress.dt) = (record.step + 1, record.dt);
         progress.last_iterations = record.solutions();
         progress.iterations += record.solutions();
-        progress.worst_unknown = record.iterations.last().map_or_else(String::new, |last| problem.name_of(last.worst.dof));
+        progress.worst_unknown =
+            record.iterations.last().map_or_else(String::new, |last| problem.name_of(last.worst.dof));
         match &record.failure {
             Some(why) => {
                 progress.cuts += 1;

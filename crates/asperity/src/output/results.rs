@@ -13,8 +13,8 @@ use super::asked::ASKED;
 use super::certificate::{Certificate, Limits, Occasion};
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
-use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::figures::{FIGURES, Figure};
+use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HISTORY, HistoryTable};
 use super::progress::{PROGRESS, REQUEST};
@@ -177,7 +177,20 @@ impl Results {
         let directory = directory.to_path_buf();
         let (certificate, limits) = (Certificate::default(), Limits::default());
         let (spent, told) = (Duration::ZERO, Instant::now());
-        Ok(Self { directory, options, input, grid, series, history, readings, certificate, limits, summary, spent, told })
+        Ok(Self {
+            directory,
+            options,
+            input,
+            grid,
+            series,
+            history,
+            readings,
+            certificate,
+            limits,
+            summary,
+            spent,
+            told,
+        })
     }
 
     /// Writes what is due after an accepted increment. `last` says that it ended its step.
@@ -265,7 +278,8 @@ impl Results {
     /// The figures that are beyond their limits, and the one nearest to its limit or farthest beyond.
     pub fn nearest_to_limits(&self) -> (Vec<String>, Option<(String, Occasion)>) {
         let limited = FIGURES.iter().filter(|figure| self.limits.of(figure.name).is_some());
-        let worst = |figure: &Figure| Some((figure.name.to_owned(), self.certificate.worst(figure.name, &self.limits)?));
+        let worst =
+            |figure: &Figure| Some((figure.name.to_owned(), self.certificate.worst(figure.name, &self.limits)?));
         let found: Vec<(String, Occasion)> = limited.filter_map(worst).collect();
         let part = |worst: &Occasion| worst.value / worst.limit.unwrap_or(f64::INFINITY);
         let beyond = found.iter().filter(|(_, worst)| !(part(worst) <= 1.0)).map(|(name, _)| name.clone()).collect();
@@ -276,7 +290,8 @@ impl Results {
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
         let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
-        let tables = [HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED].map(String::from);
+        let tables = [HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
+            .map(String::from);
         let all = frames.chain(tables).chain(pictures());
         all.filter(|name| self.directory.join(name).exists()).collect()
     }

@@ -232,7 +232,8 @@ impl Thinned<'_> {
             tetrahedra,
             tetrahedron_count,
             tetrahedron_cells,
-            contacts: (!self.contacts.is_empty()).then(|| self.contacts.packed(plane, motion.max(18), value.max(12), &mut blobs)),
+            contacts: (!self.contacts.is_empty())
+                .then(|| self.contacts.packed(plane, motion.max(18), value.max(12), &mut blobs)),
             tools,
         };
         (body, blobs)

@@ -166,7 +166,8 @@ impl Field {
     fn take(&mut self, array: &DataArray, members: &[usize]) {
         let values = array.values.to_real();
         for (component, list) in self.values.iter_mut().enumerate() {
-            let value = |&member: &usize| values.get(member * array.components + component).map_or(f32::NAN, |&x| x as f32);
+            let value =
+                |&member: &usize| values.get(member * array.components + component).map_or(f32::NAN, |&x| x as f32);
             list.extend(members.iter().map(value));
         }
     }

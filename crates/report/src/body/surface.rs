@@ -26,7 +26,8 @@ impl Surface {
         let mut surface = Self::default();
         let mut edges: BTreeMap<[usize; 2], (Vec<usize>, usize)> = BTreeMap::new();
         for (cell, kind, nodes) in &facets {
-            let around: Vec<Vec<usize>> = kind.faces.iter().map(|face| face.nodes.iter().map(|&i| nodes[i]).collect()).collect();
+            let around: Vec<Vec<usize>> =
+                kind.faces.iter().map(|face| face.nodes.iter().map(|&i| nodes[i]).collect()).collect();
             for triangle in triangles(kind, nodes, &around) {
                 surface.triangles.push(triangle);
                 surface.cells.push(*cell);

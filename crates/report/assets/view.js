@@ -134,12 +134,13 @@ class View {
     return [this.canvas.clientWidth / 2 + e[0] / size, this.canvas.clientHeight / 2 - e[1] / size, e[2]];
   }
 
-  /** Shows all nodes, in the frames that there are. */
+  /** Shows all nodes, in the frames that there are, and the arrows of this frame. */
   fit() {
     const { scene } = this, low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     const few = scene.frames * scene.points.counts[0] > 2e6 ? [0, this.frame, scene.frames - 1] : [...Array(scene.frames).keys()];
-    for (const frame of few) {
-      const p = scene.positions(scene.points, frame, this.factor);
+    const lists = few.map((frame) => scene.positions(scene.points, frame, this.factor));
+    if (this.vectors && this.now) lists.push(this.arrows().flatMap(([tail]) => tail));
+    for (const p of lists) {
       for (let i = 0; i < p.length; i += 3) {
         for (let a = 0; a < 3; a++) {
           const e = this.rows[a][0] * p[i] + this.rows[a][1] * p[i + 1] + this.rows[a][2] * p[i + 2];

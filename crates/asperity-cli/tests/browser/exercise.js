@@ -43,7 +43,7 @@
   await use(id('greatest'), (control) => set(control, '1e3'));
   await use(id('greatest'), (control) => set(control, 'nonsense'));
   set(id('range'), 'frame');
-  await use(id('vector-length'), (control) => set(control, '1'));
+  for (const length of ['-1', '0']) await use(id('vector-length'), (control) => set(control, length));
   for (const name of ['bands', 'mesh', 'vectors', 'tools']) for (let i = 0; i < 2; i++) await use(id(name), (control) => control.click());
   for (const value of ['0', '1', id('frame').max]) await use(id('frame'), (control) => set(control, value));
   await use(id('back'), (control) => control.click());

@@ -360,7 +360,8 @@ fn large_reports_work_in_a_browser() {
         .replace("quad8", "quad4")
         .replace("count = 6", "count = 20")
         .replace("{ line = [[20.0, 0.0], [-20.0, 0.0]] }", "{ arc = [[3.0, -1.0], [2.0, 0.0], [1.0, -1.0]] }");
-    let space = SPACE.replace("[5, 5, 5]", "[31, 31, 31]").replace("count = 5", "count = 20").replace("-0.1 }", "-0.06 }");
+    let space =
+        SPACE.replace("[5, 5, 5]", "[31, 31, 31]").replace("count = 5", "count = 20").replace("-0.1 }", "-0.06 }");
     let decks = [("large_block", plane, 0), ("large_cube", space, 0)];
     let folder = runs(&decks);
     for (name, ..) in &decks {

@@ -358,11 +358,11 @@ class View {
       if (!name || Math.hypot(dx, dy) < 0.1) return;
       parts.push(element('line', { x1: 44, y1: h - 44, x2: 44 + 28 * dx, y2: h - 44 - 28 * dy }), element('text', { x: 44 + 37 * dx, y: h - 40 - 37 * dy, 'text-anchor': 'middle' }, name));
     });
-    const bar = ticks(0, 130 * this.pixel(), 2)[1] || 0, long = bar / this.pixel();
+    const bar = ticks(0, 130 * this.pixel(), 4).pop(), long = bar / this.pixel();
     if (long > 5) parts.push(element('path', { d: `M100 ${h - 26}v6h${long}v-6` }), element('text', { x: 100 + long / 2, y: h - 26, 'text-anchor': 'middle' }, shown(bar)));
     const scale = this.arrowScale();
     if (this.vectors && scale > 0) {
-      const stress = ticks(0, 110 * this.pixel() / scale, 2)[1] || 0, px = stress * scale / this.pixel();
+      const stress = ticks(0, 110 * this.pixel() / scale, 4).pop(), px = stress * scale / this.pixel();
       if (px > 5) parts.push(element('path', { d: `M${120 + long} ${h - 20}h${px}m-6 -3l6 3l-6 3`, class: 'arrow' }), element('text', { x: 120 + long + px / 2, y: h - 26, 'text-anchor': 'middle' }, `stress ${shown(stress)}`));
     }
     const ring = (p, kind) => { const [x, y] = this.screen(p); parts.push(element('circle', { cx: x, cy: y, r: 7, class: kind })); };

@@ -5,7 +5,7 @@ use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, Voice, farewell};
 use crate::signals::Interrupts;
-use asperity::output::{Job, REPORT, SUMMARY, Start, Status, Summary, simulate};
+use asperity::output::{ASKED, Job, REPORT, SUMMARY, Start, Status, Summary, simulate};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -61,14 +61,18 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
     let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes };
-    made.asked().write(&directory)?;
+    if start == Start::Beginning || !directory.join(ASKED).exists() {
+        made.asked().write(&directory)?;
+    }
     let mut screen = Screen::new(&made.model.problem, interrupts.heed()).speaking(voice);
     screen.begin(&made.model.title, &directory);
     // On a thread of the pool: from outside, every parallel loop would hand over to it and wait.
     let simulated = rayon::scope(|_| simulate(&made.model, &job, &mut screen));
     screen.close();
     let (mut summary, ended) = simulated?;
-    if !arguments.no_report && summary.status != Status::FileError {
+    // A restart of a run that had come to its end writes nothing, but for a note that only the screen gets.
+    let written = Summary::read(&directory.join(SUMMARY)).is_ok_and(|told| told.notes == summary.notes);
+    if !arguments.no_report && written && summary.status != Status::FileError {
         report(&mut summary, &directory);
     }
     match voice {

@@ -149,7 +149,7 @@ impl Watched {
             command.current_dir(folder);
             command
         };
-        let run = program().args(["run", "tube.toml", "--quiet", "--set", "output.every=50"]).spawn().unwrap();
+        let run = program().args(["run", "tube.toml", "--quiet", "--set", "output.every=10"]).spawn().unwrap();
         let directory = folder.join("tube.results");
         until(|| {
             std::fs::read_to_string(directory.join("status.json")).is_ok_and(|text| !text.contains("\"increment\":0"))
@@ -388,6 +388,7 @@ fn curves_grow_in_a_browser_and_its_button_stops_the_run() {
     browser.until("document.getElementById('log').children.length > 5 && document.getElementById('done').value > 0");
     browser.until("document.getElementById('now').textContent.includes('push')");
     browser.picture(&pictures().join("watch.png"));
+    browser.until("!document.getElementById('frames').disabled");
     browser.value("document.getElementById('frames').click()");
     browser.until("document.getElementById('live-told').textContent.includes('so far')");
     browser.value("document.getElementById('checkpoint').click()");

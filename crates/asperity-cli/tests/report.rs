@@ -224,7 +224,8 @@ fn the_server_answers_its_own_page_only_and_stops_the_run() {
     ] {
         assert_eq!(watched.ask(line, &headers).0, status, "{line} {headers}");
     }
-    assert!(!folder.path().join("tube.results/run.request").exists(), "nothing was asked of the run");
+    let asked = |name: &str| folder.path().join("tube.results").join(name).exists();
+    assert!(!asked("stop.request") && !asked("checkpoint.request"), "nothing was asked of the run");
     // Loopback only: no other address of this machine listens.
     assert!(TcpStream::connect(("127.0.0.2", watched.port)).is_err());
     let json = |watched: &Watched, path: &str| -> Value {
@@ -248,7 +249,7 @@ fn the_server_answers_its_own_page_only_and_stops_the_run() {
     let checkpoint = folder.path().join("tube.results/run.checkpoint");
     let written = || std::fs::metadata(&checkpoint).and_then(|data| data.modified()).ok();
     assert_eq!(watched.ask("POST /checkpoint", &own).0, 200);
-    until(|| written().is_some() && !folder.path().join("tube.results/run.request").exists());
+    until(|| written().is_some() && !asked("checkpoint.request"));
     assert_eq!(watched.ask("POST /stop", &own).0, 200);
     assert_eq!(watched.ended(), 4);
     assert!(checkpoint.exists() && folder.path().join("tube.results/report.html").exists());

@@ -32,7 +32,7 @@ pub use claim::{Claim, Others, is_claimed};
 pub use figures::{FIGURES, Figure, Fold, Limit};
 pub use history::{HistoryTable, global_columns};
 pub use log::RunLog;
-pub use progress::{PROGRESS, Progress, REQUEST, Request};
+pub use progress::{PROGRESS, Progress, Request};
 pub use quantities::{Parts, Source};
 pub use quantity::{Frame, Number, Place, Quantity, Unit, Width};
 pub use recorder::Recorder;

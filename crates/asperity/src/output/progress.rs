@@ -1,5 +1,5 @@
-//! `status.json`: where a run stands, replaced in one step after every attempt at an increment; and `run.request`, by which
-//! another process asks something of the run.
+//! `status.json`: where a run stands, replaced in one step after every attempt at an increment; and files by which another
+//! process asks something of the run.
 
 use super::certificate::Occasion;
 use super::file::{self, Durability, write_atomic};
@@ -12,8 +12,6 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 /// Name of the status in the result directory.
 pub const PROGRESS: &str = "status.json";
-/// Name of the request in the result directory.
-pub const REQUEST: &str = "run.request";
 
 /// The content of `status.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -151,23 +149,44 @@ impl Progress {
 }
 
 impl Request {
+    /// Each request has a file of its own, so that one cannot take away another.
+    pub const ALL: [Self; 2] = [Self::Stop, Self::Checkpoint];
+
+    /// The name of its file in the result directory; what the file holds is not read.
+    pub fn file(self) -> &'static str {
+        match self {
+            Self::Stop => "stop.request",
+            Self::Checkpoint => "checkpoint.request",
+        }
+    }
     /// Leaves the request in a result directory; the run there finds it after its increment.
     ///
     /// # Errors
     /// [`Error::Write`] when it cannot be written.
     pub fn leave(self, directory: &Path) -> Result<(), Error> {
-        write_atomic(&directory.join(REQUEST), self.word().as_bytes(), Durability::Process)
+        write_atomic(&directory.join(self.file()), b"", Durability::Process)
     }
-    /// The request that was left in a result directory, if there is one.
-    pub fn pending(directory: &Path) -> Option<Self> {
-        let text = std::fs::read_to_string(directory.join(REQUEST)).ok()?;
-        [Self::Stop, Self::Checkpoint].into_iter().find(|request| request.word() == text.trim())
+    /// Whether the request was left in a result directory.
+    pub fn is_left(self, directory: &Path) -> bool {
+        directory.join(self.file()).exists()
     }
-    fn word(self) -> &'static str {
-        match self {
-            Self::Stop => "stop",
-            Self::Checkpoint => "checkpoint",
+    /// Takes the requests out of a result directory.
+    ///
+    /// # Errors
+    /// [`Error::File`] when one cannot be removed.
+    pub fn clear(directory: &Path) -> Result<(), Error> {
+        file::remove(directory, Self::ALL.map(|request| request.file().to_owned()))
+    }
+    /// Takes this request, if it was left: what is asked from then on is a new one.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be removed.
+    pub(super) fn take(self, directory: &Path) -> Result<bool, Error> {
+        let left = self.is_left(directory);
+        if left {
+            file::remove(directory, [self.file().to_owned()])?;
         }
+        Ok(left)
     }
 }
 
@@ -176,14 +195,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_request_is_found_and_nonsense_is_none() {
+    fn a_request_is_taken_once_and_takes_no_other_with_it() {
         let folder = tempfile::tempdir().unwrap();
-        assert_eq!(Request::pending(folder.path()), None);
-        for request in [Request::Stop, Request::Checkpoint] {
-            request.leave(folder.path()).unwrap();
-            assert_eq!(Request::pending(folder.path()), Some(request));
-        }
-        std::fs::write(folder.path().join(REQUEST), "format the disk").unwrap();
-        assert_eq!(Request::pending(folder.path()), None);
+        let left = |request: Request| request.is_left(folder.path());
+        assert!(!Request::ALL.into_iter().any(left));
+        Request::ALL.into_iter().for_each(|request| request.leave(folder.path()).unwrap());
+        assert!(Request::Checkpoint.take(folder.path()).unwrap());
+        assert!(!Request::Checkpoint.take(folder.path()).unwrap() && left(Request::Stop));
+        Request::clear(folder.path()).unwrap();
+        assert!(!Request::ALL.into_iter().any(left));
     }
 }

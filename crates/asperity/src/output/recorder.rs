@@ -1,8 +1,7 @@
 //! The observer that writes the results of a run, and passes everything on to another that may show it.
 
-use super::file::remove;
 use super::log::RunLog;
-use super::progress::{REQUEST, Reporter, Request};
+use super::progress::{Reporter, Request};
 use super::quantities::{Parts, Source};
 use super::results::Results;
 use crate::Error;
@@ -68,13 +67,12 @@ impl Observer for Recorder<'_> {
         let progress = &mut self.reporter.progress;
         (progress.beyond, progress.worst) = self.results.nearest_to_limits();
         self.reporter.write()?;
-        if Request::pending(self.results.directory()) == Some(Request::Checkpoint) {
+        if Request::Checkpoint.take(self.results.directory())? {
             self.results.checkpoint(state)?;
-            remove(self.results.directory(), [REQUEST.to_owned()])?;
         }
         self.audience.accepted(state, attempt)
     }
     fn wants_stop(&self) -> bool {
-        self.audience.wants_stop() || Request::pending(self.results.directory()) == Some(Request::Stop)
+        self.audience.wants_stop() || Request::Stop.is_left(self.results.directory())
     }
 }

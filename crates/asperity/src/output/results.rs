@@ -17,7 +17,7 @@ use super::figures::{FIGURES, Figure};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HISTORY, HistoryTable};
-use super::progress::{PROGRESS, REQUEST};
+use super::progress::{PROGRESS, Request};
 use super::quantities::{Parts, Source};
 use super::quantity::Place;
 use super::readings::{READINGS, ReadingTable};
@@ -131,7 +131,8 @@ impl Results {
     pub fn clear(directory: &Path) -> Result<(), Error> {
         make_directory(directory)?;
         sweep(directory)?;
-        let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REQUEST, REPORT].map(String::from);
+        Request::clear(directory)?;
+        let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT].map(String::from);
         remove(directory, late.into_iter().chain(pictures()))
     }
     /// Continues the results of a run from a checkpoint: what came after it is dropped.
@@ -142,7 +143,7 @@ impl Results {
         let (parts, state) = (at.parts, at.state);
         make_directory(directory)?;
         sweep(directory)?;
-        remove(directory, [REQUEST.to_owned()])?;
+        Request::clear(directory)?;
         let series = |fields: Fields| {
             let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
             Ok((fields, series))

@@ -2,9 +2,8 @@
 
 use super::certificate::{Certificate, Limits};
 use super::checkpoint::{self, InputHash};
-use super::file::remove;
 use super::log::RunLog;
-use super::progress::REQUEST;
+use super::progress::Request;
 use super::quantities::{Parts, Source};
 use super::recorder::Recorder;
 use super::results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
@@ -77,7 +76,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     results.summary.notes.extend(large_strain(&results.certificate));
     results.summary.notes.extend(rests(&results.certificate, model.space));
     results.finish(&ended)?;
-    remove(job.directory, [REQUEST.to_owned()])?;
+    Request::clear(job.directory)?;
     (reporter.progress.status, reporter.progress.remaining) = (results.summary.status, None);
     reporter.write()?;
     Ok((results.summary, ended))

@@ -36,13 +36,13 @@ pub fn all(folder: &Folder, live: bool) -> String {
         out += LIVE;
     }
     for (id, heading, content) in &sections {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\"><h2 id=\"{id}-heading\">{heading}</h2>\n{content}\n</section>\n"
+            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\"><h2 id=\"{id}-heading\">{heading}</h2>\n{content}\n</section>"
         );
     }
     let version = escape(&folder.summary.version);
-    let _ = write!(out, "</main>\n<footer>Written by Asperity {version}. Units are those of the deck.</footer>\n");
+    let _ = writeln!(out, "</main>\n<footer>Written by Asperity {version}. Units are those of the deck.</footer>");
     out
 }
 
@@ -75,7 +75,7 @@ fn head(folder: &Folder) -> String {
         number(summary.time),
     );
     if let Some(reason) = &summary.reason {
-        let _ = write!(out, "<p class=\"reason\" id=\"reason\">{}</p>\n", escape(reason));
+        let _ = writeln!(out, "<p class=\"reason\" id=\"reason\">{}</p>", escape(reason));
     }
     out + "</header>\n"
 }
@@ -100,10 +100,10 @@ fn trust(folder: &Folder) -> String {
             }
             _ => String::new(),
         };
-        let _ = write!(
+        let _ = writeln!(
             rows,
             "<tr><th scope=\"row\" title=\"{}\">{}<br><code>{}</code></th><td class=\"n\">{}</td><td class=\"n\">{limit}</td>\
-             <td class=\"{class}\">{verdict}</td><td>{}</td><td>{show}</td></tr>\n",
+             <td class=\"{class}\">{verdict}</td><td>{}</td><td>{show}</td></tr>",
             escape(about),
             escape(figure.words.trim()),
             figure.name,
@@ -115,11 +115,11 @@ fn trust(folder: &Folder) -> String {
     if rows.is_empty() {
         out += "<p>No increment was accepted, so nothing was read.</p>";
     } else {
-        let _ = write!(
+        let _ = writeln!(
             out,
             "<p>The worst of all accepted increments. A figure beyond its limit makes a run doubtful.</p><div class=\"wide\"><table>\
              <thead><tr><th scope=\"col\">figure</th><th scope=\"col\">value</th><th scope=\"col\">limit</th><th scope=\"col\"></th>\
-             <th scope=\"col\">where and when</th><th scope=\"col\"></th></tr></thead><tbody>\n{rows}</tbody></table></div>\n"
+             <th scope=\"col\">where and when</th><th scope=\"col\"></th></tr></thead><tbody>\n{rows}</tbody></table></div>"
         );
     }
     out += "<h3>Notes</h3>\n";
@@ -127,7 +127,7 @@ fn trust(folder: &Folder) -> String {
         out += "<p>There are none.</p>\n";
     } else {
         let notes: String = summary.notes.iter().map(|note| format!("<li>{}</li>\n", escape(note))).collect();
-        let _ = write!(out, "<ul class=\"notes\">{notes}</ul>\n");
+        let _ = writeln!(out, "<ul class=\"notes\">{notes}</ul>");
     }
     out + "<h3>Balance of energy</h3>\n<div class=\"chart\" id=\"energy-chart\"></div>\n<h3>Audit and equilibrium, each increment</h3>\n\
            <div class=\"chart\" id=\"audit-chart\"></div>\n"
@@ -178,11 +178,11 @@ fn asked(folder: &Folder) -> String {
     };
     if !asked.sets.is_empty() {
         let sets: String = asked.sets.iter().map(|set| format!("<li><code>{}</code></li>", escape(set))).collect();
-        let _ = write!(out, "<h3>Changed by --set</h3><ul>{sets}</ul>\n");
+        let _ = writeln!(out, "<h3>Changed by --set</h3><ul>{sets}</ul>");
     }
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "<h3>Deck</h3>\n<pre class=\"wide\" tabindex=\"0\" aria-label=\"Text of the deck\"><code>{}</code></pre>\n",
+        "<h3>Deck</h3>\n<pre class=\"wide\" tabindex=\"0\" aria-label=\"Text of the deck\"><code>{}</code></pre>",
         escape(&asked.text)
     );
     let defaults: String = asked
@@ -193,9 +193,9 @@ fn asked(folder: &Folder) -> String {
         })
         .collect();
     if !defaults.is_empty() {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<details><summary>{} keys that were not said, and what holds instead</summary><div class=\"wide\"><table><tbody>{defaults}</tbody></table></div></details>\n",
+            "<details><summary>{} keys that were not said, and what holds instead</summary><div class=\"wide\"><table><tbody>{defaults}</tbody></table></div></details>",
             asked.defaults.len()
         );
     }

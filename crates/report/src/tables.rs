@@ -25,8 +25,12 @@ impl Table {
             (0..all.rows.len()).filter(|&row| wanted(row)).map(|row| &all.rows[row]).collect();
         let count = rows.len();
         let stride = count.div_ceil(ROWS).max(1);
-        let chosen: Vec<&Vec<String>> =
-            rows.into_iter().enumerate().filter(|(i, _)| (count - 1 - i) % stride == 0).map(|(_, row)| row).collect();
+        let chosen: Vec<&Vec<String>> = rows
+            .into_iter()
+            .enumerate()
+            .filter(|(i, _)| (count - 1 - i).is_multiple_of(stride))
+            .map(|(_, row)| row)
+            .collect();
         let kept = all.header.iter().enumerate().filter(|(_, name)| keep(name));
         let column =
             |(at, name): (usize, &String)| (name.clone(), chosen.iter().map(|row| value(&row[at])).collect::<Vec<_>>());

@@ -283,7 +283,8 @@ impl Results {
             |figure: &Figure| Some((figure.name.to_owned(), self.certificate.worst(figure.name, &self.limits)?));
         let found: Vec<(String, Occasion)> = limited.filter_map(worst).collect();
         let part = |worst: &Occasion| worst.value / worst.limit.unwrap_or(f64::INFINITY);
-        let beyond = found.iter().filter(|(_, worst)| !(part(worst) <= 1.0)).map(|(name, _)| name.clone()).collect();
+        let passes = |worst: &Occasion| part(worst).is_nan() || part(worst) > 1.0;
+        let beyond = found.iter().filter(|(_, worst)| passes(worst)).map(|(name, _)| name.clone()).collect();
         // What is not a number is worse than any number, for `total_cmp` too.
         let worst = found.into_iter().max_by(|(_, a), (_, b)| part(a).total_cmp(&part(b)));
         (beyond, worst.filter(|(_, worst)| worst.value != 0.0))

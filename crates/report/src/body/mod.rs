@@ -105,7 +105,7 @@ impl Body {
 /// Every second of a list, counted from its end, and its first.
 fn halved(list: &[usize]) -> Vec<usize> {
     let last = list.len() - 1;
-    let kept = list.iter().enumerate().filter(|(i, _)| *i == 0 || (last - i) % 2 == 0);
+    let kept = list.iter().enumerate().filter(|(i, _)| *i == 0 || (last - i).is_multiple_of(2));
     let mut kept: Vec<usize> = kept.map(|(_, frame)| *frame).collect();
     if kept.len() == list.len() && kept.len() > 2 {
         kept.remove(1);

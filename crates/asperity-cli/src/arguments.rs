@@ -28,6 +28,10 @@ pub enum Command {
     Restart(Run),
     /// Draw the pictures of a finished run anew.
     Figure(Figure),
+    /// Write the report of a run, one page of HTML, from its results.
+    Report(Report),
+    /// Serve the report of a run that goes, on this machine only, with curves that grow.
+    Watch(Watch),
     /// Say everything that can be said about a deck before it is solved.
     Check(Check),
     /// Say what a mesh file holds, and what is wrong with it.
@@ -70,6 +74,34 @@ pub struct Run {
     /// Threads to use; by default all. Results do not depend on it.
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
+    /// Print errors only.
+    #[arg(long, short, conflicts_with = "json")]
+    pub quiet: bool,
+    /// Print events as lines of JSON: `begin`, `attempt`, `end`.
+    #[arg(long)]
+    pub json: bool,
+    /// Write no report.html at the end.
+    #[arg(long)]
+    pub no_report: bool,
+}
+
+/// Arguments of `report`.
+#[derive(Debug, Args)]
+pub struct Report {
+    /// The result directory.
+    #[arg(value_name = "DIR")]
+    pub directory: PathBuf,
+}
+
+/// Arguments of `watch`.
+#[derive(Debug, Args)]
+pub struct Watch {
+    /// The result directory.
+    #[arg(value_name = "DIR")]
+    pub directory: PathBuf,
+    /// The port of 127.0.0.1; by default one that is free.
+    #[arg(long, value_name = "PORT", default_value_t = 0)]
+    pub port: u16,
 }
 
 /// Arguments of `figure`.

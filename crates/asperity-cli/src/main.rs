@@ -8,6 +8,7 @@ mod exit;
 mod screen;
 mod signals;
 mod verbs;
+mod watch;
 
 use arguments::{Command, Line};
 use clap::Parser;
@@ -30,6 +31,8 @@ fn obey(line: Line, interrupts: &Interrupts) -> Outcome {
         Command::Run(run) => verbs::run(&run, interrupts),
         Command::Restart(run) => verbs::restart(&run, interrupts),
         Command::Figure(figure) => verbs::figure(&figure),
+        Command::Report(report) => verbs::report(&report),
+        Command::Watch(watch) => verbs::watch(&watch, interrupts),
         Command::Check(check) => verbs::check(&check),
         Command::Info(info) => verbs::info(&info),
         Command::Translate(translate) => verbs::translate(&translate),

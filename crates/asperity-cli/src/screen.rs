@@ -3,9 +3,10 @@
 use asperity::Error;
 use asperity::error::visible;
 use asperity::output::{FIGURES, Status, Summary};
-use asperity::solve::{AttemptRecord, Observer, Problem};
+use asperity::solve::{AttemptRecord, Observer, Problem, Step};
 use asperity::system::State;
 use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write as _};
 use std::path::Path;
@@ -18,6 +19,18 @@ pub struct Screen<'a> {
     stop: Arc<AtomicBool>,
     bar: Option<ProgressBar>,
     begun: bool,
+    voice: Voice,
+}
+
+/// How a run is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Voice {
+    /// Lines for people.
+    Page,
+    /// Nothing but errors.
+    Quiet,
+    /// Events as lines of JSON.
+    Json,
 }
 
 const HEADER: &str = "increment  step              time  iterations  residual  order    open   stick    slip";
@@ -27,7 +40,46 @@ impl<'a> Screen<'a> {
     /// A screen for a run that begins.
     pub fn new(problem: &'a Problem, stop: Arc<AtomicBool>) -> Self {
         let watched = std::io::stdout().is_terminal() && std::io::stderr().is_terminal();
-        Self { problem, stop, bar: watched.then(bar), begun: false }
+        Self { problem, stop, bar: watched.then(bar), begun: false, voice: Voice::Page }
+    }
+
+    /// The same in another voice; only people get a bar.
+    pub fn speaking(self, voice: Voice) -> Self {
+        let bar = self.bar.filter(|_| voice == Voice::Page);
+        Self { voice, bar, ..self }
+    }
+
+    /// Says what begins, to who reads events.
+    pub fn begin(&self, title: &str, directory: &Path) {
+        if self.voice == Voice::Json {
+            let step = |step: &Step| json!({ "name": step.name, "duration": step.duration });
+            let steps: Vec<_> = self.problem.steps.iter().map(step).collect();
+            let unknowns = self.problem.dofs.count();
+            self.line(&json!({ "event": "begin", "title": title, "directory": directory, "unknowns": unknowns, "steps": steps }).to_string());
+        }
+    }
+
+    /// An attempt as an event.
+    fn event(&self, record: &AttemptRecord) -> String {
+        let last = record.iterations.last();
+        let [open, stick, slip] = last.map_or([0; 3], |last| self.problem.points_by_status(last));
+        json!({
+            "event": "attempt",
+            "step": self.problem.steps.get(record.step).map(|step| &step.name),
+            "increment": record.increment,
+            "attempt": record.attempt,
+            "time": record.time,
+            "dt": record.dt,
+            "accepted": record.failure.is_none(),
+            "reason": record.failure,
+            "iterations": record.solutions(),
+            "residual": last.map(|last| last.residual),
+            "order": record.order(),
+            "open": open,
+            "stick": stick,
+            "slip": slip,
+        })
+        .to_string()
     }
 
     /// Removes the bar.
@@ -63,6 +115,11 @@ impl<'a> Screen<'a> {
 
 impl Observer for Screen<'_> {
     fn attempt(&mut self, record: &AttemptRecord) {
+        match self.voice {
+            Voice::Quiet => return,
+            Voice::Json => return self.line(&self.event(record)),
+            Voice::Page => {}
+        }
         if !self.begun {
             self.begun = true;
             self.line(HEADER);

@@ -7,7 +7,11 @@ use asperity::deck::{self, Diagnostics};
 
 /// Makes the model, prints what it is and what wants attention. Exit code 5 when something does.
 pub fn check(arguments: &Check) -> Outcome {
-    let made = deck::build(loaded(&arguments.deck)?.0)?;
+    let (loaded, translated) = loaded(&arguments.deck)?;
+    if let Some(translated) = translated {
+        tell(&translated.notes());
+    }
+    let made = deck::build(loaded)?;
     let review = deck::review(&made)?;
     print(&review.text)?;
     let exit = if review.problems.is_empty() { Exit::Done } else { Exit::Problems };

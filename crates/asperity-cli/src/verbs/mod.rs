@@ -7,9 +7,11 @@ mod info;
 mod laws;
 mod penalty;
 mod point;
+mod report;
 mod run;
 mod schema;
 mod translate;
+mod watch;
 
 pub use check::check;
 pub use completions::completions;
@@ -18,9 +20,11 @@ pub use info::info;
 pub use laws::laws;
 pub use penalty::penalty;
 pub use point::point;
+pub use report::report;
 pub use run::{restart, run};
 pub use schema::schema;
 pub use translate::translate;
+pub use watch::watch;
 
 use crate::arguments;
 use crate::exit::{Exit, Trouble, tell};
@@ -44,22 +48,30 @@ fn print(text: &str) -> Outcome {
     }
 }
 
-/// Reads a deck; an input deck is translated first, and what that changed is told.
+/// Reads a deck; an input deck is translated first.
 fn loaded(arguments: &arguments::Deck) -> Result<(Loaded, Option<Translated>), Trouble> {
     if !translate::is_input(&arguments.path) {
         return Ok((deck::load(&arguments.path, &arguments.sets)?, None));
     }
     let translated = translate::translated(&arguments.path, &arguments.path)?;
-    tell(&translated.notes());
     Ok((translated.load(&arguments.sets)?, Some(translated)))
 }
 
 /// Reads a deck and makes its model; warnings are told, notes are for `check`.
 fn made(arguments: &arguments::Deck) -> Result<(Made, Option<Translated>), Trouble> {
+    made_quietly(arguments).inspect(|(made, translated)| {
+        if let Some(translated) = translated {
+            tell(&translated.notes());
+        }
+        tell(&made.diagnostics);
+    })
+}
+
+/// The same without a word about warnings.
+fn made_quietly(arguments: &arguments::Deck) -> Result<(Made, Option<Translated>), Trouble> {
     let (loaded, translated) = loaded(arguments)?;
     let mut made = deck::build(loaded)?;
     made.diagnostics.list = deck::warnings(&made);
-    tell(&made.diagnostics);
     Ok((made, translated))
 }
 

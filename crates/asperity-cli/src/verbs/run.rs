@@ -1,11 +1,14 @@
 //! `asperity run` and `asperity restart`: solve a deck and write its results.
 
-use super::{Outcome, claim, made, print, results_of, translate};
+use super::{Outcome, claim, made, made_quietly, print, results_of, translate};
 use crate::arguments;
 use crate::exit::{Exit, Trouble};
-use crate::screen::{Screen, farewell};
+use crate::screen::{Screen, Voice, farewell};
 use crate::signals::Interrupts;
-use asperity::output::{Job, Start, Status, simulate};
+use asperity::output::{ASKED, Job, REPORT, SUMMARY, Start, Status, Summary, simulate};
+use serde_json::json;
+use std::path::Path;
+use std::time::Instant;
 
 /// Runs a deck from its beginning.
 pub fn run(arguments: &arguments::Run, interrupts: &Interrupts) -> Outcome {
@@ -46,7 +49,14 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
         let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
         Job::checkpoint_in(&directory)?;
     }
-    let (made, translated) = made(&arguments.deck)?;
+    let voice = if arguments.quiet {
+        Voice::Quiet
+    } else if arguments.json {
+        Voice::Json
+    } else {
+        Voice::Page
+    };
+    let (made, translated) = if voice == Voice::Quiet { made_quietly(&arguments.deck)? } else { made(&arguments.deck)? };
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     if let Some(translated) = translated {
@@ -54,14 +64,41 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     }
     let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
     let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes };
-    let mut screen = Screen::new(&made.model.problem, interrupts.heed());
+    if start == Start::Beginning || !directory.join(ASKED).exists() {
+        made.asked().write(&directory)?;
+    }
+    let mut screen = Screen::new(&made.model.problem, interrupts.heed()).speaking(voice);
+    screen.begin(&made.model.title, &directory);
     // On a thread of the pool: from outside, every parallel loop would hand over to it and wait.
     let simulated = rayon::scope(|_| simulate(&made.model, &job, &mut screen));
     screen.close();
-    let (summary, ended) = simulated?;
-    print(&farewell(&summary, &directory, &again(arguments)))?;
+    let (mut summary, ended) = simulated?;
+    // A restart of a run that had come to its end writes nothing, but for a note that only the screen gets.
+    let written = Summary::read(&directory.join(SUMMARY)).is_ok_and(|told| told.notes == summary.notes);
+    if !arguments.no_report && written && summary.status != Status::FileError {
+        report(&mut summary, &directory);
+    }
+    match voice {
+        Voice::Page => print(&farewell(&summary, &directory, &again(arguments)))?,
+        Voice::Json => print(&format!("{}\n", json!({ "event": "end", "directory": directory, "summary": summary })))?,
+        Voice::Quiet => Exit::Done,
+    };
     let exit = if summary.status == Status::Doubtful { Exit::Doubtful } else { Exit::Done };
     ended.map(|()| exit).map_err(Trouble::from)
+}
+
+/// Writes the report; one that cannot be written is a note and no failure of the run.
+fn report(summary: &mut Summary, directory: &Path) {
+    let begun = Instant::now();
+    if let Err(error) = report::write(directory) {
+        summary.notes.push(format!("the report is missing: {error}"));
+    } else if !summary.files.iter().any(|file| file == REPORT) {
+        summary.files.push(REPORT.into());
+    }
+    summary.timings.insert("report".into(), begun.elapsed().as_secs_f64());
+    if let Err(error) = summary.write(&directory.join(SUMMARY)) {
+        summary.notes.push(error.to_string());
+    }
 }
 
 #[cfg(test)]

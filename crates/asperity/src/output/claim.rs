@@ -8,9 +8,14 @@ use crate::{Error, files};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Name of the file in the result directory.
 const LOCK: &str = "run.lock";
+
+/// How often a lock that is held is tried again, and after what time.
+const LOOKS: usize = 5;
+const LOOK: Duration = Duration::from_millis(5);
 
 /// The right to write into a result directory, as long as it lives.
 #[derive(Debug)]
@@ -38,7 +43,16 @@ impl Claim {
         let path = directory.join(LOCK);
         let failed = |error: std::io::Error| Error::write(&path, error);
         let mut lock = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
-        match lock.try_lock() {
+        let mut locked = lock.try_lock();
+        // Whoever only looks whether a process is at work holds the lock for a moment.
+        for _ in 0..LOOKS {
+            if !matches!(locked, Err(TryLockError::WouldBlock)) {
+                break;
+            }
+            std::thread::sleep(LOOK);
+            locked = lock.try_lock();
+        }
+        match locked {
             // Some file systems have no locks: there nobody is kept out.
             Ok(()) | Err(TryLockError::Error(_)) => {}
             Err(TryLockError::WouldBlock) => {
@@ -57,6 +71,12 @@ impl Claim {
         lock.set_len(0).and_then(|()| lock.write_all(deck.as_os_str().as_encoded_bytes())).map_err(failed)?;
         Ok(Self { _lock: lock })
     }
+}
+
+/// Whether a process is writing into a result directory now.
+pub fn is_claimed(directory: &Path) -> bool {
+    let lock = File::open(directory.join(LOCK));
+    lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 /// The deck that the file names.

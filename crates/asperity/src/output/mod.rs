@@ -1,6 +1,7 @@
 //! Results: one store of quantities a frame, and the files, tables and pictures made from it. Layer 6; it reads the
 //! model and its state and never changes them, so that asking for an output cannot change a solution.
 
+mod asked;
 mod average;
 mod certificate;
 pub mod checkpoint;
@@ -13,6 +14,7 @@ mod fixture;
 mod grids;
 mod history;
 mod log;
+mod progress;
 mod quantities;
 mod quantity;
 mod readings;
@@ -24,15 +26,17 @@ mod summary;
 mod table;
 pub mod vtk;
 
+pub use asked::{ASKED, Asked};
 pub use certificate::{Certificate, Doubt, Limits, Occasion, Reading};
-pub use claim::{Claim, Others};
+pub use claim::{Claim, Others, is_claimed};
 pub use figures::{FIGURES, Figure, Fold, Limit};
 pub use history::{HistoryTable, global_columns};
 pub use log::RunLog;
+pub use progress::{PROGRESS, Progress, Request};
 pub use quantities::{Parts, Source};
 pub use quantity::{Frame, Number, Place, Quantity, Unit, Width};
 pub use recorder::Recorder;
-pub use results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
+pub use results::{CHECKPOINT, REPORT, ResultOptions, Results, SUMMARY};
 pub use simulate::{Job, Start, simulate};
 pub use summary::{Status, Summary};
 pub use table::{Columns, Field, Table};

@@ -1,6 +1,7 @@
 //! The observer that writes the results of a run, and passes everything on to another that may show it.
 
 use super::log::RunLog;
+use super::progress::{Reporter, Request};
 use super::quantities::{Parts, Source};
 use super::results::Results;
 use crate::Error;
@@ -17,6 +18,8 @@ pub struct Recorder<'a> {
     pub results: Results,
     /// The tables of attempts and iterations.
     pub log: RunLog,
+    /// Where the run stands.
+    pub reporter: Reporter,
     /// Who is told too, and may ask to stop.
     pub audience: &'a mut dyn Observer,
     /// A table that could not be written: the run stops at its next accepted increment.
@@ -31,7 +34,13 @@ impl<'a> Recorder<'a> {
         log: RunLog,
         audience: &'a mut dyn Observer,
     ) -> Self {
-        Self { parts, problem, results, log, audience, trouble: None }
+        let mut reporter = Reporter::new(results.directory(), problem);
+        let summary = &results.summary;
+        reporter.progress.iterations = summary.iterations;
+        reporter.progress.cuts = summary.attempts.saturating_sub(summary.increments);
+        (reporter.progress.increment, reporter.progress.time) = (summary.increments, summary.time);
+        let trouble = reporter.write().err();
+        Self { parts, problem, results, log, reporter, audience, trouble }
     }
 }
 
@@ -40,7 +49,11 @@ impl Observer for Recorder<'_> {
         self.audience.iteration(attempt, iteration);
     }
     fn attempt(&mut self, attempt: &AttemptRecord) {
-        if let Err(error) = self.log.attempt(self.problem, attempt) {
+        self.reporter.attempt(self.problem, attempt);
+        let told = self.log.attempt(self.problem, attempt);
+        // An accepted increment is told when its results are there.
+        let told = told.and_then(|()| if attempt.failure.is_some() { self.reporter.write() } else { Ok(()) });
+        if let Err(error) = told {
             self.trouble.get_or_insert(error);
         }
         self.audience.attempt(attempt);
@@ -51,9 +64,15 @@ impl Observer for Recorder<'_> {
         }
         let last = state.step > attempt.step;
         self.results.accepted(&Source { parts: self.parts, state, step: attempt.step }, last)?;
+        let progress = &mut self.reporter.progress;
+        (progress.beyond, progress.worst) = self.results.nearest_to_limits();
+        self.reporter.write()?;
+        if Request::Checkpoint.take(self.results.directory())? {
+            self.results.checkpoint(state)?;
+        }
         self.audience.accepted(state, attempt)
     }
     fn wants_stop(&self) -> bool {
-        self.audience.wants_stop()
+        self.audience.wants_stop() || Request::Stop.is_left(self.results.directory())
     }
 }

@@ -7,17 +7,21 @@
 //! | `certificate.csv` | readings for the certificate |
 //! | `summary.json` | how the run ended and its certificate |
 //! | `run.checkpoint` | the last checkpoint |
+//! | `status.json` | where the run stands, while it goes |
 
-use super::certificate::{Certificate, Limits};
+use super::asked::ASKED;
+use super::certificate::{Certificate, Limits, Occasion};
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
+use super::figures::{FIGURES, Figure};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HISTORY, HistoryTable};
+use super::progress::{PROGRESS, Request};
 use super::quantities::{Parts, Source};
 use super::quantity::Place;
 use super::readings::{READINGS, ReadingTable};
-use super::summary::Summary;
+use super::summary::{Status, Summary};
 use super::vtk::{Encoding, Series};
 use crate::Error;
 use crate::system::{State, Term};
@@ -57,6 +61,8 @@ pub struct Results {
     /// What `summary.json` will say; the caller fills in what the results do not know.
     pub summary: Summary,
     spent: Duration,
+    /// When the summary was last written.
+    told: Instant,
 }
 
 /// The kinds of frames.
@@ -72,6 +78,11 @@ enum Fields {
 pub const CHECKPOINT: &str = "run.checkpoint";
 /// Name of the summary in the result directory.
 pub const SUMMARY: &str = "summary.json";
+
+/// Name of the report in the result directory, which the command writes.
+pub const REPORT: &str = "report.html";
+/// Between two writings of the summary while a run goes, but for the ends of steps.
+const BETWEEN: Duration = Duration::from_millis(200);
 
 /// Room on the disk that is given back at the end of a run, so that its summary can be written where the disk is full. It
 /// goes by the name of a temporary file, which the next run removes.
@@ -120,7 +131,9 @@ impl Results {
     pub fn clear(directory: &Path) -> Result<(), Error> {
         make_directory(directory)?;
         sweep(directory)?;
-        remove(directory, [CHECKPOINT, HISTORY, READINGS].map(String::from).into_iter().chain(pictures()))
+        Request::clear(directory)?;
+        let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT].map(String::from);
+        remove(directory, late.into_iter().chain(pictures()))
     }
     /// Continues the results of a run from a checkpoint: what came after it is dropped.
     ///
@@ -130,6 +143,7 @@ impl Results {
         let (parts, state) = (at.parts, at.state);
         make_directory(directory)?;
         sweep(directory)?;
+        Request::clear(directory)?;
         let series = |fields: Fields| {
             let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
             Ok((fields, series))
@@ -163,8 +177,21 @@ impl Results {
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
         let (certificate, limits) = (Certificate::default(), Limits::default());
-        let spent = Duration::ZERO;
-        Ok(Self { directory, options, input, grid, series, history, readings, certificate, limits, summary, spent })
+        let (spent, told) = (Duration::ZERO, Instant::now());
+        Ok(Self {
+            directory,
+            options,
+            input,
+            grid,
+            series,
+            history,
+            readings,
+            certificate,
+            limits,
+            summary,
+            spent,
+            told,
+        })
     }
 
     /// Writes what is due after an accepted increment. `last` says that it ended its step.
@@ -186,6 +213,11 @@ impl Results {
         }
         if increment % self.options.checkpoint_every == 0 {
             self.checkpoint(source.state)?;
+        }
+        self.summary.status = Status::Running;
+        if self.told.elapsed() > BETWEEN || last {
+            self.told = Instant::now();
+            self.write_summary_as(Durability::Process)?;
         }
         self.spent += start.elapsed();
         Ok(())
@@ -237,14 +269,31 @@ impl Results {
         Ok(())
     }
     pub(super) fn write_summary(&mut self) -> Result<(), Error> {
+        self.write_summary_as(Durability::Machine)
+    }
+    fn write_summary_as(&mut self, durability: Durability) -> Result<(), Error> {
         self.summary.files = self.present_files();
         self.summary.certify(&self.certificate, &self.limits);
-        self.summary.write(&self.directory.join(SUMMARY))
+        self.summary.write_as(&self.directory.join(SUMMARY), durability)
+    }
+    /// The figures that are beyond their limits, and the one nearest to its limit or farthest beyond.
+    pub fn nearest_to_limits(&self) -> (Vec<String>, Option<(String, Occasion)>) {
+        let limited = FIGURES.iter().filter(|figure| self.limits.of(figure.name).is_some());
+        let worst =
+            |figure: &Figure| Some((figure.name.to_owned(), self.certificate.worst(figure.name, &self.limits)?));
+        let found: Vec<(String, Occasion)> = limited.filter_map(worst).collect();
+        let part = |worst: &Occasion| worst.value / worst.limit.unwrap_or(f64::INFINITY);
+        let passes = |worst: &Occasion| part(worst).is_nan() || part(worst) > 1.0;
+        let beyond = found.iter().filter(|(_, worst)| passes(worst)).map(|(name, _)| name.clone()).collect();
+        // What is not a number is worse than any number, for `total_cmp` too.
+        let worst = found.into_iter().max_by(|(_, a), (_, b)| part(a).total_cmp(&part(b)));
+        (beyond, worst.filter(|(_, worst)| worst.value != 0.0))
     }
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
         let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
-        let tables = [HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY].map(String::from);
+        let tables = [HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
+            .map(String::from);
         let all = frames.chain(tables).chain(pictures());
         all.filter(|name| self.directory.join(name).exists()).collect()
     }
@@ -269,7 +318,6 @@ fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
 #[cfg(test)]
 mod tests {
     use super::super::fixture::Fixture;
-    use super::super::summary::Status;
     use super::super::vtk::{read_grid, read_series};
     use super::*;
     use crate::mesh::Space;

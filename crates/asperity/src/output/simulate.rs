@@ -3,6 +3,7 @@
 use super::certificate::{Certificate, Limits};
 use super::checkpoint::{self, InputHash};
 use super::log::RunLog;
+use super::progress::Request;
 use super::quantities::{Parts, Source};
 use super::recorder::Recorder;
 use super::results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
@@ -58,7 +59,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     let begun = Instant::now();
     let ended = run.run(&RunOptions::default(), &mut recorder);
     let seconds = begun.elapsed().as_secs_f64();
-    let mut results = recorder.results;
+    let (mut results, mut reporter) = (recorder.results, recorder.reporter);
     let mut ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
     if ended.is_err()
         && let Err(error) = results.checkpoint(&run.state)
@@ -75,6 +76,9 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     results.summary.notes.extend(large_strain(&results.certificate));
     results.summary.notes.extend(rests(&results.certificate, model.space));
     results.finish(&ended)?;
+    Request::clear(job.directory)?;
+    (reporter.progress.status, reporter.progress.remaining) = (results.summary.status, None);
+    reporter.write()?;
     Ok((results.summary, ended))
 }
 

@@ -1,5 +1,5 @@
 //! `summary.json`: how a run ended and its figures, for scripts. It is written when the run begins, with status
-//! `running`, and again when it ends, however it ends: a killed run is told from a converged one.
+//! `running`, while it goes, and again when it ends, however it ends: a killed run is told from a converged one.
 
 use super::certificate::{Certificate, Limits, Occasion};
 use super::figures::FIGURES;
@@ -167,9 +167,12 @@ impl Summary {
     /// # Errors
     /// [`Error::File`] when it cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
+        self.write_as(path, Durability::Machine)
+    }
+    pub(super) fn write_as(&self, path: &Path, durability: Durability) -> Result<(), Error> {
         let mut bytes = serde_json::to_vec_pretty(self).map_err(|error| Error::file(path, error))?;
         bytes.push(b'\n');
-        write_atomic(path, &bytes, Durability::Machine)
+        write_atomic(path, &bytes, durability)
     }
     /// Reads a summary.
     ///

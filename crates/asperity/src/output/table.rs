@@ -133,8 +133,14 @@ impl Columns {
     /// # Errors
     /// [`Error::File`] when it cannot be read or is no table.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let bytes = file::read(path)?;
-        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(&bytes[..]);
+        Self::parse(path, &file::read(path)?)
+    }
+    /// A table from its bytes; messages call it `path`. A last row that is cut short is left out.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it is no table.
+    pub fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Error> {
+        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(bytes);
         let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
         let header = texts(reader.headers().map_err(|error| Error::file(path, error))?);
         let records: Result<Vec<_>, _> = reader.records().collect();

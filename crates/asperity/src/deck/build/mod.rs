@@ -20,6 +20,7 @@ use crate::Error;
 use crate::load::Site;
 use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
+use crate::output::Asked;
 use crate::output::checkpoint::InputHash;
 use crate::solve::{Increments, Step};
 use crate::system::Dofs;
@@ -67,6 +68,20 @@ impl Builder<'_> {
 
     fn plane(&self) -> bool {
         self.site.space.dimension() == 2
+    }
+}
+
+impl Made {
+    /// What was asked, for `deck.json`: the texts that the diagnostics point into are the deck and what was set over it.
+    pub fn asked(&self) -> Asked {
+        let deck = self.diagnostics.sources.first();
+        let sets = self.diagnostics.sources.iter().filter(|source| source.name == "--set");
+        Asked {
+            path: deck.map_or_else(String::new, |source| source.name.clone()),
+            text: deck.map_or_else(String::new, |source| source.text.clone()),
+            sets: sets.map(|source| source.text.clone()).collect(),
+            defaults: self.unsaid.iter().map(|unsaid| (unsaid.path.clone(), unsaid.instead.clone())).collect(),
+        }
     }
 }
 

@@ -24,7 +24,7 @@ mod view;
 pub use arrows::Arrow;
 pub use chart::{Chart, Series};
 pub use drawing::{Anchor, Drawing, Item, Label, Point, Rect, Segment, Stroke};
-pub use palette::Color;
+pub use palette::{Color, field as field_color};
 pub use panels::Panels;
 pub use scene::Scene;
 pub use standard::{FigureOptions, draw_standard};

@@ -131,6 +131,11 @@ fn bounds(placed: &Placed) -> Bounds {
 }
 
 impl FacesInPlace<'_> {
+    /// Number of the corners of a face.
+    pub fn corners(&self, number: usize) -> usize {
+        self.faces.surface.faces[number].corners()
+    }
+
     /// A face in place.
     pub fn placed(&self, number: usize) -> &Placed {
         &self.placed[number]

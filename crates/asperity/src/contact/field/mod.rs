@@ -23,6 +23,7 @@ mod cover;
 mod face;
 mod faces;
 mod point;
+mod space;
 mod stencil;
 mod surface;
 mod term;

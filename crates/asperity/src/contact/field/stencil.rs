@@ -243,7 +243,8 @@ impl<'a> StencilInPlace<'a> {
                 if derivatives {
                     sums.starts.push(sums.rates.len());
                     let before = touched.and_then(|touched| touched.face).map(|(face, _)| self.seen_nodes(face));
-                    for (j, (column, (ends, turning))) in sums.columns.iter().zip(ends.iter().zip(&turning)).enumerate() {
+                    for (j, (column, (ends, turning))) in sums.columns.iter().zip(ends.iter().zip(&turning)).enumerate()
+                    {
                         let node = if let Column::Node { node, .. } = column { Some(node) } else { None };
                         if active[j] || node.is_some_and(|node| before.is_some_and(|nodes| nodes.contains(node))) {
                             let shapes = (&density, &function, &touched);

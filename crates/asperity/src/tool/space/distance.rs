@@ -118,7 +118,8 @@ impl Tool {
             let distance = (x - place.point).norm();
             // Of equals the first, but rather the inside of a facet than an edge.
             let equal = (distance - least).abs() <= 1e-14 * self.size();
-            let inside = equal && place.border == FacetBorder::Inside && best.is_some_and(|b| b.border != FacetBorder::Inside);
+            let inside =
+                equal && place.border == FacetBorder::Inside && best.is_some_and(|b| b.border != FacetBorder::Inside);
             if inside || (!equal && distance < least) {
                 (best, least) = (Some(place), distance);
             }

@@ -67,11 +67,8 @@ impl RigidFacet for Triangle {
         let normal = m.unit();
         let size = m.dot(m).recip();
         let s = [to.cross(q).dot(m) * size, p.cross(to).dot(m) * size];
-        let (point, border) = if self.holds(s, 0.0) {
-            (x - normal * normal.dot(to), FacetBorder::Inside)
-        } else {
-            on_edges(&self.0, x)
-        };
+        let (point, border) =
+            if self.holds(s, 0.0) { (x - normal * normal.dot(to), FacetBorder::Inside) } else { on_edges(&self.0, x) };
         FacetPoint { point, normal, bends: [(p.unit(), 0.0), (normal.cross(p.unit()), 0.0)], border }
     }
 }

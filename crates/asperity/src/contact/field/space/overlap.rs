@@ -74,7 +74,10 @@ impl<T: Scalar> Flat<T> {
         let step = |xi: [f64; 2], r: [f64; 2]| {
             // The inverse of [1 + g0 eta, g0 xi; g1 eta, 1 + g1 xi].
             let det = 1.0 + g[0] * xi[1] + g[1] * xi[0];
-            [((1.0 + g[1] * xi[0]) * r[0] - g[0] * xi[0] * r[1]) / det, ((1.0 + g[0] * xi[1]) * r[1] - g[1] * xi[1] * r[0]) / det]
+            [
+                ((1.0 + g[1] * xi[0]) * r[0] - g[0] * xi[0] * r[1]) / det,
+                ((1.0 + g[0] * xi[1]) * r[1] - g[1] * xi[1] * r[0]) / det,
+            ]
         };
         for _ in 0..ITERATIONS {
             let r = [0, 1].map(|i| xi[i] + g[i] * xi[0] * xi[1] - q[i]);
@@ -153,7 +156,8 @@ impl Part {
     pub fn new(own: &[Vec3], other: &[Vec3]) -> Option<Self> {
         let flat = Flat::new(own);
         let polygon = common(&flat, other)?;
-        let places = polygon.vertices().iter().chain([&polygon.moments().centre]).map(|&p| flat.pull_back(p).0).collect();
+        let places =
+            polygon.vertices().iter().chain([&polygon.moments().centre]).map(|&p| flat.pull_back(p).0).collect();
         Some(Self { polygon, places })
     }
 
@@ -214,7 +218,8 @@ mod tests {
         for (own, seen) in [(4, 4), (4, 3), (3, 4), (3, 3)] {
             type D = Dual<DIRECTIONS>;
             let lift = |x: &[Vec3], first: usize| -> Vec<Vec3<D>> {
-                let place = |(k, x): (usize, &Vec3)| Vec3(std::array::from_fn(|i| D::variable(x[i], first + 3 * k + i)));
+                let place =
+                    |(k, x): (usize, &Vec3)| Vec3(std::array::from_fn(|i| D::variable(x[i], first + 3 * k + i)));
                 x.iter().enumerate().map(place).collect()
             };
             let mut exact = Vec::new();
@@ -223,7 +228,11 @@ mod tests {
             for k in 0..DIRECTIONS {
                 let at = |h: f64| {
                     let (mut own_x, mut other_x) = (quad(), other);
-                    if k < 12 { own_x[k / 3][k % 3] += h } else { other_x[k / 3 - 4][k % 3] += h }
+                    if k < 12 {
+                        own_x[k / 3][k % 3] += h
+                    } else {
+                        other_x[k / 3 - 4][k % 3] += h
+                    }
                     let mut places = Vec::new();
                     spread(&own_x[..own], &other_x[..seen], |place| places.push(place));
                     places

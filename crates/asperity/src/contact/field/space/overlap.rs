@@ -1,12 +1,14 @@
 //! The part of one face that sees another, as a polygon with a quadrature (Puso & Laursen, CMAME 193, 2004).
 //!
 //! Both faces are projected on a plane through the middle of the face of the surface, across its mean normal; the face that
-//! is seen cuts the other one's polygon, which is divided into triangles from its centroid. Coordinates in the plane are
-//! those of the face's affine part, `x = c + alpha a + beta b`: of a triangle its own, of a quadrilateral `(alpha, beta) =
+//! is seen cuts the other one's polygon, on which the rule of the face is laid by area, centroid and covariance. These change
+//! smoothly where an edge of one face runs along one of the other, while the vertex in which they meet runs far: a rule on
+//! triangles between the vertices has derivatives there that hold for no step worth taking. Coordinates in the plane are those
+//! of the face's affine part, `x = c + alpha a + beta b`: of a triangle its own, of a quadrilateral `(alpha, beta) =
 //! (xi, eta) + h xi eta` with its twist `h`, solved for `(xi, eta)` at each point of the rule. All is a function of the
 //! corners of both, generic in the numbers. Faces of second degree are laid out between their corners.
 
-use crate::contact::space::polygon::{Polygon, left_of};
+use crate::contact::space::polygon::{Laid, Polygon, left_of};
 use crate::mesh::cells::{QUAD4, TRI3};
 use crate::tensor::{Scalar, Vec3};
 
@@ -125,23 +127,11 @@ fn common<T: Scalar>(flat: &Flat<T>, other: &[Vec3<T>]) -> Option<Polygon<T>> {
 pub fn spread<T: Scalar>(own: &[Vec3<T>], other: &[Vec3<T>], mut take: impl FnMut(Spread<T>)) {
     let flat = Flat::new(own);
     let Some(part) = common(&flat, other) else { return };
-    let Some(rule) = TRI3.gauss[2] else { return };
-    let centre = part.moments().centre;
-    let fan = |triangle: [[T; 2]; 3], take: &mut dyn FnMut(Spread<T>)| {
-        let [a, b, c] = triangle;
-        let area = left_of([a, b], c);
-        if area.re() <= 0.0 {
-            return;
-        }
-        for (&[r, s, _], &weight) in rule.points.iter().zip(rule.weights) {
-            let place = [0, 1].map(|i| a[i] + (b[i] - a[i]) * r + (c[i] - a[i]) * s);
-            let (xi, density) = flat.pull_back(place);
-            take(Spread { xi, weight: area * density * weight });
-        }
-    };
-    match *part.vertices() {
-        [a, b, c] => fan([a, b, c], &mut take),
-        _ => part.edges().for_each(|[a, b]| fan([centre, a, b], &mut take)),
+    let laid = Laid::new(own.len(), &part);
+    let share = laid.scale() * laid.scale();
+    for place in whole(own.len()) {
+        let (xi, density) = flat.pull_back(laid.place(place.xi));
+        take(Spread { xi, weight: share * density * place.weight });
     }
 }
 

@@ -16,7 +16,6 @@ use crate::tensor::Vec3;
 
 /// What a point sees of the target.
 #[derive(Debug, Clone, Copy)]
-#[expect(clippy::large_enum_variant, reason = "few are kept at a time, and none may be allocated in the loop")]
 pub enum Sight {
     /// A face of a body.
     Face(Projection),

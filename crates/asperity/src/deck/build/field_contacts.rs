@@ -11,6 +11,9 @@ use crate::solid::Body;
 use crate::tool::{self, Tool};
 use std::sync::Arc;
 
+/// The tools of a model in space.
+type SolidTools<'a> = &'a [Arc<tool::space::Tool>];
+
 impl Builder<'_> {
     /// Whether a contact is a field.
     pub(super) fn is_field(&self, keys: &keys::Contact) -> bool {
@@ -20,7 +23,7 @@ impl Builder<'_> {
     /// The contacts that are fields.
     pub(super) fn field_contacts(
         &mut self,
-        tools: (&Option<Vec<Arc<Tool>>>, &Option<Vec<Arc<tool::space::Tool>>>),
+        (plane_tools, solid_tools): (Option<&[Arc<Tool>]>, Option<SolidTools>),
         bodies: Option<&[(Body, usize)]>,
     ) -> Option<Vec<FieldContact>> {
         let deck = self.deck;
@@ -29,7 +32,7 @@ impl Builder<'_> {
             return Some(Vec::new());
         }
         let moduli = moduli(&self.site.mesh, bodies?);
-        let tools = (tools.0.as_deref()?, tools.1.as_deref()?);
+        let tools = (plane_tools?, solid_tools?);
         let contacts: Vec<_> =
             fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools, &moduli)).collect();
         contacts.into_iter().collect()
@@ -39,7 +42,7 @@ impl Builder<'_> {
         &mut self,
         name: &Name,
         keys: &keys::Contact,
-        (plane_tools, solid_tools): (&[Arc<Tool>], &[Arc<tool::space::Tool>]),
+        (plane_tools, solid_tools): (&[Arc<Tool>], SolidTools),
         moduli: &[f64],
     ) -> Option<FieldContact> {
         let law = self.interface(keys)?;

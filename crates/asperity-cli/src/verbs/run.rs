@@ -56,7 +56,8 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     } else {
         Voice::Page
     };
-    let (made, translated) = if voice == Voice::Quiet { made_quietly(&arguments.deck)? } else { made(&arguments.deck)? };
+    let (made, translated) =
+        if voice == Voice::Quiet { made_quietly(&arguments.deck)? } else { made(&arguments.deck)? };
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     if let Some(translated) = translated {

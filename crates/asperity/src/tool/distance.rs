@@ -11,7 +11,7 @@ use super::tool::Tool;
 use crate::tensor::Vec3;
 
 /// Segments that meet at a larger angle, in radians, form a crease.
-const CREASE: f64 = 0.7;
+pub(in crate::tool) const CREASE: f64 = 0.7;
 /// The closest point is at an end of its segment within this part of it.
 const AT_END: f64 = 1e-12;
 

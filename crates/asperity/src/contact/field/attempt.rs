@@ -4,6 +4,7 @@ use super::cover::{FaceInPlace, Patch, between_vertices, over_piece};
 use super::face::{CORNERS, Placed};
 use super::faces::{FacesInPlace, LEAST_COSINE, Ray};
 use super::point::Touched;
+use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::term::{FieldContact, FieldTarget};
 use super::tool::ToolInPlace;
@@ -55,7 +56,8 @@ pub struct FieldAttempt<'a> {
 
 /// Both sides of a contact at given unknowns.
 pub struct Configuration<'a> {
-    contact: &'a FieldContact,
+    /// The contact.
+    pub contact: &'a FieldContact,
     /// The faces of the surface.
     pub placed: Vec<Placed>,
     /// Outward unit normals at the nodes of the field; none where nothing asks for them.
@@ -99,24 +101,28 @@ impl<'a> Configuration<'a> {
 
 /// What a search finds on a face.
 #[derive(Debug, Clone, Copy)]
-struct Seen {
-    patch: Patch,
+pub struct Seen {
+    /// The part of the face, and what it sees.
+    pub patch: Patch,
     /// Least gap among its samples.
-    least: f64,
+    pub least: f64,
     /// Gap in its middle.
-    middle: f64,
+    pub middle: f64,
 }
 
 impl Configuration<'_> {
     /// The patches of a face that look at it, within `reach` or nearly so.
     fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<Seen> {
+        if !self.contact.surface.plane {
+            return self.patches_in_space(number, reach, near);
+        }
         let (face, mut found) = (self.face(number), Vec::new());
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 for piece in 0..self.contact.pieces {
                     over_piece(&face, (tool, piece), |interval, ends| {
                         let patch = Patch { face: number, target: piece, ends, near: interval };
-                        found.extend(self.judge(&face, patch));
+                        found.extend(self.judge(&face, patch, &samples(interval)));
                     });
                 }
             }
@@ -128,7 +134,8 @@ impl Configuration<'_> {
                     let nodes = faces.placed(target).nodes();
                     let Some((interval, bounded)) = between_vertices(&face, [nodes[1], nodes[0]]) else { continue };
                     let ends = [bounded[0].then_some(1), bounded[1].then_some(0)];
-                    found.extend(self.judge(&face, Patch { face: number, target, ends, near: interval }));
+                    let patch = Patch { face: number, target, ends, near: interval };
+                    found.extend(self.judge(&face, patch, &samples(interval)));
                 }
                 keep_nearest(&mut found);
             }
@@ -136,12 +143,10 @@ impl Configuration<'_> {
         found
     }
 
-    /// Gaps of a patch; none if it does not look at the surface.
-    fn judge(&self, face: &FaceInPlace, patch: Patch) -> Option<Seen> {
-        let [from, to] = patch.near;
-        let mut looks = false;
-        let mut gap = |part: f64| {
-            let xi = [from + part * (to - from), 0.0];
+    /// Gaps of a patch at `places`, the last of them its middle; none if it does not look at the surface.
+    pub(super) fn judge(&self, face: &FaceInPlace, patch: Patch, places: &[[f64; 2]]) -> Option<Seen> {
+        let (mut looks, mut least, mut middle) = (false, f64::INFINITY, f64::INFINITY);
+        let mut gap = |xi: [f64; 2]| {
             let at = face.at(xi);
             match &self.target {
                 TargetInPlace::Tool(tool) => {
@@ -158,9 +163,17 @@ impl Configuration<'_> {
                 }
             }
         };
-        let [a, b, middle] = [gap(0.0)?, gap(1.0)?, gap(0.5)?];
-        looks.then(|| Seen { patch, least: a.min(b).min(middle), middle })
+        for &xi in places {
+            middle = gap(xi)?;
+            least = least.min(middle);
+        }
+        looks.then_some(Seen { patch, least, middle })
     }
+}
+
+/// Ends and middle of an interval.
+fn samples([from, to]: [f64; 2]) -> [[f64; 2]; 3] {
+    [from, to, 0.5 * (from + to)].map(|xi| [xi, 0.0])
 }
 
 /// Of patches of one face that lie over each other, keeps the nearest.
@@ -207,6 +220,9 @@ impl FieldContact {
                 self.list_nodes(patch, &mut support.nodes);
                 touched(now, patch, &mut support.nodes);
             }
+            if let (Some((patch, corner)), false) = (support.patches.first(), self.surface.plane) {
+                support.nodes.extend(self.surface.line(self.surface.field[patch.face][*corner]));
+            }
             support.nodes.sort_unstable();
             support.nodes.dedup();
             let mut areas = [0.0; 2];
@@ -245,19 +261,34 @@ impl FieldAttempt<'_> {
     }
 
     /// Nodes of the faces that the points of a patch saw at the accepted state.
-    fn list_touched(&self, _: &Configuration, patch: &Patch, nodes: &mut Vec<usize>) {
+    fn list_touched(&self, now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>) {
         let Some(faces) = self.contact.target.as_faces() else { return };
-        for &(eta, _) in self.contact.rule() {
+        let mut places = Vec::new();
+        if let (TargetInPlace::Faces(target), false) = (&now.target, self.contact.surface.plane) {
+            let (own, other) = (&self.contact.surface.faces[patch.face], target.placed(patch.target));
+            let own = &now.placed[patch.face].nodes()[..own.corners()];
+            let other = &other.nodes()[..target.corners(patch.target)];
+            spread(own, other, |place: Spread<f64>| places.push(place.xi));
+        } else {
             let [from, to] = patch.near;
-            let xi = [0.5 * (from + to) + 0.5 * (to - from) * eta, 0.0];
-            if let Some((face, _)) = self.seen_before(patch, xi) {
+            let place = |&(eta, _): &(f64, f64)| [0.5 * (from + to) + 0.5 * (to - from) * eta, 0.0];
+            places.extend(self.contact.rule().iter().map(place));
+        }
+        for xi in places {
+            if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {
                 nodes.extend_from_slice(&faces.surface.faces[face].nodes);
             }
         }
     }
 
-    /// The face that a place saw at the accepted state: the nearest that looked at it, or what continues the one seen now.
-    fn seen_before(&self, patch: &Patch, xi: [f64; 2]) -> Option<(usize, super::faces::Projection)> {
+    /// The face that a place saw at the accepted state: of those that are `known` the nearest that looked at it, or what continues
+    /// the one seen now.
+    fn seen_before(
+        &self,
+        patch: &Patch,
+        xi: [f64; 2],
+        known: impl Fn(usize) -> bool,
+    ) -> Option<(usize, super::faces::Projection)> {
         let (Some(faces), TargetInPlace::Faces(before)) = (self.contact.target.as_faces(), &self.before.target) else {
             return None;
         };
@@ -265,13 +296,18 @@ impl FieldAttempt<'_> {
         let ray = Ray { x: at.x, n: at.normal.unit() };
         let range = [-2.0 * self.depths[patch.face], 2.0 * self.reach];
         let admits = |face: usize, hit: &super::faces::Projection| {
-            self.contact.may_touch(patch.face, face) && -hit.normal().dot(ray.n) > LEAST_COSINE
+            self.contact.may_touch(patch.face, face) && -hit.normal().dot(ray.n) > LEAST_COSINE && known(face)
         };
-        let seen = before.nearest(&ray, range, admits);
-        seen.or_else(|| {
-            let hit = faces.project(patch.target, before.placed(patch.target), &ray)?;
-            Some((patch.target, hit))
-        })
+        let present = faces.project(patch.target, before.placed(patch.target), &ray).map(|hit| (patch.target, hit));
+        let same = |(face, hit): &(usize, super::faces::Projection)| {
+            let within = faces.surface.faces[*face].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
+            within && admits(*face, hit)
+        };
+        // In space the search is dear, and most places see what they saw.
+        if let Some(present) = present.filter(|present| !self.contact.surface.plane && same(present)) {
+            return Some(present);
+        }
+        before.nearest(&ray, range, admits).or(present)
     }
 
     fn recall(&self, stencil: &StencilInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
@@ -281,18 +317,23 @@ impl FieldAttempt<'_> {
             (TargetInPlace::Tool(before), FieldTarget::Tool(rigid)) => {
                 let (foot, now) = (before.closest(patch.target, at.x), rigid.in_place(stencil.motion()));
                 let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
-                let slopes = [slope(at.tangents[0]), Vec3::zero()];
+                let slopes = at.tangents.map(slope);
                 Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None })
             }
             (TargetInPlace::Faces(_), FieldTarget::Faces(faces)) => {
-                let (number, hit) = self.seen_before(patch, xi)?;
+                // A state beside the one that was searched may have seen others by a hair.
+                let nodes = |face: usize| faces.surface.faces[face].nodes.iter();
+                let known = |face: usize| nodes(face).all(|node| stencil.support.nodes.binary_search(node).is_ok());
+                let (number, hit) = self.seen_before(patch, xi, known)?;
                 let m = at.normal;
                 let n = m.unit();
-                let turned = (at.normal_slopes[0] - n * n.dot(at.normal_slopes[0])) * m.norm().recip();
-                let (_, s) = hit.follow(n, at.tangents[0] + turned * hit.gap);
                 let placed = stencil.placed(&faces.surface.faces[number]);
                 let [a, b] = hit.shape.tangents(placed.nodes(), self.contact.surface.plane);
-                let slopes = [a * s[0] + b * s[1], Vec3::zero()];
+                let slopes = [0, 1].map(|k| {
+                    let turned = (at.normal_slopes[k] - n * n.dot(at.normal_slopes[k])) * m.norm().recip();
+                    let (_, s) = hit.follow(n, at.tangents[k] + turned * hit.gap);
+                    a * s[0] + b * s[1]
+                });
                 Some(Touched { now: hit.shape.value(placed.nodes()), slopes, face: Some((number, hit.shape)) })
             }
             _ => None,
@@ -430,7 +471,7 @@ impl FieldAttempt<'_> {
             return Err(Failure::new(format!("{name} came to lie {deep:.3e} deep in one increment")));
         }
         let FieldTarget::Tool(rigid) = &contact.target else { return Ok(()) };
-        let turned = stencil.motion().last().copied().unwrap_or(0.0) - self.accepted[rigid.unknowns().end - 1];
+        let turned = rigid.turned(stencil.motion(), &self.accepted[rigid.unknowns()]);
         refuse_turn(turned, || contact.describe(slot))
     }
 

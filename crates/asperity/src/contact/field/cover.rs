@@ -5,7 +5,7 @@
 //! normal of the surface passes through the vertex, `(x_V - x(xi)) . e_S(xi) = 0`; of a tool, where the surface crosses the
 //! profile's normal at its end, `(x(xi) - x_V) . t_V = 0`. The ends of an interval move with all of these.
 
-use super::face::{CORNERS, Face, Placed};
+use super::face::{CORNERS, Face, Placed, ShapeFunctions};
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
 
@@ -46,6 +46,10 @@ pub struct Frame {
     pub normal: Vec3,
     /// Its derivatives along the reference coordinates.
     pub normal_slopes: [Vec3; 2],
+    /// Shape functions of the face.
+    pub shape: ShapeFunctions,
+    /// Functions of its corners.
+    pub corners: ShapeFunctions,
 }
 
 impl FaceInPlace<'_> {
@@ -59,6 +63,8 @@ impl FaceInPlace<'_> {
             tangents: shape.tangents(self.placed.nodes(), self.plane),
             normal: corners.value(normals),
             normal_slopes: [slope(0), slope(1)],
+            shape,
+            corners,
         }
     }
 

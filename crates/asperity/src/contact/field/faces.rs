@@ -10,6 +10,8 @@ use crate::tool::{Bounds, Tree};
 
 /// Iterations of a projection.
 const ITERATIONS: usize = 20;
+/// A step from which the next one is below rounding.
+const SETTLED: f64 = 1e-9;
 /// Reference coordinates farther out than this are given up.
 const ASTRAY: f64 = 1e3;
 /// A face looks at the surface if the cosine between the normals is at least this.
@@ -109,7 +111,8 @@ impl Faces {
             if !s.iter().all(|s| s.abs() < ASTRAY) || !gap.is_finite() {
                 return None;
             }
-            if ds.iter().all(|ds| ds.abs() < 1e-14) && dg.abs() <= 1e-14 * size {
+            // The steps of Newton's method are squared: the next would be lost in rounding.
+            if ds.iter().all(|ds| ds.abs() < SETTLED) && dg.abs() <= SETTLED * size {
                 break;
             }
         }
@@ -131,6 +134,11 @@ fn bounds(placed: &Placed) -> Bounds {
 }
 
 impl FacesInPlace<'_> {
+    /// Number of the corners of a face.
+    pub fn corners(&self, number: usize) -> usize {
+        self.faces.surface.faces[number].corners()
+    }
+
     /// A face in place.
     pub fn placed(&self, number: usize) -> &Placed {
         &self.placed[number]

@@ -9,13 +9,13 @@
 use super::cover::{FaceInPlace, Frame, Patch, root_near};
 use super::face::{CORNERS, Placed, ShapeFunctions};
 use super::faces::{Projection, Ray};
+use super::space::{Line, Spot};
 use super::surface::{NodalNormal, unit};
 use super::tool::{Foot, MOST, ToolInPlace};
 use crate::tensor::Vec3;
 
 /// What a point sees of the target.
 #[derive(Debug, Clone, Copy)]
-#[expect(clippy::large_enum_variant, reason = "few are kept at a time, and none may be allocated in the loop")]
 pub enum Sight {
     /// A face of a body.
     Face(Projection),
@@ -39,8 +39,6 @@ pub struct Touched {
 pub struct Point {
     /// Its patch.
     pub patch: usize,
-    /// Its place on the face.
-    pub xi: [f64; 2],
     /// Undeformed area it stands for times the node's function there.
     pub weight: f64,
     /// Shape functions of the face.
@@ -113,8 +111,10 @@ pub struct PatchInPlace<'a> {
     pub seen: Option<(&'a super::faces::Faces, Placed)>,
     /// The patch itself.
     pub patch: Patch,
-    /// Where its interval begins and ends.
+    /// Where its interval begins and ends, in the plane.
     pub interval: [f64; 2],
+    /// What the tangents of its node follow, in space.
+    pub line: Option<Line>,
 }
 
 /// Ends of an interval and their derivatives along one unknown.
@@ -171,7 +171,7 @@ impl PatchInPlace<'_> {
                         Column::Node { axis, seen: Some(k), .. } if *k == end => unit(*axis),
                         _ => Vec3::zero(),
                     };
-                    let turned = self.sum_turned([xi, 0.0], turning);
+                    let turned = self.sum_turned(&at.corners, turning);
                     (vertex - moved).dot(at.normal.left()) + (seen.nodes()[end] - at.x).dot(turned.left())
                 }
                 (None, None) => 0.0,
@@ -190,8 +190,7 @@ impl PatchInPlace<'_> {
     }
 
     /// Derivative of the interpolated normal along an unknown, at fixed reference coordinates.
-    fn sum_turned(&self, xi: [f64; 2], turning: &[Vec3; CORNERS]) -> Vec3 {
-        let functions = self.face.face.corner_functions(xi);
+    fn sum_turned(&self, functions: &ShapeFunctions, turning: &[Vec3; CORNERS]) -> Vec3 {
         let turned = self.normals.iter().zip(turning).zip(&functions.n);
         turned.fold(Vec3::zero(), |sum, ((normal, dm), m)| sum + normal.map_or(Vec3::zero(), |n| n.turned(*dm)) * *m)
     }
@@ -222,42 +221,51 @@ impl PatchInPlace<'_> {
         sight(self.face.own_normal(xi).dot(n))
     }
 
-    /// Derivatives of a point along an unknown: `rule` is its place in the rule and its weight there, `density` the undeformed
+    /// The tangents across a direction.
+    pub fn tangents(&self, n: Vec3) -> [Vec3; 2] {
+        self.line.map_or([n.left(), Vec3::new(0.0, 0.0, 1.0)], |line| line.tangents(n))
+    }
+
+    /// Whether what a point of the patch shows depends on an unknown, besides what it saw at the accepted state.
+    pub fn depends(&self, column: &Column, turning: &[Vec3; CORNERS]) -> bool {
+        let Column::Node { own, seen, node, .. } = column else { return true };
+        let turns = || turning.iter().any(|dm| *dm != Vec3::zero());
+        own.is_some() || seen.is_some() || self.line.is_some_and(|line| line.has(*node)) || turns()
+    }
+
+    /// Derivatives of a point along an unknown: `at` is its place with its weight by what it looks at, `density` the undeformed
     /// area density with its slopes, `function` the node's function.
     pub fn rates(
         &self,
         point: &Point,
         column: &Column,
-        (eta, rule_weight): (f64, f64),
+        (spot, at, facing): (&Spot, &Frame, [f64; 2]),
         (density, function, touched): (&Function, &Function, &Option<Touched>),
         (ends, turning): (&IntervalRates, &[Vec3; CORNERS]),
     ) -> Rates {
-        let xi = [self.place(eta), 0.0];
-        let at = self.face.at(xi);
-        let half = 0.5 * (self.interval[1] - self.interval[0]);
-        let dxi = [0.5 * (ends[0] * (1.0 - eta) + ends[1] * (1.0 + eta)), 0.0];
-        let dhalf = 0.5 * (ends[1] - ends[0]);
-        let dx = self.moved(column, &point.shape) + at.tangents[0] * dxi[0];
-        let (gap, n, s, y) = self.sight_rates(point, column, (&at, dx, dxi), turning);
-        let facing = self.facing(xi, point.n);
+        let (xi, (dxi, darea)) = (spot.xi, self.spot_rates(spot, column, ends));
+        let dx = self.moved(column, &point.shape) + at.tangents[0] * dxi[0] + at.tangents[1] * dxi[1];
+        let (gap, n, s, y) = self.sight_rates(point, column, (at, dx, dxi), turning);
         let mut dfacing = 0.0;
         if facing[1] != 0.0 {
             let cosine = self.own_normal_rate(column, xi, dxi).dot(point.n) + self.face.own_normal(xi).dot(n);
             dfacing = facing[1] * cosine;
         }
-        let (density, density_slope) = (density.0, density.1[0] * dxi[0]);
-        let (function, function_slope) = (function.0, function.1[0] * dxi[0]);
-        let weight = rule_weight
-            * (dhalf * density * facing[0] * function
-                + half
-                    * (density_slope * facing[0] * function
-                        + density * dfacing * function
-                        + density * facing[0] * function_slope));
-        let e = [n.left(), Vec3::zero()];
+        let along = |slopes: [f64; 2]| slopes[0] * dxi[0] + slopes[1] * dxi[1];
+        let (density, density_slope) = (density.0, along(density.1));
+        let (function, function_slope) = (function.0, along(function.1));
+        let weight = darea * density * facing[0] * function
+            + spot.weight
+                * (density_slope * facing[0] * function
+                    + density * dfacing * function
+                    + density * facing[0] * function_slope);
+        let turned = |line: Line| line.rates(column, (point.n, n), &point.e);
+        let e = self.line.map_or([n.left(), Vec3::zero()], turned);
         let mut slip = [0.0; 2];
         if let Some(touched) = touched {
             let v = touched.now - at.x;
-            let dv = self.touched_rate(column, touched) + touched.slopes[0] * dxi[0] - dx;
+            let carried = touched.slopes[0] * dxi[0] + touched.slopes[1] * dxi[1];
+            let dv = self.touched_rate(column, touched) + carried - dx;
             (0..2).for_each(|a| slip[a] = e[a].dot(v) + point.e[a].dot(dv));
         }
         Rates { weight, xi: dxi, gap, n, e, slip, s, y }
@@ -280,7 +288,8 @@ impl PatchInPlace<'_> {
                 (foot.normal.dot(motion), n, [0.0; 2], rate + foot.slide(motion))
             }
             (Sight::Face(hit), _) => {
-                let dm = self.sum_turned(point.xi, turning) + at.normal_slopes[0] * dxi[0];
+                let moved = at.normal_slopes[0] * dxi[0] + at.normal_slopes[1] * dxi[1];
+                let dm = self.sum_turned(&at.corners, turning) + moved;
                 let dn = (dm - point.n * point.n.dot(dm)) * at.normal.norm().recip();
                 let carried = match column {
                     Column::Node { axis, seen: Some(k), .. } => unit(*axis) * hit.shape.n[*k],
@@ -296,19 +305,21 @@ impl PatchInPlace<'_> {
 
     /// Derivative of the face's own unit normal.
     fn own_normal_rate(&self, column: &Column, xi: [f64; 2], dxi: [f64; 2]) -> Vec3 {
-        let face = self.face.face;
+        let (face, face_is_plane) = (self.face.face, self.face.plane);
         let shape = face.shape(xi);
         let [a, b] = shape.tangents(self.face.placed.nodes(), self.face.plane);
-        let mut da = match column {
-            Column::Node { axis, own: Some(k), .. } => unit(*axis) * shape.dn[*k][0],
-            _ => Vec3::zero(),
+        let [mut da, db] = match column {
+            Column::Node { axis, own: Some(k), .. } if face_is_plane => [unit(*axis) * shape.dn[*k][0], Vec3::zero()],
+            Column::Node { axis, own: Some(k), .. } => shape.dn[*k].map(|slope| unit(*axis) * slope),
+            _ => [Vec3::zero(); 2],
         };
+        // Over tools in space places stay where they are.
         if dxi[0] != 0.0 {
             // Shape functions of second degree have linear slopes, of which a central difference is exact.
             let slope = |step: f64| face.shape([xi[0] + step, xi[1]]).tangents(self.face.placed.nodes(), true)[0];
             da += (slope(0.5) - slope(-0.5)) * dxi[0];
         }
-        let (m, dm) = (a.cross(b), da.cross(b));
+        let (m, dm) = (a.cross(b), da.cross(b) + a.cross(db));
         let unit = m.unit();
         (dm - unit * unit.dot(dm)) * m.norm().recip()
     }

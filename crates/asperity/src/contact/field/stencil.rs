@@ -5,11 +5,13 @@
 //! is asked; the second adds what turning and moving the stresses does.
 
 use super::cover::{FaceInPlace, Patch};
-use super::face::{CORNERS, Face, Placed};
+use super::face::{CORNERS, Face, Placed, ShapeFunctions};
 use super::point::{Column, PatchInPlace, Point, Rates, Sight, Touched};
-use super::surface::NodalNormal;
+use super::space::Line;
+use super::surface::{NodalNormal, Surface};
 use super::term::{FieldContact, FieldTarget};
 use crate::tensor::Vec3;
+use std::ops::Range;
 
 /// Coordinates of a node: penetration and two slips.
 pub const COUNT: usize = 3;
@@ -56,7 +58,10 @@ pub struct NodeSums {
     /// Mean position, weighted by area.
     pub place: Vec3,
     points: Vec<Point>,
-    rates: Vec<Rates>,
+    /// Derivatives of the points along the unknowns on which they depend, with the numbers of these.
+    rates: Vec<(usize, Rates)>,
+    /// Where those of each point begin.
+    starts: Vec<usize>,
     columns: Vec<Column>,
 }
 
@@ -80,14 +85,15 @@ impl<'a> StencilInPlace<'a> {
 
     /// A face with its nodes in place.
     pub(super) fn placed(&self, face: &Face) -> Placed {
-        let axes = self.axes();
-        Placed::new(face.nodes.iter().map(|node| {
-            let mut x = self.contact.mesh.points[*node];
-            if let Ok(place) = self.support.nodes.binary_search(node) {
-                (0..axes).for_each(|axis| x[axis] += self.u[place * axes + axis]);
-            }
-            x
-        }))
+        Placed::new(face.nodes.iter().map(|&node| self.position(node)))
+    }
+
+    fn position(&self, node: usize) -> Vec3 {
+        let (mut x, axes) = (self.contact.mesh.points[node], self.axes());
+        if let Ok(place) = self.support.nodes.binary_search(&node) {
+            (0..axes).for_each(|axis| x[axis] += self.u[place * axes + axis]);
+        }
+        x
     }
 
     /// The unknowns of the tool.
@@ -111,9 +117,26 @@ impl<'a> StencilInPlace<'a> {
             FieldTarget::Tool(rigid) => (Some(rigid.in_place(self.motion())), None),
             FieldTarget::Faces(faces) => (None, Some((faces, self.placed(&faces.surface.faces[patch.target])))),
         };
-        let mut patch = PatchInPlace { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0] };
-        patch.find_interval();
+        let line = self.line();
+        let mut patch = PatchInPlace { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], line };
+        if surface.plane {
+            patch.find_interval();
+        }
         patch
+    }
+
+    /// What the tangents of the node follow, in space.
+    fn line(&self) -> Option<Line> {
+        let surface = &self.contact.surface;
+        let (patch, corner) = self.support.patches.first().filter(|_| !surface.plane)?;
+        let nodes = surface.line(surface.field[patch.face][*corner]);
+        let [from, to] = nodes.map(|node| self.position(node));
+        Some(Line { d: to - from, nodes })
+    }
+
+    /// Nodes of a face of the target.
+    fn seen_nodes(&self, face: usize) -> &'a [usize] {
+        self.contact.target.as_faces().map_or(&[], |faces| &faces.surface.faces[face].nodes)
     }
 
     fn list_columns(&self, patch: &Patch, columns: &mut Vec<Column>) {
@@ -176,6 +199,7 @@ impl<'a> StencilInPlace<'a> {
         let n = self.u.len();
         sums.points.clear();
         sums.rates.clear();
+        sums.starts.clear();
         let (mut area, mut moments, mut place) = (0.0, [0.0; COUNT], Vec3::zero());
         let mut turning = Vec::new();
         for (number, (patch, corner)) in self.support.patches.iter().enumerate() {
@@ -190,31 +214,43 @@ impl<'a> StencilInPlace<'a> {
                     sums.columns.iter().zip(&turning).map(|(column, turning)| in_place.interval_rates(column, turning)),
                 );
             }
-            let half = 0.5 * (in_place.interval[1] - in_place.interval[0]);
-            for &(eta, rule_weight) in self.contact.rule() {
-                let xi = [in_place.place(eta), 0.0];
+            let depends = |(column, turning)| in_place.depends(column, turning);
+            let active: Vec<bool> = sums.columns.iter().zip(&turning).map(depends).collect();
+            let still = !derivatives || (in_place.tool.is_some() && !surface.plane);
+            for spot in in_place.spots(self.contact.rule(), derivatives) {
+                let xi = spot.xi;
                 let at = in_place.face.at(xi);
                 let (sight, n_out, gap, y) = in_place.look(&at)?;
-                let density = surface.density(in_place.face.face, &rest, xi);
-                let corners = in_place.face.face.corner_functions(xi);
-                let function = (corners.n[*corner], corners.dn[*corner]);
-                let facing = in_place.facing(xi, n_out)[0];
-                let weight = rule_weight * half * density.0 * facing * function.0;
-                let e = [n_out.left(), Vec3::new(0.0, 0.0, 1.0)];
+                if matches!(&sight, Sight::Tool(foot) if foot.beyond.is_some() && !surface.plane) {
+                    continue;
+                }
+                let density = if still { Surface::density_there } else { Surface::density };
+                let density = density(surface, in_place.face.face, &rest, xi);
+                let function = (at.corners.n[*corner], at.corners.dn[*corner]);
+                let facing = in_place.facing(xi, n_out);
+                let weight = spot.weight * density.0 * facing[0] * function.0;
+                let e = in_place.tangents(n_out);
                 let touched = recall(patch, xi);
                 let v = touched.map_or(Vec3::zero(), |touched| touched.now - at.x);
                 let slip = e.map(|e| e.dot(v));
-                let shape = in_place.face.face.shape(xi);
-                let point = Point { patch: number, xi, weight, shape, gap, n: n_out, e, slip, y, sight };
+                let shape = at.shape;
+                let point = Point { patch: number, weight, shape, gap, n: n_out, e, slip, y, sight };
                 area += weight;
                 place += at.x * weight;
                 for (moment, value) in moments.iter_mut().zip([-gap, slip[0], slip[1]]) {
                     *moment += weight * value;
                 }
                 if derivatives {
-                    for ((column, ends), turning) in sums.columns.iter().zip(&ends).zip(&turning) {
-                        let shapes = (&density, &function, &touched);
-                        sums.rates.push(in_place.rates(&point, column, (eta, rule_weight), shapes, (ends, turning)));
+                    sums.starts.push(sums.rates.len());
+                    let before = touched.and_then(|touched| touched.face).map(|(face, _)| self.seen_nodes(face));
+                    for (j, (column, (ends, turning))) in sums.columns.iter().zip(ends.iter().zip(&turning)).enumerate()
+                    {
+                        let node = if let Column::Node { node, .. } = column { Some(node) } else { None };
+                        if active[j] || node.is_some_and(|node| before.is_some_and(|nodes| nodes.contains(node))) {
+                            let shapes = (&density, &function, &touched);
+                            let rates = in_place.rates(&point, column, (&spot, &at, facing), shapes, (ends, turning));
+                            sums.rates.push((j, rates));
+                        }
                     }
                 }
                 sums.points.push(point);
@@ -232,11 +268,11 @@ impl<'a> StencilInPlace<'a> {
     }
 
     fn differentiate(&self, n: usize, sums: &mut NodeSums) {
-        let NodeSums { area, y, gradients, points, rates, .. } = sums;
+        let NodeSums { area, y, gradients, points, rates, starts, .. } = sums;
         gradients.clear();
         gradients.resize(COUNT * n, 0.0);
-        for (point, rates) in points.iter().zip(rates.chunks_exact(n)) {
-            for (j, rate) in rates.iter().enumerate() {
+        for (point, range) in points.iter().zip(ranges(starts, rates.len())) {
+            for &(j, ref rate) in &rates[range] {
                 let values = [-point.gap - y[0], point.slip[0] - y[1], point.slip[1] - y[2]];
                 let slopes = [-rate.gap, rate.slip[0], rate.slip[1]];
                 for c in 0..COUNT {
@@ -286,27 +322,28 @@ impl<'a> StencilInPlace<'a> {
     /// Second sweep: adds `factor` times what turning and moving stresses `t` does to the tangent.
     pub fn add_geometric(&self, t: [f64; COUNT], factor: f64, sums: &NodeSums, tangent: &mut [f64]) {
         let (n, axes) = (self.u.len(), self.axes());
-        let NodeSums { points, rates, .. } = sums;
-        for (point, rates) in points.iter().zip(rates.chunks_exact(n)) {
+        let NodeSums { points, rates, starts, .. } = sums;
+        for (point, range) in points.iter().zip(ranges(starts, rates.len())) {
             let patch = &self.support.patches[point.patch].0;
             let traction = (point.e[0] * t[1] + point.e[1] * t[2] - point.n * t[0]) * factor;
-            let own = &self.contact.surface.faces[patch.face].nodes;
-            for (j, rate) in rates.iter().enumerate() {
+            let place = |&node: &usize| self.support.nodes.binary_search(&node).ok();
+            let own: Vec<Option<usize>> = self.contact.surface.faces[patch.face].nodes.iter().map(place).collect();
+            let seen = if let Sight::Face(_) = &point.sight { self.seen_nodes(patch.target) } else { &[] };
+            let seen: Vec<Option<usize>> = seen.iter().map(place).collect();
+            for &(j, ref rate) in &rates[range] {
                 let turned = (rate.e[0] * t[1] + rate.e[1] * t[2] - rate.n * t[0]) * factor;
-                let mut push = |nodes: &[usize], shape: &super::face::ShapeFunctions, at: [f64; 2], sign: f64| {
-                    for (k, node) in nodes.iter().enumerate() {
-                        let Ok(place) = self.support.nodes.binary_search(node) else { continue };
+                let mut push = |places: &[Option<usize>], shape: &ShapeFunctions, at: [f64; 2], sign: f64| {
+                    for (k, place) in places.iter().enumerate() {
+                        let Some(place) = *place else { continue };
                         let (value, [a, b]) = (shape.n[k], shape.dn[k]);
                         let slope = rate.weight * value + point.weight * (a * at[0] + b * at[1]);
                         let change = (traction * slope + turned * (point.weight * value)) * sign;
                         (0..axes).for_each(|axis| tangent[(place * axes + axis) * n + j] += change[axis]);
                     }
                 };
-                push(own, &point.shape, rate.xi, -1.0);
+                push(&own, &point.shape, rate.xi, -1.0);
                 match (&point.sight, &self.contact.target) {
-                    (Sight::Face(hit), FieldTarget::Faces(faces)) => {
-                        push(&faces.surface.faces[patch.target].nodes, &hit.shape, rate.s, 1.0);
-                    }
+                    (Sight::Face(hit), FieldTarget::Faces(_)) => push(&seen, &hit.shape, rate.s, 1.0),
                     (Sight::Tool(_), FieldTarget::Tool(rigid)) => {
                         let tool = rigid.in_place(self.motion());
                         let first = self.support.nodes.len() * axes;
@@ -332,4 +369,9 @@ impl<'a> StencilInPlace<'a> {
         }
         mean
     }
+}
+
+/// Ranges that begin at `starts` and end where the next begins, the last at `end`.
+fn ranges(starts: &[usize], end: usize) -> impl Iterator<Item = Range<usize>> + '_ {
+    starts.iter().enumerate().map(move |(k, &start)| start..starts.get(k + 1).copied().unwrap_or(end))
 }

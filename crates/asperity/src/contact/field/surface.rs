@@ -137,6 +137,13 @@ impl Surface {
         (self.nodes, self.field) = (nodes, field);
     }
 
+    /// The nodes of the mesh between which the line runs that tangents at a node of the field follow in space.
+    pub fn line(&self, node: usize) -> [usize; 2] {
+        let (f, corner) = self.nodes[node].support[0];
+        let face = &self.faces[f];
+        [face.nodes[corner], face.nodes[(corner + 1) % face.corners()]]
+    }
+
     fn middle_normal(&self, face: &Face, mesh: &Mesh) -> Vec3 {
         let [a, b] = face.shape(face.middle()).tangents(face.at_rest(mesh).nodes(), self.plane);
         a.cross(b).unit()
@@ -187,6 +194,11 @@ impl Surface {
         (value(xi), [slope(0), if self.plane { 0.0 } else { slope(1) }])
     }
 
+    /// The same for a place that stays where it is: the slopes do not matter.
+    pub fn density_there(&self, face: &Face, rest: &Placed, xi: [f64; 2]) -> (f64, [f64; 2]) {
+        (self.density_at(face, rest, xi), [0.0; 2])
+    }
+
     /// The same in any placement, value alone.
     pub fn density_at(&self, face: &Face, placed: &Placed, xi: [f64; 2]) -> f64 {
         let shape = face.shape(xi);
@@ -200,7 +212,8 @@ impl Surface {
         let face = &self.faces[face];
         let rest = face.at_rest(mesh);
         let [a, b] = face.shape(face.middle()).tangents(rest.nodes(), self.plane);
-        if self.plane { 2.0 * a.norm() } else { (4.0 * a.cross(b).norm()).sqrt() }
+        let whole = if face.corners() == 3 { 0.5 } else { 4.0 };
+        if self.plane { 2.0 * a.norm() } else { (whole * a.cross(b).norm()).sqrt() }
     }
 
     /// How far the faces around a node stand off a smooth surface, `h theta / 8` with `theta` the angle between neighbours; zero

@@ -13,7 +13,7 @@ use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
-use crate::tool::Tool;
+use crate::tool::{self, Tool};
 use crate::{Error, Failure};
 use std::collections::BTreeMap;
 use std::sync::{Arc, RwLock};
@@ -31,6 +31,10 @@ impl FieldTarget {
     /// A rigid tool, number `number` in the numbering of the unknowns.
     pub fn tool(tool: Arc<Tool>, number: usize, dofs: &Dofs) -> Self {
         Self::Tool(RigidTool::new(tool, number, dofs))
+    }
+    /// A rigid tool in space.
+    pub fn solid_tool(tool: Arc<tool::space::Tool>, number: usize, dofs: &Dofs) -> Self {
+        Self::Tool(RigidTool::in_space(tool, number, dofs))
     }
     /// Faces of bodies.
     pub fn faces(surface: Surface, mesh: &Mesh) -> Self {
@@ -119,7 +123,7 @@ impl FieldContact {
             node.support.iter().map(|&(f, _)| surface.size(f, &mesh)).fold(f64::INFINITY, f64::min)
         };
         let sizes = surface.nodes.iter().map(size).collect();
-        let rule = rule(&surface);
+        let rule = rule();
         let least = CLOSED * shortest;
         Self {
             name,
@@ -345,6 +349,12 @@ impl FieldContact {
         records
     }
 
+    /// The line that tangents at a node of the field follow in space, before any motion.
+    fn rest_line(&self, node: usize) -> Vec3 {
+        let [from, to] = self.surface.line(node).map(|node| self.mesh.points[node]);
+        (to - from).unit()
+    }
+
     /// The record of a node that sees nothing.
     fn unseen(&self, slot: usize, u: &[f64], values: &[f64]) -> PointRecord {
         let node = slot / self.pieces;
@@ -360,7 +370,7 @@ impl FieldContact {
             inward: -outward,
             thrust: -outward,
             facing: -outward,
-            along: outward.left(),
+            along: if self.surface.plane { outward.left() } else { self.rest_line(node) },
             area: 0.0,
             resultant: None,
             status: PointStatus::from_value(values[entry::STATUS]),
@@ -420,10 +430,9 @@ fn labels(roots: &[usize]) -> (Vec<usize>, usize) {
 }
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
-fn rule(surface: &Surface) -> Vec<(f64, f64)> {
+fn rule() -> Vec<(f64, f64)> {
     let (a, b) = ((3.0 / 7.0 - 2.0 / 7.0 * 1.2_f64.sqrt()).sqrt(), (3.0 / 7.0 + 2.0 / 7.0 * 1.2_f64.sqrt()).sqrt());
     let [p, q] = [(18.0 + 30.0_f64.sqrt()) / 36.0, (18.0 - 30.0_f64.sqrt()) / 36.0];
-    debug_assert!(surface.plane);
     vec![(-b, q), (-a, p), (a, p), (b, q)]
 }
 

@@ -2,7 +2,8 @@
 
 use super::surface::unit;
 use crate::system::Dofs;
-use crate::tensor::Vec3;
+use crate::tensor::{Dual, Vec3};
+use crate::tool::space::{self, SmoothPieces};
 use crate::tool::{Pose, SmoothPiece, Tool};
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,17 +14,32 @@ pub const MOST: usize = 6;
 /// A tool, its smooth pieces and the place of its unknowns.
 #[derive(Debug)]
 pub struct RigidTool {
-    tool: Arc<Tool>,
-    pieces: Vec<SmoothPiece>,
+    shape: RigidShape,
     number: usize,
     unknowns: Range<usize>,
+}
+
+/// A tool with its smooth pieces.
+#[derive(Debug)]
+enum RigidShape {
+    /// Profiles in the plane.
+    Plane(Arc<Tool>, Vec<SmoothPiece>),
+    /// Facets in space.
+    Space(Arc<space::Tool>, SmoothPieces),
 }
 
 /// A tool in its place.
 #[derive(Debug, Clone, Copy)]
 pub struct ToolInPlace<'a> {
     rigid: &'a RigidTool,
-    pose: Pose,
+    stand: Stand,
+}
+
+/// Where a tool stands.
+#[derive(Debug, Clone, Copy)]
+enum Stand {
+    Plane(Pose),
+    Space(space::Pose),
 }
 
 /// The point of a tool that is closest to a point of the surface.
@@ -35,17 +51,16 @@ pub struct Foot {
     pub normal: Vec3,
     /// The closest point.
     pub point: Vec3,
-    /// The end of the piece beyond which the point of the surface lies.
+    /// The end of the piece beyond which the point of the surface lies; in space 0 for any border.
     pub beyond: Option<usize>,
-    /// Curvature of the surface of equal distance.
-    curvature: f64,
+    /// Principal directions and curvatures of the surface of equal distance.
+    bends: [(Vec3, f64); 2],
 }
 
 impl Foot {
     /// Change of the normal for a motion of the point of the surface relative to the tool.
     pub fn turned(&self, motion: Vec3) -> Vec3 {
-        let along = self.normal.left();
-        along * (self.curvature * along.dot(motion))
+        self.bends.iter().fold(Vec3::zero(), |sum, &(along, bend)| sum + along * (bend * along.dot(motion)))
     }
     /// Motion of the closest point, as one of the tool's material, for that motion.
     pub fn slide(&self, motion: Vec3) -> Vec3 {
@@ -56,8 +71,17 @@ impl Foot {
 impl RigidTool {
     /// Tool number `number` in the numbering of the unknowns.
     pub fn new(tool: Arc<Tool>, number: usize, dofs: &Dofs) -> Self {
+        let pieces = tool.smooth_pieces();
+        Self::made(RigidShape::Plane(tool, pieces), number, dofs)
+    }
+    /// The same in space.
+    pub fn in_space(tool: Arc<space::Tool>, number: usize, dofs: &Dofs) -> Self {
+        let pieces = tool.smooth_pieces();
+        Self::made(RigidShape::Space(tool, pieces), number, dofs)
+    }
+    fn made(shape: RigidShape, number: usize, dofs: &Dofs) -> Self {
         let first = dofs.tool(number);
-        Self { pieces: tool.smooth_pieces(), tool, number, unknowns: first..first + dofs.per_tool() }
+        Self { shape, number, unknowns: first..first + dofs.per_tool() }
     }
     /// Its number among the tools.
     pub fn number(&self) -> usize {
@@ -69,71 +93,134 @@ impl RigidTool {
     }
     /// Number of its smooth pieces.
     pub fn pieces(&self) -> usize {
-        self.pieces.len()
+        match &self.shape {
+            RigidShape::Plane(_, pieces) => pieces.len(),
+            RigidShape::Space(_, pieces) => pieces.count(),
+        }
     }
     /// Diagonal of the box around it, a length.
     pub fn size(&self) -> f64 {
-        self.tool.size()
+        match &self.shape {
+            RigidShape::Plane(tool, _) => tool.size(),
+            RigidShape::Space(tool, _) => tool.size(),
+        }
+    }
+    fn rest(&self) -> Vec3 {
+        match &self.shape {
+            RigidShape::Plane(tool, _) => tool.reference(),
+            RigidShape::Space(tool, _) => tool.reference(),
+        }
     }
     /// The tool for values of its unknowns.
     pub fn in_place(&self, motion: &[f64]) -> ToolInPlace<'_> {
-        ToolInPlace { rigid: self, pose: Pose::new(motion[0], motion[1], motion[2]) }
+        let stand = match &self.shape {
+            RigidShape::Plane(..) => Stand::Plane(Pose::new(motion[0], motion[1], motion[2])),
+            RigidShape::Space(..) => Stand::Space(space::Pose::new(std::array::from_fn(|i| motion[i]))),
+        };
+        ToolInPlace { rigid: self, stand }
     }
     /// The tool at all unknowns.
     pub fn at(&self, u: &[f64]) -> ToolInPlace<'_> {
         self.in_place(&u[self.unknowns()])
+    }
+    /// The angle between two values of its unknowns, in radians; in space that of a turn about a steady axis.
+    pub fn turned(&self, motion: &[f64], before: &[f64]) -> f64 {
+        let first = if let RigidShape::Plane(..) = self.shape { 2 } else { 3 };
+        let turns = motion.iter().zip(before).skip(first).map(|(now, before)| (now - before).powi(2));
+        turns.sum::<f64>().sqrt()
     }
 }
 
 impl ToolInPlace<'_> {
     /// Present place of its reference point.
     pub fn reference(&self) -> Vec3 {
-        self.place(self.rigid.tool.reference())
+        self.place(self.rigid.rest())
     }
     /// Present place of the material point that stood at `point`.
     pub fn place(&self, point: Vec3) -> Vec3 {
-        self.pose.place(self.rigid.tool.reference(), point)
+        match &self.stand {
+            Stand::Plane(pose) => pose.place(self.rigid.rest(), point),
+            Stand::Space(pose) => pose.place(self.rigid.rest(), point),
+        }
     }
     /// Where the material point that is now at `placed` stood.
     pub fn withdraw(&self, placed: Vec3) -> Vec3 {
-        self.pose.withdraw(self.rigid.tool.reference(), placed)
+        match &self.stand {
+            Stand::Plane(pose) => pose.withdraw(self.rigid.rest(), placed),
+            Stand::Space(pose) => pose.withdraw(self.rigid.rest(), placed),
+        }
     }
     /// A vector turned with the tool.
     pub fn rotate(&self, v: Vec3) -> Vec3 {
-        self.pose.rotate(v)
+        match &self.stand {
+            Stand::Plane(pose) => pose.rotate(v),
+            Stand::Space(pose) => pose.rotate(v),
+        }
     }
     /// A vector turned back into the tool's own frame.
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
-        self.pose.rotate_back(v)
+        match &self.stand {
+            Stand::Plane(pose) => pose.rotate_back(v),
+            Stand::Space(pose) => pose.rotate_back(v),
+        }
     }
     /// The closest point of a smooth piece.
     pub fn closest(&self, piece: usize, x: Vec3) -> Foot {
-        let tool = &self.rigid.tool;
-        let found = tool.closest(&self.rigid.pieces[piece], self.withdraw(x));
-        Foot {
-            gap: found.gap,
-            normal: self.rotate(found.normal),
-            point: self.place(found.point),
-            beyond: found.beyond,
-            curvature: found.curvature,
-        }
+        let own = self.withdraw(x);
+        let (gap, normal, point, beyond, bends) = match &self.rigid.shape {
+            RigidShape::Plane(tool, pieces) => {
+                let found = tool.closest(&pieces[piece], own);
+                let bends = [(found.normal.left(), found.curvature), (Vec3::zero(), 0.0)];
+                (found.gap, found.normal, found.point, found.beyond, bends)
+            }
+            RigidShape::Space(tool, pieces) => {
+                let found = tool.closest(pieces, piece, own);
+                (found.gap, found.normal, found.point, found.beyond.then_some(0), found.bends)
+            }
+        };
+        let bends = bends.map(|(along, bend)| (self.rotate(along), bend));
+        Foot { gap, normal: self.rotate(normal), point: self.place(point), beyond, bends }
     }
-    /// Ends of a piece beyond which it is not seen: present point and tangent.
+    /// Ends of a piece in the plane beyond which it is not seen: present point and tangent.
     pub fn ends(&self, piece: usize) -> [Option<(Vec3, Vec3)>; 2] {
+        let RigidShape::Plane(tool, pieces) = &self.rigid.shape else { return [None; 2] };
         let place = |end: crate::tool::PieceEnd| (self.place(end.point), self.rotate(end.along));
-        self.rigid.tool.piece_ends(&self.rigid.pieces[piece]).map(|end| end.map(place))
+        tool.piece_ends(&pieces[piece]).map(|end| end.map(place))
     }
     /// Derivatives along its unknowns of the place of a material point that is now at `at`.
     pub fn rates(&self, at: Vec3) -> [Vec3; MOST] {
-        let mut rates = [Vec3::zero(); MOST];
-        rates[..3].copy_from_slice(&self.pose.rates(self.rigid.tool.reference(), at));
-        rates
+        match &self.stand {
+            Stand::Plane(pose) => {
+                let mut rates = [Vec3::zero(); MOST];
+                rates[..3].copy_from_slice(&pose.rates(self.rigid.rest(), at));
+                rates
+            }
+            Stand::Space(pose) => pose.rates(self.rigid.rest(), at),
+        }
     }
     /// Derivatives along its unknowns of its rotation, as vectors.
     pub fn spins(&self) -> [Vec3; MOST] {
         let mut spins = [Vec3::zero(); MOST];
-        spins[2] = unit(2);
+        match &self.stand {
+            Stand::Plane(_) => spins[2] = unit(2),
+            Stand::Space(pose) => (0..3).for_each(|i| spins[3 + i] = pose.spin(unit(i))),
+        }
         spins
+    }
+    /// Derivatives of [`spins`](Self::spins) along the unknown `along`.
+    fn spin_rates(&self, along: usize) -> [Vec3; MOST] {
+        let mut rates = [Vec3::zero(); MOST];
+        let (Stand::Space(pose), Some(axis)) = (&self.stand, along.checked_sub(3)) else { return rates };
+        let rotation = Vec3(std::array::from_fn(|i| {
+            if i == axis { Dual::<1>::variable(pose.rotation[i], 0) } else { Dual::from(pose.rotation[i]) }
+        }));
+        let turned = space::Pose { translation: Vec3::zero(), rotation };
+        (0..3).for_each(|i| rates[3 + i] = Vec3(turned.spin(unit(i).lift()).0.map(|spin| spin.du[0])));
+        rates
+    }
+    /// Number of its translations.
+    fn translations(&self) -> usize {
+        if let Stand::Plane(_) = self.stand { 2 } else { 3 }
     }
     /// Forces on its unknowns of a force `f` at `y`, for derivatives of both: `f . r_i(y)`.
     pub fn receive(&self, y: Vec3, f: Vec3) -> [f64; MOST] {
@@ -142,9 +229,13 @@ impl ToolInPlace<'_> {
     /// Derivative of [`receive`](Self::receive) along its unknown `along` (none for a node) where `y` moves by `dy` and `f` by `df`.
     pub fn receive_rate(&self, (y, f): (Vec3, Vec3), (dy, df): (Vec3, Vec3), along: Option<usize>) -> [f64; MOST] {
         let mut rates = self.receive(y, df);
-        // The arm grows with the place and shortens as the reference point moves.
-        let arm = dy - along.filter(|&j| j < 2).map_or(Vec3::zero(), unit);
-        rates[2] += arm.left().dot(f);
+        // The arm grows with the place and shortens as the reference point moves; a turning tool has other axes.
+        let arm = dy - along.filter(|&j| j < self.translations()).map_or(Vec3::zero(), unit);
+        let turned = along.map_or([Vec3::zero(); MOST], |along| self.spin_rates(along));
+        let whole = y - self.reference();
+        for (rate, (spin, turned)) in rates.iter_mut().zip(self.spins().iter().zip(turned)) {
+            *rate += spin.cross(arm).dot(f) + turned.cross(whole).dot(f);
+        }
         rates
     }
 }

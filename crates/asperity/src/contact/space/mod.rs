@@ -17,7 +17,7 @@ mod passage;
 mod patch;
 mod placed;
 mod point;
-mod polygon;
+pub(in crate::contact) mod polygon;
 mod rigid;
 mod sampled;
 mod search;

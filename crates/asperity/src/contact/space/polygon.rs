@@ -13,6 +13,9 @@ pub type Point<T> = [T; 2];
 /// Most vertices: four and one more for each cut.
 const MOST: usize = 10;
 
+/// Distance from a line within which a vertex is on it, where faces have sizes of about one.
+const ON: f64 = 1e-11;
+
 /// A convex polygon, its vertices counter-clockwise.
 #[derive(Debug, Clone, Copy)]
 pub struct Polygon<T> {
@@ -47,6 +50,18 @@ impl<T: Scalar> Polygon<T> {
         polygon
     }
 
+    /// Of so many vertices, counter-clockwise.
+    pub fn of(vertices: impl IntoIterator<Item = Point<T>>) -> Self {
+        let mut polygon = Self { vertices: [[T::zero(); 2]; MOST], count: 0 };
+        vertices.into_iter().for_each(|vertex| polygon.push(vertex));
+        polygon
+    }
+
+    /// Its vertices.
+    pub fn vertices(&self) -> &[Point<T>] {
+        &self.vertices[..self.count]
+    }
+
     fn push(&mut self, vertex: Point<T>) {
         if self.count < MOST {
             self.vertices[self.count] = vertex;
@@ -54,7 +69,8 @@ impl<T: Scalar> Polygon<T> {
         }
     }
 
-    fn edges(&self) -> impl Iterator<Item = [Point<T>; 2]> + '_ {
+    /// Its edges.
+    pub fn edges(&self) -> impl Iterator<Item = [Point<T>; 2]> + '_ {
         (0..self.count).map(|i| [self.vertices[i], self.vertices[(i + 1) % self.count]])
     }
 
@@ -67,6 +83,26 @@ impl<T: Scalar> Polygon<T> {
                 part.push(p);
             }
             if (here.re() >= 0.0) != (there.re() >= 0.0) {
+                let at = here / (here - there);
+                part.push([0, 1].map(|i| p[i] + (q[i] - p[i]) * at));
+            }
+        }
+        part
+    }
+
+    /// What of it lies to the left of a line, where vertices within the part [`ON`] of the line's length are on it: common
+    /// edges of two polygons make no sliver, whose vertices would run along them.
+    pub fn clip(&self, line: [Point<T>; 2]) -> Self {
+        let [x, y] = [0, 1].map(|i| line[1][i].re() - line[0][i].re());
+        let near = ON * (x * x + y * y).max(f64::MIN_POSITIVE).sqrt();
+        let side = |off: T| if off.re().abs() <= near { 0.0 } else { off.re().signum() };
+        let mut part = Self { count: 0, ..*self };
+        for [p, q] in self.edges() {
+            let (here, there) = (left_of(line, p), left_of(line, q));
+            if side(here) >= 0.0 {
+                part.push(p);
+            }
+            if side(here) * side(there) < 0.0 {
                 let at = here / (here - there);
                 part.push([0, 1].map(|i| p[i] + (q[i] - p[i]) * at));
             }

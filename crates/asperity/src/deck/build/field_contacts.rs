@@ -8,8 +8,11 @@ use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
 use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
-use crate::tool::Tool;
+use crate::tool::{self, Tool};
 use std::sync::Arc;
+
+/// The tools of a model in space.
+type SolidTools<'a> = &'a [Arc<tool::space::Tool>];
 
 impl Builder<'_> {
     /// Whether a contact is a field.
@@ -23,7 +26,7 @@ impl Builder<'_> {
     /// The contacts that are fields.
     pub(super) fn field_contacts(
         &mut self,
-        tools: &Option<Vec<Arc<Tool>>>,
+        (plane_tools, solid_tools): (Option<&[Arc<Tool>]>, Option<SolidTools>),
         bodies: Option<&[(Body, usize)]>,
     ) -> Option<Vec<FieldContact>> {
         let deck = self.deck;
@@ -32,10 +35,9 @@ impl Builder<'_> {
             return Some(Vec::new());
         }
         let backings = backings(&self.site.mesh, bodies?);
-        let contacts: Vec<_> = fields
-            .into_iter()
-            .map(|(name, keys)| self.field_contact(name, keys, tools.as_deref()?, &backings))
-            .collect();
+        let tools = (plane_tools?, solid_tools?);
+        let contacts: Vec<_> =
+            fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools, &backings)).collect();
         contacts.into_iter().collect()
     }
 
@@ -43,7 +45,7 @@ impl Builder<'_> {
         &mut self,
         name: &Name,
         keys: &keys::Contact,
-        tools: &[Arc<Tool>],
+        (plane_tools, solid_tools): (&[Arc<Tool>], SolidTools),
         backings: &[Backing],
     ) -> Option<FieldContact> {
         let law = self.interface(keys)?;
@@ -63,7 +65,11 @@ impl Builder<'_> {
         let carrier = |sides: &[Side]| Surface::new(&mesh, sides, space, self.site.thickness);
         let (mut sides, mut swapped, mut itself) = (surface, false, false);
         let target = match opposite {
-            Opposite::Tool(number) => FieldTarget::tool(tools[number].clone(), number, &dofs),
+            Opposite::Tool(number) => match (plane_tools.get(number), solid_tools.get(number)) {
+                (Some(tool), _) => FieldTarget::tool(tool.clone(), number, &dofs),
+                (_, Some(tool)) => FieldTarget::solid_tool(tool.clone(), number, &dofs),
+                (None, None) => return None,
+            },
             Opposite::Sides(others) => {
                 itself = others == surface;
                 swapped = !itself && keys.roles == Roles::Auto && suits_better(&whole(others), &whole(surface), &mesh);
@@ -116,9 +122,6 @@ impl Builder<'_> {
         }
         if !keys.law.build().is_ok_and(|law| law.radius() == 0.0) {
             self.refuse("a mean of the pressure is for stresses at points: form = \"paper\"", keys.law.place);
-        }
-        if let Some(form) = keys.form.filter(|_| self.site.space == Space::Solid) {
-            self.refuse("a field of nodal values is for plane and axisymmetric models", form.place);
         }
         self.found.len() == before
     }

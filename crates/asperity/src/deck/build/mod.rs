@@ -149,7 +149,7 @@ impl Builder<'_> {
         let contacts = tools.as_ref().filter(|_| plane).and_then(|tools| self.contacts(tools, bodies.as_deref()?));
         let solid = solid_tools.as_ref().filter(|_| !plane);
         let solid_contacts = solid.and_then(|tools| self.solid_contacts(tools, bodies.as_deref()?));
-        let field_contacts = self.field_contacts(&tools, bodies.as_deref());
+        let field_contacts = self.field_contacts((tools.as_deref(), solid_tools.as_deref()), bodies.as_deref());
         let (springs, loads) = (self.springs(), self.loads());
         let (constrained, supports) = self.supports();
         let steps = self.deck.step.iter().enumerate().zip(constrained);

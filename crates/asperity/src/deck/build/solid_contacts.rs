@@ -17,8 +17,9 @@ impl Builder<'_> {
         let backings = backings(&self.site.mesh, bodies);
         let deck = self.deck;
         self.check_doubles();
-        let contact = |(name, keys): &(Name, keys::Contact)| self.solid_contact(name, keys, tools, &backings);
-        let contacts: Vec<_> = deck.contact.iter().map(contact).collect();
+        let of_points: Vec<_> = deck.contact.iter().filter(|(_, keys)| !self.is_field(keys)).collect();
+        let contacts: Vec<_> =
+            of_points.into_iter().map(|(name, keys)| self.solid_contact(name, keys, tools, &backings)).collect();
         Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 

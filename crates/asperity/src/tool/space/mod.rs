@@ -5,7 +5,9 @@
 //! hits.
 
 mod check;
+mod distance;
 mod facet;
+mod nearest;
 mod polygons;
 mod pose;
 mod roots;
@@ -17,7 +19,9 @@ mod tests;
 mod tool;
 
 pub use check::Finding;
+pub use distance::{NearestPoint, SmoothPieces};
 pub use facet::{Facet, Meeting};
+pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
 pub use polygons::{Quad, Triangle};
 pub use pose::Pose;
 pub use swept::Frame;

@@ -1,6 +1,6 @@
 //! Tools in space from a few numbers, and from profiles. Each is a list of facets that look outward.
 
-use super::facet::Facet;
+use super::nearest::RigidFacet;
 use super::polygons::{Quad, Triangle};
 use super::swept::{Extruded, Frame, Revolved};
 use crate::tensor::Vec3;
@@ -9,7 +9,7 @@ use crate::tool::shapes::{Shape, find};
 use std::sync::Arc;
 
 /// Facets of a tool.
-pub type Facets = Vec<Box<dyn Facet>>;
+pub type Facets = Vec<Box<dyn RigidFacet>>;
 
 /// Segments of a profile, its material on the left.
 pub type Profile = Vec<Box<dyn Shape>>;
@@ -33,7 +33,7 @@ pub fn extruded(profile: Profile, frame: Frame, length: f64) -> Facets {
 /// # Errors
 /// In words, for a polygon with another number of corners.
 pub fn polygons(all: impl IntoIterator<Item = Vec<Vec3>>) -> Result<Facets, String> {
-    let polygon = |corners: Vec<Vec3>| -> Result<Box<dyn Facet>, String> {
+    let polygon = |corners: Vec<Vec3>| -> Result<Box<dyn RigidFacet>, String> {
         match corners[..] {
             [a, b, c] => Ok(Box::new(Triangle([a, b, c]))),
             [a, b, c, d] => Ok(Box::new(Quad([a, b, c, d]))),

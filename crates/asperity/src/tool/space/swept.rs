@@ -55,13 +55,13 @@ impl Frame {
         Ok(Self { origin, x, y: z.cross(x), z })
     }
     /// A point by its coordinates.
-    fn place(&self, p: Vec3) -> Vec3 {
+    pub(super) fn place(&self, p: Vec3) -> Vec3 {
         self.origin + self.turn(p)
     }
-    fn turn(&self, v: Vec3) -> Vec3 {
+    pub(super) fn turn(&self, v: Vec3) -> Vec3 {
         self.x * v[0] + self.y * v[1] + self.z * v[2]
     }
-    fn coordinates(&self, v: Vec3) -> Vec3 {
+    pub(super) fn coordinates(&self, v: Vec3) -> Vec3 {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 }
@@ -135,6 +135,15 @@ impl Revolved {
         let middle = 0.5 * (bounds.min[1] + bounds.max[1]);
         let radius = bounds.max[0].hypot(0.5 * (bounds.max[1] - bounds.min[1]));
         Self { conic: shape.conic(), shape, frame, middle, radius }
+    }
+    pub(super) fn shape(&self) -> &dyn Shape {
+        &*self.shape
+    }
+    pub(super) fn frame(&self) -> &Frame {
+        &self.frame
+    }
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
     }
     /// The frame's x, z turned by the angle: the direction away from the axis, and that of a growing angle.
     fn meridian(&self, t: f64) -> (Vec3, Vec3) {

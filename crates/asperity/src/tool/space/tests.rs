@@ -338,3 +338,65 @@ fn the_surface_for_drawing_lies_on_the_tool() {
         }
     }
 }
+
+/// Distance, normal and curvatures of every tool against brute force and differences.
+#[test]
+fn closest_points_are_the_closest() {
+    let mut state = 5_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let mut bent =
+        polygons([vec![at(-1.0, -1.0, 0.0), at(0.0, -1.0, 0.3), at(0.0, 1.0, 0.3), at(-1.0, 1.0, 0.0)]]).unwrap();
+    bent.extend(
+        polygons([vec![at(0.0, -1.0, 0.3), at(1.0, -1.0, 0.1), at(1.0, 1.0, 0.1), at(0.0, 1.0, 0.3)]]).unwrap(),
+    );
+    for (name, facets) in scenes().into_iter().chain([("roof", bent)]) {
+        let tool = Tool::new("t", facets, Vec3::zero());
+        let pieces = tool.smooth_pieces();
+        let expected = match name {
+            "cylinder" => 3,
+            "tip" | "wave" | "rail" => 2,
+            _ => 1,
+        };
+        assert_eq!(pieces.count(), expected, "{name}");
+        let mut seen = 0;
+        for (piece, _) in (0..pieces.count()).flat_map(|piece| (0..150).map(move |k| (piece, k))) {
+            let x = at(random(), random(), random()) * 1.3;
+            let found = tool.closest(&pieces, piece, x);
+            if found.beyond {
+                continue;
+            }
+            seen += 1;
+            assert!((found.point + found.normal * found.gap - x).norm() < 1e-12, "{name} {x:?} {found:?}");
+            let h = 1e-6;
+            let off = found.bends.iter().map(|(_, k)| k.abs()).fold(0.0, f64::max);
+            for axis in 0..3 {
+                let step = Vec3(std::array::from_fn(|k| if k == axis { h } else { 0.0 }));
+                let [up, down] = [x + step, x - step].map(|x| tool.closest(&pieces, piece, x));
+                if (up.normal - down.normal).norm() > 1e-3 || up.beyond || down.beyond || off > 100.0 {
+                    continue;
+                }
+                assert!(((up.gap - down.gap) / (2.0 * h) - found.normal[axis]).abs() < 1e-6, "{name} {x:?} {found:?}");
+                let slope = (up.normal - down.normal) * (0.5 / h);
+                let exact = found.bends.iter().fold(Vec3::zero(), |sum, &(e, k)| sum + e * (k * e[axis]));
+                assert!(
+                    (slope - exact).norm() < 1e-3 * (1.0 + off * off),
+                    "{name} {x:?} {found:?} {slope:?} {exact:?}"
+                );
+            }
+            if pieces.count() == 1 {
+                let places = (0..=60).flat_map(|i| (0..=60).map(move |j| [f64::from(i) / 60.0, f64::from(j) / 60.0]));
+                let places = places.flat_map(|s| tool.facets().iter().map(move |facet| (facet, s)));
+                let inside = places.filter(|(facet, s)| facet.holds(*s, 0.0));
+                let least = inside.map(|(facet, s)| (facet.point(s) - x).norm()).fold(f64::INFINITY, f64::min);
+                assert!(
+                    found.gap.abs() < least + 1e-12 && found.gap.abs() > least - 0.1,
+                    "{name} {x:?} {found:?} {least}"
+                );
+            }
+        }
+        assert!(seen > 10, "{name}: {seen}");
+    }
+}

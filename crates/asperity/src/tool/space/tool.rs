@@ -1,6 +1,7 @@
 //! A rigid tool in space and what a ray meets on it.
 
 use super::facet::{Facet, Meeting};
+use super::nearest::RigidFacet;
 use super::{Finding, Pose, check};
 use crate::tensor::{Scalar, Vec3};
 use crate::tool::search::Tree;
@@ -12,7 +13,7 @@ use crate::tool::shapes::{Bounds, Ray};
 pub struct Tool {
     name: String,
     reference: Vec3,
-    facets: Vec<Box<dyn Facet>>,
+    facets: Vec<Box<dyn RigidFacet>>,
     bounds: Bounds,
     tree: Tree,
 }
@@ -54,7 +55,7 @@ pub struct Tiles {
 impl Tool {
     /// A tool of facets; `reference` is the point that its translation moves and about which it turns. Anything is
     /// accepted here; [`check`](Self::check) says what is wrong with it.
-    pub fn new(name: impl Into<String>, facets: Vec<Box<dyn Facet>>, reference: Vec3) -> Self {
+    pub fn new(name: impl Into<String>, facets: Vec<Box<dyn RigidFacet>>, reference: Vec3) -> Self {
         let boxes: Vec<Bounds> = facets.iter().map(|facet| facet.bounds()).collect();
         let bounds = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b));
         let tree = Tree::new(&boxes, 1e-9 * bounds.size());
@@ -70,7 +71,7 @@ impl Tool {
         self.reference
     }
     /// Its facets.
-    pub fn facets(&self) -> &[Box<dyn Facet>] {
+    pub fn facets(&self) -> &[Box<dyn RigidFacet>] {
         &self.facets
     }
     /// The box around it in its own frame.
@@ -80,6 +81,9 @@ impl Tool {
     /// The diagonal of that box, a length.
     pub fn size(&self) -> f64 {
         self.bounds.size()
+    }
+    pub(super) fn tree(&self) -> &Tree {
+        &self.tree
     }
     /// What is wrong with its facets or worth knowing.
     pub fn check(&self) -> Vec<Finding> {

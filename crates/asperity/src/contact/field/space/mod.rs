@@ -1,0 +1,11 @@
+//! What the field has in space alone: the tangents of a point, the parts of two faces that see each other with their
+//! quadrature, and the search.
+
+mod overlap;
+mod search;
+mod spot;
+mod triad;
+
+pub use overlap::{Spread, spread};
+pub use spot::Spot;
+pub use triad::Line;

@@ -1,0 +1,45 @@
+//! The two tangents along which a node of the field has its shears.
+//!
+//! They follow one line of the surface's material: with `d` the edge from the node to its neighbour on its first face, and `n`
+//! the direction of the gap at a point, `e_1 = P d / |P d|` with `P = 1 - n n`, and `e_2 = n x e_1`. They turn with the
+//! body, so that shears kept by their components are objective, and carry the shears of the node into the tangent plane of
+//! each of its points without changing their length.
+
+use crate::contact::field::point::Column;
+use crate::contact::field::surface::unit;
+use crate::tensor::Vec3;
+
+/// The line of the surface's material, and the nodes of the mesh between which it runs.
+#[derive(Debug, Clone, Copy)]
+pub struct Line {
+    /// From the first node to the second.
+    pub d: Vec3,
+    /// The nodes.
+    pub nodes: [usize; 2],
+}
+
+impl Line {
+    /// The two tangents across `n`.
+    pub fn tangents(&self, n: Vec3) -> [Vec3; 2] {
+        let e = (self.d - n * n.dot(self.d)).unit();
+        [e, n.cross(e)]
+    }
+
+    /// Their derivatives along an unknown along which `n` turns by `dn`.
+    pub fn rates(&self, column: &Column, (n, dn): (Vec3, Vec3), e: &[Vec3; 2]) -> [Vec3; 2] {
+        let dd = match column {
+            Column::Node { axis, node, .. } if *node == self.nodes[0] => -unit(*axis),
+            Column::Node { axis, node, .. } if *node == self.nodes[1] => unit(*axis),
+            _ => Vec3::zero(),
+        };
+        let m = self.d - n * n.dot(self.d);
+        let dm = dd - dn * n.dot(self.d) - n * (dn.dot(self.d) + n.dot(dd));
+        let de = (dm - e[0] * e[0].dot(dm)) * m.norm().recip();
+        [de, dn.cross(e[0]) + n.cross(de)]
+    }
+
+    /// Whether it depends on the displacements of a node.
+    pub fn has(&self, node: usize) -> bool {
+        self.nodes.contains(&node)
+    }
+}

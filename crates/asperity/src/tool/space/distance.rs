@@ -1,0 +1,166 @@
+//! Signed distance to a tool in space: positive outside the material, with the closest point, the outward normal and the
+//! principal curvatures of the surface of equal distance there.
+//!
+//! Facets that meet along an edge at less than a crease form a smooth piece. Beyond the border of a piece nothing of it is
+//! seen, but at an inward crease, where two faces bound one corner of the material around it, each goes on straight.
+
+use super::nearest::{FacetBorder, FacetPoint};
+use super::tool::Tool;
+use crate::tensor::Vec3;
+use crate::tool::distance::CREASE;
+use crate::tool::shapes::Bounds;
+
+/// Points of two facets are the same within this part of the tool's size.
+const TOGETHER: f64 = 1e-7;
+/// The facet behind an inward crease looks back at least by this sine.
+const INWARD: f64 = 0.1;
+
+/// The smooth pieces of a tool in space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothPieces {
+    /// The piece of each facet.
+    labels: Vec<usize>,
+    count: usize,
+}
+
+impl SmoothPieces {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+}
+
+/// The point of a smooth piece that is closest to another, in the tool's own frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearestPoint {
+    /// Signed distance, negative inside the material.
+    pub gap: f64,
+    /// Outward unit normal: the gradient of the distance.
+    pub normal: Vec3,
+    /// The point itself.
+    pub point: Vec3,
+    /// Principal directions and curvatures of the surface of equal distance: `dn = sum k e (e . dx)`.
+    pub bends: [(Vec3, f64); 2],
+    /// Whether the other point lies beyond the border of the piece.
+    pub beyond: bool,
+}
+
+impl NearestPoint {
+    fn nothing(point: Vec3) -> Self {
+        Self { gap: 0.0, normal: Vec3::new(0.0, 0.0, 1.0), point, bends: [(Vec3::zero(), 0.0); 2], beyond: true }
+    }
+}
+
+impl Tool {
+    /// Its smooth pieces.
+    pub fn smooth_pieces(&self) -> SmoothPieces {
+        let mut sets: Vec<usize> = (0..self.facets().len()).collect();
+        fn root(sets: &[usize], mut i: usize) -> usize {
+            while sets[i] != i {
+                i = sets[i];
+            }
+            i
+        }
+        for (i, facet) in self.facets().iter().enumerate() {
+            let triangle: &[[f64; 2]] = &[[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+            let square: &[[f64; 2]] = &[[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]];
+            for &s in if facet.corners().len() == 3 { triangle } else { square } {
+                let (point, normal) = (facet.point(s), facet.normal(s));
+                for j in self.around(point, TOGETHER * self.size()) {
+                    let other = self.facets()[j].nearest(point);
+                    let cosine = other.normal.dot(normal);
+                    if j != i && (other.point - point).norm() <= TOGETHER * self.size() && cosine > CREASE.cos() {
+                        let (one, two) = (root(&sets, i), root(&sets, j));
+                        sets[one.max(two)] = one.min(two);
+                    }
+                }
+            }
+        }
+        let roots: Vec<usize> = (0..sets.len()).map(|i| root(&sets, i)).collect();
+        let mut labels = vec![0; roots.len()];
+        let mut count = 0;
+        for i in 0..roots.len() {
+            labels[i] = if roots[i] == i { count } else { labels[roots[i]] };
+            count += usize::from(roots[i] == i);
+        }
+        SmoothPieces { labels, count }
+    }
+
+    /// Facets whose boxes come within `reach` of a point, ascending.
+    fn around(&self, x: Vec3, reach: f64) -> Vec<usize> {
+        let (wide, mut found) = (Vec3([reach; 3]), Vec::new());
+        self.tree().near(&Bounds { min: x - wide, max: x + wide }, &mut |facet| found.push(facet));
+        found.sort_unstable();
+        found
+    }
+
+    /// The closest points of the facets of a piece that may be the closest of all.
+    fn candidates(&self, (pieces, piece): (&SmoothPieces, usize), x: Vec3) -> Vec<FacetPoint> {
+        let bounds = self.bounds();
+        let off = Vec3(std::array::from_fn(|i| (bounds.min[i] - x[i]).max(x[i] - bounds.max[i]).max(0.0)));
+        let mut reach = off.norm() + 0.02 * self.size();
+        loop {
+            let own = self.around(x, reach).into_iter().filter(|&facet| pieces.labels[facet] == piece);
+            let found: Vec<FacetPoint> = own.map(|facet| self.facets()[facet].nearest(x)).collect();
+            let least = found.iter().map(|found| (found.point - x).norm()).fold(f64::INFINITY, f64::min);
+            if least <= reach || reach > 4.0 * (off.norm() + self.size()) {
+                return found;
+            }
+            reach = if least.is_finite() { least } else { 4.0 * reach };
+        }
+    }
+
+    /// The point of a piece closest to `x`, in the tool's own frame; `x` itself, beyond the piece, if it has no facet.
+    pub fn closest(&self, pieces: &SmoothPieces, piece: usize, x: Vec3) -> NearestPoint {
+        let found = self.candidates((pieces, piece), x);
+        let (mut best, mut least): (Option<&FacetPoint>, f64) = (None, f64::INFINITY);
+        for place in &found {
+            let distance = (x - place.point).norm();
+            // Of equals the first, but rather the inside of a facet than an edge.
+            let equal = (distance - least).abs() <= 1e-14 * self.size();
+            let inside =
+                equal && place.border == FacetBorder::Inside && best.is_some_and(|b| b.border != FacetBorder::Inside);
+            if inside || (!equal && distance < least) {
+                (best, least) = (Some(place), distance);
+            }
+        }
+        let Some(&FacetPoint { point, normal, bends, border }) = best else { return NearestPoint::nothing(x) };
+        let gap = normal.dot(x - point);
+        if border == FacetBorder::Inside {
+            let bends = bends.map(|(e, k)| (e, k / (1.0 + k * gap)));
+            return NearestPoint { gap, normal, point, bends, beyond: false };
+        }
+        let same = |place: &&FacetPoint| (place.point - point).norm() <= TOGETHER * self.size();
+        let joined = found.iter().filter(same);
+        let (count, sum) = joined.fold((0, Vec3::zero()), |(count, sum), place| (count + 1, sum + place.normal));
+        let (mean, way) = (sum.unit(), (x - point).unit());
+        if count > 1 && way.dot(mean).abs() >= CREASE.cos() {
+            let gap = least.copysign(way.dot(mean));
+            let normal = (x - point) * gap.recip();
+            let round = match border {
+                FacetBorder::Edge(along, q) => [(normal.cross(along), gap.recip()), (along, q / ((1.0 + q) * gap))],
+                _ => {
+                    let first = normal.cross(bends[0].0).unit();
+                    [(first, gap.recip()), (normal.cross(first), gap.recip())]
+                }
+            };
+            return NearestPoint { gap, normal, point, bends: round, beyond: false };
+        }
+        // A straight continuation, whether or not it is seen.
+        let normal = if count > 1 { mean } else { normal };
+        let gap = normal.dot(x - point);
+        let aside = (x - point) - normal * gap;
+        let beyond = !self.goes_on((pieces, piece), point, aside.unit());
+        let flat = bends.map(|(e, _)| (e, 0.0));
+        NearestPoint { gap, normal, point: x - normal * gap, bends: flat, beyond }
+    }
+
+    /// Whether a facet of another piece looks back along `aside` from a border point.
+    fn goes_on(&self, (pieces, piece): (&SmoothPieces, usize), border: Vec3, aside: Vec3) -> bool {
+        let together = TOGETHER * self.size();
+        self.around(border, together).into_iter().filter(|&facet| pieces.labels[facet] != piece).any(|facet| {
+            let other = self.facets()[facet].nearest(border);
+            (other.point - border).norm() <= together && other.normal.dot(aside) < -INWARD
+        })
+    }
+}

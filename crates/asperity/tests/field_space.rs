@@ -1,0 +1,404 @@
+//! Contact stress as a field of nodal values in space: exact tangents, the patch test, Coulomb's limit, the weight of stacked
+//! blocks, objectivity, and a strip of one layer of cells against the plane.
+
+mod perturbed;
+mod support;
+
+use asperity::contact::field::FieldContact;
+use asperity::system::{Dofs, State, Term};
+use asperity::system::{Stencil, Stencils, check_tangent};
+use perturbed::{Random, commit, instant, state};
+use support::{Keep, columns, model, run};
+
+/// Largest difference of an entry of a tangent over the largest entry.
+const ALLOWED: f64 = 1e-6;
+
+/// A block over a tool, given by its table.
+fn over_tool(cell: &str, tool: &str) -> String {
+    format!(
+        r#"
+version = 1
+space = "solid"
+mesh.part.block.box = {{ from = [0.0, 0.0, 0.0], to = [1.5, 0.5, 1.0], cells = [3, 1, 2], cell = "{cell}" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block = {{ material = "rubber" }}
+tool.die = {tool}
+contact.joint = {{ surface = "block.bottom", target = "die", form = "field", law.coulomb = {{ friction = 0.3 }} }}
+[[step]]
+displacement."block.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
+"#
+    )
+}
+
+/// Two blocks that do not match, the upper one narrower.
+fn blocks(cells: [&str; 2]) -> String {
+    format!(
+        r#"
+version = 1
+space = "solid"
+mesh.part.low.box = {{ from = [-0.2, -0.5, -0.1], to = [1.6, 0.0, 1.2], cells = [3, 1, 2], cell = "{}" }}
+mesh.part.high.box = {{ from = [0.1, 0.0, 0.05], to = [1.1, 0.5, 0.95], cells = [2, 1, 2], cell = "{}" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.low = {{ material = "rubber" }}
+body.high = {{ material = "rubber" }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", roles = "given", law.coulomb = {{ friction = 0.3 }} }}
+[[step]]
+displacement."low.bottom" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+displacement."high.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
+"#,
+        cells[0], cells[1]
+    )
+}
+
+/// Random states of a contact after random accepted ones: all nodes move by up to `size`, those of the block down and aside.
+fn look_at(
+    contact: &FieldContact,
+    dofs: &Dofs,
+    (moving, size): (&[usize], f64),
+    rounds: usize,
+) -> ([usize; 3], usize, f64) {
+    let mut random = Random(11);
+    let start = state(vec![0.0; dofs.count()], contact.initial());
+    let mut motion = || {
+        let mut u: Vec<f64> = (0..dofs.count()).map(|_| size * random.next()).collect();
+        let down = 0.02 * random.next() - 0.02;
+        let along = [0.01 * random.next(), 0.01 * random.next()];
+        for &node in moving {
+            let first = dofs.node(node);
+            u[first] += along[0];
+            u[first + 1] += down;
+            u[first + 2] += along[1];
+        }
+        u
+    };
+    let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
+    for _ in 0..rounds {
+        let Ok(accepted) = commit(contact, &start, motion()) else { continue };
+        let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+        let (u, mut stencils) = (motion(), Stencils::default());
+        attempt.stencils(&u, &mut stencils).unwrap();
+        let one = |(i, stencil): (usize, &Stencil)| {
+            let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
+            // Steps that are small beside the slips.
+            check_tangent(attempt.as_ref(), i, stencil, &here, &vec![0.1; here.len()])
+        };
+        let Ok(results) = stencils.list.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>() else { continue };
+        for result in results {
+            met[usize::from(result.branch)] += 1;
+            skipped += usize::from(!result.smooth);
+            worst = if result.smooth { worst.max(result.error) } else { worst };
+        }
+    }
+    (met, skipped, worst)
+}
+
+fn tangents(name: &str, deck: &str, part: &str, rounds: usize) {
+    let model = model(deck, &[]);
+    let contact = &model.field_contacts[0];
+    let moving = &model.mesh.groups[part].nodes;
+    let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.004), rounds);
+    let said = format!("{name}: {met:?} skipped {skipped} worst {worst:.1e}");
+    assert!(met[1] > 0 && met[2] >= 5, "{said}");
+    assert!(10 * skipped <= met.iter().sum::<usize>(), "{said}");
+    assert!(worst < ALLOWED, "{said}");
+}
+
+#[test]
+fn tangents_over_tools_are_exact() {
+    let tools = [
+        ("plane", "{ plane = { at = [0.5, 0.0, 0.5], normal = [0.05, 1.0, -0.03], side = 20.0 } }"),
+        ("sphere", "{ sphere = { center = [0.7, -1.42, 0.5], radius = 1.5 } }"),
+        ("cylinder", "{ cylinder = { from = [-3.0, -0.74, 0.3], to = [3.0, -0.74, 0.7], radius = 0.8 } }"),
+        (
+            "triangle",
+            "{ facets = { nodes = [[-3.0, 0.0, -3.0], [0.0, -0.01, 6.0], [6.0, 0.02, -3.0]], faces = [[1, 2, 3]] } }",
+        ),
+    ];
+    for (name, tool) in tools {
+        for cell in ["hex8", "hex20", "tet10"] {
+            tangents(&format!("{name} {cell}"), &over_tool(cell, tool), "block", if name == "plane" { 8 } else { 20 });
+        }
+    }
+}
+
+#[test]
+fn tangents_between_bodies_are_exact() {
+    for cells in [["hex8", "hex8"], ["tet4", "hex8"], ["hex20", "tet10"]] {
+        tangents(&format!("{cells:?}"), &blocks(cells), "high", 4);
+    }
+}
+
+fn last(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> f64 {
+    *columns[name].last().unwrap()
+}
+
+/// Blocks of equal cross section whose meshes do not match bear a uniform pressure.
+#[test]
+fn uniform_pressure_passes_between_meshes_that_do_not_match() {
+    for (cells, counts, allowed) in [
+        (["hex8", "hex8"], [[3, 2], [2, 3]], 1e-10),
+        (["tet4", "hex8"], [[2, 2], [3, 2]], 1e-8),
+        (["hex20", "hex20"], [[2, 1], [1, 2]], 1e-8),
+        (["tet10", "tet10"], [[2, 1], [1, 1]], 1e-8),
+    ] {
+        let part = |k: usize, name: &str, from: f64| {
+            format!(
+                "mesh.part.{name}.box = {{ from = [0.0, {from:.1}, 0.0], to = [2.0, {:.1}, 1.5], cells = [{}, 1, {}], cell = \"{}\" }}\n",
+                from + 1.0,
+                counts[k][0],
+                counts[k][1],
+                cells[k]
+            )
+        };
+        let deck = format!(
+            r#"
+version = 1
+space = "solid"
+{}{}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.low = {{ material = "rubber" }}
+body.high = {{ material = "rubber" }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", law.coulomb = {{ friction = 0.0 }} }}
+[solver]
+tolerance = 1e-13
+[[step]]
+increments.count = 1
+symmetry = ["low.bottom", "low.left", "low.back", "high.left", "high.back"]
+pressure."high.top" = {{ value = 10.0 }}
+"#,
+            part(0, "low", 0.0),
+            part(1, "high", 1.0)
+        );
+        let model = model(&deck, &[]);
+        let keep: Keep = run(&model);
+        let state = keep.states.last().unwrap();
+        let records = model.field_contacts[0].records(&state.u, &state.histories[model.first_contact()]);
+        let worst = records.iter().map(|r| (r.pressure / 10.0 - 1.0).abs()).fold(0.0, f64::max);
+        assert!(worst < allowed, "{cells:?}: {worst:.1e}");
+    }
+}
+
+/// Every closed node of a block that slides over a plane bears the limit, and so does their sum.
+#[test]
+fn a_sliding_block_bears_the_limit_of_friction() {
+    for cell in ["hex8", "hex20", "tet10"] {
+        for friction in [0.0, 0.1, 1.2] {
+            let deck = format!(
+                r#"
+version = 1
+space = "solid"
+mesh.part.block.box = {{ from = [0.0, 0.0, 0.0], to = [2.0, 1.0, 1.0], cells = [3, 2, 2], cell = "{cell}" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block = {{ material = "rubber" }}
+tool.floor = {{ plane = {{ at = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], side = 40.0 }} }}
+contact.joint = {{ surface = "block.bottom", target = "floor", form = "field", law.coulomb = {{ friction = {friction} }} }}
+[[step]]
+increments.count = 1
+displacement."block.top" = {{ x = 0.0, y = -0.01, z = 0.0 }}
+[[step]]
+increments.count = 6
+displacement."block.top" = {{ x = 3.0, y = -0.01, z = 1.5 }}
+"#
+            );
+            let model = model(&deck, &[]);
+            let keep: Keep = run(&model);
+            let columns = columns(&model, &keep);
+            let [x, n, z] = ["x", "y", "z"].map(|axis| last(&columns, &format!("tool.floor.force.{axis}")));
+            assert!((x.hypot(z) - friction * n.abs()).abs() <= 1e-10 * n.abs(), "{cell} {friction}: {x} {n} {z}");
+            let state = keep.states.last().unwrap();
+            let contact = &model.field_contacts[0];
+            let records = contact.records(&state.u, &state.histories[model.first_contact()]);
+            let closed: Vec<_> = records.iter().filter(|record| record.pressure > 0.0).collect();
+            assert!(closed.len() >= 3, "{cell} {friction}");
+            closed.iter().for_each(|r| assert!((r.shear.abs() - friction * r.pressure).abs() <= 1e-10 * r.pressure));
+        }
+    }
+}
+
+/// Forces on the two sides are opposite, and so are their moments about the normal part.
+#[test]
+fn action_is_reaction() {
+    for cells in [["hex8", "hex8"], ["tet10", "hex20"]] {
+        let model = model(&blocks(cells), &[]);
+        let (contact, dofs) = (&model.field_contacts[0], &model.problem.dofs);
+        let mut random = Random(3);
+        let start = state(vec![0.0; dofs.count()], contact.initial());
+        let mut motion = || {
+            let mut u: Vec<f64> = (0..dofs.count()).map(|_| 0.004 * random.next()).collect();
+            for &node in &model.mesh.groups["high"].nodes {
+                u[dofs.node(node) + 1] -= 0.02;
+                u[dofs.node(node)] += 0.02 * random.next();
+            }
+            u
+        };
+        for _ in 0..4 {
+            let Some(forces) = perturbed::forces(&**contact, &start, motion(), &motion()) else { continue };
+            let size: f64 = forces.iter().map(|f| f.abs()).sum();
+            assert!(size > 0.0);
+            for axis in 0..3 {
+                let sum: f64 = forces.chunks_exact(3).map(|f| f[axis]).sum();
+                assert!(sum.abs() < 1e-12 * size, "{cells:?}: {sum} of {size}");
+            }
+        }
+    }
+}
+
+/// Blocks under their weight rest on each other with it, whatever their meshes.
+#[test]
+fn stacked_blocks_bear_their_weight() {
+    for (cells, counts) in [(["hex8", "hex8"], [3, 2]), (["hex20", "hex20"], [1, 2]), (["tet10", "hex8"], [1, 2])] {
+        for friction in [0.0, 0.4] {
+            let part = |k: usize, name: &str, from: f64| {
+                format!(
+                    "mesh.part.{name}.box = {{ from = [0.0, {from:.1}, 0.0], to = [2.0, {:.1}, 2.0], cells = [{}, 1, {}], cell = \"{}\" }}\n",
+                    from + 1.0,
+                    counts[k],
+                    counts[k],
+                    cells[k]
+                )
+            };
+            let deck = format!(
+                r#"
+version = 1
+space = "solid"
+{}{}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.low = {{ material = "rubber" }}
+body.high = {{ material = "rubber" }}
+tool.floor = {{ plane = {{ at = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], side = 40.0 }} }}
+contact.ground = {{ surface = "low.bottom", target = "floor", form = "field", law.coulomb = {{ friction = {friction} }} }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", law.coulomb = {{ friction = {friction} }} }}
+[solver]
+tolerance = 1e-10
+[[step]]
+symmetry = ["low.left", "low.back", "high.left", "high.back"]
+body_force.low = {{ y = -1.0 }}
+body_force.high = {{ y = -1.0 }}
+"#,
+                part(0, "low", 0.0),
+                part(1, "high", 1.0)
+            );
+            let model = model(&deck, &[]);
+            let keep: Keep = run(&model);
+            let columns = columns(&model, &keep);
+            let [ground, joint] = ["ground", "joint"].map(|name| last(&columns, &format!("contact.{name}.force.y")));
+            assert!(
+                (ground / 8.0 - 1.0).abs() < 1e-8 && (joint / 4.0 - 1.0).abs() < 1e-8,
+                "{cells:?} {ground} {joint}"
+            );
+        }
+    }
+}
+
+/// The rotation by an angle about an axis, of a point.
+fn turned([x, y, z]: [f64; 3], [a, b, c]: [f64; 3], angle: f64) -> [f64; 3] {
+    let (sin, cos) = angle.sin_cos();
+    let along = (a * x + b * y + c * z) * (1.0 - cos);
+    [
+        x * cos + (b * z - c * y) * sin + a * along,
+        y * cos + (c * x - a * z) * sin + b * along,
+        z * cos + (a * y - b * x) * sin + c * along,
+    ]
+}
+
+/// A common rotation of 63 degrees in one increment leaves pressure and shear of every node as they are, over a tool and
+/// between bodies.
+#[test]
+fn a_stick_state_that_is_turned_keeps_its_stress() {
+    let tool = over_tool("hex8", "{ plane = { at = [0.5, -0.005, 0.5], normal = [0.002, 1.0, -0.003], side = 9.0 } }");
+    let bodies = blocks(["hex8", "hex8"]);
+    for (deck, top) in [(tool, "block.top"), (bodies, "high.top")] {
+        let sets = [
+            format!("step.1.displacement.\"{top}\"={{ x = 0.004, y = -0.02, z = 0.003 }}"),
+            "contact.joint.law.coulomb.friction=0.9".to_owned(),
+        ];
+        let model = model(&deck, &sets.iter().map(String::as_str).collect::<Vec<_>>());
+        let keep: Keep = run(&model);
+        let (state, dofs) = (keep.states.last().unwrap(), &model.problem.dofs);
+        let contact: &FieldContact = &model.field_contacts[0];
+        let before = &state.histories[model.first_contact()];
+        let (axis, angle) = ([1.0 / 3.0, 2.0 / 3.0, -2.0 / 3.0], 63.0_f64.to_radians());
+        let mut u = state.u.clone();
+        for (node, x) in model.mesh.points.iter().enumerate() {
+            let first = dofs.node(node);
+            let now = turned([0, 1, 2].map(|i| x[i] + u[first + i]), axis, angle);
+            (0..3).for_each(|i| u[first + i] = now[i] - x[i]);
+        }
+        if top == "block.top" {
+            let (first, reference) = (dofs.tool(0), model.solid_tools[0].reference().0);
+            let now = turned(reference, axis, angle);
+            (0..3).for_each(|i| (u[first + i], u[first + 3 + i]) = (now[i] - reference[i], axis[i] * angle));
+        }
+        let accepted = State { histories: vec![before.clone()], ..perturbed::state(state.u.clone(), before.clone()) };
+        let turned = commit(contact, &accepted, u.clone()).unwrap();
+        let [old, new] = [(&state.u, before), (&turned.u, &turned.histories[0])].map(|(u, h)| contact.records(u, h));
+        assert!(old.iter().any(|record| record.shear.abs() > 0.1), "{top}");
+        let most = old.iter().map(|record| record.pressure).fold(0.0, f64::max);
+        let off = old
+            .iter()
+            .zip(&new)
+            .map(|(old, new)| ((old.pressure - new.pressure).abs() / most).max((old.shear - new.shear).abs() / most));
+        let worst = off.fold(0.0, f64::max);
+        // Lengths to rounding, times the penalty over the pressure.
+        assert!(worst < 1e-10, "{top}: {worst:.1e}");
+    }
+}
+
+/// A strip of one layer of cells in space, held flat, answers as the plane does.
+#[test]
+fn a_strip_in_space_is_the_plane() {
+    let deck = |space: &str, deep: bool| {
+        let part = |name: &str, from: [f64; 2], to: [f64; 2], cells: [usize; 2]| {
+            let ([a, b], [c, d], [n, m]) = (from, to, cells);
+            if deep {
+                format!(
+                    "mesh.part.{name}.box = {{ from = [{a:.2}, {b:.2}, 0.0], to = [{c:.2}, {d:.2}, 0.5], cells = [{n}, {m}, 1], cell = \"hex8\" }}\n"
+                )
+            } else {
+                format!(
+                    "mesh.part.{name}.rectangle = {{ from = [{a:.2}, {b:.2}], to = [{c:.2}, {d:.2}], cells = [{n}, {m}], cell = \"quad4\" }}\n"
+                )
+            }
+        };
+        let floor = if deep {
+            "tool.floor = { plane = { at = [0.0, -1.0, 0.0], normal = [0.0, 1.0, 0.0], side = 40.0 } }"
+        } else {
+            "tool.floor = { profile = [{ line = [[20.0, -1.0], [-20.0, -1.0]] }] }"
+        };
+        let flat = if deep { ", z = 0.0" } else { "" };
+        let thick = if deep { "" } else { "thickness = 0.5\n" };
+        let held = if deep { "displacement.low = { z = 0.0 }\ndisplacement.high = { z = 0.0 }\n" } else { "" };
+        format!(
+            r#"
+version = 1
+space = "{space}"
+{thick}{}{}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.low = {{ material = "rubber" }}
+body.high = {{ material = "rubber" }}
+{floor}
+contact.ground = {{ surface = "low.bottom", target = "floor", form = "field", penalty = 1e5, law.coulomb = {{ friction = 0.3 }} }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", penalty = 1e5, roles = "given", law.coulomb = {{ friction = 0.3 }} }}
+[solver]
+tolerance = 1e-10
+[[step]]
+increments.count = 3
+{held}displacement."high.top" = {{ x = 0.05, y = -0.05{flat} }}
+displacement."low.left" = {{ x = 0.0{flat} }}
+"#,
+            part("low", [0.0, -1.0], [4.0, 0.0], [5, 1]),
+            part("high", [0.5, 0.0], [3.1, 1.0], [4, 1]),
+        )
+    };
+    let forces = |deck: String| {
+        let model = model(&deck, &[]);
+        let keep: Keep = run(&model);
+        let columns = columns(&model, &keep);
+        ["ground", "joint"].map(|name| ["x", "y"].map(|axis| last(&columns, &format!("contact.{name}.force.{axis}"))))
+    };
+    let (plane, space) = (forces(deck("plane-strain", false)), forces(deck("solid", true)));
+    for (plane, space) in plane.iter().zip(&space) {
+        let size = plane[1].abs();
+        assert!((0..2).all(|axis| (plane[axis] - space[axis]).abs() < 1e-3 * size), "{plane:?} {space:?}");
+    }
+}

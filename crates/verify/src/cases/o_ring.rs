@@ -23,7 +23,7 @@ const MODULUS: f64 = 8.0;
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut curve = Vec::new();
     let run = bench.follow("o-ring.toml", &[], |model, state| curve.push((state.time, lid(model, state))))?;
-    let (time, force) = curve.iter().copied().filter(|(time, _)| *time <= SQUEEZE).next_back().unwrap_or_default();
+    let (time, force) = curve.iter().copied().rfind(|(time, _)| *time <= SQUEEZE).unwrap_or_default();
     let hertz = 2.0 * PI * RING * hertz(TRAVEL * time);
     Ok(vec![
         ("force".into(), force / hertz - 1.0),

@@ -23,7 +23,7 @@ mesh.part.block.box = {{ from = [0.0, 0.0, 0.0], to = [1.5, 0.5, 1.0], cells = [
 material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
 body.block = {{ material = "rubber" }}
 tool.die = {tool}
-contact.joint = {{ surface = "block.bottom", target = "die", form = "field", law.coulomb = {{ friction = 0.3 }} }}
+contact.joint = {{ surface = "block.bottom", target = "die", form = "field", tangential_penalty = 1e5, law.coulomb = {{ friction = 0.3 }} }}
 [[step]]
 displacement."block.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
 "#
@@ -41,7 +41,7 @@ mesh.part.high.box = {{ from = [0.1, 0.0, 0.05], to = [1.1, 0.5, 0.95], cells = 
 material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
 body.low = {{ material = "rubber" }}
 body.high = {{ material = "rubber" }}
-contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", roles = "given", law.coulomb = {{ friction = 0.3 }} }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", roles = "given", tangential_penalty = 4e5, law.coulomb = {{ friction = 0.3 }} }}
 [[step]]
 displacement."low.bottom" = {{ x = 0.0, y = 0.0, z = 0.0 }}
 displacement."high.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
@@ -377,8 +377,8 @@ material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
 body.low = {{ material = "rubber" }}
 body.high = {{ material = "rubber" }}
 {floor}
-contact.ground = {{ surface = "low.bottom", target = "floor", form = "field", penalty = 1e5, law.coulomb = {{ friction = 0.3 }} }}
-contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", penalty = 1e5, roles = "given", law.coulomb = {{ friction = 0.3 }} }}
+contact.ground = {{ surface = "low.bottom", target = "floor", form = "field", penalty = 1e5, tangential_penalty = 1e5, law.coulomb = {{ friction = 0.3 }} }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", penalty = 1e5, tangential_penalty = 1e5, roles = "given", law.coulomb = {{ friction = 0.3 }} }}
 [solver]
 tolerance = 1e-10
 [[step]]

@@ -37,7 +37,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let refused = solve(&meshed("quad4", linear, &["contact.seat.passes=two"]));
     // Without coupling the increment is given up at once, not cut again and again.
     let uncoupled = |penalty: &str| {
-        let more = ["contact.seat.coupling=false", "step.1.increments.smallest=0.6", penalty];
+        let more = ["contact.seat.coupling=false", "step.1.increments.smallest=0.6", "solver.relax=false", penalty];
         bench.exhaust("fit.toml", &meshed("quad8", [12, 17], &more)).map(|run| rate(&run))
     };
     Ok(vec![

@@ -37,7 +37,8 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let refused = solve(&meshed("quad4", linear, &["contact.seat.passes=two"]));
     // Without coupling the increment is given up at once, not cut again and again.
     let uncoupled = |penalty: &str| {
-        let more = ["contact.seat.coupling=false", "step.1.increments.smallest=0.6", "solver.relax=false", penalty];
+        let bare = ["solver.relax=false", "solver.line_search=false"];
+        let more = ["contact.seat.coupling=false", "step.1.increments.smallest=0.6", bare[0], bare[1], penalty];
         bench.exhaust("fit.toml", &meshed("quad8", [12, 17], &more)).map(|run| rate(&run))
     };
     Ok(vec![

@@ -41,7 +41,7 @@ mesh.part.high.box = {{ from = [0.1, 0.0, 0.05], to = [1.1, 0.5, 0.95], cells = 
 material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
 body.low = {{ material = "rubber" }}
 body.high = {{ material = "rubber" }}
-contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", roles = "given", tangential_penalty = 4e5, law.coulomb = {{ friction = 0.3 }} }}
+contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", roles = "given", tangential_penalty = 1e5, law.coulomb = {{ friction = 0.3 }} }}
 [[step]]
 displacement."low.bottom" = {{ x = 0.0, y = 0.0, z = 0.0 }}
 displacement."high.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
@@ -98,7 +98,7 @@ fn tangents(name: &str, deck: &str, part: &str, rounds: usize) {
     let moving = &model.mesh.groups[part].nodes;
     let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.004), rounds);
     let said = format!("{name}: {met:?} skipped {skipped} worst {worst:.1e}");
-    assert!(met[1] > 0 && met[2] >= 5, "{said}");
+    assert!(met[1] > 0 && met[2] > 2, "{said}");
     assert!(10 * skipped <= met.iter().sum::<usize>(), "{said}");
     assert!(worst < ALLOWED, "{said}");
 }

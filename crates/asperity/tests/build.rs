@@ -214,17 +214,23 @@ fn nodes_on_the_axis_of_revolution_stay_on_it() {
     assert_eq!(course(&built, 0, 2 * node(&built, "block.top_left") + 1), None);
 }
 
-#[test]
-fn penalties_and_thickness_have_their_printed_defaults() {
-    let deck = format!(
+/// A block on a plate, with more said of their contact.
+fn resting(more: &str) -> String {
+    format!(
         "{HEAD}{TOOL}
         [contact.base]
         surface = 'block.bottom'
         target = 'plate'
         law.coulomb = {{ friction = 0.3 }}
+        {more}
         [[step]]
         symmetry = ['block.left']"
-    );
+    )
+}
+
+#[test]
+fn penalties_and_thickness_have_their_printed_defaults() {
+    let deck = resting("");
     let built = made(&deck);
     let modulus = 210e3 * 0.7 / (1.3 * 0.4);
     let options = built.field_contacts[0].options();
@@ -240,25 +246,13 @@ fn penalties_and_thickness_have_their_printed_defaults() {
 
 #[test]
 fn the_elastic_slip_is_said_or_a_default_and_refused_where_nothing_follows_it() {
-    let deck = |more: &str| {
-        format!(
-            "{HEAD}{TOOL}
-            [contact.base]
-            surface = 'block.bottom'
-            target = 'plate'
-            law.coulomb = {{ friction = 0.3 }}
-            {more}
-            [[step]]
-            symmetry = ['block.left']"
-        )
-    };
-    let part = |more: &str| made(&deck(more)).field_contacts[0].options().elastic_slip;
+    let part = |more: &str| made(&resting(more)).field_contacts[0].options().elastic_slip;
     assert_eq!([part(""), part("elastic_slip = 0.02")], [Some(0.005), Some(0.02)]);
     assert_eq!([part("tangential_penalty = 3.0"), part("augmentation = {}")], [None, None]);
-    let sticking = deck("").replace("coulomb = { friction = 0.3 }", "sticking = {}");
+    let sticking = resting("").replace("coulomb = { friction = 0.3 }", "sticking = {}");
     assert_eq!(made(&sticking).field_contacts[0].options().elastic_slip, None);
     for more in ["tangential_penalty = 3.0", "augmentation = {}"] {
-        let told = refused(&deck(&format!("{more}\nelastic_slip = 0.01")));
+        let told = refused(&resting(&format!("{more}\nelastic_slip = 0.01")));
         assert!(told.contains("`elastic_slip` is for friction by the pressure"), "{told}");
     }
 }
@@ -266,15 +260,7 @@ fn the_elastic_slip_is_said_or_a_default_and_refused_where_nothing_follows_it() 
 /// A strip of 60 by 1 follows pressure by bending, a block of 2 by 1 by squeezing its cells.
 #[test]
 fn a_thin_body_has_the_penalty_of_its_bending() {
-    let deck = format!(
-        "{HEAD}{TOOL}
-        [contact.base]
-        surface = 'block.bottom'
-        target = 'plate'
-        law.coulomb = {{ friction = 0.3 }}
-        [[step]]
-        symmetry = ['block.left']"
-    );
+    let deck = resting("");
     let deck = deck.replace("to = [2.0, 1.0], cells = [2, 1]", "to = [60.0, 1.0], cells = [60, 2]");
     let modulus = 210e3 * 0.7 / (1.3 * 0.4);
     let thickness: f64 = 60.0 / 61.0;

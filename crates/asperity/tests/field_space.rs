@@ -132,6 +132,14 @@ fn last(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> f
     *columns[name].last().unwrap()
 }
 
+/// A box of height 1 above `from` and length 2 with a depth, one cell high.
+fn slab(name: &str, (from, depth): (f64, f64), [n, m]: [usize; 2], cell: &str) -> String {
+    let to = from + 1.0;
+    format!(
+        "mesh.part.{name}.box = {{ from = [0.0, {from:.1}, 0.0], to = [2.0, {to:.1}, {depth:.1}], cells = [{n}, 1, {m}], cell = \"{cell}\" }}\n"
+    )
+}
+
 /// Blocks of equal cross section whose meshes do not match bear a uniform pressure.
 #[test]
 fn uniform_pressure_passes_between_meshes_that_do_not_match() {
@@ -141,15 +149,7 @@ fn uniform_pressure_passes_between_meshes_that_do_not_match() {
         (["hex20", "hex20"], [[2, 1], [1, 2]], 1e-8),
         (["tet10", "tet10"], [[2, 1], [1, 1]], 1e-8),
     ] {
-        let part = |k: usize, name: &str, from: f64| {
-            format!(
-                "mesh.part.{name}.box = {{ from = [0.0, {from:.1}, 0.0], to = [2.0, {:.1}, 1.5], cells = [{}, 1, {}], cell = \"{}\" }}\n",
-                from + 1.0,
-                counts[k][0],
-                counts[k][1],
-                cells[k]
-            )
-        };
+        let part = |k: usize, name: &str, from: f64| slab(name, (from, 1.5), counts[k], cells[k]);
         let deck = format!(
             r#"
 version = 1
@@ -248,15 +248,7 @@ fn action_is_reaction() {
 fn stacked_blocks_bear_their_weight() {
     for (cells, counts) in [(["hex8", "hex8"], [3, 2]), (["hex20", "hex20"], [1, 2]), (["tet10", "hex8"], [1, 2])] {
         for friction in [0.0, 0.4] {
-            let part = |k: usize, name: &str, from: f64| {
-                format!(
-                    "mesh.part.{name}.box = {{ from = [0.0, {from:.1}, 0.0], to = [2.0, {:.1}, 2.0], cells = [{}, 1, {}], cell = \"{}\" }}\n",
-                    from + 1.0,
-                    counts[k],
-                    counts[k],
-                    cells[k]
-                )
-            };
+            let part = |k: usize, name: &str, from: f64| slab(name, (from, 2.0), [counts[k], counts[k]], cells[k]);
             let deck = format!(
                 r#"
 version = 1

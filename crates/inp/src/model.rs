@@ -374,6 +374,12 @@ pub struct Model {
 }
 
 impl Model {
+    /// What holds from a step on: what it says, in the first after what holds before it.
+    pub fn actions(&self, step: usize) -> impl Iterator<Item = &Action> {
+        let initial = self.initial.iter().filter(move |_| step == 0);
+        initial.chain(self.steps.get(step).into_iter().flat_map(|step| &step.actions))
+    }
+
     /// A surface by its scope and name.
     pub fn surface(&self, (scope, name): &(usize, String)) -> Option<&Surface> {
         self.scopes.get(*scope)?.surfaces.get(name)

@@ -3,6 +3,7 @@
 use crate::Size;
 use asperity::contact::PointRecord;
 use asperity::model::Model;
+use asperity::output::Parts;
 use asperity::output::figure::Chart;
 use asperity::solve::{AttemptRecord, Observer, RunOptions};
 use asperity::system::State;
@@ -202,24 +203,13 @@ impl<F: FnMut(&Model, &State)> Observer for Follower<'_, F> {
 
 /// The points of a contact in a state.
 pub fn points(model: &Model, state: &State, contact: usize) -> Vec<PointRecord> {
-    let history = &state.histories[model.first_contact() + contact];
-    let solid = |contact: usize| model.solid_contacts.get(contact);
-    let points = model.contacts.len();
-    match model.contacts.get(contact) {
-        Some(contact) => contact.records(&state.u, history).collect(),
-        None => match solid(contact - points) {
-            Some(contact) => contact.records(&state.u, history),
-            None => model.field_contacts[contact - points - model.solid_contacts.len()].records(&state.u, history),
-        },
-    }
+    let (term, _, contact) = Parts::of(model).contacts.swap_remove(contact);
+    contact.records(&state.u, &state.histories[term])
 }
 
 /// The penalty of the first contact, whatever its kind.
 pub fn penalty(model: &Model) -> f64 {
-    let plane = model.contacts.first().map(|contact| contact.options().penalty);
-    let solid = model.solid_contacts.first().map(|contact| contact.options().penalty);
-    let field = model.field_contacts.first().map(|contact| contact.options().penalty);
-    plane.or(solid).or(field).unwrap_or(f64::NAN)
+    Parts::of(model).contacts[0].2.options().penalty
 }
 
 /// Force of the supports on the nodes of a group: what the terms exert there beyond the loads.

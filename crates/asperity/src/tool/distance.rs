@@ -20,7 +20,7 @@ const AT_END: f64 = 1e-12;
 pub struct SmoothPiece {
     segments: Vec<usize>,
     /// The lines across its first and its last end beyond which it is not seen; none where it goes on straight.
-    ends: [Option<PieceEnd>; 2],
+    pub ends: [Option<PieceEnd>; 2],
     /// Whether its last segment ends where its first begins, without a crease.
     closed: bool,
 }
@@ -102,11 +102,6 @@ impl Tool {
         (turn > 0.0).then(|| PieceEnd { point: one.point(1.0), along })
     }
 
-    /// The two ends of a piece beyond which it is not seen; none where it goes on.
-    pub fn piece_ends(&self, piece: &SmoothPiece) -> [Option<PieceEnd>; 2] {
-        piece.ends
-    }
-
     /// The point of a piece closest to `x`, in the tool's own frame.
     pub fn closest(&self, piece: &SmoothPiece, x: Vec3) -> ClosestPoint {
         let (mut best, mut least) = ((0, 0.0), f64::INFINITY);
@@ -124,12 +119,11 @@ impl Tool {
         let point = segment.point(s);
         let normal = -segment.tangent(s).left().unit();
         let last = piece.segments.len() - 1;
-        let past = |k: usize| {
-            let end = piece.ends[k].filter(|_| place == [0, last][k])?;
-            let past = end.along.dot(x - end.point) * [-1.0, 1.0][k];
-            (past > AT_END * segment.length()).then_some(k)
-        };
-        let beyond = past(0).or_else(|| past(1));
+        let beyond = (0..2).find(|&k| {
+            let end = piece.ends[k].filter(|_| place == [0, last][k]);
+            let past = |end: PieceEnd| end.along.dot(x - end.point) * [-1.0, 1.0][k];
+            end.is_some_and(|end| past(end) > AT_END * segment.length())
+        });
         let smooth = |curvature: f64| {
             let gap = normal.dot(x - point);
             ClosestPoint { gap, normal, point, curvature: curvature / (1.0 + curvature * gap), beyond }

@@ -38,9 +38,8 @@ impl Writer<'_> {
         let mut owners: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
         let mut records: Vec<Record> = Vec::new();
         let (mut on_nodes, mut on_tools) = (Table::new(), Table::new());
-        for (number, step) in model.steps.iter().enumerate() {
-            let initial = model.initial.iter().filter(|_| number == 0);
-            for action in initial.chain(&step.actions) {
+        for number in 0..model.steps.len() {
+            for action in model.actions(number) {
                 match &action.kind {
                     ActionKind::Fresh(Condition::Force) => owners.clear(),
                     ActionKind::Force(target, axis, value) => {
@@ -109,9 +108,8 @@ impl Writer<'_> {
         let model = self.model;
         let mut standing: BTreeMap<(String, bool), (Record, &ActionKind)> = BTreeMap::new();
         let (mut pressures, mut volumes) = (Table::new(), Table::new());
-        for (number, step) in model.steps.iter().enumerate() {
-            let initial = model.initial.iter().filter(|_| number == 0);
-            for action in initial.chain(&step.actions) {
+        for number in 0..model.steps.len() {
+            for action in model.actions(number) {
                 match &action.kind {
                     ActionKind::Fresh(Condition::Distributed) => standing.clear(),
                     ActionKind::Pressure(target, _, value) => {

@@ -24,10 +24,9 @@ impl Writer<'_> {
         let model = self.model;
         let (mut owners, mut records) = (Owners::new(), Vec::<Record>::new());
         let mut supports = Supports { displacement: vec![], motion: vec![] };
-        for (number, step) in model.steps.iter().enumerate() {
+        for number in 0..model.steps.len() {
             let before = owners.clone();
-            let initial = model.initial.iter().filter(|_| number == 0);
-            for action in initial.chain(&step.actions) {
+            for action in model.actions(number) {
                 match &action.kind {
                     ActionKind::Fresh(Condition::Boundary) => owners.clear(),
                     ActionKind::Lead(target, axis, value) => {

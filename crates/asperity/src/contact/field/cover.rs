@@ -3,7 +3,7 @@
 //! A patch is the part of one face that sees one smooth piece of a tool or one face of a body. In the plane it is an interval
 //! of the edge, between the edge's own ends and the places that see an end of what is touched: of a body, where the averaged
 //! normal of the surface passes through the vertex, `(x_V - x(xi)) . e_S(xi) = 0`; of a tool, where the surface crosses the
-//! profile's normal at its end, `(x(xi) - x_V) . t_V = 0`. The ends of an interval move with all of these.
+//! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
 use super::face::{CORNERS, Face, Placed, ShapeFunctions};
 use super::tool::ToolInPlace;
@@ -81,7 +81,7 @@ impl FaceInPlace<'_> {
         [to.dot(along), to.dot(at.normal_slopes[0].left()) - at.tangents[0].dot(along)]
     }
 
-    /// How far a place lies beyond the normal at the end of a profile, along the profile, and the slope of that.
+    /// How far a place lies beyond the line that ends a piece of a profile, and the slope of that.
     pub fn end_offset(&self, xi: f64, (end, along): (Vec3, Vec3)) -> [f64; 2] {
         let at = self.at([xi, 0.0]);
         [(at.x - end).dot(along), at.tangents[0].dot(along)]

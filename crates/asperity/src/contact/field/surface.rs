@@ -83,16 +83,16 @@ impl Sets {
 impl Surface {
     /// The faces `sides` of a mesh in a space; `thickness` counts in the plane cases.
     pub fn new(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
-        let whole = Self::whole(mesh, sides, space, thickness);
-        let faces = whole.faces.into_iter().flat_map(Face::halves).collect();
-        let mut surface = Self { faces, ..whole };
-        surface.number(mesh);
-        surface
+        let faces = sides.iter().flat_map(|&side| Face::new(mesh, side).halves());
+        Self::of(mesh, faces.collect(), space, thickness)
     }
 
     /// The same with edges of second degree in one piece, as a target has them.
     pub fn whole(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
-        let faces: Vec<Face> = sides.iter().map(|&side| Face::new(mesh, side)).collect();
+        Self::of(mesh, sides.iter().map(|&side| Face::new(mesh, side)).collect(), space, thickness)
+    }
+
+    fn of(mesh: &Mesh, faces: Vec<Face>, space: Space, thickness: f64) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
         let mut surface = Self { faces, nodes: vec![], field: vec![], pieces: vec![], plane, revolves, thickness };
@@ -271,9 +271,10 @@ impl Surface {
 /// Step of the differences of the area density, in reference coordinates.
 const STEP: f64 = 1e-3;
 
+/// Number of corners that two faces have in common.
 fn shared(one: &Face, other: &Face) -> usize {
-    let corners = |face: &Face| (0..face.corners()).map(|c| face.corner_node(c)).collect::<Vec<_>>();
-    corners(one).iter().filter(|node| corners(other).contains(node)).count()
+    let has = |face: &Face, node: usize| (0..face.corners()).any(|c| face.corner_node(c) == node);
+    (0..one.corners()).filter(|&c| has(other, one.corner_node(c))).count()
 }
 
 /// The unit vector along an axis.

@@ -181,11 +181,11 @@ impl ToolInPlace<'_> {
         let bends = bends.map(|(along, bend)| (self.rotate(along), bend));
         Foot { gap, normal: self.rotate(normal), point: self.place(point), beyond, bends }
     }
-    /// Ends of a piece in the plane beyond which it is not seen: present point and tangent.
+    /// Ends of a piece in the plane beyond which it is not seen: present point and normal of the line there.
     pub fn ends(&self, piece: usize) -> [Option<(Vec3, Vec3)>; 2] {
-        let RigidShape::Plane(tool, pieces) = &self.rigid.shape else { return [None; 2] };
+        let RigidShape::Plane(_, pieces) = &self.rigid.shape else { return [None; 2] };
         let place = |end: crate::tool::PieceEnd| (self.place(end.point), self.rotate(end.along));
-        tool.piece_ends(&pieces[piece]).map(|end| end.map(place))
+        pieces[piece].ends.map(|end| end.map(place))
     }
     /// Derivatives along its unknowns of the place of a material point that is now at `at`.
     pub fn rates(&self, at: Vec3) -> [Vec3; MOST] {

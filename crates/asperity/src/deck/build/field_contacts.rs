@@ -6,6 +6,7 @@ use crate::contact::field::{FieldContact, FieldParts, FieldTarget, Surface};
 use crate::contact::{Backing, ContactForm, Normals};
 use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
+use crate::deck::source::Place;
 use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
 use crate::tool::{self, Tool};
@@ -19,7 +20,7 @@ impl Builder<'_> {
     pub(super) fn is_field(&self, keys: &keys::Contact) -> bool {
         match keys.form {
             Some(form) => form.value == ContactForm::Field,
-            None => self.site.space != Space::Solid && !self.is_of_points(keys),
+            None => self.site.space != Space::Solid && said_of_points(keys).is_empty(),
         }
     }
 
@@ -92,39 +93,30 @@ impl Builder<'_> {
         }))
     }
 
-    /// Whether a deck asks for what only stresses at points have.
-    fn is_of_points(&self, keys: &keys::Contact) -> bool {
-        let law = keys.law.build().is_ok_and(|law| law.radius() == 0.0);
-        keys.gauss.is_some()
-            || keys.parts.is_some()
-            || keys.passes.is_some()
-            || keys.coupling.is_some()
-            || keys.guard.is_some()
-            || keys.normals != Normals::Own
-            || !law
-    }
-
     /// What is said of contact points says nothing of a field.
     fn check_field(&mut self, keys: &keys::Contact) -> bool {
-        let before = self.found.len();
-        let said = [
-            keys.gauss.map(|spot| ("gauss", spot.place)),
-            keys.parts.map(|spot| ("parts", spot.place)),
-            keys.passes.map(|spot| ("passes", spot.place)),
-            keys.coupling.map(|spot| ("coupling", spot.place)),
-            keys.guard.map(|spot| ("guard", spot.place)),
-        ];
-        for (key, place) in said.into_iter().flatten() {
-            self.refuse(format!("`{key}` is for stresses at points: form = \"paper\""), place);
+        let said = said_of_points(keys);
+        for (what, place) in &said {
+            self.refuse(format!("{what} for stresses at points: form = \"paper\""), *place);
         }
-        if let Some(form) = keys.form.filter(|_| keys.normals != Normals::Own) {
-            self.refuse("`normals` are those of stresses at points: form = \"paper\"", form.place);
-        }
-        if !keys.law.build().is_ok_and(|law| law.radius() == 0.0) {
-            self.refuse("a mean of the pressure is for stresses at points: form = \"paper\"", keys.law.place);
-        }
-        self.found.len() == before
+        said.is_empty()
     }
+}
+
+/// What a deck says that only stresses at points have, and where.
+fn said_of_points(keys: &keys::Contact) -> Vec<(&'static str, Place)> {
+    let averaged = keys.normals != Normals::Own;
+    let mean = !keys.law.build().is_ok_and(|law| law.radius() == 0.0);
+    let said = [
+        keys.gauss.map(|spot| ("`gauss` is", spot.place)),
+        keys.parts.map(|spot| ("`parts` is", spot.place)),
+        keys.passes.map(|spot| ("`passes` is", spot.place)),
+        keys.coupling.map(|spot| ("`coupling` is", spot.place)),
+        keys.guard.map(|spot| ("`guard` is", spot.place)),
+        averaged.then(|| ("averaged `normals` are", keys.form.map_or(keys.law.place, |form| form.place))),
+        mean.then_some(("a mean of the pressure is", keys.law.place)),
+    ];
+    said.into_iter().flatten().collect()
 }
 
 /// Sides whose faces differ in size by less than this factor are alike.

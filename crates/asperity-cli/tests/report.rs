@@ -35,7 +35,7 @@ mesh.part.cube.box = { from = [0.0, 0.0, -2.0], to = [2.0, 2.0, 0.0], cells = [5
 material.steel.elastic = { young = 210e3, poisson = 0.3 }
 body.cube = { material = "steel" }
 tool.ball.sphere = { center = [0.0, 0.0, 3.0], radius = 3.0 }
-contact.top = { surface = "cube.front", target = "ball", law.coulomb = { friction = 0.2 } }
+contact.top = { surface = "cube.front", target = "ball", form = "paper", law.coulomb = { friction = 0.2 } }
 
 [[step]]
 name = "press"

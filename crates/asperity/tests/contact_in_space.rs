@@ -220,7 +220,7 @@ increments.count = 6
     let mut run = made.model.run(made.model.problem.initial_state());
     assert_eq!(run.run(&RunOptions::default(), &mut Silent).unwrap(), Stop::Done);
     let history = &run.state.histories[made.model.first_contact()];
-    let records = made.model.solid_contacts[0].records(&run.state.u, history);
+    let records = made.model.field_contacts[0].records(&run.state.u, history);
     assert!(records.iter().any(|record| record.slipped > 0.0));
     let force = records.iter().fold(Vec3::zero(), |sum, record| sum + record.force());
     let back: [f64; 3] = std::array::from_fn(|axis| force[(axis + thirds) % 3]);

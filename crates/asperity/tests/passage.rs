@@ -80,7 +80,7 @@ fn strips_that_may_not_be_cut_are_refused_with_place_and_remedy() {
 #[test]
 fn a_tool_through_a_slab_in_one_increment_is_refused() {
     let said = refusal(BALL, &["step.1.increments.smallest=1.0"]);
-    assert!(said.contains("the target came through at point"), "{said}");
+    assert!(said.contains("passes through tool 'ball'"), "{said}");
 }
 
 /// However long the increments, strips that meet end to end of their motion carry the same force, or the run is refused; it

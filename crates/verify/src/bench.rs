@@ -207,6 +207,17 @@ pub fn points(model: &Model, state: &State, contact: usize) -> Vec<PointRecord> 
     contact.records(&state.u, &state.histories[term])
 }
 
+/// What both sides of the first contact bear: of a field, which has one side, the same points turned round.
+pub fn sides(model: &Model, state: &State) -> [Vec<PointRecord>; 2] {
+    let one = points(model, state, 0);
+    if model.field_contacts.is_empty() {
+        return [one, points(model, state, 1)];
+    }
+    let mut other = one.clone();
+    other.iter_mut().for_each(PointRecord::turn);
+    [one, other]
+}
+
 /// The penalty of the first contact, whatever its kind.
 pub fn penalty(model: &Model) -> f64 {
     Parts::of(model).contacts[0].2.options().penalty

@@ -235,6 +235,11 @@ fn lead(leader: &mut [usize], node: usize) -> usize {
     end
 }
 
+/// A way through a tool counts, whatever its sides, where it leads deeper than this part of a cell,
+const GRAZED: f64 = 0.5;
+/// as seen at so many places at most.
+const GRAZES: usize = 64;
+
 impl Look<'_> {
     /// Shows every point that lies behind a boundary or came through one.
     fn find(&self, found: &mut dyn FnMut(Found)) {
@@ -369,6 +374,9 @@ impl Look<'_> {
                 }
             }
             self.through_tool(&path, tool, self.near(own, other, size, sagitta), &mut report);
+            if let Some(depth) = grazed(&path, tool, GRAZED * size) {
+                report(depth, 0.0, true);
+            }
         }
     }
 
@@ -478,6 +486,24 @@ impl Look<'_> {
             _ => format!("{own} lies {part:.2} cells deep in {other} at {place}"),
         }
     }
+}
+
+/// How deep a point lay in a closed tool on a straight way that begins and ends outside, if that is more than `least`: it may
+/// come out on a side that does not look the other way.
+fn grazed(path: &[Vec3], tool: &Rigid, least: f64) -> Option<f64> {
+    let way: f64 = path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+    if !tool.closed || way < least || !meet(&bounds(path.iter().copied()), &tool.bounds) {
+        return None;
+    }
+    let count = ((2.0 * way / least) as usize).min(GRAZES);
+    let deep = |i: usize| {
+        let here = along(path, i as f64 / count as f64);
+        let deep = depth(&tool.tree, here, (f64::INFINITY, false), &|_, _| true)?;
+        let out = tool.pieces[deep.piece].direction();
+        is_inside(&tool.tree, tool.bounds, (here, out), &|_| true).then_some(deep.depth)
+    };
+    let deepest = (1..count).filter_map(deep).fold(0.0, f64::max);
+    (deepest > least).then_some(deepest)
 }
 
 /// A place on a way that is straight between its points.

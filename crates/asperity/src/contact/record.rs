@@ -181,7 +181,7 @@ impl PointRecord {
         self.resultant.map_or_else(|| self.traction() * self.area, |[force, _]| force)
     }
     /// The same as the other side sees it.
-    pub(super) fn turn(&mut self) {
+    pub fn turn(&mut self) {
         for v in [&mut self.inward, &mut self.thrust, &mut self.facing, &mut self.along] {
             *v = -*v;
         }

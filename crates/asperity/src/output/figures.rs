@@ -74,6 +74,11 @@ pub static FIGURES: &[Figure] = &[
         "a finer surface, more points (`gauss`, `parts` of an edge), a stiffer `penalty`, or a contact where none is declared",
     ),
     largest("nodal_penetration", "  weighted, at nodes"),
+    largest("penalty_energy", "energy that penetration takes up").limited(
+        "0.05",
+        "Work of the pressure on the penetration of a contact with friction by the pressure, over the energy that the bodies take up.",
+        "a stiffer `penalty`, or `augmentation`: the contact gives way in place of the bodies, as where a thin one is squeezed",
+    ),
     largest("equilibrium_error", "equilibrium error").limited(
         "1e-3",
         "Unbalanced forces of the free nodes, summed, over the forces in play.",

@@ -214,9 +214,11 @@ fn account(summary: &mut Summary, run: &Run, seconds: f64) {
         ));
     }
     if run.state.held > 0 {
+        let first =
+            run.first_held.as_ref().map_or(String::new(), |(what, time)| format!(" ({what} from time {time:.4} on)"));
         summary.notes.push(format!(
-            "in {} increments something was held still that nothing holds, as `solver.if_free = \"hold\"` says; without \
-             it the run ends there and names it",
+            "in {} increments something was held still that nothing holds any more{first}: it stays where it is until something \
+             touches it; with `solver.if_free = \"stop\"` the run ends there",
             run.state.held
         ));
     }

@@ -73,7 +73,7 @@ impl Default for NewtonOptions {
             piecewise: true,
             line_search: true,
             relax: true,
-            if_free: IfFree::Stop,
+            if_free: IfFree::Hold,
             rehearse: false,
         }
     }

@@ -36,6 +36,8 @@ pub struct Run<'a> {
     pub memory: Memory,
     /// Time that the audit took.
     pub audited: Duration,
+    /// What was held still first that nothing held, in words, and when.
+    pub first_held: Option<(String, f64)>,
     solver: Box<dyn LinearSolver>,
 }
 
@@ -63,7 +65,7 @@ fn leap([before, driven, moved]: [f64; 3], size: f64) -> f64 {
 impl<'a> Run<'a> {
     /// A run from a given state: the initial one or that of a checkpoint.
     pub fn new(problem: &'a Problem, state: State, solver: Box<dyn LinearSolver>) -> Self {
-        Self { problem, state, memory: Memory::default(), audited: Duration::ZERO, solver }
+        Self { problem, state, memory: Memory::default(), audited: Duration::ZERO, first_held: None, solver }
     }
 
     /// Runs to the end of the last step.
@@ -141,7 +143,9 @@ impl<'a> Run<'a> {
                     }
                     caution.fail(dt);
                     relaxed |= relaxing;
-                    relaxing = !relaxed && (dt <= RELAX * usual || 0.5 * dt < smallest);
+                    caution.vain |= relaxing;
+                    let small = dt <= RELAX * usual && !caution.vain;
+                    relaxing = !relaxed && (small || 0.5 * dt < smallest);
                     wanted = if relaxing { dt } else { 0.5 * dt };
                     if wanted < smallest {
                         return Err(self.give_up(step, dt, &cause));
@@ -270,6 +274,9 @@ impl<'a> Run<'a> {
         }
         state.u = converged.u;
         state.held += usize::from(!converged.held.is_empty());
+        if !converged.held.is_empty() && self.first_held.is_none() {
+            self.first_held = Some((converged.held.join("; "), state.time));
+        }
         std::mem::swap(&mut state.internal, &mut evaluation.internal);
         std::mem::swap(&mut state.load, &mut evaluation.load);
         std::mem::swap(&mut state.histories, &mut evaluation.histories);

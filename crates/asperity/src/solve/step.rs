@@ -170,7 +170,17 @@ impl Newton<'_> {
         }
         let factorised = self.factorise(iteration)?;
         self.begin_influences()?;
-        self.solver.solve(rhs).map_err(|e| self.explain(e, 1))?;
+        let begun = rhs.to_vec();
+        match self.solver.solve(rhs) {
+            // A matrix that rounding cannot tell from a singular one: the iterate may have lost a contact that the solution has.
+            Err(LinearError::Inaccurate(_)) if factorised && self.may_hold() => {
+                rhs.copy_from_slice(&begun);
+                self.prop(&[], iteration)?;
+                self.memory.current = false;
+                self.solver.solve(rhs).map_err(|e| self.explain(e, 1))?;
+            }
+            solved => solved.map_err(|e| self.explain(e, 1))?,
+        }
         Ok(factorised)
     }
 

@@ -88,6 +88,8 @@ pub struct Caution {
     pub patience: usize,
     /// The size accepted last without relaxation; zero before the first of a step.
     pub proven: f64,
+    /// Whether a relaxation in this step found no equilibrium: another is then tried only before the run gives up.
+    pub vain: bool,
 }
 
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.

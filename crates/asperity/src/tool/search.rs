@@ -35,6 +35,13 @@ enum Content {
     Inner(usize),
 }
 
+impl Node {
+    /// From a point to its box.
+    fn distance(&self, x: Vec3) -> f64 {
+        Vec3(std::array::from_fn(|i| ((x[i] - self.centre[i]).abs() - self.half[i]).max(0.0))).norm()
+    }
+}
+
 impl Tree {
     /// A tree over boxes, each widened by `margin` on all sides.
     pub fn new(boxes: &[Bounds], margin: f64) -> Self {
@@ -106,6 +113,29 @@ impl Tree {
             },
             found,
         );
+    }
+
+    /// The least distance from `x` to a piece, each of whose distances `of` tells; boxes farther than the least so far are left out.
+    pub fn closest(&self, x: Vec3, of: &mut dyn FnMut(usize) -> f64) -> f64 {
+        let mut least = f64::INFINITY;
+        self.approach((0, self.nodes[0].distance(x)), x, &mut least, of);
+        least
+    }
+
+    fn approach(&self, (at, distance): (usize, f64), x: Vec3, least: &mut f64, of: &mut dyn FnMut(usize) -> f64) {
+        if distance > *least {
+            return;
+        }
+        match self.nodes[at].content {
+            Content::Leaf(from, to) => self.order[from..to].iter().for_each(|&i| *least = least.min(of(i))),
+            Content::Inner(second) => {
+                let mut both = [at + 1, second].map(|child| (child, self.nodes[child].distance(x)));
+                if both[1].1 < both[0].1 {
+                    both.swap(0, 1);
+                }
+                both.into_iter().for_each(|child| self.approach(child, x, least, of));
+            }
+        }
     }
 
     fn visit(&self, at: usize, wanted: &mut dyn FnMut(&Node) -> bool, found: &mut dyn FnMut(usize)) {

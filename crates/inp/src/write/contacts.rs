@@ -17,15 +17,11 @@ impl Writer<'_> {
     pub(super) fn contacts(&mut self) {
         let model = self.model;
         for pair in &model.pairs {
-            let what = match (pair.field, self.family) {
-                (true, Family::Solid) => {
-                    "a field of contact stress becomes stresses at points of the faces (`form = \"field\"` is for the plane)"
-                }
-                (true, _) => "contact stress is a field of nodal values: `form = \"field\"`",
-                (false, _) => {
-                    "contact stress lives at three points along each edge of the slave faces, as CalculiX' face to face does; \
-                               `form = \"field\"` in the plane makes a field of it"
-                }
+            let what = if pair.field {
+                "contact stress is a field of nodal values: `form = \"field\"`"
+            } else {
+                "contact stress lives at three points along each edge of the slave faces, as CalculiX' face to face does; \
+                 `form = \"field\"` makes a field of it"
             };
             self.note(pair.place, what);
             if pair.adjust {
@@ -67,7 +63,7 @@ impl Writer<'_> {
             quoted(&surface),
             quoted(&target)
         );
-        match (pair.field && self.family != Family::Solid, of_bodies) {
+        match (pair.field, of_bodies) {
             (true, _) => text += "form = \"field\"\n",
             (false, true) => text += "passes = \"one\"\ngauss = 3\n",
             (false, false) => text += "gauss = 3\n",

@@ -9,7 +9,14 @@ use asperity::Error;
 pub const CASE: Case = Case { name: "hertz-ball", measure };
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let run = bench.solve("ball.toml", &bench.pick(vec![], finer()))?;
+    let mut measured = pressed(bench, &[])?;
+    let points = pressed(bench, &["contact.foot.form=paper".to_owned()])?;
+    measured.extend(points.into_iter().map(|(key, value)| (format!("points-{key}"), value)));
+    Ok(measured)
+}
+
+fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
+    let run = bench.solve("ball.toml", &[&bench.pick(vec![], finer()), form].concat())?;
     let points = run.points(0);
     let radius = |x: f64, y: f64| x.hypot(y);
     let pressures: Vec<_> = points.iter().map(|p| (radius(p.position[0], p.position[1]), p.pressure)).collect();

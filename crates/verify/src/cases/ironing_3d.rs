@@ -1,7 +1,7 @@
 //! Ironing in space after Puso and Laursen: a stiff half-cylinder pressed into a soft block and dragged along it by more than
 //! its imprint. The forces over the way of three meshes are compared.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, sides};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::output::figure::Chart;
@@ -40,8 +40,10 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Measured::new();
     let mut chart = Chart::new("Ironing in space", "way", "force down and along on half of the block");
     let mut coarser: Option<Level> = None;
+    let points = level(bench, &MESHES[0], &["contact.track.form=paper".to_owned()])?;
+    points.tell(&mut |what, value| measured.push((format!("points_{what}"), value)));
     for mesh in &MESHES[..bench.pick(1, 3)] {
-        let level = level(bench, mesh)?;
+        let level = level(bench, mesh, &[])?;
         let mut tell = |what: &str, value: f64| measured.push((format!("{}_{what}", mesh[0]), value));
         level.tell(&mut tell);
         if let Some(coarser) = &coarser {
@@ -57,7 +59,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     Ok(measured)
 }
 
-fn level(bench: &Bench, [_, die, block]: &[&str; 3]) -> Result<Level, Error> {
+fn level(bench: &Bench, [_, die, block]: &[&str; 3], form: &[String]) -> Result<Level, Error> {
     let (whole, increments, press) = bench.pick((2.4, 12, 8), (4.0, 40, 10));
     let sets = [
         format!("step.press.increments.count={press}"),
@@ -67,8 +69,9 @@ fn level(bench: &Bench, [_, die, block]: &[&str; 3]) -> Result<Level, Error> {
         format!("mesh.part.block.box.cells={block}"),
     ];
     let mut curve = Vec::new();
-    let run = bench.follow("ironing.toml", &sets, |model, state| {
-        let on = |side: usize, axis: usize| points(model, state, side).iter().map(|p| p.force()[axis]).sum::<f64>();
+    let run = bench.follow("ironing.toml", &[&sets[..], form].concat(), |model, state| {
+        let sides = sides(model, state);
+        let on = |side: usize, axis: usize| sides[side].iter().map(|p| p.force()[axis]).sum::<f64>();
         let [down, along] = [2, 0].map(|axis| 0.5 * (on(0, axis) - on(1, axis)));
         if state.time > 1.0 - 1e-9 {
             let apart = (on(0, 2) + on(1, 2)).abs() / down.abs();

@@ -3,8 +3,8 @@
 //! `r < a (1 - q)^(1/3)`, and a cycle between `-Q` and `Q` costs `24/5 d mu P (1 - (1 - q)^(5/3) - 5 q / 6 (1 + (1 - q)^(2/3)))`
 //! (R. D. Mindlin and H. Deresiewicz 1953; K. L. Johnson, "Contact mechanics", sections 7.2 and 7.4).
 
-use crate::bench::{Bench, Solved, points};
-use crate::{Case, Measured};
+use crate::bench::{Bench, Solved, sides};
+use crate::{Case, Measured, Size};
 use asperity::Error;
 use asperity::model::Model;
 use asperity::system::State;
@@ -36,16 +36,25 @@ struct Moment {
 }
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let mut measured = pressed(bench, &[])?;
+    if bench.size == Size::Full {
+        let points = pressed(bench, &["contact.spot.form=paper".to_owned()])?;
+        measured.extend(points.into_iter().map(|(key, value)| (format!("points-{key}"), value)));
+    }
+    Ok(measured)
+}
+
+fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     let mesh = bench.pick(vec![], vec!["mesh.file=fine.msh".to_owned()]);
     let counts = bench.pick([4, 4], [10, 10]);
     let sets = [1, 2].map(|i| format!("step.{}.increments.count={}", i + 2, counts[i - 1]));
-    let (moments, run) = follow(bench, &[&mesh[..], &sets[..]].concat())?;
+    let (moments, run) = follow(bench, &[&mesh[..], &sets[..], form].concat())?;
     let (to, back) = (end(&moments, 2.0)?, end(&moments, 4.0)?);
     // What sticks wholly moves in proportion.
     let stick = ["contact.spot.law.coulomb.friction=20.0", "step.2.displacement.\"upper.base\".x=2.5e-5"];
     let mut stick: Vec<String> = stick.map(str::to_owned).into();
     stick.extend([3, 4].map(|step| format!("step.{step}.increments.count=1")));
-    let sticking = end(&follow(bench, &[mesh, stick].concat())?.0, 2.0)?;
+    let sticking = end(&follow(bench, &[&mesh[..], &stick[..], form].concat())?.0, 2.0)?;
     let contact = Contact::new(to.normal, to.tangential);
     // The blocks give way as well: what is more than the compliance of contact that sticks is that of slip.
     let slip = TRAVEL - STUCK * to.tangential / sticking.tangential;
@@ -76,7 +85,7 @@ fn end(moments: &[Moment], time: f64) -> Result<Moment, Error> {
 
 impl Moment {
     fn new(model: &Model, state: &State) -> Self {
-        let sides = [points(model, state, 0), points(model, state, 1)];
+        let sides = sides(model, state);
         let all = || sides.iter().flatten();
         // Each side is half of a sphere and bears half of what is asked for.
         let along = |axis: usize| [0, 1].map(|k| sides[k].iter().map(|p| p.force()[axis]).sum::<f64>());

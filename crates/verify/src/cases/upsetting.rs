@@ -13,13 +13,15 @@ fn uniform() -> f64 {
 }
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let n = bench.pick(6, 12);
-    let run = bench.solve("upsetting.toml", &[format!("mesh.part.cube.box.cells=[{n}, {n}, {n}]")])?;
-    let force: f64 = run.points(0).iter().map(|point| point.force()[2].abs()).sum();
-    let solved = run.attempts.iter().map(|attempt| attempt.solutions()).sum::<usize>();
-    Ok(vec![
-        ("force".into(), force / uniform()),
-        ("iterations".into(), solved as f64),
-        ("cuts".into(), run.cuts() as f64),
-    ])
+    let mut measured = Measured::new();
+    for (formulation, name) in [("standard", ""), ("f-bar", "f_bar_")] {
+        let n = bench.pick(6, 12);
+        let sets = [format!("mesh.part.cube.box.cells=[{n}, {n}, {n}]"), format!("body.cube.formulation={formulation}")];
+        let run = bench.solve("upsetting.toml", &sets)?;
+        let force: f64 = run.points(0).iter().map(|point| point.force()[2].abs()).sum();
+        let solved = run.attempts.iter().map(|attempt| attempt.solutions()).sum::<usize>();
+        let found = [("force", force / uniform()), ("iterations", solved as f64), ("cuts", run.cuts() as f64)];
+        measured.extend(found.map(|(key, value)| (format!("{name}{key}"), value)));
+    }
+    Ok(measured)
 }

@@ -18,7 +18,7 @@ use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Ki
 use crate::tensor::Vec3;
 use crate::tool::Bounds;
 use std::cell::RefCell;
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 thread_local! {
     static SUMS: RefCell<NodeSums> = RefCell::default();
@@ -52,6 +52,39 @@ pub struct FieldAttempt<'a> {
     pub dt: f64,
     /// What the last search found, slot by slot.
     pub found: RwLock<Arc<Vec<Support>>>,
+    /// How the coordinates of closed nodes changed and what forces their stresses were where they were evaluated last.
+    pub linear: Vec<Mutex<Linear>>,
+    /// Gap from which on a node is too far away to close in the next iteration.
+    pub far: f64,
+}
+
+/// Coordinates of a node at its unknowns `u`, with their gradients and the forces of a unit of each stress.
+#[derive(Debug, Default)]
+pub struct Linear {
+    u: Vec<f64>,
+    y: [f64; COUNT],
+    gradients: Vec<f64>,
+    forces: Vec<f64>,
+}
+
+impl Linear {
+    fn keep(&mut self, u: &[f64], y: [f64; COUNT], stretch: f64, sums: &NodeSums) {
+        self.y = y;
+        let kept = [&mut self.u, &mut self.gradients, &mut self.forces];
+        for (kept, new) in kept.into_iter().zip([u, &sums.gradients, &sums.forces]) {
+            kept.clear();
+            kept.extend_from_slice(new);
+        }
+        self.forces.iter_mut().for_each(|force| *force *= stretch);
+    }
+
+    fn tell(&self, coordinates: usize, out: &mut Kinks) {
+        let n = self.u.len();
+        for (c, &y) in self.y.iter().enumerate().take(coordinates) {
+            let range = c * n..(c + 1) * n;
+            out.coordinate(y, self.gradients[range.clone()].iter().copied(), self.forces[range].iter().copied());
+        }
+    }
 }
 
 /// Both sides of a contact at given unknowns.
@@ -268,7 +301,8 @@ impl FieldAttempt<'_> {
             let (own, other) = (&self.contact.surface.faces[patch.face], target.placed(patch.target));
             let own = &now.placed[patch.face].nodes()[..own.corners()];
             let other = &other.nodes()[..target.corners(patch.target)];
-            spread(own, other, |place: Spread<f64>| places.push(place.xi));
+            let degree = self.contact.overlap_degree(patch);
+            spread(degree, own, other, |place: Spread<f64>| places.push(place.xi));
         } else {
             let [from, to] = patch.near;
             let place = |&(eta, _): &(f64, f64)| [0.5 * (from + to) + 0.5 * (to - from) * eta, 0.0];
@@ -314,8 +348,8 @@ impl FieldAttempt<'_> {
         let face = self.before.face(patch.face);
         let at = face.at(xi);
         match (&self.before.target, &self.contact.target) {
-            (TargetInPlace::Tool(before), FieldTarget::Tool(rigid)) => {
-                let (foot, now) = (before.closest(patch.target, at.x), rigid.in_place(stencil.motion()));
+            (TargetInPlace::Tool(before), FieldTarget::Tool(_)) => {
+                let (foot, now) = (before.closest(patch.target, at.x), stencil.tool.as_ref()?);
                 let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
                 let slopes = at.tangents.map(slope);
                 Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None })
@@ -371,7 +405,7 @@ impl FieldAttempt<'_> {
     }
 
     fn stencil<'s>(&'s self, support: &'s Support, u: &'s [f64]) -> StencilInPlace<'s> {
-        StencilInPlace { contact: self.contact, support, u }
+        StencilInPlace::new(self.contact, support, u)
     }
 
     /// The sums of a node; None where it sees nothing.
@@ -397,7 +431,7 @@ impl FieldAttempt<'_> {
         let (contact, old) = (self.contact, self.history.slot(slot));
         new.fill(0.0);
         new[entry::SEGMENT] = -1.0;
-        if self.sum(stencil, local.wants_tangent, sums).is_none() {
+        if self.sum(stencil, false, sums).is_none() {
             if stencil.support.through && old[entry::PRESSURE] != 0.0 {
                 return Err(Failure::new(format!("the target came through at {}", contact.describe(slot))));
             }
@@ -424,6 +458,9 @@ impl FieldAttempt<'_> {
         let entered = Past { penetration: past.penetration.max(touch), ..past };
         let response = law.respond([penetration, slip[0], slip[1]], &entered, &mut new[entry::COUNT..])?;
         write(&response, slip, old, new);
+        if local.wants_tangent {
+            self.sum(stencil, true, sums);
+        }
         stencil.find_forces(sums);
         let n = local.force.len();
         let t = response.stress;
@@ -439,6 +476,8 @@ impl FieldAttempt<'_> {
             stencil.add_geometric(acting, stretch, sums, &mut local.tangent);
             let slopes = self.stretch_slopes((slot, stretch), y)?;
             add_stretching(&slopes, &stretching, sums, &mut local.tangent);
+            let y = [seen, sums.y[1], sums.y[2]];
+            self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.u, y, stretch, sums);
         }
         let carried =
             Carried { pressure: t[0], shear: [t[1], t[2]], slip, slipped: response.slipped, closure: response.closure };
@@ -556,6 +595,7 @@ impl Attempt for FieldAttempt<'_> {
 
     fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
         let supports = self.list(u, out);
+        self.linear.iter().for_each(|linear| linear.lock().unwrap_or_else(PoisonError::into_inner).u.clear());
         *self.found.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(supports);
         Ok(())
     }
@@ -572,18 +612,20 @@ impl Attempt for FieldAttempt<'_> {
     fn kink(&self, index: usize, _: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
         let supports = self.supports();
         let stencil = self.stencil(&supports[index], u);
+        let mut linear = self.linear[index].lock().unwrap_or_else(PoisonError::into_inner);
+        if linear.u == u {
+            linear.tell(self.contact.coordinates(), out);
+            return Ok(());
+        }
         SUMS.with_borrow_mut(|sums| {
-            if self.sum(&stencil, true, sums).is_none() {
+            if self.sum(&stencil, false, sums).is_none() || sums.y[0] < -self.far {
                 return;
             }
+            self.sum(&stencil, true, sums);
             stencil.find_forces(sums);
-            let (n, stretch) = (u.len(), stencil.stretch().0);
             let y = [sums.y[0] + self.closure(index), sums.y[1], sums.y[2]];
-            for (c, y) in y.into_iter().enumerate().take(self.contact.coordinates()) {
-                let range = c * n..(c + 1) * n;
-                let forces = sums.forces[range.clone()].iter().map(|force| force * stretch);
-                out.coordinate(y, sums.gradients[range].iter().copied(), forces);
-            }
+            linear.keep(u, y, stencil.stretch().0, sums);
+            linear.tell(self.contact.coordinates(), out);
         });
         Ok(())
     }

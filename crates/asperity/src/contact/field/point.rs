@@ -115,6 +115,8 @@ pub struct PatchInPlace<'a> {
     pub interval: [f64; 2],
     /// What the tangents of its node follow, in space.
     pub line: Option<Line>,
+    /// Degree of the rule on an overlap, in space.
+    pub degree: usize,
 }
 
 /// Ends of an interval and their derivatives along one unknown.

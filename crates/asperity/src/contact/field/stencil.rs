@@ -10,6 +10,7 @@ use super::point::{Column, PatchInPlace, Point, Rates, Sight, Touched};
 use super::space::Line;
 use super::surface::{NodalNormal, Surface};
 use super::term::{FieldContact, FieldTarget};
+use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
 use std::ops::Range;
 
@@ -73,12 +74,21 @@ pub struct StencilInPlace<'a> {
     pub support: &'a Support,
     /// Values of its unknowns: those of its nodes, then those of the tool.
     pub u: &'a [f64],
+    /// The tool where these put it.
+    pub tool: Option<ToolInPlace<'a>>,
 }
 
 /// What a place of the surface saw at the accepted state.
 pub type Recall<'a> = &'a dyn Fn(&Patch, [f64; 2]) -> Option<Touched>;
 
 impl<'a> StencilInPlace<'a> {
+    /// Of a contact.
+    pub fn new(contact: &'a FieldContact, support: &'a Support, u: &'a [f64]) -> Self {
+        let motion = support.nodes.len() * contact.dofs.per_node();
+        let tool = contact.target.as_tool().filter(|_| motion < u.len()).map(|rigid| rigid.in_place(&u[motion..]));
+        Self { contact, support, u, tool }
+    }
+
     fn axes(&self) -> usize {
         self.contact.dofs.per_node()
     }
@@ -114,11 +124,11 @@ impl<'a> StencilInPlace<'a> {
         }
         let face = FaceInPlace { face, placed: self.placed(face), normals: units, plane: surface.plane };
         let (tool, seen) = match &self.contact.target {
-            FieldTarget::Tool(rigid) => (Some(rigid.in_place(self.motion())), None),
+            FieldTarget::Tool(_) => (self.tool, None),
             FieldTarget::Faces(faces) => (None, Some((faces, self.placed(&faces.surface.faces[patch.target])))),
         };
-        let line = self.line();
-        let mut patch = PatchInPlace { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], line };
+        let (line, degree) = (self.line(), self.contact.overlap_degree(patch));
+        let mut patch = PatchInPlace { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], line, degree };
         if surface.plane {
             patch.find_interval();
         }
@@ -306,12 +316,10 @@ impl<'a> StencilInPlace<'a> {
             }
         };
         push(&self.contact.surface.faces[patch.face].nodes, &point.shape.n, -1.0);
-        match (&point.sight, &self.contact.target) {
-            (Sight::Face(hit), FieldTarget::Faces(faces)) => {
-                push(&faces.surface.faces[patch.target].nodes, &hit.shape.n, 1.0);
-            }
-            (Sight::Tool(_), FieldTarget::Tool(rigid)) => {
-                let received = rigid.in_place(self.motion()).receive(point.y, f);
+        match (&point.sight, &self.tool) {
+            (Sight::Face(hit), None) => push(self.seen_nodes(patch.target), &hit.shape.n, 1.0),
+            (Sight::Tool(_), Some(tool)) => {
+                let received = tool.receive(point.y, f);
                 let first = self.support.nodes.len() * axes;
                 rows[first..].iter_mut().zip(received).for_each(|(row, f)| *row += f);
             }
@@ -323,6 +331,9 @@ impl<'a> StencilInPlace<'a> {
     pub fn add_geometric(&self, t: [f64; COUNT], factor: f64, sums: &NodeSums, tangent: &mut [f64]) {
         let (n, axes) = (self.u.len(), self.axes());
         let NodeSums { points, rates, starts, .. } = sums;
+        let first = self.support.nodes.len() * axes;
+        let spin_rates: Vec<_> =
+            self.tool.iter().flat_map(|tool| (first..n).map(|j| tool.spin_rates(j - first))).collect();
         for (point, range) in points.iter().zip(ranges(starts, rates.len())) {
             let patch = &self.support.patches[point.patch].0;
             let traction = (point.e[0] * t[1] + point.e[1] * t[2] - point.n * t[0]) * factor;
@@ -342,12 +353,10 @@ impl<'a> StencilInPlace<'a> {
                     }
                 };
                 push(&own, &point.shape, rate.xi, -1.0);
-                match (&point.sight, &self.contact.target) {
-                    (Sight::Face(hit), FieldTarget::Faces(_)) => push(&seen, &hit.shape, rate.s, 1.0),
-                    (Sight::Tool(_), FieldTarget::Tool(rigid)) => {
-                        let tool = rigid.in_place(self.motion());
-                        let first = self.support.nodes.len() * axes;
-                        let along = j.checked_sub(first);
+                match (&point.sight, &self.tool) {
+                    (Sight::Face(hit), None) => push(&seen, &hit.shape, rate.s, 1.0),
+                    (Sight::Tool(_), Some(tool)) => {
+                        let along = j.checked_sub(first).map(|along| (along, &spin_rates[along]));
                         let f = traction * point.weight;
                         let df = traction * rate.weight + turned * point.weight;
                         let received = tool.receive_rate((point.y, f), (rate.y, df), along);

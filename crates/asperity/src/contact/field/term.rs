@@ -1,6 +1,7 @@
 //! The field as a term of equilibrium: one stencil for each node of the field and each smooth piece of the target.
 
 use super::attempt::{Configuration, FieldAttempt};
+use super::cover::Patch;
 use super::faces::{Faces, Ray};
 use super::stencil::{NodeSums, StencilInPlace, Support};
 use super::surface::Surface;
@@ -16,7 +17,7 @@ use crate::tensor::Vec3;
 use crate::tool::{self, Tool};
 use crate::{Error, Failure};
 use std::collections::BTreeMap;
-use std::sync::{Arc, RwLock};
+use std::sync::{Arc, Mutex, RwLock};
 
 /// What the field may touch.
 #[derive(Debug)]
@@ -198,6 +199,11 @@ impl FieldContact {
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
     }
+    /// Degree of the rule on overlaps: functions of second degree on both sides are products of those of their corners.
+    pub(super) fn overlap_degree(&self, patch: &Patch) -> usize {
+        let own = self.surface.faces[patch.face].kind.degree;
+        own.max(self.target.as_faces().map_or(1, |faces| faces.surface.faces[patch.target].kind.degree))
+    }
     /// Size of the faces at the node of a slot, a length.
     pub(super) fn size_at(&self, slot: usize) -> f64 {
         self.sizes[slot / self.pieces]
@@ -247,7 +253,7 @@ impl FieldContact {
         let mut sums = NodeSums::default();
         for (slot, support) in self.supports(u, reach).iter().enumerate().filter(|(_, s)| !s.patches.is_empty()) {
             let values = self.values(support, u);
-            let stencil = StencilInPlace { contact: self, support, u: &values };
+            let stencil = StencilInPlace::new(self, support, &values);
             if stencil.sum(&|_, _| None, false, &mut sums).is_some() {
                 take(slot, &stencil, &sums);
             }
@@ -266,8 +272,9 @@ impl FieldContact {
             (values[entry::STATUS] > 0.0).then(|| sliding * values[entry::HALF] / (part * self.size_at(slot)))
         };
         let closed: Vec<f64> = (0..self.slots()).filter_map(stiffness).filter(|found| *found > 0.0).collect();
-        let mean = if closed.is_empty() { FIRST * most } else { closed.iter().sum::<f64>() / closed.len() as f64 };
-        (0..self.slots()).map(|slot| stiffness(slot).unwrap_or(0.0).max(mean).min(most)).collect()
+        let mean = if closed.is_empty() { 0.0 } else { closed.iter().sum::<f64>() / closed.len() as f64 };
+        let least = mean.max(SOFTEST * most);
+        (0..self.slots()).map(|slot| stiffness(slot).unwrap_or(0.0).max(least).min(most)).collect()
     }
 
     fn reach(&self, last_change: &[f64]) -> f64 {
@@ -414,8 +421,9 @@ impl FieldContact {
     }
 }
 
-/// Part of the largest tangential penalty before the contact has borne pressure.
-const FIRST: f64 = 0.01;
+/// Least tangential penalty over the largest, which is many times the stiffness of the cells behind: what slips elastically stays
+/// small against what those shear, also in a metal, whose friction is small against its modulus.
+const SOFTEST: f64 = 0.05;
 /// Gaps up to this multiple of what the facets of both sides stand off a smooth surface are theirs, where bodies fit.
 const FITS: f64 = 2.0;
 
@@ -486,6 +494,8 @@ impl Term for FieldContact {
             tangential: self.tangential_penalties(history),
             dt: at.dt,
             found: RwLock::default(),
+            linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
+            far: reach(self.longest, &accepted.last_change),
         }))
     }
 

@@ -2,7 +2,7 @@
 
 use super::surface::unit;
 use crate::system::Dofs;
-use crate::tensor::{Dual, Vec3};
+use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
 use crate::tool::{Pose, SmoothPiece, Tool};
 use std::ops::Range;
@@ -39,7 +39,7 @@ pub struct ToolInPlace<'a> {
 #[derive(Debug, Clone, Copy)]
 enum Stand {
     Plane(Pose),
-    Space(space::Pose),
+    Space(space::Stance),
 }
 
 /// The point of a tool that is closest to a point of the surface.
@@ -115,7 +115,9 @@ impl RigidTool {
     pub fn in_place(&self, motion: &[f64]) -> ToolInPlace<'_> {
         let stand = match &self.shape {
             RigidShape::Plane(..) => Stand::Plane(Pose::new(motion[0], motion[1], motion[2])),
-            RigidShape::Space(..) => Stand::Space(space::Pose::new(std::array::from_fn(|i| motion[i]))),
+            RigidShape::Space(..) => {
+                Stand::Space(space::Stance::new(space::Pose::new(std::array::from_fn(|i| motion[i]))))
+            }
         };
         ToolInPlace { rigid: self, stand }
     }
@@ -203,19 +205,16 @@ impl ToolInPlace<'_> {
         let mut spins = [Vec3::zero(); MOST];
         match &self.stand {
             Stand::Plane(_) => spins[2] = unit(2),
-            Stand::Space(pose) => (0..3).for_each(|i| spins[3 + i] = pose.spin(unit(i))),
+            Stand::Space(pose) => spins[3..].copy_from_slice(&pose.spins()),
         }
         spins
     }
     /// Derivatives of [`spins`](Self::spins) along the unknown `along`.
-    fn spin_rates(&self, along: usize) -> [Vec3; MOST] {
+    pub fn spin_rates(&self, along: usize) -> [Vec3; MOST] {
         let mut rates = [Vec3::zero(); MOST];
-        let (Stand::Space(pose), Some(axis)) = (&self.stand, along.checked_sub(3)) else { return rates };
-        let rotation = Vec3(std::array::from_fn(|i| {
-            if i == axis { Dual::<1>::variable(pose.rotation[i], 0) } else { Dual::from(pose.rotation[i]) }
-        }));
-        let turned = space::Pose { translation: Vec3::zero(), rotation };
-        (0..3).for_each(|i| rates[3 + i] = Vec3(turned.spin(unit(i).lift()).0.map(|spin| spin.du[0])));
+        if let (Stand::Space(pose), Some(axis)) = (&self.stand, along.checked_sub(3)) {
+            rates[3..].copy_from_slice(&pose.spin_rates(axis));
+        }
         rates
     }
     /// Number of its translations.
@@ -226,12 +225,19 @@ impl ToolInPlace<'_> {
     pub fn receive(&self, y: Vec3, f: Vec3) -> [f64; MOST] {
         self.rates(y).map(|rate| rate.dot(f))
     }
-    /// Derivative of [`receive`](Self::receive) along its unknown `along` (none for a node) where `y` moves by `dy` and `f` by `df`.
-    pub fn receive_rate(&self, (y, f): (Vec3, Vec3), (dy, df): (Vec3, Vec3), along: Option<usize>) -> [f64; MOST] {
+    /// Derivative of [`receive`](Self::receive) along its unknown `along`, with the [`spin_rates`](Self::spin_rates) along that,
+    /// (none for a node) where `y` moves by `dy` and `f` by `df`.
+    pub fn receive_rate(
+        &self,
+        (y, f): (Vec3, Vec3),
+        (dy, df): (Vec3, Vec3),
+        along: Option<(usize, &[Vec3; MOST])>,
+    ) -> [f64; MOST] {
         let mut rates = self.receive(y, df);
         // The arm grows with the place and shortens as the reference point moves; a turning tool has other axes.
-        let arm = dy - along.filter(|&j| j < self.translations()).map_or(Vec3::zero(), unit);
-        let turned = along.map_or([Vec3::zero(); MOST], |along| self.spin_rates(along));
+        let arm = dy - along.filter(|&(j, _)| j < self.translations()).map_or(Vec3::zero(), |(j, _)| unit(j));
+        let still = [Vec3::zero(); MOST];
+        let turned = along.map_or(&still, |(_, turned)| turned);
         let whole = y - self.reference();
         for (rate, (spin, turned)) in rates.iter_mut().zip(self.spins().iter().zip(turned)) {
             *rate += spin.cross(arm).dot(f) + turned.cross(whole).dot(f);

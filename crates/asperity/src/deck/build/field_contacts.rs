@@ -7,7 +7,7 @@ use crate::contact::{Backing, ContactForm, Normals};
 use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
 use crate::deck::source::Place;
-use crate::mesh::{Mesh, Side, Space};
+use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
 use crate::tool::{self, Tool};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ impl Builder<'_> {
     pub(super) fn is_field(&self, keys: &keys::Contact) -> bool {
         match keys.form {
             Some(form) => form.value == ContactForm::Field,
-            None => self.site.space != Space::Solid && said_of_points(keys).is_empty(),
+            None => said_of_points(keys).is_empty(),
         }
     }
 
@@ -78,9 +78,20 @@ impl Builder<'_> {
                 FieldTarget::faces(whole(if swapped { surface } else { others }), &mesh)
             }
         };
+        let carrier = carrier(sides);
+        let pieces = target.as_tool().map_or(1, |rigid| rigid.pieces());
+        if carrier.nodes.len().saturating_mul(pieces) > MOST {
+            let what = format!(
+                "{} nodes of the surface against {pieces} smooth pieces of the target are too many for a field; form = \"paper\", \
+                 or a tool whose facets meet at smaller angles",
+                carrier.nodes.len()
+            );
+            self.refuse(what, keys.law.place);
+            return None;
+        }
         Some(FieldContact::new(FieldParts {
             name: name.text.clone(),
-            surface: carrier(sides),
+            surface: carrier,
             boundary: boundary_behind(&mesh, sides, &self.deck.body),
             target,
             itself,
@@ -119,6 +130,8 @@ fn said_of_points(keys: &keys::Contact) -> Vec<(&'static str, Place)> {
     said.into_iter().flatten().collect()
 }
 
+/// Most pairs of a node of the field and a smooth piece of its target; each has a history.
+const MOST: usize = 1_000_000;
 /// Sides whose faces differ in size by less than this factor are alike.
 const ALIKE: f64 = 1.2;
 /// Facets that stand off a smooth surface by more than this part of their size are those of a curve.

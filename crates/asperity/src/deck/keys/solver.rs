@@ -26,7 +26,7 @@ table! {
         /// equilibrium beyond; in models with contact.
         relax: bool = flag().or("true"),
         /// What becomes of what nothing holds any more, as of a body that has lost its contact.
-        if_free: IfFree = word().or("\"stop\""),
+        if_free: IfFree = word().or("\"hold\""),
     }
 }
 

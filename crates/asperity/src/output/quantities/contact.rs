@@ -283,6 +283,13 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
         let (left, scale) = couple(seen, None);
         frame.certify(seen.reading("moment_imbalance", left).over(scale));
     }
+    if seen.contact.law().sliding_stress(0.0).is_some() {
+        let work = |record: &PointRecord| 0.5 * record.pressure * record.penetration.max(0.0) * record.area;
+        let bodies = source.parts.bodies.iter().filter_map(|(term, _)| source.state.energies.get(*term));
+        let taken = bodies.map(|energies| energies.stored + energies.dissipated).sum::<f64>();
+        let work = seen.contact.share() * seen.closed().map(work).sum::<f64>();
+        frame.certify(seen.reading("penalty_energy", work).over(taken));
+    }
     frame.certify(seen.reading("closed_points", seen.closed().count() as f64));
     if let Some(least) = seen.closed().map(|record| record.last_dissipated * record.area).reduce(f64::min) {
         frame.certify(seen.reading("least_dissipation", least));

@@ -3,6 +3,7 @@
 use crate::contact::field::FieldContact;
 use crate::contact::{Contact, ContactOptions, PointRecord, Sample, space};
 use crate::declare::Variable;
+use crate::interface::Interface;
 use crate::system::{History, Term};
 use crate::tensor::Vec3;
 
@@ -80,6 +81,14 @@ impl Touching<'_> {
             Self::Plane(contact) => contact.loads_itself(),
             Self::Solid(contact) => contact.loads_itself(),
             Self::Field(_) => false,
+        }
+    }
+    /// The law of its interface.
+    pub fn law(&self) -> &dyn Interface {
+        match self {
+            Self::Plane(contact) => contact.law(),
+            Self::Solid(contact) => contact.law(),
+            Self::Field(contact) => contact.law(),
         }
     }
     /// Part of the interface's energy that is counted here.

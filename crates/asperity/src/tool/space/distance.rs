@@ -8,6 +8,7 @@ use super::nearest::{FacetBorder, FacetPoint};
 use super::tool::Tool;
 use crate::tensor::Vec3;
 use crate::tool::distance::CREASE;
+use crate::tool::Tree;
 use crate::tool::shapes::Bounds;
 
 /// Points of two facets are the same within this part of the tool's size.
@@ -16,17 +17,18 @@ const TOGETHER: f64 = 1e-7;
 const INWARD: f64 = 0.1;
 
 /// The smooth pieces of a tool in space.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct SmoothPieces {
     /// The piece of each facet.
     labels: Vec<usize>,
-    count: usize,
+    /// The facets of each piece, with a tree over them.
+    pieces: Vec<(Vec<usize>, Tree)>,
 }
 
 impl SmoothPieces {
     /// How many there are.
     pub fn count(&self) -> usize {
-        self.count
+        self.pieces.len()
     }
 }
 
@@ -77,13 +79,21 @@ impl Tool {
             }
         }
         let roots: Vec<usize> = (0..sets.len()).map(|i| root(&sets, i)).collect();
-        let mut labels = vec![0; roots.len()];
-        let mut count = 0;
+        let (mut labels, mut pieces): (Vec<usize>, Vec<Vec<usize>>) = (vec![0; roots.len()], Vec::new());
         for i in 0..roots.len() {
-            labels[i] = if roots[i] == i { count } else { labels[roots[i]] };
-            count += usize::from(roots[i] == i);
+            if roots[i] == i {
+                labels[i] = pieces.len();
+                pieces.push(vec![i]);
+            } else {
+                labels[i] = labels[roots[i]];
+                pieces[labels[i]].push(i);
+            }
         }
-        SmoothPieces { labels, count }
+        let tree = |facets: Vec<usize>| {
+            let boxes: Vec<Bounds> = facets.iter().map(|&facet| self.facets()[facet].bounds()).collect();
+            (facets, Tree::new(&boxes, TOGETHER * self.size()))
+        };
+        SmoothPieces { labels, pieces: pieces.into_iter().map(tree).collect() }
     }
 
     /// Facets whose boxes come within `reach` of a point, ascending.
@@ -96,18 +106,18 @@ impl Tool {
 
     /// The closest points of the facets of a piece that may be the closest of all.
     fn candidates(&self, (pieces, piece): (&SmoothPieces, usize), x: Vec3) -> Vec<FacetPoint> {
-        let bounds = self.bounds();
-        let off = Vec3(std::array::from_fn(|i| (bounds.min[i] - x[i]).max(x[i] - bounds.max[i]).max(0.0)));
-        let mut reach = off.norm() + 0.02 * self.size();
-        loop {
-            let own = self.around(x, reach).into_iter().filter(|&facet| pieces.labels[facet] == piece);
-            let found: Vec<FacetPoint> = own.map(|facet| self.facets()[facet].nearest(x)).collect();
-            let least = found.iter().map(|found| (found.point - x).norm()).fold(f64::INFINITY, f64::min);
-            if least <= reach || reach > 4.0 * (off.norm() + self.size()) {
-                return found;
-            }
-            reach = if least.is_finite() { least } else { 4.0 * reach };
-        }
+        let (facets, tree) = &pieces.pieces[piece];
+        let mut all: Vec<(usize, FacetPoint, f64)> = Vec::new();
+        let least = tree.closest(x, &mut |number| {
+            let found = self.facets()[facets[number]].nearest(x);
+            let distance = (found.point - x).norm();
+            all.push((number, found, distance));
+            distance
+        });
+        // What shares an edge with the closest is as close.
+        all.retain(|(_, _, distance)| *distance <= least + TOGETHER * self.size());
+        all.sort_unstable_by_key(|(number, _, _)| *number);
+        all.into_iter().map(|(_, found, _)| found).collect()
     }
 
     /// The point of a piece closest to `x`, in the tool's own frame; `x` itself, beyond the piece, if it has no facet.

@@ -23,6 +23,6 @@ pub use distance::{NearestPoint, SmoothPieces};
 pub use facet::{Facet, Meeting};
 pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
 pub use polygons::{Quad, Triangle};
-pub use pose::Pose;
+pub use pose::{Pose, Stance};
 pub use swept::Frame;
 pub use tool::{Hit, Tiles, Tool};

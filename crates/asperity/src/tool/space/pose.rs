@@ -8,7 +8,7 @@
 //! `T = I + b [w] + c [w]^2`, `c = (t - sin t) / t^3`. At a whole turn, and there only, `T` has no inverse: a tool that
 //! is *free* to turn about two or three axes must stay below it; about one axis it need not.
 
-use crate::tensor::{Scalar, Vec3};
+use crate::tensor::{Dual, Scalar, Vec3};
 
 /// Translation and rotation, as the unknowns of the tool's reference node give them.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -61,7 +61,6 @@ impl Pose {
     /// Derivatives of the position of a material point, now at `placed`, with respect to the six unknowns.
     pub fn rates(&self, reference: Vec3, placed: Vec3) -> [Vec3; 6] {
         let arm = placed - (reference + self.translation);
-        let axis = |i: usize| Vec3(std::array::from_fn(|k| f64::from(u8::from(k == i))));
         std::array::from_fn(|i| if i < 3 { axis(i) } else { self.spin(axis(i - 3)).cross(arm) })
     }
     /// The moment whose work is that of the forces `q` on the three unknowns of the rotation; not finite at a whole
@@ -85,8 +84,73 @@ impl Pose {
 /// `(R - I) v`.
 fn change<T: Scalar>(w: Vec3<T>, v: Vec3<T>) -> Vec3<T> {
     let t2 = w.dot(w);
+    change_by((w, sine(t2), versine(t2)), v)
+}
+
+/// The same of a rotation vector `w` with `sin t / t` and `(1 - cos t) / t^2`.
+fn change_by<T: Scalar>((w, a, b): (Vec3<T>, T, T), v: Vec3<T>) -> Vec3<T> {
     let once = w.cross(v);
-    once * sine(t2) + w.cross(once) * versine(t2)
+    once * a + w.cross(once) * b
+}
+
+/// A pose with all that is the same for each of its points.
+#[derive(Debug, Clone, Copy)]
+pub struct Stance {
+    pose: Pose,
+    sine: f64,
+    versine: f64,
+    spins: [Vec3; 3],
+}
+
+impl Stance {
+    /// Of a pose.
+    pub fn new(pose: Pose) -> Self {
+        let t2 = pose.rotation.dot(pose.rotation);
+        let spins = [0, 1, 2].map(|i| pose.spin(axis(i)));
+        Self { pose, sine: sine(t2), versine: versine(t2), spins }
+    }
+    fn change(&self, w: Vec3, v: Vec3) -> Vec3 {
+        change_by((w, self.sine, self.versine), v)
+    }
+    /// As [`Pose::place`].
+    pub fn place(&self, reference: Vec3, point: Vec3) -> Vec3 {
+        point + self.pose.translation + self.change(self.pose.rotation, point - reference)
+    }
+    /// As [`Pose::withdraw`].
+    pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
+        let back = placed - self.pose.translation;
+        back + self.change(-self.pose.rotation, back - reference)
+    }
+    /// As [`Pose::rotate`].
+    pub fn rotate(&self, v: Vec3) -> Vec3 {
+        v + self.change(self.pose.rotation, v)
+    }
+    /// As [`Pose::rotate_back`].
+    pub fn rotate_back(&self, v: Vec3) -> Vec3 {
+        v + self.change(-self.pose.rotation, v)
+    }
+    /// As [`Pose::rates`].
+    pub fn rates(&self, reference: Vec3, placed: Vec3) -> [Vec3; 6] {
+        let arm = placed - (reference + self.pose.translation);
+        std::array::from_fn(|i| if i < 3 { axis(i) } else { self.spins[i - 3].cross(arm) })
+    }
+    /// As [`Pose::spin`] along each axis.
+    pub fn spins(&self) -> [Vec3; 3] {
+        self.spins
+    }
+    /// Derivatives of [`spins`](Self::spins) along the component `along` of the rotation vector.
+    pub fn spin_rates(&self, along: usize) -> [Vec3; 3] {
+        let w = self.pose.rotation;
+        let rotation =
+            Vec3(std::array::from_fn(|i| if i == along { Dual::<1>::variable(w[i], 0) } else { Dual::from(w[i]) }));
+        let turned = Pose { translation: Vec3::zero(), rotation };
+        [0, 1, 2].map(|i| Vec3(turned.spin(axis(i).lift()).0.map(|spin| spin.du[0])))
+    }
+}
+
+/// The unit vector along an axis.
+fn axis(i: usize) -> Vec3 {
+    Vec3(std::array::from_fn(|k| f64::from(u8::from(k == i))))
 }
 
 /// Below this square of the angle the functions are summed as series, whose next terms are beyond rounding.
@@ -131,7 +195,6 @@ fn third<T: Scalar>(t2: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tensor::Dual;
     use std::f64::consts::PI;
 
     const REFERENCE: Vec3 = Vec3([3.0, -2.0, 0.4]);

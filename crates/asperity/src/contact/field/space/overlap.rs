@@ -123,13 +123,14 @@ fn common<T: Scalar>(flat: &Flat<T>, other: &[Vec3<T>]) -> Option<Polygon<T>> {
     (part.moments().area.re() > LEAST * whole).then_some(part)
 }
 
-/// Calls `take` with the places of a rule on the part of face `own` that sees face `other`, given by their corners.
-pub fn spread<T: Scalar>(own: &[Vec3<T>], other: &[Vec3<T>], mut take: impl FnMut(Spread<T>)) {
+/// Calls `take` with the places of a rule on the part of face `own` that sees face `other`, given by their corners; the
+/// rule is that of an interval with one more point than the `degree` of both faces.
+pub fn spread<T: Scalar>(degree: usize, own: &[Vec3<T>], other: &[Vec3<T>], mut take: impl FnMut(Spread<T>)) {
     let flat = Flat::new(own);
     let Some(part) = common(&flat, other) else { return };
     let laid = Laid::new(own.len(), &part);
     let share = laid.scale() * laid.scale();
-    for place in whole(own.len()) {
+    for place in rule(degree, own.len()) {
         let (xi, density) = flat.pull_back(laid.place(place.xi));
         take(Spread { xi, weight: share * density * place.weight });
     }
@@ -165,8 +166,12 @@ impl Part {
 
 /// Reference coordinates and areas of the places of a rule on a whole face with so many corners.
 pub fn whole(corners: usize) -> impl Iterator<Item = Spread<f64>> {
+    rule(2, corners)
+}
+
+fn rule(degree: usize, corners: usize) -> impl Iterator<Item = Spread<f64>> {
     let cell = if corners == 3 { &TRI3 } else { &QUAD4 };
-    let rule = cell.gauss[2].into_iter();
+    let rule = cell.gauss[degree.clamp(1, 2)].into_iter();
     rule.flat_map(|rule| {
         rule.points.iter().zip(rule.weights).map(|(&[a, b, _], &weight)| Spread { xi: [a, b], weight })
     })
@@ -191,7 +196,7 @@ mod tests {
         for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
             let other = [grid(i, j), grid(i, j + 1), grid(i + 1, j + 1), grid(i + 1, j)];
             let before = area;
-            spread(&quad(), &other, |place| {
+            spread(2, &quad(), &other, |place| {
                 area += place.weight;
                 (0..2).for_each(|k| moments[k] += place.weight * place.xi[k]);
             });
@@ -214,7 +219,7 @@ mod tests {
                 x.iter().enumerate().map(place).collect()
             };
             let mut exact = Vec::new();
-            spread(&lift(&quad()[..own], 0), &lift(&other[..seen], 12), |place| exact.push(place));
+            spread(2, &lift(&quad()[..own], 0), &lift(&other[..seen], 12), |place| exact.push(place));
             assert!(!exact.is_empty());
             for k in 0..DIRECTIONS {
                 let at = |h: f64| {
@@ -225,7 +230,7 @@ mod tests {
                         other_x[k / 3 - 4][k % 3] += h
                     }
                     let mut places = Vec::new();
-                    spread(&own_x[..own], &other_x[..seen], |place| places.push(place));
+                    spread(2, &own_x[..own], &other_x[..seen], |place| places.push(place));
                     places
                 };
                 let (up, down) = (at(1e-6), at(-1e-6));

@@ -44,9 +44,9 @@ impl PatchInPlace<'_> {
             return whole(own.len()).map(on).collect();
         };
         let other = &seen.nodes()[..faces.surface.faces[self.patch.target].corners()];
-        let mut spots = Vec::new();
+        let (mut spots, degree) = (Vec::new(), self.degree);
         if !derivatives {
-            spread(own, other, |Spread { xi, weight }| spots.push(Spot { xi, weight, laid: Laid::Whole }));
+            spread(degree, own, other, |Spread { xi, weight }| spots.push(Spot { xi, weight, laid: Laid::Whole }));
             return spots;
         }
         type D = Dual<DIRECTIONS>;
@@ -58,7 +58,7 @@ impl PatchInPlace<'_> {
             all
         };
         let (own_lifted, other_lifted) = (lift(own, 0), lift(other, DIRECTIONS / 2));
-        spread(&own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
+        spread(degree, &own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
             let laid = Laid::Overlap(Box::new([a.du, b.du, weight.du]));
             spots.push(Spot { xi: [a.re, b.re], weight: weight.re, laid });
         });

@@ -95,6 +95,15 @@ fn the_midpoint_rule_turns_the_stress_with_the_slip() {
     }
 }
 
+#[test]
+fn regularised_friction_keeps_its_shear() {
+    let law = law("oden_pires", &[0.3, 1e-4, 0.0]);
+    for increments in [1, 10, 100, 1000] {
+        let [shear, _] = slid(law.as_ref(), &[[0.01, 0.0], [0.0, 0.0]], increments, 1.0);
+        assert!((shear - 30.0).abs() < 1e-9, "{increments}: {shear}");
+    }
+}
+
 /// Friction that falls with the velocity: ever shorter increments are followed, to the friction of the velocity.
 #[test]
 fn falling_friction_is_followed_in_short_increments() {

@@ -66,8 +66,8 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     fn dissipation(&self, old: (&Tensor2, &Self::Vars<f64>), new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         self.law.dissipation(old, new)
     }
-    fn advice(&self) -> Option<&'static str> {
-        self.law.advice()
+    fn has_back_stress(&self) -> bool {
+        self.law.has_back_stress()
     }
     /// Integrated once, not twice.
     fn updated(&self, update: Update) -> Box<dyn Material> {

@@ -6,7 +6,7 @@ use crate::deck::reader::Reader;
 use crate::deck::source::Spot;
 use crate::declare::{Range, unit};
 use crate::integrate::{Scheme, Update};
-use crate::material::Material;
+use crate::material::{Material, Spin};
 
 table! {
     /// Sub-steps and scheme of a law.
@@ -43,6 +43,8 @@ words! {
         Jaumann = "jaumann",
         /// that of Green and Naghdi, with the spin of the polar rotation
         GreenNaghdi = "green-naghdi",
+        /// the one in which the rate of the logarithmic strain is the rate of deformation (Xiao, Bruhns and Meyers)
+        Logarithmic = "logarithmic",
     }
 }
 
@@ -65,18 +67,26 @@ impl UpdateKeys {
     }
 }
 
-/// A law as a body or a point wants it integrated; nothing where that is the law as it is.
+/// The rate where none is said.
+pub const DEFAULT_RATE: &str = "Jaumann's; the logarithmic one for a law with a back stress";
+
+/// A law as a body or a point wants it integrated, turned with the rate that is said; nothing where that is the law as it
+/// is.
 ///
 /// # Errors
 /// In words, where the stress of a law follows from the deformation alone.
 pub fn integrated(
     law: &dyn Material,
-    rate: ObjectiveRate,
+    rate: Option<ObjectiveRate>,
     update: Option<&UpdateKeys>,
 ) -> Result<Option<Box<dyn Material>>, String> {
     let updated = update.map(|keys| law.with_update(keys.update())).transpose()?;
-    match rate {
-        ObjectiveRate::Jaumann => Ok(updated),
-        ObjectiveRate::GreenNaghdi => updated.as_deref().unwrap_or(law).with_green_naghdi().map(Some),
-    }
+    let spin = match rate {
+        Some(ObjectiveRate::Jaumann) => None,
+        Some(ObjectiveRate::GreenNaghdi) => Some(Spin::Polar),
+        Some(ObjectiveRate::Logarithmic) => Some(Spin::Logarithmic),
+        None => law.has_back_stress().then_some(Spin::Logarithmic),
+    };
+    let Some(spin) = spin else { return Ok(updated) };
+    updated.as_deref().unwrap_or(law).with_spin(spin).map(Some)
 }

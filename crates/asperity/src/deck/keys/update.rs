@@ -12,13 +12,13 @@ table! {
     /// Sub-steps and scheme of a law.
     pub struct UpdateKeys check parameter {
         /// How one sub-step is taken.
-        scheme: SchemeWord = word().or("\"backward-euler\""),
+        scheme: Option<SchemeWord> = word().unless_given("backward-euler; two-step where a tolerance is given"),
         /// Parameter of the midpoint rule: order 2 at 0.5, backward Euler at 1.
         theta: Option<Spot<f64>> =
             number(unit::NONE, Range::from_to(0.5, 1.0)).spot().unless_given("0.5 for the midpoint scheme"),
         /// Number of equal sub-steps of an increment; the fewest where a tolerance is given.
         substeps: usize = whole(1..=10_000).or("1"),
-        /// Relative error of the stress that each sub-step must keep; sub-steps are halved until they do.
+        /// Relative error of the stress at the end of an increment; sub-steps are halved until theirs together keep it.
         tolerance: Option<f64> =
             number(unit::NONE, Range::from_to(1e-9, 0.1)).unless_given("as many sub-steps as said"),
     }
@@ -49,7 +49,7 @@ words! {
 }
 
 fn parameter(keys: &UpdateKeys, reader: &mut Reader) {
-    if let Some(theta) = keys.theta.filter(|_| keys.scheme != SchemeWord::Midpoint) {
+    if let Some(theta) = keys.theta.filter(|_| keys.scheme != Some(SchemeWord::Midpoint)) {
         let what = format!("`{}.theta` is the parameter of the midpoint scheme", reader.path());
         reader.report(Diagnostic::error(what).at(theta.place).help("say scheme = \"midpoint\", or remove it"));
     }
@@ -59,9 +59,11 @@ impl UpdateKeys {
     /// What the keys say.
     pub fn update(&self) -> Update {
         let scheme = match self.scheme {
-            SchemeWord::BackwardEuler => Scheme::BackwardEuler,
-            SchemeWord::Midpoint => Scheme::Midpoint(self.theta.map_or(0.5, |theta| theta.value)),
-            SchemeWord::TwoStep => Scheme::TwoStep,
+            Some(SchemeWord::BackwardEuler) => Scheme::BackwardEuler,
+            Some(SchemeWord::Midpoint) => Scheme::Midpoint(self.theta.map_or(0.5, |theta| theta.value)),
+            Some(SchemeWord::TwoStep) => Scheme::TwoStep,
+            None if self.tolerance.is_some() => Scheme::TwoStep,
+            None => Scheme::BackwardEuler,
         };
         Update { scheme, substeps: self.substeps, tolerance: self.tolerance }
     }

@@ -63,13 +63,14 @@ fn the_midpoint_rule_forgets_rest() {
 /// Turned back, the elastic path leads inside the limit: friction begins at its static value again.
 #[test]
 fn reversal_is_rest_in_increments_of_any_length() {
-    for scheme in [Scheme::BackwardEuler, Scheme::TwoStep] {
+    for scheme in [Scheme::BackwardEuler, Scheme::TwoStep, Scheme::Midpoint(0.5)] {
         let law = by("static_kinetic", &STATIC_KINETIC, scheme);
         for increments in [1, 2, 7, 1000] {
             let [before, _] = slid(law.as_ref(), &[[0.1, 0.0]], increments, 1.0);
             let [shear, _] = slid(law.as_ref(), &[[0.1, 0.0], [-0.02, 0.0]], increments, 1.0);
             let exact = -after(0.02 - (before - shear) / PENALTIES[1]);
-            let near = if scheme == Scheme::BackwardEuler { 1e-9 } else { 1e-1 };
+            // In an increment that turns back and slips again the others are of first order.
+            let near = if scheme == Scheme::BackwardEuler || increments >= 7 { 1e-6 } else { 0.12 };
             assert!((shear / exact - 1.0).abs() < near, "{scheme:?} {increments}: {shear} instead of {exact}");
         }
     }

@@ -83,14 +83,14 @@ fn tangents_of_nonlocal_friction_are_exact() {
             let Ok(results) = check(attempt.as_ref(), &trial) else { continue };
             for result in results.iter().filter(|result| result.smooth) {
                 met += usize::from(result.branch > 0);
-                // Where slip turns from unloading to loading the curvature jumps, some of it within the differences.
+                // Where an increment begins to load the curvature jumps, once within the differences.
                 let bent = result.error >= ALLOWED && result.error < 1e-2;
                 bends += usize::from(bent);
                 worst = if bent { worst } else { worst.max(result.error) };
             }
         }
         // Its own face, the tool, the three other faces.
-        let exact = worst < ALLOWED && 25 * bends < met;
+        let exact = worst < ALLOWED && bends <= 1;
         assert!(met > 80 && most == 4 * 3 * nodes + 6 && exact, "{cell}: {met} {most} {bends} {worst:.1e}");
     }
 }

@@ -6,7 +6,7 @@
 //! increments: loading, `t . d > 0`, follows `e t' = d - t (t . d)` over the slip `d`, unloading `e t' = d`, which is elastic.
 //! Along a straight slip, with the component `a` of `t` along it, `b` across it and `T = tanh(s / e)`, loading ends at
 //! `a = (a_0 + T) / (1 + a_0 T)`, `b = b_0 / cosh(s / e) / (1 + a_0 T)`; the increment is integrated by that. What loading
-//! dissipates is `mu p a |t|^2` for a unit of slip.
+//! dissipates is `mu p a |t|^2` for a unit of slip. A point that only unloads sticks, any other slips.
 //!
 //! Below `e` a point gives way elastically; `e` is to friction what the tangential penalty is to other laws.
 
@@ -118,7 +118,7 @@ impl InterfaceLaw for OdenPires {
         vars[LIMIT] = limit;
         if size.re() <= SMALL * self.length {
             let ratio: [T; 2] = std::array::from_fn(|i| [s, t][i] + motion.slip[i] / self.length);
-            return Ok(self.response([pressure, limit], ratio, [0.0; 2]));
+            return Ok(response([pressure, limit], ratio, Status::Stick, [0.0; 2]));
         }
         let [m, n] = motion.slip.map(|slip| slip / size);
         let start = Ratio { along: s * m + t * n, across: t * m - s * n };
@@ -127,7 +127,9 @@ impl InterfaceLaw for OdenPires {
         let lost = turned.dissipated(left.re(), &end) * self.length * limit.re();
         let elastic = self.length * (end.along.re() - start.along.re()).hypot(end.across.re() - start.across.re());
         let ratio = [end.along * m - end.across * n, end.along * n + end.across * m];
-        Ok(self.response([pressure, limit], ratio, [(size.re() - elastic).max(0.0), lost]))
+        // What only unloads is elastic; at no slip the two part.
+        let status = if left.re() > 0.0 { Status::Slip } else { Status::Stick };
+        Ok(response([pressure, limit], ratio, status, [(size.re() - elastic).max(0.0), lost]))
     }
 
     /// The increment is a closed form.
@@ -139,20 +141,14 @@ impl InterfaceLaw for OdenPires {
 /// Slip, as a ratio to the length, below which it has no direction: what is left out is its square.
 const SMALL: f64 = 1e-12;
 
-impl OdenPires {
-    fn response<T: Scalar>(&self, stress: [T; 2], ratio: [T; 2], [slipped, dissipated]: [f64; 2]) -> Response<T> {
-        let [pressure, limit] = stress;
-        let status = if ratio[0].re().hypot(ratio[1].re()) < f64::tanh(1.0) { Status::Stick } else { Status::Slip };
-        Response {
-            pressure,
-            shear: ratio.map(|t| t * limit),
-            status,
-            slipped,
-            closure: 0.0,
-            dissipated,
-            violation: 0.0,
-        }
-    }
+fn response<T: Scalar>(
+    [pressure, limit]: [T; 2],
+    ratio: [T; 2],
+    status: Status,
+    [slipped, dissipated]: [f64; 2],
+) -> Response<T> {
+    let shear = ratio.map(|t| t * limit);
+    Response { pressure, shear, status, slipped, closure: 0.0, dissipated, violation: 0.0 }
 }
 
 #[cfg(test)]

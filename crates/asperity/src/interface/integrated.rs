@@ -25,6 +25,16 @@ struct Point<T> {
     response: Response<T>,
 }
 
+impl<T: Scalar> Point<T> {
+    fn stress(&self) -> [f64; 3] {
+        [self.response.pressure.re(), self.response.shear[0].re(), self.response.shear[1].re()]
+    }
+}
+
+fn norm(stress: [f64; 3]) -> f64 {
+    stress.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
 impl<T: Scalar> Blend for Point<T> {
     fn blend(&self, other: &Self, weight: f64) -> Self {
         let mix = |a: T, b: T| a + (b - a) * weight;
@@ -44,11 +54,11 @@ impl<T: Scalar> Blend for Point<T> {
     }
 
     fn distance(&self, other: &Self) -> f64 {
-        let stress = |p: &Self| [p.response.pressure.re(), p.response.shear[0].re(), p.response.shear[1].re()];
-        let norm = |s: [f64; 3]| s.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let (a, b) = (stress(self), stress(other));
-        let size = norm(a).max(norm(b));
-        if size > 0.0 { norm(std::array::from_fn(|i| a[i] - b[i])) / size } else { 0.0 }
+        let (a, b) = (self.stress(), other.stress());
+        norm(std::array::from_fn(|i| a[i] - b[i]))
+    }
+    fn size(&self) -> f64 {
+        norm(self.stress())
     }
 }
 

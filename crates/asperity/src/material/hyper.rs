@@ -2,7 +2,7 @@
 //! history and is carried by `b = f b_n f^T`; nothing is integrated, and closed cycles give all energy back.
 
 use super::rate::INSIDE_OUT;
-use super::{Directions, Gradient, Material, Variable, VariableKind};
+use super::{Directions, Gradient, Material, Spin, Variable, VariableKind};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
@@ -81,7 +81,7 @@ impl<L: HyperLaw> Material for Hyper<L> {
         Err("the stress of a hyperelastic law follows from the deformation alone: there is nothing to sub-step".into())
     }
 
-    fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String> {
+    fn with_spin(&self, _: Spin) -> Result<Box<dyn Material>, String> {
         Err("the stress of a hyperelastic law follows from the deformation alone: no objective rate enters it".into())
     }
 

@@ -30,10 +30,12 @@ impl<T: Scalar, V: Vars<T>> Blend for Point<T, V> {
         Self { stress, vars: self.vars.blend(&other.vars, weight), scalar: PhantomData }
     }
     fn distance(&self, other: &Self) -> f64 {
-        let (a, b) = (self.stress.re(), other.stress.re());
-        let norm = |t: Tensor2| t.contract(t).sqrt();
-        let size = norm(a).max(norm(b));
-        if size > 0.0 { norm(a - b) / size } else { 0.0 }
+        let difference = self.stress.re() - other.stress.re();
+        difference.contract(difference).sqrt()
+    }
+    fn size(&self) -> f64 {
+        let stress = self.stress.re();
+        stress.contract(stress).sqrt()
     }
 }
 
@@ -66,8 +68,8 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     fn dissipation(&self, old: (&Tensor2, &Self::Vars<f64>), new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         self.law.dissipation(old, new)
     }
-    fn advice(&self) -> Option<&'static str> {
-        self.law.advice()
+    fn has_back_stress(&self) -> bool {
+        self.law.has_back_stress()
     }
     /// Integrated once, not twice.
     fn updated(&self, update: Update) -> Box<dyn Material> {

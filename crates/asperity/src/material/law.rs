@@ -1,5 +1,6 @@
 //! What a body asks of a law.
 
+use super::turned::Spin;
 use crate::Failure;
 use crate::declare::Variable;
 use crate::integrate::Update;
@@ -96,11 +97,15 @@ pub trait Material: Send + Sync {
     /// # Errors
     /// In words, where the stress of a law follows from the deformation alone and nothing is integrated.
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String>;
-    /// The same law in the frame of Green and Naghdi in place of Jaumann's.
+    /// The same law in a frame with this spin in place of Jaumann's.
     ///
     /// # Errors
     /// In words, where the stress of a law follows from the deformation alone and there is no frame to choose.
-    fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String>;
+    fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String>;
+    /// Whether the law has a back stress, which wants the logarithmic rate unless another is said.
+    fn has_back_stress(&self) -> bool {
+        false
+    }
     /// The same law in small strain, where `f` is `I` and the displacement gradient of the increment.
     ///
     /// # Errors

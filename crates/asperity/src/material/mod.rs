@@ -12,15 +12,17 @@ mod hyper;
 mod integrated;
 mod law;
 pub mod laws;
+mod logarithmic;
 mod rate;
 mod small;
+mod turned;
 mod vars;
 
 pub use crate::declare::{Variable, VariableKind};
 pub use frame::hughes_winget;
-pub use green_naghdi::GreenNaghdi;
 pub use hyper::{Hyper, HyperLaw, Slopes};
 pub use law::{Directions, Gradient, Material};
 pub use rate::{Rate, RateLaw};
 pub use small::SmallStrain;
+pub use turned::{Spin, Turned};
 pub use vars::{ScalarsAndTensor, ScalarsAndVector, Vars};

@@ -9,7 +9,7 @@
 use super::frame::{Frame, InPlane, InSpace, Turning};
 use super::integrated::Integrated;
 use super::law::{self, Differentiate};
-use super::{Directions, Gradient, GreenNaghdi, Material, SmallStrain, Variable, Vars};
+use super::{Directions, Gradient, Material, SmallStrain, Spin, Turned, Variable, Vars};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
@@ -49,9 +49,9 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     fn dissipation(&self, _old: (&Tensor2, &Self::Vars<f64>), _new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         0.0
     }
-    /// What a user should know of the law in Jaumann's frame, in words.
-    fn advice(&self) -> Option<&'static str> {
-        None
+    /// As [`Material::has_back_stress`].
+    fn has_back_stress(&self) -> bool {
+        false
     }
     /// The law as a material whose increments are integrated as said.
     fn updated(&self, update: Update) -> Box<dyn Material> {
@@ -65,6 +65,10 @@ pub struct Rate<L>(pub L);
 
 /// Part of a stress given beforehand by which the law may correct it.
 const BORNE: f64 = 1e-9;
+
+/// What is said of a back stress in Jaumann's frame.
+const SWINGS: &str = "a back stress turns with the spin of the solid in Jaumann's frame: in shear beyond about one half the \
+                      stress swings; without `rate` it turns with the logarithmic rate and does not";
 
 /// Why a deformation is refused.
 pub(super) const INSIDE_OUT: &str = "a cell is turned inside out";
@@ -159,8 +163,8 @@ impl<L: RateLaw> Material for Rate<L> {
         Ok(self.0.updated(update))
     }
 
-    fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String> {
-        Ok(Box::new(GreenNaghdi::new(self.0.clone())))
+    fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String> {
+        Ok(Box::new(Turned::new(self.0.clone(), spin)))
     }
 
     fn with_small_strain(&self) -> Result<Box<dyn Material>, String> {
@@ -185,8 +189,12 @@ impl<L: RateLaw> Material for Rate<L> {
         self.advance_along(f, dt, old, out, directions)
     }
 
+    fn has_back_stress(&self) -> bool {
+        self.0.has_back_stress()
+    }
+
     fn advice(&self) -> Option<&'static str> {
-        self.0.advice()
+        self.0.has_back_stress().then_some(SWINGS)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

@@ -4,7 +4,7 @@
 use super::frame::{Still, Turning};
 use super::law::Differentiate;
 use super::rate::stress_of;
-use super::{Directions, Gradient, Material, Rate, RateLaw, Variable};
+use super::{Directions, Gradient, Material, Rate, RateLaw, Spin, Variable};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::Tensor2;
@@ -50,7 +50,7 @@ impl<L: RateLaw> Material for SmallStrain<L> {
         self.0.with_update(update)?.with_small_strain()
     }
 
-    fn with_green_naghdi(&self) -> Result<Box<dyn Material>, String> {
+    fn with_spin(&self, _: Spin) -> Result<Box<dyn Material>, String> {
         Err(NO_RATE.into())
     }
 

@@ -168,13 +168,18 @@ fn velocity_step_of_a_gouge() {
     near(at(&records, "slip", ("slip", 1.1e-4), "shear"), 6.01193e6, 1e-5);
 }
 
+/// From rest `tanh(s / e)`; back elastic to no stress, then along the same curve.
 #[test]
-fn regularised_friction_follows_the_increment() {
-    let records = run("oden_pires", &[]);
-    let shear = column(&records, "coarse", "shear_s");
-    near(shear[50], 30.0 * 0.1_f64.tanh(), 1e-9);
-    near(shear[150], -30.0 * 0.1_f64.tanh(), 1e-9);
-    near(column(&records, "smooth", "shear_s")[50], 30.0 * 1.0_f64.tanh(), 1e-9);
+fn regularised_friction_follows_the_slip() {
+    for increments in [10, 100, 1000] {
+        let more = [2, 3].map(|step| format!("step.{step}.increments={increments}"));
+        let records = run("oden_pires", &[&more[0], &more[1]]);
+        for (name, length) in [("smooth", 1e-4_f64), ("coarse", 1e-3)] {
+            let shear = column(&records, name, "shear_s");
+            near(shear[1 + increments], 30.0 * (0.01 / length).tanh(), 1e-9);
+            near(*shear.last().unwrap(), -30.0 * (0.01 / length - (0.01 / length).tanh()).tanh(), 1e-9);
+        }
+    }
 }
 
 /// A bond under a prescribed pressure: up to its tension it is found at any part of it, beyond it out of reach.

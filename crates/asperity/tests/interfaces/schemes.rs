@@ -53,9 +53,9 @@ fn errors_fall_with_the_order_of_the_scheme() {
         }
         let by = |scheme: Scheme, substeps: usize| end(&sample, Update { scheme, substeps, tolerance: None });
         // A velocity that jumps at the beginning of the turn has to be resolved before an order is seen.
-        let (few, many) = if claim == Claim::TwoStep { (128, 2048) } else { (8, 512) };
+        let (few, many) = if claim == Claim::TwoStep { (128, 2048) } else { (32, 1024) };
         let exact = by(Scheme::TwoStep, 16 * many);
-        for (scheme, least) in [(Scheme::BackwardEuler, 0.9), (Scheme::TwoStep, 1.9), (Scheme::Midpoint(0.5), 1.85)] {
+        for (scheme, least) in [(Scheme::BackwardEuler, 0.9), (Scheme::TwoStep, 1.9), (Scheme::Midpoint(0.5), 1.9)] {
             if !serves(scheme) {
                 continue;
             }
@@ -64,6 +64,32 @@ fn errors_fall_with_the_order_of_the_scheme() {
             eprintln!("| {} | {scheme:?} | {order:.2} | {:.1e} |", sample.name, error(many));
             // What is exact but for rounding has no order.
             assert!(order > least || error(few) < 1e-11, "{}: {scheme:?} has the order {order}", sample.name);
+        }
+    }
+}
+
+/// The error at the end of the increment is at most the tolerance, and not that of needlessly many sub-steps.
+#[test]
+fn errors_are_within_the_tolerance() {
+    for sample in samples() {
+        if claim(sample.law) == Claim::Closed {
+            continue;
+        }
+        let exact = end(&sample, Update { scheme: Scheme::TwoStep, substeps: 16_384, tolerance: None });
+        for (scheme, tolerances) in [
+            (Scheme::BackwardEuler, &[1e-1, 1e-2][..]),
+            (Scheme::TwoStep, &[1e-2, 1e-3, 1e-4, 1e-5]),
+            (Scheme::Midpoint(0.5), &[1e-2, 1e-3, 1e-4, 1e-5]),
+        ] {
+            for &tolerance in tolerances {
+                let update = Update { scheme, substeps: 1, tolerance: Some(tolerance) };
+                if sample.interface.with_update(update).is_err() {
+                    continue;
+                }
+                let error = distance(end(&sample, update), exact) / distance(exact, [0.0; 3]);
+                eprintln!("| {} | {scheme:?} | {tolerance:.0e} | {error:.1e} |", sample.name);
+                assert!(error <= tolerance, "{}: {scheme:?} leaves {error:.1e} of {tolerance:.0e}", sample.name);
+            }
         }
     }
 }

@@ -76,6 +76,37 @@ fn elastic_simple_shear_in_the_polar_frame() {
     assert!(shear(3.0) > shear(2.0) && shear(2.0) > shear(1.0));
 }
 
+/// The logarithmic rate makes a linear law one of the logarithmic strain, in increments of any length: with
+/// `sinh e = g/2` it gives `s12 = 2 G e / cosh e`, `s11 = -s22 = 2 G e tanh e`.
+#[test]
+fn elastic_simple_shear_by_the_logarithmic_rate() {
+    for increments in [1, 7, 100] {
+        let records = run("elastic", &[&format!("step.1.increments={increments}"), "rate=\"logarithmic\""]);
+        let e = (0.5 * last(&records, "elastic", "strain_xy")).asinh();
+        let (shear, along) = (2.0 * e / e.cosh(), 2.0 * e * e.tanh());
+        for (column, exact) in [("stress_xy", shear), ("stress_xx", along), ("stress_yy", -along)] {
+            assert!((last(&records, "elastic", column) - exact).abs() < 1e-12, "{increments}: {column}");
+        }
+    }
+}
+
+/// A back stress in simple shear, with hardly any elasticity: by the default rate it is that of the logarithmic strain,
+/// `C 2/3 e / cosh e`, and never swings; in Jaumann's frame it turns over.
+#[test]
+fn a_back_stress_does_not_swing() {
+    let steel = "material.steel.von_mises={ young = 210e3, poisson = 0.3, yield_stress = 1.0, kinematic = 200.0 }";
+    let path = "step.1.strain={ xx = 0.0, yy = 0.0, zz = 0.0, xy = 8.0 }";
+    let sheared = |more: &[&str]| run("von_mises", &[&[steel, path, "step.1.increments=800"], more].concat());
+    let records = sheared(&[]);
+    for g in [0.5, 1.57, 3.0, 4.0, 8.0_f64] {
+        let e = (0.5 * g).asinh();
+        let back = at(&records, "steel", ("strain_xy", g), "back_stress_xy");
+        near(back, 2.0 / 3.0 * 200.0 * e / e.cosh(), 0.01);
+    }
+    let jaumann = sheared(&["rate=\"jaumann\""]);
+    assert!(at(&jaumann, "steel", ("strain_xy", 4.0), "back_stress_xy") < 0.0);
+}
+
 /// Perfectly plastic under Jaumann's rate: `s11` tends to `k^2/G` and `s12` to `sqrt(k^2 - s11^2)`, extrapolated to
 /// increments of no length.
 #[test]

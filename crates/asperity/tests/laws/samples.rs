@@ -1,7 +1,7 @@
 //! The laws as their example decks set them, and random paths.
 
 use asperity::deck::{LoadedPoint, load_point};
-use asperity::material::{Material, VariableKind};
+use asperity::material::{Material, Spin, VariableKind};
 use asperity::tensor::Tensor2;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ pub fn load(path: &Path, sets: &[&str]) -> LoadedPoint {
     load_point(path, &sets).unwrap_or_else(|error| panic!("{}", error.render(false)))
 }
 
-/// A law as a deck sets it, by plain backward Euler, in Jaumann's frame and in that of Green and Naghdi.
+/// A law as a deck sets it, by plain backward Euler, in the frames of Jaumann, of Green and Naghdi and of the logarithmic rate.
 pub struct Sample {
     /// Name of the registered law and of the deck that sets it.
     pub name: String,
@@ -33,12 +33,12 @@ pub fn samples() -> Vec<Sample> {
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
         let sample = move |(_, law): &(_, asperity::deck::form::Law<Box<dyn Material>>)| {
             let (name, material) = (format!("{} of {stem}", law.entry.name), law.build().unwrap());
-            let polar = material.with_green_naghdi().ok().map(|material| Sample {
-                name: format!("{name}, Green-Naghdi"),
-                law: law.entry.name,
-                material,
-            });
-            [Sample { name, law: law.entry.name, material }].into_iter().chain(polar)
+            let spun = |spin: Spin| {
+                let material = material.with_spin(spin).ok()?;
+                Some(Sample { name: format!("{name}, {spin:?}"), law: law.entry.name, material })
+            };
+            let spun = [Spin::Polar, Spin::Logarithmic].into_iter().filter_map(spun).collect::<Vec<_>>();
+            [Sample { name, law: law.entry.name, material }].into_iter().chain(spun)
         };
         deck.material.iter().flat_map(sample).collect::<Vec<_>>()
     };

@@ -2,10 +2,10 @@
 
 use super::Builder;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::{Body as BodyKeys, integrated};
+use crate::deck::keys::{Body as BodyKeys, ObjectiveRate, integrated};
 use crate::deck::reader::Name;
 use crate::material::Material;
-use crate::solid::{Body, BodyOptions, Heat};
+use crate::solid::{Body, BodyOptions, Heat, Strain};
 use std::sync::Arc;
 
 /// No body yet.
@@ -32,8 +32,12 @@ impl Builder<'_> {
                     thickness: self.site.thickness,
                 };
                 let site = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
-                let law = integrated(materials[number].as_ref(), *keys.rate, keys.update.as_ref());
-                let place = keys.update.as_ref().map_or(keys.rate.place, |update| update.place);
+                // Nothing turns in small strain, and nothing is said against a rate that was not.
+                let still = (*keys.strain == Strain::Small && keys.rate.is_none()).then_some(ObjectiveRate::Jaumann);
+                let rate = keys.rate.map(|rate| rate.value).or(still);
+                let law = integrated(materials[number].as_ref(), rate, keys.update.as_ref());
+                let said = keys.update.as_ref().map(|update| update.place).or(keys.rate.map(|rate| rate.place));
+                let place = said.unwrap_or(name.place);
                 let law = self.keep(law.map_err(crate::Error::input), place)?;
                 let material = law.map_or_else(|| materials[number].clone(), Arc::from);
                 let material = self.keep(keys.strain.law(material).map_err(crate::Error::input), keys.strain.place)?;

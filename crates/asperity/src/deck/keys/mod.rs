@@ -32,7 +32,7 @@ pub use solid_tool::{Extrude, FacetKeys, Revolve, StlKeys};
 pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
 pub use tool::{Segment, ToolKeys};
-pub use update::{ObjectiveRate, UpdateKeys, integrated};
+pub use update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys, integrated};
 
 use super::diagnose::Diagnostic;
 use super::form::{Form, Law, Words, defines, law, list, map, number, refers, table, table_of, text, whole, word};
@@ -97,7 +97,7 @@ table! {
         /// How the law is integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
         /// The objective rate of the stress, in whose frame the law is integrated.
-        rate: Spot<ObjectiveRate> = word().spot().or("\"jaumann\""),
+        rate: Option<Spot<ObjectiveRate>> = word().spot().unless_given(DEFAULT_RATE),
         /// Mass of an undeformed unit of volume, on which gravity acts.
         density: Option<Spot<f64>> = number(unit::DENSITY, Range::POSITIVE).spot().unless_given("no weight"),
         /// Linear thermal expansion.

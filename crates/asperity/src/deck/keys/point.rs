@@ -1,6 +1,6 @@
 //! The deck of one material point: materials as in any deck, and the path along which they are driven.
 
-use super::update::{ObjectiveRate, UpdateKeys};
+use super::update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::form::{Form, Law, defines, law, list, map, number, table, table_of, text, whole, word};
 use crate::deck::reader::{Name, Reader};
@@ -23,7 +23,7 @@ table! {
         /// How the laws are integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
         /// The objective rate of the stress, in whose frame the laws are integrated.
-        rate: ObjectiveRate = word().or("\"jaumann\""),
+        rate: Option<ObjectiveRate> = word().unless_given(DEFAULT_RATE),
         /// Stress at the beginning.
         initial_stress: Option<Stresses> = table_of().unless_given("that of the law"),
         /// The path, in order.

@@ -6,19 +6,19 @@ use crate::deck::reader::Reader;
 use crate::deck::source::Spot;
 use crate::declare::{Range, unit};
 use crate::integrate::{Scheme, Update};
-use crate::material::Material;
+use crate::material::{Material, Spin};
 
 table! {
     /// Sub-steps and scheme of a law.
     pub struct UpdateKeys check parameter {
         /// How one sub-step is taken.
-        scheme: SchemeWord = word().or("\"backward-euler\""),
+        scheme: Option<SchemeWord> = word().unless_given("backward-euler; two-step where a tolerance is given"),
         /// Parameter of the midpoint rule: order 2 at 0.5, backward Euler at 1.
         theta: Option<Spot<f64>> =
             number(unit::NONE, Range::from_to(0.5, 1.0)).spot().unless_given("0.5 for the midpoint scheme"),
         /// Number of equal sub-steps of an increment; the fewest where a tolerance is given.
         substeps: usize = whole(1..=10_000).or("1"),
-        /// Relative error of the stress that each sub-step must keep; sub-steps are halved until they do.
+        /// Relative error of the stress at the end of an increment; sub-steps are halved until theirs together keep it.
         tolerance: Option<f64> =
             number(unit::NONE, Range::from_to(1e-9, 0.1)).unless_given("as many sub-steps as said"),
     }
@@ -43,11 +43,13 @@ words! {
         Jaumann = "jaumann",
         /// that of Green and Naghdi, with the spin of the polar rotation
         GreenNaghdi = "green-naghdi",
+        /// the one in which the rate of the logarithmic strain is the rate of deformation (Xiao, Bruhns and Meyers)
+        Logarithmic = "logarithmic",
     }
 }
 
 fn parameter(keys: &UpdateKeys, reader: &mut Reader) {
-    if let Some(theta) = keys.theta.filter(|_| keys.scheme != SchemeWord::Midpoint) {
+    if let Some(theta) = keys.theta.filter(|_| keys.scheme != Some(SchemeWord::Midpoint)) {
         let what = format!("`{}.theta` is the parameter of the midpoint scheme", reader.path());
         reader.report(Diagnostic::error(what).at(theta.place).help("say scheme = \"midpoint\", or remove it"));
     }
@@ -57,26 +59,36 @@ impl UpdateKeys {
     /// What the keys say.
     pub fn update(&self) -> Update {
         let scheme = match self.scheme {
-            SchemeWord::BackwardEuler => Scheme::BackwardEuler,
-            SchemeWord::Midpoint => Scheme::Midpoint(self.theta.map_or(0.5, |theta| theta.value)),
-            SchemeWord::TwoStep => Scheme::TwoStep,
+            Some(SchemeWord::BackwardEuler) => Scheme::BackwardEuler,
+            Some(SchemeWord::Midpoint) => Scheme::Midpoint(self.theta.map_or(0.5, |theta| theta.value)),
+            Some(SchemeWord::TwoStep) => Scheme::TwoStep,
+            None if self.tolerance.is_some() => Scheme::TwoStep,
+            None => Scheme::BackwardEuler,
         };
         Update { scheme, substeps: self.substeps, tolerance: self.tolerance }
     }
 }
 
-/// A law as a body or a point wants it integrated; nothing where that is the law as it is.
+/// The rate where none is said.
+pub const DEFAULT_RATE: &str = "Jaumann's; the logarithmic one for a law with a back stress";
+
+/// A law as a body or a point wants it integrated, turned with the rate that is said; nothing where that is the law as it
+/// is.
 ///
 /// # Errors
 /// In words, where the stress of a law follows from the deformation alone.
 pub fn integrated(
     law: &dyn Material,
-    rate: ObjectiveRate,
+    rate: Option<ObjectiveRate>,
     update: Option<&UpdateKeys>,
 ) -> Result<Option<Box<dyn Material>>, String> {
     let updated = update.map(|keys| law.with_update(keys.update())).transpose()?;
-    match rate {
-        ObjectiveRate::Jaumann => Ok(updated),
-        ObjectiveRate::GreenNaghdi => updated.as_deref().unwrap_or(law).with_green_naghdi().map(Some),
-    }
+    let spin = match rate {
+        Some(ObjectiveRate::Jaumann) => None,
+        Some(ObjectiveRate::GreenNaghdi) => Some(Spin::Polar),
+        Some(ObjectiveRate::Logarithmic) => Some(Spin::Logarithmic),
+        None => law.has_back_stress().then_some(Spin::Logarithmic),
+    };
+    let Some(spin) = spin else { return Ok(updated) };
+    updated.as_deref().unwrap_or(law).with_spin(spin).map(Some)
 }

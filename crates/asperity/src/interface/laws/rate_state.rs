@@ -6,14 +6,15 @@
 //! `theta' = -(V theta / D_c) ln(V theta / D_c)`, so that the logarithm fades by `exp(-x)`. The slip velocity solves
 //! `|tau_trial| - K_t V dt = tau_y(V)` in `ln V`; there is no stick, slow slip only.
 //!
+//! Over an increment in which the velocity changes as it does in stick-slip one such step is of first order only, and its
+//! jumps come a tenth too soon. Unless `update` says otherwise an increment is therefore one step of the two-step scheme.
 //! Schemes of second order are made of steps of backward Euler in `ln theta`, which what is exact at constant velocity is
-//! not: by `update` with such a scheme the state follows that (see [`Course`]).
+//! not: by those the state follows that (see [`Course`]).
 //!
 //! The solution is unique where slip in the increment stays below `a p / (b p / D_c - K_t)`, or everywhere if `K_t` is
 //! above `b p / D_c`; a faster solution is refused, so that the increment is cut.
 
 use super::implicit::no_midpoint;
-use super::law;
 use super::trial::Trial;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, VariableKind, unit};
@@ -47,7 +48,7 @@ pub(super) const AGEING: Entry<Box<dyn Interface>> = Entry {
     meaning: "friction that depends on velocity and on a state that ages (Dieterich)",
     parameters: PARAMETERS,
     pairs: None,
-    build: |v| Ok(law(RateState::of(v, Evolution::Ageing))),
+    build: |v| RateState::of(v, Evolution::Ageing).updated(TWO_STEP),
 };
 
 pub(super) const SLIP: Entry<Box<dyn Interface>> = Entry {
@@ -55,8 +56,11 @@ pub(super) const SLIP: Entry<Box<dyn Interface>> = Entry {
     meaning: "friction that depends on velocity and on a state that changes by slip only (Ruina)",
     parameters: PARAMETERS,
     pairs: None,
-    build: |v| Ok(law(RateState::of(v, Evolution::Slip))),
+    build: |v| RateState::of(v, Evolution::Slip).updated(TWO_STEP),
 };
+
+/// How an increment is integrated unless the user says.
+const TWO_STEP: Update = Update { scheme: Scheme::TwoStep, substeps: 1, tolerance: None };
 
 /// How the state changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

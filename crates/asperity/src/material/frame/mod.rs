@@ -38,7 +38,7 @@ pub(super) fn half<T: Scalar>(rotation: &Tensor2<T>) -> Tensor2<T> {
 
 /// The rotation `(I - A)^-1 (I + A)` of a skew `A`, by twice the angle whose tangent is the length of its axis `a`:
 /// `((1 - a.a) I + 2 a a + 2 A) / (1 + a.a)`.
-fn cayley<T: Scalar>(skew: &Tensor2<T>) -> Tensor2<T> {
+pub(super) fn cayley<T: Scalar>(skew: &Tensor2<T>) -> Tensor2<T> {
     let axis = Vec3([skew[(2, 1)], skew[(0, 2)], skew[(1, 0)]]);
     let square = axis.dot(axis);
     let scale = (square + 1.0).recip();

@@ -146,11 +146,8 @@ impl RateLaw for VonMises {
         Ok(self.relax(&trial, vars, dp))
     }
 
-    fn advice(&self) -> Option<&'static str> {
-        (self.kinematic > 0.0).then_some(
-            "a back stress turns with the spin of the solid in Jaumann's frame: in shear beyond about one half the stress \
-             swings; rate = \"green-naghdi\" keeps it from swinging",
-        )
+    fn has_back_stress(&self) -> bool {
+        self.kinematic > 0.0
     }
 
     fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64>) -> Option<[f64; 2]> {

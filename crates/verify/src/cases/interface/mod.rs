@@ -1,5 +1,6 @@
 //! Laws of interfaces at one point, driven as `asperity point` drives them, against closed forms.
 
+mod cycle;
 mod slider;
 
 use crate::bench::{Bench, read};

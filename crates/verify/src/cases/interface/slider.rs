@@ -2,9 +2,11 @@
 //! b = 0.015, D_c = 1e-5 m, V_0 = 1e-6 m/s, critical stiffness p (b - a) / D_c = 5e9 Pa/m.
 //!
 //! Linearised about steady slip (Ruina 1983) the critical spring oscillates with the period
-//! `2 pi (D_c / V) sqrt(a / (b - a))`, for both laws of the state; a softer one grows, a stiffer one decays. Backward
-//! Euler damps with the first order of the increment, so that two runs are extrapolated to none.
+//! `2 pi (D_c / V) sqrt(a / (b - a))`, for both laws of the state; a softer one grows, a stiffer one decays. Two runs are
+//! extrapolated to increments of no length. With half of the critical spring and radiation damping the slider sticks and
+//! slips: the period of its jumps, by 20 000 increments and the default scheme, against the [equation](super::cycle).
 
+use super::cycle::Slider;
 use super::{column, run};
 use crate::Measured;
 use asperity::Error;
@@ -22,6 +24,9 @@ pub fn measure() -> Result<Measured, Error> {
             let [peak] = extrapolated(|increments| Ok([peak(law, times * CRITICAL, increments)?]), 10_000)?;
             measured.push((format!("peak_{name}_{times}"), peak));
         }
+    }
+    for (law, name) in [("rate_and_state", "ageing"), ("rate_and_state_slip", "slip")] {
+        measured.push((format!("cycle_{name}"), cycle(law)?));
     }
     for (name, stiffness) in [("softer", 4.8e9), ("stiffer", 5.2e9)] {
         let [_, growth] = swing("rate_and_state", stiffness, 8_000)?;
@@ -76,6 +81,41 @@ fn swing(law: &str, stiffness: f64, increments: usize) -> Result<[f64; 2], Error
     };
     let period = std::f64::consts::TAU * 10.0 * (0.010_f64 / 0.005).sqrt();
     Ok([(to - from) / (2.0 * period), after / before])
+}
+
+/// The period of stick-slip in 20 000 increments over that of the differential equation.
+fn cycle(law: &str) -> Result<f64, Error> {
+    let (stiffness, damping, time) = (0.5 * CRITICAL, 5e6, 2000.0);
+    let gouge = format!(
+        "friction = 0.6, direct = 0.010, evolution = 0.015, distance = 1e-5, velocity = 1e-6, damping = {damping}"
+    );
+    let up = 6e6 / stiffness + 1e-9;
+    let text = format!(
+        "version = 1\npenalty = 1e12\ntangential_penalty = {stiffness}\ninterface.fault.{law} = {{ {gouge} }}\n\
+         [[step]]\nduration = 1e-6\nincrements = 1\npressure = 1e7\nslip = [{up}, 0.0]\n\
+         [[step]]\nduration = {time}\nincrements = 20000\nslip = [{end}, 0.0]\n",
+        end = up + 1e-6 * time,
+    );
+    let records = run(&text, "slider.toml", &[])?;
+    let [time, shear] = [column(&records, "fault", "time")?, column(&records, "fault", "shear")?];
+    // What every jump falls through.
+    let level = 5.9e6;
+    let falls = (2..time.len()).filter(|&i| shear[i - 1] > level && shear[i] <= level);
+    let at = |i: usize| time[i - 1] + (time[i] - time[i - 1]) * (shear[i - 1] - level) / (shear[i - 1] - shear[i]);
+    let jumps: Vec<f64> = falls.map(at).collect();
+    let [.., before, last] = jumps[..] else { return Ok(f64::NAN) };
+    let equation = Slider {
+        pressure: 1e7,
+        friction: 0.6,
+        direct: 0.010,
+        evolution: 0.015,
+        distance: 1e-5,
+        velocity: 1e-6,
+        stiffness,
+        damping,
+        ageing: law == "rate_and_state",
+    };
+    Ok((last - before) / equation.period(2000.0))
 }
 
 /// Peak of the friction when the other end goes on ten times as fast; softer springs would slip at once thereafter.

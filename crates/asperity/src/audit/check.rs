@@ -1,5 +1,6 @@
 //! The check of a state: all pairs of wholes, tools and the axis, each point of one against the boundary of the other.
 
+use super::grazing::grazed;
 use super::hierarchy::{bounds, meet};
 use super::inside::{Way, depth, is_inside};
 use super::rigid::Rigid;
@@ -54,20 +55,20 @@ pub struct Audit {
 }
 
 /// What follows from the undeformed model, found at the first check.
-struct Prepared {
+pub(super) struct Prepared {
     surfaces: Vec<Surface>,
     tools: Vec<Rigid>,
     /// For each contact the pairs that it is about.
     claimed: Vec<Vec<usize>>,
     /// For each pair the depth before any motion, a length.
-    initial: Vec<f64>,
+    pub(super) initial: Vec<f64>,
     /// For each pair whether a contact knows of it.
     known: Vec<bool>,
 }
 
 /// What a whole may lie in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Other {
+pub(super) enum Other {
     Whole(usize),
     Tool(usize),
     Axis,
@@ -75,31 +76,31 @@ enum Other {
 
 /// One point that lies where it must not, or came through.
 #[derive(Debug, Clone, Copy)]
-struct Found {
-    own: usize,
-    other: Other,
+pub(super) struct Found {
+    pub(super) own: usize,
+    pub(super) other: Other,
     /// Bodies of the two sides, by number.
-    bodies: [usize; 2],
-    depth: f64,
+    pub(super) bodies: [usize; 2],
+    pub(super) depth: f64,
     /// What the shape of the two sides explains.
-    sagitta: f64,
-    size: f64,
-    place: Vec3,
-    through: bool,
+    pub(super) sagitta: f64,
+    pub(super) size: f64,
+    pub(super) place: Vec3,
+    pub(super) through: bool,
 }
 
 /// The worst so far, and how bad it is.
-type Worst = Option<(f64, Found)>;
+pub(super) type Worst = Option<(f64, Found)>;
 
 /// A state between the accepted unknowns and new ones, with what explains depth between pairs.
-struct Look<'a> {
-    subject: &'a Subject,
-    prepared: &'a Prepared,
-    placed: Vec<Placed<'a>>,
-    accepted: &'a [f64],
-    u: &'a [f64],
+pub(super) struct Look<'a> {
+    pub(super) subject: &'a Subject,
+    pub(super) prepared: &'a Prepared,
+    pub(super) placed: Vec<Placed<'a>>,
+    pub(super) accepted: &'a [f64],
+    pub(super) u: &'a [f64],
     /// For each pair the depth that contacts report.
-    reported: Vec<f64>,
+    pub(super) reported: Vec<f64>,
 }
 
 /// Straight parts into which the way of a point is divided.
@@ -123,7 +124,14 @@ impl Audit {
             let most = histories.get(claim.term).map_or(0.0, |history| (claim.penetration)(history));
             pairs.iter().for_each(|&pair| reported[pair] = reported[pair].max(most));
         }
-        self.look(prepared, accepted, u, reported).verdict()
+        let look = self.look(prepared, accepted, u, reported);
+        let found = look.verdict()?;
+        let halts = look.halts();
+        for part in (1..halts).map(|i| i as f64 / halts as f64) {
+            let between: Vec<f64> = accepted.iter().zip(u).map(|(from, to)| from + (to - from) * part).collect();
+            self.look(prepared, &between, &between, look.reported.clone()).grazes()?;
+        }
+        Ok(found)
     }
 
     fn look<'a>(&'a self, prepared: &'a Prepared, accepted: &'a [f64], u: &'a [f64], reported: Vec<f64>) -> Look<'a> {
@@ -172,7 +180,7 @@ impl Prepared {
     }
 
     /// The number of a pair, which has no order.
-    fn pair(&self, own: usize, other: Other) -> usize {
+    pub(super) fn pair(&self, own: usize, other: Other) -> usize {
         let wholes = self.surfaces.len();
         let (own, other) = match other {
             Other::Whole(other) => (own.min(other), own.max(other)),
@@ -235,11 +243,6 @@ fn lead(leader: &mut [usize], node: usize) -> usize {
     end
 }
 
-/// A way through a tool counts, whatever its sides, where it leads deeper than this part of a cell,
-const GRAZED: f64 = 0.5;
-/// as seen at so many places at most.
-const GRAZES: usize = 64;
-
 impl Look<'_> {
     /// Shows every point that lies behind a boundary or came through one.
     fn find(&self, found: &mut dyn FnMut(Found)) {
@@ -266,7 +269,7 @@ impl Look<'_> {
         if self.prepared.known[pair] { self.subject.contact_limit } else { self.subject.limit }
     }
 
-    fn in_other(&self, own: usize, other: usize, found: &mut dyn FnMut(Found)) {
+    pub(super) fn in_other(&self, own: usize, other: usize, found: &mut dyn FnMut(Found)) {
         let (a, b) = (&self.placed[own], &self.placed[other]);
         if !meet(&a.swept, &b.swept) {
             return;
@@ -374,7 +377,7 @@ impl Look<'_> {
                 }
             }
             self.through_tool(&path, tool, self.near(own, other, size, sagitta), &mut report);
-            if let Some(depth) = grazed(&path, tool, GRAZED * size) {
+            if let Some(depth) = grazed(&path, tool, size) {
                 report(depth, 0.0, true);
             }
         }
@@ -469,7 +472,7 @@ impl Look<'_> {
         }
     }
 
-    fn words(&self, found: &Found) -> String {
+    pub(super) fn words(&self, found: &Found) -> String {
         let ([own, other], Vec3([x, y, z])) = (self.names(found), found.place);
         let place = if self.subject.dofs.per_node() == 2 {
             format!("({x:.6}, {y:.6})")
@@ -488,33 +491,15 @@ impl Look<'_> {
     }
 }
 
-/// How deep a point lay in a closed tool on a straight way that begins and ends outside, if that is more than `least`: it may
-/// come out on a side that does not look the other way.
-fn grazed(path: &[Vec3], tool: &Rigid, least: f64) -> Option<f64> {
-    let way: f64 = path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-    if !tool.closed || way < least || !meet(&bounds(path.iter().copied()), &tool.bounds) {
-        return None;
-    }
-    let count = ((2.0 * way / least) as usize).min(GRAZES);
-    let deep = |i: usize| {
-        let here = along(path, i as f64 / count as f64);
-        let deep = depth(&tool.tree, here, (f64::INFINITY, false), &|_, _| true)?;
-        let out = tool.pieces[deep.piece].direction();
-        is_inside(&tool.tree, tool.bounds, (here, out), &|_| true).then_some(deep.depth)
-    };
-    let deepest = (1..count).filter_map(deep).fold(0.0, f64::max);
-    (deepest > least).then_some(deepest)
-}
-
 /// A place on a way that is straight between its points.
-fn along(path: &[Vec3], part: f64) -> Vec3 {
+pub(super) fn along(path: &[Vec3], part: f64) -> Vec3 {
     let scaled = part * (path.len() - 1) as f64;
     let low = (scaled as usize).min(path.len() - 2);
     path[low] + (path[low + 1] - path[low]) * (scaled - low as f64)
 }
 
 /// Keeps the larger; of equals the first.
-fn keep(worst: &mut Worst, new: (f64, Found)) {
+pub(super) fn keep(worst: &mut Worst, new: (f64, Found)) {
     if new.0.is_finite() && worst.is_none_or(|(old, _)| new.0 > old) {
         *worst = Some(new);
     }

@@ -7,12 +7,14 @@
 //! looked for in bodies likewise, so that a sharp tool between two nodes is found.
 //!
 //! *Ways.* Between two accepted states vertices move straight, as do the pieces of bodies; tools move by their unknowns. A
-//! point that goes in at one side and out at another that looks the other way came through.
+//! point that goes in at one side and out at another that looks the other way came through; so did one that was deep in it
+//! between, whatever the sides (*grazing*).
 //!
 //! Contacts explain depth up to the penetration that they report, facets of curved boundaries up to their sagittas, and what
 //! overlapped before any motion up to that.
 
 mod check;
+mod grazing;
 mod hierarchy;
 mod inside;
 mod rigid;

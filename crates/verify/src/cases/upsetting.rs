@@ -16,7 +16,8 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Measured::new();
     for (formulation, name) in [("standard", ""), ("f-bar", "f_bar_")] {
         let n = bench.pick(6, 12);
-        let sets = [format!("mesh.part.cube.box.cells=[{n}, {n}, {n}]"), format!("body.cube.formulation={formulation}")];
+        let sets =
+            [format!("mesh.part.cube.box.cells=[{n}, {n}, {n}]"), format!("body.cube.formulation={formulation}")];
         let run = bench.solve("upsetting.toml", &sets)?;
         let force: f64 = run.points(0).iter().map(|point| point.force()[2].abs()).sum();
         let solved = run.attempts.iter().map(|attempt| attempt.solutions()).sum::<usize>();

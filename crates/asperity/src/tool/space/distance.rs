@@ -7,8 +7,8 @@
 use super::nearest::{FacetBorder, FacetPoint};
 use super::tool::Tool;
 use crate::tensor::Vec3;
-use crate::tool::distance::CREASE;
 use crate::tool::Tree;
+use crate::tool::distance::CREASE;
 use crate::tool::shapes::Bounds;
 
 /// Points of two facets are the same within this part of the tool's size.

@@ -4,10 +4,10 @@ use super::hierarchy::{bounds, meet};
 use super::inside::{Way, depth, is_inside};
 use super::rigid::Rigid;
 use super::surface::{Placed, Surface};
-use crate::Failure;
 use crate::mesh::Mesh;
 use crate::system::{Dofs, History, Interpenetration};
 use crate::tensor::Vec3;
+use crate::{Failure, Kind};
 use std::sync::{Arc, OnceLock};
 
 /// What a contact claims, in the words of the audit.
@@ -434,7 +434,7 @@ impl Look<'_> {
             keep(&mut refused, (beyond(initial) / limit, found));
         });
         match refused.filter(|(part, _)| *part > 1.0) {
-            Some((_, found)) => Err(Failure::new(self.words(&found))),
+            Some((_, found)) => Err(Failure::new(self.words(&found)).of(Kind::Passage)),
             None => Ok(worst
                 .filter(|(part, _)| *part > 0.0)
                 .map_or_else(Interpenetration::default, |(part, found)| self.describe(part, &found))),

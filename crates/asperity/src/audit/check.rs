@@ -354,7 +354,9 @@ impl Look<'_> {
             let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
             let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
             let here = path[steps];
-            if meet(&[here, here], &tool.bounds) {
+            // Behind an open profile lies what no box about it holds.
+            let behind = Vec3([if tool.closed { 0.0 } else { size }; 3]);
+            if meet(&[here - behind, here + behind], &tool.bounds) {
                 let most = if tool.closed { f64::INFINITY } else { size };
                 let deep = depth(&tool.tree, here, (most, !tool.closed), &|_, _| true);
                 let truly = |piece: usize| {

@@ -13,7 +13,7 @@ use crate::mesh::{Side, Space};
 use crate::model::Model;
 use crate::solid::{Body, Formulation, Integration, Strain};
 use crate::solve::Course;
-use crate::system::Term;
+use crate::system::{Row, Term, Unknown};
 use crate::tensor::{Tensor2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -69,8 +69,48 @@ fn body_facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
         locks: body.cells().iter().any(|&cell| locks(mesh.cell(cell).kind)),
         hourglass: body.unseen() > 0,
         small_strain: keys.is_some_and(|keys| *keys.strain == Strain::Small),
+        left: left(model, &nodes),
+        unheld: if sprung { Vec::new() } else { unheld(model, &nodes) },
         held: held || sprung,
     }
+}
+
+/// Axes along which no step constrains any of some nodes.
+fn unheld(model: &Model, nodes: &BTreeSet<usize>) -> Vec<&'static str> {
+    let dofs = &model.problem.dofs;
+    let free = |dof: usize| model.problem.steps.iter().all(|step| matches!(step.constraints.row(dof), Row::Free(_)));
+    let axes = (0..dofs.per_node()).filter(|axis| nodes.iter().all(|&node| free(dofs.node(node) + axis)));
+    axes.filter(|&axis| model.space != Space::Axisymmetric || axis != 0).map(|axis| ["x", "y", "z"][axis]).collect()
+}
+
+/// Part of the distance of the ends of some nodes along an axis that prescribed motions leave, at the least.
+fn left(model: &Model, nodes: &BTreeSet<usize>) -> f64 {
+    let (dofs, points) = (&model.problem.dofs, &model.mesh.points);
+    let mut least = 1.0_f64;
+    for axis in 0..dofs.per_node() {
+        let place = |node: usize| points[node][axis];
+        let ends = nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &node| {
+            [low.min(place(node)), high.max(place(node))]
+        });
+        let length = ends[1] - ends[0];
+        for step in &model.problem.steps {
+            // Mean prescribed motion of the nodes at each end.
+            let mut ways = [(0.0, 0.0); 2];
+            for prescribed in step.prescribed.iter().filter(|p| p.others.is_empty()) {
+                let Unknown::Node(node, along) = dofs.describe(prescribed.dof) else { continue };
+                let Course::To(way, _) = prescribed.course else { continue };
+                let end = ends.iter().position(|end| (place(node) - end).abs() < 1e-6 * length);
+                if let Some(end) = end.filter(|_| along == axis && nodes.contains(&node)) {
+                    ways[end] = (ways[end].0 + way, ways[end].1 + 1.0);
+                }
+            }
+            let [(low, below), (high, above)] = ways;
+            if below > 0.0 && above > 0.0 {
+                least = least.min((length + high / above - low / below) / length);
+            }
+        }
+    }
+    least
 }
 
 /// Shears that a law is tried at: from where everything is elastic to where little is, in equal ratios.

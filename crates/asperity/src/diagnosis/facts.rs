@@ -48,6 +48,11 @@ pub struct BodyFacts {
     pub hourglass: bool,
     /// Whether strain is small.
     pub small_strain: bool,
+    /// Part of the distance of two opposite ends that prescribed motions leave, the least over the steps; one where they
+    /// leave it to itself.
+    pub left: f64,
+    /// Axes along which no support, spring or equation acts on any of its nodes: "x".
+    pub unheld: Vec<&'static str>,
     /// Whether any of its nodes is held, moved, or on a spring in any step.
     pub held: bool,
 }

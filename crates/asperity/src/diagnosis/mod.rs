@@ -16,6 +16,7 @@ pub use facts::{BodyFacts, ContactFacts, Facts, Load, StepFacts, ToolFacts};
 pub use plausible::{Oddity, oddities};
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// A likely cause.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,6 +45,8 @@ pub fn diagnose(facts: &Facts, course: &Course) -> Vec<Finding> {
     }
     let mut found: Vec<Finding> = rules::ALL.iter().filter_map(|rule| rule(facts, course)).collect();
     found.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    let mut named = BTreeSet::new();
+    found.retain(|finding| named.insert(finding.cause.clone()));
     let least = FAINT * found.first().map_or(0.0, |first| first.weight);
     found.retain(|finding| finding.weight >= least);
     found.truncate(MOST);

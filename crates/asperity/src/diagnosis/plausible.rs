@@ -22,7 +22,7 @@ const LOAD_OVER_MODULUS: f64 = 2.0;
 const LOAD_OVER_YIELD: f64 = 20.0;
 const FAINT_LOAD: f64 = 1e-13;
 /// Size of a tool, its distance, and what is moved over the size of the mesh.
-const TOOL_SIZE: [f64; 2] = [1e-2, 3e3];
+const TOOL_SIZE: [f64; 2] = [2e-3, 3e3];
 const DISTANCE: f64 = 20.0;
 const MOTION: f64 = 50.0;
 

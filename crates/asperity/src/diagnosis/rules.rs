@@ -3,7 +3,7 @@
 
 use super::Finding;
 use super::course::{Course, End};
-use super::facts::{BodyFacts, ContactFacts, Facts};
+use super::facts::{BodyFacts, ContactFacts, Facts, ToolFacts};
 use super::plausible::oddities;
 use crate::Kind;
 
@@ -15,13 +15,16 @@ pub static ALL: &[Rule] = &[
     wrong_side,
     initial_overlap,
     not_touching,
+    thrown,
     free_body,
+    slides_freely,
     hourglass,
     lost_contact,
     no_contact,
     limit_load,
     missing_contact,
     passage,
+    crushed,
     inverted,
     penalty,
     cycle,
@@ -76,7 +79,9 @@ fn units(facts: &Facts, course: &Course) -> Option<Finding> {
     if found.is_empty() || (course.ended == End::Well && worst < CERTAIN) {
         return None;
     }
-    let mut told = finding("units", worst, "numbers of the deck hardly belong together: look at units first");
+    // Of a run that fails it is the cause of whatever else is seen.
+    let weight = if worst > CERTAIN && course.kind().is_some() { worst.max(0.92) } else { worst };
+    let mut told = finding("units", weight, "numbers of the deck hardly belong together: look at units first");
     for oddity in &found {
         told = told.shown(&oddity.what);
     }
@@ -88,12 +93,17 @@ fn units(facts: &Facts, course: &Course) -> Option<Finding> {
 /// Part of the nodes of a body that lie in a tool where it stands on the wrong side.
 const INSIDE: f64 = 0.6;
 
-fn is_wrong(contact: &ContactFacts) -> bool {
-    contact.tool.is_some() && contact.inside > INSIDE
+/// Size of a tool over that of the mesh below which it has no sides to speak of.
+const TINY: f64 = 0.05;
+
+fn is_wrong(facts: &Facts, contact: &ContactFacts) -> bool {
+    let Some(tool) = &contact.tool else { return false };
+    let sized = |other: &&ToolFacts| other.name == *tool && other.size > TINY * facts.size;
+    contact.inside > INSIDE && facts.tools.iter().any(|tool| sized(&tool))
 }
 
 fn wrong_side(facts: &Facts, _: &Course) -> Option<Finding> {
-    let contact = facts.contacts.iter().find(|contact| is_wrong(contact))?;
+    let contact = facts.contacts.iter().find(|contact| is_wrong(facts, contact))?;
     let tool = contact.tool.as_deref().unwrap_or_default();
     Some(
         finding("wrong-side", 0.97, format!("the material of tool '{tool}' lies on the side of the body"))
@@ -115,8 +125,9 @@ fn wrong_side(facts: &Facts, _: &Course) -> Option<Finding> {
 const DEEP: f64 = 0.3;
 
 fn initial_overlap(facts: &Facts, course: &Course) -> Option<Finding> {
-    let deep =
-        |contact: &&ContactFacts| contact.gap.is_some_and(|gap| -gap > DEEP * contact.edge) && !is_wrong(contact);
+    let deep = |contact: &&ContactFacts| {
+        contact.gap.is_some_and(|gap| -gap > DEEP * contact.edge) && !is_wrong(facts, contact)
+    };
     let contact = facts.contacts.iter().find(deep)?;
     let early = course.increments <= 2 && course.step == 0;
     let gap = -contact.gap?;
@@ -164,13 +175,32 @@ fn not_touching(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
+/// What began apart from what is to hold it, and was thrown onto it by its load.
+fn thrown(facts: &Facts, course: &Course) -> Option<Finding> {
+    let loaded = facts.steps.iter().any(|step| !step.loads.is_empty());
+    let open = facts.contacts.iter().find(|contact| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge))?;
+    (course.jumps > 0 && loaded && !is_wrong(facts, open)).then(|| {
+        let gap = open.gap.unwrap_or(open.distance);
+        finding(
+            "not-touching",
+            0.8,
+            format!("a load acts before contact '{}' touches: nothing holds it until then", open.name),
+        )
+        .shown(format!("a gap of {gap:.3e} before anything moves, and {} increments past an instability", course.jumps))
+        .try_to(&[
+            "move the parts together, so that they touch from the start",
+            "bring them together by a prescribed motion in a first step, and let loads act in the second",
+        ])
+    })
+}
+
 /// A free body and the open contact that is to hold it.
 fn waiting<'a>(facts: &'a Facts, course: &'a Course) -> Option<(&'a BodyFacts, &'a ContactFacts)> {
     facts.bodies_in(&course.reason).find_map(|body| {
         let mut own = facts.contacts.iter().filter(|contact| contact.bodies.contains(&body.name)).peekable();
         own.peek()?;
         let open = own.find(|contact| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge));
-        open.filter(|contact| !is_wrong(contact)).map(|contact| (body, contact))
+        open.filter(|contact| !is_wrong(facts, contact)).map(|contact| (body, contact))
     })
 }
 
@@ -194,6 +224,22 @@ fn free_body(facts: &Facts, course: &Course) -> Option<Finding> {
                 "or contact with friction that holds it, or weak springs (`spring`)",
             ]),
     )
+}
+
+/// A body that slides without resistance on what touches it: the matrix is singular but for rounding.
+fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
+    let fault = course.fault(&[Kind::Singular])?;
+    let body = facts.bodies.iter().find(|body| !body.unheld.is_empty())?;
+    (course.share(&[Kind::Singular]) > 0.3 && course.kind().is_some()).then(|| {
+        let slides =
+            facts.contacts.iter().any(|c| c.bodies.contains(&body.name) && c.friction.is_none_or(|f| f == 0.0));
+        let axes = body.unheld.join(" and ");
+        finding("free-body", 0.82, format!("nothing holds body '{}' along {axes}", body.name))
+            .shown(&fault.reason)
+            .shown(format!("no support acts on it along {axes}"))
+            .shown(if slides { "the contact that it rests on has no friction" } else { "" })
+            .try_to(&["a support along that axis, or weak springs (`spring`)", "friction, where there is some"])
+    })
 }
 
 fn hourglass(facts: &Facts, course: &Course) -> Option<Finding> {
@@ -230,7 +276,7 @@ fn lost_contact(_: &Facts, course: &Course) -> Option<Finding> {
 }
 
 fn no_contact(facts: &Facts, course: &Course) -> Option<Finding> {
-    if !course.never_closed() || facts.contacts.iter().any(is_wrong) {
+    if !course.never_closed() || facts.contacts.iter().any(|contact| is_wrong(facts, contact)) {
         return None;
     }
     let unseen: Vec<&str> = facts.contacts.iter().filter(|c| c.seeing == 0).map(|c| c.name.as_str()).collect();
@@ -355,6 +401,31 @@ fn passage(facts: &Facts, course: &Course) -> Option<Finding> {
                 "a larger `penalty` where it is pressed through slowly",
             ])
     })
+}
+
+/// Part of the distance of two ends of a body that prescribed motions leave, at the least, where it can bear them.
+const CRUSHED: f64 = 0.2;
+
+fn crushed(facts: &Facts, course: &Course) -> Option<Finding> {
+    let body = facts.bodies.iter().find(|body| body.left < CRUSHED)?;
+    course.kind()?;
+    Some(
+        finding(
+            "inverted-cells",
+            0.9,
+            format!("what is prescribed crushes body '{}' or turns it inside out", body.name),
+        )
+        .shown(if body.left <= 0.0 {
+            "its two ends are moved past each other".to_owned()
+        } else {
+            format!("its two ends are moved together to {:.2} of their distance", body.left)
+        })
+        .shown(&course.reason)
+        .try_to(&[
+            "is the prescribed displacement right, in size and sign? It counts from the undeformed place",
+            "a smaller motion; a mesh of cells that are long where they will be compressed",
+        ]),
+    )
 }
 
 fn inverted(facts: &Facts, course: &Course) -> Option<Finding> {

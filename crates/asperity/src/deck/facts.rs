@@ -13,7 +13,7 @@ use crate::mesh::{Side, Space};
 use crate::model::Model;
 use crate::solid::{Body, Formulation, Integration, Strain};
 use crate::solve::Course;
-use crate::system::{Row, Term, Unknown};
+use crate::system::{Row, Term};
 use crate::tensor::{Tensor2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -92,15 +92,20 @@ fn left(model: &Model, nodes: &BTreeSet<usize>) -> f64 {
         let ends = nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &node| {
             [low.min(place(node)), high.max(place(node))]
         });
-        let length = ends[1] - ends[0];
+        let (length, mut driven) = (ends[1] - ends[0], BTreeMap::new());
         for step in &model.problem.steps {
-            // Mean prescribed motion of the nodes at each end.
+            for prescribed in step.prescribed.iter().filter(|prescribed| prescribed.others.is_empty()) {
+                if let Course::To(way, _) = prescribed.course {
+                    driven.insert(prescribed.dof, way);
+                }
+            }
+            // Mean prescribed motion of the nodes at each end; what is held and not driven stays.
             let mut ways = [(0.0, 0.0); 2];
-            for prescribed in step.prescribed.iter().filter(|p| p.others.is_empty()) {
-                let Unknown::Node(node, along) = dofs.describe(prescribed.dof) else { continue };
-                let Course::To(way, _) = prescribed.course else { continue };
-                let end = ends.iter().position(|end| (place(node) - end).abs() < 1e-6 * length);
-                if let Some(end) = end.filter(|_| along == axis && nodes.contains(&node)) {
+            for &node in nodes {
+                let (dof, place) = (dofs.node(node) + axis, place(node));
+                let end = ends.iter().position(|end| (place - end).abs() < 1e-6 * length);
+                if let (Some(end), Row::Fixed) = (end, step.constraints.row(dof)) {
+                    let way = driven.get(&dof).copied().unwrap_or(0.0);
                     ways[end] = (ways[end].0 + way, ways[end].1 + 1.0);
                 }
             }

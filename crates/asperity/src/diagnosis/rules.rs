@@ -79,8 +79,8 @@ fn units(facts: &Facts, course: &Course) -> Option<Finding> {
     if found.is_empty() || (course.ended == End::Well && worst < CERTAIN) {
         return None;
     }
-    // Of a run that fails it is the cause of whatever else is seen.
-    let weight = if worst > CERTAIN && course.kind().is_some() { worst.max(0.92) } else { worst };
+    // It is the cause of whatever else is seen.
+    let weight = if worst > CERTAIN { worst.max(0.92) } else { worst };
     let mut told = finding("units", weight, "numbers of the deck hardly belong together: look at units first");
     for oddity in &found {
         told = told.shown(&oddity.what);
@@ -179,14 +179,15 @@ fn not_touching(facts: &Facts, course: &Course) -> Option<Finding> {
 fn thrown(facts: &Facts, course: &Course) -> Option<Finding> {
     let loaded = facts.steps.iter().any(|step| !step.loads.is_empty());
     let open = facts.contacts.iter().find(|contact| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge))?;
-    (course.jumps > 0 && loaded && !is_wrong(facts, open)).then(|| {
+    let missing = course.doubt(&["energy_balance"]).is_some();
+    ((course.jumps > 0 || missing) && loaded && !is_wrong(facts, open)).then(|| {
         let gap = open.gap.unwrap_or(open.distance);
         finding(
             "not-touching",
             0.8,
             format!("a load acts before contact '{}' touches: nothing holds it until then", open.name),
         )
-        .shown(format!("a gap of {gap:.3e} before anything moves, and {} increments past an instability", course.jumps))
+        .shown(format!("a gap of {gap:.3e} before anything moves, over which the load finds nothing to work against"))
         .try_to(&[
             "move the parts together, so that they touch from the start",
             "bring them together by a prescribed motion in a first step, and let loads act in the second",
@@ -234,9 +235,15 @@ fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
         let slides =
             facts.contacts.iter().any(|c| c.bodies.contains(&body.name) && c.friction.is_none_or(|f| f == 0.0));
         let axes = body.unheld.join(" and ");
-        finding("free-body", 0.82, format!("nothing holds body '{}' along {axes}", body.name))
+        let gap = |contact: &&ContactFacts| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge);
+        let apart = facts.contacts.iter().filter(|contact| contact.bodies.contains(&body.name)).find(gap);
+        let cause = if apart.is_some() && course.never_closed() { "not-touching" } else { "free-body" };
+        finding(cause, 0.82, format!("nothing holds body '{}' along {axes}", body.name))
             .shown(&fault.reason)
             .shown(format!("no support acts on it along {axes}"))
+            .shown(
+                apart.map_or(String::new(), |c| format!("contact '{}' does not touch before anything moves", c.name)),
+            )
             .shown(if slides { "the contact that it rests on has no friction" } else { "" })
             .try_to(&["a support along that axis, or weak springs (`spring`)", "friction, where there is some"])
     })
@@ -503,7 +510,8 @@ fn locking(facts: &Facts, course: &Course) -> Option<Finding> {
     let stiff = |body: &&BodyFacts| body.locks && (body.bulk_ratio > 20.0 || body.strength.is_some());
     let body = facts.bodies.iter().find(stiff)?;
     let weight = match doubt {
-        Some(_) => 0.9,
+        Some(_) if course.ended == End::Well => 0.9,
+        Some(_) => 0.8,
         None if body.bulk_ratio > 50.0 => 0.55,
         None => 0.3,
     };

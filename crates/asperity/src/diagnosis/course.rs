@@ -29,6 +29,8 @@ pub struct Course {
     pub cuts: usize,
     /// Why the attempts at the increment failed that ended the run, the first first.
     pub faults: Vec<Fault>,
+    /// Contact points that were closed in the last accepted increment.
+    pub touching: usize,
     /// For each contact whether it ever closed.
     pub closed: Vec<(String, bool)>,
     /// Motion per time of the last accepted increments over that of the first ones of their step.

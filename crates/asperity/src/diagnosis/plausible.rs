@@ -104,7 +104,7 @@ fn tools(facts: &Facts) -> impl Iterator<Item = Oddity> + '_ {
         (ratio < least || ratio > most).then(|| Oddity {
             what: format!("tool `{}` has {ratio:.1e} times the size of the mesh", tool.name),
             help: "are mesh and tool in the same unit of length?".into(),
-            weight: weight((least / ratio.max(1e-12)).max(ratio / most)),
+            weight: weight(10.0 * (least / ratio.max(1e-12)).max(ratio / most)),
         })
     })
 }

@@ -271,14 +271,21 @@ fn hourglass(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
-fn lost_contact(_: &Facts, course: &Course) -> Option<Finding> {
+fn lost_contact(facts: &Facts, course: &Course) -> Option<Finding> {
     let closed = course.closed.iter().any(|(_, closed)| *closed);
     let free = course.kind() == Some(Kind::Free) && course.increments > 0;
-    (free && closed).then(|| {
-        finding("lost-contact", 0.9, "a body lost the contact that held it").shown(&course.reason).try_to(&[
-            "support it, or keep it in contact: a smaller motion, a spring, friction",
-            "`solver.if_free = \"hold\"` leaves it where it is until something touches it",
-        ])
+    let adrift = facts.bodies.iter().find(|body| !body.held && !body.unheld.is_empty());
+    let adrift = adrift.filter(|_| course.ended == End::Well && course.touching == 0);
+    (closed && (free || adrift.is_some())).then(|| {
+        finding("lost-contact", 0.9, "a body lost the contact that held it")
+            .shown(&course.reason)
+            .shown(adrift.map_or(String::new(), |body| {
+                format!("at the end no contact is closed, and no support holds body '{}'", body.name)
+            }))
+            .try_to(&[
+                "support it, or keep it in contact: a smaller motion, a spring, friction",
+                "`solver.if_free = \"hold\"` leaves it where it is until something touches it",
+            ])
     })
 }
 

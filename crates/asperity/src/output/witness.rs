@@ -18,6 +18,8 @@ pub struct Witness {
     /// Motion per time of the accepted increments of the step.
     speeds: Vec<f64>,
     step: usize,
+    /// Contact points that stick or slip in the last accepted increment.
+    touching: usize,
 }
 
 impl Witness {
@@ -42,6 +44,10 @@ impl Witness {
         if record.step != self.step {
             (self.step, self.speeds) = (record.step, Vec::new());
         }
+        self.touching = record.iterations.last().map_or(0, |last| {
+            let [_, stick, slip] = problem.points_by_status(last);
+            stick + slip
+        });
         let nodes = problem.dofs.nodes() * problem.dofs.per_node();
         let moved = state.last_change[..nodes].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         self.speeds.push(moved / record.dt.max(f64::MIN_POSITIVE));
@@ -72,6 +78,7 @@ impl Witness {
             faults: self.faults.clone(),
             acceleration: self.acceleration(),
             jumps: state.jumps,
+            touching: self.touching,
             ..Course::default()
         }
     }

@@ -173,7 +173,7 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     text += &likely(summary);
     let _ = writeln!(text, "certificate, the worst of all increments:               limit");
     figures(summary).for_each(|line| text += &line);
-    if !matches!(summary.status, Status::Converged | Status::Doubtful | Status::FileError) {
+    if !matches!(summary.status, Status::Converged | Status::Doubtful | Status::FileError | Status::InputError) {
         let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {again}");
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));

@@ -241,6 +241,6 @@ fn what_does_not_fit_into_memory_is_told() {
     assert!(error(&check).contains("the run needs about"), "{}", error(&check));
     let said = String::from_utf8_lossy(&check.stdout).into_owned();
     assert!(said.contains("equations: ") && said.contains("memory: about "), "{said}");
-    let tiny = shell(folder.path(), "ulimit -v 120000; exec asperity run block.toml --threads 1");
+    let tiny = shell(folder.path(), "ulimit -v 200000; exec asperity run block.toml --threads 1");
     assert!(code(&tiny) == 2 && error(&tiny).contains("before anything is solved"), "{}", error(&tiny));
 }

@@ -3,7 +3,7 @@
 
 use super::build::Made;
 use super::diagnose::{Diagnostic, Severity};
-use super::facts::facts;
+use super::facts::facts_seen;
 use super::keys;
 use super::reader::Name;
 use crate::contact::field::FieldContact;
@@ -21,6 +21,9 @@ use std::fmt::Write;
 
 /// A penetration above this part of its edge is worth a warning before the first increment.
 const OVERLAP: f64 = 1e-3;
+
+/// Flops of a factorisation from which on its time is worth knowing.
+const LASTING: f64 = 1e9;
 
 /// What is said of a model.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +43,7 @@ pub fn warnings(made: &Made) -> Vec<Diagnostic> {
 fn warnings_of(made: &Made, all: &[Seen]) -> Vec<Diagnostic> {
     let warnings = made.diagnostics.list.iter().filter(|d| d.severity <= Severity::Warning).cloned();
     let odd = made.deck.contact.iter().flat_map(|(name, _)| Seen::of(all, name).filter_map(|seen| seen.oddity(name)));
-    let facts = facts(made);
+    let facts = facts_seen(made, all);
     let implausible = oddities(&facts).into_iter().map(|oddity| Diagnostic::warning(oddity.what).help(oddity.help));
     warnings.chain(odd).chain(implausible).collect()
 }
@@ -185,7 +188,9 @@ impl Page {
             "equations: {unknowns} unknowns, {entries:.3e} entries; a factorisation takes {:.3e} flops",
             cost.flops
         );
-        if let Ok(speed) = frontal::speed() {
+        if cost.flops > LASTING
+            && let Ok(speed) = frontal::speed()
+        {
             let _ = write!(
                 line,
                 ", about {:.2e} s on {} threads",

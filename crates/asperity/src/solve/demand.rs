@@ -29,7 +29,9 @@ pub struct Demand {
 const PER_ENTRY: f64 = 48.0;
 const PER_PAIR: f64 = 2.0;
 const PER_UNKNOWN: f64 = 700.0;
-/// The same for each entry where contact moves and an old factor preconditions: a pattern and a matrix more, and the columns of
+/// What pictures, tables and buffers take whatever the model.
+const BESIDES: f64 = 1e7;
+/// The same for each entry in space where contact moves and an old factor preconditions: a pattern and a matrix more, and the columns of
 /// the inverse near contact.
 const PER_ENTRY_OF_CONTACT: f64 = 50.0;
 /// Unknowns of which no more than so many bytes each are asked for.
@@ -57,8 +59,9 @@ impl Problem {
             .map_err(|error| Error::input(format!("the equations cannot be solved: {error}")))?;
         let policy = self.newton.factors.policy();
         let bends = self.terms.iter().any(|term| term.bends()) && policy.affordable_iterations(&factorisation) > 0;
+        let bends = bends && self.dofs.per_node() == 3;
         let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT } else { 0.0 };
-        let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64;
+        let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
         let bytes = factorisation.bytes as u64 + single(&policy, &factorisation) + beside as u64;
         Ok(Demand { unknowns, entries, factorisation, bytes, dimension: self.dofs.per_node() })
     }

@@ -132,10 +132,7 @@ impl Newton<'_> {
     pub(super) fn explain(&self, error: LinearError, iteration: usize) -> Trouble {
         let motions = match &error {
             LinearError::Singular(motions) => motions,
-            LinearError::Inaccurate(_) => {
-                return Trouble::Failure(Failure::new(error.to_string()).of(Kind::Singular));
-            }
-            LinearError::NotFinite(_) => return Trouble::Failure(Failure::new(error.to_string()).of(Kind::NotFinite)),
+            LinearError::Inaccurate(_) | LinearError::NotFinite(_) => return Trouble::Failure(Failure::from(&error)),
             LinearError::Memory(text) => return Trouble::Error(Error::input(text)),
             LinearError::Other(_) => return Trouble::Error(Error::Internal(error.to_string())),
         };

@@ -3,6 +3,7 @@
 use super::demand::{single, too_much};
 use crate::machine::room;
 use crate::system::Csr;
+use crate::{Failure, Kind};
 use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Solver, Symbolic};
 use std::fmt;
 
@@ -29,6 +30,18 @@ impl fmt::Display for LinearError {
                 f.write_str(text)
             }
         }
+    }
+}
+
+impl From<&LinearError> for Failure {
+    /// Why an attempt fails of it, where a smaller increment may help.
+    fn from(error: &LinearError) -> Self {
+        let kind = match error {
+            LinearError::Singular(_) | LinearError::Inaccurate(_) => Kind::Singular,
+            LinearError::NotFinite(_) => Kind::NotFinite,
+            LinearError::Memory(_) | LinearError::Other(_) => Kind::Other,
+        };
+        Failure::new(error.to_string()).of(kind)
     }
 }
 

@@ -28,7 +28,7 @@ contact.cap = { surface = "block.top", target = "punch", law.coulomb = { frictio
 [[step]]
 increments = { count = 1 }
 displacement."block.bottom" = { along = [1.0, 2.0], value = 0.0 }
-displacement."block.bottom_left" = { x = 0.0, y = 0.0 }
+displacement."block.top_left" = { x = 0.0 }
 load.punch = { y = -1.0 }
 "#;
 

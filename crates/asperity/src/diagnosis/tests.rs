@@ -87,7 +87,10 @@ fn a_free_body_waits_for_its_contact_or_is_held_by_nothing() {
 fn a_tool_on_the_wrong_side_comes_before_all_that_it_leads_to() {
     let mut facts = block();
     (facts.contacts[0].inside, facts.contacts[0].seeing, facts.contacts[0].gap) = (1.0, 0, None);
-    for course in [failed(Kind::Passage, "body 'block' lies 3 cells deep in tool 'plate'"), failed(Kind::Free, "")] {
+    for course in [
+        failed(Kind::Passage, "body 'block' lies 3 cells deep in tool 'plate'"),
+        failed(Kind::Free, "body 'block' is free"),
+    ] {
         assert_eq!(first(&facts, &course), "wrong-side");
     }
 }

@@ -40,12 +40,16 @@ impl Panels<'_> {
     /// Width that the legends need; zero when there are none.
     pub(super) fn legend_width(&self) -> f64 {
         let part = |has: bool, name: &str| if has { 260.0 + text::width(name, SMALL, false) } else { 0.0 };
-        let field = part(self.has_field(), &self.field_name).max(text::width(&self.extremes_in_words(), SMALL, false));
-        part(self.has_arrows(), &self.arrow_name) + field
+        let extremes =
+            self.extremes_in_words().iter().map(|words| text::width(words, SMALL, false)).fold(0.0, f64::max);
+        let field = part(self.has_field(), &self.field_name).max(if self.has_field() { extremes + 20.0 } else { 0.0 });
+        // Each stands in the middle of an equal part of the page.
+        let arrows = part(self.has_arrows(), &self.arrow_name);
+        if arrows > 0.0 && field > 0.0 { 2.0 * arrows.max(field) } else { arrows + field }
     }
     /// Height of the row of legends.
     pub(super) fn legend_height(&self) -> f64 {
-        let extremes = if self.has_field() { SMALL + 5.0 } else { 0.0 };
+        let extremes = if self.has_field() { 2.0 * (SMALL + 3.0) + 2.0 } else { 0.0 };
         if self.legend_width() > 0.0 { HEIGHT + extremes } else { 0.0 }
     }
     /// Draws the legends in the row at the bottom of the page.
@@ -91,12 +95,13 @@ impl Panels<'_> {
         };
         let title = format!("{}{power}", self.field_name);
         drawing.label(Label::new([x, bar.y - 6.0], title, SMALL).anchored(Anchor::Middle));
-        let below = [x, bar.bottom() + 2.0 * SMALL + 7.0];
-        drawing.label(Label::new(below, self.extremes_in_words(), SMALL).anchored(Anchor::Middle));
+        for (i, words) in self.extremes_in_words().into_iter().enumerate() {
+            let below = [x, bar.bottom() + (i + 2) as f64 * (SMALL + 3.0)];
+            drawing.label(Label::new(below, words, SMALL).anchored(Anchor::Middle));
+        }
     }
     /// The least and the greatest value with their places.
-    fn extremes_in_words(&self) -> String {
-        let Some(ends) = self.extremes() else { return String::new() };
+    fn extremes_in_words(&self) -> Vec<String> {
         let words = |end: Extreme| {
             let scene = &self.scenes[end.scene];
             let place = scene.points.get(end.node).copied().unwrap_or_default();
@@ -104,6 +109,7 @@ impl Panels<'_> {
             let place = place[..axes].iter().map(|&x| minus(&rounded(x))).collect::<Vec<_>>().join(", ");
             format!("{} at ({place}), {}", minus(&rounded(end.value)), scene.title)
         };
-        format!("least {}; greatest {}", words(ends[0]), words(ends[1]))
+        let ends = self.extremes().into_iter().flatten().zip(["least", "greatest"]);
+        ends.map(|(end, word)| format!("{word} {}", words(end))).collect()
     }
 }

@@ -354,8 +354,9 @@ impl Look<'_> {
             let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
             let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
             let here = path[steps];
-            // Behind an open profile lies what no box about it holds.
-            let behind = Vec3([if tool.closed { 0.0 } else { size }; 3]);
+            // Behind an open profile lies what no box about it holds; a contact looks there itself.
+            let unseen = !tool.closed && !self.prepared.known[pair];
+            let behind = Vec3([if unseen { size } else { 0.0 }; 3]);
             if meet(&[here - behind, here + behind], &tool.bounds) {
                 let most = if tool.closed { f64::INFINITY } else { size };
                 let deep = depth(&tool.tree, here, (most, !tool.closed), &|_, _| true);

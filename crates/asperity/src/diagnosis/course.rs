@@ -91,9 +91,9 @@ impl Course {
     pub fn fault(&self, kinds: &[Kind]) -> Option<&Fault> {
         self.faults.iter().find(|fault| kinds.contains(&fault.kind))
     }
-    /// Whether there are contacts and none of them ever closed.
+    /// Whether none of the contacts was ever seen to be closed; where no increment was accepted none was.
     pub fn never_closed(&self) -> bool {
-        !self.closed.is_empty() && self.closed.iter().all(|(_, closed)| !closed)
+        (self.increments == 0 || !self.closed.is_empty()) && self.closed.iter().all(|(_, closed)| !closed)
     }
     /// Whether a contact ever closed.
     pub fn closed(&self, name: &str) -> bool {

@@ -87,9 +87,10 @@ pub(super) fn free_body(facts: &Facts, course: &Course) -> Option<Finding> {
 
 /// A body that slides without resistance on what touches it: the matrix is singular but for rounding.
 pub(super) fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
-    let fault = course.fault(&[Kind::Singular])?;
     let body = facts.bodies.iter().find(|body| !body.unheld.is_empty())?;
-    (course.share(&[Kind::Singular]) > 0.3 && course.kind().is_some()).then(|| {
+    let singular = course.kind() == Some(Kind::Singular) || course.share(&[Kind::Singular]) > 0.3;
+    let adrift = !body.held && course.never_closed() && !facts.contacts.iter().any(|contact| is_wrong(facts, contact));
+    (course.kind().is_some() && (singular || adrift)).then(|| {
         let slides =
             facts.contacts.iter().any(|c| c.bodies.contains(&body.name) && c.friction.is_none_or(|f| f == 0.0));
         let axes = body.unheld.join(" and ");
@@ -97,7 +98,7 @@ pub(super) fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
         let apart = facts.contacts.iter().filter(|contact| contact.bodies.contains(&body.name)).find(gap);
         let cause = if apart.is_some() && course.never_closed() { "not-touching" } else { "free-body" };
         finding(cause, 0.82, format!("nothing holds body '{}' along {axes}", body.name))
-            .shown(&fault.reason)
+            .shown(&course.reason)
             .shown(format!("no support acts on it along {axes}"))
             .shown(
                 apart.map_or(String::new(), |c| format!("contact '{}' does not touch before anything moves", c.name)),

@@ -50,7 +50,10 @@ pub(super) fn initial_overlap(facts: &Facts, course: &Course) -> Option<Finding>
 }
 
 pub(super) fn no_contact(facts: &Facts, course: &Course) -> Option<Finding> {
-    if !course.never_closed() || facts.contacts.iter().any(|contact| is_wrong(facts, contact)) {
+    if facts.contacts.is_empty()
+        || !course.never_closed()
+        || facts.contacts.iter().any(|contact| is_wrong(facts, contact))
+    {
         return None;
     }
     let unseen: Vec<&str> = facts.contacts.iter().filter(|c| c.seeing == 0).map(|c| c.name.as_str()).collect();

@@ -44,7 +44,7 @@ pub(super) struct Extreme {
     pub node: usize,
 }
 
-/// Height of the triangles that mark them; that of the least stands above its place, that of the greatest below.
+/// Height of the triangles that mark them; that of the greatest stands above its place, that of the least below.
 const MARK: f64 = 7.0;
 /// Space around a frame for its title, marks and labels.
 const LEFT: f64 = 62.0;

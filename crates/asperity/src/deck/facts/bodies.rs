@@ -70,36 +70,36 @@ fn fills(model: &Model, body: &Body, nodes: &BTreeSet<usize>) -> bool {
     body.cells().iter().map(|&cell| model.mesh.measure(cell)).sum::<f64>() > MASSIVE * space
 }
 
-/// Part of the distance of the ends of some nodes along an axis that prescribed motions leave, at the least.
+/// Part of the distance of the ends of some nodes along any axis that prescribed motions leave, at the least.
 fn left(model: &Model, nodes: &BTreeSet<usize>) -> f64 {
-    let (dofs, points) = (&model.problem.dofs, &model.mesh.points);
-    let mut least = 1.0_f64;
-    for axis in 0..dofs.per_node() {
-        let place = |node: usize| points[node][axis];
-        let ends = nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &node| {
-            [low.min(place(node)), high.max(place(node))]
-        });
-        let (length, mut driven) = (ends[1] - ends[0], BTreeMap::new());
-        for step in &model.problem.steps {
-            for prescribed in step.prescribed.iter().filter(|prescribed| prescribed.others.is_empty()) {
-                if let Course::To(way, _) = prescribed.course {
-                    driven.insert(prescribed.dof, way);
-                }
+    (0..model.problem.dofs.per_node()).map(|axis| left_along(model, nodes, axis)).fold(1.0, f64::min)
+}
+
+fn left_along(model: &Model, nodes: &BTreeSet<usize>, axis: usize) -> f64 {
+    let (dofs, place) = (&model.problem.dofs, |node: usize| model.mesh.points[node][axis]);
+    let ends = nodes
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &node| [low.min(place(node)), high.max(place(node))]);
+    let (length, mut driven, mut least) = (ends[1] - ends[0], BTreeMap::new(), 1.0_f64);
+    for step in &model.problem.steps {
+        for prescribed in step.prescribed.iter().filter(|prescribed| prescribed.others.is_empty()) {
+            if let Course::To(way, _) = prescribed.course {
+                driven.insert(prescribed.dof, way);
             }
-            // Mean prescribed motion of the nodes at each end; what is held and not driven stays.
-            let mut ways = [(0.0, 0.0); 2];
-            for &node in nodes {
-                let (dof, place) = (dofs.node(node) + axis, place(node));
-                let end = ends.iter().position(|end| (place - end).abs() < 1e-6 * length);
-                if let (Some(end), Row::Fixed) = (end, step.constraints.row(dof)) {
-                    let way = driven.get(&dof).copied().unwrap_or(0.0);
-                    ways[end] = (ways[end].0 + way, ways[end].1 + 1.0);
-                }
+        }
+        // Mean prescribed motion of the nodes at each end; what is held and not driven stays.
+        let mut ways = [(0.0, 0.0); 2];
+        for &node in nodes {
+            let (dof, place) = (dofs.node(node) + axis, place(node));
+            let end = ends.iter().position(|end| (place - end).abs() < 1e-6 * length);
+            if let (Some(end), Row::Fixed) = (end, step.constraints.row(dof)) {
+                let way = driven.get(&dof).copied().unwrap_or(0.0);
+                ways[end] = (ways[end].0 + way, ways[end].1 + 1.0);
             }
-            let [(low, below), (high, above)] = ways;
-            if below > 0.0 && above > 0.0 {
-                least = least.min((length + high / above - low / below) / length);
-            }
+        }
+        let [(low, below), (high, above)] = ways;
+        if below > 0.0 && above > 0.0 {
+            least = least.min((length + high / above - low / below) / length);
         }
     }
     least

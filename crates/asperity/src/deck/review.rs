@@ -25,6 +25,10 @@ const OVERLAP: f64 = 1e-3;
 /// Flops of a factorisation from which on its time is worth knowing.
 const LASTING: f64 = 1e9;
 
+/// Time of a factorisation over that of as much work in the one full matrix that is timed: the fronts of a tree keep all
+/// threads busy. Measured on two threads, from 6 000 to 102 000 unknowns; single models lie between 0.3 and 0.6.
+const OF_A_TREE: f64 = 0.53;
+
 /// What is said of a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Review {
@@ -194,7 +198,7 @@ impl Page {
             let _ = write!(
                 line,
                 ", about {:.2e} s on {} threads",
-                cost.factorisation_work() / speed,
+                OF_A_TREE * cost.factorisation_work() / speed,
                 current_num_threads()
             );
         }

@@ -119,6 +119,10 @@ pub struct Figure {
     /// Pixels of the PNG a point of the page.
     #[arg(long, value_name = "NUMBER", default_value_t = FigureOptions::default().resolution)]
     pub resolution: f64,
+    /// Draw one quantity of the nodes in a picture of its own: `von_mises_averaged`, `displacement.y`, `displacement` (its
+    /// length), `cauchy_stress_averaged.xy`.
+    #[arg(long, value_name = "NAME")]
+    pub quantity: Option<String>,
 }
 
 /// Arguments of `check`.

@@ -170,12 +170,30 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     for note in &summary.notes {
         let _ = writeln!(text, "note: {note}");
     }
+    text += &likely(summary);
     let _ = writeln!(text, "certificate, the worst of all increments:               limit");
     figures(summary).for_each(|line| text += &line);
-    if !matches!(summary.status, Status::Converged | Status::Doubtful | Status::FileError) {
+    if !matches!(summary.status, Status::Converged | Status::Doubtful | Status::FileError | Status::InputError) {
         let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {again}");
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));
+    text
+}
+
+/// What the run most likely suffers from, what speaks for it and what to try.
+fn likely(summary: &Summary) -> String {
+    let mut text = String::new();
+    for (rank, finding) in summary.diagnosis.iter().enumerate() {
+        let head = if rank == 0 { "most likely" } else { "or else" };
+        // Writing into a String cannot fail.
+        let _ = writeln!(text, "{head}: {} [{}]", finding.what, finding.cause);
+        for line in &finding.evidence {
+            let _ = writeln!(text, "  seen: {line}");
+        }
+        for line in &finding.advice {
+            let _ = writeln!(text, "  try:  {line}");
+        }
+    }
     text
 }
 

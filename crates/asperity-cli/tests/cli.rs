@@ -66,6 +66,20 @@ fn a_run_converges_and_leaves_its_files() {
     let late = asperity(folder.path(), &["figure", "block.results", "--at", "7"]);
     assert_eq!(code(&late), 2);
     assert!(error(&late).contains("this run goes from 0 to 2"), "{}", error(&late));
+    let chosen = |quantity: &str| asperity(folder.path(), &["figure", "block.results", "--quantity", quantity]);
+    for quantity in ["displacement.y", "displacement", "von_mises_averaged", "cauchy_stress_averaged.xy"] {
+        assert_eq!(code(&chosen(quantity)), 0, "{quantity}: {}", error(&chosen(quantity)));
+        assert!(results.join(format!("{quantity}.png")).exists(), "{quantity}");
+    }
+    for (quantity, words) in [
+        ("displacment", "did you mean `displacement`?"),
+        ("cauchy_stress_averaged", "drawn by component: xx, yy"),
+        ("von_mises_averaged.x", "has no components"),
+        ("displacement.w", "drawn by component: x, y, z"),
+    ] {
+        let refused = chosen(quantity);
+        assert!(code(&refused) == 2 && error(&refused).contains(words), "{quantity}: {}", error(&refused));
+    }
     let drawn = asperity(folder.path(), &["figure", "block.results", "--at", "1,2", "--window", "-1,5,-1,3"]);
     assert_eq!(code(&drawn), 0, "{}", error(&drawn));
     assert!(String::from_utf8_lossy(&drawn.stdout).contains("contact_stress.svg"));
@@ -76,7 +90,7 @@ fn a_run_converges_and_leaves_its_files() {
 fn a_run_says_what_looks_wrong() {
     let folder = folder(&DECK.replace("[[20.0, 0.0], [-20.0, 0.0]]", "[[-20.0, 0.0], [20.0, 0.0]]"));
     let run = asperity(folder.path(), &["run", "block.toml", "--set", "step.push.increments={count=4}"]);
-    assert_eq!(code(&run), 0, "{}", error(&run));
+    assert_eq!(code(&run), 6, "no contact ever closed: {}", error(&run));
     let said = "no point of contact `sole` sees its target";
     assert!(error(&run).contains(said) && error(&run).contains("material on its left?"), "{}", error(&run));
     let notes = &summary(&folder.path().join("block.results"))["notes"];

@@ -186,7 +186,8 @@ fn what_nothing_holds_any_more() {
 fn contacts_that_hardly_close_are_noted() {
     let away = DRAGGED.replace("[[20.0, 0.0], [-20.0, 0.0]]", "[[20.0, -1.0], [-20.0, -1.0]]");
     let run = Run::of(&away, &[]);
-    assert_eq!(run.code(), 0, "{}", run.notes());
+    // None of the contacts of the model ever closed: that is hardly what was meant.
+    assert_eq!(run.code(), 6, "{}", run.notes());
     assert!(run.notes().contains("contact 'sole' never closed"), "{}", run.notes());
     let coarse = Run::of(DRAGGED, &["mesh.part.block.rectangle.cells=[2,1]", "limits.friction_deviation=9.0"]);
     assert!(coarse.notes().contains("contact 'sole' rested on 2 points at most"), "{}", coarse.notes());

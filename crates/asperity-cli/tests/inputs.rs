@@ -77,7 +77,15 @@ fn differences(path: &Path) -> Vec<String> {
     if expected.iter().any(|expected| expected.what[0] != "u") {
         let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
         let directory = folder.path();
-        let job = Job { directory, options, input: made.input, start: Start::Beginning, limits, notes: &[] };
+        let job = Job {
+            directory,
+            options,
+            input: made.input,
+            start: Start::Beginning,
+            limits,
+            notes: &[],
+            facts: &Default::default(),
+        };
         let (summary, _) = simulate(&made.model, &job, &mut Silent).unwrap();
         if !matches!(summary.status, Status::Converged | Status::Doubtful) {
             return told(&format!("{:?}", summary.status));

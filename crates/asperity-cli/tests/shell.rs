@@ -204,3 +204,43 @@ fn a_full_disk_is_told_and_leaves_no_half_of_a_file() {
     let half: Vec<_> = left.filter(|name| name.starts_with(".writing")).collect();
     assert!(half.is_empty(), "{half:?}");
 }
+
+/// A cube that needs some gigabytes.
+const CUBE: &str = r#"
+version = 1
+space = "solid"
+mesh.part.cube.box = { from = [0.0, 0.0, 0.0], to = [1.0, 1.0, 1.0], cells = [32, 32, 32], cell = "hex8" }
+material.steel.elastic = { young = 210e3, poisson = 0.3 }
+body.cube = { material = "steel" }
+[[step]]
+increments = { count = 1 }
+displacement."cube.bottom" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."cube.top" = { y = -0.01 }
+"#;
+
+/// A run that does not fit ends before it begins, with its need and with what would fit; `check` says so beforehand.
+#[test]
+fn what_does_not_fit_into_memory_is_told() {
+    let folder = folder(CUBE);
+    let results = folder.path().join("block.results");
+    let refused = [
+        ("ulimit -v 1000000; exec asperity run block.toml", "the limit of its address space"),
+        ("exec asperity run block.toml --set solver.memory=0.9", "what `solver.memory` allows"),
+    ];
+    for (line, words) in refused {
+        let run = shell(folder.path(), line);
+        assert!(code(&run) == 2 && error(&run).contains(words), "{line}: {}", error(&run));
+        let summary = summary(&results);
+        assert_eq!(summary["status"], "input-error", "{line}");
+        let reason = summary["reason"].as_str().unwrap();
+        assert!(reason.contains("unknowns would fit") && reason.contains(words), "{reason}");
+        std::fs::remove_dir_all(&results).unwrap();
+    }
+    let check = asperity(folder.path(), &["check", "block.toml", "--set", "solver.memory=0.9"]);
+    assert_eq!(code(&check), 5);
+    assert!(error(&check).contains("the run needs about"), "{}", error(&check));
+    let said = String::from_utf8_lossy(&check.stdout).into_owned();
+    assert!(said.contains("equations: ") && said.contains("memory: about "), "{said}");
+    let tiny = shell(folder.path(), "ulimit -v 200000; exec asperity run block.toml --threads 1");
+    assert!(code(&tiny) == 2 && error(&tiny).contains("before anything is solved"), "{}", error(&tiny));
+}

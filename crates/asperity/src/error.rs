@@ -78,12 +78,54 @@ impl std::error::Error for Error {}
 pub struct Failure {
     /// In words, with the user's names: what happened and where.
     pub reason: String,
+    /// What of, for a diagnosis.
+    pub kind: Kind,
+}
+
+/// What an attempt fails of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Kind {
+    /// Anything else.
+    #[default]
+    Other,
+    /// A rigid motion that nothing holds.
+    Free,
+    /// Cells deform without resistance.
+    Hourglass,
+    /// A cell is turned inside out.
+    Inverted,
+    /// The law of a solid has no answer.
+    Material,
+    /// The iterations do not end.
+    Iterations,
+    /// Contact states go round in circles.
+    Cycle,
+    /// Forces or stiffnesses are not finite.
+    NotFinite,
+    /// The stiffness is lost but for rounding.
+    Singular,
+    /// Something passed through something, or lies too deep in it.
+    Passage,
+    /// A tool turns too far in one increment.
+    Turn,
+    /// Multipliers do not take the penetration out.
+    Multipliers,
+    /// The step has used up its increments.
+    TooMany,
 }
 
 impl Failure {
     /// A failure with its reason in words.
     pub fn new(reason: impl Into<String>) -> Self {
-        Self { reason: reason.into() }
+        Self { reason: reason.into(), kind: Kind::Other }
+    }
+    /// The same of a kind.
+    pub fn of(self, kind: Kind) -> Self {
+        Self { kind, ..self }
+    }
+    /// The same with the name of the place before its reason.
+    pub fn at(self, place: impl fmt::Display) -> Self {
+        Self { reason: format!("{place}: {}", self.reason), ..self }
     }
 }
 

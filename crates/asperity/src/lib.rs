@@ -20,6 +20,7 @@ pub mod audit;
 pub mod contact;
 pub mod deck;
 pub mod declare;
+pub mod diagnosis;
 pub mod error;
 pub mod files;
 pub mod integrate;
@@ -37,4 +38,4 @@ pub mod system;
 pub mod tensor;
 pub mod tool;
 
-pub use error::{Error, Failure};
+pub use error::{Error, Failure, Kind};

@@ -36,6 +36,42 @@ pub fn usage() -> Option<Usage> {
     })
 }
 
+/// What limits the memory of the process, and how much of it is taken, in bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Room {
+    /// What there is for the process in all.
+    pub total: u64,
+    /// What it has taken of that already.
+    pub taken: u64,
+    /// Where the limit comes from: "what `solver.memory` allows".
+    pub source: &'static str,
+}
+
+impl Room {
+    /// What is left.
+    pub fn left(&self) -> u64 {
+        self.total.saturating_sub(self.taken)
+    }
+}
+
+/// The tightest of the limits of the machine, of control groups and of the address space, and of `allowed` bytes if given;
+/// `None` where nothing limits or the system does not tell.
+pub fn room(allowed: Option<u64>) -> Option<Room> {
+    let usage = usage()?;
+    let resident = |source| move |total| Room { total, taken: usage.resident, source };
+    let all = [
+        allowed.map(resident("what `solver.memory` allows")),
+        installed().map(resident("what this machine has")),
+        control_group().map(resident("what the control group of this process allows")),
+        address_space().map(|total| Room {
+            total,
+            taken: usage.addresses,
+            source: "the limit of its address space (`ulimit -v`)",
+        }),
+    ];
+    all.into_iter().flatten().min_by_key(Room::left)
+}
+
 fn installed() -> Option<u64> {
     kilobytes(&std::fs::read_to_string("/proc/meminfo").ok()?, "MemTotal:")
 }
@@ -94,5 +130,8 @@ mod tests {
         let usage = usage().unwrap();
         assert!(usage.resident > 1 << 16 && usage.resident <= usage.peak && usage.peak <= usage.addresses);
         assert!(memory().unwrap() > usage.resident);
+        let tight = room(Some(usage.peak + (1 << 16))).unwrap();
+        assert!(tight.source.contains("solver.memory") && tight.left() < 1 << 24);
+        assert!(room(None).unwrap().left() > tight.left());
     }
 }

@@ -175,6 +175,7 @@ increments.count = 30
         start: Start::Beginning,
         limits: &Limits::default(),
         notes: &[],
+        facts: &Default::default(),
     };
     simulate(&made.model, &job, &mut Silent).unwrap().1.unwrap();
     let text = |path: &str| String::from_utf8_lossy(&std::fs::read(directory.path().join(path)).unwrap()).into_owned();

@@ -147,8 +147,15 @@ displacement."block.top" = { y = 0.01 }
 fn restart(deck: &str, directory: &Path) -> String {
     let made = read(deck, "deck.toml", Path::new(""), &[]).and_then(build).unwrap_or_else(|d| panic!("{d:?}"));
     let options = ResultOptions::default();
-    let job =
-        Job { directory, options, input: made.input, start: Start::Checkpoint, limits: &Limits::default(), notes: &[] };
+    let job = Job {
+        directory,
+        options,
+        input: made.input,
+        start: Start::Checkpoint,
+        limits: &Limits::default(),
+        notes: &[],
+        facts: &Default::default(),
+    };
     simulate(&made.model, &job, &mut Silent).unwrap_err().to_string()
 }
 

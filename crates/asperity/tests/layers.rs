@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 const LAYERS: &[&[&str]] = &[
     &["error"],
-    &["tensor", "declare", "amplitude", "machine"],
+    &["tensor", "declare", "amplitude", "machine", "diagnosis"],
     &["integrate", "files"],
     &["mesh", "material", "interface", "tool"],
     &["system"],

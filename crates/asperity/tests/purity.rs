@@ -72,6 +72,7 @@ fn outputs_change_nothing() {
         start: Start::Beginning,
         limits: &Limits::default(),
         notes: &[],
+        facts: &Default::default(),
     };
     simulate(&model, &job, &mut Silent).unwrap().1.unwrap();
     let (_, last) = checkpoint::load::<State>(&directory.path().join(CHECKPOINT), &input).unwrap();

@@ -7,12 +7,12 @@ use crate::symbolic::Symbolic;
 use std::time::Instant;
 
 /// Order of the full matrix that is timed.
-const ORDER: usize = 640;
+const ORDER: usize = 1024;
 /// Times it is factorised; the fastest counts.
 const TIMES: usize = 4;
 
 /// Multiplications and additions a second in a large front, with the threads of the current rayon pool: a full matrix is
-/// factorised a few times, in some hundredths of a second. Divides [`Prediction::factorisation_work`](crate::Prediction).
+/// factorised a few times, in some tenths of a second. Divides [`Prediction::factorisation_work`](crate::Prediction).
 ///
 /// # Errors
 /// None that is known; those of the factorisation.

@@ -77,7 +77,28 @@ fn head(folder: &Folder) -> String {
     if let Some(reason) = &summary.reason {
         let _ = writeln!(out, "<p class=\"reason\" id=\"reason\">{}</p>", escape(reason));
     }
-    out + "</header>\n"
+    out + &likely(folder) + "</header>\n"
+}
+
+/// What the run most likely suffers from.
+fn likely(folder: &Folder) -> String {
+    let list = |lines: &[String]| lines.iter().map(|line| format!("<li>{}</li>", escape(line))).collect::<String>();
+    let found = folder.summary.diagnosis.iter().map(|finding| {
+        format!(
+            "<li><strong>{}</strong> <code>{}</code><ul class=\"evidence\" aria-label=\"seen\">{}</ul>\
+             <p>What to try:</p><ul class=\"advice\">{}</ul></li>\n",
+            escape(&finding.what),
+            escape(&finding.cause),
+            list(&finding.evidence),
+            list(&finding.advice)
+        )
+    });
+    let found: String = found.collect();
+    if found.is_empty() {
+        found
+    } else {
+        format!("<section id=\"diagnosis\"><h2>Likely causes</h2><ol>{found}</ol></section>\n")
+    }
 }
 
 /// Certificate, balance of energy, notes.

@@ -6,8 +6,12 @@ use asperity::output::figure::{FigureOptions, draw_standard};
 
 /// Draws from the files of a result directory, and says what it wrote.
 pub fn figure(arguments: &Figure) -> Outcome {
-    let options =
-        FigureOptions { times: arguments.at.clone(), window: arguments.window, resolution: arguments.resolution };
+    let options = FigureOptions {
+        times: arguments.at.clone(),
+        window: arguments.window,
+        resolution: arguments.resolution,
+        quantity: arguments.quantity.clone(),
+    };
     let written = draw_standard(&arguments.directory, &options)?;
     print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }

@@ -64,7 +64,8 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
         translated.write(&directory.join(format!("{}.toml", translate::stem(&arguments.deck.path))))?;
     }
     let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
-    let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes };
+    let facts = asperity::deck::facts(&made);
+    let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes, facts: &facts };
     if start == Start::Beginning || !directory.join(ASKED).exists() {
         made.asked().write(&directory)?;
     }

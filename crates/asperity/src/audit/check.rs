@@ -5,10 +5,10 @@ use super::hierarchy::{bounds, meet};
 use super::inside::{Way, depth, is_inside};
 use super::rigid::Rigid;
 use super::surface::{Placed, Surface};
-use crate::Failure;
 use crate::mesh::Mesh;
 use crate::system::{Dofs, History, Interpenetration};
 use crate::tensor::Vec3;
+use crate::{Failure, Kind};
 use std::sync::{Arc, OnceLock};
 
 /// What a contact claims, in the words of the audit.
@@ -362,7 +362,10 @@ impl Look<'_> {
             let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
             let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
             let here = path[steps];
-            if meet(&[here, here], &tool.bounds) {
+            // Behind an open profile lies what no box about it holds; a contact looks there itself.
+            let unseen = !tool.closed && !self.prepared.known[pair];
+            let behind = Vec3([if unseen { size } else { 0.0 }; 3]);
+            if meet(&[here - behind, here + behind], &tool.bounds) {
                 let most = if tool.closed { f64::INFINITY } else { size };
                 let deep = depth(&tool.tree, here, (most, !tool.closed), &|_, _| true);
                 let truly = |piece: usize| {
@@ -445,7 +448,7 @@ impl Look<'_> {
             keep(&mut refused, (beyond(initial) / limit, found));
         });
         match refused.filter(|(part, _)| *part > 1.0) {
-            Some((_, found)) => Err(Failure::new(self.words(&found))),
+            Some((_, found)) => Err(Failure::new(self.words(&found)).of(Kind::Passage)),
             None => Ok(worst
                 .filter(|(part, _)| *part > 0.0)
                 .map_or_else(Interpenetration::default, |(part, found)| self.describe(part, &found))),

@@ -10,8 +10,8 @@
 
 use super::partner::Role;
 use super::spread::{MOST, Spread};
-use crate::Failure;
 use crate::tensor::Vec3;
+use crate::{Failure, Kind};
 use std::collections::BTreeMap;
 
 /// How far a contact is augmented. Lengths are parts of the size of the surface's element.
@@ -94,7 +94,8 @@ impl Augmentation {
             "contact '{name}': {done} augmentations leave a penetration of {:.1e} and a slip of {:.1e} of an element's size \
              at its nodes",
             left.penetration, left.slip
-        )))
+        ))
+        .of(Kind::Multipliers))
     }
 }
 

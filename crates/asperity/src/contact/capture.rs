@@ -3,10 +3,10 @@
 
 use super::point::triad;
 use super::surface::Surface;
-use crate::Failure;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
+use crate::{Failure, Kind};
 use std::f64::consts::FRAC_PI_2;
 
 /// Chords of the boundary in the accepted state, each with the connected whole behind it.
@@ -112,7 +112,8 @@ pub fn depths(
 /// `depth` is its largest admissible penetration.
 pub fn refuse_jump(penetration: f64, depth: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
     if penetration > 0.25 * depth {
-        return Err(Failure::new(format!("{} came to lie {penetration:.3e} deep in one increment", name())));
+        let reason = format!("{} came to lie {penetration:.3e} deep in one increment", name());
+        return Err(Failure::new(reason).of(Kind::Passage));
     }
     Ok(())
 }
@@ -122,7 +123,8 @@ pub fn refuse_jump(penetration: f64, depth: f64, name: impl FnOnce() -> String) 
 pub fn refuse_turn(turned: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
     if turned.abs() > FRAC_PI_2 {
         let degrees = turned.abs().to_degrees();
-        return Err(Failure::new(format!("{}: its tool turned by {degrees:.0} degrees in one increment", name())));
+        let reason = format!("{}: its tool turned by {degrees:.0} degrees in one increment", name());
+        return Err(Failure::new(reason).of(Kind::Turn));
     }
     Ok(())
 }

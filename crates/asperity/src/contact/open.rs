@@ -12,11 +12,11 @@ use super::seed::Seed;
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
 use super::variational::ContactForm;
-use crate::Failure;
 use crate::interface::{Linearised, Past};
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Vec3};
+use crate::{Failure, Kind};
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -85,7 +85,8 @@ impl Attempt for OpenContact<'_> {
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
             if stencil.also[2] > 0 && self.history.slot(index)[entry::SEGMENT] >= 0.0 {
-                return Err(Failure::new(format!("the target came through at {}", self.contact.describe(index))));
+                let reason = format!("the target came through at {}", self.contact.describe(index));
+                return Err(Failure::new(reason).of(Kind::Passage));
             }
             write_hit(&self.contact.surface.points[index], None, new);
             leave(&*self.contact.law, self.history.slot(index), new);

@@ -10,10 +10,10 @@ use super::open::OpenContact;
 use super::point::triad;
 use super::record::entry;
 use super::target::Memory;
-use crate::Failure;
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::{self, Met, Ray, Rules};
+use crate::{Failure, Kind};
 
 /// How far before a face the way of a point begins that touched it, as a part of the admissible depth: off its rounding.
 const OFF: f64 = 1e-6;
@@ -66,6 +66,7 @@ pub fn came_through(point: &str, at: Vec3, depth: f64) -> Failure {
         "the target came through at {point}, ({x:.6}, {y:.6}, {z:.6}): it lies {depth:.3e} deep, beyond the middle of the \
          body; take smaller increments, or a larger `penalty` if the target is pressed through"
     ))
+    .of(Kind::Passage)
 }
 
 impl OpenContact<'_> {

@@ -7,6 +7,7 @@
 
 mod build;
 pub mod diagnose;
+mod facts;
 pub mod form;
 pub mod keys;
 mod kind;
@@ -24,6 +25,7 @@ pub mod tree;
 
 pub use build::{Made, build};
 pub use diagnose::{Diagnostic, Diagnostics, Severity};
+pub use facts::facts;
 pub use keys::{Deck, InterfaceDeck, PointDeck};
 pub use point::{LoadedPoint, load_point, read_point};
 pub use reader::{Name, Unsaid};

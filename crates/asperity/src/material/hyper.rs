@@ -3,9 +3,9 @@
 
 use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Material, Spin, Variable, VariableKind};
-use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
+use crate::{Failure, Kind};
 
 /// An isotropic law between `b` and the Cauchy stress.
 pub trait HyperLaw: Clone + Send + Sync + 'static {
@@ -51,7 +51,7 @@ fn left_cauchy_green(state: &[f64]) -> Tensor2 {
 /// `f b_n` and `b = f b_n f^T`.
 fn carried(f: &Tensor2, old: &[f64]) -> Result<(Tensor2, Tensor2), Failure> {
     if f.det() <= 0.0 {
-        return Err(Failure::new(INSIDE_OUT));
+        return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
     }
     let half = *f * left_cauchy_green(old);
     let b = |i: usize, j: usize| Vec3(half.0[i]).dot(Vec3(f.0[j]));

@@ -10,9 +10,9 @@ use super::frame::{Frame, InPlane, InSpace, Turning};
 use super::integrated::Integrated;
 use super::law::{self, Differentiate};
 use super::{Directions, Gradient, Material, SmallStrain, Spin, Turned, Variable, Vars};
-use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
+use crate::{Failure, Kind};
 
 /// A law between the strain increment of an objective frame and the rotated stress.
 pub trait RateLaw: Clone + Send + Sync + 'static {
@@ -126,7 +126,7 @@ impl<L: RateLaw> Differentiate for Rate<L> {
         directions: Directions,
     ) -> Result<(), Failure> {
         if f.det() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT));
+            return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
         }
         let (stress, places) = (stress_of(old), directions.components());
         if N == 9 {
@@ -173,7 +173,7 @@ impl<L: RateLaw> Material for Rate<L> {
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         if f.det() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT));
+            return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
         }
         self.update_in(&Frame::of(f, &stress_of(old)), dt, old, new)
     }

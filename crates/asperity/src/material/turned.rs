@@ -8,9 +8,9 @@ use super::law::{self, Differentiate};
 use super::rate::{INSIDE_OUT, stress_of};
 use super::small::NO_RATE;
 use super::{Directions, Gradient, Material, Rate, RateLaw, Variable, VariableKind, Vars, green_naghdi, logarithmic};
-use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::{Scalar, Tensor2};
+use crate::{Failure, Kind};
 
 /// The spin of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +54,7 @@ impl<L: RateLaw> Turned<L> {
 
     fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
         if f.det().re() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT));
+            return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
         }
         let at = self.memory_at();
         let memory = Tensor2::from_voigt(std::array::from_fn(|i| old[at + i]));

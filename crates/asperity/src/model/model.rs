@@ -167,7 +167,8 @@ impl Model {
 
     /// A run from a given state: the initial one ([`Problem::initial_state`]) or that of a checkpoint.
     pub fn run(&self, state: State) -> Run<'_> {
-        Run::new(&self.problem, state, Box::new(Frontal::new(self.problem.newton.factors)))
+        let newton = &self.problem.newton;
+        Run::new(&self.problem, state, Box::new(Frontal::new(newton.factors).within(newton.memory)))
     }
 }
 

@@ -73,6 +73,12 @@ pub static FIGURES: &[Figure] = &[
          sides explain and what overlapped between two sides of a contact before any motion, over the size of the cell.",
         "a finer surface, more points (`gauss`, `parts` of an edge), a stiffer `penalty`, or a contact where none is declared",
     ),
+    largest("pressure_oscillation", "jumps of the pressure in cells").limited(
+        "3.0",
+        "Root mean square distance of the pressure at the points of a body from the mean over the nodes of their cell, over that of \
+         von Mises' stress: cells that cannot keep their volume and deform lock.",
+        "formulation = \"f-bar\", or cells of second degree with integration = \"reduced\"",
+    ),
     largest("nodal_penetration", "  weighted, at nodes"),
     largest("penalty_energy", "energy that penetration takes up").limited(
         "0.05",

@@ -25,6 +25,7 @@ pub mod study;
 mod summary;
 mod table;
 pub mod vtk;
+mod witness;
 
 pub use asked::{ASKED, Asked};
 pub use certificate::{Certificate, Doubt, Limits, Occasion, Reading};

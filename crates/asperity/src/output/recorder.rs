@@ -4,6 +4,7 @@ use super::log::RunLog;
 use super::progress::{Reporter, Request};
 use super::quantities::{Parts, Source};
 use super::results::Results;
+use super::witness::Witness;
 use crate::Error;
 use crate::solve::{AttemptRecord, IterationRecord, Observer, Problem};
 use crate::system::State;
@@ -20,6 +21,8 @@ pub struct Recorder<'a> {
     pub log: RunLog,
     /// Where the run stands.
     pub reporter: Reporter,
+    /// What a diagnosis asks of the run.
+    pub witness: Witness,
     /// Who is told too, and may ask to stop.
     pub audience: &'a mut dyn Observer,
     /// A table that could not be written: the run stops at its next accepted increment.
@@ -40,7 +43,7 @@ impl<'a> Recorder<'a> {
         reporter.progress.cuts = summary.attempts.saturating_sub(summary.increments);
         (reporter.progress.increment, reporter.progress.time) = (summary.increments, summary.time);
         let trouble = reporter.write().err();
-        Self { parts, problem, results, log, reporter, audience, trouble }
+        Self { parts, problem, results, log, reporter, witness: Witness::default(), audience, trouble }
     }
 }
 
@@ -50,6 +53,7 @@ impl Observer for Recorder<'_> {
     }
     fn attempt(&mut self, attempt: &AttemptRecord) {
         self.reporter.attempt(self.problem, attempt);
+        self.witness.attempt(self.problem, attempt);
         let told = self.log.attempt(self.problem, attempt);
         // An accepted increment is told when its results are there.
         let told = told.and_then(|()| if attempt.failure.is_some() { self.reporter.write() } else { Ok(()) });
@@ -62,6 +66,7 @@ impl Observer for Recorder<'_> {
         if let Some(error) = self.trouble.take() {
             return Err(error);
         }
+        self.witness.accepted(self.problem, state, attempt);
         let last = state.step > attempt.step;
         self.results.accepted(&Source { parts: self.parts, state, step: attempt.step }, last)?;
         let progress = &mut self.reporter.progress;

@@ -23,7 +23,9 @@ use super::quantity::Place;
 use super::readings::{READINGS, ReadingTable};
 use super::summary::{Status, Summary};
 use super::vtk::{Encoding, Series};
+use super::witness::certified;
 use crate::Error;
+use crate::diagnosis::{Course, Doubted, End, Facts, diagnose};
 use crate::system::{State, Term};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -60,6 +62,8 @@ pub struct Results {
     pub limits: Limits,
     /// What `summary.json` will say; the caller fills in what the results do not know.
     pub summary: Summary,
+    /// Whether the model has contacts and none of them ever closed.
+    idle: bool,
     spent: Duration,
     /// When the summary was last written.
     told: Instant,
@@ -189,6 +193,7 @@ impl Results {
             certificate,
             limits,
             summary,
+            idle: false,
             spent,
             told,
         })
@@ -230,6 +235,15 @@ impl Results {
         let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
         checkpoint::save(&self.directory.join(CHECKPOINT), &Head { input: self.input, stamp }, state)
     }
+    /// Says in the summary what the run most likely suffers from, if it failed or is doubtful.
+    pub fn diagnose(&mut self, facts: &Facts, course: Course) {
+        let mut course = certified(course, &self.certificate, &self.limits);
+        self.idle = course.ended == End::Well && course.never_closed();
+        if self.idle {
+            course.doubts.push(Doubted { figure: "closed_points".into(), ..Doubted::default() });
+        }
+        self.summary.diagnosis = diagnose(facts, &course);
+    }
     /// Says in the summary how the run ended, and draws the standard pictures. A picture that cannot be drawn is a note
     /// in the summary and no failure of the run.
     ///
@@ -238,7 +252,7 @@ impl Results {
     pub fn finish(&mut self, outcome: &Result<(), Error>) -> Result<(), Error> {
         let doubts = self.certificate.doubts(&self.limits);
         self.summary.notes.extend(doubts.iter().map(ToString::to_string));
-        self.summary.end(outcome, !doubts.is_empty());
+        self.summary.end(outcome, !doubts.is_empty() || self.idle);
         self.summary.timings.insert("output".into(), self.spent.as_secs_f64());
         remove(&self.directory, [RESERVE.to_owned()])?;
         self.write_summary()?;

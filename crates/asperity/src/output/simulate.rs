@@ -9,6 +9,7 @@ use super::recorder::Recorder;
 use super::results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
 use super::summary::{Status, Summary};
 use crate::Error;
+use crate::diagnosis::Facts;
 use crate::mesh::Space;
 use crate::model::Model;
 use crate::solve::{Observer, Run, RunOptions, Stop};
@@ -31,6 +32,8 @@ pub struct Job<'a> {
     pub limits: &'a Limits,
     /// What was said of the model beforehand, for the notes of the summary.
     pub notes: &'a [String],
+    /// What a diagnosis asks of the model.
+    pub facts: &'a Facts,
 }
 
 /// Where a run begins.
@@ -53,13 +56,16 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     if let Some(finished) = job.finished(model, &state) {
         return Ok((finished, Ok(())));
     }
+    if let Err(error) = model.problem.check_memory(&state) {
+        return Ok((job.refuse(model, &error)?, Err(error)));
+    }
     let (results, log) = job.open(model, &Source { parts: &parts, state: &state, step: state.step })?;
     let mut recorder = Recorder::new((&parts, &model.problem), results, log, audience);
     let mut run = model.run(state);
     let begun = Instant::now();
     let ended = run.run(&RunOptions::default(), &mut recorder);
     let seconds = begun.elapsed().as_secs_f64();
-    let (mut results, mut reporter) = (recorder.results, recorder.reporter);
+    let (mut results, mut reporter, witness) = (recorder.results, recorder.reporter, recorder.witness);
     let mut ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
     if ended.is_err()
         && let Err(error) = results.checkpoint(&run.state)
@@ -75,6 +81,14 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
     results.summary.notes.extend(imbalance(&results.certificate, job.limits));
     results.summary.notes.extend(large_strain(&results.certificate));
     results.summary.notes.extend(rests(&results.certificate, model.space));
+    let failed = match &ended {
+        Err(Error::NotConverged(reason)) => Some((run.ended, reason.clone())),
+        _ => None,
+    };
+    let course = witness.course((&model.problem, &run.state), failed);
+    if matches!(ended, Ok(()) | Err(Error::NotConverged(_))) {
+        results.diagnose(job.facts, course);
+    }
     results.finish(&ended)?;
     Request::clear(job.directory)?;
     (reporter.progress.status, reporter.progress.remaining) = (results.summary.status, None);
@@ -112,6 +126,19 @@ impl Job<'_> {
         let same = summary.status == Status::Converged && summary.input_hash == Some(self.input.to_string());
         summary.notes.push("this run had come to its end before; nothing was computed or written".into());
         same.then_some(summary)
+    }
+
+    /// The summary of a run that does not begin; where it was to go on, that of the run so far stands.
+    fn refuse(&self, model: &Model, error: &Error) -> Result<Summary, Error> {
+        let mut summary = Summary::begin(&model.title, model.space.name());
+        (summary.input_hash, summary.unknowns) = (Some(self.input.to_string()), model.problem.dofs.count());
+        summary.notes.extend_from_slice(self.notes);
+        summary.end(&Err(error.clone()), false);
+        if self.start == Start::Beginning {
+            Results::clear(self.directory)?;
+            summary.write(&self.directory.join(SUMMARY))?;
+        }
+        Ok(summary)
     }
 
     fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {
@@ -204,6 +231,8 @@ fn facets(model: &Model, state: &State) -> Vec<String> {
 fn account(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
+    summary.factorisations = run.memory.factorisations;
+    summary.timings.insert("factorisation".into(), run.memory.factorising.as_secs_f64());
     summary.timings.insert("audit".into(), run.audited.as_secs_f64());
     summary.notes.extend(run.problem.newton.notes());
     let cut = summary.attempts.saturating_sub(summary.increments);

@@ -5,6 +5,7 @@ use super::certificate::{Certificate, Limits, Occasion};
 use super::figures::FIGURES;
 use super::file::{self, Durability, write_atomic};
 use super::quantity::{Frame, Place, Quantity};
+use crate::diagnosis::Finding;
 use crate::{Error, machine};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -65,6 +66,9 @@ pub struct Summary {
     pub attempts: usize,
     /// Newton iterations, those of rejected attempts included.
     pub iterations: usize,
+    /// Factorisations of the matrix since the run began or went on.
+    #[serde(default)]
+    pub factorisations: usize,
     /// Total time reached.
     pub time: f64,
     /// Seconds by what they were spent on.
@@ -87,6 +91,9 @@ pub struct Summary {
     pub certificate: BTreeMap<String, Option<f64>>,
     /// Of each figure that was read: where and when it was worst, and its limit.
     pub worst: BTreeMap<String, Occasion>,
+    /// What a run that failed or is doubtful most likely suffers from, the likeliest first.
+    #[serde(default)]
+    pub diagnosis: Vec<Finding>,
     /// Notes that the user must see: options that bend a promise, warnings.
     pub notes: Vec<String>,
     /// Result files, relative to the directory of this one.
@@ -110,6 +117,7 @@ impl Summary {
             increments: 0,
             attempts: 0,
             iterations: 0,
+            factorisations: 0,
             time: 0.0,
             timings: BTreeMap::new(),
             peak_memory: None,
@@ -121,6 +129,7 @@ impl Summary {
             reactions: BTreeMap::new(),
             certificate: FIGURES.iter().map(|figure| (figure.name.into(), None)).collect(),
             worst: BTreeMap::new(),
+            diagnosis: Vec::new(),
             notes: Vec::new(),
             files: Vec::new(),
         }

@@ -5,11 +5,11 @@ use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
 use super::operator::{Nodal, Tangent, add_forces, deformation, volume_gradient};
 use super::point::{PointLaw, PointStress};
 use super::{Strain, plane_stress};
-use crate::Failure;
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
 use crate::tensor::Tensor2;
+use crate::{Failure, Kind};
 use rayon::prelude::*;
 
 /// Cells whose gradients one thread finds together.
@@ -47,7 +47,7 @@ impl Attempt for OpenBody<'_> {
             Space::PlaneStress | Space::Axisymmetric => self.evaluate_padded::<2, 5>(index, new, local),
             Space::Solid => self.evaluate_padded::<3, 9>(index, new, local),
         };
-        done.map_err(|f| Failure::new(format!("{}: {}", self.body.name_of(index), f.reason)))?;
+        done.map_err(|f| f.at(self.body.name_of(index)))?;
         Ok(0)
     }
 }
@@ -78,7 +78,7 @@ impl Body {
         let shapes = self.shapes(view.kind);
         for shapes in shapes.points.iter().chain(&shapes.center) {
             if !gradients.push(shapes, x, self.space) {
-                return Err(Failure::new(self.inverted(cell)));
+                return Err(Failure::new(self.inverted(cell)).of(Kind::Inverted));
             }
         }
         gradients.close();
@@ -149,9 +149,7 @@ impl OpenBody<'_> {
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in points.zip(lanes).enumerate() {
             let volume = point.volume * self.body.thickness(old);
-            let det = sums
-                .add((point.rows(), volume), (old, new))
-                .map_err(|f| Failure::new(format!("integration point {}: {}", number + 1, f.reason)))?;
+            let det = sums.add((point.rows(), volume), (old, new)).map_err(|f| at_point(f, number))?;
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
@@ -248,4 +246,10 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
 
 fn trace(state: &[f64]) -> f64 {
     state[0] + state[1] + state[2]
+}
+
+/// The failure of a law at an integration point, counted from zero.
+fn at_point(failure: Failure, number: usize) -> Failure {
+    let kind = if failure.kind == Kind::Other { Kind::Material } else { failure.kind };
+    failure.of(kind).at(format_args!("integration point {}", number + 1))
 }

@@ -5,10 +5,10 @@
 
 use super::Strain;
 use super::piola::{Derivative, VOIGT, first_piola, place};
-use crate::Failure;
 use crate::material::{Directions, Gradient, Material};
 use crate::mesh::Space;
 use crate::tensor::Tensor2;
+use crate::{Failure, Kind};
 
 /// `P` and its derivatives along the `D` components of f that vary and along `ln det f0`.
 pub struct PointStress<const D: usize> {
@@ -99,7 +99,7 @@ impl PointLaw<'_> {
     fn admissible(&self, f: &Tensor2) -> Result<f64, Failure> {
         let det = f.det();
         let fine = det > 0.0 && self.center.is_none_or(|c| c > 0.0);
-        if fine { Ok(det) } else { Err(Failure::new("a cell is turned inside out")) }
+        if fine { Ok(det) } else { Err(Failure::new("a cell is turned inside out").of(Kind::Inverted)) }
     }
 
     /// New state, and in `out` `P` and its derivatives.

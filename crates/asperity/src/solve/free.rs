@@ -4,12 +4,18 @@ use super::linear::LinearError;
 use super::newton::{IfFree, Newton, Trouble};
 use super::observer::AttemptRecord;
 use crate::system::Tangent;
-use crate::{Error, Failure};
+use crate::{Error, Failure, Kind};
 
 /// Stiffness that props an iterate in which something is free, over the largest in the matrix.
 const PROP: f64 = 1e-4;
 /// Force over the reference force that holds what meets no stiffness.
 const RESISTANCE: f64 = 1e-3;
+
+/// The failure that motions without stiffness are, in words.
+fn unheld(text: String) -> Failure {
+    let kind = if text.contains("deforms without resistance") { Kind::Hourglass } else { Kind::Free };
+    Failure::new(text).of(kind)
+}
 
 impl Newton<'_> {
     /// Whether there are terms that may yet hold what is free: contacts.
@@ -36,7 +42,7 @@ impl Newton<'_> {
         if self.propped.is_empty() || self.problem.newton.if_free == IfFree::Hold {
             return Ok(());
         }
-        Err(Failure::new(self.propped.join("; ")).into())
+        Err(unheld(self.propped.join("; ")).into())
     }
 
     /// Whether the first guess, which left no force unbalanced, carries something on that nothing holds any more: no matrix
@@ -62,9 +68,9 @@ impl Newton<'_> {
         }
         let text = format!("{}: nothing holds it any more at time {:.4}", motions.join("; "), self.at.time);
         if !guessed {
-            return Err(Failure::new(text).into());
+            return Err(unheld(text).into());
         }
-        Err(Trouble::Error(Error::NotConverged(format!(
+        Err(Trouble::End(unheld(format!(
             "{text}; support it, keep it in contact, or leave it where it is by `solver.if_free = \"hold\"`"
         ))))
     }
@@ -126,18 +132,15 @@ impl Newton<'_> {
     pub(super) fn explain(&self, error: LinearError, iteration: usize) -> Trouble {
         let motions = match &error {
             LinearError::Singular(motions) => motions,
-            LinearError::Inaccurate(_) | LinearError::NotFinite(_) => {
-                return Trouble::Failure(Failure::new(error.to_string()));
-            }
+            LinearError::Inaccurate(_) | LinearError::NotFinite(_) => return Trouble::Failure(Failure::from(&error)),
+            LinearError::Memory(text) => return Trouble::Error(Error::input(text)),
             LinearError::Other(_) => return Trouble::Error(Error::Internal(error.to_string())),
         };
         let text = self.name_motions(motions).join("; ");
         if iteration == 0 {
-            Trouble::Error(Error::NotConverged(format!(
-                "{text}: nothing holds it; support it, or bring it into contact"
-            )))
+            Trouble::End(unheld(format!("{text}: nothing holds it; support it, or bring it into contact")))
         } else {
-            Trouble::Failure(Failure::new(format!("{text} in iteration {iteration}")))
+            Trouble::Failure(unheld(format!("{text} in iteration {iteration}")))
         }
     }
 

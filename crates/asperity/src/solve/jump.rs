@@ -51,7 +51,7 @@ impl Influences {
         if unknowns.is_empty() || unknowns.len() > MOST {
             return Ok(None);
         }
-        self.find(&unknowns, solver).map_err(|error| Failure::new(error.to_string()))?;
+        self.find(&unknowns, solver).map_err(|error| Failure::from(&error))?;
         let unknowns: Vec<usize> = unknowns.into_iter().collect();
         let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
         let capacitance = self.capacitance(&rows, &unknowns);

@@ -1,6 +1,9 @@
 //! Solving the linear system of an iteration: the trait, and the multifrontal solver behind it.
 
+use super::demand::{single, too_much};
+use crate::machine::room;
 use crate::system::Csr;
+use crate::{Failure, Kind};
 use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Solver, Symbolic};
 use std::fmt;
 
@@ -13,6 +16,8 @@ pub enum LinearError {
     Inaccurate(String),
     /// A value of the matrix or of the right-hand side is infinite or not a number, as far from equilibrium.
     NotFinite(String),
+    /// The factors do not fit into the memory there is, in words.
+    Memory(String),
     /// Anything else, in words.
     Other(String),
 }
@@ -21,8 +26,22 @@ impl fmt::Display for LinearError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular(_) => f.write_str("the matrix is singular"),
-            Self::Inaccurate(text) | Self::NotFinite(text) | Self::Other(text) => f.write_str(text),
+            Self::Inaccurate(text) | Self::NotFinite(text) | Self::Memory(text) | Self::Other(text) => {
+                f.write_str(text)
+            }
         }
+    }
+}
+
+impl From<&LinearError> for Failure {
+    /// Why an attempt fails of it, where a smaller increment may help.
+    fn from(error: &LinearError) -> Self {
+        let kind = match error {
+            LinearError::Singular(_) | LinearError::Inaccurate(_) => Kind::Singular,
+            LinearError::NotFinite(_) => Kind::NotFinite,
+            LinearError::Memory(_) | LinearError::Other(_) => Kind::Other,
+        };
+        Failure::new(error.to_string()).of(kind)
     }
 }
 
@@ -42,7 +61,7 @@ pub enum Factors {
 }
 
 impl Factors {
-    fn policy(self) -> Policy {
+    pub(super) fn policy(self) -> Policy {
         let forced = Policy { share: f64::INFINITY, ..Policy::default() };
         match self {
             Self::Auto => Policy { reuse: Reuse::AcrossSequences, ..Policy::default() },
@@ -124,13 +143,34 @@ pub trait LinearSolver: Send {
 #[derive(Debug, Default)]
 pub struct Frontal {
     factors: Factors,
+    /// Bytes that the process may take, if the user says so.
+    memory: Option<u64>,
+    /// Bytes of the factor there is, which the next one may have.
+    held: u64,
     solver: Option<Solver>,
 }
 
 impl Frontal {
     /// A solver that factorises when it is told to.
     pub fn new(factors: Factors) -> Self {
-        Self { factors, solver: None }
+        Self { factors, ..Self::default() }
+    }
+    /// The same within so many bytes of memory of the process, if given; in what the machine has else.
+    pub fn within(self, memory: Option<u64>) -> Self {
+        Self { memory, ..self }
+    }
+    /// Whether a factor of that size fits into memory.
+    fn check_memory(&mut self, symbolic: &Symbolic) -> Result<(), LinearError> {
+        let cost = symbolic.prediction();
+        let needed = cost.bytes as u64 + single(&self.factors.policy(), &cost);
+        let room = if needed > SMALL { room(self.memory) } else { None };
+        match room.filter(|room| needed > room.left() + self.held) {
+            Some(room) => Err(LinearError::Memory(too_much(room.taken + needed - self.held, &room))),
+            None => {
+                self.held = needed;
+                Ok(())
+            }
+        }
     }
     /// What was done so far.
     pub fn counts(&self) -> frontal::Counts {
@@ -154,10 +194,18 @@ fn translate(error: frontal::Error) -> LinearError {
     }
 }
 
-/// Unknowns that couple to very many others, such as those of a tool's reference node: the rule by which minimum degree
-/// orderings put dense rows last (Amestoy, Davis & Duff, ACM TOMS 30, 2004).
+/// Bytes of a factor of which no question is asked.
+const SMALL: u64 = 1 << 26;
+
+/// Entries from which on a row of a matrix of so many is dense, and its unknown better eliminated last: the rule of minimum
+/// degree orderings (Amestoy, Davis & Duff, ACM TOMS 30, 2004).
+pub(super) fn dense(rows: usize) -> f64 {
+    16.0_f64.max(10.0 * (rows as f64).sqrt())
+}
+
+/// Unknowns that couple to very many others, such as those of a tool's reference node.
 fn dense_rows(pattern: &Csr) -> Vec<usize> {
-    let many = 16.0_f64.max(10.0 * (pattern.rows() as f64).sqrt());
+    let many = dense(pattern.rows());
     let length = |row: &usize| pattern.starts[row + 1] - pattern.starts[*row];
     (0..pattern.rows()).filter(|row| length(row) as f64 > many).collect()
 }
@@ -173,6 +221,7 @@ impl LinearSolver for Frontal {
             return solver.follow(pattern).map_err(translate);
         }
         let symbolic = Symbolic::analyse(&pattern, &options).map_err(translate)?;
+        self.check_memory(&symbolic)?;
         match &mut self.solver {
             Some(solver) => solver.replace(symbolic),
             None => self.solver = Some(Solver::new(symbolic, self.factors.policy())),

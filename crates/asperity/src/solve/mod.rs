@@ -3,6 +3,7 @@
 
 mod bend;
 mod convergence;
+mod demand;
 mod free;
 mod influences;
 mod jump;
@@ -23,6 +24,7 @@ mod step;
 mod trail;
 
 pub use convergence::{Norms, Worst};
+pub use demand::Demand;
 pub use linear::{Factors, Frontal, LinearError, LinearSolver};
 pub use newton::{IfFree, NewtonOptions, Variant};
 pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};

@@ -12,8 +12,9 @@ use super::schedule::Step;
 use super::step::forcing;
 use super::trail::{Cycle, Trail};
 use crate::system::{Assembly, Evaluation, Factorised, Instant, Kinks, State, Tangent, Trial, Workspace};
-use crate::{Error, Failure};
+use crate::{Error, Failure, Kind};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Which matrix the iterations use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +59,8 @@ pub struct NewtonOptions {
     pub relax: bool,
     /// What becomes of what nothing holds any more.
     pub if_free: IfFree,
+    /// Bytes of memory that the process may take; what the machine gives where nothing is said.
+    pub memory: Option<u64>,
     /// Every attempt is made twice and the second kept, which must not change a bit. A check of the program itself.
     pub rehearse: bool,
 }
@@ -74,6 +77,7 @@ impl Default for NewtonOptions {
             line_search: true,
             relax: true,
             if_free: IfFree::Hold,
+            memory: None,
             rehearse: false,
         }
     }
@@ -115,6 +119,8 @@ pub struct Memory {
     pub analyses: usize,
     /// Factorisations so far.
     pub factorisations: usize,
+    /// Time that they took.
+    pub factorising: Duration,
 }
 
 /// Why an attempt ended without a solution.
@@ -122,7 +128,9 @@ pub struct Memory {
 pub enum Trouble {
     /// A smaller increment may help.
     Failure(Failure),
-    /// Nothing smaller helps.
+    /// Nothing smaller helps: the run does not go on.
+    End(Failure),
+    /// Something else ends the run.
     Error(Error),
 }
 
@@ -254,7 +262,7 @@ impl<'a> Newton<'a> {
                 continue;
             }
             if !norms.ratio.is_finite() {
-                return Err(Failure::new("the forces are not finite").into());
+                return Err(Failure::new("the forces are not finite").of(Kind::NotFinite).into());
             }
             progress.push(iteration == begun, norms.ratio, taken);
             if iteration - begun == options.iterations || progress.wanders() {
@@ -282,7 +290,8 @@ impl<'a> Newton<'a> {
             correction = largest(&mut u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);
             missing = missing.filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
         }
-        Err(Failure::new(self.why_not(record, &trail)).into())
+        let kind = if trail.cycle().is_some() { Kind::Cycle } else { Kind::Iterations };
+        Err(Failure::new(self.why_not(record, &trail)).of(kind).into())
     }
 
     /// Lets the terms improve what they hold besides the unknowns, and evaluates anew if any did.

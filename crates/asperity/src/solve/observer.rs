@@ -1,6 +1,7 @@
 //! What a run tells while it goes: the library prints nothing.
 
 use super::Worst;
+use crate::Kind;
 use crate::system::State;
 
 /// One iteration.
@@ -53,6 +54,8 @@ pub struct AttemptRecord {
     pub iterations: Vec<IterationRecord>,
     /// Why it was given up, if it was.
     pub failure: Option<String>,
+    /// What of.
+    pub kind: Kind,
 }
 
 impl AttemptRecord {

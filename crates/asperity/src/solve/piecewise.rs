@@ -240,7 +240,7 @@ impl<'a> Piecewise<'a> {
         let (kinks, columns) = (self.site.kinks, &mut self.influence);
         let take = |motion: &[f64]| columns.push(kinks.list().iter().map(|kink| kinks.along(kink, motion)).collect());
         let responded = influences.respond(woken, (self.site, solver), take);
-        responded.map_err(|error| Failure::new(error.to_string()))?;
+        responded.map_err(|error| Failure::from(&error))?;
         self.active.extend_from_slice(woken);
         self.left.resize(self.active.len(), 0.0);
         Ok(())

@@ -7,7 +7,7 @@ use super::problem::Problem;
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
 use crate::system::{Caution, Energies, Interpenetration, State};
-use crate::{Error, Failure};
+use crate::{Error, Failure, Kind};
 use std::time::{Duration, Instant};
 
 /// Options of a run.
@@ -38,6 +38,8 @@ pub struct Run<'a> {
     pub audited: Duration,
     /// What was held still first that nothing held, in words, and when.
     pub first_held: Option<(String, f64)>,
+    /// What the run failed of, if it did.
+    pub ended: Kind,
     solver: Box<dyn LinearSolver>,
 }
 
@@ -65,21 +67,31 @@ fn leap([before, driven, moved]: [f64; 3], size: f64) -> f64 {
 impl<'a> Run<'a> {
     /// A run from a given state: the initial one or that of a checkpoint.
     pub fn new(problem: &'a Problem, state: State, solver: Box<dyn LinearSolver>) -> Self {
-        Self { problem, state, memory: Memory::default(), audited: Duration::ZERO, first_held: None, solver }
+        Self {
+            problem,
+            state,
+            memory: Memory::default(),
+            audited: Duration::ZERO,
+            first_held: None,
+            ended: Kind::Other,
+            solver,
+        }
     }
 
     /// Runs to the end of the last step.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] when the increments shrink to nothing or a motion is held by nothing; an error of the
-    /// observer.
+    /// [`Error::NotConverged`] when the increments shrink to nothing or a motion is held by nothing; [`Error::Input`] when
+    /// it does not fit into memory; an error of the observer.
     pub fn run(&mut self, options: &RunOptions, observer: &mut dyn Observer) -> Result<Stop, Error> {
+        self.problem.check_memory(&self.state)?;
         let mut accepted = 0;
         while let Some(step) = self.problem.steps.get(self.state.step) {
             if observer.wants_stop() || options.increments.is_some_and(|most| accepted >= most) {
                 return Ok(Stop::Asked);
             }
             if self.state.step_increment >= step.increments.most {
+                self.ended = Kind::TooMany;
                 return Err(self.too_many(step));
             }
             let record = self.increment(step, observer)?;
@@ -127,17 +139,23 @@ impl<'a> Run<'a> {
                     self.note(found);
                     return Ok(record);
                 }
+                Err(Trouble::End(failure)) => {
+                    (record.failure, record.kind) = (Some(failure.reason.clone()), failure.kind);
+                    observer.attempt(&record);
+                    self.ended = failure.kind;
+                    return Err(Error::NotConverged(failure.reason));
+                }
                 Err(Trouble::Error(error)) => {
                     record.failure = Some(error.to_string());
                     observer.attempt(&record);
                     return Err(error);
                 }
                 Err(Trouble::Failure(failure)) => {
-                    record.failure = Some(failure.reason.clone());
+                    (record.failure, record.kind) = (Some(failure.reason.clone()), failure.kind);
                     observer.attempt(&record);
                     // Relaxation is the last resort: what made it one is why the increment failed.
                     if !relaxing || cause.is_empty() {
-                        cause = failure.reason;
+                        (cause, self.ended) = (failure.reason, failure.kind);
                     } else {
                         cause = format!("{cause}; {}", failure.reason);
                     }

@@ -6,6 +6,7 @@ use super::linear::LinearError;
 use super::newton::{Newton, Trouble, Variant};
 use crate::Failure;
 use crate::system::{Dofs, Tangent};
+use std::time::Instant;
 
 /// Slope, as a part of the initial one, at which the search for a shorter step ends.
 const GOOD: f64 = 0.8;
@@ -105,7 +106,11 @@ impl Newton<'_> {
             self.memory.analyses += 1;
         }
         self.memory.factorised = None;
-        self.solver.factorise(&self.evaluation.values)?;
+        self.memory.factorisations += 1;
+        let begun = Instant::now();
+        let factorised = self.solver.factorise(&self.evaluation.values);
+        self.memory.factorising += begun.elapsed();
+        factorised?;
         self.hold_matrix();
         Ok(())
     }
@@ -120,7 +125,6 @@ impl Newton<'_> {
         if keep && self.medium.is_none() && self.memory.current {
             return Ok(false);
         }
-        self.memory.factorisations += 1;
         self.memory.current = false;
         self.propped.clear();
         match self.factorise_matrix() {

@@ -148,6 +148,7 @@ pub fn run_print(made: &Made) -> (bool, u64) {
         start: Start::Beginning,
         limits: &Limits::default(),
         notes: &[],
+        facts: &Default::default(),
     };
     let mut listener = Listener(Print(DefaultHasher::new()));
     let (_, ended) = simulate(&made.model, &job, &mut listener).unwrap();

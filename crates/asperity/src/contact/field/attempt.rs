@@ -8,7 +8,6 @@ use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::term::{FieldContact, FieldTarget};
 use super::tool::ToolInPlace;
-use crate::Failure;
 use crate::contact::kink::answer;
 use crate::contact::overlap::recession;
 use crate::contact::record::{entry, leave, stresses, write};
@@ -17,6 +16,7 @@ use crate::interface::Past;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::Vec3;
 use crate::tool::Bounds;
+use crate::{Failure, Kind};
 use std::cell::RefCell;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
@@ -433,7 +433,8 @@ impl FieldAttempt<'_> {
         new[entry::SEGMENT] = -1.0;
         if self.sum(stencil, false, sums).is_none() {
             if stencil.support.through && old[entry::PRESSURE] != 0.0 {
-                return Err(Failure::new(format!("the target came through at {}", contact.describe(slot))));
+                let reason = format!("the target came through at {}", contact.describe(slot));
+                return Err(Failure::new(reason).of(Kind::Passage));
             }
             leave(&*contact.law, old, new);
             return Ok(0);
@@ -507,7 +508,8 @@ impl FieldAttempt<'_> {
         let depth = faces.fold(f64::INFINITY, f64::min);
         if self.history.slot(slot)[entry::STATUS] == 0.0 && sums.y[0] > 0.25 * depth {
             let (name, deep) = (contact.describe(slot), sums.y[0]);
-            return Err(Failure::new(format!("{name} came to lie {deep:.3e} deep in one increment")));
+            let reason = format!("{name} came to lie {deep:.3e} deep in one increment");
+            return Err(Failure::new(reason).of(Kind::Passage));
         }
         let FieldTarget::Tool(rigid) = &contact.target else { return Ok(()) };
         let turned = rigid.turned(stencil.motion(), &self.accepted[rigid.unknowns()]);

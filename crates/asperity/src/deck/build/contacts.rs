@@ -31,7 +31,7 @@ const LARGEST_PENALTY: f64 = 1e12;
 impl Builder<'_> {
     /// The contacts, those of the second of two passes right behind those of the first.
     pub(super) fn contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
-        let backings = backings(&self.site.mesh, bodies);
+        let backings = backings(&self.site.mesh, bodies.iter().map(|(body, _)| body));
         let deck = self.deck;
         self.check_doubles();
         let of_points: Vec<_> = deck.contact.iter().filter(|(_, keys)| !self.is_field(keys)).collect();
@@ -287,9 +287,9 @@ const SURFACE: f64 = 4.0;
 
 /// What stands behind the faces of each cell: the confined modulus of its material, at most four shear moduli, and the
 /// thickness of what it belongs to.
-pub(super) fn backings(mesh: &Mesh, bodies: &[(Body, usize)]) -> Vec<Backing> {
+pub(in crate::deck) fn backings<'b>(mesh: &Mesh, bodies: impl IntoIterator<Item = &'b Body>) -> Vec<Backing> {
     let mut backings = vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()];
-    for (body, _) in bodies {
+    for body in bodies {
         let [confined, shear] = body.material().moduli();
         let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
         body.cells().iter().for_each(|&cell| backings[cell].modulus = modulus);

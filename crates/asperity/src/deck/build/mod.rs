@@ -12,11 +12,12 @@ mod solid_tools;
 mod supports;
 mod tools;
 
+pub(super) use contacts::backings;
+
 use super::diagnose::Diagnostic;
 use super::keys::Deck;
 use super::source::Place;
 use super::{Diagnostics, Loaded, Unsaid};
-use crate::Error;
 use crate::load::Site;
 use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
@@ -24,6 +25,7 @@ use crate::output::Asked;
 use crate::output::checkpoint::InputHash;
 use crate::solve::{Increments, Step};
 use crate::system::Dofs;
+use crate::{Error, machine};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -121,6 +123,8 @@ fn prints(loaded: &Loaded) -> Vec<Vec<u8>> {
     texts.chain([points, cells, kinds.into_bytes(), groups.into_bytes()]).collect()
 }
 
+/// Bytes that a model takes for each unknown, at least.
+const LEAST: u64 = 500;
 /// Rounds of moving nodes out of targets: a node of two contacts may need more than one.
 const ROUNDS: usize = 5;
 
@@ -142,6 +146,9 @@ impl Builder<'_> {
 
     fn everything(&mut self) -> Option<ModelParts> {
         self.check_mesh();
+        if !self.fits_memory() {
+            return None;
+        }
         let bodies = self.bodies();
         let plane = self.plane();
         let tools = if plane { self.tools() } else { Some(Vec::new()) };
@@ -180,6 +187,21 @@ impl Builder<'_> {
             supports,
             newton: self.deck.solver.newton_options(),
         })
+    }
+
+    /// The model alone must fit into memory.
+    fn fits_memory(&mut self) -> bool {
+        let unknowns = self.site.dofs.count() as u64;
+        let short = machine::room(None).filter(|room| LEAST * unknowns > room.left());
+        if let Some(room) = short {
+            let (need, total) = ((LEAST * unknowns + room.taken) as f64 / 1e9, room.total as f64 / 1e9);
+            let what = format!(
+                "a model of {unknowns} unknowns needs {need:.2} GB before anything is solved, and {total:.2} GB is {}",
+                room.source
+            );
+            self.found.push(Diagnostic::error(what).help("fewer cells"));
+        }
+        short.is_none()
     }
 
     /// The mesh must fill the space, and lie on the right side of an axis.

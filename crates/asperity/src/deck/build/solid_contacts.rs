@@ -14,7 +14,7 @@ use std::sync::Arc;
 impl Builder<'_> {
     /// The contacts in space, those of the second of two passes right behind those of the first.
     pub(super) fn solid_contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
-        let backings = backings(&self.site.mesh, bodies);
+        let backings = backings(&self.site.mesh, bodies.iter().map(|(body, _)| body));
         let deck = self.deck;
         self.check_doubles();
         let of_points: Vec<_> = deck.contact.iter().filter(|(_, keys)| !self.is_field(keys)).collect();

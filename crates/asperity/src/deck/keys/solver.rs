@@ -27,6 +27,10 @@ table! {
         relax: bool = flag().or("true"),
         /// What becomes of what nothing holds any more, as of a body that has lost its contact.
         if_free: IfFree = word().or("\"hold\""),
+        /// Gigabytes (10^9 bytes) of memory that the process may take; a run that needs more ends before it takes them and says
+        /// what would fit.
+        memory: Option<f64> = number("GB", Range::from_to(0.01, 1e6))
+            .computed("what the machine has, or less where a control group or `ulimit -v` allows less"),
     }
 }
 
@@ -74,6 +78,7 @@ impl Solver {
             line_search: self.line_search,
             relax: self.relax,
             if_free: self.if_free,
+            memory: self.memory.map(|gigabytes| (gigabytes * 1e9) as u64),
             rehearse: false,
         }
     }

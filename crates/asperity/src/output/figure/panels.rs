@@ -3,8 +3,9 @@
 
 use super::arrows::Arrow;
 use super::axes::{Axes, Axis, LARGE, MEDIUM};
-use super::drawing::{Anchor, Drawing, Label, Rect};
+use super::drawing::{Anchor, Drawing, Label, Rect, Stroke, polyline};
 use super::outline::draw_outline;
+use super::palette::Color;
 use super::scene::{Scene, draw_mesh, draw_stress, draw_triad};
 use super::shell::draw_shell;
 use super::text;
@@ -32,6 +33,19 @@ pub struct Panels<'a> {
     pub room: [f64; 2],
 }
 
+/// The least or greatest value of a field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extreme {
+    /// The value.
+    pub value: f64,
+    /// The scene that it is in.
+    pub scene: usize,
+    /// The point of that scene.
+    pub node: usize,
+}
+
+/// Height of the triangles that mark them; that of the greatest stands above its place, that of the least below.
+const MARK: f64 = 7.0;
 /// Space around a frame for its title, marks and labels.
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = 14.0;
@@ -74,7 +88,7 @@ impl Panels<'_> {
             let corner = [left + column * cell_width + LEFT, top + row * cell_height + TOP];
             let frame = Rect { x: corner[0], y: corner[1], width: layout.frame[0], height: layout.frame[1] };
             let view = View { projection: self.projection, window: layout.windows[i], frame };
-            self.draw_scene(&mut drawing, scene, &view, &layout);
+            self.draw_scene(&mut drawing, (i, scene), &view, &layout);
         }
         self.draw_legends(&mut drawing, &layout);
         drawing
@@ -112,7 +126,7 @@ impl Panels<'_> {
             _ => 0.0,
         }
     }
-    /// Equal windows about each scene's bodies and arrows.
+    /// One window about the bodies and arrows of all scenes.
     fn windows(&self, arrow_scale: f64, margin: f64) -> Vec<Window> {
         if let Some(window) = self.window {
             return vec![window; self.scenes.len()];
@@ -121,23 +135,45 @@ impl Panels<'_> {
             let tails = s.arrows.iter().map(|a| a.tail(arrow_scale));
             Window::around(s.points.iter().copied().chain(tails).map(|p| self.projection.flat(p)))
         };
-        let own: Vec<Window> = self.scenes.iter().map(around).collect();
-        let largest = |a: usize| own.iter().map(|w| w.size()[a]).fold(0.0, f64::max) + 2.0 * margin;
-        let size = [largest(0), largest(1)];
-        own.iter().map(|w| w.resized(size)).collect()
+        let corners = |w: Window| [w.low, w.high];
+        let all = Window::around(self.scenes.iter().map(around).flat_map(corners));
+        let size = all.size().map(|size| size + 2.0 * margin);
+        vec![all.resized(size); self.scenes.len()]
     }
     fn field_range(&self) -> [f64; 2] {
-        let values = self.scenes.iter().filter_map(|s| s.field.as_ref()).flatten().filter(|x| x.is_finite());
-        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &x| [l.min(x), h.max(x)]);
+        let [low, high] = self.extremes().map_or([0.0; 2], |ends| ends.map(|end| end.value));
         if high > low { [low, high] } else { [low.min(0.0), low.max(0.0) + 1.0] }
     }
+    /// Where the field is least and greatest in all scenes.
+    pub(super) fn extremes(&self) -> Option<[Extreme; 2]> {
+        let values = |(scene, s): (usize, &Scene)| {
+            let known = s.field.iter().flatten().copied().enumerate().filter(|(_, value)| value.is_finite());
+            known.map(|(node, value)| Extreme { value, scene, node }).collect::<Vec<_>>()
+        };
+        let all = || self.scenes.iter().enumerate().flat_map(values);
+        let least = all().reduce(|a, b| if b.value < a.value { b } else { a })?;
+        let greatest = all().reduce(|a, b| if b.value > a.value { b } else { a })?;
+        Some([least, greatest])
+    }
+    /// Marks the places of the least and of the greatest value, where they are in this scene.
+    fn mark_extremes(&self, drawing: &mut Drawing, (number, scene): (usize, &Scene), view: &View) {
+        let ends = self.extremes().into_iter().flat_map(|ends| ends.into_iter().zip([-1.0, 1.0]));
+        for (end, up) in ends.filter(|(end, _)| end.scene == number) {
+            let Some(&place) = scene.points.get(end.node) else { continue };
+            let [x, y] = view.map(place);
+            let base = y - up * MARK;
+            let corners = [[x, y], [x - 0.6 * MARK, base], [x + 0.6 * MARK, base], [x, y], [x - 0.6 * MARK, base]];
+            drawing.stroke(polyline(&corners), Stroke::full(Color::BLACK, 1.2));
+        }
+    }
 
-    fn draw_scene(&self, drawing: &mut Drawing, scene: &Scene, view: &View, layout: &Layout) {
+    fn draw_scene(&self, drawing: &mut Drawing, (number, scene): (usize, &Scene), view: &View, layout: &Layout) {
         drawing.clipped(view.frame, |drawing| {
             scene.tools.iter().for_each(|profile| draw_outline(drawing, view, profile));
             draw_mesh(drawing, scene, view, layout.range);
             draw_shell(drawing, view, &scene.shells);
             draw_stress(drawing, scene, view, layout.arrow_scale);
+            self.mark_extremes(drawing, (number, scene), view);
         });
         let above = [view.frame.x + 0.5 * view.frame.width, view.frame.y - 8.0];
         drawing.label(Label::new(above, &scene.title, MEDIUM).anchored(Anchor::Middle));
@@ -172,7 +208,6 @@ fn best_columns(count: usize, size: [f64; 2], room: [f64; 2]) -> (usize, f64) {
 #[cfg(test)]
 mod tests {
     use super::super::drawing::{Item, Segment};
-    use super::super::palette::Color;
     use super::*;
     use crate::mesh::{Cell, Mesh};
     use crate::tensor::Vec3;
@@ -237,6 +272,32 @@ mod tests {
         assert!(((second - first) / (third - second) - 1.0).abs() < 1e-9);
         let unit = (third - first) / 160.0;
         assert!(((third - legend) / unit - 60.0).abs() < 1e-6, "the legend stands for 500: {found:?}");
+    }
+
+    #[test]
+    fn all_frames_show_the_same_part_of_space() {
+        let mesh = block();
+        let layout = picture(&mesh).layout();
+        assert!(layout.windows.iter().all(|window| *window == layout.windows[0]));
+        let Window { low, high } = layout.windows[0];
+        assert!(low[1] < 0.0 && high[1] > 30.0, "the block rises by ten over its height of twenty: {low:?} {high:?}");
+    }
+
+    /// The first and the last node of the field in the first scene.
+    #[test]
+    fn the_least_and_the_greatest_value_are_told_with_their_places() {
+        let mesh = block();
+        let drawing = picture(&mesh).draw();
+        let told = |word: &str| {
+            let labels = drawing.items.iter().filter_map(|item| match item {
+                Item::Label(label) => Some(label.text.as_str()),
+                _ => None,
+            });
+            labels.filter(|text| text.starts_with(word)).collect::<Vec<_>>()
+        };
+        let title = "a long title of the panel number 0";
+        assert_eq!(told("least "), [format!("least 0 at (0, 0), {title}")]);
+        assert_eq!(told("greatest "), [format!("greatest 3 at (0, 20), {title}")]);
     }
 
     #[test]

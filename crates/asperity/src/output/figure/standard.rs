@@ -10,6 +10,7 @@ use super::shell::Tile;
 use super::ticks::minus;
 use super::view::{Projection, Window};
 use crate::Error;
+use crate::declare::nearest;
 use crate::mesh::Mesh;
 use crate::output::file::{Durability, write_atomic};
 use crate::output::vtk::{DataArray, Grid, read_grid, read_series};
@@ -25,11 +26,13 @@ pub struct FigureOptions {
     pub window: Option<Window>,
     /// Pixels of the PNG a point of the page.
     pub resolution: f64,
+    /// A quantity at the nodes that is drawn in a picture of its own, in place of all others: `displacement.y`.
+    pub quantity: Option<String>,
 }
 
 impl Default for FigureOptions {
     fn default() -> Self {
-        Self { times: Vec::new(), window: None, resolution: 2.0 }
+        Self { times: Vec::new(), window: None, resolution: 2.0, quantity: None }
     }
 }
 
@@ -55,6 +58,16 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
         Ok(())
     };
     let shots = run.shots()?;
+    if let Some(quantity) = &options.quantity {
+        let Some(last) = shots.last() else {
+            return Err(Error::file(directory.join("bodies.pvd"), "there is no frame to draw"));
+        };
+        last.values(quantity)?;
+        let file: String = quantity.chars().filter(|c| c.is_ascii_alphanumeric() || "._-".contains(*c)).collect();
+        let panels = run.panels(&quantity.replace('_', " "), quantity, &shots);
+        save(&file, Panels { field_name: format!("{}, at nodes", quantity.replace('_', " ")), ..panels }.draw())?;
+        return Ok(written);
+    }
     if !shots.is_empty() {
         if !run.summary.contact_order.is_empty() {
             save("contact_stress", run.panels("Contact stress", "", &shots).draw())?;
@@ -130,9 +143,42 @@ impl Run<'_> {
     }
 }
 
+/// Components of arrays of so many numbers a node, by their names.
+const VECTOR: [&str; 3] = ["x", "y", "z"];
+const SYMMETRIC: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "xz"];
+
 impl Shot {
+    /// A quantity at the nodes: a number, a component (`displacement.y`), or the length of a vector.
+    fn values(&self, quantity: &str) -> Result<Vec<f64>, Error> {
+        let names = || self.bodies.point_data.iter().map(|array| array.name.as_str());
+        let (name, component) = match quantity.rsplit_once('.') {
+            Some((name, component)) if self.bodies.point_array(quantity).is_none() => (name, Some(component)),
+            _ => (quantity, None),
+        };
+        let Some(array) = self.bodies.point_array(name) else {
+            let near = nearest(name, names()).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let all = names().collect::<Vec<_>>().join(", ");
+            return Err(Error::input(format!("there is no quantity `{name}` at the nodes{near} There are: {all}")));
+        };
+        let (values, width) = (array.values.to_real(), array.components);
+        let words: &[&str] = match width {
+            3 => &VECTOR,
+            6 => &SYMMETRIC,
+            _ => &[],
+        };
+        let place = component.map(|component| words.iter().position(|word| *word == component));
+        match (width, place) {
+            (1, None) => Ok(values),
+            (3, None) => {
+                Ok(values.as_chunks::<3>().0.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>().sqrt()).collect())
+            }
+            (_, Some(Some(place))) => Ok(values.chunks_exact(width).map(|tuple| tuple[place]).collect()),
+            (1, _) => Err(Error::input(format!("`{name}` is a single number and has no components"))),
+            _ => Err(Error::input(format!("`{name}` is drawn by component: {}", words.join(", ")))),
+        }
+    }
     fn scene(&self, field: &str) -> Scene<'_> {
-        let field = self.bodies.point_array(field).map(|array| array.values.to_real());
+        let field = if field.is_empty() { None } else { self.values(field).ok() };
         Scene {
             title: format!("time {}", minus(&super::ticks::short(self.time))),
             mesh: &self.mesh,

@@ -7,6 +7,7 @@ mod equilibrium;
 mod hourglass;
 mod interpenetration;
 mod nodes;
+mod oscillation;
 mod reactions;
 mod small_strain;
 mod stress;
@@ -70,6 +71,7 @@ type Report = fn(&Source, &mut Frame) -> Result<(), Error>;
 static ALL: &[Report] = &[
     nodes::report,
     stress::report,
+    oscillation::report,
     reactions::report,
     contact::report,
     tools::report,

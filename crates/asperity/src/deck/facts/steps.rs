@@ -1,0 +1,120 @@
+//! Steps: how far they move things, and the stresses that their loads amount to.
+
+use super::{bodies_of, extent, sides};
+use crate::deck::build::Made;
+use crate::deck::keys::{Components, Step};
+use crate::deck::reader::Name;
+use crate::diagnosis::{Load, StepFacts};
+use crate::mesh::Space;
+use crate::model::Model;
+use crate::solid::Body;
+use crate::solve::Course;
+use crate::system::Term;
+use crate::tensor::Vec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is known of the steps.
+pub(super) fn facts(made: &Made) -> Vec<StepFacts> {
+    let dofs = &made.model.problem.dofs;
+    let (bodies, mut last) = (dofs.node(dofs.nodes()), BTreeMap::new());
+    let solved = made.model.problem.steps.iter().zip(&made.deck.step);
+    let fact = |(step, keys): (&crate::solve::Step, &Step)| {
+        let mut facts = StepFacts {
+            name: step.name.clone(),
+            first: step.increments.first,
+            largest: step.increments.largest,
+            smallest: step.increments.smallest,
+            loads: loads(made, keys),
+            ..StepFacts::default()
+        };
+        for prescribed in &step.prescribed {
+            let Course::To(end, _) = &prescribed.course else { continue };
+            let before = last.insert(prescribed.dof, *end).unwrap_or(0.0);
+            let (way, dof) = ((end - before).abs(), prescribed.dof);
+            if dof < bodies {
+                facts.moved = facts.moved.max(way);
+            } else if !dofs.is_rotation(dof) {
+                facts.driven = facts.driven.max(way);
+            }
+        }
+        facts
+    };
+    solved.map(fact).collect()
+}
+
+/// The loads that a step says, as stresses.
+fn loads(made: &Made, step: &Step) -> Vec<Load> {
+    let model = &made.model;
+    let of_sides = |name: &Name| bodies_of(model, sides(model, name).iter().map(|side| side.cell));
+    let of_cells = |name: &Name| {
+        let group = model.mesh.groups.get(&name.text);
+        bodies_of(model, group.into_iter().flat_map(|group| group.cells.iter().copied()))
+    };
+    let load = |kind: &str, name: &Name, bodies: Vec<String>, stress: f64| Load {
+        name: format!("{kind}.{name}"),
+        bodies,
+        stress,
+    };
+    let mut all: Vec<Load> = Vec::new();
+    all.extend(step.pressure.iter().map(|(name, keys)| load("pressure", name, of_sides(name), keys.value.abs())));
+    all.extend(step.traction.iter().map(|(name, keys)| load("traction", name, of_sides(name), size(keys))));
+    for (name, keys) in &step.force {
+        let Some(group) = model.mesh.groups.get(&name.text) else { continue };
+        let nodes: BTreeSet<usize> = group.nodes.iter().copied().collect();
+        let touches =
+            |body: &Body| body.cells().iter().any(|&c| model.mesh.cell(c).nodes.iter().any(|n| nodes.contains(n)));
+        let loaded = model.bodies.iter().filter(|(body, _)| touches(body)).map(|(body, _)| body.name().to_owned());
+        let loaded: Vec<String> = loaded.collect();
+        let stress =
+            size(keys) * nodes.len() as f64 / loaded.first().map_or(f64::INFINITY, |body| section(model, body));
+        all.push(load("force", name, loaded, stress));
+    }
+    for (name, keys) in &step.load {
+        let force = [keys.x, keys.y, keys.z.map(|z| z.value)].into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+        let met = made.deck.contact.iter().find(|(_, contact)| contact.target.text == name.text);
+        let bodies = met.map(|(_, contact)| of_sides(&contact.surface)).unwrap_or_default();
+        let stress = force / bodies.first().map_or(f64::INFINITY, |body| section(model, body));
+        all.push(load("load", name, bodies, stress));
+    }
+    for (name, keys) in &step.body_force {
+        let bodies = of_cells(name);
+        let length = bodies.first().map_or(0.0, |body| length(model, body));
+        all.push(load("body_force", name, bodies, size(keys) * length));
+    }
+    if let Some(gravity) = &step.gravity {
+        for (name, keys) in &made.deck.body {
+            let Some(density) = keys.density else { continue };
+            let stress = density.value * size(gravity) * length(model, &name.text);
+            all.push(Load { name: "gravity".into(), bodies: vec![name.text.clone()], stress });
+        }
+    }
+    all.retain(|load| load.stress > 0.0 && load.stress.is_finite());
+    all
+}
+
+fn size(load: &impl Components) -> f64 {
+    load.components().into_iter().flatten().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The box about a body.
+fn bounds(model: &Model, name: &str) -> Vec3 {
+    let body = model.bodies.iter().find(|(body, _)| body.name() == name);
+    let nodes = body.into_iter().flat_map(|(body, _)| body.cells()).flat_map(|&cell| model.mesh.cell(cell).nodes);
+    extent(nodes.map(|&node| model.mesh.points[node]))
+}
+
+fn length(model: &Model, body: &str) -> f64 {
+    bounds(model, body).0.into_iter().fold(0.0, f64::max)
+}
+
+/// Section of the box about a body across its longest side.
+fn section(model: &Model, body: &str) -> f64 {
+    let mut sizes = bounds(model, body).0;
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    let section = match model.space {
+        Space::Solid => sizes[1] * sizes[2],
+        Space::Axisymmetric => std::f64::consts::PI * model.mesh.bounds()[1][0] * sizes[1],
+        _ => sizes[1] * model.thickness,
+    };
+    section.max(f64::MIN_POSITIVE)
+}

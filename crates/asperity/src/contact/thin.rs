@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A body is thin that is longer than so many of its thicknesses.
 const THIN: f64 = 20.0;
 /// Half a wavelength, in thicknesses: shorter waves squeeze a plate more than they bend it.
-const WAVE: f64 = 2.5;
+const WAVE: f64 = 3.5;
 /// Share of the membrane against that of bending: what presses a curved body is mostly how far it is driven apart, and the
 /// penetration is missing there.
 const MEMBRANE: f64 = 200.0;

@@ -33,13 +33,22 @@ impl Newton<'_> {
         self.factorise_matrix().map_err(|e| self.explain(e, iteration))
     }
 
+    /// Whether what nothing holds stays where it is.
+    fn holds_still(&self) -> bool {
+        match self.problem.newton.if_free {
+            IfFree::Auto => self.state.increment > 0,
+            IfFree::Stop => false,
+            IfFree::Hold => true,
+        }
+    }
+
     /// A solution that was reached with a propped matrix must stand without the prop, unless what is free is to be held.
     pub(super) fn stands(&mut self, u: &[f64], reference: f64) -> Result<(), Trouble> {
         if self.propped.is_empty() {
             return Ok(());
         }
         self.propped = self.loose(u, reference)?;
-        if self.propped.is_empty() || self.problem.newton.if_free == IfFree::Hold {
+        if self.propped.is_empty() || self.holds_still() {
             return Ok(());
         }
         Err(unheld(self.propped.join("; ")).into())
@@ -58,7 +67,7 @@ impl Newton<'_> {
         }
         self.complete(u, None)?;
         let motions = self.loose(u, reference)?;
-        let hold = self.problem.newton.if_free == IfFree::Hold;
+        let hold = self.holds_still();
         if motions.is_empty() || hold {
             let drifts = guessed && !motions.is_empty();
             self.propped = motions;

@@ -31,6 +31,8 @@ pub enum Variant {
 /// What becomes of a motion that nothing holds and nothing drives, as of a body that has lost its contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IfFree {
+    /// What has lost its hold stays where it is until something touches it; what nothing held in the first increment ends the run.
+    Auto,
     /// The run ends and names it.
     Stop,
     /// What is free stays where it is until something touches it.
@@ -76,7 +78,7 @@ impl Default for NewtonOptions {
             piecewise: true,
             line_search: true,
             relax: true,
-            if_free: IfFree::Hold,
+            if_free: IfFree::Auto,
             memory: None,
             rehearse: false,
         }

@@ -130,7 +130,7 @@ impl<'a> Run<'a> {
             let result = self.attempt(dt, &mut record, observer);
             self.state.attempts += 1;
             self.state.iterations += record.solutions();
-            let result = result.and_then(|converged| Ok((self.audit(&converged)?, converged)));
+            let result = result.and_then(|converged| Ok((self.audit(&converged, !relaxing)?, converged)));
             match result {
                 Ok((found, converged)) => {
                     observer.attempt(&record);
@@ -175,10 +175,11 @@ impl<'a> Run<'a> {
     }
 
     /// Looks whether anything lies in anything in a converged state, or came through something on the way to it.
-    fn audit(&mut self, converged: &Converged) -> Result<Interpenetration, Failure> {
+    /// What sprang free did not go `straight`.
+    fn audit(&mut self, converged: &Converged, straight: bool) -> Result<Interpenetration, Failure> {
         let Some(audit) = &self.problem.audit else { return Ok(Interpenetration::default()) };
         let begun = Instant::now();
-        let found = audit.check(&self.state.u, &converged.u, &converged.evaluation.histories);
+        let found = audit.check([&self.state.u, &converged.u], &converged.evaluation.histories, straight);
         self.audited += begun.elapsed();
         found
     }

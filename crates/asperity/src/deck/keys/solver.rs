@@ -26,7 +26,7 @@ table! {
         /// equilibrium beyond; in models with contact.
         relax: bool = flag().or("true"),
         /// What becomes of what nothing holds any more, as of a body that has lost its contact.
-        if_free: IfFree = word().or("\"hold\""),
+        if_free: IfFree = word().or("\"auto\""),
         /// Gigabytes (10^9 bytes) of memory that the process may take; a run that needs more ends before it takes them and says
         /// what would fit.
         memory: Option<f64> = number("GB", Range::from_to(0.01, 1e6))
@@ -49,7 +49,8 @@ impl Words for Variant {
 impl Words for IfFree {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         let hold = "it stays where it is until something touches it; a load on it finds no equilibrium";
-        vec![(Self::Stop, "stop", "the run ends and names it"), (Self::Hold, "hold", hold)]
+        let auto = "`hold` for what has lost its hold, `stop` for what nothing holds in the first increment";
+        vec![(Self::Auto, "auto", auto), (Self::Stop, "stop", "the run ends and names it"), (Self::Hold, "hold", hold)]
     }
 }
 

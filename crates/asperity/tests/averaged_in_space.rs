@@ -90,6 +90,7 @@ fn tangents_on_tools_are_exact() {
 
 #[test]
 fn tangents_of_other_forms_are_exact() {
+    // Shear over the limit of `oden_pires` bends sharply: differences over it are worth fewer digits than elsewhere.
     for cell in ["hex8", "hex20"] {
         let variational = |options: &mut ContactOptions| {
             averaged(options);
@@ -97,10 +98,10 @@ fn tangents_of_other_forms_are_exact() {
         };
         let law = OdenPires { friction: 0.4, length: 0.05, radius: 0.6 };
         let contacts = [
-            cubes::contact_with((cell, 2), "sphere", Coulomb::new(0.4), variational),
-            cubes::contact_with((cell, 2), "triangle", law, averaged),
+            (cubes::contact_with((cell, 2), "sphere", Coulomb::new(0.4), variational), ALLOWED),
+            (cubes::contact_with((cell, 2), "triangle", law, averaged), 1e-5),
         ];
-        for (contact, dofs) in contacts {
+        for ((contact, dofs), allowed) in contacts {
             let (mut random, mut met) = (Random(13), Met::default());
             let start = state(vec![0.0; dofs.count()], contact.initial());
             for _ in 0..10 {
@@ -113,7 +114,7 @@ fn tangents_of_other_forms_are_exact() {
                 met.look(&contact, &accepted, &pressed());
             }
             println!("{met:?}");
-            assert!(met.branches[1] + met.branches[2] > 20 && met.worst < 2.0 * ALLOWED, "{cell}: {met:?}");
+            assert!(met.branches[1] + met.branches[2] > 20 && met.worst < allowed, "{cell}: {met:?}");
         }
     }
 }

@@ -177,7 +177,7 @@ impl Newton<'_> {
         let begun = rhs.to_vec();
         match self.solver.solve(rhs) {
             // A matrix that rounding cannot tell from a singular one: the iterate may have lost a contact that the solution has.
-            Err(LinearError::Inaccurate(_)) if factorised && self.may_hold() => {
+            Err(LinearError::Inaccurate(_)) if factorised && self.may_hold() && self.state.increment > 0 => {
                 rhs.copy_from_slice(&begun);
                 self.prop(&[], iteration)?;
                 self.memory.current = false;

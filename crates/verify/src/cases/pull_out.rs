@@ -3,6 +3,7 @@
 use crate::bench::{Bench, penalty, points};
 use crate::{Case, Measured};
 use asperity::Error;
+use asperity::contact::{PointRecord, PointStatus};
 
 /// The case.
 pub const CASE: Case = Case { name: "pull-out", measure };
@@ -57,8 +58,9 @@ fn risen(penalty: f64, [from, to]: [f64; 2]) -> f64 {
     stiffness * (dilation(to) - dilation(from))
 }
 
-fn mean<T>(points: &[T], of: impl Fn(&T) -> (f64, f64)) -> (f64, f64) {
-    let n = points.len() as f64;
-    let sum = points.iter().map(of).fold((0.0, 0.0), |sum, x| (sum.0 + x.0, sum.1 + x.1));
+fn mean(points: &[PointRecord], of: impl Fn(&PointRecord) -> (f64, f64)) -> (f64, f64) {
+    let closed = || points.iter().filter(|point| point.status != PointStatus::Open);
+    let n = closed().count() as f64;
+    let sum = closed().map(of).fold((0.0, 0.0), |sum, value| (sum.0 + value.0, sum.1 + value.1));
     (sum.0 / n, sum.1 / n)
 }

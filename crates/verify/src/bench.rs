@@ -1,6 +1,6 @@
 //! Where a case is run: its folder, its size, its decks solved.
 
-use crate::Size;
+use crate::{Measured, Size};
 use asperity::contact::PointRecord;
 use asperity::model::Model;
 use asperity::output::Parts;
@@ -175,6 +175,17 @@ impl Bench {
         let (state, attempts) = (run.state, follower.attempts);
         Ok((Solved { model, state, attempts }, end))
     }
+}
+
+/// What a case measures by default, and with `form = "paper"` said of a contact under `points-`.
+///
+/// # Errors
+/// Those of the case.
+pub fn both_forms(contact: &str, measure: impl Fn(&[String]) -> Result<Measured, Error>) -> Result<Measured, Error> {
+    let points = |form: String| {
+        Ok::<_, Error>(measure(&[form])?.into_iter().map(|(key, value)| (format!("points-{key}"), value)))
+    };
+    Ok(measure(&[])?.into_iter().chain(points(format!("contact.{contact}.form=paper"))?).collect())
 }
 
 /// The text of a file.

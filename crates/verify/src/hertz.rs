@@ -1,7 +1,7 @@
 //! Hertz's pressure `p = p0 sqrt(1 - x^2/a^2)` under a round body on a rigid plane, beside that of contact points on
 //! meshes ever finer.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, both_forms, points};
 use crate::{Measured, fit};
 use asperity::Error;
 use asperity::contact::PointRecord;
@@ -23,9 +23,7 @@ pub struct Study {
 impl Study {
     /// With the contact that is the default, and with points.
     pub fn measure(&self, bench: &Bench) -> Result<Measured, Error> {
-        let points = self.measure_form(bench, &["contact.foot.form=paper".to_owned()])?;
-        let points = points.into_iter().map(|(key, value)| (format!("points-{key}"), value));
-        Ok(self.measure_form(bench, &[])?.into_iter().chain(points).collect())
+        both_forms("foot", |form| self.measure_form(bench, form))
     }
 
     /// `a`, `p0`, the error of the pressure and the force on the finest mesh; the order of the error if there are more.

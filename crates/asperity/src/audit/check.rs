@@ -77,15 +77,15 @@ pub(super) enum Other {
 /// One point that lies where it must not, or came through.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
-    pub(super) own: usize,
+    own: usize,
     pub(super) other: Other,
     /// Bodies of the two sides, by number.
-    pub(super) bodies: [usize; 2],
+    bodies: [usize; 2],
     pub(super) depth: f64,
     /// What the shape of the two sides explains.
     pub(super) sagitta: f64,
     pub(super) size: f64,
-    pub(super) place: Vec3,
+    place: Vec3,
     pub(super) through: bool,
 }
 
@@ -94,11 +94,11 @@ pub(super) type Worst = Option<(f64, Found)>;
 
 /// A state between the accepted unknowns and new ones, with what explains depth between pairs.
 pub(super) struct Look<'a> {
-    pub(super) subject: &'a Subject,
+    subject: &'a Subject,
     pub(super) prepared: &'a Prepared,
     pub(super) placed: Vec<Placed<'a>>,
-    pub(super) accepted: &'a [f64],
-    pub(super) u: &'a [f64],
+    accepted: &'a [f64],
+    u: &'a [f64],
     /// For each pair the depth that contacts report.
     pub(super) reported: Vec<f64>,
 }
@@ -292,9 +292,7 @@ impl Look<'_> {
                 found(Found { own, other, bodies, depth, sagitta, size, place: to, through });
             };
             if meet(&[to, to], &b.bounds) {
-                let deep = depth(&b.tree, to, (f64::INFINITY, false), &|_, _| true);
-                let truly = |piece: usize| is_inside(&b.tree, b.bounds, (to, b.normals[piece]), &|_| true);
-                if let Some(deep) = deep.filter(|deep| truly(deep.piece)) {
+                if let Some(deep) = b.depth(to) {
                     report(deep.depth, deep.piece, false);
                 }
             }
@@ -371,13 +369,7 @@ impl Look<'_> {
             let unseen = !tool.closed && !self.prepared.known[pair];
             let behind = Vec3([if unseen { size } else { 0.0 }; 3]);
             if meet(&[here - behind, here + behind], &tool.bounds) {
-                let most = if tool.closed { f64::INFINITY } else { size };
-                let deep = depth(&tool.tree, here, (most, !tool.closed), &|_, _| true);
-                let truly = |piece: usize| {
-                    let out = tool.pieces[piece].direction();
-                    !tool.closed || is_inside(&tool.tree, tool.bounds, (here, out), &|_| true)
-                };
-                if let Some(deep) = deep.filter(|deep| truly(deep.piece)) {
+                if let Some(deep) = tool.depth(here, size) {
                     // Only a contact bears points, and lies in the tool between them.
                     let bears = self.prepared.known[pair];
                     let bulge = if bears { tool.bulge(here, deep.piece, a.length_at(vertex)) } else { 0.0 };
@@ -424,9 +416,7 @@ impl Look<'_> {
                 found(Found { own, other, bodies: [body, body], depth, sagitta, size, place: here, through });
             };
             if meet(&[here, here], &a.bounds) {
-                let deep = depth(&a.tree, here, (f64::INFINITY, false), &|_, _| true);
-                let truly = |piece: usize| is_inside(&a.tree, a.bounds, (here, a.normals[piece]), &|_| true);
-                if let Some(deep) = deep.filter(|deep| truly(deep.piece)) {
+                if let Some(deep) = a.depth(here) {
                     report(deep.depth, deep.piece, false);
                 }
             }
@@ -453,7 +443,7 @@ impl Look<'_> {
             keep(&mut refused, (beyond(initial) / limit, found));
         });
         match refused.filter(|(part, _)| *part > 1.0) {
-            Some((_, found)) => Err(Failure::new(self.words(&found)).of(Kind::Passage)),
+            Some((_, found)) => Err(self.refusal(&found)),
             None => Ok(worst
                 .filter(|(part, _)| *part > 0.0)
                 .map_or_else(Interpenetration::default, |(part, found)| self.describe(part, &found))),
@@ -480,7 +470,11 @@ impl Look<'_> {
         }
     }
 
-    pub(super) fn words(&self, found: &Found) -> String {
+    pub(super) fn refusal(&self, found: &Found) -> Failure {
+        Failure::new(self.words(found)).of(Kind::Passage)
+    }
+
+    fn words(&self, found: &Found) -> String {
         let ([own, other], Vec3([x, y, z])) = (self.names(found), found.place);
         let place = if self.subject.dofs.per_node() == 2 {
             format!("({x:.6}, {y:.6})")

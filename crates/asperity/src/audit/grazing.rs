@@ -1,8 +1,7 @@
 //! Ways that graze: in at one side of something and out at another that does not look the other way, deep in it between.
 
-use super::check::{Found, Look, Other, Worst, along, keep};
+use super::check::{Look, Other, Worst, along, keep};
 use super::hierarchy::{bounds, meet};
-use super::inside::{depth, is_inside};
 use super::rigid::Rigid;
 use crate::Failure;
 use crate::tensor::Vec3;
@@ -22,13 +21,8 @@ pub(super) fn grazed(path: &[Vec3], tool: &Rigid, size: f64) -> Option<f64> {
         return None;
     }
     let count = ((2.0 * way / least) as usize).min(GRAZES);
-    let deep = |i: usize| {
-        let here = along(path, i as f64 / count as f64);
-        let deep = depth(&tool.tree, here, (f64::INFINITY, false), &|_, _| true)?;
-        let out = tool.pieces[deep.piece].direction();
-        is_inside(&tool.tree, tool.bounds, (here, out), &|_| true).then_some(deep.depth)
-    };
-    let deepest = (1..count).filter_map(deep).fold(0.0, f64::max);
+    let deep = |i: usize| tool.depth(along(path, i as f64 / count as f64), f64::INFINITY);
+    let deepest = (1..count).filter_map(deep).map(|deep| deep.depth).fold(0.0, f64::max);
     (deepest > least).then_some(deepest)
 }
 
@@ -72,7 +66,10 @@ impl Look<'_> {
             });
         }
         match worst.filter(|(part, _)| *part > GRAZED) {
-            Some((_, found)) => Err(Failure::new(self.words(&Found { through: true, ..found }))),
+            Some((_, mut found)) => {
+                found.through = true;
+                Err(self.refusal(&found))
+            }
             None => Ok(()),
         }
     }

@@ -1,6 +1,7 @@
 //! Rigid tools as pieces in their own frame, and where they stand.
 
 use super::hierarchy::{Bounds, Hierarchy, bounds};
+use super::inside::{Depth, depth, is_inside};
 use super::simplex::Simplex;
 use super::surface::CURVED;
 use crate::system::Dofs;
@@ -37,7 +38,7 @@ pub enum Pose {
     /// In the plane.
     Plane(tool::Pose),
     /// In space.
-    Space(tool::space::Pose),
+    Space(tool::space::Stance),
 }
 
 /// Sagitta of the pieces over the size of the smallest cell, but over the size of the tool at least
@@ -98,7 +99,7 @@ impl Rigid {
         if self.plane {
             Pose::Plane(tool::Pose::new(at(0), at(1), at(2)))
         } else {
-            Pose::Space(tool::space::Pose::new(std::array::from_fn(at)))
+            Pose::Space(tool::space::Pose::new(std::array::from_fn(at)).stance())
         }
     }
     /// Into how many parts its way is divided, so that it turns little in each.
@@ -119,6 +120,14 @@ impl Rigid {
             }
         });
         0.25 * turn * length
+    }
+    /// How deep a point of its own frame lies in its material; behind a profile without an inside no farther than `reach`.
+    pub fn depth(&self, p: Vec3, reach: f64) -> Option<Depth> {
+        let most = if self.closed { f64::INFINITY } else { reach };
+        let found = depth(&self.tree, p, (most, !self.closed), &|_, _| true)?;
+        let out = self.pieces[found.piece].direction();
+        let truly = !self.closed || is_inside(&self.tree, self.bounds, (p, out), &|_| true);
+        truly.then_some(found)
     }
     /// Where a point in space stands in its own frame.
     pub fn withdraw(&self, pose: &Pose, p: Vec3) -> Vec3 {

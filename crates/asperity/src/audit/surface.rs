@@ -1,6 +1,7 @@
 //! The boundary of a connected whole of cells: which vertices and pieces it has, once; where they stand, at each state.
 
 use super::hierarchy::{Bounds, Hierarchy, bounds};
+use super::inside::{Depth, depth, is_inside};
 use super::simplex::Simplex;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
@@ -249,6 +250,11 @@ fn neighbours(pieces: &[[usize; 3]], plane: bool) -> Vec<Vec<usize>> {
 }
 
 impl Placed<'_> {
+    /// How deep a place lies in what is enclosed, as it stands now.
+    pub fn depth(&self, p: Vec3) -> Option<Depth> {
+        let found = depth(&self.tree, p, (f64::INFINITY, false), &|_, _| true)?;
+        is_inside(&self.tree, self.bounds, (p, self.normals[found.piece]), &|_| true).then_some(found)
+    }
     /// A piece at a part of the way from the accepted state to now.
     pub fn piece_at(&self, number: usize, part: f64) -> Simplex {
         let corners = self.surface.pieces[number].map(|vertex| self.at(vertex, part));

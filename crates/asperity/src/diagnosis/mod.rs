@@ -1,5 +1,5 @@
 //! What a run that failed, or whose results are doubtful, most likely suffers from: data in, findings out. [`Facts`] are what
-//! is known of the model before it runs, a [`Course`] is what was seen of the run; each of the [`rules`] looks at both and may
+//! is known of the model before it runs, a [`Course`] is what was seen of the run; each of the rules looks at both and may
 //! find a cause, with its evidence and with what to try. The findings are ranked by how strongly they are supported.
 //!
 //! [`oddities`] are the same for a model alone: numbers that hardly belong together, as of mixed units.

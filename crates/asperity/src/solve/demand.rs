@@ -5,12 +5,12 @@ use super::linear::dense;
 use super::problem::Problem;
 use super::step::owners;
 use crate::machine::{Room, room};
-use crate::system::{Constraints, Couplings, Instant, State, Stencils};
+use crate::system::{Constraints, Couplings, Csr, Instant, Reduced, State, Stencils};
 use crate::{Error, Failure};
 use frontal::{NodeGraph, Options, Policy, Prediction};
 
 /// What the first step of a run takes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Demand {
     /// Unknowns of the linear system.
     pub unknowns: usize,
@@ -46,7 +46,7 @@ impl Problem {
     /// [`Error::Input`] where the matrix has more entries than can be counted, [`Error::NotConverged`] where the state cannot be
     /// evaluated.
     pub fn demand(&self, state: &State) -> Result<Demand, Error> {
-        let Some(step) = self.steps.get(state.step) else { return Ok(self.no_demand()) };
+        let Some(step) = self.steps.get(state.step) else { return Ok(Demand::default()) };
         let dt = step.next(state.next_dt, state.step_time);
         let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
         let groups = self.groups(state, at).map_err(|failure| Error::NotConverged(failure.reason))?;
@@ -64,11 +64,6 @@ impl Problem {
         let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
         let bytes = factorisation.bytes as u64 + single(&policy, &factorisation) + beside as u64;
         Ok(Demand { unknowns, entries, factorisation, bytes, dimension: self.dofs.per_node() })
-    }
-
-    fn no_demand(&self) -> Demand {
-        let (factorisation, dimension) = (Prediction::default(), self.dofs.per_node());
-        Demand { unknowns: 0, entries: 0, factorisation, bytes: 0, dimension }
     }
 
     /// Whether the first step fits into the memory there is; of small models nothing is asked.
@@ -105,43 +100,11 @@ fn graph(problem: &Problem, constraints: &Constraints, groups: &Couplings) -> No
     let count = node_of.last().map_or(0, |last| last + 1);
     let mut weights = vec![0; count];
     node_of.iter().for_each(|&node| weights[node] += 1);
-    let (mut members, mut group_starts) = (Vec::new(), vec![0]);
-    let mut of_group: Vec<u32> = Vec::new();
-    for group in groups.iter() {
-        of_group.clear();
-        of_group.extend(group.iter().flat_map(|&dof| constraints.followed(dof)).map(|(i, _)| node_of[i] as u32));
-        of_group.sort_unstable();
-        of_group.dedup();
-        members.extend_from_slice(&of_group);
-        group_starts.push(members.len());
-    }
-    let (mut starts, mut seen_by) = (vec![0; count + 1], vec![u32::MAX; count]);
-    members.iter().for_each(|&node| starts[node as usize + 1] += 1);
-    (0..count).for_each(|node| starts[node + 1] += starts[node]);
-    let (mut next, mut groups_of) = (starts.clone(), vec![0_u32; members.len()]);
-    for group in 0..group_starts.len() - 1 {
-        for &node in &members[group_starts[group]..group_starts[group + 1]] {
-            groups_of[next[node as usize]] = group as u32;
-            next[node as usize] += 1;
-        }
-    }
-    let (mut rows, mut neighbours) = (Vec::with_capacity(count + 1), Vec::new());
-    rows.push(0);
-    for node in 0..count {
-        let begin = neighbours.len();
-        seen_by[node] = node as u32;
-        for &group in &groups_of[starts[node]..starts[node + 1]] {
-            for &other in &members[group_starts[group as usize]..group_starts[group as usize + 1]] {
-                if seen_by[other as usize] != node as u32 {
-                    seen_by[other as usize] = node as u32;
-                    neighbours.push(other);
-                }
-            }
-        }
-        neighbours[begin..].sort_unstable();
-        rows.push(neighbours.len());
-    }
-    NodeGraph { starts: rows, neighbours, weights }
+    let couplings = Csr::of(count, &Reduced::new(constraints, groups).owned_by(&node_of));
+    let others =
+        |node: usize| couplings.row(node).iter().filter(move |&&other| other != node).map(|&other| other as u32);
+    let starts = couplings.starts.iter().enumerate().map(|(node, start)| start - node).collect();
+    NodeGraph { starts, neighbours: (0..count).flat_map(others).collect(), weights }
 }
 
 impl Demand {

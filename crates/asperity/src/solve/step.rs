@@ -174,16 +174,16 @@ impl Newton<'_> {
         }
         let factorised = self.factorise(iteration)?;
         self.begin_influences()?;
-        let begun = rhs.to_vec();
-        match self.solver.solve(rhs) {
+        let again = (factorised && self.may_hold() && self.state.increment > 0).then(|| rhs.to_vec());
+        match (self.solver.solve(rhs), again) {
             // A matrix that rounding cannot tell from a singular one: the iterate may have lost a contact that the solution has.
-            Err(LinearError::Inaccurate(_)) if factorised && self.may_hold() && self.state.increment > 0 => {
+            (Err(LinearError::Inaccurate(_)), Some(begun)) => {
                 rhs.copy_from_slice(&begun);
                 self.prop(&[], iteration)?;
                 self.memory.current = false;
                 self.solver.solve(rhs).map_err(|e| self.explain(e, 1))?;
             }
-            solved => solved.map_err(|e| self.explain(e, 1))?,
+            (solved, _) => solved.map_err(|e| self.explain(e, 1))?,
         }
         Ok(factorised)
     }

@@ -28,7 +28,7 @@ pub use constraint::{Constraints, Row, Tied};
 pub use dofs::{Dofs, Unknown};
 pub use kernel::kernel;
 pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};
-pub use pattern::{Couplings, Csr};
+pub use pattern::{Couplings, Csr, Reduced};
 pub use preconditioner::{Factorised, Near, Preconditioner};
 pub use state::{Caution, Energies, History, Interpenetration, State};
 pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};

@@ -1,6 +1,6 @@
 //! Which free unknowns couple: the sparsity pattern, in compressed rows.
 
-use super::{Constraints, Row, Stencils};
+use super::{Constraints, Stencils};
 use std::sync::Arc;
 
 /// Groups of unknowns, each of which couples within itself.
@@ -51,14 +51,20 @@ impl Csr {
     }
     /// The pattern of `groups` after elimination of the constrained unknowns.
     pub fn build(constraints: &Constraints, groups: &Couplings) -> Self {
-        let n = constraints.free_count();
+        Self::of(constraints.free_count(), &Reduced::new(constraints, groups))
+    }
+    /// The pattern of `n` numbers that couple within groups.
+    pub fn of(n: usize, reduced: &Reduced) -> Self {
         let [starts, columns] = [n + 1, n].map(|count| Arc::new((0..count).collect()));
-        Self::new(starts, columns).with(constraints, groups, Vec::new())
+        Self::new(starts, columns).joined(reduced, Vec::new())
     }
     /// This pattern and that of `groups` in one, whose columns are written over `memory`.
     pub fn with(&self, constraints: &Constraints, groups: &Couplings, memory: Vec<usize>) -> Self {
-        let (n, reduced) = (self.rows(), reduce(constraints, groups));
-        let (member_starts, members) = invert(n, &reduced);
+        self.joined(&Reduced::new(constraints, groups), memory)
+    }
+    fn joined(&self, reduced: &Reduced, memory: Vec<usize>) -> Self {
+        let n = self.rows();
+        let (member_starts, members) = invert(n, reduced);
         let mut marker = vec![usize::MAX; n];
         let (mut starts, mut columns, mut diagonal) = (Vec::with_capacity(n + 1), memory, Vec::with_capacity(n));
         starts.push(0);
@@ -111,34 +117,44 @@ impl Csr {
     }
 }
 
-/// Groups in the numbering of the free unknowns.
-struct Reduced {
+/// Groups in the numbering of the free unknowns, or of what they belong to.
+#[derive(Debug)]
+pub struct Reduced {
     starts: Vec<usize>,
     free: Vec<usize>,
 }
 
 impl Reduced {
+    /// Groups after elimination of the constrained unknowns.
+    pub fn new(constraints: &Constraints, groups: &Couplings) -> Self {
+        let (mut starts, mut free) = (vec![0], Vec::with_capacity(groups.dofs.len()));
+        for group in groups.iter() {
+            free.extend(group.iter().flat_map(|&dof| constraints.followed(dof)).map(|(i, _)| i));
+            starts.push(free.len());
+        }
+        Self { starts, free }
+    }
+
+    /// The same groups of the owners of the unknowns, each of them once in a group.
+    pub fn owned_by(&self, owners: &[usize]) -> Self {
+        let (mut starts, mut free, mut group) = (vec![0], Vec::new(), Vec::new());
+        for i in 0..self.starts.len() - 1 {
+            group.clear();
+            group.extend(self.group(i).iter().map(|&i| owners[i]));
+            group.sort_unstable();
+            group.dedup();
+            free.extend_from_slice(&group);
+            starts.push(free.len());
+        }
+        Self { starts, free }
+    }
+
     fn group(&self, i: usize) -> &[usize] {
         &self.free[self.starts[i]..self.starts[i + 1]]
     }
 }
 
-fn reduce(constraints: &Constraints, groups: &Couplings) -> Reduced {
-    let (mut starts, mut free) = (vec![0], Vec::with_capacity(groups.dofs.len()));
-    for group in groups.iter() {
-        for &dof in group {
-            match constraints.row(dof) {
-                Row::Free(i) => free.push(*i),
-                Row::Fixed => {}
-                Row::Combined(terms) => free.extend(terms.iter().map(|t| t.0)),
-            }
-        }
-        starts.push(free.len());
-    }
-    Reduced { starts, free }
-}
-
-/// For every free unknown, the groups it belongs to.
+/// For every number, the groups it belongs to.
 fn invert(n: usize, reduced: &Reduced) -> (Vec<usize>, Vec<usize>) {
     let mut starts = vec![0; n + 2];
     reduced.free.iter().for_each(|&i| starts[i + 2] += 1);

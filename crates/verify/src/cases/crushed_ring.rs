@@ -1,6 +1,6 @@
 //! A ring crushed until its bore touches itself is twice its upper half crushed against a plane.
 
-use crate::bench::{Bench, Solved};
+use crate::bench::{Bench, Solved, both_forms};
 use crate::{Case, Measured};
 use asperity::Error;
 
@@ -8,17 +8,15 @@ use asperity::Error;
 pub const CASE: Case = Case { name: "crushed-ring", measure };
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let mut measured = crushed(bench, &[])?;
-    let points = crushed(bench, &["contact.bore.form=paper"])?;
-    measured.extend(points.into_iter().map(|(key, value)| (format!("points-{key}"), value)));
-    Ok(measured)
+    both_forms("bore", |form| crushed(bench, form))
 }
 
-fn crushed(bench: &Bench, form: &[&str]) -> Result<Measured, Error> {
+fn crushed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     let n = bench.pick(1, 2);
     let solve = |deck: &str, cells: usize, more: &[&str]| {
-        let (sets, more) = ([format!("mesh.part.ring.annulus.cells=[{n}, {}]", n * cells)], [form, more].concat());
-        bench.solve(deck, &sets.into_iter().chain(more.iter().map(|set| (*set).to_owned())).collect::<Vec<_>>())
+        let cells = [format!("mesh.part.ring.annulus.cells=[{n}, {}]", n * cells)];
+        let more: Vec<String> = more.iter().map(|set| (*set).to_owned()).collect();
+        bench.solve(deck, &[&cells[..], form, &more].concat())
     };
     let (ring, half) = (solve("ring.toml", 64, &[])?, solve("half.toml", 32, &[])?);
     let free = solve("half.toml", 32, &["tool.plane.profile=[{ line = [[5.0, -90.0], [-5.0, -90.0]] }]"])?;

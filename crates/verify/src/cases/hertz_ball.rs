@@ -1,7 +1,7 @@
 //! Hertz's point contact in space: a rigid ball pressed on an elastic block. `a^3 = 3 P R / (4 E*)`,
 //! `p0 = 3 P / (2 pi a^2)`, `p(r) = p0 sqrt(1 - r^2/a^2)`.
 
-use crate::bench::Bench;
+use crate::bench::{Bench, both_forms};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 
@@ -9,10 +9,7 @@ use asperity::Error;
 pub const CASE: Case = Case { name: "hertz-ball", measure };
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let mut measured = pressed(bench, &[])?;
-    let points = pressed(bench, &["contact.foot.form=paper".to_owned()])?;
-    measured.extend(points.into_iter().map(|(key, value)| (format!("points-{key}"), value)));
-    Ok(measured)
+    both_forms("foot", |form| pressed(bench, form))
 }
 
 fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {

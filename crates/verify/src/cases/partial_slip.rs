@@ -1,7 +1,7 @@
 //! Cattaneo and Mindlin: two cylinders pressed together and moved across slip at the edges of their contact and stick
 //! within `|x| < c = a sqrt(1 - Q / (mu P))`, where `mu p - q = mu p0 (c / a) sqrt(1 - x^2 / c^2)`.
 
-use crate::bench::{Bench, Solved};
+use crate::bench::{Bench, Solved, both_forms};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 use asperity::contact::PointStatus;
@@ -15,10 +15,7 @@ const RADIUS: f64 = 8.0;
 const MODULUS: f64 = 200.0 / (1.0 - 0.3 * 0.3);
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let mut measured = pressed(bench, &[])?;
-    let points = pressed(bench, &["contact.line.form=paper".to_owned()])?;
-    measured.extend(points.into_iter().map(|(key, value)| (format!("points-{key}"), value)));
-    Ok(measured)
+    both_forms("line", |form| pressed(bench, form))
 }
 
 fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {

@@ -3,7 +3,7 @@
 //! `r < a (1 - q)^(1/3)`, and a cycle between `-Q` and `Q` costs `24/5 d mu P (1 - (1 - q)^(5/3) - 5 q / 6 (1 + (1 - q)^(2/3)))`
 //! (R. D. Mindlin and H. Deresiewicz 1953; K. L. Johnson, "Contact mechanics", sections 7.2 and 7.4).
 
-use crate::bench::{Bench, Solved, sides};
+use crate::bench::{Bench, Solved, both_forms, sides};
 use crate::{Case, Measured, Size};
 use asperity::Error;
 use asperity::model::Model;
@@ -36,12 +36,10 @@ struct Moment {
 }
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let mut measured = pressed(bench, &[])?;
-    if bench.size == Size::Full {
-        let points = pressed(bench, &["contact.spot.form=paper".to_owned()])?;
-        measured.extend(points.into_iter().map(|(key, value)| (format!("points-{key}"), value)));
+    match bench.size {
+        Size::Quick => pressed(bench, &[]),
+        Size::Full => both_forms("spot", |form| pressed(bench, form)),
     }
-    Ok(measured)
 }
 
 fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {

@@ -13,15 +13,17 @@
 //! Meng, IJNME 62, 2005; Popp, Gee & Wall, IJNME 79, 2009). Nothing is shared across a crease of the surface or between two
 //! smooth pieces of the target (Farah, Wall & Popp, IJNME 114, 2018).
 //!
-//! The way of a contact: [`surface`](Surface) and `target` are who may touch whom, `cover` finds which part of a face sees
-//! which part of the target, `point` places a quadrature point with the derivatives of all that follows from it, `stencil` sums
+//! The way of a contact: [`surface`](Surface) and `target` are who may touch whom, `cover` and `configuration` find which part of a
+//! face sees which part of the target, `point` places a quadrature point with the derivatives of all that follows from it, `stencil` sums
 //! the points of a node, and `term` with `attempt` are the only ones that know the rest. The plane is space with the second
 //! tangent `e_z`; what differs is the cover of a face, which is in `space`, and the pose of a tool.
 
 mod attempt;
+mod configuration;
 mod cover;
 mod face;
 mod faces;
+mod linear;
 mod point;
 mod space;
 mod stencil;

@@ -1,6 +1,7 @@
 //! The field as a term of equilibrium: one stencil for each node of the field and each smooth piece of the target.
 
-use super::attempt::{Configuration, FieldAttempt};
+use super::attempt::FieldAttempt;
+use super::configuration::{Configuration, TargetInPlace};
 use super::cover::Patch;
 use super::faces::{Faces, Ray};
 use super::stencil::{NodeSums, StencilInPlace, Support};
@@ -306,11 +307,11 @@ impl FieldContact {
             for (k, &node) in own.nodes.iter().enumerate() {
                 let at = face.at(own.place(k));
                 let by = match &now.target {
-                    super::attempt::TargetInPlace::Tool(tool) => {
+                    TargetInPlace::Tool(tool) => {
                         let foot = tool.closest(patch.target, at.x);
                         (foot.beyond.is_none() && foot.gap < -self.least).then(|| foot.normal * -foot.gap)
                     }
-                    super::attempt::TargetInPlace::Faces(faces) => {
+                    TargetInPlace::Faces(faces) => {
                         let ray = Ray { x: at.x, n: at.normal.unit() };
                         let hit = self.target.as_faces().and_then(|all| {
                             let hit = all.project(patch.target, faces.placed(patch.target), &ray)?;

@@ -39,7 +39,8 @@ pub struct ToolInPlace<'a> {
 #[derive(Debug, Clone, Copy)]
 enum Stand {
     Plane(Pose),
-    Space(space::Stance),
+    /// With its spins.
+    Space(space::Stance, [Vec3; 3]),
 }
 
 /// The point of a tool that is closest to a point of the surface.
@@ -116,7 +117,8 @@ impl RigidTool {
         let stand = match &self.shape {
             RigidShape::Plane(..) => Stand::Plane(Pose::new(motion[0], motion[1], motion[2])),
             RigidShape::Space(..) => {
-                Stand::Space(space::Stance::new(space::Pose::new(std::array::from_fn(|i| motion[i]))))
+                let pose = space::Pose::new(std::array::from_fn(|i| motion[i]));
+                Stand::Space(pose.stance(), pose.spins())
             }
         };
         ToolInPlace { rigid: self, stand }
@@ -142,28 +144,28 @@ impl ToolInPlace<'_> {
     pub fn place(&self, point: Vec3) -> Vec3 {
         match &self.stand {
             Stand::Plane(pose) => pose.place(self.rigid.rest(), point),
-            Stand::Space(pose) => pose.place(self.rigid.rest(), point),
+            Stand::Space(pose, _) => pose.place(self.rigid.rest(), point),
         }
     }
     /// Where the material point that is now at `placed` stood.
     pub fn withdraw(&self, placed: Vec3) -> Vec3 {
         match &self.stand {
             Stand::Plane(pose) => pose.withdraw(self.rigid.rest(), placed),
-            Stand::Space(pose) => pose.withdraw(self.rigid.rest(), placed),
+            Stand::Space(pose, _) => pose.withdraw(self.rigid.rest(), placed),
         }
     }
     /// A vector turned with the tool.
     pub fn rotate(&self, v: Vec3) -> Vec3 {
         match &self.stand {
             Stand::Plane(pose) => pose.rotate(v),
-            Stand::Space(pose) => pose.rotate(v),
+            Stand::Space(pose, _) => pose.rotate(v),
         }
     }
     /// A vector turned back into the tool's own frame.
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
         match &self.stand {
             Stand::Plane(pose) => pose.rotate_back(v),
-            Stand::Space(pose) => pose.rotate_back(v),
+            Stand::Space(pose, _) => pose.rotate_back(v),
         }
     }
     /// The closest point of a smooth piece.
@@ -197,7 +199,7 @@ impl ToolInPlace<'_> {
                 rates[..3].copy_from_slice(&pose.rates(self.rigid.rest(), at));
                 rates
             }
-            Stand::Space(pose) => pose.rates(self.rigid.rest(), at),
+            Stand::Space(stance, spins) => stance.pose.rates(spins, self.rigid.rest(), at),
         }
     }
     /// Derivatives along its unknowns of its rotation, as vectors.
@@ -205,15 +207,15 @@ impl ToolInPlace<'_> {
         let mut spins = [Vec3::zero(); MOST];
         match &self.stand {
             Stand::Plane(_) => spins[2] = unit(2),
-            Stand::Space(pose) => spins[3..].copy_from_slice(&pose.spins()),
+            Stand::Space(_, own) => spins[3..].copy_from_slice(own),
         }
         spins
     }
     /// Derivatives of [`spins`](Self::spins) along the unknown `along`.
     pub fn spin_rates(&self, along: usize) -> [Vec3; MOST] {
         let mut rates = [Vec3::zero(); MOST];
-        if let (Stand::Space(pose), Some(axis)) = (&self.stand, along.checked_sub(3)) {
-            rates[3..].copy_from_slice(&pose.spin_rates(axis));
+        if let (Stand::Space(stance, _), Some(axis)) = (&self.stand, along.checked_sub(3)) {
+            rates[3..].copy_from_slice(&stance.pose.spin_rates(axis));
         }
         rates
     }

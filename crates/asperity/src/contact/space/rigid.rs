@@ -43,7 +43,8 @@ impl Rigid {
     }
 
     pub(super) fn rates(&self, motion: &[f64], at: Vec3) -> [Vec3; COUNT] {
-        pose(motion).rates(self.tool.reference(), at)
+        let pose = pose(motion);
+        pose.rates(&pose.spins(), self.tool.reference(), at)
     }
 
     /// The force, and what does the work of its moment about the reference point.

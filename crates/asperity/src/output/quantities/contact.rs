@@ -1,6 +1,7 @@
 //! Contact: everything at the integration points of the surfaces, and the resultants of each contact. Forces and
 //! stress vectors are those that the target exerts on the surface.
 
+use super::energy::of_bodies;
 use super::{Source, Touching};
 use crate::Error;
 use crate::contact::{PointRecord, PointStatus, second_name};
@@ -285,10 +286,9 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
     }
     if seen.contact.law().sliding_stress(0.0).is_some() {
         let work = |record: &PointRecord| 0.5 * record.pressure * record.penetration.max(0.0) * record.area;
-        let bodies = source.parts.bodies.iter().filter_map(|(term, _)| source.state.energies.get(*term));
-        let taken = bodies.map(|energies| energies.stored + energies.dissipated).sum::<f64>();
+        let bodies = of_bodies(source);
         let work = seen.contact.share() * seen.closed().map(work).sum::<f64>();
-        frame.certify(seen.reading("penalty_energy", work).over(taken));
+        frame.certify(seen.reading("penalty_energy", work).over(bodies.stored + bodies.dissipated));
     }
     frame.certify(seen.reading("closed_points", seen.closed().count() as f64));
     if let Some(least) = seen.closed().map(|record| record.last_dissipated * record.area).reduce(f64::min) {

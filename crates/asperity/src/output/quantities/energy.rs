@@ -7,19 +7,9 @@ use crate::output::{Frame, Quantity, Reading, Unit};
 use crate::system::Energies;
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    let energies = &source.state.energies;
-    let of = |terms: &mut dyn Iterator<Item = usize>| {
-        let each = terms.filter_map(|term| energies.get(term));
-        each.fold(Energies::default(), |sum, e| Energies {
-            stored: sum.stored + e.stored,
-            dissipated: sum.dissipated + e.dissipated,
-            supplied: sum.supplied + e.supplied,
-            residue: sum.residue + e.residue,
-        })
-    };
-    let bodies = of(&mut source.parts.bodies.iter().map(|(term, _)| *term));
-    let springs = of(&mut source.parts.springs.iter().copied());
-    let all = of(&mut (0..energies.len()));
+    let bodies = of_bodies(source);
+    let springs = sum(source, source.parts.springs.iter().copied());
+    let all = sum(source, 0..source.state.energies.len());
     let contact = |whole: f64, bodies: f64, springs: f64| whole - bodies - springs;
     let external = source.state.external_work + all.supplied;
     let entries = [
@@ -43,4 +33,19 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     frame.certify(Reading::new("energy_balance", "", missing.abs()).over(largest));
     frame.certify(Reading::new("hypoelastic_residue", "", all.residue.abs()).over(largest));
     frame.push(Quantity::scalar("energy.missing", Unit::Energy, missing))
+}
+
+/// Energies of all bodies.
+pub(super) fn of_bodies(source: &Source) -> Energies {
+    sum(source, source.parts.bodies.iter().map(|(term, _)| *term))
+}
+
+fn sum(source: &Source, terms: impl Iterator<Item = usize>) -> Energies {
+    let each = terms.filter_map(|term| source.state.energies.get(term));
+    each.fold(Energies::default(), |sum, e| Energies {
+        stored: sum.stored + e.stored,
+        dissipated: sum.dissipated + e.dissipated,
+        supplied: sum.supplied + e.supplied,
+        residue: sum.residue + e.residue,
+    })
 }

@@ -27,11 +27,16 @@ impl<T: Scalar> Pose<T> {
     }
     /// Present position of the point that stood at `point`, with the reference point at `reference` then.
     pub fn place(&self, reference: Vec3, point: Vec3) -> Vec3<T> {
-        point.lift() + self.translation + change(self.rotation, (point - reference).lift())
+        self.stance().place(reference, point)
     }
     /// The vector turned with the tool.
     pub fn rotate(&self, v: Vec3) -> Vec3<T> {
-        v.lift() + change(self.rotation, v.lift())
+        self.stance().rotate(v)
+    }
+    /// With what is the same for all points.
+    pub fn stance(&self) -> Stance<T> {
+        let t2 = self.rotation.dot(self.rotation);
+        Stance { pose: *self, sine: sine(t2), versine: versine(t2) }
     }
     /// `T v`: the axis and rate at which the tool turns when its rotation vector changes at the rate `v`.
     pub fn spin(&self, v: Vec3<T>) -> Vec3<T> {
@@ -51,17 +56,29 @@ impl<T: Scalar> Pose<T> {
 impl Pose {
     /// Where the point that is now at `placed` stood: the inverse of [`place`](Self::place).
     pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
-        let back = placed - self.translation;
-        back + change(-self.rotation, back - reference)
+        self.stance().withdraw(reference, placed)
     }
     /// The vector turned back into the tool's own frame.
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
-        v + change(-self.rotation, v)
+        self.stance().rotate_back(v)
     }
-    /// Derivatives of the position of a material point, now at `placed`, with respect to the six unknowns.
-    pub fn rates(&self, reference: Vec3, placed: Vec3) -> [Vec3; 6] {
+    /// [`spin`](Self::spin) along each axis.
+    pub fn spins(&self) -> [Vec3; 3] {
+        [0, 1, 2].map(|i| self.spin(axis(i)))
+    }
+    /// Derivatives of these along the component `along` of the rotation vector.
+    pub fn spin_rates(&self, along: usize) -> [Vec3; 3] {
+        let w = self.rotation;
+        let rotation =
+            Vec3(std::array::from_fn(|i| if i == along { Dual::<1>::variable(w[i], 0) } else { Dual::from(w[i]) }));
+        let turned = Pose { translation: Vec3::zero(), rotation };
+        [0, 1, 2].map(|i| Vec3(turned.spin(axis(i).lift()).0.map(|spin| spin.du[0])))
+    }
+    /// Derivatives of the position of a material point, now at `placed`, with respect to the six unknowns, with the
+    /// [`spins`](Self::spins).
+    pub fn rates(&self, spins: &[Vec3; 3], reference: Vec3, placed: Vec3) -> [Vec3; 6] {
         let arm = placed - (reference + self.translation);
-        std::array::from_fn(|i| if i < 3 { axis(i) } else { self.spin(axis(i - 3)).cross(arm) })
+        std::array::from_fn(|i| if i < 3 { axis(i) } else { spins[i - 3].cross(arm) })
     }
     /// The moment whose work is that of the forces `q` on the three unknowns of the rotation; not finite at a whole
     /// turn unless the forces are along the axis.
@@ -81,70 +98,42 @@ impl Pose {
     }
 }
 
-/// `(R - I) v`.
-fn change<T: Scalar>(w: Vec3<T>, v: Vec3<T>) -> Vec3<T> {
-    let t2 = w.dot(w);
-    change_by((w, sine(t2), versine(t2)), v)
-}
-
-/// The same of a rotation vector `w` with `sin t / t` and `(1 - cos t) / t^2`.
-fn change_by<T: Scalar>((w, a, b): (Vec3<T>, T, T), v: Vec3<T>) -> Vec3<T> {
-    let once = w.cross(v);
-    once * a + w.cross(once) * b
-}
-
-/// A pose with all that is the same for each of its points.
+/// A pose with the functions of its angle, which are the same for all points.
 #[derive(Debug, Clone, Copy)]
-pub struct Stance {
-    pose: Pose,
-    sine: f64,
-    versine: f64,
-    spins: [Vec3; 3],
+pub struct Stance<T = f64> {
+    /// The pose.
+    pub pose: Pose<T>,
+    /// `sin t / t`.
+    sine: T,
+    /// `(1 - cos t) / t^2`.
+    versine: T,
+}
+
+impl<T: Scalar> Stance<T> {
+    /// As [`Pose::place`].
+    pub fn place(&self, reference: Vec3, point: Vec3) -> Vec3<T> {
+        point.lift() + self.pose.translation + self.change(self.pose.rotation, (point - reference).lift())
+    }
+    /// As [`Pose::rotate`].
+    pub fn rotate(&self, v: Vec3) -> Vec3<T> {
+        v.lift() + self.change(self.pose.rotation, v.lift())
+    }
+    /// `(R - I) v` for a rotation by `w`, which is that of the pose or its opposite.
+    fn change(&self, w: Vec3<T>, v: Vec3<T>) -> Vec3<T> {
+        let once = w.cross(v);
+        once * self.sine + w.cross(once) * self.versine
+    }
 }
 
 impl Stance {
-    /// Of a pose.
-    pub fn new(pose: Pose) -> Self {
-        let t2 = pose.rotation.dot(pose.rotation);
-        let spins = [0, 1, 2].map(|i| pose.spin(axis(i)));
-        Self { pose, sine: sine(t2), versine: versine(t2), spins }
-    }
-    fn change(&self, w: Vec3, v: Vec3) -> Vec3 {
-        change_by((w, self.sine, self.versine), v)
-    }
-    /// As [`Pose::place`].
-    pub fn place(&self, reference: Vec3, point: Vec3) -> Vec3 {
-        point + self.pose.translation + self.change(self.pose.rotation, point - reference)
-    }
     /// As [`Pose::withdraw`].
     pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
         let back = placed - self.pose.translation;
         back + self.change(-self.pose.rotation, back - reference)
     }
-    /// As [`Pose::rotate`].
-    pub fn rotate(&self, v: Vec3) -> Vec3 {
-        v + self.change(self.pose.rotation, v)
-    }
     /// As [`Pose::rotate_back`].
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
         v + self.change(-self.pose.rotation, v)
-    }
-    /// As [`Pose::rates`].
-    pub fn rates(&self, reference: Vec3, placed: Vec3) -> [Vec3; 6] {
-        let arm = placed - (reference + self.pose.translation);
-        std::array::from_fn(|i| if i < 3 { axis(i) } else { self.spins[i - 3].cross(arm) })
-    }
-    /// As [`Pose::spin`] along each axis.
-    pub fn spins(&self) -> [Vec3; 3] {
-        self.spins
-    }
-    /// Derivatives of [`spins`](Self::spins) along the component `along` of the rotation vector.
-    pub fn spin_rates(&self, along: usize) -> [Vec3; 3] {
-        let w = self.pose.rotation;
-        let rotation =
-            Vec3(std::array::from_fn(|i| if i == along { Dual::<1>::variable(w[i], 0) } else { Dual::from(w[i]) }));
-        let turned = Pose { translation: Vec3::zero(), rotation };
-        [0, 1, 2].map(|i| Vec3(turned.spin(axis(i).lift()).0.map(|spin| spin.du[0])))
     }
 }
 
@@ -238,7 +227,7 @@ mod tests {
         for unknowns in poses() {
             let dual = Pose::new(std::array::from_fn(|i| Dual::<6>::variable(unknowns[i], i)));
             let placed = dual.place(REFERENCE, POINT);
-            let rates = Pose::new(unknowns).rates(REFERENCE, placed.re());
+            let rates = Pose::new(unknowns).rates(&Pose::new(unknowns).spins(), REFERENCE, placed.re());
             for (j, rate) in rates.iter().enumerate() {
                 for i in 0..3 {
                     assert!((placed[i].du[j] - rate[i]).abs() < 2e-14, "{unknowns:?} {i} {j}");

@@ -1,7 +1,7 @@
 //! Which faces of the surface see which part of the target, in space.
 
 use super::overlap::{Part, whole};
-use crate::contact::field::attempt::{Configuration, Seen, TargetInPlace};
+use crate::contact::field::configuration::{Configuration, Seen, TargetInPlace};
 use crate::contact::field::cover::Patch;
 use crate::tool::Bounds;
 

@@ -291,10 +291,10 @@ impl Look<'_> {
                 let other = Other::Whole(other);
                 found(Found { own, other, bodies, depth, sagitta, size, place: to, through });
             };
-            if meet(&[to, to], &b.bounds) {
-                if let Some(deep) = b.depth(to) {
-                    report(deep.depth, deep.piece, false);
-                }
+            if meet(&[to, to], &b.bounds)
+                && let Some(deep) = b.depth(to)
+            {
+                report(deep.depth, deep.piece, false);
             }
             let (at, piece) = (|part| a.at(vertex, part), |number, part| b.piece_at(number, part));
             let near = self.near(own, Other::Whole(other), a.size_at(vertex), a.sagitta_at(vertex));
@@ -368,13 +368,13 @@ impl Look<'_> {
             // Behind an open profile lies what no box about it holds; a contact looks there itself.
             let unseen = !tool.closed && !self.prepared.known[pair];
             let behind = Vec3([if unseen { size } else { 0.0 }; 3]);
-            if meet(&[here - behind, here + behind], &tool.bounds) {
-                if let Some(deep) = tool.depth(here, size) {
-                    // Only a contact bears points, and lies in the tool between them.
-                    let bears = self.prepared.known[pair];
-                    let bulge = if bears { tool.bulge(here, deep.piece, a.length_at(vertex)) } else { 0.0 };
-                    report(deep.depth, bulge, false);
-                }
+            if meet(&[here - behind, here + behind], &tool.bounds)
+                && let Some(deep) = tool.depth(here, size)
+            {
+                // Only a contact bears points, and lies in the tool between them.
+                let bears = self.prepared.known[pair];
+                let bulge = if bears { tool.bulge(here, deep.piece, a.length_at(vertex)) } else { 0.0 };
+                report(deep.depth, bulge, false);
             }
             self.through_tool(&path, tool, self.near(own, other, size, sagitta), &mut report);
             if let Some(depth) = grazed(&path, tool, size) {
@@ -415,10 +415,10 @@ impl Look<'_> {
                 let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
                 found(Found { own, other, bodies: [body, body], depth, sagitta, size, place: here, through });
             };
-            if meet(&[here, here], &a.bounds) {
-                if let Some(deep) = a.depth(here) {
-                    report(deep.depth, deep.piece, false);
-                }
+            if meet(&[here, here], &a.bounds)
+                && let Some(deep) = a.depth(here)
+            {
+                report(deep.depth, deep.piece, false);
             }
             let (at, piece) = (|part| along(&path, part), |number, part| a.piece_at(number, part));
             let way =

@@ -11,7 +11,7 @@ use crate::system::{Evaluation, Tangent};
 /// A first guess, and what prescribed unknowns miss there.
 type Start = (Vec<f64>, Option<Vec<f64>>);
 
-/// Unbalanced forces of a first guess below which no other is tried.
+/// Unbalanced forces of a first guess, over those in play so far, below which no other is tried.
 const GOOD_GUESS: f64 = 0.1;
 /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -88,8 +88,9 @@ impl Newton<'_> {
         Ok((u, missing))
     }
 
-    /// Evaluates a first guess and measures the unbalanced forces, with those of the motion that prescribed unknowns still
-    /// miss: for them the matrix is needed.
+    /// Evaluates a first guess and measures the unbalanced forces over those in play at the accepted states, with those of the
+    /// motion that prescribed unknowns still miss: for them the matrix is needed. A guess that leads far into a tool has
+    /// larger forces in play, which must not count in its favour.
     fn guess(&mut self, mut u: Vec<f64>, tangent: Tangent) -> Result<(Start, f64), Failure> {
         let missing = self.missing(&mut u);
         let tangent = if missing.is_some() { self.tangent() } else { tangent };
@@ -100,9 +101,26 @@ impl Newton<'_> {
             self.step.constraints.gather(&self.evaluation.carried, &mut carried);
             self.residual.iter_mut().zip(&carried).for_each(|(r, c)| *r += c);
         }
-        let unbalanced = self.measure().ratio;
+        let unbalanced = self.unbalanced();
         self.residual = residual;
         Ok(((u, missing), unbalanced))
+    }
+
+    /// The largest unbalanced force over those in play at the accepted states, moments likewise; over those of the guess where
+    /// there were none.
+    fn unbalanced(&self) -> f64 {
+        let mut largest = [0.0_f64; 2];
+        for (&dof, force) in self.step.constraints.free().iter().zip(&self.residual) {
+            let kind = usize::from(self.problem.dofs.is_rotation(dof));
+            largest[kind] = if force.is_nan() { f64::INFINITY } else { largest[kind].max(force.abs()) };
+        }
+        let reference = self.measure().reference;
+        let over = |kind: usize| {
+            let past = self.state.in_play[kind];
+            let scale = if past > 0.0 { past } else { reference[kind] };
+            largest[kind] / scale.max(f64::MIN_POSITIVE)
+        };
+        over(0).max(over(1))
     }
 
     /// What prescribed unknowns miss at `u`; where that is rounding, it is put right in `u` at once.

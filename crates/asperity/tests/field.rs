@@ -34,6 +34,19 @@ contact.joint = { surface = "block.bottom", target = "die", form = "field", law.
 displacement."block.top" = { x = 0.0, y = -0.1 }
 "#;
 
+/// A block above a wedge of 69 degrees, whose tip lies within an edge or at a node.
+const OVER_WEDGE: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.3, 0.0], to = [3.3, 1.0], cells = [5, 2], cell = "quad4" }
+material.rubber.elastic = { young = 1e3, poisson = 0.3 }
+body.block = { material = "rubber" }
+tool.wedge = { profile = [{ line = [[2.6, -1.0], [1.9, 0.0]] }, { line = [[1.9, 0.0], [1.2, -1.0]] }] }
+contact.joint = { surface = "block.bottom", target = "wedge", law.coulomb = { friction = 0.3 } }
+[[step]]
+displacement."block.top" = { x = 0.0, y = -0.1 }
+"#;
+
 /// Two blocks that do not match, the upper one narrower.
 const BLOCKS: &str = r#"
 version = 1
@@ -55,6 +68,46 @@ fn second_degree(parts: &[&str]) -> Vec<String> {
 
 fn made(deck: &str, sets: &[String]) -> Model {
     model(deck, &sets.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+#[test]
+fn tangents_of_a_tip_are_exact() {
+    for degree in [1, 2] {
+        let sets = if degree == 2 { second_degree(&["block"]) } else { Vec::new() };
+        let model = made(OVER_WEDGE, &sets);
+        let (contact, moving) = (&model.field_contacts[0], &model.mesh.groups["block"].nodes);
+        let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.01));
+        let name = format!("degree {degree}: {met:?} skipped {skipped} worst {worst:.1e}");
+        assert!(met.iter().all(|&met| met >= 10) && 10 * skipped <= met.iter().sum::<usize>(), "{name}");
+        assert!(worst < OVER_TOOLS, "{name}");
+    }
+}
+
+/// Force on the tool, and pressures at its tips, where the block comes down onto it by a twentieth of an edge.
+fn pressed(profile: &str) -> (f64, Vec<f64>) {
+    let tool = format!("tool.wedge.profile={profile}");
+    let model = model(OVER_WEDGE, &[&tool, "step.1.displacement.'block.top'.y=-0.03", "step.1.increments.count=1"]);
+    let keep = run(&model);
+    let state = keep.states.last().unwrap();
+    let contact = &model.field_contacts[0];
+    let records = contact.records(&state.u, &state.histories[model.first_contact()]);
+    let nodes = contact.surface().nodes.len() * contact.target().as_tool().unwrap().pieces();
+    let tips = records[nodes..].iter().map(|record| record.pressure).collect();
+    (last(&columns(&model, &keep), "tool.wedge.force.y"), tips)
+}
+
+#[test]
+fn a_tip_is_felt_over_a_node_and_within_an_edge_and_the_corner_of_a_punch_is_none() {
+    for x in [1.5, 1.6, 1.8] {
+        let [left, right] = [x - 1.0, x + 1.0];
+        let (force, tips) = pressed(&format!(
+            "[{{ line = [[{right}, -2.0], [{x}, 0.0]] }}, {{ line = [[{x}, 0.0], [{left}, -2.0]] }}]"
+        ));
+        assert!(force > 1.0 && tips.len() == 1 && tips[0] > 0.0, "{x}: {force} {tips:?}");
+    }
+    let sides = "{ line = [[2.4, -1.0], [2.4, 0.0]] }, { line = [[2.4, 0.0], [1.3, 0.0]] }, { line = [[1.3, 0.0], [1.3, -1.0]] }";
+    let (force, tips) = pressed(&format!("[{sides}]"));
+    assert!(force > 1.0 && tips == [0.0, 0.0], "{force} {tips:?}");
 }
 
 /// Random states of a contact after random accepted ones: all nodes move by up to `size`, the upper ones down.

@@ -21,6 +21,8 @@ pub struct SmoothPiece {
     segments: Vec<usize>,
     /// The lines across its first and its last end beyond which it is not seen; none where it goes on straight.
     pub ends: [Option<PieceEnd>; 2],
+    /// How many of its first and of its last segments these lines bound: the flank too where a rounding is cut.
+    bounded: [usize; 2],
     /// Whether its last segment ends where its first begins, without a crease.
     closed: bool,
 }
@@ -50,35 +52,50 @@ pub struct PieceEnd {
 }
 
 impl Tool {
-    /// Its smooth pieces, profile by profile.
-    pub fn smooth_pieces(&self) -> Vec<SmoothPiece> {
+    /// Its smooth pieces, profile by profile. An arc that turns as sharply as a crease, with a radius of at most `rounding`, counts as
+    /// one in its middle.
+    pub fn smooth_pieces(&self, rounding: f64) -> Vec<SmoothPiece> {
         let mut pieces = Vec::new();
         for chain in self.chains() {
             let count = chain.end - chain.first;
             let turn = |i: usize| self.turn_behind(chain.first + i, chain.first + (i + 1) % count);
             let joints = if chain.closed { count } else { count - 1 };
-            let creases: Vec<usize> = (0..joints).filter(|&i| turn(i).abs() >= CREASE).collect();
-            if chain.closed && creases.is_empty() {
+            let segment = |i: usize| &self.segments()[chain.first + i];
+            let end = |i: usize, s: f64| {
+                let (point, along) = (segment(i).point(s), segment(i).tangent(s).unit());
+                Some(PieceEnd { point, along })
+            };
+            let crease = |i: usize| self.crease(turn(i), chain.first + i, chain.first + (i + 1) % count);
+            // Segments with what cuts the profile behind them; a sharp rounding is there once for each half.
+            let mut parts: Vec<(usize, Option<Option<PieceEnd>>)> = Vec::new();
+            for i in 0..count {
+                if segment(i).is_tip(rounding) {
+                    parts.push((i, Some(end(i, 0.5))));
+                }
+                let creased = i < joints && turn(i).abs() >= CREASE;
+                parts.push((i, creased.then(|| crease(i))));
+            }
+            let first = parts.iter().position(|(_, cut)| cut.is_some());
+            if chain.closed && first.is_none() {
                 let segments = (chain.first..chain.end).collect();
-                pieces.push(SmoothPiece { segments, ends: [None; 2], closed: true });
+                pieces.push(SmoothPiece { segments, ends: [None; 2], bounded: [0; 2], closed: true });
                 continue;
             }
-            // From behind a crease or the beginning of an open profile on.
-            let begin = if chain.closed { creases[0] + 1 } else { 0 };
-            let crease = |i: usize| self.crease(turn(i), chain.first + i, chain.first + (i + 1) % count);
-            let tip = |i: usize, s: f64| {
-                let segment = &self.segments()[chain.first + i];
-                Some(PieceEnd { point: segment.point(s), along: segment.tangent(s).unit() })
-            };
-            let mut before = if chain.closed { crease(creases[0]) } else { tip(0, 0.0) };
-            let mut segments = Vec::new();
-            for k in 0..count {
-                let i = (begin + k) % count;
+            // From behind a cut or the beginning of an open profile on.
+            let first = first.filter(|_| chain.closed);
+            let mut before = first.map_or_else(|| end(0, 0.0), |first| parts[first].1.flatten());
+            let count = parts.len();
+            parts.rotate_left(first.map_or(0, |first| (first + 1) % count));
+            let (last, mut segments) = (count - 1, Vec::new());
+            for (k, (i, cut)) in parts.into_iter().enumerate() {
                 segments.push(chain.first + i);
-                if k + 1 == count || creases.contains(&i) {
-                    let after = if creases.contains(&i) { crease(i) } else { tip(i, 1.0) };
+                let open = (k == last).then(|| end(i, 1.0));
+                if let Some(after) = cut.or(open) {
                     let segments = std::mem::take(&mut segments);
-                    pieces.push(SmoothPiece { segments, ends: [before, after], closed: false });
+                    let cut =
+                        |place: Option<&usize>| place.is_some_and(|&number| self.segments()[number].is_tip(rounding));
+                    let bounded = [cut(segments.first()), cut(segments.last())].map(|cut| if cut { 2 } else { 1 });
+                    pieces.push(SmoothPiece { segments, ends: [before, after], bounded, closed: false });
                     before = after;
                 }
             }
@@ -120,7 +137,8 @@ impl Tool {
         let normal = -segment.tangent(s).left().unit();
         let last = piece.segments.len() - 1;
         let beyond = (0..2).find(|&k| {
-            let end = piece.ends[k].filter(|_| place == [0, last][k]);
+            let from_end = [place, last - place][k];
+            let end = piece.ends[k].filter(|_| from_end < piece.bounded[k]);
             let past = |end: PieceEnd| end.along.dot(x - end.point) * [-1.0, 1.0][k];
             end.is_some_and(|end| past(end) > AT_END * segment.length())
         });
@@ -190,11 +208,11 @@ mod tests {
     #[test]
     fn pieces_end_at_creases() {
         let round = round();
-        let pieces = round.smooth_pieces();
+        let pieces = round.smooth_pieces(0.0);
         assert_eq!(pieces.iter().map(|piece| piece.segments.clone()).collect::<Vec<_>>(), [vec![3], vec![0, 1, 2]]);
         assert!(pieces.iter().all(|piece| piece.ends.iter().all(Option::is_some) && !piece.closed));
         let corner = tool(&[&[("line", &[[0.0, 5.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [5.0, 0.0]])]]);
-        let pieces = corner.smooth_pieces();
+        let pieces = corner.smooth_pieces(0.0);
         // Material on the left of a path down and then to the right: above it, a convex edge.
         let seen = |piece: &SmoothPiece| piece.ends.map(|end| end.is_some());
         assert_eq!(pieces.iter().map(seen).collect::<Vec<_>>(), [[true; 2]; 2]);
@@ -204,7 +222,7 @@ mod tests {
             assert_eq!([0, 1].map(|k| beyond(&pieces[k]).is_none()), [face == 0, face == 1], "{x} {y}");
         }
         let inner = tool(&[&[("line", &[[5.0, 0.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [0.0, 5.0]])]]);
-        let pieces = inner.smooth_pieces();
+        let pieces = inner.smooth_pieces(0.0);
         assert_eq!(pieces.iter().map(seen).collect::<Vec<_>>(), [[true, false], [false, true]]);
     }
 
@@ -212,7 +230,7 @@ mod tests {
     #[test]
     fn closest_points_are_the_closest() {
         let round = round();
-        for piece in &round.smooth_pieces() {
+        for piece in &round.smooth_pieces(0.0) {
             for i in 0..400 {
                 let x =
                     Vec3::new(-1.0 + 4.0 * f64::from(i % 20) / 19.0 + 0.01, -1.0 + 4.0 * f64::from(i / 20) / 19.0, 0.0);

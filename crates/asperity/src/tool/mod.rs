@@ -13,6 +13,7 @@ mod search;
 mod select;
 pub mod shapes;
 pub mod space;
+mod tips;
 #[allow(clippy::module_inception)]
 mod tool;
 
@@ -28,4 +29,5 @@ pub use pose::Pose;
 pub use search::Tree;
 pub use select::{Met, Rejected, Rules, select};
 pub use shapes::{Bounds, Kind, Ray, Shape};
+pub use tips::Tip;
 pub use tool::{Chain, Hit, Tool};

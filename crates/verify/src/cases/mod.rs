@@ -33,6 +33,7 @@ mod thick_shells;
 mod tube;
 mod two_body_patch;
 mod upsetting;
+mod wedge;
 
 use crate::Case;
 
@@ -61,6 +62,7 @@ pub const ALL: &[&Case] = &[
     &o_ring::CASE,
     &upsetting::CASE,
     &cup::CASE,
+    &wedge::CASE,
     &claw::CASE,
     &interface::CASE,
     &pull_out::CASE,

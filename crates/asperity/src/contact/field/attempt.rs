@@ -8,6 +8,7 @@ use super::point::Touched;
 use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::term::{FieldContact, FieldTarget};
+use super::tip::Found;
 use crate::contact::kink::answer;
 use crate::contact::overlap::recession;
 use crate::contact::record::{entry, leave, stresses, write};
@@ -33,6 +34,8 @@ pub struct FieldAttempt<'a> {
     pub accepted: &'a [f64],
     /// The accepted configuration.
     pub before: Configuration<'a>,
+    /// Where the tips of the tool lay in it.
+    pub tips_before: Vec<Option<Found>>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
     /// Largest gap at which the target is seen.
@@ -61,7 +64,7 @@ impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
     pub(super) fn find(
         &self,
-        now: &Configuration,
+        (now, tips): (&Configuration, Vec<Option<Found>>),
         reach: f64,
         depths: &[f64],
         mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
@@ -83,6 +86,16 @@ impl FieldContact {
                     least[slot] = least[slot].min(seen.least);
                 }
             }
+        }
+        for (number, found) in tips.into_iter().enumerate() {
+            let (Some(found), slot) = (found, self.nodal_slots() + number) else { continue };
+            let depth = depths[found.patch.face];
+            if -found.gap > depth {
+                supports[slot].through |= -found.gap < THROUGH * depth;
+                continue;
+            }
+            supports[slot].patches.push((found.patch, 0));
+            least[slot] = found.gap;
         }
         for (support, least) in supports.iter_mut().zip(least) {
             if least > reach {
@@ -129,11 +142,18 @@ const THROUGH: f64 = 1.8;
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> Vec<Support> {
         let now = Configuration::new(self.contact, u);
-        self.contact.find(&now, self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
+        let tips = now.tips(self.contact.longest, &self.tips_before);
+        self.contact
+            .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
     }
 
     /// Nodes of the faces that the points of a patch saw at the accepted state.
     fn list_touched(&self, now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>) {
+        if patch.tip.is_some() {
+            let seen = self.before_tip(patch).map(|(face, _)| face);
+            seen.into_iter().for_each(|face| nodes.extend_from_slice(&self.contact.surface.faces[face].nodes));
+            return;
+        }
         let Some(faces) = self.contact.target.as_faces() else { return };
         let mut places = Vec::new();
         if let (TargetInPlace::Faces(target), false) = (&now.target, self.contact.surface.plane) {
@@ -183,7 +203,20 @@ impl FieldAttempt<'_> {
         before.nearest(&ray, range, admits).or(present)
     }
 
+    /// Face and place over which a tip lay at the accepted state.
+    fn before_tip(&self, patch: &Patch) -> Option<(usize, f64)> {
+        let found = self.tips_before.get(patch.target).copied().flatten()?;
+        found.patch.tip.map(|landing| (found.patch.face, landing.xi))
+    }
+
     fn recall(&self, stencil: &StencilInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
+        if patch.tip.is_some() {
+            let (number, xi) = self.before_tip(patch)?;
+            let face = &self.contact.surface.faces[number];
+            let shape = face.shape([xi, 0.0]);
+            let now = shape.value(stencil.placed(face).nodes());
+            return Some(Touched { now, slopes: [Vec3::zero(); 2], face: Some((number, shape)) });
+        }
         let face = self.before.face(patch.face);
         let at = face.at(xi);
         match (&self.before.target, &self.contact.target) {

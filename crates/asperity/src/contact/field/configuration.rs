@@ -75,7 +75,7 @@ impl Configuration<'_> {
             TargetInPlace::Tool(tool) => {
                 for piece in 0..self.contact.pieces {
                     over_piece(&face, (tool, piece), |interval, ends| {
-                        let patch = Patch { face: number, target: piece, ends, near: interval };
+                        let patch = Patch { face: number, target: piece, ends, near: interval, tip: None };
                         found.extend(self.judge(&face, patch, &samples(interval)));
                     });
                 }
@@ -88,7 +88,7 @@ impl Configuration<'_> {
                     let nodes = faces.placed(target).nodes();
                     let Some((interval, bounded)) = between_vertices(&face, [nodes[1], nodes[0]]) else { continue };
                     let ends = [bounded[0].then_some(1), bounded[1].then_some(0)];
-                    let patch = Patch { face: number, target, ends, near: interval };
+                    let patch = Patch { face: number, target, ends, near: interval, tip: None };
                     found.extend(self.judge(&face, patch, &samples(interval)));
                 }
                 keep_nearest(&mut found);

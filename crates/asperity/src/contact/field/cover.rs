@@ -6,6 +6,7 @@
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
 use super::face::{CORNERS, Face, Placed, ShapeFunctions};
+use super::tip::Landing;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
 
@@ -20,6 +21,8 @@ pub struct Patch {
     pub ends: [Option<usize>; 2],
     /// Where the interval ends, roughly: from where its ends are found anew.
     pub near: [f64; 2],
+    /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.
+    pub tip: Option<Landing>,
 }
 
 /// A face of the surface in place, with the outward normals at its corners.

@@ -15,7 +15,7 @@
 //!
 //! The way of a contact: [`surface`](Surface) and `target` are who may touch whom, `cover` and `configuration` find which part of a
 //! face sees which part of the target, `point` places a quadrature point with the derivatives of all that follows from it, `stencil` sums
-//! the points of a node, and `term` with `attempt` are the only ones that know the rest. The plane is space with the second
+//! the points of a node, `tip` is the vertex of a wedge within a face, and `term` with `attempt` are the only ones that know the rest. The plane is space with the second
 //! tangent `e_z`; what differs is the cover of a face, which is in `space`, and the pose of a tool.
 
 mod attempt;
@@ -29,6 +29,7 @@ mod space;
 mod stencil;
 mod surface;
 mod term;
+mod tip;
 mod tool;
 
 pub use surface::Surface;

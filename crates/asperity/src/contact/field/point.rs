@@ -21,6 +21,8 @@ pub enum Sight {
     Face(Projection),
     /// The closest point of a tool.
     Tool(Foot),
+    /// A tip of a tool.
+    Tip,
 }
 
 /// The target's material point that a place of the surface saw at the accepted state, as it is now.
@@ -301,7 +303,7 @@ impl PatchInPlace<'_> {
                 let y = carried + hit.tangents[0] * s[0] + hit.tangents[1] * s[1];
                 (gap, dn, s, y)
             }
-            (Sight::Tool(_), None) => (0.0, Vec3::zero(), [0.0; 2], Vec3::zero()),
+            (Sight::Tool(_), None) | (Sight::Tip, _) => (0.0, Vec3::zero(), [0.0; 2], Vec3::zero()),
         }
     }
 

@@ -37,11 +37,13 @@ impl Default for Support {
 }
 
 impl Support {
-    /// The faces of its patches, each once, with the node's number among their corners.
+    /// The faces of its patches, each once, with the node's number among their corners; none for a tip.
     pub fn faces(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let faces = self.patches.iter().enumerate();
         let fresh = |i: usize, face: usize| !self.patches[..i].iter().any(|(other, _)| other.face == face);
-        faces.filter(move |(i, (patch, _))| fresh(*i, patch.face)).map(|(_, (patch, corner))| (patch.face, *corner))
+        faces
+            .filter(move |(i, (patch, _))| patch.tip.is_none() && fresh(*i, patch.face))
+            .map(|(_, (patch, corner))| (patch.face, *corner))
     }
 }
 
@@ -58,12 +60,12 @@ pub struct NodeSums {
     pub forces: Vec<f64>,
     /// Mean position, weighted by area.
     pub place: Vec3,
-    points: Vec<Point>,
+    pub(super) points: Vec<Point>,
     /// Derivatives of the points along the unknowns on which they depend, with the numbers of these.
-    rates: Vec<(usize, Rates)>,
+    pub(super) rates: Vec<(usize, Rates)>,
     /// Where those of each point begin.
-    starts: Vec<usize>,
-    columns: Vec<Column>,
+    pub(super) starts: Vec<usize>,
+    pub(super) columns: Vec<Column>,
 }
 
 /// A stencil at values of its unknowns.
@@ -149,7 +151,7 @@ impl<'a> StencilInPlace<'a> {
         self.contact.target.as_faces().map_or(&[], |faces| &faces.surface.faces[face].nodes)
     }
 
-    fn list_columns(&self, patch: &Patch, columns: &mut Vec<Column>) {
+    pub(super) fn list_columns(&self, patch: &Patch, columns: &mut Vec<Column>) {
         columns.clear();
         let own = &self.contact.surface.faces[patch.face].nodes;
         let seen = match &self.contact.target {
@@ -186,7 +188,7 @@ impl<'a> StencilInPlace<'a> {
         }
     }
 
-    /// Deformed over undeformed area of the faces of the patches, and its derivatives along each unknown.
+    /// Deformed over undeformed area of the faces of the patches, and its derivatives along each unknown; one for a tip.
     pub fn stretch(&self) -> (f64, Vec<f64>) {
         let (surface, axes) = (&self.contact.surface, self.axes());
         let (mut areas, mut slopes) = ([0.0; 2], vec![0.0; self.u.len()]);
@@ -199,6 +201,9 @@ impl<'a> StencilInPlace<'a> {
                 let Ok(place) = self.support.nodes.binary_search(node) else { continue };
                 (0..axes).for_each(|axis| slopes[place * axes + axis] += rate[axis]);
             }
+        }
+        if areas[1] == 0.0 {
+            return (1.0, slopes);
         }
         slopes.iter_mut().for_each(|slope| *slope /= areas[1]);
         (areas[0] / areas[1], slopes)
@@ -213,6 +218,10 @@ impl<'a> StencilInPlace<'a> {
         let (mut area, mut moments, mut place) = (0.0, [0.0; COUNT], Vec3::zero());
         let mut turning = Vec::new();
         for (number, (patch, corner)) in self.support.patches.iter().enumerate() {
+            if let Some(landing) = patch.tip {
+                self.sum_tip((number, patch, landing), recall, derivatives, sums)?;
+                continue;
+            }
             let in_place = self.patch(patch);
             let surface = &self.contact.surface;
             let rest = in_place.face.face.at_rest(&self.contact.mesh);
@@ -245,11 +254,6 @@ impl<'a> StencilInPlace<'a> {
                 let slip = e.map(|e| e.dot(v));
                 let shape = at.shape;
                 let point = Point { patch: number, weight, shape, gap, n: n_out, e, slip, y, sight };
-                area += weight;
-                place += at.x * weight;
-                for (moment, value) in moments.iter_mut().zip([-gap, slip[0], slip[1]]) {
-                    *moment += weight * value;
-                }
                 if derivatives {
                     sums.starts.push(sums.rates.len());
                     let before = touched.and_then(|touched| touched.face).map(|(face, _)| self.seen_nodes(face));
@@ -264,6 +268,13 @@ impl<'a> StencilInPlace<'a> {
                     }
                 }
                 sums.points.push(point);
+            }
+        }
+        for point in &sums.points {
+            area += point.weight;
+            place += (point.y - point.n * point.gap) * point.weight;
+            for (moment, value) in moments.iter_mut().zip([-point.gap, point.slip[0], point.slip[1]]) {
+                *moment += point.weight * value;
             }
         }
         if area <= 0.0 {
@@ -318,7 +329,7 @@ impl<'a> StencilInPlace<'a> {
         push(&self.contact.surface.faces[patch.face].nodes, &point.shape.n, -1.0);
         match (&point.sight, &self.tool) {
             (Sight::Face(hit), None) => push(self.seen_nodes(patch.target), &hit.shape.n, 1.0),
-            (Sight::Tool(_), Some(tool)) => {
+            (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
                 let received = tool.receive(point.y, f);
                 let first = self.support.nodes.len() * axes;
                 rows[first..].iter_mut().zip(received).for_each(|(row, f)| *row += f);
@@ -355,7 +366,7 @@ impl<'a> StencilInPlace<'a> {
                 push(&own, &point.shape, rate.xi, -1.0);
                 match (&point.sight, &self.tool) {
                     (Sight::Face(hit), None) => push(&seen, &hit.shape, rate.s, 1.0),
-                    (Sight::Tool(_), Some(tool)) => {
+                    (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
                         let along = j.checked_sub(first).map(|along| (along, &spin_rates[along]));
                         let f = traction * point.weight;
                         let df = traction * rate.weight + turned * point.weight;

@@ -15,7 +15,7 @@ use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
-use crate::tool::{self, Tool};
+use crate::tool::{self, Tip, Tool};
 use crate::{Error, Failure};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, RwLock};
@@ -102,7 +102,7 @@ pub struct FieldContact {
     labels: Vec<usize>,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
-    longest: f64,
+    pub(super) longest: f64,
     sizes: Vec<f64>,
     rule: Vec<(f64, f64)>,
 }
@@ -110,13 +110,17 @@ pub struct FieldContact {
 impl FieldContact {
     /// A contact of these parts.
     pub fn new(parts: FieldParts) -> Self {
-        let FieldParts { name, mesh, dofs, space, surface, boundary, target, itself, swapped, law, options } = parts;
+        let FieldParts { name, mesh, dofs, space, surface, boundary, mut target, itself, swapped, law, options } =
+            parts;
         let boundary = Faces::new(Surface::whole(&mesh, &boundary, space, 1.0), &mesh);
-        let (labels, pieces) = match &target {
-            FieldTarget::Tool(rigid) => (Vec::new(), rigid.pieces()),
+        let [mut shortest, mut longest] = surface.sizes(&mesh);
+        let (labels, pieces) = match &mut target {
+            FieldTarget::Tool(rigid) => {
+                rigid.sharpen(SMALL * shortest);
+                (Vec::new(), rigid.pieces())
+            }
             FieldTarget::Faces(faces) => labels(&faces.surface.pieces),
         };
-        let [mut shortest, mut longest] = surface.sizes(&mesh);
         if let FieldTarget::Faces(faces) = &target {
             let [least, most] = faces.surface.sizes(&mesh);
             (shortest, longest) = (shortest.min(least), longest.max(most));
@@ -176,9 +180,21 @@ impl FieldContact {
         self.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.at(u).reference())
     }
 
-    /// Number of stencils.
+    /// Number of stencils: those of the nodes, then those of the tool's tips.
     pub(super) fn slots(&self) -> usize {
+        self.nodal_slots() + self.tips().len()
+    }
+    /// Tips of the tool.
+    pub(super) fn tips(&self) -> &[Tip] {
+        self.target.as_tool().map_or(&[], RigidTool::tips)
+    }
+    /// Number of stencils of nodes.
+    pub(super) fn nodal_slots(&self) -> usize {
         self.surface.nodes.len() * self.pieces
+    }
+    /// The node of a stencil; none for that of a tip.
+    fn node_of(&self, slot: usize) -> Option<usize> {
+        (slot < self.nodal_slots()).then(|| slot / self.pieces)
     }
     /// The stencil of a node of the field and a piece of the target.
     pub(super) fn slot(&self, node: usize, piece: usize) -> usize {
@@ -207,7 +223,7 @@ impl FieldContact {
     }
     /// Size of the faces at the node of a slot, a length.
     pub(super) fn size_at(&self, slot: usize) -> f64 {
-        self.sizes[slot / self.pieces]
+        self.node_of(slot).map_or(self.longest, |node| self.sizes[node])
     }
 
     /// Whether a face of the surface may touch a face of the target. Where a surface touches itself, of two faces the one
@@ -237,7 +253,8 @@ impl FieldContact {
     /// What each node sees at displacements `u`, as far as the accepted state alone tells.
     fn supports(&self, u: &[f64], reach: f64) -> Vec<Support> {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
-        self.find(&now, reach, &depths, |_, _, _| {})
+        let tips = now.tips(self.longest, &[]);
+        self.find((&now, tips), reach, &depths, |_, _, _| {})
     }
 
     /// Values of a stencil's unknowns.
@@ -365,12 +382,21 @@ impl FieldContact {
 
     /// The record of a node that sees nothing.
     fn unseen(&self, slot: usize, u: &[f64], values: &[f64]) -> PointRecord {
-        let node = slot / self.pieces;
-        let super::surface::FieldNode { node: number, support, .. } = &self.surface.nodes[node];
-        let mut position = self.mesh.points[*number];
-        (0..self.dofs.per_node()).for_each(|axis| position[axis] += u[self.dofs.node(*number) + axis]);
-        let faces = &self.surface.faces;
-        let outward = self.surface.normal(node, |f| faces[f].placed(&self.mesh, &self.dofs, u)).unit;
+        let (position, outward, edge) = match self.node_of(slot) {
+            Some(node) => {
+                let super::surface::FieldNode { node: number, support, .. } = &self.surface.nodes[node];
+                let mut position = self.mesh.points[*number];
+                (0..self.dofs.per_node()).for_each(|axis| position[axis] += u[self.dofs.node(*number) + axis]);
+                let normal = self.surface.normal(node, |f| self.surface.faces[f].placed(&self.mesh, &self.dofs, u));
+                (position, normal.unit, support.first().map_or(0, |(face, _)| *face))
+            }
+            None => {
+                let tip = &self.tips()[slot - self.nodal_slots()];
+                let tool = self.target.as_tool().map(|rigid| rigid.at(u));
+                let place = |tool: super::tool::ToolInPlace| (tool.place(tip.point), -tool.rotate(tip.outward), 0);
+                tool.map_or((tip.point, -tip.outward, 0), place)
+            }
+        };
         let seen = values[entry::SEGMENT] >= 0.0;
         let shear = values[entry::SHEAR];
         PointRecord {
@@ -378,7 +404,10 @@ impl FieldContact {
             inward: -outward,
             thrust: -outward,
             facing: -outward,
-            along: if self.surface.plane { outward.left() } else { self.rest_line(node) },
+            along: match self.node_of(slot) {
+                Some(node) if !self.surface.plane => self.rest_line(node),
+                _ => outward.left(),
+            },
             area: 0.0,
             resultant: None,
             status: PointStatus::from_value(values[entry::STATUS]),
@@ -397,7 +426,7 @@ impl FieldContact {
             violation: values[entry::VIOLATION],
             vars: variables(values),
             segment: seen.then_some(slot % self.pieces),
-            edge: support.first().map_or(0, |(face, _)| *face),
+            edge,
         }
     }
 
@@ -418,13 +447,18 @@ impl FieldContact {
 
     /// Words for a slot.
     pub(super) fn describe(&self, slot: usize) -> String {
-        format!("node {} of contact '{}'", self.surface.nodes[slot / self.pieces].node, self.name)
+        match self.node_of(slot) {
+            Some(node) => format!("node {} of contact '{}'", self.surface.nodes[node].node, self.name),
+            None => format!("tip {} of the tool of contact '{}'", slot - self.nodal_slots() + 1, self.name),
+        }
     }
 }
 
 /// Least tangential penalty over the largest, which is many times the stiffness of the cells behind: what slips elastically stays
 /// small against what those shear, also in a metal, whose friction is small against its modulus.
 const SOFTEST: f64 = 0.05;
+/// Largest radius of a tip over the length of the shortest face: a larger one is felt by the faces around it.
+const SMALL: f64 = 1.0;
 /// Gaps up to this multiple of what the facets of both sides stand off a smooth surface are theirs, where bodies fit.
 const FITS: f64 = 2.0;
 
@@ -480,12 +514,14 @@ impl Term for FieldContact {
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let augmented = self.options.augmentation.is_some();
+        let before = Configuration::new(self, &accepted.u);
         let shifts = if augmented { history.slot(self.slots()) } else { &[] };
         Ok(Box::new(FieldAttempt {
             contact: self,
             history,
             accepted: &accepted.u,
-            before: Configuration::new(self, &accepted.u),
+            tips_before: before.tips(f64::INFINITY, &[]),
+            before,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),
             ahead: ahead(accepted, at.dt),

@@ -4,7 +4,7 @@ use super::surface::unit;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
-use crate::tool::{Pose, SmoothPiece, Tool};
+use crate::tool::{Pose, SmoothPiece, Tip, Tool};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -15,6 +15,7 @@ pub const MOST: usize = 6;
 #[derive(Debug)]
 pub struct RigidTool {
     shape: RigidShape,
+    tips: Vec<Tip>,
     number: usize,
     unknowns: Range<usize>,
 }
@@ -72,7 +73,7 @@ impl Foot {
 impl RigidTool {
     /// Tool number `number` in the numbering of the unknowns.
     pub fn new(tool: Arc<Tool>, number: usize, dofs: &Dofs) -> Self {
-        let pieces = tool.smooth_pieces();
+        let pieces = tool.smooth_pieces(0.0);
         Self::made(RigidShape::Plane(tool, pieces), number, dofs)
     }
     /// The same in space.
@@ -82,7 +83,7 @@ impl RigidTool {
     }
     fn made(shape: RigidShape, number: usize, dofs: &Dofs) -> Self {
         let first = dofs.tool(number);
-        Self { shape, number, unknowns: first..first + dofs.per_tool() }
+        Self { shape, tips: Vec::new(), number, unknowns: first..first + dofs.per_tool() }
     }
     /// Its number among the tools.
     pub fn number(&self) -> usize {
@@ -98,6 +99,16 @@ impl RigidTool {
             RigidShape::Plane(_, pieces) => pieces.len(),
             RigidShape::Space(_, pieces) => pieces.count(),
         }
+    }
+    /// In the plane, has its edges and roundings up to a radius lie within a face, as tips.
+    pub fn sharpen(&mut self, radius: f64) {
+        if let RigidShape::Plane(tool, pieces) = &mut self.shape {
+            (*pieces, self.tips) = (tool.smooth_pieces(radius), tool.tips(radius));
+        }
+    }
+    /// Its tips.
+    pub fn tips(&self) -> &[Tip] {
+        &self.tips
     }
     /// Diagonal of the box around it, a length.
     pub fn size(&self) -> f64 {

@@ -102,7 +102,7 @@ fn sampled(nodes: &BTreeSet<usize>) -> Vec<usize> {
 fn signed_distance(model: &Model, number: usize) -> Box<dyn Fn(Vec3) -> f64 + '_> {
     let nearer = |a: f64, b: f64| if b.abs() < a.abs() { b } else { a };
     if let Some(tool) = model.tools.get(number) {
-        let pieces = tool.smooth_pieces();
+        let pieces = tool.smooth_pieces(0.0);
         return Box::new(move |x| {
             let gap = |piece| {
                 let foot = tool.closest(piece, x);

@@ -16,7 +16,7 @@ impl Configuration<'_> {
     ) -> Vec<Seen> {
         let face = self.face(number);
         let corners = &face.placed.nodes()[..face.face.corners()];
-        let patch = |target: usize| Patch { face: number, target, ends: [None; 2], near: [-1.0, 1.0] };
+        let patch = |target: usize| Patch { face: number, target, ends: [None; 2], near: [-1.0, 1.0], tip: None };
         match &self.target {
             TargetInPlace::Tool(tool) => {
                 let seen = |piece: usize| {

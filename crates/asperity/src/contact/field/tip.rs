@@ -1,0 +1,252 @@
+//! A tip of a tool over one face of the surface: node-to-segment contact (Hallquist, Goudreau & Benson, Comput. Meth. Appl. Mech.
+//! Eng. 51, 1985; Wriggers, Computational Contact Mechanics, 2006) of the tip with the edge that lies closest.
+//!
+//! The gap of a node of the field is a mean over the faces around it, and a wedge lies in them by a good part of a face before that
+//! closes. A tip therefore is a stencil of its own, beside those of the nodes, with the area of the face that it lies over. With
+//! `v` its foremost point and `x(xi)` the place of the edge closest to it, the gap is `(v - x) . n`, `n` the edge's outward normal;
+//! where two edges meet that the tip has pushed into a valley, it is `-|v - x|` along `x - v`.
+
+use super::configuration::{Configuration, TargetInPlace};
+use super::cover::{Patch, root_near};
+use super::face::{Face, Placed, ShapeFunctions};
+use super::point::{Column, Point, Rates, Sight, Touched};
+use super::stencil::{NodeSums, Recall, StencilInPlace};
+use super::surface::{Surface, unit};
+use super::tool::ToolInPlace;
+use crate::mesh::Side;
+use crate::tensor::Vec3;
+use crate::tool::Tip;
+
+/// Where a tip lies over a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Landing {
+    /// The place of the face that is closest, roughly.
+    pub xi: f64,
+    /// The corner of the face that is closest, where the tip lies in a valley.
+    pub corner: Option<usize>,
+    /// Part of the face's area that it has.
+    pub share: f64,
+}
+
+/// What the search finds of a tip.
+#[derive(Debug, Clone, Copy)]
+pub struct Found {
+    /// The face and the place on it.
+    pub patch: Patch,
+    /// The gap.
+    pub gap: f64,
+}
+
+/// Cosine of the angle between the surface's normal and the direction that a tip points against above which it points at it.
+const POINTS: f64 = 0.1;
+/// Cosines of the angle between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner
+/// of a punch does: the flank's own nodes then feel all that there is, and the tip nothing.
+const FLAT: [f64; 2] = [0.75, 0.9];
+/// Starts of the search for the closest place of an edge.
+const STARTS: [f64; 3] = [-0.5, 0.0, 0.5];
+
+/// An edge with its position and tangents along it.
+struct Edge<'a> {
+    face: &'a Face,
+    placed: &'a Placed,
+}
+
+/// A place of an edge.
+struct Place {
+    shape: ShapeFunctions,
+    x: Vec3,
+    tangent: Vec3,
+    bend: Vec3,
+}
+
+impl Edge<'_> {
+    fn at(&self, xi: f64) -> Place {
+        let shape = self.face.shape([xi, 0.0]);
+        let tangent = |xi: f64| self.face.shape([xi, 0.0]).tangents(self.placed.nodes(), true)[0];
+        // Shape functions of second degree have linear slopes, of which a central difference is exact.
+        Place {
+            x: shape.value(self.placed.nodes()),
+            tangent: tangent(xi),
+            bend: tangent(xi + 0.5) - tangent(xi - 0.5),
+            shape,
+        }
+    }
+    /// Derivative of half the square of the distance to `c`, with its slope.
+    fn offset(&self, xi: f64, c: Vec3) -> [f64; 2] {
+        let Place { x, tangent, bend, .. } = self.at(xi);
+        let r = x - c;
+        [r.dot(tangent), tangent.dot(tangent) + r.dot(bend)]
+    }
+    /// The place closest to `c`, between its ends.
+    fn closest(&self, c: Vec3) -> f64 {
+        let distance = |xi: &f64| (self.at(*xi).x - c).norm();
+        let found = STARTS.map(|start| root_near(start, |xi| self.offset(xi, c)).clamp(-1.0, 1.0));
+        let places = found.into_iter().chain([-1.0, 1.0]);
+        places.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0)
+    }
+}
+
+/// Outward unit normal of an edge with this tangent.
+fn outward(tangent: Vec3) -> Vec3 {
+    tangent.cross(unit(2)).unit()
+}
+
+impl Configuration<'_> {
+    /// Where the tips of the tool lie, up to `reach` away from the surface: tip after tip. The part that a tip has in a face is the
+    /// one it had `before`, at the accepted state, so that it stays over an increment.
+    pub fn tips(&self, reach: f64, before: &[Option<Found>]) -> Vec<Option<Found>> {
+        let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
+        let land = |(number, tip): (usize, &Tip)| {
+            let mut found = self.land((number, tip), tool)?;
+            let had = before.get(number).copied().flatten().and_then(|found| found.patch.tip);
+            if let (Some(landing), Some(had)) = (&mut found.patch.tip, had) {
+                landing.share = had.share;
+            }
+            Some(found).filter(|found| found.gap <= reach && found.patch.tip.is_some_and(|tip| tip.share > 0.0))
+        };
+        self.contact.tips().iter().enumerate().map(land).collect()
+    }
+
+    fn land(&self, (number, tip): (usize, &Tip), tool: &ToolInPlace) -> Option<Found> {
+        let (vertex, points) = (tool.place(tip.point), tool.rotate(tip.outward));
+        let flanks = tip.flanks.map(|flank| tool.rotate(flank));
+        let (mut best, mut valleys): (Option<Found>, Vec<(usize, Side)>) = (None, Vec::new());
+        let mut offer = |found: Found| {
+            let nearer = best.is_none_or(|best| found.gap.abs() < best.gap.abs());
+            best = if nearer { Some(found) } else { best };
+        };
+        for (f, face) in self.contact.surface.faces.iter().enumerate() {
+            let edge = Edge { face, placed: &self.placed[f] };
+            let xi = edge.closest(vertex);
+            let at = edge.at(xi);
+            let (n, to) = (outward(at.tangent), vertex - at.x);
+            if n.dot(points) > -POINTS {
+                continue;
+            }
+            let corner = if xi.abs() < 1.0 { None } else { Some(usize::from(xi > 0.0)) };
+            let patch = |corner: Option<usize>| {
+                let tip = Some(Landing { xi, corner, share: self.share((f, usize::from(xi > 0.0)), flanks) });
+                Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], tip }
+            };
+            match corner {
+                None => offer(Found { patch: patch(None), gap: to.dot(n) }),
+                // Within both edges that meet there.
+                Some(corner) if to.dot(n) < 0.0 => {
+                    let (node, gap) = (face.corner_node(corner), -to.norm());
+                    match valleys.iter().find(|(other, _)| *other == node) {
+                        // Both halves of an edge of second degree meet without a crease.
+                        Some((_, side)) if *side == face.side => offer(Found { patch: patch(None), gap: to.dot(n) }),
+                        Some(_) => offer(Found { patch: patch(Some(corner)), gap }),
+                        None => valleys.push((node, face.side)),
+                    }
+                }
+                Some(_) => {}
+            }
+        }
+        best
+    }
+
+    /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together.
+    fn share(&self, (f, corner): (usize, usize), flanks: [Vec3; 2]) -> f64 {
+        let surface = &self.contact.surface;
+        let area = |f: usize| {
+            let face = &surface.faces[f];
+            face.shape(face.middle()).tangents(self.placed[f].nodes(), true)[0].cross(unit(2))
+        };
+        let both =
+            surface.nodes[surface.field[f][corner]].support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
+        let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
+        let cosine = flat(area(f).unit()).min(flat(both.unit()));
+        let t = ((cosine - FLAT[0]) / (FLAT[1] - FLAT[0])).clamp(0.0, 1.0);
+        1.0 - t * t * (3.0 - 2.0 * t)
+    }
+}
+
+impl StencilInPlace<'_> {
+    /// Adds the point of a tip to the sums.
+    pub(super) fn sum_tip(
+        &self,
+        (number, patch, landing): (usize, &Patch, Landing),
+        recall: Recall,
+        derivatives: bool,
+        sums: &mut NodeSums,
+    ) -> Option<()> {
+        let (tool, contact) = (self.tool.as_ref()?, self.contact);
+        let tip = &contact.tips()[patch.target];
+        let face = &contact.surface.faces[patch.face];
+        let placed = self.placed(face);
+        let edge = Edge { face, placed: &placed };
+        let vertex = tool.place(tip.point);
+        let xi = match landing.corner {
+            Some(corner) => face.corner_place(corner)[0],
+            None => root_near(landing.xi, |xi| edge.offset(xi, vertex)),
+        };
+        let at = edge.at(xi);
+        let to = vertex - at.x;
+        let n = if landing.corner.is_some() { -to.unit() } else { outward(at.tangent) };
+        let gap = to.dot(n);
+        let density = if derivatives { Surface::density } else { Surface::density_there };
+        let (density, [slope, _]) = density(&contact.surface, face, &face.at_rest(&contact.mesh), [xi, 0.0]);
+        // The length of the face in reference coordinates.
+        let weight = 2.0 * density * landing.share;
+        let touched = recall(patch, [xi, 0.0]);
+        let v = touched.map_or(Vec3::zero(), |touched| vertex - touched.now);
+        let e = [n.left(), unit(2)];
+        let slip = [e[0].dot(v), 0.0];
+        if derivatives {
+            self.list_columns(patch, &mut sums.columns);
+            sums.starts.push(sums.rates.len());
+            for (j, column) in sums.columns.iter().enumerate() {
+                let (dx, dtangent, dvertex) = match column {
+                    Column::Node { axis, own: Some(k), .. } => {
+                        (unit(*axis) * at.shape.n[*k], unit(*axis) * at.shape.dn[*k][0], Vec3::zero())
+                    }
+                    Column::Node { .. } => (Vec3::zero(), Vec3::zero(), Vec3::zero()),
+                    Column::Tool(j) => (Vec3::zero(), Vec3::zero(), tool.rates(vertex)[*j]),
+                };
+                let apart = dvertex - dx;
+                let (dxi, dn) = if landing.corner.is_some() {
+                    (0.0, (n * n.dot(apart) - apart) * to.norm().recip())
+                } else {
+                    let stiff = at.tangent.dot(at.tangent) - to.dot(at.bend);
+                    let dxi = (apart.dot(at.tangent) + to.dot(dtangent)) / stiff;
+                    let dm = (dtangent + at.bend * dxi).cross(unit(2));
+                    (dxi, (dm - n * n.dot(dm)) * at.tangent.norm().recip())
+                };
+                let left = touched.map_or(Vec3::zero(), |touched| dvertex - left_behind(contact, column, &touched));
+                sums.rates.push((
+                    j,
+                    Rates {
+                        weight: 2.0 * slope * dxi * landing.share,
+                        xi: [dxi, 0.0],
+                        gap: n.dot(apart),
+                        n: dn,
+                        e: [dn.left(), Vec3::zero()],
+                        slip: [dn.left().dot(v) + e[0].dot(left), 0.0],
+                        s: [0.0; 2],
+                        y: dvertex,
+                    },
+                ));
+            }
+        }
+        sums.points.push(Point {
+            patch: number,
+            weight,
+            shape: at.shape,
+            gap,
+            n,
+            e,
+            slip,
+            y: vertex,
+            sight: Sight::Tip,
+        });
+        Some(())
+    }
+}
+
+/// Displacement along an unknown of the place of the surface over which a tip lay at the accepted state.
+fn left_behind(contact: &super::term::FieldContact, column: &Column, touched: &Touched) -> Vec3 {
+    let (Column::Node { axis, node, .. }, Some((face, shape))) = (column, &touched.face) else { return Vec3::zero() };
+    let place = contact.surface.faces[*face].nodes.iter().position(|other| other == node);
+    place.map_or(Vec3::zero(), |k| unit(*axis) * shape.n[k])
+}

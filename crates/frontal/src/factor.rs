@@ -7,15 +7,19 @@ use crate::numeric::Numeric;
 use crate::pattern::check_length;
 use crate::plan::Plan;
 use crate::scaling::Scaling;
+use crate::solve::Workspace;
 use crate::symbolic::{Inner, Symbolic};
+use crate::vector::{norm, subtract};
 use std::mem::take;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Perturbed pivots get this share of the largest value: the square root of the unit round-off balances the error
 /// made against the growth allowed (Li & Demmel, ACM TOMS 29, 2003).
 const PERTURBATION: f64 = 1.5e-8;
+/// Part of a right-hand side that a solution with an indefinite L D L^T may leave; refinement then needs few steps.
+const UNSTABLE: f64 = 1e-8;
 
-/// L and U, with a copy of the equilibrated matrix for refinement and the working memory of the next factorisation.
+/// L and U, or L and D, with a copy of the equilibrated matrix for refinement and the working memory of the next factorisation.
 #[derive(Debug)]
 pub struct Factor {
     pub(crate) symbolic: Arc<Inner>,
@@ -40,6 +44,16 @@ pub(crate) struct Memory {
     stacks: Vec<Vec<f64>>,
 }
 
+/// So many numbers: in the memory there is, or in new memory of which nothing is touched yet.
+fn fit(numbers: &mut Vec<f64>, len: usize) {
+    if numbers.capacity() < len {
+        *numbers = Vec::new();
+        *numbers = vec![0.0; len];
+    } else {
+        numbers.resize(len, 0.0);
+    }
+}
+
 /// What a factorisation met.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
@@ -53,7 +67,8 @@ impl Symbolic {
     ///
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`]; [`Error::ForeignFactor`] unless the factor came from this
-    /// analysis; [`Error::Singular`] with the unknowns responsible. After an error the factor holds no values.
+    /// analysis; [`Error::Singular`] with the unknowns responsible; [`Error::Unstable`] where pivots from the diagonal will not do
+    /// for symmetric values. After an error the factor holds no values.
     pub fn factorise(&self, values: &[f64], factor: &mut Factor) -> Result<Report, Error> {
         if !Arc::ptr_eq(&self.inner, &factor.symbolic) {
             return Err(Error::ForeignFactor);
@@ -66,6 +81,10 @@ impl Symbolic {
         if !factor.perturbed.is_empty() {
             diagnose::check_regular(factor).inspect_err(|_| factor.ready = false)?;
         }
+        if self.inner.options.symmetric && !factor.stable() {
+            factor.ready = false;
+            return Err(Error::Unstable);
+        }
         Ok(Report { perturbed: factor.perturbed.clone() })
     }
 }
@@ -76,11 +95,11 @@ impl Factor {
         let n = symbolic.pattern.len();
         let plan = symbolic.plan(threads);
         let Memory { mut factors, mut values, mut shared, mut stacks } = memory;
-        factors.resize(symbolic.tree.factor_len(), 0.0);
-        values.resize(symbolic.pattern.nonzeros(), 0.0);
-        shared.resize(plan.shared_len(), 0.0);
+        fit(&mut factors, symbolic.tree.factor_len());
+        fit(&mut values, symbolic.pattern.nonzeros());
+        fit(&mut shared, plan.shared_len());
         stacks.resize_with(plan.stacks(), Vec::new);
-        stacks.iter_mut().for_each(|stack| stack.resize(plan.stack_len + plan.scratch_len, 0.0));
+        stacks.iter_mut().for_each(|stack| fit(stack, plan.stack_len + plan.scratch_len));
         Factor {
             factors,
             pivots: vec![Pivot::default(); n],
@@ -112,6 +131,26 @@ impl Factor {
         &self.perturbed
     }
 
+    /// Number of negative pivots, which is that of the negative eigenvalues (Sylvester's law of inertia); None unless the values
+    /// were factorised as symmetric ones.
+    pub fn negative_pivots(&self) -> Option<usize> {
+        let count = || self.pivots.iter().filter(|pivot| pivot.negative).count();
+        (self.ready && self.symbolic.options.symmetric).then(count)
+    }
+
+    /// Whether pivots from the diagonal did: always where all are positive, and else where a solution comes out well.
+    fn stable(&self) -> bool {
+        if !self.pivots.iter().any(|pivot| pivot.negative || pivot.perturbed) {
+            return true;
+        }
+        let b: Vec<f64> = (0..self.pivots.len()).map(|k| diagnose::start(k, 0)).collect();
+        let mut x = b.clone();
+        self.substitute(&mut x, &mut Workspace::new(self));
+        let mut residual = self.times(&x);
+        subtract(&mut residual, 1.0, &b);
+        self.perturbed.is_empty() && norm(&residual) <= UNSTABLE * norm(&b)
+    }
+
     /// Columns and values of a row of the matrix that was factorised.
     ///
     /// # Panics
@@ -133,6 +172,9 @@ impl Factor {
         pattern.check_finite(values)?;
         if options.equilibrate {
             self.scaling.equilibrate(pattern, values);
+            if options.symmetric {
+                self.scaling.columns.clone_from(&self.scaling.rows);
+            }
         }
         let largest = self.scaling.apply(pattern, values, &mut self.values);
         // A matrix of zeros only is singular, not a division by zero.

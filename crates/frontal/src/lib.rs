@@ -58,8 +58,10 @@ mod rounded;
 mod scaling;
 mod solve;
 mod speed;
+mod stripes;
 mod supernode;
 mod symbolic;
+mod symmetric;
 mod together;
 mod vector;
 

@@ -75,8 +75,10 @@ pub enum Outcome {
 /// Counts since the solver was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Factorisations made.
+    /// Factorisations made, those as L D L^T included.
     pub factorisations: usize,
+    /// Factorisations as L D L^T.
+    pub symmetric: usize,
     /// Systems solved.
     pub solutions: usize,
     /// Iterations with an old factor, wasted ones included.
@@ -99,6 +101,8 @@ pub struct Service {
 #[derive(Debug)]
 pub struct Solver {
     symbolic: Symbolic,
+    /// The same analysis for values of the other kind, where there were any.
+    other_kind: Option<Symbolic>,
     factor: Factor,
     policy: Policy,
     /// Whether the factor may be used for the next matrix.
@@ -124,6 +128,7 @@ impl Solver {
         let (outer, rounded, counts) = (Outer::default(), Rounded::default(), Counts::default());
         Solver {
             symbolic,
+            other_kind: None,
             factor,
             policy,
             usable: false,
@@ -201,6 +206,30 @@ impl Solver {
 
     /// Takes another analysis, and for its factor the memory of the one there was.
     pub fn replace(&mut self, symbolic: Symbolic) {
+        self.other_kind = None;
+        self.exchange(symbolic);
+    }
+
+    /// The analysis for values that are symmetric, or are not.
+    ///
+    /// # Errors
+    /// Those of [`Symbolic::for_values`].
+    pub fn analysis(&self, symmetric: bool) -> Result<Symbolic, Error> {
+        match &self.other_kind {
+            Some(other) if other.prediction().symmetric == symmetric => Ok(other.clone()),
+            _ => self.symbolic.for_values(symmetric),
+        }
+    }
+
+    /// Takes the analysis of [`Solver::analysis`]; the one there was is kept. The next matrix is factorised.
+    pub fn expect(&mut self, symbolic: Symbolic) {
+        if symbolic.prediction().symmetric != self.symbolic.prediction().symmetric {
+            self.other_kind = Some(self.symbolic.clone());
+            self.exchange(symbolic);
+        }
+    }
+
+    fn exchange(&mut self, symbolic: Symbolic) {
         self.refuse();
         self.outer.clear();
         self.rounded.forget();
@@ -308,6 +337,7 @@ impl Solver {
         self.rounded.forget();
         self.change = None;
         self.counts.factorisations += 1;
+        self.counts.symmetric += usize::from(self.symbolic.prediction().symmetric);
         self.service = Service { sequences: 1, ..Service::default() };
         let report = self.symbolic.factorise(values, &mut self.factor)?;
         self.usable = true;

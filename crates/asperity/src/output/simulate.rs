@@ -231,7 +231,7 @@ fn facets(model: &Model, state: &State) -> Vec<String> {
 fn account(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
-    summary.factorisations = run.memory.factorisations;
+    (summary.factorisations, summary.symmetric_factorisations) = (run.memory.factorisations, run.memory.symmetric);
     summary.timings.insert("factorisation".into(), run.memory.factorising.as_secs_f64());
     summary.timings.insert("audit".into(), run.audited.as_secs_f64());
     summary.notes.extend(run.problem.newton.notes());

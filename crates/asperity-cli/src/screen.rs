@@ -125,7 +125,12 @@ impl Observer for Screen<'_> {
             self.line(HEADER);
         }
         match &record.failure {
-            None => self.line(&self.row(record)),
+            None => {
+                self.line(&self.row(record));
+                if let Some(turn) = &record.turn {
+                    self.line(&format!("{:>9}  {turn}", record.increment));
+                }
+            }
             Some(why) => self.line(&format!("{:>9}  increment of {:.3e} cut: {why}", record.increment, record.dt)),
         }
     }

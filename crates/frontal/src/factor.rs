@@ -1,5 +1,6 @@
 //! A factorised matrix.
 
+use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule};
 use crate::diagnose;
 use crate::error::Error;
@@ -44,6 +45,16 @@ pub(crate) struct Memory {
     stacks: Vec<Vec<f64>>,
 }
 
+/// What the signs of the pivots say of a matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Signs {
+    /// Whether its values were factorised as symmetric ones.
+    pub symmetric: bool,
+    /// Number of its negative eigenvalues where it is symmetric (Sylvester's law of inertia); one else if its determinant is
+    /// negative, and zero if not.
+    pub negative: usize,
+}
+
 /// So many numbers: in the memory there is, or in new memory of which nothing is touched yet.
 fn fit(numbers: &mut Vec<f64>, len: usize) {
     if numbers.capacity() < len {
@@ -53,6 +64,9 @@ fn fit(numbers: &mut Vec<f64>, len: usize) {
         numbers.resize(len, 0.0);
     }
 }
+
+/// Bytes of working memory from which on it is given back between factorisations where other memory is wanted.
+pub(crate) const LARGE: usize = 1 << 28;
 
 /// What a factorisation met.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -114,6 +128,14 @@ impl Factor {
         }
     }
 
+    /// Gives working memory back until the next factorisation, if it is large.
+    pub(crate) fn release(&mut self) {
+        if 8 * self.plan.len() > LARGE {
+            self.shared = Vec::new();
+            self.stacks.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
+        }
+    }
+
     /// Gives the memory away; the factor holds no values then.
     pub(crate) fn take_memory(&mut self) -> Memory {
         self.ready = false;
@@ -131,11 +153,16 @@ impl Factor {
         &self.perturbed
     }
 
-    /// Number of negative pivots, which is that of the negative eigenvalues (Sylvester's law of inertia); None unless the values
-    /// were factorised as symmetric ones.
-    pub fn negative_pivots(&self) -> Option<usize> {
-        let count = || self.pivots.iter().filter(|pivot| pivot.negative).count();
-        (self.ready && self.symbolic.options.symmetric).then(count)
+    /// Signs of the pivots; None where nothing is factorised or a pivot was perturbed.
+    pub fn signs(&self) -> Option<Signs> {
+        let symmetric = self.symbolic.options.symmetric;
+        let negative = self.pivots.iter().filter(|pivot| pivot.negative).count();
+        let exchanged = || {
+            let own = |front: &Front| (0..).zip(&self.pivots[front.pivot_range()]).filter(|(k, pivot)| *k != pivot.row).count();
+            self.symbolic.tree.fronts.iter().map(own).sum::<usize>()
+        };
+        let negative = if symmetric { negative } else { (negative + exchanged()) % 2 };
+        (self.ready && self.perturbed.is_empty()).then_some(Signs { symmetric, negative })
     }
 
     /// Whether pivots from the diagonal did: always where all are positive, and else where a solution comes out well.
@@ -180,6 +207,7 @@ impl Factor {
         // A matrix of zeros only is singular, not a division by zero.
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let rule = PivotRule { smallest: options.pivot_threshold * largest, replacement: PERTURBATION * largest };
+        fit(&mut self.shared, self.plan.shared_len());
         let numeric =
             Numeric { symbolic: &self.symbolic, plan: &self.plan, values: &self.values, rule, stacks: &self.stacks };
         numeric.factorise(&mut self.factors, &mut self.pivots, &mut self.shared);

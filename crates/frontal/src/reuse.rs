@@ -184,6 +184,7 @@ impl Solver {
     pub fn resume(&mut self, service: Service) {
         self.usable = true;
         self.service = service;
+        self.make_room();
         self.rounded.settle(&self.factor, service.single);
         self.change = None;
     }
@@ -308,6 +309,7 @@ impl Solver {
         if iterations == 0 {
             return Ok(None);
         }
+        self.make_room();
         let mut x = rhs.to_vec();
         let krylov = Krylov { tolerance, iterations, restart: iterations };
         let preconditioner =
@@ -351,9 +353,17 @@ impl Solver {
     pub fn solve_directly(&mut self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
         self.counts.solutions += 1;
         if self.affordable_iterations() > 0 && rhs.len() == self.symbolic.pattern().len() {
+            self.make_room();
             self.rounded.of(&self.factor, rhs);
         }
         self.factor.solve(rhs)
+    }
+
+    /// Gives back what the factor in single precision may need.
+    fn make_room(&mut self) {
+        if !self.rounded.settled() {
+            self.factor.release();
+        }
     }
 
     /// [`Factor::influence`] with the factor there is, in single precision where other matrices are to be preconditioned by

@@ -3,7 +3,7 @@
 use crate::assembly_tree::AssemblyTree;
 use crate::error::Error;
 use crate::etree::{NONE, children, column_counts, elimination_tree, postorder};
-use crate::factor::{Factor, Memory};
+use crate::factor::{Factor, LARGE, Memory};
 use crate::graph::Graph;
 use crate::options::Options;
 use crate::ordering;
@@ -32,6 +32,13 @@ pub struct Prediction {
 }
 
 impl Prediction {
+    /// Bytes beyond [`bytes`](Self::bytes) where the factor is to be kept in single precision too: large working memory is given
+    /// back for that.
+    pub fn single_bytes(&self) -> usize {
+        let working = 8 * self.stack_entries;
+        (4 * self.factor_entries).saturating_sub(if working > LARGE { working } else { 0 })
+    }
+
     /// Work of a factorisation, in flops at full speed: moving a number of the factor costs as much as so many flops.
     pub fn factorisation_work(&self) -> f64 {
         self.flops + 200.0 * self.factor_entries as f64

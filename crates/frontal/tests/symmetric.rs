@@ -4,7 +4,7 @@
 mod models;
 mod support;
 
-use frontal::{Error, Factor, Options, Pattern, Symbolic};
+use frontal::{Error, Factor, Options, Pattern, Signs, Symbolic};
 use std::f64::consts::PI;
 use support::{Matrix, matrix};
 
@@ -52,7 +52,8 @@ fn both_factors_solve_alike() {
         lu.influence(&loads, &at, &mut x).unwrap();
         ldl.influence(&loads, &at, &mut y).unwrap();
         near(&x, &y, 1e-10);
-        assert_eq!((lu.negative_pivots(), ldl.negative_pivots()), (None, Some(0)));
+        let signs = |symmetric, negative| Some(Signs { symmetric, negative });
+        assert_eq!((lu.signs(), ldl.signs()), (signs(false, 0), signs(true, 0)));
         assert!(ldl.growth().unwrap() <= 1.0 + 1e-12 && lu.growth().unwrap() < 10.0);
     }
 }
@@ -68,9 +69,10 @@ fn negative_pivots_are_negative_eigenvalues() {
     let wave = |k: usize, n: usize| 2.0 - 2.0 * (PI * (k + 1) as f64 / (n + 1) as f64).cos();
     for shift in [0.01, 0.1, 0.5, 1.3, 3.77] {
         let Matrix { pattern, values } = matrix(n, &pairs, |i, j| if i == j { 4.0 - shift } else { -1.0 });
-        let factor = factorised(&pattern, &values, &symmetric()).unwrap();
+        let [factor, lu] = [symmetric(), Options::default()].map(|o| factorised(&pattern, &values, &o).unwrap());
         let lower = (0..n).filter(|k| wave(k % width, width) + wave(k / width, height) < shift).count();
-        assert_eq!(factor.negative_pivots(), Some(lower), "{shift}");
+        assert_eq!(factor.signs(), Some(Signs { symmetric: true, negative: lower }), "{shift}");
+        assert_eq!(lu.signs(), Some(Signs { symmetric: false, negative: lower % 2 }), "{shift}");
     }
 }
 

@@ -96,9 +96,9 @@ impl Problem {
     }
 }
 
-/// Bytes of the factor in single precision, where it preconditions.
+/// Bytes of the factor in single precision, where it preconditions, beyond those of the working memory that it takes the place of.
 pub(super) fn single(policy: &Policy, cost: &Prediction) -> u64 {
-    if policy.affordable_iterations(cost) > 0 { 4 * cost.factor_entries as u64 } else { 0 }
+    if policy.affordable_iterations(cost) > 0 { cost.single_bytes() as u64 } else { 0 }
 }
 
 /// The nodes of the free unknowns, and which of them couple.

@@ -4,7 +4,7 @@ use super::demand::{single, too_much};
 use crate::machine::room;
 use crate::system::Csr;
 use crate::{Failure, Kind};
-use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Solver, Symbolic};
+use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Signs, Solver, Symbolic};
 use std::fmt;
 
 /// Why a linear system was not solved.
@@ -89,9 +89,8 @@ pub trait LinearSolver: Send {
     /// # Errors
     /// [`LinearError::Singular`] with the motion that meets no stiffness.
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError>;
-    /// Number of negative pivots of the factor there is, that of the negative eigenvalues of its matrix, where the solver took
-    /// that for symmetric.
-    fn negative_pivots(&self) -> Option<usize> {
+    /// What the signs of the pivots say of the matrix that was factorised last, where they are known.
+    fn signs(&self) -> Option<Signs> {
         None
     }
     /// `x <- K^-1 x` with the factor there is, not refined; false where there is none.
@@ -280,8 +279,8 @@ impl LinearSolver for Frontal {
         factorised.map(drop).map_err(translate)
     }
 
-    fn negative_pivots(&self) -> Option<usize> {
-        self.solver.as_ref().and_then(|solver| solver.factor().negative_pivots())
+    fn signs(&self) -> Option<Signs> {
+        self.solver.as_ref().and_then(|solver| solver.factor().signs())
     }
 
     fn substitute(&self, x: &mut [f64]) -> bool {

@@ -20,6 +20,7 @@ mod relax;
 mod rigid;
 mod run;
 mod schedule;
+mod stability;
 mod step;
 mod trail;
 
@@ -30,4 +31,5 @@ pub use newton::{IfFree, NewtonOptions, Variant};
 pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
 pub use problem::Problem;
 pub use run::{Run, RunOptions, Stop};
+pub use stability::{Stability, Turn};
 pub use schedule::{Course, Increments, Prescribed, SMALLEST, Step};

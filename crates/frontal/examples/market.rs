@@ -26,8 +26,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["solve", path, block, "symmetric"] => solve(path, block.parse()?, true),
         ["write", kind, size, path] => write(kind, size.parse()?, path, false),
         ["write", kind, size, path, "symmetric"] => write(kind, size.parse()?, path, true),
-        _ => Err("usage: market solve FILE [BLOCK [symmetric]] | market write hex8|quad8|bordered SIZE FILE [symmetric]"
-            .into()),
+        _ => {
+            Err("usage: market solve FILE [BLOCK [symmetric]] | market write hex8|quad8|bordered SIZE FILE [symmetric]"
+                .into())
+        }
     }
 }
 

@@ -158,7 +158,9 @@ impl Factor {
         let symmetric = self.symbolic.options.symmetric;
         let negative = self.pivots.iter().filter(|pivot| pivot.negative).count();
         let exchanged = || {
-            let own = |front: &Front| (0..).zip(&self.pivots[front.pivot_range()]).filter(|(k, pivot)| *k != pivot.row).count();
+            let own = |front: &Front| {
+                (0..).zip(&self.pivots[front.pivot_range()]).filter(|(k, pivot)| *k != pivot.row).count()
+            };
             self.symbolic.tree.fronts.iter().map(own).sum::<usize>()
         };
         let negative = if symmetric { negative } else { (negative + exchanged()) % 2 };

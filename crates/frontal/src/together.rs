@@ -101,19 +101,14 @@ impl<T: Number> Halves<'_, T> {
         if panels.symmetric {
             return symmetric_upper((&panels, front.left()), (top, border), width);
         }
-        let right =
-            Part { entries: panels.right, leading: m - p, rows: 0..m - p, columns: 0..p, transposed: true };
+        let right = Part { entries: panels.right, leading: m - p, rows: 0..m - p, columns: 0..p, transposed: true };
         take(top, &right, border, width);
         upper(Block { entries: panels.left, leading: m }, 0..p, top, width);
     }
 }
 
 /// `D [L11; L21]^T` upwards, from the last stripe to the first.
-fn symmetric_upper<T: Number>(
-    (panels, layout): (&Panels<T>, Stripes),
-    (top, border): (&mut [T], &[T]),
-    width: usize,
-) {
+fn symmetric_upper<T: Number>((panels, layout): (&Panels<T>, Stripes), (top, border): (&mut [T], &[T]), width: usize) {
     for (k, x) in top.chunks_exact_mut(width).enumerate() {
         let pivot = panels.from_diagonal(k)[0];
         x.iter_mut().for_each(|x| *x /= pivot);

@@ -197,7 +197,10 @@ impl Page {
         {
             let [seconds, half] = [cost, demand.symmetric].map(|cost| OF_A_TREE * cost.factorisation_work() / speed);
             let threads = current_num_threads();
-            let _ = write!(line, ", about {seconds:.2e} s on {threads} threads, {half:.2e} s where the matrix is symmetric");
+            let _ = write!(
+                line,
+                ", about {seconds:.2e} s on {threads} threads, {half:.2e} s where the matrix is symmetric"
+            );
         }
         self.line(line);
         let Some(room) = room else { return Ok(None) };
@@ -208,7 +211,8 @@ impl Page {
             room.source
         ));
         let help = "fewer cells, or cells of first degree; symmetry where there is one";
-        let half = "where all matrices are symmetric, as without friction, it fits; the run ends at the first that is not";
+        let half =
+            "where all matrices are symmetric, as without friction, it fits; the run ends at the first that is not";
         let tight = |error: Error| Diagnostic::warning(error.to_string()).help(half);
         let short = demand.check(&room).err().map(|error| Diagnostic::warning(error.to_string()).help(help));
         Ok(short.or_else(|| demand.check_unsymmetric(&room).err().map(tight)))

@@ -329,8 +329,9 @@ impl Results {
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
         let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
-        let tables = [MODES_LIST, HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
-            .map(String::from);
+        let tables =
+            [MODES_LIST, HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
+                .map(String::from);
         let all = frames.chain(tables).chain(pictures());
         all.filter(|name| self.directory.join(name).exists()).collect()
     }

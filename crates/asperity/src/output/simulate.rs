@@ -236,7 +236,8 @@ fn turns(turns: &[Turn]) -> impl Iterator<Item = String> {
     let more = (more > 0).then(|| format!("{more} more changes of stability; the modes of all are in modes.pvd"));
     let told = turns.iter().take(TOLD).map(|turn| {
         let lost = turn.negative[1] > turn.negative[0];
-        let help = "; a perfect shape stays on its path beyond it, a small imperfection along the mode (modes.pvd) leaves it";
+        let help =
+            "; a perfect shape stays on its path beyond it, a small imperfection along the mode (modes.pvd) leaves it";
         format!("{turn}{}", if lost { help } else { "" })
     });
     told.chain(more)

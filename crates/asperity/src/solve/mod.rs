@@ -31,5 +31,5 @@ pub use newton::{IfFree, NewtonOptions, Variant};
 pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
 pub use problem::Problem;
 pub use run::{Run, RunOptions, Stop};
-pub use stability::{Stability, Turn};
 pub use schedule::{Course, Increments, Prescribed, SMALLEST, Step};
+pub use stability::{Stability, Turn};

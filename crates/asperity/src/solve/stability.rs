@@ -39,7 +39,8 @@ pub struct Turn {
 impl std::fmt::Display for Turn {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let ([from, to], [before, after]) = (self.times, self.negative);
-        let what = if after > before { "bifurcation or limit point" } else { "return from a bifurcation or limit point" };
+        let what =
+            if after > before { "bifurcation or limit point" } else { "return from a bifurcation or limit point" };
         write!(f, "{what} between time {from:.5} and {to:.5}")?;
         if let Some(critical) = self.critical {
             write!(f, ", at about {critical:.5}")?;
@@ -85,13 +86,24 @@ impl Stability {
         let known = same.is_some_and(|last| last.time == self.time) && self.mode.len() == constraints.free_count();
         // Of what is not symmetric at both no more is known than whether the number is odd.
         let counted = same.is_some_and(|last| last.symmetric && symmetric);
-        let changed = same.filter(|last| if counted { last.negative != negative } else { last.negative % 2 != negative % 2 });
+        let changed =
+            same.filter(|last| if counted { last.negative != negative } else { last.negative % 2 != negative % 2 });
         let before = (self.eigenvalue, self.mode.clone());
         if !known {
             // Something of every mode.
-            self.mode = (0..constraints.free_count()).map(|k| ((k + 1) as f64 * 1.618_033_988_749_895).fract() - 0.5).collect();
+            self.mode =
+                (0..constraints.free_count()).map(|k| ((k + 1) as f64 * 1.618_033_988_749_895).fract() - 0.5).collect();
         }
-        let turned = self.iterate(solver, if changed.is_some() { CHANGED } else if known { FOLLOWED } else { BEGUN });
+        let turned = self.iterate(
+            solver,
+            if changed.is_some() {
+                CHANGED
+            } else if known {
+                FOLLOWED
+            } else {
+                BEGUN
+            },
+        );
         self.time = record.time;
         let turn = changed.filter(|_| turned).map(|last| {
             let cosine: f64 = before.1.iter().zip(&self.mode).map(|(a, b)| a * b).sum();

@@ -23,9 +23,15 @@ END {
         printf "%-16s %9.3f %9.3f %9.3f %9.4f %10.0f  %s\n", solver, median(solver, 3), median(solver, 4),
             median(solver, 5), median(solver, 6), median(solver, 7) / 1024, error[solver]
     }
-    for (solver in count) if (solver != "frontal") {
-        printf "%-16s", "frontal/" solver
-        for (field = 3; field <= 7; field++) printf " %9.2f", median("frontal", field) / median(solver, field)
+    ratios("frontal")
+    if ("frontal-ldlt" in count) ratios("frontal-ldlt")
+}
+
+# Those of one solver to all others.
+function ratios(of,    solver, field) {
+    for (solver in count) if (solver != of) {
+        printf "%-25s", of "/" solver
+        for (field = 3; field <= 7; field++) printf " %9.2f", median(of, field) / median(solver, field)
         print ""
     }
 }

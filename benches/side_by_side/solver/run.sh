@@ -15,15 +15,20 @@ cc -O2 -I/usr/include/mumps_seq benches/side_by_side/solver/mumps.c -o "$work/mu
 
 for model in $models; do
     kind=${model%%:*} rest=${model#*:}
-    size=${rest%%:*} block=${rest#*:}
-    matrix=$work/$kind$size.mtx
+    size=${rest%%:*} block=${rest#*:} symmetric=
+    case $block in *:symmetric) block=${block%:symmetric} symmetric=symmetric ;; esac
+    matrix=$work/$kind$size$symmetric.mtx
     # Whole or not at all, if the run is stopped.
-    [ -f "$matrix" ] || { target/release/examples/market write "$kind" "$size" "$matrix.part" && mv "$matrix.part" "$matrix"; }
+    [ -f "$matrix" ] || { target/release/examples/market write "$kind" "$size" "$matrix.part" $symmetric && mv "$matrix.part" "$matrix"; }
     : > "$work/lines"
     round=0
     while [ $round -lt "$rounds" ]; do
         target/release/examples/market solve "$matrix" "$block" >> "$work/lines"
         "$work/mumps" "$matrix" >> "$work/lines"
+        if [ "$symmetric" ]; then
+            target/release/examples/market solve "$matrix" "$block" symmetric >> "$work/lines"
+            "$work/mumps" "$matrix" symmetric >> "$work/lines"
+        fi
         [ "${FAER:-0}" = 0 ] || target/release/faer_lu "$matrix" >> "$work/lines"
         round=$((round + 1))
     done

@@ -125,7 +125,12 @@ impl Observer for Screen<'_> {
             self.line(HEADER);
         }
         match &record.failure {
-            None => self.line(&self.row(record)),
+            None => {
+                self.line(&self.row(record));
+                if let Some(turn) = &record.turn {
+                    self.line(&format!("{:>9}  {turn}", record.increment));
+                }
+            }
             Some(why) => self.line(&format!("{:>9}  increment of {:.3e} cut: {why}", record.increment, record.dt)),
         }
     }
@@ -167,6 +172,9 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
         "{word}: {increments} increments, {cut} cut, {iterations} iterations, {} unknowns, {seconds:.2} s",
         summary.unknowns
     );
+    if summary.factorisations > 0 {
+        let _ = writeln!(text, "{}", factors(summary));
+    }
     for note in &summary.notes {
         let _ = writeln!(text, "note: {note}");
     }
@@ -178,6 +186,18 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));
     text
+}
+
+/// How often and how matrices were factorised.
+fn factors(summary: &Summary) -> String {
+    let (all, symmetric) = (summary.factorisations, summary.symmetric_factorisations);
+    let how = match symmetric {
+        0 => "as L U (unsymmetric)".into(),
+        some if some == all => "as L D L^T (symmetric)".into(),
+        some => format!("{some} as L D L^T (symmetric), {} as L U", all - some),
+    };
+    let seconds = summary.timings.get("factorisation").copied().unwrap_or(0.0);
+    format!("{all} factorisations, {how}, {seconds:.2} s")
 }
 
 /// What the run most likely suffers from, what speaks for it and what to try.

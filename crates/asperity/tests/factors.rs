@@ -5,8 +5,8 @@
 mod ball;
 
 use asperity::model::Model;
-use asperity::solve::{Factors, RunOptions};
-use asperity::system::{Factorised, Near, State};
+use asperity::solve::{Factors, Frontal, LinearSolver, RunOptions};
+use asperity::system::{Csr, Factorised, Near, State};
 use ball::{Attempts, model};
 use std::sync::Arc;
 
@@ -138,4 +138,52 @@ fn same(u: &[f64], v: &[f64]) -> bool {
 fn distance(u: &[f64], v: &[f64]) -> f64 {
     let largest = u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     u.iter().zip(v).fold(0.0_f64, |m, (u, v)| m.max((u - v).abs())) / largest
+}
+
+/// A chain of springs, with a skew part between the first two of its unknowns, and with a stiffness at its first.
+fn chain(skew: f64, first: f64) -> (Csr, Vec<f64>) {
+    let n = 40_usize;
+    let (mut starts, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+    for row in 0..n {
+        for column in row.saturating_sub(1)..(row + 2).min(n) {
+            columns.push(column);
+            values.push(match (row, column) {
+                (0, 0) => first,
+                (0, 1) => -1.0 + skew,
+                _ if row == column => 2.0,
+                _ => -1.0,
+            });
+        }
+        starts.push(columns.len());
+    }
+    (Csr::new(Arc::new(starts), Arc::new(columns)), values)
+}
+
+/// Each matrix by itself: what came before does not show in a bit.
+#[test]
+fn values_decide_how_a_matrix_is_factorised() {
+    let (pattern, _) = chain(0.0, 2.0);
+    let mut solver = Frontal::new(Factors::Fresh);
+    solver.analyse(&pattern, (0..pattern.rows()).collect()).unwrap();
+    let mut solved: Vec<(f64, Vec<u64>)> = Vec::new();
+    // Symmetric, by rounding, not, and again; one negative eigenvalue.
+    let all = [0.0, 1e-15, 0.1, 0.0].map(|skew| (skew, 2.0, skew < 0.1, 0));
+    for (skew, first, symmetric, negative) in all.into_iter().chain([(0.0, -1.0, true, 1)]) {
+        let (_, values) = chain(skew, first);
+        solver.factorise(&values).unwrap();
+        let signs = solver.signs().unwrap();
+        assert_eq!((signs.symmetric, signs.negative), (symmetric, negative), "{skew} {first}");
+        let mut x: Vec<f64> = (0..pattern.rows()).map(|k| (k as f64).sin()).collect();
+        let b = x.clone();
+        solver.solve(&mut x).unwrap();
+        for row in 0..pattern.rows() {
+            let range = pattern.starts[row]..pattern.starts[row + 1];
+            let product: f64 = range.map(|at| values[at] * x[pattern.columns[at]]).sum();
+            assert!((product - b[row]).abs() < 1e-11, "{skew} {first}, row {row}");
+        }
+        let bits: Vec<u64> = x.iter().map(|x| x.to_bits()).collect();
+        let before = solved.iter().find(|(same, _)| *same == skew && first == 2.0);
+        assert!(before.is_none_or(|(_, before)| *before == bits), "{skew} {first}");
+        solved.push((skew, bits));
+    }
 }

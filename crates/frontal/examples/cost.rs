@@ -1,4 +1,5 @@
-//! What one matrix costs: `cargo run --release -p frontal --example cost -- hex8 32`.
+//! What one matrix costs: `cargo run --release -p frontal --example cost -- hex8 32`; with `symmetric` at the end its symmetric
+//! part, as L U and as L D L^T.
 //! The last line is the speed of a dense product on the same machine, in the same run.
 
 #[path = "../benches/measure/mod.rs"]
@@ -15,15 +16,26 @@ fn main() {
     let arguments = std::env::args().collect::<Vec<_>>();
     let size = |k: usize, default| arguments.get(k).and_then(|text| text.parse().ok()).unwrap_or(default);
     let (a, b) = (size(2, 16), size(3, size(2, 16)));
-    let model = match arguments.get(1).map(String::as_str) {
+    let mut model = match arguments.get(1).map(String::as_str) {
         Some("quad4") => models::quad4([a, b]),
         Some("quad8") => models::quad8([a, b]),
         Some("bordered") => models::bordered([a, b, a], 6),
         _ => models::hex8([a, a, size(3, a)]),
     };
-    let n = model.pattern.len();
-    println!("{}: {n} unknowns, {} entries", model.name, model.pattern.nonzeros());
-    let (symbolic, analysis) = timed(|| Symbolic::analyse(&model.pattern, &Options::default()));
+    println!("{}: {} unknowns, {} entries", model.name, model.pattern.len(), model.pattern.nonzeros());
+    if arguments.last().is_some_and(|word| word == "symmetric") {
+        model.symmetrise();
+        cost(&model, true);
+    }
+    cost(&model, false);
+    dense_product();
+}
+
+fn cost(model: &models::Model, symmetric: bool) {
+    let mut options = Options::default();
+    options.symmetric = symmetric;
+    println!("{}", if symmetric { "L D L^T" } else { "L U" });
+    let (symbolic, analysis) = timed(|| Symbolic::analyse(&model.pattern, &options));
     let symbolic = symbolic.expect("a good pattern");
     let cost = symbolic.prediction();
     println!("{cost:?}");
@@ -34,10 +46,10 @@ fn main() {
         report.expect("a regular matrix");
         println!("factorisation  {}, {:.1} Gflop/s per core", show(time), cost.flops * 1e-9 / time.processor);
     }
-    let mut x = vec![1.0; n];
+    let mut x = vec![1.0; model.pattern.len()];
     let (accuracy, time) = timed(|| factor.solve(&mut x));
     println!("solve          {}, {:?}", show(time), accuracy.expect("a regular matrix"));
-    dense_product();
+    println!("peak           {:.0} MB", measure::peak() as f64 / 1024.0);
 }
 
 /// One thread's dense product of order 2000.

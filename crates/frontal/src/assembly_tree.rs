@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::etree::{NONE, children};
 use crate::graph::Graph;
 use crate::pattern::Pattern;
+use crate::stripes::{Stripes, WIDTH};
 use crate::supernode::{Supernode, in_final_order};
 use std::ops::Range;
 
@@ -15,8 +16,9 @@ use std::ops::Range;
 ///  [  F21  |  F22  ]  border      right  = F12 transposed, leading dimension `border`
 ///                                 F22    = what goes to the parent, leading dimension `border`
 /// ```
-/// `left` and `right` lie next to each other in the factor, but for a symmetric matrix only `left` is kept; F22, the contribution block, lies in working memory. F12
-/// is kept transposed so that small fronts, with few pivots and a long border, still work on long columns.
+/// `left` and `right` lie next to each other in the factor; F22, the contribution block, lies in working memory. F12
+/// is kept transposed so that small fronts, with few pivots and a long border, still work on long columns. Of a symmetric matrix
+/// only `left` and F22 are there, both without what is above the diagonal, see [`Stripes`].
 #[derive(Debug, Clone)]
 pub(crate) struct Front {
     /// First pivot, in elimination order.
@@ -42,9 +44,28 @@ impl Front {
         self.pivots + self.border
     }
 
+    /// Where the numbers of `[F11; F21]` lie.
+    pub fn left(&self) -> Stripes {
+        let layout = if self.symmetric { Stripes::lower } else { Stripes::whole };
+        layout(self.size(), self.pivots)
+    }
+
+    /// Where those of the contribution block lie.
+    pub fn block(&self) -> Stripes {
+        let layout = if self.symmetric { Stripes::lower } else { Stripes::whole };
+        layout(self.border, self.border)
+    }
+
     /// Numbers in the contribution block.
     pub fn block_len(&self) -> usize {
-        self.border * self.border
+        self.block().len()
+    }
+
+    /// Numbers of room that the elimination of a symmetric front needs besides: the first stripe once more, below its
+    /// square.
+    pub fn scratch_len(&self) -> usize {
+        let columns = self.pivots.min(WIDTH);
+        if self.symmetric { columns * (self.size() - columns) } else { 0 }
     }
 
     /// Numbers kept in the factor.
@@ -53,7 +74,7 @@ impl Front {
     }
 
     pub fn left_len(&self) -> usize {
-        self.pivots * self.size()
+        self.left().len()
     }
 
     pub fn right_len(&self) -> usize {
@@ -83,6 +104,11 @@ pub(crate) struct Entry {
     pub value: u32,
     /// Index in the front's part of the factor.
     pub place: u32,
+}
+
+/// Entries that are assembled: of a symmetric matrix one of each pair.
+fn entries_of(pattern: &Pattern, symmetric: bool) -> usize {
+    if symmetric { pattern.nonzeros().midpoint(pattern.len()) } else { pattern.nonzeros() }
 }
 
 /// All fronts, children before parents.
@@ -126,13 +152,36 @@ impl AssemblyTree {
             child_list,
             rows: Vec::new(),
             relative: Vec::new(),
-            entries: Vec::with_capacity(pattern.nonzeros()),
+            entries: Vec::with_capacity(entries_of(pattern, symmetric)),
             order,
             position,
         };
         tree.lay_out(pattern, &supernodes, &parents, symmetric)?;
         tree.place_entries(pattern);
         tree.find_relative_rows();
+        Ok(tree)
+    }
+
+    /// The same tree for the other kind of values.
+    ///
+    /// # Errors
+    /// As [`AssemblyTree::new`].
+    pub fn for_values(&self, pattern: &Pattern, symmetric: bool) -> Result<Self, Error> {
+        let mut tree = AssemblyTree {
+            fronts: Vec::with_capacity(self.fronts.len()),
+            child_starts: self.child_starts.clone(),
+            child_list: self.child_list.clone(),
+            rows: self.rows.clone(),
+            relative: self.relative.clone(),
+            entries: Vec::with_capacity(entries_of(pattern, symmetric)),
+            order: self.order.clone(),
+            position: self.position.clone(),
+        };
+        for front in &self.fronts {
+            tree.push_front((front.pivots, front.border), front.rows, symmetric)?;
+        }
+        tree.fronts.iter_mut().zip(&self.fronts).for_each(|(front, other)| front.depth = other.depth);
+        tree.place_entries(pattern);
         Ok(tree)
     }
 
@@ -272,7 +321,7 @@ impl AssemblyTree {
             }
             for pivot in front.pivot_range() {
                 let unknown = self.order[pivot] as usize;
-                let k = pivot - front.first;
+                let (k, layout) = (pivot - front.first, front.left());
                 for (at, column) in pattern.entries(unknown) {
                     let other = self.position[column] as usize;
                     let below = other >= front.first + front.pivots;
@@ -281,9 +330,9 @@ impl AssemblyTree {
                         self.push_entry(at, front.left_len() + k * front.border + j - front.pivots);
                     }
                     if below {
-                        self.push_entry(mirror[at] as usize, k * front.size() + j);
+                        self.push_entry(mirror[at] as usize, layout.place(j, k));
                     } else if other >= front.first && (j <= k || !front.symmetric) {
-                        self.push_entry(at, j * front.size() + k);
+                        self.push_entry(at, layout.place(k, j));
                     }
                 }
             }

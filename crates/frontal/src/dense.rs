@@ -17,11 +17,12 @@ const SMALL: usize = 1024;
 /// Columns of a tile, the unit of parallel work; large enough to keep the blocked kernels at full speed.
 const TILE: usize = 256;
 
-/// The row exchanged with that of a pivot, counted in the front, and whether the pivot had to be enlarged.
+/// The row exchanged with that of a pivot, counted in the front, whether the pivot had to be enlarged, and its sign.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pivot {
     pub row: u32,
     pub perturbed: bool,
+    pub negative: bool,
 }
 
 /// Which pivots are too small, and what replaces them.
@@ -47,19 +48,15 @@ impl PivotRule {
 pub(crate) fn eliminate(front: &Front, parts: &mut Parts, pivots: &mut [Pivot], rule: PivotRule, parallel: bool) {
     let (m, p, b) = (front.size(), front.pivots, front.border);
     let Parts { left, right, block } = parts;
-    Panel { left, m, p, rule, symmetric: front.symmetric, parallel }.factorise(0..p, pivots);
+    Panel { left, m, p, rule, symmetric: false, parallel }.factorise(0..p, pivots);
     if b == 0 {
         return;
     }
     let small = p * b * b <= SMALL;
-    if front.symmetric {
-        scale_right(left, right, m, p, b);
-    } else {
-        for (k, pivot) in pivots.iter().enumerate() {
-            swap_columns(right, b, k, pivot.row as usize);
-        }
-        solve_right(left, right, front, parallel && !small);
+    for (k, pivot) in pivots.iter().enumerate() {
+        swap_columns(right, b, k, pivot.row as usize);
     }
+    solve_right(left, right, front, parallel && !small);
     if small {
         return Arch::new().dispatch(
             #[inline(always)]
@@ -70,18 +67,8 @@ pub(crate) fn eliminate(front: &Front, parts: &mut Parts, pivots: &mut [Pivot], 
     let right = MatRef::from_column_major_slice(right, b, p);
     tiles(MatMut::from_column_major_slice_mut(block, b, b), parallel, |first, tile| {
         let upper = right.subrows(first, tile.ncols()).transpose();
-        let top = if front.symmetric { first } else { 0 };
-        let tile = tile.subrows_mut(top, b - top);
-        matmul(tile, Accum::Add, lower.subrows(top, b - top), upper, -1.0, Par::Seq);
+        matmul(tile, Accum::Add, lower, upper, -1.0, Par::Seq);
     });
-}
-
-/// `right <- L21 D`: the transposed U12 of a symmetric front.
-fn scale_right(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usize) {
-    for (k, column) in right.chunks_exact_mut(b).enumerate() {
-        let (pivot, lower) = (left[m * k + k], &left[m * k + p..m * (k + 1)]);
-        column.iter_mut().zip(lower).for_each(|(right, lower)| *right = pivot * lower);
-    }
 }
 
 /// `right <- right L11^-T`, where L11 is the unit lower triangle of the first rows of `left`.
@@ -177,7 +164,7 @@ impl Panel<'_> {
             let (done, rest) = self.left[..m * range.end].split_at_mut(m * (k + 1));
             let column = &mut done[m * k..];
             let perturbed = self.rule.enforce(&mut column[k]);
-            pivots[k] = Pivot { row: row as u32, perturbed };
+            pivots[k] = Pivot { row: row as u32, perturbed, negative: column[k] < 0.0 };
             let inverse = 1.0 / column[k];
             column[k + 1..].iter_mut().for_each(|x| *x *= inverse);
             for other in rest.chunks_exact_mut(m) {
@@ -237,9 +224,8 @@ fn solve_right_small(left: &[f64], right: &mut [f64], m: usize, p: usize, b: usi
 fn update_block_small(left: &[f64], right: &[f64], block: &mut [f64], front: &Front) {
     let (m, p, b) = (front.size(), front.pivots, front.border);
     for (j, column) in block.chunks_exact_mut(b).enumerate() {
-        let top = if front.symmetric { j } else { 0 };
         for k in 0..p {
-            subtract(&mut column[top..], right[b * k + j], &left[m * k + p + top..m * (k + 1)]);
+            subtract(column, right[b * k + j], &left[m * k + p..m * (k + 1)]);
         }
     }
 }

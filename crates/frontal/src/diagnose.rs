@@ -91,7 +91,7 @@ fn null_vector(factor: &Factor, mut x: Vec<f64>) -> Option<NullVector> {
 }
 
 /// Vectors with a share of everything: fractional parts of the multiples of square roots.
-fn start(k: usize, vector: usize) -> f64 {
+pub(crate) fn start(k: usize, vector: usize) -> f64 {
     ((k + 1) as f64 * ((2 + vector) as f64 * 1.618_033_988_749_895).sqrt()).fract() - 0.5
 }
 

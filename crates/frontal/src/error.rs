@@ -67,6 +67,9 @@ pub enum Error {
     NotFactorised,
     /// The matrix is singular to working precision.
     Singular(Box<Singular>),
+    /// Pivots from the diagonal in their order, as symmetric values get them, lose too much accuracy; the same values factorised
+    /// as unsymmetric ones get pivots that are chosen.
+    Unstable,
     /// The solution does not satisfy the equations, whatever refinement could do.
     Inaccurate {
         /// Componentwise backward error reached.
@@ -101,6 +104,7 @@ impl fmt::Display for Error {
             Error::NotFinite { row, column } => write!(f, "the value at ({row}, {column}) is not finite"),
             Error::ForeignFactor => write!(f, "the factor belongs to another analysis"),
             Error::NotFactorised => write!(f, "the factor holds no values"),
+            Error::Unstable => write!(f, "pivots from the diagonal lose too much accuracy"),
             Error::Singular(singular) => singular.fmt(f),
             Error::Inaccurate { backward_error, unknowns } => {
                 write!(f, "backward error {backward_error:.1e} after refinement; perturbed pivots: {unknowns:?}")

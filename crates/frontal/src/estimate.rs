@@ -60,11 +60,16 @@ impl Factor {
         self.check_ready()?;
         let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let mut most = 0.0_f64;
+        let halves = self.halves();
         for front in &self.symbolic.tree.fronts {
-            let (left, right) = self.factors[front.factor_range()].split_at(front.size() * front.pivots);
-            most = most.max(largest(right));
-            for (k, column) in left.chunks_exact(front.size()).enumerate() {
-                most = most.max(largest(&column[..=k]));
+            let panels = halves.panels(front);
+            most = most.max(largest(panels.right));
+            for k in 0..front.pivots {
+                let size = match front.symmetric {
+                    true => panels.from_diagonal(k)[0].abs() * largest(&panels.from_diagonal(k)[1..]).max(1.0),
+                    false => largest(&panels.left[front.size() * k..][..=k]),
+                };
+                most = most.max(size);
             }
         }
         Ok(most / largest(&self.values).max(f64::MIN_POSITIVE))

@@ -1,5 +1,6 @@
 //! A factorised matrix.
 
+use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule};
 use crate::diagnose;
 use crate::error::Error;
@@ -7,15 +8,19 @@ use crate::numeric::Numeric;
 use crate::pattern::check_length;
 use crate::plan::Plan;
 use crate::scaling::Scaling;
+use crate::solve::Workspace;
 use crate::symbolic::{Inner, Symbolic};
+use crate::vector::{norm, subtract};
 use std::mem::take;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Perturbed pivots get this share of the largest value: the square root of the unit round-off balances the error
 /// made against the growth allowed (Li & Demmel, ACM TOMS 29, 2003).
 const PERTURBATION: f64 = 1.5e-8;
+/// Part of a right-hand side that a solution with an indefinite L D L^T may leave; refinement then needs few steps.
+const UNSTABLE: f64 = 1e-8;
 
-/// L and U, with a copy of the equilibrated matrix for refinement and the working memory of the next factorisation.
+/// L and U, or L and D, with a copy of the equilibrated matrix for refinement and the working memory of the next factorisation.
 #[derive(Debug)]
 pub struct Factor {
     pub(crate) symbolic: Arc<Inner>,
@@ -40,6 +45,29 @@ pub(crate) struct Memory {
     stacks: Vec<Vec<f64>>,
 }
 
+/// What the signs of the pivots say of a matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Signs {
+    /// Whether its values were factorised as symmetric ones.
+    pub symmetric: bool,
+    /// Number of its negative eigenvalues where it is symmetric (Sylvester's law of inertia); one else if its determinant is
+    /// negative, and zero if not.
+    pub negative: usize,
+}
+
+/// So many numbers: in the memory there is, or in new memory of which nothing is touched yet.
+fn fit(numbers: &mut Vec<f64>, len: usize) {
+    if numbers.capacity() < len {
+        *numbers = Vec::new();
+        *numbers = vec![0.0; len];
+    } else {
+        numbers.resize(len, 0.0);
+    }
+}
+
+/// Bytes of working memory from which on it is given back between factorisations where other memory is wanted.
+pub(crate) const LARGE: usize = 1 << 28;
+
 /// What a factorisation met.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
@@ -53,7 +81,8 @@ impl Symbolic {
     ///
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`]; [`Error::ForeignFactor`] unless the factor came from this
-    /// analysis; [`Error::Singular`] with the unknowns responsible. After an error the factor holds no values.
+    /// analysis; [`Error::Singular`] with the unknowns responsible; [`Error::Unstable`] where pivots from the diagonal will not do
+    /// for symmetric values. After an error the factor holds no values.
     pub fn factorise(&self, values: &[f64], factor: &mut Factor) -> Result<Report, Error> {
         if !Arc::ptr_eq(&self.inner, &factor.symbolic) {
             return Err(Error::ForeignFactor);
@@ -66,6 +95,10 @@ impl Symbolic {
         if !factor.perturbed.is_empty() {
             diagnose::check_regular(factor).inspect_err(|_| factor.ready = false)?;
         }
+        if self.inner.options.symmetric && !factor.stable() {
+            factor.ready = false;
+            return Err(Error::Unstable);
+        }
         Ok(Report { perturbed: factor.perturbed.clone() })
     }
 }
@@ -76,11 +109,11 @@ impl Factor {
         let n = symbolic.pattern.len();
         let plan = symbolic.plan(threads);
         let Memory { mut factors, mut values, mut shared, mut stacks } = memory;
-        factors.resize(symbolic.tree.factor_len(), 0.0);
-        values.resize(symbolic.pattern.nonzeros(), 0.0);
-        shared.resize(plan.shared_len(), 0.0);
+        fit(&mut factors, symbolic.tree.factor_len());
+        fit(&mut values, symbolic.pattern.nonzeros());
+        fit(&mut shared, plan.shared_len());
         stacks.resize_with(plan.stacks(), Vec::new);
-        stacks.iter_mut().for_each(|stack| stack.resize(plan.stack_len + plan.scratch_len, 0.0));
+        stacks.iter_mut().for_each(|stack| fit(stack, plan.stack_len + plan.scratch_len));
         Factor {
             factors,
             pivots: vec![Pivot::default(); n],
@@ -92,6 +125,14 @@ impl Factor {
             perturbed: Vec::new(),
             ready: false,
             symbolic,
+        }
+    }
+
+    /// Gives working memory back until the next factorisation, if it is large.
+    pub(crate) fn release(&mut self) {
+        if 8 * self.plan.len() > LARGE {
+            self.shared = Vec::new();
+            self.stacks.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
         }
     }
 
@@ -110,6 +151,33 @@ impl Factor {
     /// Unknowns whose pivots were perturbed by the last factorisation.
     pub fn perturbed(&self) -> &[usize] {
         &self.perturbed
+    }
+
+    /// Signs of the pivots; None where nothing is factorised or a pivot was perturbed.
+    pub fn signs(&self) -> Option<Signs> {
+        let symmetric = self.symbolic.options.symmetric;
+        let negative = self.pivots.iter().filter(|pivot| pivot.negative).count();
+        let exchanged = || {
+            let own = |front: &Front| {
+                (0..).zip(&self.pivots[front.pivot_range()]).filter(|(k, pivot)| *k != pivot.row).count()
+            };
+            self.symbolic.tree.fronts.iter().map(own).sum::<usize>()
+        };
+        let negative = if symmetric { negative } else { (negative + exchanged()) % 2 };
+        (self.ready && self.perturbed.is_empty()).then_some(Signs { symmetric, negative })
+    }
+
+    /// Whether pivots from the diagonal did: always where all are positive, and else where a solution comes out well.
+    fn stable(&self) -> bool {
+        if !self.pivots.iter().any(|pivot| pivot.negative || pivot.perturbed) {
+            return true;
+        }
+        let b: Vec<f64> = (0..self.pivots.len()).map(|k| diagnose::start(k, 0)).collect();
+        let mut x = b.clone();
+        self.substitute(&mut x, &mut Workspace::new(self));
+        let mut residual = self.times(&x);
+        subtract(&mut residual, 1.0, &b);
+        self.perturbed.is_empty() && norm(&residual) <= UNSTABLE * norm(&b)
     }
 
     /// Columns and values of a row of the matrix that was factorised.
@@ -133,11 +201,15 @@ impl Factor {
         pattern.check_finite(values)?;
         if options.equilibrate {
             self.scaling.equilibrate(pattern, values);
+            if options.symmetric {
+                self.scaling.columns.clone_from(&self.scaling.rows);
+            }
         }
         let largest = self.scaling.apply(pattern, values, &mut self.values);
         // A matrix of zeros only is singular, not a division by zero.
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let rule = PivotRule { smallest: options.pivot_threshold * largest, replacement: PERTURBATION * largest };
+        fit(&mut self.shared, self.plan.shared_len());
         let numeric =
             Numeric { symbolic: &self.symbolic, plan: &self.plan, values: &self.values, rule, stacks: &self.stacks };
         numeric.factorise(&mut self.factors, &mut self.pivots, &mut self.shared);

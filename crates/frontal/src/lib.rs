@@ -58,15 +58,17 @@ mod rounded;
 mod scaling;
 mod solve;
 mod speed;
+mod stripes;
 mod supernode;
 mod symbolic;
+mod symmetric;
 mod together;
 mod vector;
 
 pub use change::{Change, Sparse};
 pub use diagnose::{NullVector, Singular};
 pub use error::Error;
-pub use factor::{Factor, Report};
+pub use factor::{Factor, Report, Signs};
 pub use full::{Full, subtract_product};
 pub use krylov::{Convergence, Krylov};
 pub use options::{Amalgamation, Options, Ordering};

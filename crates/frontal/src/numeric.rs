@@ -5,6 +5,7 @@ use crate::dense::{Pivot, PivotRule, eliminate};
 use crate::extend_add::{Contribution, Parts, assemble};
 use crate::plan::{Plan, Role};
 use crate::symbolic::Inner;
+use crate::symmetric;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
@@ -89,12 +90,9 @@ impl Numeric<'_> {
             let start = start + self.plan.shared_below[child];
             self.contribution(child, &shared[start..])
         };
-        if !tree.fronts[s].symmetric {
-            return self.front(s, own, &mut [], child, true);
-        }
-        let mut stack = self.take_stack();
-        self.front(s, own, &mut stack[self.plan.stack_len..], child, true);
-        self.return_stack(stack);
+        // Not that of a stack: while this thread waits for others it may take up a task that needs one.
+        let mut scratch = vec![0.0; tree.fronts[s].scratch_len()];
+        self.front(s, own, &mut scratch, child, true);
     }
 
     /// Factorises the subtree of `task` in postorder, on a stack of its own.
@@ -148,16 +146,20 @@ impl Numeric<'_> {
             part.factors[entry.place as usize] += self.values[entry.value as usize];
         }
         let (left, right) = part.factors.split_at_mut(front.left_len());
-        let right = if front.symmetric { &mut scratch[..front.right_len()] } else { right };
         let mut parts = Parts { left, right, block: part.shared };
         assemble(front, &mut parts, tree.children(s).len(), child, parallel);
+        if front.symmetric {
+            let Parts { left, block, .. } = parts;
+            return symmetric::eliminate(front, (left, block), scratch, part.pivots, (self.rule, parallel));
+        }
         eliminate(front, &mut parts, part.pivots, self.rule, parallel);
     }
 
     fn contribution<'b>(&'b self, child: usize, from: &'b [f64]) -> Contribution<'b> {
         let front = &self.symbolic.tree.fronts[child];
         let block = &from[..front.block_len()];
-        Contribution { block, relative: self.symbolic.tree.relative(front), lower: front.symmetric }
+        let (layout, relative) = (front.block(), self.symbolic.tree.relative(front));
+        Contribution { block, layout, relative, lower: front.symmetric }
     }
 }
 

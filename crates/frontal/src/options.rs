@@ -45,8 +45,9 @@ pub struct Options {
     /// When supernodes are merged.
     pub amalgamation: Amalgamation,
     /// Whether the values are symmetric. The factorisation is then L D L^T with pivots from the diagonal in their order,
-    /// at half the flops and little more than half the memory; of each pair of mirrored values it reads one, while
-    /// refinement uses both.
+    /// at half the flops and half the memory; of each pair of mirrored values it reads one, while refinement uses both. Values
+    /// that are not definite and for which such pivots will not do are refused, see
+    /// [`Error::Unstable`](crate::Error::Unstable).
     pub symmetric: bool,
     /// Bytes that analysis, factor and working memory may take together; refused before any number is touched.
     pub memory_limit: Option<usize>,

@@ -1,11 +1,12 @@
 //! What a substitution does at one front.
 
+use crate::stripes::Stripes;
 use crate::vector::{Number, subtract};
 use pulp::{Arch, Simd, WithSimd};
 use std::marker::PhantomData;
 
-/// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) has `m - p` rows and is missing if
-/// the matrix is symmetric.
+/// The factors of one front; `left` is `m` x `p`, `right` (U12 transposed) has `m - p` rows. If the matrix is symmetric the
+/// unit lower `L` and on its diagonal `D` are in `left`, in stripes, and `right` is missing.
 pub(crate) struct Panels<'a, T> {
     pub left: &'a [T],
     pub right: &'a [T],
@@ -21,14 +22,18 @@ impl<T: Number> Panels<'_, T> {
         &self.left[self.m * k..self.m * (k + 1)]
     }
 
-    /// Row `k` of U12, as a factor and a column to be multiplied with it.
+    /// Column `k` of `left` from the diagonal on.
     #[inline(always)]
-    fn right(&self, k: usize) -> (T, &[T]) {
+    pub fn from_diagonal(&self, k: usize) -> &[T] {
+        let start = if self.symmetric { Stripes::lower(self.m, self.p).place(k, k) } else { self.m * k + k };
+        &self.left[start..start + self.m - k]
+    }
+
+    /// Row `k` of U12.
+    #[inline(always)]
+    fn right(&self, k: usize) -> &[T] {
         let border = self.m - self.p;
-        match self.symmetric {
-            true => (self.left(k)[k], &self.left(k)[self.p..]),
-            false => (T::round(1.0), &self.right[border * k..border * (k + 1)]),
-        }
+        &self.right[border * k..border * (k + 1)]
     }
 }
 
@@ -67,12 +72,14 @@ pub(crate) struct Forward;
 impl Step for Forward {
     #[inline(always)]
     fn run<T: Number, S: Simd>(_: S, panels: &Panels<T>, x: &mut [T]) {
-        for (k, pivot) in panels.pivots.iter().enumerate() {
-            x.swap(k, pivot.row as usize);
+        if !panels.symmetric {
+            for (k, pivot) in panels.pivots.iter().enumerate() {
+                x.swap(k, pivot.row as usize);
+            }
         }
         for k in 0..panels.p {
             let (done, rest) = x.split_at_mut(k + 1);
-            subtract(rest, done[k], &panels.left(k)[k + 1..]);
+            subtract(rest, done[k], &panels.from_diagonal(k)[1..]);
         }
     }
 }
@@ -88,15 +95,22 @@ impl Step for SparseForward {
     }
 }
 
-/// `[U11 U12]` upwards.
+/// `[U11 U12]` upwards; `D [L11; L21]^T` if the matrix is symmetric.
 pub(crate) struct Backward;
 impl Step for Backward {
     #[inline(always)]
     fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]) {
+        if panels.symmetric {
+            for k in (0..panels.p).rev() {
+                let column = panels.from_diagonal(k);
+                let (done, rest) = x.split_at_mut(k + 1);
+                done[k] = done[k] / column[0] - T::dot(simd, &column[1..], rest);
+            }
+            return;
+        }
         let (x, border) = x.split_at_mut(panels.p);
         for (k, x) in x.iter_mut().enumerate() {
-            let (factor, column) = panels.right(k);
-            *x -= factor * T::dot(simd, column, border);
+            *x -= T::dot(simd, panels.right(k), border);
         }
         for k in (0..panels.p).rev() {
             let column = panels.left(k);
@@ -107,21 +121,21 @@ impl Step for Backward {
     }
 }
 
-/// `[U11 U12]^T` downwards.
+/// `[U11 U12]^T` downwards, not of a symmetric matrix.
 pub(crate) struct ForwardTransposed;
 impl Step for ForwardTransposed {
     #[inline(always)]
     fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]) {
         let (x, border) = x.split_at_mut(panels.p);
         for k in 0..panels.p {
-            let (column, (factor, right)) = (panels.left(k), panels.right(k));
+            let (column, right) = (panels.left(k), panels.right(k));
             x[k] = (x[k] - T::dot(simd, &column[..k], &x[..k])) / column[k];
-            subtract(border, factor * x[k], right);
+            subtract(border, x[k], right);
         }
     }
 }
 
-/// `[L11; L21]^T` upwards.
+/// `[L11; L21]^T` upwards, not of a symmetric matrix.
 pub(crate) struct BackwardTransposed;
 impl Step for BackwardTransposed {
     #[inline(always)]

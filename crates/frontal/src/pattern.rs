@@ -116,6 +116,28 @@ impl Pattern {
         mirror
     }
 
+    /// Whether values, in the pattern's order, are symmetric: mirrored ones differ by no more than `tolerance` of the geometric
+    /// mean of their two diagonal entries. It ends at the first that do not.
+    ///
+    /// # Panics
+    /// Unless there is a value for each entry.
+    pub fn is_symmetric(&self, values: &[f64], tolerance: f64) -> bool {
+        assert_eq!(values.len(), self.nonzeros(), "one value for each entry");
+        let own = |row: usize| self.row(row).binary_search(&row).map_or(0.0, |k| values[self.starts[row] + k].abs());
+        let diagonal: Vec<f64> = (0..self.len()).map(own).collect();
+        // Rows come in order, so each meets the entries of a column's own row one after the other.
+        let mut next = self.starts[..self.len()].to_vec();
+        (0..self.len()).all(|row| {
+            (next[row]..self.starts[row + 1]).all(|at| {
+                let column = self.columns[at];
+                let mirror = next[column];
+                next[column] += 1;
+                let difference = values[at] - values[mirror];
+                difference * difference <= tolerance * tolerance * diagonal[row] * diagonal[column]
+            })
+        })
+    }
+
     /// Refuses values, in the pattern's order, of which one is not finite.
     pub(crate) fn check_finite(&self, values: &[f64]) -> Result<(), Error> {
         let Some(at) = values.iter().position(|value| !value.is_finite()) else { return Ok(()) };

@@ -34,7 +34,7 @@ pub(crate) struct Plan {
     pub offsets: Vec<usize>,
     /// Length of the longest stack of a task.
     pub stack_len: usize,
-    /// Room after the stack for the right part of a symmetric front, which is not kept.
+    /// Room after the stack for the elimination of a symmetric front.
     pub scratch_len: usize,
     /// Length of the shared blocks below each front, its own not counted; the last entry is that of all fronts.
     pub shared_below: Vec<usize>,
@@ -46,8 +46,7 @@ impl Plan {
         let roles = roles(tree, threads);
         let mut plan =
             Plan { threads, roles, offsets: vec![0; n], stack_len: 0, scratch_len: 0, shared_below: vec![0; n + 1] };
-        let scratch = tree.fronts.iter().filter(|front| front.symmetric).map(|front| front.right_len());
-        plan.scratch_len = scratch.max().unwrap_or(0);
+        plan.scratch_len = tree.fronts.iter().map(|front| front.scratch_len()).max().unwrap_or(0);
         for s in 0..=n {
             match plan.roles.get(s) {
                 Some(Role::Inside) => {}

@@ -79,6 +79,19 @@ impl Factor {
         self.solve_all(rhs, Side::Transposed)
     }
 
+    /// `x <- A^-1 x` by one substitution, not refined, perturbed pivots included.
+    ///
+    /// # Errors
+    /// [`Error::NotFactorised`]; [`Error::WrongLength`] unless there is one number for each unknown.
+    pub fn apply_inverse(&self, x: &mut [f64]) -> Result<(), Error> {
+        self.check_ready()?;
+        check_length("x", self.symbolic.pattern.len(), x.len())?;
+        x.iter_mut().zip(&self.scaling.rows).for_each(|(x, scale)| *x *= scale);
+        self.substitute(x, &mut Workspace::new(self));
+        x.iter_mut().zip(&self.scaling.columns).for_each(|(x, scale)| *x *= scale);
+        Ok(())
+    }
+
     fn solve_all(&self, rhs: &mut [f64], side: Side) -> Result<Accuracy, Error> {
         self.check_ready()?;
         let n = self.symbolic.pattern.len();

@@ -75,8 +75,10 @@ pub enum Outcome {
 /// Counts since the solver was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Factorisations made.
+    /// Factorisations made, those as L D L^T included.
     pub factorisations: usize,
+    /// Factorisations as L D L^T.
+    pub symmetric: usize,
     /// Systems solved.
     pub solutions: usize,
     /// Iterations with an old factor, wasted ones included.
@@ -99,6 +101,8 @@ pub struct Service {
 #[derive(Debug)]
 pub struct Solver {
     symbolic: Symbolic,
+    /// The same analysis for values of the other kind, where there were any.
+    other_kind: Option<Symbolic>,
     factor: Factor,
     policy: Policy,
     /// Whether the factor may be used for the next matrix.
@@ -124,6 +128,7 @@ impl Solver {
         let (outer, rounded, counts) = (Outer::default(), Rounded::default(), Counts::default());
         Solver {
             symbolic,
+            other_kind: None,
             factor,
             policy,
             usable: false,
@@ -179,6 +184,7 @@ impl Solver {
     pub fn resume(&mut self, service: Service) {
         self.usable = true;
         self.service = service;
+        self.make_room();
         self.rounded.settle(&self.factor, service.single);
         self.change = None;
     }
@@ -201,6 +207,30 @@ impl Solver {
 
     /// Takes another analysis, and for its factor the memory of the one there was.
     pub fn replace(&mut self, symbolic: Symbolic) {
+        self.other_kind = None;
+        self.exchange(symbolic);
+    }
+
+    /// The analysis for values that are symmetric, or are not.
+    ///
+    /// # Errors
+    /// Those of [`Symbolic::for_values`].
+    pub fn analysis(&self, symmetric: bool) -> Result<Symbolic, Error> {
+        match &self.other_kind {
+            Some(other) if other.prediction().symmetric == symmetric => Ok(other.clone()),
+            _ => self.symbolic.for_values(symmetric),
+        }
+    }
+
+    /// Takes the analysis of [`Solver::analysis`]; the one there was is kept. The next matrix is factorised.
+    pub fn expect(&mut self, symbolic: Symbolic) {
+        if symbolic.prediction().symmetric != self.symbolic.prediction().symmetric {
+            self.other_kind = Some(self.symbolic.clone());
+            self.exchange(symbolic);
+        }
+    }
+
+    fn exchange(&mut self, symbolic: Symbolic) {
         self.refuse();
         self.outer.clear();
         self.rounded.forget();
@@ -279,6 +309,7 @@ impl Solver {
         if iterations == 0 {
             return Ok(None);
         }
+        self.make_room();
         let mut x = rhs.to_vec();
         let krylov = Krylov { tolerance, iterations, restart: iterations };
         let preconditioner =
@@ -308,6 +339,7 @@ impl Solver {
         self.rounded.forget();
         self.change = None;
         self.counts.factorisations += 1;
+        self.counts.symmetric += usize::from(self.symbolic.prediction().symmetric);
         self.service = Service { sequences: 1, ..Service::default() };
         let report = self.symbolic.factorise(values, &mut self.factor)?;
         self.usable = true;
@@ -321,9 +353,17 @@ impl Solver {
     pub fn solve_directly(&mut self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
         self.counts.solutions += 1;
         if self.affordable_iterations() > 0 && rhs.len() == self.symbolic.pattern().len() {
+            self.make_room();
             self.rounded.of(&self.factor, rhs);
         }
         self.factor.solve(rhs)
+    }
+
+    /// Gives back what the factor in single precision may need.
+    fn make_room(&mut self) {
+        if !self.rounded.settled() {
+            self.factor.release();
+        }
     }
 
     /// [`Factor::influence`] with the factor there is, in single precision where other matrices are to be preconditioned by

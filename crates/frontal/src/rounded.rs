@@ -24,6 +24,11 @@ impl Rounded {
         (self.current, self.fit) = (false, None);
     }
 
+    /// Whether it is settled if the rounded factors of the factor there is serve.
+    pub fn settled(&self) -> bool {
+        self.current
+    }
+
     /// Whether the rounded factors serve, if that is known.
     pub fn fit(&self) -> Option<bool> {
         self.fit

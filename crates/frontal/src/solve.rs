@@ -38,6 +38,9 @@ impl Factor {
 
     /// `x <- A^-T x`.
     pub(crate) fn substitute_transposed(&self, x: &mut [f64], work: &mut Workspace<f64>) {
+        if self.symbolic.options.symmetric {
+            return self.substitute(x, work);
+        }
         let halves = self.halves();
         self.permuted(x, work, |work| {
             for front in &self.symbolic.tree.fronts {
@@ -106,7 +109,7 @@ impl<T: Number> Halves<'_, T> {
 
     /// The factors of a front.
     pub fn panels(&self, front: &Front) -> Panels<'_, T> {
-        let (left, right) = self.entries[front.factor_range()].split_at(front.size() * front.pivots);
+        let (left, right) = self.entries[front.factor_range()].split_at(front.left_len());
         let pivots = &self.factor.pivots[front.pivot_range()];
         Panels { left, right, pivots, m: front.size(), p: front.pivots, symmetric: front.symmetric }
     }

@@ -3,7 +3,7 @@
 use crate::assembly_tree::AssemblyTree;
 use crate::error::Error;
 use crate::etree::{NONE, children, column_counts, elimination_tree, postorder};
-use crate::factor::{Factor, Memory};
+use crate::factor::{Factor, LARGE, Memory};
 use crate::graph::Graph;
 use crate::options::Options;
 use crate::ordering;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub struct Prediction {
     /// Multiplications and additions of one factorisation.
     pub flops: f64,
-    /// Numbers in the factors L and U, stored zeros included.
+    /// Numbers in the factors, stored zeros included.
     pub factor_entries: usize,
     /// Numbers in the stack of contribution blocks, for one thread.
     pub stack_entries: usize,
@@ -27,17 +27,26 @@ pub struct Prediction {
     pub fronts: usize,
     /// Bytes of the analysis, one factor and its working memory, for one thread.
     pub bytes: usize,
+    /// Whether the factors are L and D.
+    pub symmetric: bool,
 }
 
 impl Prediction {
+    /// Bytes beyond [`bytes`](Self::bytes) where the factor is to be kept in single precision too: large working memory is given
+    /// back for that.
+    pub fn single_bytes(&self) -> usize {
+        let working = 8 * self.stack_entries;
+        (4 * self.factor_entries).saturating_sub(if working > LARGE { working } else { 0 })
+    }
+
     /// Work of a factorisation, in flops at full speed: moving a number of the factor costs as much as so many flops.
     pub fn factorisation_work(&self) -> f64 {
         self.flops + 200.0 * self.factor_entries as f64
     }
 
-    /// Work of one solution in the same unit: each number of the factor is read once.
+    /// Work of one solution in the same unit: each number of L and U is read once, each of L in L D L^T twice.
     pub fn solve_work(&self) -> f64 {
-        30.0 * self.factor_entries as f64
+        (if self.symmetric { 60.0 } else { 30.0 }) * self.factor_entries as f64
     }
 }
 
@@ -65,7 +74,23 @@ impl Symbolic {
         u32::try_from(pattern.nonzeros().max(pattern.len() + 1)).map_err(|_| Error::TooLarge)?;
         let (graph, order) = ordering::order(pattern, options)?;
         let (order, supernodes) = divided(&graph, order, options);
-        let tree = AssemblyTree::new(pattern, &graph, &order, &supernodes, options.symmetric)?;
+        Self::laid_out(pattern, options, AssemblyTree::new(pattern, &graph, &order, &supernodes, options.symmetric)?)
+    }
+
+    /// The same analysis for values that are symmetric, or are not: what is ordered and found out stays, numbers get other
+    /// places.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`], and [`Error::MemoryLimit`] if the prediction exceeds the limit.
+    pub fn for_values(&self, symmetric: bool) -> Result<Self, Error> {
+        let Inner { pattern, options, tree, .. } = &*self.inner;
+        if options.symmetric == symmetric {
+            return Ok(self.clone());
+        }
+        Self::laid_out(pattern, &Options { symmetric, ..options.clone() }, tree.for_values(pattern, symmetric)?)
+    }
+
+    fn laid_out(pattern: &Pattern, options: &Options, tree: AssemblyTree) -> Result<Self, Error> {
         let prediction = predict((pattern.len(), pattern.nonzeros()), &tree, Plan::new(&tree, 1).len());
         check_limit(prediction.bytes, options.memory_limit)?;
         let inner = Inner { pattern: pattern.clone(), options: options.clone(), tree, prediction };
@@ -145,20 +170,23 @@ impl NodeGraph {
 }
 
 impl Prediction {
-    /// The cost of factorising with so many threads, from the graph of the nodes alone: the same as that of
-    /// [`Symbolic::prediction`] for the pattern of all unknowns, the stack being that of so many threads. `last` are the
-    /// nodes to eliminate after all others; the ordering must be one that works on nodes.
+    /// The cost of factorising unsymmetric and symmetric values with so many threads, from the graph of the nodes alone: the
+    /// same as that of [`Symbolic::prediction`] for the pattern of all unknowns, the stack being that of so many threads. `last`
+    /// are the nodes to eliminate after all others; the ordering must be one that works on nodes.
     ///
     /// # Errors
     /// Those of [`Symbolic::analyse`].
-    pub fn of_nodes(graph: NodeGraph, last: &[usize], options: &Options, threads: usize) -> Result<Self, Error> {
+    pub fn of_nodes(graph: NodeGraph, last: &[usize], options: &Options, threads: usize) -> Result<[Self; 2], Error> {
         let (unknowns, nonzeros) = (graph.unknowns(), graph.nonzeros());
         u32::try_from(nonzeros.max(unknowns + 1)).map_err(|_| Error::TooLarge)?;
         let graph = Graph::of_nodes(graph.starts, graph.neighbours, graph.weights);
         let order = ordering::order_nodes(&graph, last, &options.ordering)?;
         let (_, supernodes) = divided(&graph, order, options);
-        let tree = AssemblyTree::outline(&supernodes, options.symmetric)?;
-        Ok(predict((unknowns, nonzeros), &tree, Plan::new(&tree, threads).len()))
+        let of = |symmetric: bool| {
+            let tree = AssemblyTree::outline(&supernodes, symmetric)?;
+            Ok(predict((unknowns, nonzeros), &tree, Plan::new(&tree, threads).len()))
+        };
+        Ok([of(false)?, of(true)?])
     }
 }
 
@@ -202,7 +230,8 @@ impl Inner {
 
 fn predict((unknowns, nonzeros): (usize, usize), tree: &AssemblyTree, stack_entries: usize) -> Prediction {
     let rows: usize = tree.fronts.iter().map(|front| front.border).sum();
-    let entries = if tree.fronts.iter().any(|front| front.symmetric) { nonzeros.midpoint(unknowns) } else { nonzeros };
+    let symmetric = tree.fronts.iter().any(|front| front.symmetric);
+    let entries = if symmetric { nonzeros.midpoint(unknowns) } else { nonzeros };
     let indices = 4 * (rows * 2 + unknowns * 3) + 8 * entries;
     let pattern_bytes = 8 * (unknowns + 1 + nonzeros);
     let values = 8 * (nonzeros + 2 * unknowns);
@@ -213,6 +242,7 @@ fn predict((unknowns, nonzeros): (usize, usize), tree: &AssemblyTree, stack_entr
         largest_front: tree.fronts.iter().map(|front| front.size()).max().unwrap_or(0),
         fronts: tree.fronts.len(),
         bytes: 8 * (tree.factor_len() + stack_entries) + indices + pattern_bytes + values,
+        symmetric,
     }
 }
 

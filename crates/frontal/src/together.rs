@@ -5,6 +5,7 @@ use crate::assembly_tree::Front;
 use crate::factor::Factor;
 use crate::panels::Panels;
 use crate::solve::Halves;
+use crate::stripes::{Stripe, Stripes};
 use crate::vector::{Number, subtract};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -68,13 +69,21 @@ impl<T: Number> Halves<'_, T> {
         let (Together { width, x, local }, panels) = (vectors, self.panels(front));
         let (width, m, p) = (*width, panels.m, panels.p);
         let top = &mut x[width * front.first..][..width * p];
-        for (k, pivot) in panels.pivots.iter().enumerate() {
-            exchange(top, width, k, pivot.row as usize);
+        if !panels.symmetric {
+            for (k, pivot) in panels.pivots.iter().enumerate() {
+                exchange(top, width, k, pivot.row as usize);
+            }
         }
-        lower(&panels, 0..p, top, width);
         let local = &mut local[..width * (m - p)];
         local.fill(T::round(0.0));
-        take(local, &Part::left(&panels, p..m, 0..p), top, width);
+        for stripe in front.left().iter() {
+            let block = Block::of(&panels, stripe);
+            let (own, later) = top[width * stripe.first..].split_at_mut(width * stripe.columns);
+            let (within, border) = block.below(p - stripe.first);
+            lower(block, 0..stripe.columns, own, width);
+            take(later, &within, own, width);
+            take(local, &border, own, width);
+        }
         for (local, &at) in local.chunks_exact(width).zip(self.factor.symbolic.tree.rows(front)) {
             row(x, width, at).iter_mut().zip(local).for_each(|(x, local)| *x += *local);
         }
@@ -84,22 +93,39 @@ impl<T: Number> Halves<'_, T> {
     fn backward_at(&self, front: &Front, vectors: &mut Together<T>) {
         let (Together { width, x, local }, panels) = (vectors, self.panels(front));
         let (width, m, p) = (*width, panels.m, panels.p);
-        let (border, product) = local[..width * m].split_at_mut(width * (m - p));
+        let border = &mut local[..width * (m - p)];
         for (local, &at) in border.chunks_exact_mut(width).zip(self.factor.symbolic.tree.rows(front)) {
             local.copy_from_slice(row(x, width, at));
         }
-        let right = match panels.symmetric {
-            true => Part { transposed: true, ..Part::left(&panels, p..m, 0..p) },
-            false => Part { entries: panels.right, leading: m - p, rows: 0..m - p, columns: 0..p, transposed: true },
-        };
-        product.fill(T::round(0.0));
-        take(product, &right, border, width);
         let top = &mut x[width * front.first..][..width * p];
-        for (k, (x, product)) in top.chunks_exact_mut(width).zip(product.chunks_exact(width)).enumerate() {
-            let factor = if panels.symmetric { panels.left[m * k + k] } else { T::round(1.0) };
-            x.iter_mut().zip(product).for_each(|(x, product)| *x += factor * *product);
+        if panels.symmetric {
+            return symmetric_upper((&panels, front.left()), (top, border), width);
         }
-        upper(&panels, 0..p, top, width);
+        let right = Part { entries: panels.right, leading: m - p, rows: 0..m - p, columns: 0..p, transposed: true };
+        take(top, &right, border, width);
+        upper(Block { entries: panels.left, leading: m }, 0..p, top, width);
+    }
+}
+
+/// `D [L11; L21]^T` upwards, from the last stripe to the first.
+fn symmetric_upper<T: Number>((panels, layout): (&Panels<T>, Stripes), (top, border): (&mut [T], &[T]), width: usize) {
+    for (k, x) in top.chunks_exact_mut(width).enumerate() {
+        let pivot = panels.from_diagonal(k)[0];
+        x.iter_mut().for_each(|x| *x /= pivot);
+    }
+    let last = panels.p.saturating_sub(1);
+    let mut stripe = layout.of(last);
+    loop {
+        let block = Block::of(panels, stripe);
+        let (own, later) = top[width * stripe.first..].split_at_mut(width * stripe.columns);
+        let (within, beyond) = block.below(panels.p - stripe.first);
+        take(own, &within.transposed(), later, width);
+        take(own, &beyond.transposed(), border, width);
+        lower_transposed(block, 0..stripe.columns, own, width);
+        if stripe.first == 0 {
+            return;
+        }
+        stripe = layout.of(stripe.first - 1);
     }
 }
 
@@ -120,9 +146,32 @@ struct Part<'a, T> {
     transposed: bool,
 }
 
-impl<'a, T: Number> Part<'a, T> {
-    fn left(panels: &Panels<'a, T>, rows: Range<usize>, columns: Range<usize>) -> Self {
-        Part { entries: panels.left, leading: panels.m, rows, columns, transposed: false }
+/// Columns of the factor, of which all rows from the first column on are there.
+#[derive(Clone, Copy)]
+struct Block<'a, T> {
+    entries: &'a [T],
+    leading: usize,
+}
+
+impl<'a, T: Number> Block<'a, T> {
+    fn of(panels: &Panels<'a, T>, stripe: Stripe) -> Self {
+        Block { entries: &panels.left[stripe.start..stripe.end()], leading: stripe.rows }
+    }
+
+    fn part(self, rows: Range<usize>, columns: Range<usize>) -> Part<'a, T> {
+        Part { entries: self.entries, leading: self.leading, rows, columns, transposed: false }
+    }
+
+    /// What is below the square, before row `border` and from there on.
+    fn below(self, border: usize) -> (Part<'a, T>, Part<'a, T>) {
+        let columns = self.entries.len() / self.leading.max(1);
+        (self.part(columns..border, 0..columns), self.part(border..self.leading, 0..columns))
+    }
+}
+
+impl<T: Number> Part<'_, T> {
+    fn transposed(self) -> Self {
+        Part { transposed: true, ..self }
     }
 
     fn column(&self, k: usize) -> &[T] {
@@ -161,26 +210,26 @@ fn take_small<T: Number>(y: &mut [T], part: &Part<T>, x: &[T], width: usize) {
 }
 
 /// `x <- L11^-1 x` for the pivots of a range, whose rows `x` holds.
-fn lower<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
+fn lower<T: Number>(block: Block<T>, range: Range<usize>, x: &mut [T], width: usize) {
     if range.len() <= NARROW {
         return Arch::new().dispatch(
             #[inline(always)]
-            || lower_narrow(panels, range, x, width),
+            || lower_narrow(block, range, x, width),
         );
     }
     let middle = range.start + range.len() / 2;
     let (first, second) = x.split_at_mut(width * (middle - range.start));
-    lower(panels, range.start..middle, first, width);
+    lower(block, range.start..middle, first, width);
     let (rows, columns) = (middle..range.end, range.start..middle);
-    take(second, &Part::left(panels, rows, columns), first, width);
-    lower(panels, middle..range.end, second, width);
+    take(second, &block.part(rows, columns), first, width);
+    lower(block, middle..range.end, second, width);
 }
 
 #[inline(always)]
-fn lower_narrow<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
+fn lower_narrow<T: Number>(block: Block<T>, range: Range<usize>, x: &mut [T], width: usize) {
     for (done, k) in range.clone().enumerate() {
         let (x, rest) = x.split_at_mut(width * (done + 1));
-        let factors = &panels.left[panels.m * k..][k + 1..range.end];
+        let factors = &block.entries[block.leading * k..][k + 1..range.end];
         for (row, &factor) in rest.chunks_exact_mut(width).zip(factors) {
             subtract(row, factor, &x[width * done..]);
         }
@@ -188,30 +237,57 @@ fn lower_narrow<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T],
 }
 
 /// `x <- U11^-1 x` for the pivots of a range, whose rows `x` holds.
-fn upper<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
+fn upper<T: Number>(block: Block<T>, range: Range<usize>, x: &mut [T], width: usize) {
     if range.len() <= NARROW {
         return Arch::new().dispatch(
             #[inline(always)]
-            || upper_narrow(panels, range, x, width),
+            || upper_narrow(block, range, x, width),
         );
     }
     let middle = range.start + range.len() / 2;
     let (first, second) = x.split_at_mut(width * (middle - range.start));
-    upper(panels, middle..range.end, second, width);
+    upper(block, middle..range.end, second, width);
     let (rows, columns) = (range.start..middle, middle..range.end);
-    take(first, &Part::left(panels, rows, columns), second, width);
-    upper(panels, range.start..middle, first, width);
+    take(first, &block.part(rows, columns), second, width);
+    upper(block, range.start..middle, first, width);
 }
 
 #[inline(always)]
-fn upper_narrow<T: Number>(panels: &Panels<T>, range: Range<usize>, x: &mut [T], width: usize) {
+fn upper_narrow<T: Number>(block: Block<T>, range: Range<usize>, x: &mut [T], width: usize) {
     for (above, k) in range.clone().enumerate().rev() {
-        let column = &panels.left[panels.m * k..][range.start..=k];
+        let column = &block.entries[block.leading * k..][range.start..=k];
         let (rest, x) = x.split_at_mut(width * above);
         let x = &mut x[..width];
         x.iter_mut().for_each(|x| *x /= column[above]);
         for (row, &factor) in rest.chunks_exact_mut(width).zip(column) {
             subtract(row, factor, x);
+        }
+    }
+}
+
+/// `x <- L11^-T x` for the pivots of a range, whose rows `x` holds.
+fn lower_transposed<T: Number>(block: Block<T>, range: Range<usize>, x: &mut [T], width: usize) {
+    if range.len() <= NARROW {
+        return Arch::new().dispatch(
+            #[inline(always)]
+            || lower_transposed_narrow(block, range, x, width),
+        );
+    }
+    let middle = range.start + range.len() / 2;
+    let (first, second) = x.split_at_mut(width * (middle - range.start));
+    lower_transposed(block, middle..range.end, second, width);
+    let (rows, columns) = (middle..range.end, range.start..middle);
+    take(first, &block.part(rows, columns).transposed(), second, width);
+    lower_transposed(block, range.start..middle, first, width);
+}
+
+#[inline(always)]
+fn lower_transposed_narrow<T: Number>(block: Block<T>, range: Range<usize>, x: &mut [T], width: usize) {
+    for (above, k) in range.clone().enumerate().rev() {
+        let factors = &block.entries[block.leading * k..][k + 1..range.end];
+        let (own, rest) = x[width * above..].split_at_mut(width);
+        for (row, &factor) in rest.chunks_exact(width).zip(factors) {
+            subtract(own, factor, row);
         }
     }
 }

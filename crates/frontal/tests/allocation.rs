@@ -30,13 +30,19 @@ static ALLOCATOR: Counting = Counting;
 fn the_second_factorisation_allocates_nothing() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     pool.install(|| {
-        for model in [models::quad4([8, 160]), models::hex8([10, 10, 10])] {
-            let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
-            let mut factor = symbolic.new_factor();
-            symbolic.factorise(&model.values, &mut factor).expect("a regular matrix");
-            let before = ALLOCATIONS.load(Ordering::Relaxed);
-            symbolic.factorise(&model.values, &mut factor).expect("a regular matrix");
-            assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0, "{}", model.name);
+        for mut model in [models::quad4([8, 160]), models::hex8([10, 10, 10])] {
+            for symmetric in [false, true] {
+                if symmetric {
+                    model.symmetrise();
+                }
+                let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
+                let symbolic = symbolic.for_values(symmetric).expect("the same pattern");
+                let mut factor = symbolic.new_factor();
+                symbolic.factorise(&model.values, &mut factor).expect("a regular matrix");
+                let before = ALLOCATIONS.load(Ordering::Relaxed);
+                symbolic.factorise(&model.values, &mut factor).expect("a regular matrix");
+                assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0, "{}", model.name);
+            }
         }
     });
 }

@@ -195,21 +195,27 @@ impl Page {
         if cost.flops > LASTING
             && let Ok(speed) = frontal::speed()
         {
+            let [seconds, half] = [cost, demand.symmetric].map(|cost| OF_A_TREE * cost.factorisation_work() / speed);
+            let threads = current_num_threads();
             let _ = write!(
                 line,
-                ", about {:.2e} s on {} threads",
-                OF_A_TREE * cost.factorisation_work() / speed,
-                current_num_threads()
+                ", about {seconds:.2e} s on {threads} threads, {half:.2e} s where the matrix is symmetric"
             );
         }
         self.line(line);
         let Some(room) = room else { return Ok(None) };
-        let need = (room.taken + demand.bytes) as f64 / 1e9;
-        self.line(format!("memory: about {need:.3} GB; {:.2} GB is {}", room.total as f64 / 1e9, room.source));
-        Ok(demand.check(&room).err().map(|error| {
-            Diagnostic::warning(error.to_string())
-                .help("fewer cells, or cells of first degree; symmetry where there is one")
-        }))
+        let [need, half] = [demand.bytes, demand.symmetric_bytes].map(|bytes| (room.taken + bytes) as f64 / 1e9);
+        self.line(format!(
+            "memory: about {need:.3} GB, {half:.3} GB where the matrix is symmetric; {:.2} GB is {}",
+            room.total as f64 / 1e9,
+            room.source
+        ));
+        let help = "fewer cells, or cells of first degree; symmetry where there is one";
+        let half =
+            "where all matrices are symmetric, as without friction, it fits; the run ends at the first that is not";
+        let tight = |error: Error| Diagnostic::warning(error.to_string()).help(half);
+        let short = demand.check(&room).err().map(|error| Diagnostic::warning(error.to_string()).help(help));
+        Ok(short.or_else(|| demand.check_unsymmetric(&room).err().map(tight)))
     }
 
     fn unsaid(&mut self, made: &Made) {

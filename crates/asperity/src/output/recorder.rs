@@ -68,7 +68,11 @@ impl Observer for Recorder<'_> {
         }
         self.witness.accepted(self.problem, state, attempt);
         let last = state.step > attempt.step;
-        self.results.accepted(&Source { parts: self.parts, state, step: attempt.step }, last)?;
+        let source = Source { parts: self.parts, state, step: attempt.step };
+        self.results.accepted(&source, last)?;
+        if let Some(turn) = &attempt.turn {
+            self.results.mode(&source, &turn.mode)?;
+        }
         let progress = &mut self.reporter.progress;
         (progress.beyond, progress.worst) = self.results.nearest_to_limits();
         self.reporter.write()?;

@@ -3,6 +3,7 @@
 //! | file | what |
 //! | --- | --- |
 //! | `bodies.pvd`, `points.pvd`, `contacts.pvd`, `tools.pvd` | frames: meshes, integration points, contact points, outlines |
+//! | `modes.pvd` | frames with the mode where stability was lost or found again |
 //! | `history.csv` | global quantities, a row an increment |
 //! | `certificate.csv` | readings for the certificate |
 //! | `summary.json` | how the run ended and its certificate |
@@ -22,7 +23,7 @@ use super::quantities::{Parts, Source};
 use super::quantity::Place;
 use super::readings::{READINGS, ReadingTable};
 use super::summary::{Status, Summary};
-use super::vtk::{Encoding, Series};
+use super::vtk::{DataArray, Encoding, Series, Values};
 use super::witness::certified;
 use crate::Error;
 use crate::diagnosis::{Course, Doubted, End, Facts, diagnose};
@@ -54,6 +55,8 @@ pub struct Results {
     input: InputHash,
     grid: BodyGrid,
     series: Vec<(Fields, Series)>,
+    /// Frames where stability was lost or found again, from the first such on.
+    modes: Option<Series>,
     history: HistoryTable,
     readings: ReadingTable,
     /// The worst figures so far.
@@ -82,6 +85,10 @@ enum Fields {
 pub const CHECKPOINT: &str = "run.checkpoint";
 /// Name of the summary in the result directory.
 pub const SUMMARY: &str = "summary.json";
+
+/// Name of the series of modes, and of its list.
+const MODES: &str = "modes";
+const MODES_LIST: &str = "modes.pvd";
 
 /// Name of the report in the result directory, which the command writes.
 pub const REPORT: &str = "report.html";
@@ -136,7 +143,7 @@ impl Results {
         make_directory(directory)?;
         sweep(directory)?;
         Request::clear(directory)?;
-        let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT].map(String::from);
+        let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT, MODES_LIST].map(String::from);
         remove(directory, late.into_iter().chain(pictures()))
     }
     /// Continues the results of a run from a checkpoint: what came after it is dropped.
@@ -157,6 +164,9 @@ impl Results {
         let (readings, certificate) = ReadingTable::resume(directory, state.increment)?;
         let mut results = Self::new((directory, options, input), parts, (series, history, readings))?;
         results.certificate = certificate;
+        if directory.join(MODES_LIST).exists() {
+            results.modes = Some(Series::resume(directory, MODES, options.encoding, state.time)?);
+        }
         if state.increment > 0 {
             results.summary.observe(&at.gather()?, parts.is_plane());
         }
@@ -188,6 +198,7 @@ impl Results {
             input,
             grid,
             series,
+            modes: None,
             history,
             readings,
             certificate,
@@ -226,6 +237,18 @@ impl Results {
         }
         self.spent += start.elapsed();
         Ok(())
+    }
+    /// Writes a frame of the bodies with a mode on all unknowns.
+    ///
+    /// # Errors
+    /// [`Error::File`] when it cannot be written.
+    pub fn mode(&mut self, source: &Source, mode: &[f64]) -> Result<(), Error> {
+        if self.modes.is_none() {
+            self.modes = Some(Series::create(&self.directory, MODES, self.options.encoding)?);
+        }
+        let mut grid = self.grid.at(&mut source.gather()?);
+        grid.point_data.push(DataArray::new("mode", 3, Values::Real(source.nodal_field(mode))));
+        self.modes.as_mut().map_or(Ok(()), |series| series.push(&grid))
     }
     /// Writes a checkpoint of an accepted state.
     ///
@@ -306,8 +329,9 @@ impl Results {
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
         let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
-        let tables = [HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
-            .map(String::from);
+        let tables =
+            [MODES_LIST, HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
+                .map(String::from);
         let all = frames.chain(tables).chain(pictures());
         all.filter(|name| self.directory.join(name).exists()).collect()
     }

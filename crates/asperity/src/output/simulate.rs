@@ -12,7 +12,7 @@ use crate::Error;
 use crate::diagnosis::Facts;
 use crate::mesh::Space;
 use crate::model::Model;
-use crate::solve::{Observer, Run, RunOptions, Stop};
+use crate::solve::{Observer, Run, RunOptions, Stop, Turn};
 use crate::system::State;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -227,12 +227,30 @@ fn facets(model: &Model, state: &State) -> Vec<String> {
     contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.u, &state.histories[*term])).collect()
 }
 
+/// Changes of stability that are told one by one.
+const TOLD: usize = 5;
+
+/// Where stability was lost or found again.
+fn turns(turns: &[Turn]) -> impl Iterator<Item = String> {
+    let more = turns.len().saturating_sub(TOLD);
+    let more = (more > 0).then(|| format!("{more} more changes of stability; the modes of all are in modes.pvd"));
+    let told = turns.iter().take(TOLD).map(|turn| {
+        let lost = turn.negative[1] > turn.negative[0];
+        let help =
+            "; a perfect shape stays on its path beyond it, a small imperfection along the mode (modes.pvd) leaves it";
+        format!("{turn}{}", if lost { help } else { "" })
+    });
+    told.chain(more)
+}
+
 /// What the run knows of its cost, and of promises that it bends.
 fn account(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
-    summary.factorisations = run.memory.factorisations;
+    (summary.factorisations, summary.symmetric_factorisations) = (run.memory.factorisations, run.memory.symmetric);
     summary.timings.insert("factorisation".into(), run.memory.factorising.as_secs_f64());
+    summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
+    summary.notes.extend(turns(&run.stability.turns));
     summary.timings.insert("audit".into(), run.audited.as_secs_f64());
     summary.notes.extend(run.problem.newton.notes());
     let cut = summary.attempts.saturating_sub(summary.increments);

@@ -69,6 +69,9 @@ pub struct Summary {
     /// Factorisations of the matrix since the run began or went on.
     #[serde(default)]
     pub factorisations: usize,
+    /// Those of them of symmetric matrices, as L D L^T instead of L U.
+    #[serde(default)]
+    pub symmetric_factorisations: usize,
     /// Total time reached.
     pub time: f64,
     /// Seconds by what they were spent on.
@@ -118,6 +121,7 @@ impl Summary {
             attempts: 0,
             iterations: 0,
             factorisations: 0,
+            symmetric_factorisations: 0,
             time: 0.0,
             timings: BTreeMap::new(),
             peak_memory: None,

@@ -16,10 +16,14 @@ pub struct Demand {
     pub unknowns: usize,
     /// Entries of its matrix.
     pub entries: usize,
-    /// What a factorisation takes.
+    /// What a factorisation takes of a matrix that is not symmetric,
     pub factorisation: Prediction,
-    /// Bytes that the run takes beyond those that the model holds already.
+    /// and of one that is.
+    pub symmetric: Prediction,
+    /// Bytes that the run takes beyond those that the model holds already where a matrix is not symmetric,
     pub bytes: u64,
+    /// and where all are.
+    pub symmetric_bytes: u64,
     /// Directions of the space, which say how the need grows with the number of unknowns.
     dimension: usize,
 }
@@ -55,15 +59,18 @@ impl Problem {
         drop(groups);
         let (unknowns, entries) = (graph.unknowns(), graph.nonzeros());
         let last = graph.rows_beyond(dense(unknowns));
-        let factorisation = Prediction::of_nodes(graph, &last, &Options::default(), rayon::current_num_threads())
+        let costs = Prediction::of_nodes(graph, &last, &Options::default(), rayon::current_num_threads())
             .map_err(|error| Error::input(format!("the equations cannot be solved: {error}")))?;
-        let policy = self.newton.factors.policy();
-        let bends = self.terms.iter().any(|term| term.bends()) && policy.affordable_iterations(&factorisation) > 0;
-        let bends = bends && self.dofs.per_node() == 3;
-        let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT } else { 0.0 };
-        let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
-        let bytes = factorisation.bytes as u64 + single(&policy, &factorisation) + beside as u64;
-        Ok(Demand { unknowns, entries, factorisation, bytes, dimension: self.dofs.per_node() })
+        let (policy, dimension) = (self.newton.factors.policy(), self.dofs.per_node());
+        let contact = self.terms.iter().any(|term| term.bends()) && dimension == 3;
+        let [bytes, symmetric_bytes] = costs.map(|cost| {
+            let bends = contact && policy.affordable_iterations(&cost) > 0;
+            let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT } else { 0.0 };
+            let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
+            cost.bytes as u64 + single(&policy, &cost) + beside as u64
+        });
+        let [factorisation, symmetric] = costs;
+        Ok(Demand { unknowns, entries, factorisation, symmetric, bytes, symmetric_bytes, dimension })
     }
 
     /// Whether the first step fits into the memory there is; of small models nothing is asked.
@@ -89,9 +96,9 @@ impl Problem {
     }
 }
 
-/// Bytes of the factor in single precision, where it preconditions.
+/// Bytes of the factor in single precision, where it preconditions, beyond those of the working memory that it takes the place of.
 pub(super) fn single(policy: &Policy, cost: &Prediction) -> u64 {
-    if policy.affordable_iterations(cost) > 0 { 4 * cost.factor_entries as u64 } else { 0 }
+    if policy.affordable_iterations(cost) > 0 { cost.single_bytes() as u64 } else { 0 }
 }
 
 /// The nodes of the free unknowns, and which of them couple.
@@ -108,20 +115,33 @@ fn graph(problem: &Problem, constraints: &Constraints, groups: &Couplings) -> No
 }
 
 impl Demand {
-    /// Whether it fits.
+    /// Whether it fits where all matrices are symmetric, which shows when they are there: one that is not and does not fit ends
+    /// the run then.
     ///
     /// # Errors
     /// [`Error::Input`] with the need and what would fit.
     pub fn check(&self, room: &Room) -> Result<(), Error> {
-        if self.bytes <= room.left() {
+        self.fits(self.symmetric_bytes, room)
+    }
+
+    /// Whether it fits where they are not.
+    ///
+    /// # Errors
+    /// As those of [`check`](Self::check).
+    pub fn check_unsymmetric(&self, room: &Room) -> Result<(), Error> {
+        self.fits(self.bytes, room)
+    }
+
+    fn fits(&self, bytes: u64, room: &Room) -> Result<(), Error> {
+        if bytes <= room.left() {
             return Ok(());
         }
-        let part = room.left() as f64 / self.bytes.max(1) as f64;
+        let part = room.left() as f64 / bytes.max(1) as f64;
         let fits = self.unknowns as f64 * part.powf(1.0 / GROWTH[self.dimension - 2]);
         let longer = (self.unknowns as f64 / fits.max(1.0)).powf(1.0 / self.dimension as f64);
         Err(Error::input(format!(
             "{}; about {} of its {} unknowns would fit, cells {longer:.1} times as long",
-            too_much(room.taken + self.bytes, room),
+            too_much(room.taken + bytes, room),
             rounded(fits),
             self.unknowns
         )))

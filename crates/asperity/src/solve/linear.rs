@@ -4,7 +4,7 @@ use super::demand::{single, too_much};
 use crate::machine::room;
 use crate::system::Csr;
 use crate::{Failure, Kind};
-use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Solver, Symbolic};
+use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Signs, Solver, Symbolic};
 use std::fmt;
 
 /// Why a linear system was not solved.
@@ -89,6 +89,14 @@ pub trait LinearSolver: Send {
     /// # Errors
     /// [`LinearError::Singular`] with the motion that meets no stiffness.
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError>;
+    /// What the signs of the pivots say of the matrix that was factorised last, where they are known.
+    fn signs(&self) -> Option<Signs> {
+        None
+    }
+    /// `x <- K^-1 x` with the factor there is, not refined; false where there is none.
+    fn substitute(&self, _x: &mut [f64]) -> bool {
+        false
+    }
     /// Replaces the right-hand side by the solution with the matrix that was factorised last.
     ///
     /// # Errors
@@ -167,10 +175,21 @@ impl Frontal {
         match room.filter(|room| needed > room.left() + self.held) {
             Some(room) => Err(LinearError::Memory(too_much(room.taken + needed - self.held, &room))),
             None => {
-                self.held = needed;
+                self.held = self.held.max(needed);
                 Ok(())
             }
         }
+    }
+    /// Makes room for a factor of values that are symmetric, or are not.
+    fn expect(&mut self, symmetric: bool) -> Result<(), LinearError> {
+        let solver = self.solver()?;
+        if solver.symbolic().prediction().symmetric == symmetric {
+            return Ok(());
+        }
+        let symbolic = solver.analysis(symmetric).map_err(translate)?;
+        self.check_memory(&symbolic)?;
+        self.solver()?.expect(symbolic);
+        Ok(())
     }
     /// What was done so far.
     pub fn counts(&self) -> frontal::Counts {
@@ -194,6 +213,9 @@ fn translate(error: frontal::Error) -> LinearError {
     }
 }
 
+/// Difference of mirrored values over the geometric mean of their diagonal entries up to which they are the same: thousands
+/// of roundings, and far less than any friction.
+const SYMMETRIC: f64 = 1e-12;
 /// Bytes of a factor of which no question is asked.
 const SMALL: u64 = 1 << 26;
 
@@ -214,6 +236,8 @@ impl LinearSolver for Frontal {
     fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
         let mut options = Options::default();
         options.last = dense_rows(pattern);
+        // What the values are shows when they come; nothing is touched before.
+        options.symmetric = self.solver.as_ref().is_none_or(|solver| solver.symbolic().prediction().symmetric);
         let pattern = Pattern::sharing(pattern.starts.clone(), pattern.columns.clone());
         let pattern = pattern.and_then(|pattern| pattern.with_nodes(nodes)).map_err(translate)?;
         if let Some(solver) = self.solver.as_mut().filter(|solver| *solver.symbolic().pattern() == pattern) {
@@ -237,8 +261,30 @@ impl LinearSolver for Frontal {
         solver.follow(Pattern::trusted(pattern.starts.clone(), pattern.columns.clone())).is_ok()
     }
 
+    /// As L D L^T where the values are symmetric, which they alone decide, so that what came before does not show.
     fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
-        self.solver()?.factorise(values).map(drop).map_err(translate)
+        let symmetric = self.solver()?.symbolic().pattern().is_symmetric(values, SYMMETRIC);
+        if !symmetric && values.iter().any(|value| !value.is_finite()) {
+            self.solver()?.refuse();
+            return Err(translate(frontal::Error::NotFinite { row: 0, column: 0 }));
+        }
+        self.expect(symmetric)?;
+        let factorised = match self.solver()?.factorise(values) {
+            Err(frontal::Error::Unstable) => {
+                self.expect(false)?;
+                self.solver()?.factorise(values)
+            }
+            factorised => factorised,
+        };
+        factorised.map(drop).map_err(translate)
+    }
+
+    fn signs(&self) -> Option<Signs> {
+        self.solver.as_ref().and_then(|solver| solver.factor().signs())
+    }
+
+    fn substitute(&self, x: &mut [f64]) -> bool {
+        self.solver.as_ref().is_some_and(|solver| solver.factor().apply_inverse(x).is_ok())
     }
 
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {

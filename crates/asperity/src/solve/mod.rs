@@ -20,6 +20,7 @@ mod relax;
 mod rigid;
 mod run;
 mod schedule;
+mod stability;
 mod step;
 mod trail;
 
@@ -31,3 +32,4 @@ pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
 pub use problem::Problem;
 pub use run::{Run, RunOptions, Stop};
 pub use schedule::{Course, Increments, Prescribed, SMALLEST, Step};
+pub use stability::{Stability, Turn};

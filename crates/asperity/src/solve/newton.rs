@@ -121,6 +121,8 @@ pub struct Memory {
     pub analyses: usize,
     /// Factorisations so far.
     pub factorisations: usize,
+    /// Those of matrices that are symmetric, as L D L^T.
+    pub symmetric: usize,
     /// Time that they took.
     pub factorising: Duration,
 }

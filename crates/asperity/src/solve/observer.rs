@@ -1,6 +1,6 @@
 //! What a run tells while it goes: the library prints nothing.
 
-use super::Worst;
+use super::{Turn, Worst};
 use crate::Kind;
 use crate::system::State;
 
@@ -56,6 +56,8 @@ pub struct AttemptRecord {
     pub failure: Option<String>,
     /// What of.
     pub kind: Kind,
+    /// Whether it went through a bifurcation or a limit point.
+    pub turn: Option<Turn>,
 }
 
 impl AttemptRecord {

@@ -67,6 +67,7 @@ impl Newton<'_> {
         self.solver.analyse(&matrix.pattern(), owners(&self.problem.dofs, &matrix.free))?;
         self.solver.factorise(&matrix.values)?;
         (memory.analyses, memory.factorisations) = (memory.analyses + 1, memory.factorisations + 1);
+        memory.symmetric += usize::from(self.solver.signs().is_some_and(|signs| signs.symmetric));
         memory.factorised = Some(matrix.clone());
         Ok(())
     }

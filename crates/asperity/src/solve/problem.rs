@@ -69,6 +69,9 @@ impl Problem {
         if state.step > self.steps.len() || !state.next_dt.is_finite() {
             return Err("this state stands outside the steps of the model".into());
         }
+        if !state.signs.iter().all(|signs| signs.step < self.steps.len() && signs.time <= state.time) {
+            return Err("the signs of this state belong to another model".into());
+        }
         if !state.preconditioner.iter().all(|held| held.fits(&self.dofs)) {
             return Err("the matrix of this state belongs to another model".into());
         }

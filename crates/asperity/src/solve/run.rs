@@ -6,6 +6,7 @@ use super::observer::{AttemptRecord, Observer};
 use super::problem::Problem;
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
+use super::stability::Stability;
 use crate::system::{Caution, Energies, Interpenetration, State};
 use crate::{Error, Failure, Kind};
 use std::time::{Duration, Instant};
@@ -36,6 +37,8 @@ pub struct Run<'a> {
     pub memory: Memory,
     /// Time that the audit took.
     pub audited: Duration,
+    /// Signs of the tangents so far.
+    pub stability: Stability,
     /// What was held still first that nothing held, in words, and when.
     pub first_held: Option<(String, f64)>,
     /// What the run failed of, if it did.
@@ -72,6 +75,7 @@ impl<'a> Run<'a> {
             state,
             memory: Memory::default(),
             audited: Duration::ZERO,
+            stability: Stability::default(),
             first_held: None,
             ended: Kind::Other,
             solver,
@@ -133,6 +137,10 @@ impl<'a> Run<'a> {
             let result = result.and_then(|converged| Ok((self.audit(&converged, !relaxing)?, converged)));
             match result {
                 Ok((found, converged)) => {
+                    if converged.held.is_empty() {
+                        let at = (self.problem, &mut self.state);
+                        record.turn = self.stability.look(at, &record, self.solver.as_ref());
+                    }
                     observer.attempt(&record);
                     self.state.caution = caution;
                     self.accept(step, (&record, wanted), converged);

@@ -111,6 +111,7 @@ impl Newton<'_> {
         let factorised = self.solver.factorise(&self.evaluation.values);
         self.memory.factorising += begun.elapsed();
         factorised?;
+        self.memory.symmetric += usize::from(self.solver.signs().is_some_and(|signs| signs.symmetric));
         self.hold_matrix();
         Ok(())
     }

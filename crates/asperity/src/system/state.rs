@@ -92,6 +92,19 @@ pub struct Caution {
     pub vain: bool,
 }
 
+/// Signs of the pivots of a tangent.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Signs {
+    /// Time of the state.
+    pub time: f64,
+    /// Step in which it was, from zero, which says the free unknowns.
+    pub step: usize,
+    /// Whether it was symmetric.
+    pub symmetric: bool,
+    /// Number of negative eigenvalues if it was; else one for a negative determinant, zero for a positive one.
+    pub negative: usize,
+}
+
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -142,6 +155,8 @@ pub struct State {
     pub held: usize,
     /// History of each term.
     pub histories: Vec<History>,
+    /// Signs of the pivots when they were last known.
+    pub signs: Option<Signs>,
     /// What the linear solver begins the next increment with, where that is not a matrix of its own.
     pub preconditioner: Option<Preconditioner>,
     /// Attempts and iterations spent so far.

@@ -9,6 +9,7 @@ mod crushed_ring;
 mod cup;
 mod dragged_ball;
 mod energy_balance;
+mod euler_columns;
 mod flat_punch;
 mod hertz_ball;
 mod hertz_cylinder;
@@ -57,6 +58,7 @@ pub const ALL: &[&Case] = &[
     &hertz_ball::CASE,
     &dragged_ball::CASE,
     &energy_balance::CASE,
+    &euler_columns::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
     &o_ring::CASE,

@@ -96,6 +96,10 @@ impl Source<'_> {
     fn displacement(&self, node: usize) -> [f64; 3] {
         self.nodal(&self.state.u, node)
     }
+    /// Components at all nodes of values on all unknowns, one after the other.
+    pub fn nodal_field(&self, values: &[f64]) -> Vec<f64> {
+        (0..self.parts.dofs.nodes()).flat_map(|node| self.nodal(values, node)).collect()
+    }
     /// Components at a node of values on all unknowns; the third is zero in the plane.
     fn nodal(&self, values: &[f64], node: usize) -> [f64; 3] {
         let (first, count) = (self.parts.dofs.node(node), self.parts.dofs.per_node());

@@ -1,0 +1,306 @@
+//! Models: from decks in files, text, dicts and arrays.
+
+use crate::arrays::{MeshArrays, plain, table};
+use crate::run::{Run, Wanted};
+use crate::state::Snapshot;
+use crate::trouble::{guarded, raised, refused, warn};
+use asperity::deck::{self, Diagnostics, Loaded, Made, Severity};
+use asperity::output::vtk::Cells;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What a deck is read from, as `asperity._deck` hands it over.
+#[derive(FromPyObject)]
+pub struct Given {
+    #[pyo3(item)]
+    pub text: Option<String>,
+    #[pyo3(item)]
+    pub path: PathBuf,
+    #[pyo3(item)]
+    pub folder: PathBuf,
+    #[pyo3(item)]
+    pub sets: Vec<String>,
+    #[pyo3(item)]
+    mesh: Option<MeshArrays>,
+}
+
+/// An input deck's translation, which goes into the result directory.
+pub struct Translated {
+    stem: String,
+    translation: inp::Translation,
+}
+
+/// A model, built and immutable.
+#[pyclass(frozen, module = "asperity")]
+pub struct Model {
+    pub made: Arc<Made>,
+    /// Whose results they are.
+    pub path: PathBuf,
+    pub translated: Option<Arc<Translated>>,
+}
+
+/// What is said of a model before it is solved.
+#[pyclass(frozen, module = "asperity", get_all)]
+pub struct Check {
+    /// A page for people.
+    text: String,
+    /// What looks wrong, rendered.
+    problems: Vec<String>,
+}
+
+/// Why a deck makes no model.
+enum Refusal {
+    Deck(Diagnostics),
+    Other(asperity::Error),
+}
+
+impl From<Diagnostics> for Refusal {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Deck(diagnostics)
+    }
+}
+
+impl From<asperity::Error> for Refusal {
+    fn from(error: asperity::Error) -> Self {
+        Self::Other(error)
+    }
+}
+
+impl Refusal {
+    fn raised(self, py: Python<'_>) -> PyErr {
+        match self {
+            Self::Deck(diagnostics) => refused(py, &diagnostics),
+            Self::Other(error) => raised(py, &error),
+        }
+    }
+}
+
+/// What is made of arguments in Python.
+pub fn given<'py>(
+    py: Python<'py>,
+    deck: &Bound<'py, PyAny>,
+    set: &Bound<'py, PyAny>,
+    folder: Option<PathBuf>,
+) -> PyResult<Given> {
+    let understood = py.import("asperity._deck")?.call_method1("understood", (deck, set, folder))?;
+    understood.extract()
+}
+
+fn is_input(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"))
+}
+
+fn translated(path: &Path, sets: &[String]) -> Result<(Loaded, Translated), Refusal> {
+    let stem = path.file_stem().map_or_else(|| "deck".into(), |stem| stem.to_string_lossy().into_owned());
+    let translation = inp::translate(path, &format!("{stem}.mesh.inp")).map_err(|errors| {
+        let list = errors.into_iter().map(deck::Diagnostic::error).collect();
+        Diagnostics { sources: vec![], list }
+    })?;
+    let translated = Translated { stem, translation };
+    let folder = tempfile::tempdir().map_err(|error| asperity::Error::write("a temporary folder", error))?;
+    translated.write_mesh(folder.path())?;
+    let name = format!("{} (translated)", path.display());
+    Ok((deck::read(&translated.translation.deck, &name, folder.path(), sets)?, translated))
+}
+
+impl Translated {
+    /// Writes deck and mesh into a result directory.
+    pub fn write(&self, directory: &Path) -> Result<(), asperity::Error> {
+        self.write_mesh(directory)?;
+        let path = directory.join(format!("{}.toml", self.stem));
+        std::fs::write(&path, &self.translation.deck).map_err(|error| asperity::Error::write(&path, error))
+    }
+    fn write_mesh(&self, folder: &Path) -> Result<(), asperity::Error> {
+        let path = folder.join(format!("{}.mesh.inp", self.stem));
+        std::fs::write(&path, &self.translation.mesh).map_err(|error| asperity::Error::write(&path, error))
+    }
+}
+
+fn built(given: &Given, mesh: Option<asperity::mesh::Mesh>) -> Result<(Made, Option<Translated>), Refusal> {
+    let (loaded, translated) = match &given.text {
+        None if is_input(&given.path) => {
+            translated(&given.path, &given.sets).map(|(loaded, text)| (loaded, Some(text)))?
+        }
+        None => (deck::load(&given.path, &given.sets)?, None),
+        Some(text) => {
+            let name = given.path.display().to_string();
+            (deck::read_with(text, &name, &given.folder, &given.sets, mesh)?, None)
+        }
+    };
+    let mut made = deck::build(loaded)?;
+    made.diagnostics.list = deck::warnings(&made);
+    if let Some(translated) = &translated {
+        made.diagnostics.list.extend(translated.translation.notes.iter().map(deck::Diagnostic::note));
+    }
+    Ok((made, translated))
+}
+
+#[pymethods]
+impl Model {
+    #[new]
+    #[pyo3(signature = (deck, *, set = None, folder = None))]
+    fn new(
+        py: Python<'_>,
+        deck: &Bound<'_, PyAny>,
+        set: Option<&Bound<'_, PyAny>>,
+        folder: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        let none = PyList::empty(py).into_any();
+        let mut given = given(py, deck, set.unwrap_or(&none), folder)?;
+        let mesh = given.mesh.take().map(MeshArrays::mesh).transpose()?;
+        let built = py.detach(|| guarded(|| rayon::scope(|_| built(&given, mesh))));
+        let (made, translated) = built.map_err(Refusal::from).flatten().map_err(|refusal| refusal.raised(py))?;
+        if made.diagnostics.list.iter().any(|message| message.severity != Severity::Note) {
+            warn(py, "DeckWarning", &made.diagnostics.render(false))?;
+        }
+        Ok(Self { made: Arc::new(made), path: given.path, translated: translated.map(Arc::new) })
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.made.model.title
+    }
+    #[getter]
+    fn space(&self) -> &str {
+        self.made.model.space.name()
+    }
+    #[getter]
+    fn unknowns(&self) -> usize {
+        self.made.model.problem.dofs.count()
+    }
+    #[getter]
+    fn steps(&self) -> Vec<&str> {
+        self.made.model.problem.steps.iter().map(|step| step.name.as_str()).collect()
+    }
+    #[getter]
+    fn bodies(&self) -> Vec<&str> {
+        use asperity::system::Term;
+        self.made.model.bodies.iter().map(|(body, _)| Term::name(body.as_ref())).collect()
+    }
+    #[getter]
+    fn contacts(&self) -> Vec<String> {
+        asperity::output::Parts::of(&self.made.model).contacts.into_iter().map(|(_, name, _)| name).collect()
+    }
+    #[getter]
+    fn tools(&self) -> Vec<String> {
+        let parts = asperity::output::Parts::of(&self.made.model);
+        parts.tool_names().into_iter().map(str::to_owned).collect()
+    }
+    /// Keys that the deck does not say, and what holds instead.
+    #[getter]
+    fn defaults(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let all: std::collections::BTreeMap<_, _> =
+            self.made.unsaid.iter().map(|unsaid| (&unsaid.path, &unsaid.instead)).collect();
+        plain(py, &all)
+    }
+    /// Positions of the nodes before any motion.
+    #[getter]
+    fn nodes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        table(py, self.made.model.mesh.points.iter().flat_map(|point| point.0), 3)
+    }
+    /// Nodes of the cells in VTK's order, by kind.
+    #[getter]
+    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let mesh = &self.made.model.mesh;
+        let all = Cells::of_mesh(mesh).map_err(|error| raised(py, &error))?;
+        let mut kinds: Vec<(&str, usize, Vec<i64>)> = Vec::new();
+        for (kind, cell) in mesh.kinds.iter().zip(all.iter()) {
+            let Some((_, nodes)) = cell else { continue };
+            match kinds.iter_mut().find(|(name, ..)| *name == kind.name) {
+                Some((_, _, list)) => list.extend_from_slice(nodes),
+                None => kinds.push((kind.name, nodes.len(), nodes.to_vec())),
+            }
+        }
+        let dict = PyDict::new(py);
+        for (name, width, list) in kinds {
+            dict.set_item(name, table(py, list, width)?)?;
+        }
+        Ok(dict)
+    }
+    /// Nodes of each group.
+    #[getter]
+    fn groups<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        for (name, group) in &self.made.model.mesh.groups {
+            dict.set_item(name, table(py, group.nodes.iter().map(|&node| node as i64), 1)?)?;
+        }
+        Ok(dict)
+    }
+    /// The text of the deck.
+    #[getter]
+    fn deck(&self) -> String {
+        self.made.asked().text
+    }
+
+    fn check(&self, py: Python<'_>) -> PyResult<Check> {
+        let made = &self.made;
+        let review = py.detach(|| guarded(|| rayon::scope(|_| deck::review(made))));
+        let review = review.and_then(|review| review).map_err(|error| raised(py, &error))?;
+        let one = |problem: &deck::Diagnostic| {
+            let sources = made.diagnostics.sources.clone();
+            Diagnostics { sources, list: vec![problem.clone()] }.render(false)
+        };
+        Ok(Check { text: review.text, problems: review.problems.iter().map(one).collect() })
+    }
+
+    /// The state before the first increment.
+    fn initial(&self) -> Snapshot {
+        Snapshot::new(self.made.clone(), self.made.model.problem.initial_state())
+    }
+
+    #[pyo3(signature = (out = None, *, start = None, restart = false, report = true, doubtful = "raise"))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        out: Option<PathBuf>,
+        start: Option<&Snapshot>,
+        restart: bool,
+        report: bool,
+        doubtful: &str,
+    ) -> PyResult<Run> {
+        let raises = Wanted::raises(doubtful)?;
+        if restart && (start.is_some() || out.is_none()) {
+            return Err(PyTypeError::new_err(
+                "a restart goes on from the checkpoint in `out`: give `out`, and no `start`",
+            ));
+        }
+        let start = start.map(|snapshot| snapshot.state.clone());
+        Run::begin(py, self, Wanted { out, start, restart, report, raises })
+    }
+
+    #[pyo3(signature = (out = None, *, start = None, restart = false, report = true, doubtful = "raise"))]
+    fn solve(
+        &self,
+        py: Python<'_>,
+        out: Option<PathBuf>,
+        start: Option<&Snapshot>,
+        restart: bool,
+        report: bool,
+        doubtful: &str,
+    ) -> PyResult<Run> {
+        let run = self.run(py, out, start, restart, report, doubtful)?;
+        run.complete(py)?;
+        Ok(run)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<asperity.Model '{}', {}, {} unknowns>", self.title(), self.space(), self.unknowns())
+    }
+}
+
+#[pymethods]
+impl Check {
+    #[getter]
+    fn ok(&self) -> bool {
+        self.problems.is_empty()
+    }
+    fn __str__(&self) -> String {
+        [std::slice::from_ref(&self.text), &self.problems].concat().join("\n")
+    }
+    fn __repr__(&self) -> String {
+        format!("<asperity.Check: {} problems>", self.problems.len())
+    }
+}

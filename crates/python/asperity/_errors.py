@@ -8,11 +8,12 @@ from typing import Any
 class AsperityError(Exception):
     """Anything that ends a model or a run.
 
-    ``summary`` is that of the run, as in ``summary.json``, and ``directory`` where its results are; both are ``None``
-    where there was no run or nothing was written.
+    ``summary`` is that of the run, as in ``summary.json``, ``state`` the last one it accepted, and ``directory`` where its
+    results are; ``None`` where there was no run or nothing was written.
     """
 
     summary: dict[str, Any] | None = None
+    state: Any = None
     directory: Any = None
 
 

@@ -33,7 +33,17 @@ pub struct Translated {
     translation: inp::Translation,
 }
 
-/// A model, built and immutable.
+/// A model, built from a deck; nothing changes it.
+///
+/// `deck` is a path (a deck, or an input deck of Abaqus or CalculiX, `.inp`), the text of a deck (a string with line breaks),
+/// or a dict of the same keys. A dict may hold its mesh in arrays: `{"mesh": {"nodes": (n, 2 or 3) array, "cells": {"quad8":
+/// (m, 8) array of node indices in VTK's order}, "groups": {"bore": array of nodes, "tube": {"cells": array}}}}`. A group of
+/// nodes has the outer edges or faces whose nodes are all in it.
+///
+/// `set` changes keys, as `--set` of the command does: a dict `{"step.push.increments.count": 20}` or a list of `"key=value"`.
+/// `folder` is where the files that a dict or a text names are looked for; the present one if not given.
+///
+/// Raises DeckError with all that is wrong; warns with DeckWarning.
 #[pyclass(frozen, module = "asperity")]
 pub struct Model {
     pub made: Arc<Made>,
@@ -159,31 +169,38 @@ impl Model {
         Ok(Self { made: Arc::new(made), path: given.path, translated: translated.map(Arc::new) })
     }
 
+    /// The deck's title.
     #[getter]
     fn title(&self) -> &str {
         &self.made.model.title
     }
+    /// What the coordinates mean: "axisymmetric", "plane-strain", "plane-stress", "solid".
     #[getter]
     fn space(&self) -> &str {
         self.made.model.space.name()
     }
+    /// Number of unknowns, prescribed ones included.
     #[getter]
     fn unknowns(&self) -> usize {
         self.made.model.problem.dofs.count()
     }
+    /// Names of the steps.
     #[getter]
     fn steps(&self) -> Vec<&str> {
         self.made.model.problem.steps.iter().map(|step| step.name.as_str()).collect()
     }
+    /// Names of the bodies.
     #[getter]
     fn bodies(&self) -> Vec<&str> {
         use asperity::system::Term;
         self.made.model.bodies.iter().map(|(body, _)| Term::name(body.as_ref())).collect()
     }
+    /// Names of the contacts.
     #[getter]
     fn contacts(&self) -> Vec<String> {
         asperity::output::Parts::of(&self.made.model).contacts.into_iter().map(|(_, name, _)| name).collect()
     }
+    /// Names of the rigid tools.
     #[getter]
     fn tools(&self) -> Vec<String> {
         let parts = asperity::output::Parts::of(&self.made.model);
@@ -196,12 +213,12 @@ impl Model {
             self.made.unsaid.iter().map(|unsaid| (&unsaid.path, &unsaid.instead)).collect();
         plain(py, &all)
     }
-    /// Positions of the nodes before any motion.
+    /// Positions of the nodes before any motion, (n, 3).
     #[getter]
     fn nodes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         table(py, self.made.model.mesh.points.iter().flat_map(|point| point.0), 3)
     }
-    /// Nodes of the cells in VTK's order, by kind.
+    /// Nodes of the cells in VTK's order, by kind of cell.
     #[getter]
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let mesh = &self.made.model.mesh;
@@ -229,12 +246,13 @@ impl Model {
         }
         Ok(dict)
     }
-    /// The text of the deck.
+    /// The text of the deck, as messages show it.
     #[getter]
     fn deck(&self) -> String {
         self.made.asked().text
     }
 
+    /// Everything that can be said before solving, as `asperity check` does.
     fn check(&self, py: Python<'_>) -> PyResult<Check> {
         let made = &self.made;
         let review = py.detach(|| guarded(|| rayon::scope(|_| deck::review(made))));
@@ -251,6 +269,12 @@ impl Model {
         Snapshot::new(self.made.clone(), self.made.model.problem.initial_state())
     }
 
+    /// A run of the model, which solves nothing until its increments are taken: `for state in model.run(): ...`.
+    ///
+    /// With `out` it leaves the result directory that the command leaves, with `report.html` unless `report` is false; without,
+    /// no file. It begins at the first increment, at `start` (a state, of this model or of one with the same mesh, bodies and
+    /// contacts), or with `restart` at the checkpoint in `out`. A run that ends with a figure beyond its limit raises
+    /// DoubtfulResult, or warns with `doubtful = "warn"`.
     #[pyo3(signature = (out = None, *, start = None, restart = false, report = true, doubtful = "raise"))]
     fn run(
         &self,
@@ -271,6 +295,7 @@ impl Model {
         Run::begin(py, self, Wanted { out, start, restart, report, raises })
     }
 
+    /// Runs to the end; the finished run has state, history and summary. Arguments as of `run`.
     #[pyo3(signature = (out = None, *, start = None, restart = false, report = true, doubtful = "raise"))]
     fn solve(
         &self,
@@ -293,6 +318,7 @@ impl Model {
 
 #[pymethods]
 impl Check {
+    /// Whether nothing looks wrong.
     #[getter]
     fn ok(&self) -> bool {
         self.problems.is_empty()

@@ -9,7 +9,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::path::PathBuf;
 
-/// Drives every law of a deck along its path: for each its columns.
+/// Drives every law of a point's deck along its path, as `asperity point` does: of each law its columns as arrays.
+///
+/// `deck`, `set` and `folder` as of `Model`. Raises ConvergenceError where a path cannot be followed; its `records` hold what was
+/// reached.
 #[pyfunction]
 #[pyo3(signature = (deck, *, set = None, folder = None))]
 pub fn point<'py>(

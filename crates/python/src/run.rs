@@ -31,7 +31,11 @@ pub struct Wanted {
     pub raises: bool,
 }
 
-/// A run of a model.
+/// A run of a model. Iterating takes its increments: each gives the State it led to.
+///
+/// While an increment is solved other threads of Python go on. Ctrl-C ends the run after the increment, with a checkpoint
+/// where results are written. A loop that is left early can be taken up again; `with model.run() as run:` ends the run at
+/// the end of the block, whatever happens in it.
 #[pyclass(frozen, module = "asperity")]
 pub struct Run {
     made: Arc<Made>,
@@ -45,6 +49,7 @@ pub struct Increments {
 }
 
 struct Inner {
+    made: Arc<Made>,
     /// None when the run has ended.
     course: Option<Course>,
     /// The right to write into the directory.
@@ -124,6 +129,7 @@ impl Run {
         };
         let begun = py.detach(|| guarded(|| rayon::scope(|_| begin())));
         let mut inner = Inner {
+            made: made.clone(),
             course: None,
             claim: None,
             out: wanted.out.clone(),
@@ -164,13 +170,6 @@ impl Run {
         }
     }
 
-    fn snapshot(&self, inner: &Inner) -> Snapshot {
-        match &inner.record {
-            Some(record) => Snapshot::after(self.made.clone(), inner.state.clone(), record),
-            None => Snapshot::new(self.made.clone(), State::clone(&inner.state)),
-        }
-    }
-
     /// The next increment; none when the run has come to its end. Interrupts end the run after the increment.
     fn next(&self, py: Python<'_>) -> PyResult<Option<Snapshot>> {
         let mut inner = self.inner()?;
@@ -187,7 +186,7 @@ impl Run {
             return Err(interrupt);
         }
         match advanced {
-            Ok(true) => Ok(Some(self.snapshot(&inner))),
+            Ok(true) => Ok(Some(inner.snapshot())),
             Ok(false) => inner.end(py, Ok(()), true).map(|()| None),
             Err(error) => inner.end(py, Err(error), true).map(|()| None),
         }
@@ -201,6 +200,13 @@ impl Run {
 }
 
 impl Inner {
+    fn snapshot(&self) -> Snapshot {
+        match &self.record {
+            Some(record) => Snapshot::after(self.made.clone(), self.state.clone(), record),
+            None => Snapshot::new(self.made.clone(), State::clone(&self.state)),
+        }
+    }
+
     /// Solves an increment; false when there is none left.
     fn advance(&mut self) -> Result<bool, Error> {
         let Some(course) = &mut self.course else { return Ok(false) };
@@ -253,9 +259,10 @@ impl Inner {
             Err(other) => other,
         }
     }
-    fn attributes(&self, py: Python<'_>, summary: &Summary) -> PyResult<[(&'static str, Py<PyAny>); 2]> {
+    fn attributes(&self, py: Python<'_>, summary: &Summary) -> PyResult<[(&'static str, Py<PyAny>); 3]> {
         let directory = self.out.clone().into_pyobject(py)?.unbind();
-        Ok([("summary", plain(py, summary)?), ("directory", directory)])
+        let state = Py::new(py, self.snapshot())?.into_any();
+        Ok([("summary", plain(py, summary)?), ("directory", directory), ("state", state)])
     }
 
     fn doubt(&self, py: Python<'_>, summary: &Summary) -> PyResult<()> {
@@ -319,12 +326,12 @@ impl Run {
         self.close(py)
     }
 
-    /// Solves the next increment.
+    /// Solves the next increment and returns the state it led to; None at the end of the run.
     #[pyo3(name = "advance")]
     fn next_state(&self, py: Python<'_>) -> PyResult<Option<Snapshot>> {
         self.next(py)
     }
-    /// Solves all increments that are left.
+    /// Solves all increments that are left and returns the run.
     #[pyo3(name = "complete")]
     fn complete_all(own: PyRef<'_, Self>, py: Python<'_>) -> PyResult<Py<Self>> {
         own.complete(py)?;
@@ -334,6 +341,7 @@ impl Run {
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.inner()?.end(py, Err(Error::Stopped), false)
     }
+    /// Writes a checkpoint now, where results are written.
     fn checkpoint(&self, py: Python<'_>) -> PyResult<()> {
         let inner = self.inner()?;
         let Some(course) = &inner.course else { return Ok(()) };
@@ -343,17 +351,19 @@ impl Run {
     /// The last accepted state.
     #[getter]
     fn state(&self) -> PyResult<Snapshot> {
-        Ok(self.snapshot(&*self.inner()?))
+        Ok(self.inner()?.snapshot())
     }
+    /// Whether the run has ended.
     #[getter]
     fn done(&self) -> PyResult<bool> {
         Ok(self.inner()?.course.is_none())
     }
+    /// The result directory; None where nothing is written.
     #[getter]
     fn directory(&self) -> PyResult<Option<PathBuf>> {
         Ok(self.inner()?.out.clone())
     }
-    /// How the run stands or ended, as in `summary.json`.
+    /// How the run stands or ended, as in `summary.json`: status, certificate, diagnosis, notes, timings.
     #[getter]
     fn summary(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let inner = self.inner()?;
@@ -367,12 +377,14 @@ impl Run {
             (None, None) => Ok(py.None()),
         }
     }
+    /// How it stands in a word: "running", "converged", "doubtful", "not-converged", "stopped".
     #[getter]
     fn status(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         self.summary(py)?.bind(py).get_item("status").map(Bound::unbind)
     }
 
-    /// A row an accepted increment, a column a global quantity.
+    /// A row an accepted increment, a column a global quantity, as in `history.csv`: a DataFrame where pandas is installed, else a
+    /// dict of arrays; `frame` insists on the one or the other. Of a restart, the increments since.
     #[pyo3(signature = (*, frame = None))]
     fn history<'py>(&self, py: Python<'py>, frame: Option<bool>) -> PyResult<Bound<'py, PyAny>> {
         let inner = self.inner()?;
@@ -387,7 +399,7 @@ impl Run {
         py.import("asperity._grid")?.call_method1("frame", (dict, frame))
     }
 
-    /// Another run from the last accepted state; this one is not touched.
+    /// Another run from the last accepted state, as `State.fork`; this one is not touched.
     #[pyo3(signature = (out = None, *, model = None, report = true, doubtful = "raise"))]
     fn fork(
         &self,

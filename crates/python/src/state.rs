@@ -21,7 +21,7 @@ use std::sync::{Arc, OnceLock};
 const PLACES: [(&str, Place); 4] =
     [("node", Place::Node), ("cell", Place::Cell), ("gauss", Place::Gauss), ("contact", Place::Contact)];
 
-/// An accepted state of a model; nothing changes it.
+/// An accepted state of a model, with all that is reported of it; nothing changes it.
 #[pyclass(frozen, name = "State", module = "asperity")]
 pub struct Snapshot {
     made: Arc<Made>,
@@ -102,36 +102,43 @@ fn missing(what: &str, name: &str, all: &[&str]) -> PyErr {
 
 #[pymethods]
 impl Snapshot {
+    /// Accepted increments so far, over all steps.
     #[getter]
     fn increment(&self) -> usize {
         self.state.increment
     }
+    /// Time since the start.
     #[getter]
     fn time(&self) -> f64 {
         self.state.time
     }
+    /// Name of the step that led to it.
     #[getter]
     fn step(&self) -> &str {
         self.made.model.problem.steps.get(self.step).map_or("", |step| step.name.as_str())
     }
+    /// Length of the increment that led to it; zero where none is known.
     #[getter]
     fn dt(&self) -> f64 {
         self.found.dt
     }
+    /// Newton iterations of that increment.
     #[getter]
     fn iterations(&self) -> usize {
         self.found.iterations
     }
+    /// Attempts at it that were cut.
     #[getter]
     fn cuts(&self) -> usize {
         self.found.attempts.saturating_sub(1)
     }
+    /// Whether it was found by relaxation, beyond an instability.
     #[getter]
     fn relaxed(&self) -> bool {
         self.found.relaxed
     }
 
-    /// Names of the fields by place.
+    /// Names of the fields, by place: "node", "cell", "gauss" (integration points of bodies), "contact".
     #[getter]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let frame = self.frame(py)?;
@@ -142,6 +149,9 @@ impl Snapshot {
         Ok(dict)
     }
 
+    /// A field by its name in the result files, one row a place: three columns of a vector, six of a stress (XX YY ZZ XY YZ XZ).
+    ///
+    /// `at` is its place; if not given, the first of node, cell, gauss, contact that has the name.
     #[pyo3(signature = (name, at = None))]
     fn field<'py>(&self, py: Python<'py>, name: &str, at: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
         let frame = self.frame(py)?;
@@ -155,10 +165,12 @@ impl Snapshot {
         })?;
         values(py, quantity)
     }
+    /// Displacements of the nodes, (n, 3).
     #[getter]
     fn displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.field(py, "displacement", Some("node"))
     }
+    /// Cauchy stress at the integration points, (m, 6): XX YY ZZ XY YZ XZ.
     #[getter]
     fn stress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.field(py, "cauchy_stress", Some("gauss"))
@@ -174,6 +186,7 @@ impl Snapshot {
         }
         Ok(dict)
     }
+    /// The force that holds each group that is held or moved, (3,) each; in axial symmetry of the full circumference.
     #[getter]
     fn reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
@@ -182,6 +195,7 @@ impl Snapshot {
         }
         Ok(dict)
     }
+    /// Of each rigid tool its translation, rotation, and the force and moment that hold it.
     #[getter]
     fn tools<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (frame, dict) = (self.frame(py)?, PyDict::new(py));
@@ -195,7 +209,10 @@ impl Snapshot {
         Ok(dict)
     }
 
-    /// What one contact carries at its points, or at its nodes where its stress is a field of nodal values.
+    /// What a contact carries at its points, or at the nodes of its surface where its stress is a field of nodal values:
+    /// position, normal, traction, force (n, 3); pressure, shear, gap, slip, slip_path, area, status (n,).
+    ///
+    /// Gaps are negative where it penetrates, and not a number where nothing is near; status is 0 open, 1 stick, 2 slip.
     #[pyo3(signature = (name))]
     fn contact<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
         let parts = Parts::of(&self.made.model);
@@ -230,6 +247,8 @@ impl Snapshot {
         Ok(dict)
     }
 
+    /// A grid of PyVista with all fields: "bodies", "points", "contacts" or "tools", undeformed; `warp_by_vector("displacement")`
+    /// moves it.
     #[pyo3(signature = (kind = "bodies"))]
     fn grid<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
         let mut frame = self.frame(py)?.clone();
@@ -248,6 +267,7 @@ impl Snapshot {
         py.import("asperity._grid")?.call_method1("unstructured", (grid(py, made)?,))
     }
 
+    /// A run from this state on, of its own model or of another with the same mesh, bodies and contacts.
     #[pyo3(signature = (out = None, *, model = None, report = true, doubtful = "raise"))]
     fn fork(
         &self,
@@ -262,6 +282,7 @@ impl Snapshot {
         let wanted = Wanted { out, start: Some(self.state.clone()), restart: false, report, raises };
         Run::begin(py, model.unwrap_or(&own), wanted)
     }
+    /// A copy that shares nothing.
     fn copy(&self) -> Self {
         let (made, state) = (self.made.clone(), Arc::new(State::clone(&self.state)));
         Self { made, state, step: self.step, found: self.found, frame: OnceLock::new() }

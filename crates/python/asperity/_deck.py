@@ -127,7 +127,7 @@ def _group(group: Any, name: str) -> tuple[list[int], list[int]]:
     unknown = set(group) - {"nodes", "cells"}
     if unknown:
         raise DeckError(f"{name}: there is no {sorted(map(str, unknown))[0]!r}; a group has `nodes` and `cells`")
-    return tuple(_whole(group.get(key, []), 1, f"{name}['{key}']") for key in ("nodes", "cells"))  # type: ignore
+    return _whole(group.get("nodes", []), 1, f"{name}['nodes']"), _whole(group.get("cells", []), 1, f"{name}['cells']")
 
 
 def _whole(values: Any, dimensions: int, name: str) -> Any:

@@ -2,7 +2,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Literal
+from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,12 @@ _Floats = NDArray[np.float64]
 _Place = Literal["node", "cell", "gauss", "contact"]
 _Doubtful = Literal["raise", "warn"]
 
+__all__: list[str]
 __version__: str
 
+@final
 class Model:
-    def __init__(self, deck: _Deck, *, set: _Set | None = None, folder: _Path | None = None) -> None: ...
+    def __new__(cls, deck: _Deck, *, set: _Set | None = None, folder: _Path | None = None) -> Model: ...
     @property
     def title(self) -> str: ...
     @property
@@ -63,6 +65,7 @@ class Model:
         doubtful: _Doubtful = "raise",
     ) -> Run: ...
 
+@final
 class Check:
     @property
     def text(self) -> str: ...
@@ -71,6 +74,7 @@ class Check:
     @property
     def ok(self) -> bool: ...
 
+@final
 class Run:
     def __iter__(self) -> Iterator[State]: ...
     def __enter__(self) -> Run: ...
@@ -101,6 +105,7 @@ class Run:
         doubtful: _Doubtful = "raise",
     ) -> Run: ...
 
+@final
 class State:
     @property
     def increment(self) -> int: ...

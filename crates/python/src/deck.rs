@@ -160,7 +160,8 @@ impl Model {
     ) -> PyResult<Self> {
         let none = PyList::empty(py).into_any();
         let mut given = given(py, deck, set.unwrap_or(&none), folder)?;
-        let mesh = given.mesh.take().map(MeshArrays::mesh).transpose()?;
+        let mesh = given.mesh.take().map(|arrays| guarded(|| arrays.mesh()).map_err(|error| raised(py, &error)));
+        let mesh = mesh.transpose()?.transpose()?;
         let built = py.detach(|| guarded(|| rayon::scope(|_| built(&given, mesh))));
         let (made, translated) = built.map_err(Refusal::from).flatten().map_err(|refusal| refusal.raised(py))?;
         if made.diagnostics.list.iter().any(|message| message.severity != Severity::Note) {

@@ -266,9 +266,12 @@ impl Inner {
     }
 
     fn doubt(&self, py: Python<'_>, summary: &Summary) -> PyResult<()> {
-        let lines = summary.notes.iter().filter(|note| note.starts_with("doubtful")).map(String::as_str);
-        let found = summary.diagnosis.iter().map(|finding| finding.what.as_str());
-        let text = lines.chain(found).collect::<Vec<_>>().join("\n");
+        let mut lines: Vec<&str> =
+            summary.notes.iter().filter(|note| note.starts_with("doubtful")).map(String::as_str).collect();
+        if lines.is_empty() {
+            lines = summary.diagnosis.iter().map(|finding| finding.what.as_str()).collect();
+        }
+        let text = lines.join("\n");
         if self.raises {
             return Err(exception(py, "DoubtfulResult", &text, &self.attributes(py, summary)?));
         }

@@ -220,8 +220,8 @@ impl Snapshot {
         let (term, _, contact) = found.ok_or_else(|| {
             missing("contact", name, &parts.contacts.iter().map(|(_, own, _)| own.as_str()).collect::<Vec<_>>())
         })?;
-        let records = self.state.histories.get(*term).map(|history| contact.records(&self.state.u, history));
-        let records = records.unwrap_or_default();
+        let read = || self.state.histories.get(*term).map(|history| contact.records(&self.state.u, history));
+        let records = guarded(read).map_err(|error| raised(py, &error))?.unwrap_or_default();
         let dict = PyDict::new(py);
         let vectors: [(&str, fn(&PointRecord) -> [f64; 3]); 4] = [
             ("position", |r| r.position.0),
@@ -253,17 +253,18 @@ impl Snapshot {
     fn grid<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
         let mut frame = self.frame(py)?.clone();
         let parts = Parts::of(&self.made.model);
-        let made = match kind {
-            "bodies" => BodyGrid::new(parts.mesh).map_err(|error| raised(py, &error))?.at(&mut frame),
-            "points" => cloud(&mut frame, Place::Gauss),
-            "contacts" => cloud(&mut frame, Place::Contact),
-            "tools" => tool_outlines(&self.source(&parts), &frame),
-            other => {
-                let what =
-                    format!("there is no grid \"{other}\"; there are \"bodies\", \"points\", \"contacts\", \"tools\"");
-                return Err(PyValueError::new_err(what));
-            }
+        let read = || match kind {
+            "bodies" => BodyGrid::new(parts.mesh).map(|grid| Some(grid.at(&mut frame))),
+            "points" => Ok(Some(cloud(&mut frame, Place::Gauss))),
+            "contacts" => Ok(Some(cloud(&mut frame, Place::Contact))),
+            "tools" => Ok(Some(tool_outlines(&self.source(&parts), &frame))),
+            _ => Ok(None),
         };
+        let made = guarded(read).and_then(|made| made).map_err(|error| raised(py, &error))?;
+        let made = made.ok_or_else(|| {
+            let all = "\"bodies\", \"points\", \"contacts\", \"tools\"";
+            PyValueError::new_err(format!("there is no grid \"{kind}\"; there are {all}"))
+        })?;
         py.import("asperity._grid")?.call_method1("unstructured", (grid(py, made)?,))
     }
 

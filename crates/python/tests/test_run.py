@@ -8,10 +8,11 @@ import signal
 import sys
 import threading
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import SMALL, TUBE
+from conftest import ROOT, SMALL, TUBE
 
 import asperity
 
@@ -236,7 +237,7 @@ def test_a_hundred_runs_in_one_process_do_not_grow():
 
 
 def test_every_name_has_a_stub_and_words():
-    stubs = (__import__("pathlib").Path(asperity.__file__).parent / "_native.pyi").read_text()
+    stubs = (Path(asperity.__file__).parent / "_native.pyi").read_text()
     for kind in (asperity.Model, asperity.Check, asperity.Run, asperity.State):
         assert f"class {kind.__name__}:" in stubs and kind.__doc__
         for name in vars(kind):
@@ -244,3 +245,21 @@ def test_every_name_has_a_stub_and_words():
                 assert f"def {name}(" in stubs, f"{kind.__name__}.{name}"
                 assert getattr(kind, name).__doc__ or kind is asperity.Check, f"{kind.__name__}.{name}"
     assert "def point(" in stubs and asperity.point.__doc__
+
+
+def test_the_manual_names_all_there_is():
+    page = (ROOT / "book/src/python.md").read_text(encoding="utf-8")
+    names = set(asperity.__all__) - {"__version__"}
+    for kind in (asperity.Model, asperity.Run, asperity.State, asperity.Check):
+        names |= {name for name in vars(kind) if not name.startswith("_")}
+    missing = [name for name in sorted(names) if f"`{name}`" not in page and f"`{name}(" not in page and f".{name}(" not in page]
+    assert not missing
+
+
+def test_the_first_script_of_the_manual_runs(monkeypatch, capsys):
+    monkeypatch.chdir(ROOT)
+    page = (ROOT / "book/src/python.md").read_text(encoding="utf-8")
+    script = page.split("## The first script")[1].split("```python\n")[1].split("```")[0]
+    exec(compile(script, "python.md", "exec"), {})
+    said = capsys.readouterr().out
+    assert "contact bore" in said and said.count("iterations\n") == 50

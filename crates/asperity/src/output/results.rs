@@ -9,8 +9,8 @@
 //! | `run.checkpoint` | the last checkpoint |
 //! | `status.json` | where the run stands, while it goes |
 
-use super::asked::ASKED;
 use super::account::Account;
+use super::asked::ASKED;
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
@@ -269,7 +269,7 @@ fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
 #[cfg(test)]
 mod tests {
     use super::super::fixture::Fixture;
-    use super::super::summary::Summary;
+    use super::super::summary::{Status, Summary};
     use super::super::vtk::{read_grid, read_series};
     use super::*;
     use crate::mesh::Space;

@@ -2,8 +2,11 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | `deck` | a deck from a file, a dict, arrays; the model that it makes |
+//! | `read` | a deck from a file, text, a dict, arrays |
+//! | `model` | the model that it makes |
 //! | `run` | a run, increment by increment |
+//! | `work` | what a run does |
+//! | `course` | a run of the library, held with its model |
 //! | `state` | an accepted state and its fields |
 //! | `arrays` | numbers to NumPy and back |
 //! | `point` | one driven point |
@@ -14,11 +17,13 @@
 
 mod arrays;
 mod course;
-mod deck;
+mod model;
 mod point;
+mod read;
 mod run;
 mod state;
 mod trouble;
+mod work;
 
 use pyo3::prelude::*;
 
@@ -26,8 +31,8 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<deck::Model>()?;
-    module.add_class::<deck::Check>()?;
+    module.add_class::<model::Model>()?;
+    module.add_class::<model::Check>()?;
     module.add_class::<run::Run>()?;
     module.add_class::<state::Snapshot>()?;
     module.add_function(wrap_pyfunction!(point::point, module)?)

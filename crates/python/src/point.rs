@@ -1,7 +1,7 @@
 //! One point of a law, driven along a path.
 
 use crate::arrays::table;
-use crate::deck::given;
+use crate::read::given;
 use crate::trouble::{guarded, raised, raised_with, refused};
 use asperity::deck;
 use asperity::point::Record;

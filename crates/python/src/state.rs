@@ -1,9 +1,10 @@
 //! An accepted state and what is reported of it, as arrays.
 
 use crate::arrays::{grid, table, values};
-use crate::deck::Model;
-use crate::run::{Run, Wanted};
+use crate::model::Model;
+use crate::run::Run;
 use crate::trouble::{guarded, raised};
+use crate::work::Wanted;
 use asperity::Error;
 use asperity::contact::PointRecord;
 use asperity::deck::Made;

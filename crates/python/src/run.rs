@@ -5,7 +5,7 @@ use crate::course::{Course, Nothing};
 use crate::model::Model;
 use crate::state::Snapshot;
 use crate::trouble::{guarded, raised};
-use crate::work::{Inner, Wanted, claimed};
+use crate::work::{Inner, Wanted, claimed, kept};
 use asperity::Error;
 use asperity::deck::{self, Made};
 use asperity::diagnosis::Facts;
@@ -79,10 +79,14 @@ impl Run {
             }
             Err(Nothing::Ended(ended)) => {
                 let (summary, ended) = *ended;
+                inner.state = Arc::new(made.model.problem.initial_state());
                 if let Err(error) = ended {
                     return Err(inner.failure(py, &error, &summary));
                 }
-                inner.state = Arc::new(made.model.problem.initial_state());
+                // Only the checkpoint of a finished run ends a run before it begins.
+                if let Some(out) = &wanted.out {
+                    inner.state = Arc::new(kept(&made, out).map_err(|error| raised(py, &error))?);
+                }
                 inner.summary = Some(summary);
             }
             Err(Nothing::Error(error)) => return Err(raised(py, &error)),

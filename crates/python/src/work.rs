@@ -8,7 +8,7 @@ use crate::trouble::{exception, guarded, raised, raised_with, warn};
 use asperity::Error;
 use asperity::deck::Made;
 use asperity::diagnosis::Facts;
-use asperity::output::{ASKED, Claim, Job, Others, Start, Status, Summary};
+use asperity::output::{ASKED, Claim, Job, Others, Start, Status, Summary, checkpoint};
 use asperity::solve::{AttemptRecord, Silent};
 use asperity::system::State;
 use pyo3::exceptions::PyValueError;
@@ -85,6 +85,11 @@ pub fn claimed(model: &Model, wanted: &Wanted, out: &Path) -> Result<Claim, Erro
         model.made.asked().write(out)?;
     }
     Ok(claim)
+}
+
+/// The state in the checkpoint of a result directory.
+pub fn kept(made: &Made, out: &Path) -> Result<State, Error> {
+    checkpoint::load(&Job::checkpoint_in(out)?, &made.input).map(|(_, state)| state)
 }
 
 impl Inner {

@@ -103,6 +103,10 @@ def test_a_loop_that_is_left_can_be_taken_up_and_a_run_that_is_let_go_is_stopped
     again = tube.solve(out, restart=True)
     assert again.history(frame=False)["increment"][0] == 5
     assert np.array_equal(again.state.displacement, whole.displacement)
+    finished = tube.solve(out, restart=True)
+    assert finished.done and finished.status == "converged" and len(finished.history(frame=False)["time"]) == 0
+    assert np.array_equal(finished.state.displacement, whole.displacement)
+    assert finished.fork().complete().state.increment == 10, "there is nothing left"
 
 
 def test_a_block_ends_its_run(tube, tmp_path):
@@ -221,6 +225,7 @@ def resident():
         return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
+@pytest.mark.filterwarnings("ignore::asperity.DoubtfulWarning")
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
 def test_a_hundred_runs_in_one_process_do_not_grow():
     small = {"step.push.increments.count": 4, "mesh.part.tube.rectangle.cells": [1, 12]}

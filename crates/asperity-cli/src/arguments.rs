@@ -123,6 +123,10 @@ pub struct Figure {
     /// length), `cauchy_stress_averaged.xy`.
     #[arg(long, value_name = "NAME")]
     pub quantity: Option<String>,
+    /// Draw a film of this quantity, or of the equivalent stress, as an animated PNG: all written frames, 100 at most, or
+    /// those of `--at`.
+    #[arg(long)]
+    pub film: bool,
 }
 
 /// Arguments of `check`.

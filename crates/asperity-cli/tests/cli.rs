@@ -80,6 +80,11 @@ fn a_run_converges_and_leaves_its_files() {
         let refused = chosen(quantity);
         assert!(code(&refused) == 2 && error(&refused).contains(words), "{quantity}: {}", error(&refused));
     }
+    let film = asperity(folder.path(), &["figure", "block.results", "--film", "--resolution", "0.5"]);
+    assert_eq!(code(&film), 0, "{}", error(&film));
+    let bytes = std::fs::read(results.join("von_mises_averaged_film.png")).unwrap();
+    let control = bytes.windows(4).position(|name| name == b"acTL").unwrap();
+    assert_eq!(bytes[control + 4..control + 8], 6u32.to_be_bytes(), "a frame an increment");
     let drawn = asperity(folder.path(), &["figure", "block.results", "--at", "1,2", "--window", "-1,5,-1,3"]);
     assert_eq!(code(&drawn), 0, "{}", error(&drawn));
     assert!(String::from_utf8_lossy(&drawn.stdout).contains("contact_stress.svg"));

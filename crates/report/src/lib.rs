@@ -21,4 +21,4 @@ mod page;
 mod sections;
 mod tables;
 
-pub use page::{Live, body, page, rows, status, write};
+pub use page::{Live, body, conclude, page, rows, status, write};

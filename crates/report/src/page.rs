@@ -8,7 +8,7 @@ use crate::tables::Table;
 use asperity::Error;
 use asperity::output::figure::field_color;
 use asperity::output::file::{Durability, write_atomic};
-use asperity::output::{Columns, FIGURES, REPORT, Summary};
+use asperity::output::{Columns, FIGURES, REPORT, SUMMARY, Summary};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
@@ -17,6 +17,7 @@ use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 const STYLE: &str = include_str!("../assets/page.css");
 const SCRIPT: &str = concat!(
@@ -52,6 +53,21 @@ pub fn write(directory: &Path) -> Result<PathBuf, Error> {
     let path = directory.join(REPORT);
     write_atomic(&path, page(directory, None)?.as_bytes(), Durability::Process)?;
     Ok(path)
+}
+
+/// Writes `report.html` at the end of a run and adds it to the summary there; that it cannot be written is a note and no
+/// failure of the run.
+pub fn conclude(summary: &mut Summary, directory: &Path) {
+    let begun = Instant::now();
+    if let Err(error) = write(directory) {
+        summary.notes.push(format!("the report is missing: {error}"));
+    } else if !summary.files.iter().any(|file| file == REPORT) {
+        summary.files.push(REPORT.into());
+    }
+    summary.timings.insert("report".into(), begun.elapsed().as_secs_f64());
+    if let Err(error) = summary.write(&directory.join(SUMMARY)) {
+        summary.notes.push(error.to_string());
+    }
 }
 
 /// The page of a result directory; with `live` one that follows the run.

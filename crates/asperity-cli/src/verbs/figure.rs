@@ -11,6 +11,7 @@ pub fn figure(arguments: &Figure) -> Outcome {
         window: arguments.window,
         resolution: arguments.resolution,
         quantity: arguments.quantity.clone(),
+        film: arguments.film,
     };
     let written = draw_standard(&arguments.directory, &options)?;
     print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())

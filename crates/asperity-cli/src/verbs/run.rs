@@ -5,10 +5,8 @@ use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, Voice, farewell};
 use crate::signals::Interrupts;
-use asperity::output::{ASKED, Job, REPORT, SUMMARY, Start, Status, Summary, simulate};
+use asperity::output::{ASKED, Job, SUMMARY, Start, Status, Summary, simulate};
 use serde_json::json;
-use std::path::Path;
-use std::time::Instant;
 
 /// Runs a deck from its beginning.
 pub fn run(arguments: &arguments::Run, interrupts: &Interrupts) -> Outcome {
@@ -78,7 +76,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     // A restart of a run that had come to its end writes nothing, but for a note that only the screen gets.
     let written = Summary::read(&directory.join(SUMMARY)).is_ok_and(|told| told.notes == summary.notes);
     if !arguments.no_report && written && summary.status != Status::FileError {
-        report(&mut summary, &directory);
+        report::conclude(&mut summary, &directory);
     }
     match voice {
         Voice::Page => print(&farewell(&summary, &directory, &again(arguments)))?,
@@ -87,20 +85,6 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     };
     let exit = if summary.status == Status::Doubtful { Exit::Doubtful } else { Exit::Done };
     ended.map(|()| exit).map_err(Trouble::from)
-}
-
-/// Writes the report; one that cannot be written is a note and no failure of the run.
-fn report(summary: &mut Summary, directory: &Path) {
-    let begun = Instant::now();
-    if let Err(error) = report::write(directory) {
-        summary.notes.push(format!("the report is missing: {error}"));
-    } else if !summary.files.iter().any(|file| file == REPORT) {
-        summary.files.push(REPORT.into());
-    }
-    summary.timings.insert("report".into(), begun.elapsed().as_secs_f64());
-    if let Err(error) = summary.write(&directory.join(SUMMARY)) {
-        summary.notes.push(error.to_string());
-    }
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ pub use keys::{Deck, InterfaceDeck, PointDeck};
 pub use point::{LoadedPoint, load_point, read_point};
 pub use reader::{Name, Unsaid};
 pub use review::{Review, review, warnings};
-pub use slide::{Driven, LoadedInterface, load_driven, read_interface};
+pub use slide::{Driven, LoadedInterface, load_driven, read_driven, read_interface};
 
 use crate::error::Error;
 use crate::files;
@@ -86,7 +86,22 @@ fn text_of(path: &Path) -> Result<(String, String), Diagnostics> {
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn read(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
-    let (read, reader) = understood(text, name, sets, Kind::Model, |tree, reader| everything(tree, folder, reader));
+    read_with(text, name, folder, sets, None)
+}
+
+/// The same with a mesh that stands for what `mesh.file` names, which then is a mere name and no file.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it.
+pub fn read_with(
+    text: &str,
+    name: &str,
+    folder: &Path,
+    sets: &[String],
+    mesh: Option<Mesh>,
+) -> Result<Loaded, Diagnostics> {
+    let wanted = |tree: &Node, reader: &mut Reader| everything(tree, folder, mesh, reader);
+    let (read, reader) = understood(text, name, sets, Kind::Model, wanted);
     let diagnostics = gathered(reader.sources, reader.diagnostics);
     match read {
         Some((deck, mesh)) if !diagnostics.has_errors() => {
@@ -126,9 +141,9 @@ fn gathered(sources: Vec<Source>, list: Vec<Diagnostic>) -> Diagnostics {
 }
 
 /// Deck and mesh; faults of the one do not hide those of the other.
-fn everything(tree: &Node, folder: &Path, reader: &mut Reader) -> Option<(Deck, Mesh)> {
+fn everything(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader) -> Option<(Deck, Mesh)> {
     let deck = Deck::read(tree, reader);
-    let mesh = parts::mesh(tree, folder, reader);
+    let mesh = parts::mesh(tree, folder, given, reader);
     names::resolve(mesh.as_ref(), reader);
     Some((deck?, mesh?))
 }

@@ -15,14 +15,16 @@ use std::path::Path;
 /// A longer line of a mesh file is shown only so far.
 const LINE_SHOWN: usize = 160;
 
-/// The mesh that a tree asks for, even where the rest of the deck is in error; faults of the mesh go to `reader`.
-pub fn mesh(tree: &Node, folder: &Path, reader: &mut Reader) -> Option<Mesh> {
+/// The mesh that a tree asks for, even where the rest of the deck is in error; faults of the mesh go to `reader`. A mesh
+/// that is `given` stands for the file.
+pub fn mesh(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader) -> Option<Mesh> {
     // The keys were read and judged with the deck; here only their values are wanted.
     let mut quiet = Reader::default();
     let keys = table_of::<MeshKeys>().read(entry(tree, "mesh")?, &mut quiet)?;
     let mut mesh = Mesh::new();
     if let Some(file) = &keys.file {
-        append(&mut mesh, read(file, folder, reader)?, file.place, reader)?;
+        let part = given.map_or_else(|| read(file, folder, reader), Some)?;
+        append(&mut mesh, part, file.place, reader)?;
     }
     for (name, part) in &keys.part {
         let part = generated(&name.text, part).map_err(|error| refuse(&error, name.place, reader)).ok()?;

@@ -40,10 +40,18 @@ pub enum Driven {
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn load_driven(path: &Path, sets: &[String]) -> Result<Driven, Diagnostics> {
     let (name, text) = text_of(path)?;
-    if has_interface(&text) {
-        return read_interface(&text, &name, sets).map(|loaded| Driven::Interface(Box::new(loaded)));
+    read_driven(&text, &name, sets)
+}
+
+/// Reads the deck of a point from text that messages call `name`.
+///
+/// # Errors
+/// [`Diagnostics`] with everything that is wrong in it.
+pub fn read_driven(text: &str, name: &str, sets: &[String]) -> Result<Driven, Diagnostics> {
+    if has_interface(text) {
+        return read_interface(text, name, sets).map(|loaded| Driven::Interface(Box::new(loaded)));
     }
-    super::read_point(&text, &name, sets).map(|loaded| Driven::Solid(Box::new(loaded)))
+    super::read_point(text, name, sets).map(|loaded| Driven::Solid(Box::new(loaded)))
 }
 
 fn has_interface(text: &str) -> bool {

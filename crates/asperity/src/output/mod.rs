@@ -1,11 +1,13 @@
 //! Results: one store of quantities a frame, and the files, tables and pictures made from it. Layer 6; it reads the
 //! model and its state and never changes them, so that asking for an output cannot change a solution.
 
+mod account;
 mod asked;
 mod average;
 mod certificate;
 pub mod checkpoint;
 mod claim;
+mod closing;
 pub mod figure;
 mod figures;
 pub mod file;
@@ -27,17 +29,18 @@ mod table;
 pub mod vtk;
 mod witness;
 
+pub use account::Account;
 pub use asked::{ASKED, Asked};
 pub use certificate::{Certificate, Doubt, Limits, Occasion, Reading};
 pub use claim::{Claim, Others, is_claimed};
 pub use figures::{FIGURES, Figure, Fold, Limit};
+pub use grids::{BodyGrid, cloud, tools as tool_outlines};
 pub use history::{HistoryTable, global_columns};
 pub use log::RunLog;
 pub use progress::{PROGRESS, Progress, Request};
 pub use quantities::{Parts, Source};
 pub use quantity::{Frame, Number, Place, Quantity, Unit, Width};
-pub use recorder::Recorder;
 pub use results::{CHECKPOINT, REPORT, ResultOptions, Results, SUMMARY};
-pub use simulate::{Job, Start, simulate};
+pub use simulate::{Begun, Ended, Job, Simulation, Start, simulate};
 pub use summary::{Status, Summary};
 pub use table::{Columns, Field, Table};

@@ -1,5 +1,8 @@
-//! The observer that writes the results of a run, and passes everything on to another that may show it.
+//! The observer that keeps the account of a run, writes its results where they are wanted, and passes everything on to
+//! another that may show it.
 
+use super::account::Account;
+use super::history::global_columns;
 use super::log::RunLog;
 use super::progress::{Reporter, Request};
 use super::quantities::{Parts, Source};
@@ -8,42 +11,96 @@ use super::witness::Witness;
 use crate::Error;
 use crate::solve::{AttemptRecord, IterationRecord, Observer, Problem};
 use crate::system::State;
+use std::time::Instant;
 
-/// Writes tables and frames while a run goes.
-pub struct Recorder<'a> {
-    /// The parts of the model that are reported.
-    pub parts: &'a Parts<'a>,
-    /// What is solved.
-    pub problem: &'a Problem,
-    /// The result directory.
+/// The files of a run.
+pub struct Files {
+    /// The result directory, with the account of the run.
     pub results: Results,
     /// The tables of attempts and iterations.
-    pub log: RunLog,
+    log: RunLog,
     /// Where the run stands.
     pub reporter: Reporter,
-    /// What a diagnosis asks of the run.
-    pub witness: Witness,
-    /// Who is told too, and may ask to stop.
-    pub audience: &'a mut dyn Observer,
     /// A table that could not be written: the run stops at its next accepted increment.
-    pub trouble: Option<Error>,
+    trouble: Option<Error>,
 }
 
-impl<'a> Recorder<'a> {
-    /// A recorder of a run that begins or goes on.
-    pub fn new(
-        (parts, problem): (&'a Parts<'a>, &'a Problem),
-        results: Results,
-        log: RunLog,
-        audience: &'a mut dyn Observer,
-    ) -> Self {
+/// Where the account of a run is kept.
+pub enum Keeper {
+    /// In a result directory.
+    Files(Box<Files>),
+    /// In memory only.
+    Memory(Box<Account>),
+}
+
+/// Keeps a run while it goes.
+pub struct Recorder<'r> {
+    /// The parts of the model that are reported.
+    pub parts: &'r Parts<'r>,
+    /// What is solved.
+    pub problem: &'r Problem,
+    /// The account and the files.
+    pub keeper: &'r mut Keeper,
+    /// What a diagnosis asks of the run.
+    pub witness: &'r mut Witness,
+    /// Global quantities of the last accepted increment, by column.
+    pub totals: &'r mut Vec<(String, f64)>,
+    /// Who is told too, and may ask to stop.
+    pub audience: &'r mut dyn Observer,
+}
+
+impl Files {
+    /// The files of a run that begins or goes on.
+    pub fn new(results: Results, log: RunLog, problem: &Problem) -> Self {
         let mut reporter = Reporter::new(results.directory(), problem);
-        let summary = &results.summary;
+        let summary = &results.account.summary;
         reporter.progress.iterations = summary.iterations;
         reporter.progress.cuts = summary.attempts.saturating_sub(summary.increments);
         (reporter.progress.increment, reporter.progress.time) = (summary.increments, summary.time);
         let trouble = reporter.write().err();
-        Self { parts, problem, results, log, reporter, witness: Witness::default(), audience, trouble }
+        Self { results, log, reporter, trouble }
+    }
+
+    fn attempt(&mut self, problem: &Problem, attempt: &AttemptRecord) {
+        self.reporter.attempt(problem, attempt);
+        let told = self.log.attempt(problem, attempt);
+        // An accepted increment is told when its results are there.
+        let told = told.and_then(|()| if attempt.failure.is_some() { self.reporter.write() } else { Ok(()) });
+        if let Err(error) = told {
+            self.trouble.get_or_insert(error);
+        }
+    }
+
+    fn accepted(&mut self, source: &Source, frame: super::Frame, last: bool) -> Result<(), Error> {
+        self.results.accepted(source, frame, last)?;
+        let progress = &mut self.reporter.progress;
+        (progress.beyond, progress.worst) = self.results.account.nearest_to_limits();
+        self.reporter.write()?;
+        if Request::Checkpoint.take(self.results.directory())? {
+            self.results.checkpoint(source.state)?;
+        }
+        Ok(())
+    }
+}
+
+impl Keeper {
+    /// The account of the run.
+    pub fn account(&self) -> &Account {
+        match self {
+            Self::Files(files) => &files.results.account,
+            Self::Memory(account) => account,
+        }
+    }
+    /// The account of the run, to write.
+    pub fn account_mut(&mut self) -> &mut Account {
+        match self {
+            Self::Files(files) => &mut files.results.account,
+            Self::Memory(account) => account,
+        }
+    }
+    /// Whether another process asks the run to stop.
+    pub fn is_asked_to_stop(&self) -> bool {
+        matches!(self, Self::Files(files) if Request::Stop.is_left(files.results.directory()))
     }
 }
 
@@ -52,36 +109,36 @@ impl Observer for Recorder<'_> {
         self.audience.iteration(attempt, iteration);
     }
     fn attempt(&mut self, attempt: &AttemptRecord) {
-        self.reporter.attempt(self.problem, attempt);
         self.witness.attempt(self.problem, attempt);
-        let told = self.log.attempt(self.problem, attempt);
-        // An accepted increment is told when its results are there.
-        let told = told.and_then(|()| if attempt.failure.is_some() { self.reporter.write() } else { Ok(()) });
-        if let Err(error) = told {
-            self.trouble.get_or_insert(error);
+        if let Keeper::Files(files) = self.keeper {
+            files.attempt(self.problem, attempt);
         }
         self.audience.attempt(attempt);
     }
     fn accepted(&mut self, state: &State, attempt: &AttemptRecord) -> Result<(), Error> {
-        if let Some(error) = self.trouble.take() {
+        if let Keeper::Files(files) = self.keeper
+            && let Some(error) = files.trouble.take()
+        {
             return Err(error);
         }
         self.witness.accepted(self.problem, state, attempt);
-        let last = state.step > attempt.step;
+        let begun = Instant::now();
         let source = Source { parts: self.parts, state, step: attempt.step };
-        self.results.accepted(&source, last)?;
-        if let Some(turn) = &attempt.turn {
-            self.results.mode(&source, &turn.mode)?;
-        }
-        let progress = &mut self.reporter.progress;
-        (progress.beyond, progress.worst) = self.results.nearest_to_limits();
-        self.reporter.write()?;
-        if Request::Checkpoint.take(self.results.directory())? {
-            self.results.checkpoint(state)?;
+        let frame = source.gather()?;
+        *self.totals = global_columns(&frame, self.parts.is_plane());
+        match self.keeper {
+            Keeper::Memory(account) => account.accepted(&source, &frame),
+            Keeper::Files(files) => {
+                files.results.spent += begun.elapsed();
+                files.accepted(&source, frame, state.step > attempt.step)?;
+                if let Some(turn) = &attempt.turn {
+                    files.results.mode(&source, &turn.mode)?;
+                }
+            }
         }
         self.audience.accepted(state, attempt)
     }
     fn wants_stop(&self) -> bool {
-        self.audience.wants_stop() || Request::Stop.is_left(self.results.directory())
+        self.audience.wants_stop() || self.keeper.is_asked_to_stop()
     }
 }

@@ -10,24 +10,20 @@
 //! | `run.checkpoint` | the last checkpoint |
 //! | `status.json` | where the run stands, while it goes |
 
+use super::account::Account;
 use super::asked::ASKED;
-use super::certificate::{Certificate, Limits, Occasion};
 use super::checkpoint::{self, Head, InputHash, Stamp};
 use super::figure::{FigureOptions, draw_standard};
-use super::figures::{FIGURES, Figure};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HISTORY, HistoryTable};
 use super::progress::{PROGRESS, Request};
 use super::quantities::{Parts, Source};
-use super::quantity::Place;
+use super::quantity::{Frame, Place};
 use super::readings::{READINGS, ReadingTable};
-use super::summary::{Status, Summary};
 use super::vtk::{DataArray, Encoding, Series, Values};
-use super::witness::certified;
 use crate::Error;
-use crate::diagnosis::{Course, Doubted, End, Facts, diagnose};
-use crate::system::{State, Term};
+use crate::system::State;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -59,15 +55,10 @@ pub struct Results {
     modes: Option<Series>,
     history: HistoryTable,
     readings: ReadingTable,
-    /// The worst figures so far.
-    pub certificate: Certificate,
-    /// What they may be.
-    pub limits: Limits,
-    /// What `summary.json` will say; the caller fills in what the results do not know.
-    pub summary: Summary,
-    /// Whether the model has contacts and none of them ever closed.
-    idle: bool,
-    spent: Duration,
+    /// What is known of the run; the caller fills into its summary what the results do not know.
+    pub account: Account,
+    /// Time that the results took.
+    pub(super) spent: Duration,
     /// When the summary was last written.
     told: Instant,
 }
@@ -163,15 +154,7 @@ impl Results {
         let history = HistoryTable::resume(directory, parts.is_plane(), state.increment)?;
         let (readings, certificate) = ReadingTable::resume(directory, state.increment)?;
         let mut results = Self::new((directory, options, input), parts, (series, history, readings))?;
-        results.certificate = certificate;
-        if directory.join(MODES_LIST).exists() {
-            results.modes = Some(Series::resume(directory, MODES, options.encoding, state.time)?);
-        }
-        if state.increment > 0 {
-            results.summary.observe(&at.gather()?, parts.is_plane());
-        }
-        (results.summary.steps, results.summary.attempts) = (state.step, state.attempts);
-        results.summary.iterations = state.iterations;
+        use super::vtk::{DataArray, Encoding, Series, Values};
         reserve(directory)?;
         results.write_summary()?;
         Ok(results)
@@ -181,56 +164,30 @@ impl Results {
         parts: &Parts,
         (series, history, readings): (Vec<(Fields, Series)>, HistoryTable, ReadingTable),
     ) -> Result<Self, Error> {
-        let mut summary = Summary::begin("", parts.space.name());
-        summary.input_hash = Some(input.to_string());
-        summary.unknowns = parts.dofs.count();
-        summary.bodies = parts.bodies.iter().map(|(_, body)| body.name().to_string()).collect();
-        summary.materials.clone_from(&parts.material_names);
-        summary.contact_order = parts.contacts.iter().map(|(_, name, _)| name.clone()).collect();
-        summary.tools = parts.tool_names().into_iter().map(str::to_owned).collect();
+        let mut account = Account::new(parts);
+        account.summary.input_hash = Some(input.to_string());
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
-        let (certificate, limits) = (Certificate::default(), Limits::default());
         let (spent, told) = (Duration::ZERO, Instant::now());
-        Ok(Self {
-            directory,
-            options,
-            input,
-            grid,
-            series,
-            modes: None,
-            history,
-            readings,
-            certificate,
-            limits,
-            summary,
-            idle: false,
-            spent,
-            told,
-        })
+        use super::vtk::{DataArray, Encoding, Series, Values};
     }
 
-    /// Writes what is due after an accepted increment. `last` says that it ended its step.
+    /// Writes what is due after an accepted increment, whose frame it is. `last` says that it ended its step.
     ///
     /// # Errors
     /// [`Error::File`] when something cannot be written.
-    pub fn accepted(&mut self, source: &Source, last: bool) -> Result<(), Error> {
+    pub fn accepted(&mut self, source: &Source, frame: Frame, last: bool) -> Result<(), Error> {
         let start = Instant::now();
-        let (increment, plane) = (source.state.increment, source.parts.is_plane());
-        let frame = source.gather()?;
+        let increment = source.state.increment;
         self.history.push(&frame)?;
         self.readings.push(&frame)?;
-        self.summary.observe(&frame, plane);
-        self.certificate.observe(&frame);
-        (self.summary.attempts, self.summary.iterations) = (source.state.attempts, source.state.iterations);
-        self.summary.steps = source.state.step;
+        self.account.accepted(source, &frame);
         if last || increment % self.options.every == 0 {
             self.write_grids(source, frame)?;
         }
         if increment % self.options.checkpoint_every == 0 {
             self.checkpoint(source.state)?;
         }
-        self.summary.status = Status::Running;
         if self.told.elapsed() > BETWEEN || last {
             self.told = Instant::now();
             self.write_summary_as(Durability::Process)?;
@@ -258,32 +215,21 @@ impl Results {
         let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
         checkpoint::save(&self.directory.join(CHECKPOINT), &Head { input: self.input, stamp }, state)
     }
-    /// Says in the summary what the run most likely suffers from, if it failed or is doubtful.
-    pub fn diagnose(&mut self, facts: &Facts, course: Course) {
-        let mut course = certified(course, &self.certificate, &self.limits);
-        self.idle = course.ended == End::Well && course.never_closed();
-        if self.idle {
-            course.doubts.push(Doubted { figure: "closed_points".into(), ..Doubted::default() });
-        }
-        self.summary.diagnosis = diagnose(facts, &course);
-    }
     /// Says in the summary how the run ended, and draws the standard pictures. A picture that cannot be drawn is a note
     /// in the summary and no failure of the run.
     ///
     /// # Errors
     /// [`Error::File`] when the summary cannot be written.
     pub fn finish(&mut self, outcome: &Result<(), Error>) -> Result<(), Error> {
-        let doubts = self.certificate.doubts(&self.limits);
-        self.summary.notes.extend(doubts.iter().map(ToString::to_string));
-        self.summary.end(outcome, !doubts.is_empty() || self.idle);
-        self.summary.timings.insert("output".into(), self.spent.as_secs_f64());
+        self.account.end(outcome);
+        self.account.summary.timings.insert("output".into(), self.spent.as_secs_f64());
         remove(&self.directory, [RESERVE.to_owned()])?;
         self.write_summary()?;
         let start = Instant::now();
         if let Err(error) = draw_standard(&self.directory, &FigureOptions::default()) {
-            self.summary.notes.push(format!("a picture is missing: {error}"));
+            self.account.summary.notes.push(format!("a picture is missing: {error}"));
         }
-        self.summary.timings.insert("pictures".into(), start.elapsed().as_secs_f64());
+        self.account.summary.timings.insert("pictures".into(), start.elapsed().as_secs_f64());
         self.write_summary()
     }
     /// The result directory.
@@ -294,7 +240,7 @@ impl Results {
     fn write_frame(&mut self, source: &Source) -> Result<(), Error> {
         self.write_grids(source, source.gather()?)
     }
-    fn write_grids(&mut self, source: &Source, mut frame: super::Frame) -> Result<(), Error> {
+    fn write_grids(&mut self, source: &Source, mut frame: Frame) -> Result<(), Error> {
         for (fields, series) in &mut self.series {
             series.push(&match fields {
                 Fields::Bodies => self.grid.at(&mut frame),
@@ -309,22 +255,9 @@ impl Results {
         self.write_summary_as(Durability::Machine)
     }
     fn write_summary_as(&mut self, durability: Durability) -> Result<(), Error> {
-        self.summary.files = self.present_files();
-        self.summary.certify(&self.certificate, &self.limits);
-        self.summary.write_as(&self.directory.join(SUMMARY), durability)
-    }
-    /// The figures that are beyond their limits, and the one nearest to its limit or farthest beyond.
-    pub fn nearest_to_limits(&self) -> (Vec<String>, Option<(String, Occasion)>) {
-        let limited = FIGURES.iter().filter(|figure| self.limits.of(figure.name).is_some());
-        let worst =
-            |figure: &Figure| Some((figure.name.to_owned(), self.certificate.worst(figure.name, &self.limits)?));
-        let found: Vec<(String, Occasion)> = limited.filter_map(worst).collect();
-        let part = |worst: &Occasion| worst.value / worst.limit.unwrap_or(f64::INFINITY);
-        let passes = |worst: &Occasion| part(worst).is_nan() || part(worst) > 1.0;
-        let beyond = found.iter().filter(|(_, worst)| passes(worst)).map(|(name, _)| name.clone()).collect();
-        // What is not a number is worse than any number, for `total_cmp` too.
-        let worst = found.into_iter().max_by(|(_, a), (_, b)| part(a).total_cmp(&part(b)));
-        (beyond, worst.filter(|(_, worst)| worst.value != 0.0))
+        self.account.summary.files = self.present_files();
+        self.account.certify();
+        self.account.summary.write_as(&self.directory.join(SUMMARY), durability)
     }
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
@@ -356,6 +289,7 @@ fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
 #[cfg(test)]
 mod tests {
     use super::super::fixture::Fixture;
+    use super::super::summary::{Status, Summary};
     use super::super::vtk::{read_grid, read_series};
     use super::*;
     use crate::mesh::Space;
@@ -382,7 +316,7 @@ mod tests {
         let parts = fixture.parts();
         for state in &states(fixture)[done..until] {
             let source = Source { parts: &parts, state, step: 0 };
-            results.accepted(&source, state.increment == 5).unwrap();
+            results.accepted(&source, source.gather().unwrap(), state.increment == 5).unwrap();
         }
     }
 
@@ -455,7 +389,7 @@ mod tests {
         let parts = fixture.parts();
         let source = Source { parts: &parts, state: &state, step: 0 };
         let mut results = Results::resume(cut.path(), &source, OPTIONS, input()).unwrap();
-        let balance = results.certificate.figure("energy_balance");
+        let balance = results.account.certificate.figure("energy_balance");
         assert!(balance.is_some(), "the certificate covers the rows before the restart");
         write(&mut results, &fixture, 3, 5);
         let names = ["history.csv", READINGS, "bodies.pvd", "bodies/bodies_000003.vtu", "points/points_000002.vtu"];

@@ -1,21 +1,24 @@
-//! A run with everything that is written of it, from its start or from the checkpoint in its result directory.
+//! A run with everything that is kept of it, from its start, from the checkpoint in its result directory or from any accepted
+//! state: at once ([`simulate`]), or increment by increment ([`Simulation`]).
 
-use super::certificate::{Certificate, Limits};
+use super::account::Account;
+use super::certificate::Limits;
 use super::checkpoint::{self, InputHash};
+use super::closing;
 use super::log::RunLog;
 use super::progress::Request;
 use super::quantities::{Parts, Source};
-use super::recorder::Recorder;
+use super::recorder::{Files, Keeper, Recorder};
 use super::results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
 use super::summary::{Status, Summary};
+use super::witness::Witness;
 use crate::Error;
 use crate::diagnosis::Facts;
-use crate::mesh::Space;
 use crate::model::Model;
-use crate::solve::{Observer, Run, RunOptions, Stop, Turn};
+use crate::solve::{AttemptRecord, Observer, Run};
 use crate::system::State;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Where and how the results of a run are written.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +30,7 @@ pub struct Job<'a> {
     /// Fingerprint of deck and mesh.
     pub input: InputHash,
     /// Where the run begins.
-    pub start: Start,
+    pub start: Start<'a>,
     /// What the figures of the certificate may be.
     pub limits: &'a Limits,
     /// What was said of the model beforehand, for the notes of the summary.
@@ -37,12 +40,39 @@ pub struct Job<'a> {
 }
 
 /// Where a run begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Start {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start<'a> {
     /// At the first increment.
     Beginning,
     /// At the checkpoint in the result directory.
     Checkpoint,
+    /// At an accepted state of another run; its results begin there.
+    State(&'a State),
+}
+
+/// How a run ended: its summary, and what it ended with; [`Error::Stopped`] when it was asked to stop.
+pub type Ended = (Summary, Result<(), Error>);
+
+/// A run whose increments are taken one by one.
+///
+/// [`begin`](Self::begin) it, [`advance`](Self::advance) until there is no more increment or an error, then
+/// [`finish`](Self::finish): whatever it ended with, the results say so. [`simulate`] does just this.
+pub struct Simulation<'m> {
+    model: &'m Model,
+    parts: Parts<'m>,
+    run: Run<'m>,
+    keeper: Keeper,
+    witness: Witness,
+    totals: Vec<(String, f64)>,
+    spent: Duration,
+}
+
+/// A run that was asked for.
+pub enum Begun<'m> {
+    /// It goes.
+    Going(Box<Simulation<'m>>),
+    /// There is nothing to run: it had come to its end before, or it does not fit into the memory there is.
+    Ended(Box<Ended>),
 }
 
 /// Runs a model and writes its results; `summary.json` says how it ended, however it ended.
@@ -50,50 +80,142 @@ pub enum Start {
 /// # Errors
 /// An error when the results cannot be written or the checkpoint not be read; nothing was run then. What the run itself
 /// ends with is the second part of the result: [`Error::Stopped`] when the audience asked for it.
-pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result<(Summary, Result<(), Error>), Error> {
-    let parts = Parts::of(model);
-    let state = job.state(model)?;
-    if let Some(finished) = job.finished(model, &state) {
-        return Ok((finished, Ok(())));
-    }
-    if let Err(error) = model.problem.check_memory(&state) {
-        return Ok((job.refuse(model, &error)?, Err(error)));
-    }
-    let (results, log) = job.open(model, &Source { parts: &parts, state: &state, step: state.step })?;
-    let mut recorder = Recorder::new((&parts, &model.problem), results, log, audience);
-    let mut run = model.run(state);
-    let begun = Instant::now();
-    let ended = run.run(&RunOptions::default(), &mut recorder);
-    let seconds = begun.elapsed().as_secs_f64();
-    let (mut results, mut reporter, witness) = (recorder.results, recorder.reporter, recorder.witness);
-    let mut ended = ended.and_then(|stop| if stop == Stop::Done { Ok(()) } else { Err(Error::Stopped) });
-    if ended.is_err()
-        && let Err(error) = results.checkpoint(&run.state)
-    {
-        results.summary.notes.push(format!("the last accepted increment is not kept: {error}"));
-        if ended == Err(Error::Stopped) {
-            ended = Err(error);
+pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result<Ended, Error> {
+    match Simulation::begin(model, job)? {
+        Begun::Ended(ended) => Ok(*ended),
+        Begun::Going(mut simulation) => {
+            let ended = loop {
+                match simulation.advance(audience) {
+                    Ok(Some(_)) => {}
+                    Ok(None) => break Ok(()),
+                    Err(error) => break Err(error),
+                }
+            };
+            simulation.finish(ended, job.facts)
         }
     }
-    account(&mut results.summary, &run, seconds);
-    results.summary.notes.extend(facets(model, &run.state));
-    results.summary.notes.extend(leap(&results.certificate));
-    results.summary.notes.extend(imbalance(&results.certificate, job.limits));
-    results.summary.notes.extend(large_strain(&results.certificate));
-    results.summary.notes.extend(rests(&results.certificate, model.space));
-    let failed = match &ended {
-        Err(Error::NotConverged(reason)) => Some((run.ended, reason.clone())),
-        _ => None,
-    };
-    let course = witness.course((&model.problem, &run.state), failed);
-    if matches!(ended, Ok(()) | Err(Error::NotConverged(_))) {
-        results.diagnose(job.facts, course);
+}
+
+impl<'m> Simulation<'m> {
+    /// Begins a run whose results are written.
+    ///
+    /// # Errors
+    /// An error when the results cannot be written, the checkpoint not be read, or the state is not of the model.
+    pub fn begin(model: &'m Model, job: &Job) -> Result<Begun<'m>, Error> {
+        let state = job.state(model)?;
+        let ended = |ended: Ended| Ok(Begun::Ended(Box::new(ended)));
+        if let Some(finished) = job.finished(model, &state) {
+            return ended((finished, Ok(())));
+        }
+        if let Err(error) = model.problem.check_memory(&state) {
+            return ended((job.refuse(model, &error)?, Err(error)));
+        }
+        let parts = Parts::of(model);
+        let (results, log) = job.open(model, &Source { parts: &parts, state: &state, step: state.step })?;
+        let files = Files::new(results, log, &model.problem);
+        Ok(Begun::Going(Box::new(Self::new(model, parts, state, Keeper::Files(Box::new(files))))))
     }
-    results.finish(&ended)?;
-    Request::clear(job.directory)?;
-    (reporter.progress.status, reporter.progress.remaining) = (results.summary.status, None);
-    reporter.write()?;
-    Ok((results.summary, ended))
+
+    /// Begins a run at an accepted state, of which nothing is written.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when the state is not of the model, or the run does not fit into the memory there is.
+    pub fn in_memory(model: &'m Model, state: State, limits: &Limits, notes: &[String]) -> Result<Self, Error> {
+        model.problem.fits(&state).map_err(Error::Input)?;
+        model.problem.check_memory(&state)?;
+        let parts = Parts::of(model);
+        let mut account = Account::new(&parts);
+        account.limits.clone_from(limits);
+        account.summary.title.clone_from(&model.title);
+        account.summary.notes.extend_from_slice(notes);
+        Ok(Self::new(model, parts, state, Keeper::Memory(Box::new(account))))
+    }
+
+    fn new(model: &'m Model, parts: Parts<'m>, state: State, keeper: Keeper) -> Self {
+        let (witness, totals, spent) = (Witness::default(), Vec::new(), Duration::ZERO);
+        Self { model, parts, run: model.run(state), keeper, witness, totals, spent }
+    }
+
+    /// Solves the next increment and accepts it; none when all steps are done.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the audience or another process asks for it; what else ends a run. The accepted state then is
+    /// the last one that was reached.
+    pub fn advance(&mut self, audience: &mut dyn Observer) -> Result<Option<AttemptRecord>, Error> {
+        let mut recorder = Recorder {
+            parts: &self.parts,
+            problem: &self.model.problem,
+            keeper: &mut self.keeper,
+            witness: &mut self.witness,
+            totals: &mut self.totals,
+            audience,
+        };
+        if self.run.state.step < self.model.problem.steps.len() && recorder.wants_stop() {
+            return Err(Error::Stopped);
+        }
+        let begun = Instant::now();
+        let record = self.run.advance(&mut recorder);
+        self.spent += begun.elapsed();
+        record
+    }
+
+    /// Ends the run with what it ended with, and says so in its results; those of a run that did not come to its end hold a
+    /// checkpoint. Nothing may follow.
+    ///
+    /// # Errors
+    /// An error when the results cannot be written.
+    pub fn finish(&mut self, mut ended: Result<(), Error>, facts: &Facts) -> Result<Ended, Error> {
+        let state = &self.run.state;
+        if let (Keeper::Files(files), Err(why)) = (&mut self.keeper, &ended)
+            && let Err(error) = files.results.checkpoint(state)
+        {
+            let lost = format!("the last accepted increment is not kept: {error}");
+            files.results.account.summary.notes.push(lost);
+            if *why == Error::Stopped {
+                ended = Err(error);
+            }
+        }
+        let account = self.keeper.account_mut();
+        closing::close(account, self.model, &self.run, self.spent.as_secs_f64());
+        if matches!(ended, Ok(()) | Err(Error::NotConverged(_))) {
+            let failed = ended.as_ref().err().map(|reason| (self.run.ended, reason.to_string()));
+            account.diagnose(facts, self.witness.course((&self.model.problem, state), failed));
+        }
+        match &mut self.keeper {
+            Keeper::Memory(account) => account.end(&ended),
+            Keeper::Files(files) => {
+                files.results.finish(&ended)?;
+                Request::clear(files.results.directory())?;
+                let status = files.results.account.summary.status;
+                (files.reporter.progress.status, files.reporter.progress.remaining) = (status, None);
+                files.reporter.write()?;
+            }
+        }
+        Ok((self.keeper.account().summary.clone(), ended))
+    }
+
+    /// Writes a checkpoint of the last accepted state, where results are written at all.
+    ///
+    /// # Errors
+    /// An error when it cannot be written.
+    pub fn checkpoint(&self) -> Result<(), Error> {
+        match &self.keeper {
+            Keeper::Files(files) => files.results.checkpoint(self.state()),
+            Keeper::Memory(_) => Ok(()),
+        }
+    }
+    /// The last accepted state.
+    pub fn state(&self) -> &State {
+        &self.run.state
+    }
+    /// Global quantities of the last increment that was accepted here, by column; none before the first.
+    pub fn totals(&self) -> &[(String, f64)] {
+        &self.totals
+    }
+    /// Certificate and summary so far.
+    pub fn account(&self) -> &Account {
+        self.keeper.account()
+    }
 }
 
 impl Job<'_> {
@@ -108,8 +230,13 @@ impl Job<'_> {
     }
 
     fn state(&self, model: &Model) -> Result<State, Error> {
-        if self.start == Start::Beginning {
-            return Ok(model.problem.initial_state());
+        match self.start {
+            Start::Beginning => return Ok(model.problem.initial_state()),
+            Start::State(state) => {
+                model.problem.fits(state).map_err(Error::Input)?;
+                return Ok(state.clone());
+            }
+            Start::Checkpoint => {}
         }
         let path = Self::checkpoint_in(self.directory)?;
         let (_, state) = checkpoint::load::<State>(&path, &self.input)?;
@@ -119,7 +246,7 @@ impl Job<'_> {
 
     /// The summary of the run, where it goes on from its own end: that tells more than a run of no increments could.
     fn finished(&self, model: &Model, state: &State) -> Option<Summary> {
-        if self.start == Start::Beginning || state.step < model.problem.steps.len() {
+        if self.start != Start::Checkpoint || state.step < model.problem.steps.len() {
             return None;
         }
         let mut summary = Summary::read(&self.directory.join(SUMMARY)).ok()?;
@@ -134,7 +261,7 @@ impl Job<'_> {
         (summary.input_hash, summary.unknowns) = (Some(self.input.to_string()), model.problem.dofs.count());
         summary.notes.extend_from_slice(self.notes);
         summary.end(&Err(error.clone()), false);
-        if self.start == Start::Beginning {
+        if self.start != Start::Checkpoint {
             Results::clear(self.directory)?;
             summary.write(&self.directory.join(SUMMARY))?;
         }
@@ -143,154 +270,17 @@ impl Job<'_> {
 
     fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {
         let mut results = match self.start {
-            Start::Beginning => Results::create(self.directory, start, self.options, self.input)?,
+            Start::Beginning | Start::State(_) => Results::create(self.directory, start, self.options, self.input)?,
             Start::Checkpoint => Results::resume(self.directory, start, self.options, self.input)?,
         };
-        results.limits.clone_from(self.limits);
-        results.summary.title.clone_from(&model.title);
-        results.summary.notes.extend_from_slice(self.notes);
-        results.summary.threads = rayon::current_num_threads();
+        results.account.limits.clone_from(self.limits);
+        results.account.summary.title.clone_from(&model.title);
+        results.account.summary.notes.extend_from_slice(self.notes);
         results.write_summary()?;
         let log = match self.start {
-            Start::Beginning => RunLog::create(self.directory)?,
+            Start::Beginning | Start::State(_) => RunLog::create(self.directory)?,
             Start::Checkpoint => RunLog::resume(self.directory, start.state.increment)?,
         };
         Ok((results, log))
-    }
-}
-
-/// What an increment that leaps means.
-fn leap(certificate: &Certificate) -> Option<String> {
-    let far = certificate.figure("leap").filter(|far| *far > 0.0)?;
-    Some(format!(
-        "an increment moved the model by {far:.2} of its size, more than 20 times as fast as the increment before: past \
-         a limit load that may be a remote equilibrium; prescribed displacements, or smaller increments, can tell"
-    ))
-}
-
-/// Part of their force by which two sides of a contact may differ without a word.
-const BALANCED: f64 = 0.02;
-
-/// What it means that two sides of a contact press with different forces, where that is no doubt yet.
-fn imbalance(certificate: &Certificate, limits: &Limits) -> Option<String> {
-    let worst = certificate.worst("imbalance", limits)?;
-    let noted = worst.value > BALANCED && worst.limit.is_some_and(|limit| worst.value <= limit);
-    noted.then(|| {
-        format!(
-            "the forces on the two sides differ by {:.1} %{}: with two passes each side answers for itself, and action equals \
-             reaction only as far as the meshes agree; finer meshes bring them together, passes = \"one\" makes them equal",
-            100.0 * worst.value,
-            worst.place()
-        )
-    })
-}
-
-/// Displacement gradient up to which small strain is taken at its word.
-const SMALL: f64 = 0.1;
-
-/// What it means that a body in small strain moves by more than that.
-fn large_strain(certificate: &Certificate) -> Vec<String> {
-    let beyond = certificate.each("small_strain").filter(|(_, gradient)| *gradient > SMALL);
-    let said = |(body, gradient): (&str, f64)| {
-        format!(
-            "{body} is computed in small strain, but the gradient of its displacements reaches {gradient:.2}: strains \
-             and rotations beyond {SMALL} are not small, and results are wrong by a part of that order; \
-             strain = \"finite\" has no such limit"
-        )
-    };
-    beyond.map(said).collect()
-}
-
-/// Closed points along one direction below which the force of a contact is not smooth.
-const FEW: usize = 3;
-
-/// What it means that a contact never closed, or at so few points that its force changes with each of them.
-fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
-    let few = (if space == Space::Solid { FEW * FEW } else { FEW }) as f64;
-    let said = |(contact, most): (&str, f64)| match most {
-        0.0 => Some(format!(
-            "{contact} never closed in the whole run; `asperity check` says what its points see: the surface or the target \
-             may be another than is meant, a tool may have its material on the wrong side, or nothing moves them together"
-        )),
-        most if most < few => Some(format!(
-            "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves; a \
-             finer surface, a higher `gauss` or `parts` of an edge give it more"
-        )),
-        _ => None,
-    };
-    certificate.each("closed_points").filter_map(said).collect()
-}
-
-/// What contacts say of their facets in the last accepted state.
-fn facets(model: &Model, state: &State) -> Vec<String> {
-    let contacts = Parts::of(model).contacts;
-    contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.u, &state.histories[*term])).collect()
-}
-
-/// Changes of stability that are told one by one.
-const TOLD: usize = 5;
-
-/// Where stability was lost or found again.
-fn turns(turns: &[Turn]) -> impl Iterator<Item = String> {
-    let more = turns.len().saturating_sub(TOLD);
-    let more = (more > 0).then(|| format!("{more} more changes of stability; the modes of all are in modes.pvd"));
-    let told = turns.iter().take(TOLD).map(|turn| {
-        let lost = turn.negative[1] > turn.negative[0];
-        let help =
-            "; a perfect shape stays on its path beyond it, a small imperfection along the mode (modes.pvd) leaves it";
-        format!("{turn}{}", if lost { help } else { "" })
-    });
-    told.chain(more)
-}
-
-/// What the run knows of its cost, and of promises that it bends.
-fn account(summary: &mut Summary, run: &Run, seconds: f64) {
-    (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
-    summary.timings.insert("run".into(), seconds);
-    (summary.factorisations, summary.symmetric_factorisations) = (run.memory.factorisations, run.memory.symmetric);
-    summary.timings.insert("factorisation".into(), run.memory.factorising.as_secs_f64());
-    summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
-    summary.notes.extend(turns(&run.stability.turns));
-    summary.timings.insert("audit".into(), run.audited.as_secs_f64());
-    summary.notes.extend(run.problem.newton.notes());
-    let cut = summary.attempts.saturating_sub(summary.increments);
-    if cut > summary.increments / 2 {
-        summary.notes.push(format!(
-            "{cut} of {} attempts at an increment were cut; the page \"When a run does not converge\" of the manual says what helps",
-            summary.attempts
-        ));
-    }
-    if run.state.held > 0 {
-        let first =
-            run.first_held.as_ref().map_or(String::new(), |(what, time)| format!(" ({what} from time {time:.4} on)"));
-        summary.notes.push(format!(
-            "in {} increments something was held still that nothing holds any more{first}: it stays where it is until something \
-             touches it; with `solver.if_free = \"stop\"` the run ends there",
-            run.state.held
-        ));
-    }
-    if run.state.jumps > 0 {
-        summary.notes.push(format!(
-            "{} increments ended beyond an instability; they set an energy of {:.4e} free",
-            run.state.jumps, run.state.released
-        ));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::{Frame, Reading};
-    use super::*;
-
-    #[test]
-    fn a_body_that_leaves_small_strain_is_named() {
-        let mut frame = Frame::new(1, 1, 1.0);
-        for (body, gradient) in [("body 'soft'", 0.137), ("body 'stiff'", 0.099)] {
-            frame.certify(Reading::new("small_strain", body, gradient));
-        }
-        let mut certificate = Certificate::default();
-        certificate.observe(&frame);
-        let [said] = &large_strain(&certificate)[..] else { panic!("one note") };
-        assert!(said.contains("'soft'") && said.contains("0.14") && said.contains("beyond 0.1"), "{said}");
     }
 }

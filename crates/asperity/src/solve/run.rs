@@ -90,23 +90,33 @@ impl<'a> Run<'a> {
     pub fn run(&mut self, options: &RunOptions, observer: &mut dyn Observer) -> Result<Stop, Error> {
         self.problem.check_memory(&self.state)?;
         let mut accepted = 0;
-        while let Some(step) = self.problem.steps.get(self.state.step) {
+        while self.state.step < self.problem.steps.len() {
             if observer.wants_stop() || options.increments.is_some_and(|most| accepted >= most) {
                 return Ok(Stop::Asked);
             }
-            if self.state.step_increment >= step.increments.most {
-                self.ended = Kind::TooMany;
-                return Err(self.too_many(step));
-            }
-            let record = self.increment(step, observer)?;
+            self.advance(observer)?;
             accepted += 1;
-            observer.accepted(&self.state, &record)?;
-            if self.state.step > record.step {
-                let terms = self.problem.terms.iter().zip(&self.state.histories);
-                terms.into_iter().try_for_each(|(term, history)| term.verdict(&self.state, history))?;
-            }
         }
         Ok(Stop::Done)
+    }
+
+    /// Solves the next increment and accepts it; none when all steps are done.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run). The accepted state then is the last one that was reached.
+    pub fn advance(&mut self, observer: &mut dyn Observer) -> Result<Option<AttemptRecord>, Error> {
+        let Some(step) = self.problem.steps.get(self.state.step) else { return Ok(None) };
+        if self.state.step_increment >= step.increments.most {
+            self.ended = Kind::TooMany;
+            return Err(self.too_many(step));
+        }
+        let record = self.increment(step, observer)?;
+        observer.accepted(&self.state, &record)?;
+        if self.state.step > record.step {
+            let terms = self.problem.terms.iter().zip(&self.state.histories);
+            terms.into_iter().try_for_each(|(term, history)| term.verdict(&self.state, history))?;
+        }
+        Ok(Some(record))
     }
 
     /// Rigid motions that meet no stiffness at the accepted state, in words: "body 'billet' is free along y". Contact that

@@ -75,22 +75,33 @@ pub(super) struct Layout {
 impl Panels<'_> {
     /// Draws the picture.
     pub fn draw(&self) -> Drawing {
-        let layout = self.layout();
-        let (cell_width, cell_height) = (self.cell_width(&layout), layout.frame[1] + TOP + BOTTOM);
+        let shown: Vec<usize> = (0..self.scenes.len()).collect();
+        self.page(&self.layout(shown.len()), &shown)
+    }
+
+    /// A page for each scene, all of one size and in one scale: the frames of a film.
+    pub fn film(&self) -> impl ExactSizeIterator<Item = Drawing> + '_ {
+        let layout = self.layout(1);
+        (0..self.scenes.len()).map(move |scene| self.page(&layout, &[scene]))
+    }
+
+    /// A page with some of the scenes.
+    fn page(&self, layout: &Layout, shown: &[usize]) -> Drawing {
+        let (cell_width, cell_height) = (self.cell_width(layout), layout.frame[1] + TOP + BOTTOM);
         let top = if self.title.is_empty() { 4.0 } else { LARGE + 16.0 };
         let width = (cell_width * layout.columns as f64).max(self.legend_width());
         let mut drawing = Drawing::new(width, top + cell_height * layout.rows as f64 + self.legend_height());
         let middle = [0.5 * width, LARGE + 5.0];
         drawing.label(Label::new(middle, &self.title, LARGE).anchored(Anchor::Middle).bold());
         let left = 0.5 * (width - cell_width * layout.columns as f64);
-        for (i, scene) in self.scenes.iter().enumerate() {
+        for (i, &number) in shown.iter().enumerate() {
             let (column, row) = ((i % layout.columns) as f64, (i / layout.columns) as f64);
             let corner = [left + column * cell_width + LEFT, top + row * cell_height + TOP];
             let frame = Rect { x: corner[0], y: corner[1], width: layout.frame[0], height: layout.frame[1] };
-            let view = View { projection: self.projection, window: layout.windows[i], frame };
-            self.draw_scene(&mut drawing, (i, scene), &view, &layout);
+            let view = View { projection: self.projection, window: layout.windows[number], frame };
+            self.draw_scene(&mut drawing, (number, &self.scenes[number]), &view, layout);
         }
-        self.draw_legends(&mut drawing, &layout);
+        self.draw_legends(&mut drawing, layout);
         drawing
     }
 
@@ -101,7 +112,8 @@ impl Panels<'_> {
         (frame + LEFT + RIGHT).max(LEFT + 0.5 * (frame + widest) + RIGHT)
     }
 
-    fn layout(&self) -> Layout {
+    /// The layout of pages with so many panels.
+    fn layout(&self, panels: usize) -> Layout {
         let flat = |p: [f64; 3]| self.projection.flat(p);
         let bodies: Vec<Window> =
             self.scenes.iter().map(|s| Window::around(s.points.iter().map(|&p| flat(p)))).collect();
@@ -110,9 +122,9 @@ impl Panels<'_> {
         let arrow_scale = extent * self.arrow_scale();
         let windows = self.windows(arrow_scale, MARGIN * extent);
         let size = windows.first().map_or([1.0, 1.0], Window::size);
-        let (columns, scale) = best_columns(self.scenes.len(), size, self.room);
+        let (columns, scale) = best_columns(panels, size, self.room);
         let frame = size.map(|s| s * scale);
-        let rows = self.scenes.len().div_ceil(columns);
+        let rows = panels.div_ceil(columns);
         Layout { columns, rows, frame, windows, scale, arrow_scale, range: self.field_range() }
     }
     /// Lengths of arrows a unit of stress, over the extent of the bodies. A few peaks do not shrink all the rest to
@@ -277,7 +289,7 @@ mod tests {
     #[test]
     fn all_frames_show_the_same_part_of_space() {
         let mesh = block();
-        let layout = picture(&mesh).layout();
+        let layout = picture(&mesh).layout(3);
         assert!(layout.windows.iter().all(|window| *window == layout.windows[0]));
         let Window { low, high } = layout.windows[0];
         assert!(low[1] < 0.0 && high[1] > 30.0, "the block rises by ten over its height of twenty: {low:?} {high:?}");
@@ -298,6 +310,21 @@ mod tests {
         let title = "a long title of the panel number 0";
         assert_eq!(told("least "), [format!("least 0 at (0, 0), {title}")]);
         assert_eq!(told("greatest "), [format!("greatest 3 at (0, 20), {title}")]);
+    }
+
+    #[test]
+    fn the_frames_of_a_film_have_one_size() {
+        let mesh = block();
+        let picture = picture(&mesh);
+        let pages: Vec<Drawing> = picture.film().collect();
+        assert_eq!(pages.len(), 3);
+        let size = |page: &Drawing| [page.width, page.height];
+        assert!(pages.iter().all(|page| size(page) == size(&pages[0])));
+        let shows = |page: &Drawing, text: &str| {
+            page.items.iter().any(|item| matches!(item, Item::Label(label) if label.text == text))
+        };
+        let title = |i: usize| format!("a long title of the panel number {i}");
+        assert!((0..3).all(|i| (0..3).all(|j| shows(&pages[i], &title(j)) == (i == j))));
     }
 
     #[test]

@@ -28,15 +28,51 @@ impl Drawing {
     /// # Errors
     /// [`Error::Internal`] when the page has no size, or too large a one.
     pub fn to_png(&self, scale: f64) -> Result<Vec<u8>, Error> {
-        let mut canvas = Canvas::new(self.width * scale, self.height * scale, scale)?;
-        for item in &self.items {
-            canvas.draw(item);
-        }
-        canvas.encode().map_err(|error| Error::Internal(format!("a picture cannot be encoded: {error}")))
+        Canvas::of(self, scale)?
+            .encode()
+            .map_err(|error| Error::Internal(format!("a picture cannot be encoded: {error}")))
     }
 }
 
+/// Frames of a film in a second, and for how many of them the last one stays.
+const RATE: u16 = 10;
+const LAST: u16 = 15;
+
+/// Drawings of one size as the bytes of an animated PNG, which any browser plays, over and over; a viewer that does not know
+/// how shows the first. `scale` pixels a point.
+///
+/// # Errors
+/// [`Error::Internal`] when there is no drawing, or they have no size, unlike ones, or too large a one.
+pub fn film(drawings: impl ExactSizeIterator<Item = Drawing>, scale: f64) -> Result<Vec<u8>, Error> {
+    let failed = |error: png::EncodingError| Error::Internal(format!("a film cannot be encoded: {error}"));
+    let count = drawings.len();
+    let mut drawings = drawings.peekable();
+    let Some(first) = drawings.peek() else { return Err(Error::Internal("a film has no frames".into())) };
+    let size = Canvas::new(first.width * scale, first.height * scale, scale)?.pixels;
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size.width(), size.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_animated(count as u32, 0).map_err(failed)?;
+    encoder.set_frame_delay(1, RATE).map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(failed)?;
+    for (number, drawing) in drawings.enumerate() {
+        if number + 1 == count {
+            writer.set_frame_delay(LAST, RATE).map_err(failed)?;
+        }
+        let canvas = Canvas::of(&drawing, scale)?;
+        writer.write_image_data(&canvas.colors()).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
 impl Canvas {
+    fn of(drawing: &Drawing, scale: f64) -> Result<Self, Error> {
+        let mut canvas = Self::new(drawing.width * scale, drawing.height * scale, scale)?;
+        drawing.items.iter().for_each(|item| canvas.draw(item));
+        Ok(canvas)
+    }
     fn new(width: f64, height: f64, scale: f64) -> Result<Self, Error> {
         let fits = width <= LARGEST && height <= LARGEST;
         let pixels = fits.then(|| Pixmap::new(width.ceil() as u32, height.ceil() as u32)).flatten();
@@ -51,11 +87,14 @@ impl Canvas {
         let mut encoder = png::Encoder::new(&mut bytes, self.pixels.width(), self.pixels.height());
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_compression(png::Compression::Fast);
-        let colors = self.pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]);
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&colors.collect::<Vec<u8>>())?;
+        writer.write_image_data(&self.colors())?;
         writer.finish()?;
         Ok(bytes)
+    }
+    /// Red, green and blue of all pixels.
+    fn colors(&self) -> Vec<u8> {
+        self.pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
     }
     fn draw(&mut self, item: &Item) {
         match item {
@@ -179,6 +218,27 @@ mod tests {
         assert_eq!(at(10, 20), Some((200, 0)), "inside the clip");
         assert_eq!(at(30, 20), Some((255, 255)), "outside");
         assert!((42..80).any(|x| at(x, 30) == Some((0, 0))), "the letter's ink");
+    }
+
+    #[test]
+    fn a_film_is_read_back_frame_by_frame() {
+        let page = |red: u8| {
+            let mut drawing = Drawing::new(20.0, 10.0);
+            drawing.fill(Rect { x: 0.0, y: 0.0, width: 20.0, height: 10.0 }.path(), Color([red, 0, 0]));
+            drawing
+        };
+        let bytes = film([10, 120, 250].map(page).into_iter(), 2.0).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
+        let animation = reader.info().animation_control().copied().unwrap();
+        assert_eq!((animation.num_frames, animation.num_plays), (3, 0));
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        for (red, delay) in [(10, 1), (120, 1), (250, LAST)] {
+            let frame = reader.next_frame(&mut pixels).unwrap();
+            assert_eq!((frame.width, frame.height, pixels[0], pixels[1]), (40, 20, red, 0));
+            let control = reader.info().frame_control().copied().unwrap();
+            assert_eq!((control.delay_num, control.delay_den), (delay, RATE));
+        }
+        assert!(film(std::iter::empty(), 2.0).is_err());
     }
 
     #[test]

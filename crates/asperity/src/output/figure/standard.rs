@@ -5,6 +5,7 @@ use super::arrows::Arrow;
 use super::curves;
 use super::drawing::Drawing;
 use super::panels::Panels;
+use super::png;
 use super::scene::Scene;
 use super::shell::Tile;
 use super::ticks::minus;
@@ -28,16 +29,20 @@ pub struct FigureOptions {
     pub resolution: f64,
     /// A quantity at the nodes that is drawn in a picture of its own, in place of all others: `displacement.y`.
     pub quantity: Option<String>,
+    /// Whether a film of this quantity, or of von Mises' stress, is drawn in place of pictures: an animated PNG.
+    pub film: bool,
 }
 
 impl Default for FigureOptions {
     fn default() -> Self {
-        Self { times: Vec::new(), window: None, resolution: 2.0, quantity: None }
+        Self { times: Vec::new(), window: None, resolution: 2.0, quantity: None, film: false }
     }
 }
 
-/// Frames shown side by side where no times are given.
+/// Frames shown side by side where no times are given,
 const PANELS: usize = 4;
+/// and frames of a film, at most.
+const FILM: usize = 100;
 
 /// Draws the standard pictures into the directory of the results and returns their files.
 ///
@@ -58,15 +63,22 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
         Ok(())
     };
     let shots = run.shots()?;
-    if let Some(quantity) = &options.quantity {
+    if options.film || options.quantity.is_some() {
+        let quantity = options.quantity.as_deref().unwrap_or("von_mises_averaged");
         let Some(last) = shots.last() else {
             return Err(Error::file(directory.join("bodies.pvd"), "there is no frame to draw"));
         };
         last.values(quantity)?;
         let file: String = quantity.chars().filter(|c| c.is_ascii_alphanumeric() || "._-".contains(*c)).collect();
         let panels = run.panels(&quantity.replace('_', " "), quantity, &shots);
-        save(&file, Panels { field_name: format!("{}, at nodes", quantity.replace('_', " ")), ..panels }.draw())?;
-        return Ok(written);
+        let panels = Panels { field_name: format!("{}, at nodes", quantity.replace('_', " ")), ..panels };
+        if !options.film {
+            save(&file, panels.draw())?;
+            return Ok(written);
+        }
+        let path = directory.join(format!("{file}_film.png"));
+        write_atomic(&path, &png::film(panels.film(), options.resolution)?, Durability::Process)?;
+        return Ok(vec![path]);
     }
     if !shots.is_empty() {
         if !run.summary.contact_order.is_empty() {
@@ -118,7 +130,8 @@ impl Run<'_> {
             frame.map_or(Ok(Grid::default()), |(_, file)| read_grid(&self.directory.join(file)))
         };
         let times: Vec<f64> = bodies.iter().map(|(time, _)| *time).collect();
-        let chosen = chosen(&times, &self.options.times)?.into_iter();
+        let all = if self.options.film { FILM } else { PANELS };
+        let chosen = chosen(&times, &self.options.times, all)?.into_iter();
         chosen.map(|time| shot(time, at(&bodies, time)?, &at(&contacts, time)?, &at(&tools, time)?)).collect()
     }
 
@@ -191,9 +204,9 @@ impl Shot {
     }
 }
 
-/// The written times nearest to the wanted ones; evenly spread ones where none are wanted, the first left out. A time
+/// The written times nearest to the wanted ones; `count` evenly spread ones where none are wanted, the first left out. A time
 /// at which the run was not is refused.
-fn chosen(times: &[f64], wanted: &[f64]) -> Result<Vec<f64>, Error> {
+fn chosen(times: &[f64], wanted: &[f64], count: usize) -> Result<Vec<f64>, Error> {
     let (Some(first), Some(last)) = (times.first(), times.last()) else { return Ok(Vec::new()) };
     let slack = 1e-9 * (last - first);
     if let Some(lost) = wanted.iter().find(|&&want| !(want >= first - slack && want <= last + slack)) {
@@ -201,7 +214,7 @@ fn chosen(times: &[f64], wanted: &[f64]) -> Result<Vec<f64>, Error> {
         return Err(Error::Input(format!("there is no frame at time {lost}: this run goes from {first} to {last}")));
     }
     let shown = if wanted.is_empty() && times.len() > 1 { &times[1..] } else { times };
-    let even = (1..=PANELS).map(|i| first + (last - first) * i as f64 / PANELS as f64).collect();
+    let even = (1..=count).map(|i| first + (last - first) * i as f64 / count as f64).collect();
     let wanted = if wanted.is_empty() { even } else { wanted.to_vec() };
     let near = |&want: &f64| shown.iter().copied().min_by(|a, b| (a - want).abs().total_cmp(&(b - want).abs()));
     let mut found: Vec<f64> = wanted.iter().filter_map(near).collect();
@@ -267,12 +280,12 @@ mod tests {
     #[test]
     fn frames_are_chosen_by_time() {
         let times: Vec<f64> = (0..=10).map(|i| 0.1 * f64::from(i)).collect();
-        assert_eq!(chosen(&times, &[]).unwrap(), [times[2], times[5], times[7], times[10]]);
-        assert_eq!(chosen(&times, &[0.29, 0.31, 0.9]).unwrap(), [times[3], times[9]]);
-        assert_eq!(chosen(&[0.0, 1.0, 2.0], &[]).unwrap(), [1.0, 2.0], "the beginning is not shown unasked");
-        assert!(chosen(&[], &[0.5]).unwrap().is_empty());
+        assert_eq!(chosen(&times, &[], PANELS).unwrap(), [times[2], times[5], times[7], times[10]]);
+        assert_eq!(chosen(&times, &[0.29, 0.31, 0.9], PANELS).unwrap(), [times[3], times[9]]);
+        assert_eq!(chosen(&[0.0, 1.0, 2.0], &[], FILM).unwrap(), [1.0, 2.0], "the beginning is not shown unasked");
+        assert!(chosen(&[], &[0.5], PANELS).unwrap().is_empty());
         for lost in [-0.1, 1.01, f64::NAN] {
-            let refused = chosen(&times, &[0.5, lost]).unwrap_err().to_string();
+            let refused = chosen(&times, &[0.5, lost], PANELS).unwrap_err().to_string();
             assert!(refused.contains("goes from 0 to 1"), "{refused}");
         }
     }

@@ -77,6 +77,7 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         loads: vec![],
         steps: fields.iter().map(step).collect(),
         supports: vec![],
+        ties: vec![],
         newton: NewtonOptions { tolerance: 1e-12, ..NewtonOptions::default() },
     });
     let state = model.problem.initial_state();

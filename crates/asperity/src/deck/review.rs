@@ -66,6 +66,7 @@ pub fn review(made: &Made) -> Result<Review, Error> {
     for (name, keys) in &made.deck.contact {
         Seen::of(&all, name).for_each(|seen| page.contact(name, keys, seen));
     }
+    page.ties(made);
     page.steps(made);
     problems.extend(page.motions(made)?);
     problems.extend(page.cost(made)?);
@@ -162,6 +163,16 @@ impl Page {
             None => format!("  penalty {penalty:.4e} ({origin}), tangential {tangential:.4e}"),
             Some(part) => format!("  penalty {penalty:.4e} ({origin}), elastic slip {part} of an edge or face"),
         });
+    }
+
+    fn ties(&mut self, made: &Made) {
+        for ([surface, target], tie) in &made.model.ties {
+            let count = tie.conditions.iter().filter(|condition| condition.follows).count();
+            let (gap, tolerance) = (tie.gap, tie.tolerance);
+            self.line(format!(
+                "tie: {count} nodes of {surface} follow {target}; largest gap {gap:.3e}, tolerance {tolerance:.3e}"
+            ));
+        }
     }
 
     fn steps(&mut self, made: &Made) {

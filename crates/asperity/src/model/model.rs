@@ -2,7 +2,7 @@
 
 use super::audited::claims;
 use crate::audit::{Audit, Subject};
-use crate::contact::field::FieldContact;
+use crate::contact::field::{FieldContact, Tie};
 use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
@@ -45,6 +45,8 @@ pub struct ModelParts {
     pub steps: Vec<Step>,
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
+    /// What is glued, each with the names of surface and target.
+    pub ties: Vec<([String; 2], Tie)>,
     /// Options of the iterations.
     pub newton: NewtonOptions,
 }
@@ -77,6 +79,8 @@ pub struct Model {
     pub springs: usize,
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
+    /// What is glued, each with the names of surface and target.
+    pub ties: Vec<([String; 2], Tie)>,
     /// The terms, steps and options that are solved.
     pub problem: Problem,
 }
@@ -94,6 +98,7 @@ impl Model {
             tools,
             solid_tools,
             supports,
+            ties,
             steps,
             newton,
             ..
@@ -116,11 +121,13 @@ impl Model {
             bodies: bodies.iter().map(|(body, _)| (body.name().to_owned(), body.cells().to_vec())).collect(),
             tools: tools.clone(),
             solid_tools: solid_tools.clone(),
-            claims: claims(bodies.len(), (&contacts, &solid_contacts), &field_contacts),
+            claims: claims(bodies.len(), (&contacts, &solid_contacts), &field_contacts, &ties),
             cell_size: smallest_cell(&mesh),
             limit: INTERPENETRATION[0],
             contact_limit: INTERPENETRATION[1],
         });
+        let glued: Vec<Vec<usize>> = ties.iter().map(|(_, tie)| tie.nodes.concat()).collect();
+        let glued = glued.iter().map(Vec::as_slice);
         let problem = Problem {
             terms,
             audit: Some(audit),
@@ -129,7 +136,7 @@ impl Model {
             newton,
             size: mesh.size(),
             cell_size: smallest_cell(&mesh),
-            wholes: Whole::all(cells.map(|&cell| mesh.cell(cell).nodes), &mesh.points, space),
+            wholes: Whole::all(cells.map(|&cell| mesh.cell(cell).nodes).chain(glued), &mesh.points, space),
             tools: tools
                 .iter()
                 .map(|tool| tool.name())
@@ -152,6 +159,7 @@ impl Model {
             field_contacts,
             springs,
             supports,
+            ties,
             problem,
         }
     }

@@ -146,6 +146,7 @@ pub fn model(size: usize, factors: Factors) -> Model {
         loads: vec![Box::new(ball)],
         steps: ["press", "slide"].map(|name| step(name, &dofs, &bottom)).into(),
         supports: vec![],
+        ties: vec![],
         newton: NewtonOptions { factors, ..NewtonOptions::default() },
         mesh: mesh.clone(),
         dofs,

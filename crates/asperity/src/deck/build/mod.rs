@@ -10,6 +10,7 @@ mod overlaps;
 mod solid_contacts;
 mod solid_tools;
 mod supports;
+mod ties;
 mod tools;
 
 pub(super) use contacts::backings;
@@ -50,6 +51,7 @@ struct Builder<'d> {
     /// Where files are looked for, and the bytes of those that were read.
     folder: &'d Path,
     files: Vec<Vec<u8>>,
+    ties: Vec<ties::Glued>,
     found: Vec<Diagnostic>,
 }
 
@@ -98,7 +100,7 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len());
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
     let site = Site { mesh: Arc::new(mesh), dofs, space, thickness };
-    let mut builder = Builder { deck: &deck, site, folder: &folder, files: Vec::new(), found: Vec::new() };
+    let mut builder = Builder { deck: &deck, site, folder: &folder, files: Vec::new(), ties: Vec::new(), found: Vec::new() };
     let built = builder.settled();
     let input = InputHash::of(&prints.iter().chain(&builder.files).map(Vec::as_slice).collect::<Vec<_>>());
     diagnostics.list.append(&mut builder.found);
@@ -131,6 +133,15 @@ const ROUNDS: usize = 5;
 impl Builder<'_> {
     /// Everything, with the nodes moved that are to be.
     fn settled(&mut self) -> Option<ModelParts> {
+        self.glue();
+        let glued = std::mem::take(&mut self.found);
+        let built = self.adjusted();
+        self.found.extend(glued);
+        built
+    }
+
+    /// Everything, with the nodes moved out of targets that are to be.
+    fn adjusted(&mut self) -> Option<ModelParts> {
         let mut built = self.everything()?;
         for _ in 0..ROUNDS {
             if !self.adjust(&built) {
@@ -185,6 +196,7 @@ impl Builder<'_> {
                 })
                 .collect(),
             supports,
+            ties: self.ties.iter().map(|glued| (glued.names.clone(), glued.tie.clone())).collect(),
             newton: self.deck.solver.newton_options(),
         })
     }

@@ -13,6 +13,7 @@ mod slide;
 mod solid_tool;
 mod solver;
 mod step;
+mod tie;
 mod tool;
 mod update;
 
@@ -31,6 +32,7 @@ pub use slide::{InterfaceDeck, InterfaceStep};
 pub use solid_tool::{Extrude, FacetKeys, Revolve, StlKeys};
 pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
+pub use tie::{Tie, TieGap};
 pub use tool::{Segment, ToolKeys};
 pub use update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys, integrated};
 
@@ -72,6 +74,8 @@ table! {
         contact: Vec<(Name, Contact)> = map(defines(Names::Contact), table_of()).or("{}"),
         /// Linear equations between displacements, in all steps.
         equation: Vec<Equation> = list(table_of(), 0..=usize::MAX).or("[]"),
+        /// Surfaces that are glued.
+        tie: Vec<Tie> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// What is done, in order.
         step: Vec<Step> = step::steps().required(),
         /// How the equations are solved.

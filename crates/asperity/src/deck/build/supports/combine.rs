@@ -51,9 +51,12 @@ impl Builder<'_> {
         }
         let fixed: BTreeMap<usize, bool> =
             sorted.fixed.iter().map(|(&dof, claim)| (dof, claim.course != Course::Hold)).collect();
-        let relations = Relations::of(sorted.relations(), &fixed, equations);
-        for (equation, why) in &relations.refused {
-            self.refuse(format!("`equation` cannot hold: {why}"), equations[*equation].place);
+        let mut relations = Relations::of(sorted.relations(), &fixed, equations);
+        for glued in &self.ties {
+            (0..self.site.dofs.per_node()).for_each(|axis| relations.tie(glued, (&self.site.dofs, axis), &fixed));
+        }
+        for (what, place) in &relations.refused {
+            self.refuse(what, *place);
         }
         sorted.constraints(self.site.dofs.count(), &relations)
     }

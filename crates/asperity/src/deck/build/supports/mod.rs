@@ -7,6 +7,7 @@ mod claim;
 mod combine;
 mod equations;
 mod flat;
+mod ties;
 
 use super::Builder;
 use crate::amplitude::Amplitude;
@@ -17,7 +18,8 @@ use crate::mesh::{Mesh, Space};
 use crate::solve::{Course, Prescribed};
 use crate::system::{Constraints, Row};
 use claim::{Claim, Claims, Known, What, hold};
-use flat::{ROUNDING, flat_normal, unit};
+pub(super) use flat::flat_normal;
+use flat::{ROUNDING, unit};
 use std::collections::BTreeMap;
 
 /// Constraints and prescribed values of one step.
@@ -229,7 +231,7 @@ fn unused(mesh: &Mesh) -> Vec<usize> {
 }
 
 /// Nodes that the axis of revolution keeps from moving along the radius.
-fn on_axis(mesh: &Mesh, space: Space) -> Vec<usize> {
+pub(super) fn on_axis(mesh: &Mesh, space: Space) -> Vec<usize> {
     let near = ROUNDING * mesh.size();
     let on = |&node: &usize| space == Space::Axisymmetric && mesh.points[node][0].abs() <= near;
     (0..mesh.points.len()).filter(on).collect()

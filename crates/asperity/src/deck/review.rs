@@ -67,6 +67,7 @@ pub fn review(made: &Made) -> Result<Review, Error> {
         Seen::of(&all, name).for_each(|seen| page.contact(name, keys, seen));
     }
     page.ties(made);
+    page.rigid(made);
     page.steps(made);
     problems.extend(page.motions(made)?);
     problems.extend(page.cost(made)?);
@@ -175,9 +176,20 @@ impl Page {
         }
     }
 
+    fn rigid(&mut self, made: &Made) {
+        for group in &made.model.rigid {
+            let (count, [x, y, z]) = (group.nodes.len(), group.reference.0);
+            self.line(format!("rigid {}: {count} nodes follow the point ({x}, {y}, {z})", group.name));
+        }
+    }
+
     fn steps(&mut self, made: &Made) {
         for step in &made.model.problem.steps {
             self.line(describe(step));
+            if !step.idle.is_empty() {
+                let names = step.idle.iter().map(|&term| made.model.problem.terms[term].name()).collect::<Vec<_>>();
+                self.line(format!("  without {}", names.join(", ")));
+            }
         }
     }
 

@@ -7,7 +7,8 @@ use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
 use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
-use crate::system::{Dofs, State, Term, Whole};
+use crate::system::{Dofs, Following, State, Term, Whole};
+use crate::tensor::Vec3;
 use crate::tool::{self, Tool};
 use std::sync::Arc;
 
@@ -47,8 +48,21 @@ pub struct ModelParts {
     pub supports: Vec<(String, Vec<usize>)>,
     /// What is glued, each with the names of surface and target.
     pub ties: Vec<([String; 2], Tie)>,
+    /// Groups of nodes that are rigid, in the order of their unknowns, which follow those of the tools.
+    pub rigid: Vec<RigidGroup>,
     /// Options of the iterations.
     pub newton: NewtonOptions,
+}
+
+/// Nodes that follow a reference point as a rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidGroup {
+    /// Its name.
+    pub name: String,
+    /// The reference point.
+    pub reference: Vec3,
+    /// The nodes.
+    pub nodes: Vec<usize>,
 }
 
 /// What is to be solved. Terms are numbered bodies first, then contacts, springs and loads.
@@ -81,6 +95,8 @@ pub struct Model {
     pub supports: Vec<(String, Vec<usize>)>,
     /// What is glued, each with the names of surface and target.
     pub ties: Vec<([String; 2], Tie)>,
+    /// Groups of nodes that are rigid.
+    pub rigid: Vec<RigidGroup>,
     /// The terms, steps and options that are solved.
     pub problem: Problem,
 }
@@ -99,6 +115,7 @@ impl Model {
             solid_tools,
             supports,
             ties,
+            rigid,
             steps,
             newton,
             ..
@@ -113,6 +130,16 @@ impl Model {
         terms.extend(solid_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(field_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
+        let arms = |group: &RigidGroup| {
+            let arm = |&node: &usize| (node, mesh.points[node] - group.reference);
+            group.nodes.iter().map(arm).collect()
+        };
+        let first = tools.len() + solid_tools.len();
+        let groups: Vec<_> = rigid.iter().enumerate().map(|(i, group)| (first + i, arms(group))).collect();
+        let following = Arc::new(Following::new(&dofs, &groups));
+        if !following.is_empty() {
+            terms = terms.into_iter().map(|term| Following::wrap(&following, term)).collect();
+        }
         let cells = bodies.iter().flat_map(|(body, _)| body.cells());
         let audit = Audit::new(Subject {
             mesh: mesh.clone(),
@@ -141,8 +168,10 @@ impl Model {
                 .iter()
                 .map(|tool| tool.name())
                 .chain(solid_tools.iter().map(|tool| tool.name()))
+                .chain(rigid.iter().map(|group| group.name.as_str()))
                 .map(str::to_owned)
                 .collect(),
+            following,
             node_name: node_namer(mesh.clone()),
         };
         Self {
@@ -160,6 +189,7 @@ impl Model {
             springs,
             supports,
             ties,
+            rigid,
             problem,
         }
     }

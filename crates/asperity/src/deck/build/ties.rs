@@ -75,7 +75,10 @@ impl Builder<'_> {
                     "`{surface}` lies {distance:.3e} from `{target}` at {}, which is more than the tolerance, {tolerance:.3e}",
                     at(x)
                 ),
-                format!("name the part that is to be glued by [group.NAME], move it, or say tolerance = {distance:.2e} or more"),
+                format!(
+                    "name the part that is to be glued by [group.NAME], move it, or say tolerance = {:.2e}",
+                    1.01 * distance
+                ),
             ),
             Apart::Nothing(distance, x, tolerance) => (
                 format!(

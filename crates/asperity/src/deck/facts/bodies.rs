@@ -31,8 +31,9 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
     let together: BTreeSet<usize> = wholes.flat_map(|whole| whole.nodes()).collect();
     let held = model.supports.iter().any(|(_, held)| held.iter().any(|node| together.contains(node)));
     let springs = made.deck.step.iter().flat_map(|step| &step.spring);
-    let sprung =
-        springs.filter_map(|(name, _)| mesh.groups.get(&name.text)).any(|g| g.nodes.iter().any(|n| together.contains(n)));
+    let sprung = springs
+        .filter_map(|(name, _)| mesh.groups.get(&name.text))
+        .any(|g| g.nodes.iter().any(|n| together.contains(n)));
     BodyFacts {
         name: body.name().into(),
         material: made.model.materials.get(material).cloned().unwrap_or_default(),
@@ -62,7 +63,11 @@ fn unheld(model: &Model, nodes: &BTreeSet<usize>) -> Vec<&'static str> {
     let glued: BTreeSet<usize> = model.ties.iter().flat_map(|(_, tie)| tie.nodes[0].iter().copied()).collect();
     let free = |dof: usize| {
         let follows = |row: &Row| matches!(row, Row::Combined(_)) && glued.contains(&(dof / dofs.per_node()));
-        model.problem.steps.iter().all(|step| matches!(step.constraints.row(dof), Row::Free(_)) || follows(step.constraints.row(dof)))
+        model
+            .problem
+            .steps
+            .iter()
+            .all(|step| matches!(step.constraints.row(dof), Row::Free(_)) || follows(step.constraints.row(dof)))
     };
     let axes = (0..dofs.per_node()).filter(|axis| nodes.iter().all(|&node| free(dofs.node(node) + axis)));
     axes.filter(|&axis| model.space != Space::Axisymmetric || axis != 0).map(|axis| ["x", "y", "z"][axis]).collect()

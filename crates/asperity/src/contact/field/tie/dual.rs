@@ -75,7 +75,8 @@ impl Dual {
         }
         match inverse(mass) {
             Some(inverse) => {
-                let factors = inverse.iter().zip(&weights).map(|(row, w)| row.iter().map(|x| x * w).collect()).collect();
+                let factors =
+                    inverse.iter().zip(&weights).map(|(row, w)| row.iter().map(|x| x * w).collect()).collect();
                 Self { basis, weights, factors }
             }
             None => Self { basis, weights: Vec::new(), factors: Vec::new() },

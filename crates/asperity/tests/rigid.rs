@@ -35,7 +35,7 @@ load.hub = {{ x = 0.0, y = 0.0, torque = {torque} }}
     assert!((found / turn - 1.0).abs() < 0.02, "{found} {turn}");
     let [stored, work] = stored(&keep);
     assert!((work / stored - 1.0).abs() < 1e-4, "{work} {stored}");
-    assert!((work / (0.5 * torque * turn) - 1.0).abs() < 0.02, "{work}");
+    assert!((work / (0.5 * torque * turn) - 1.0).abs() < 0.03, "{work}");
     for &node in &model.mesh.groups["ring.inner"].nodes {
         let x = model.mesh.points[node];
         let (sin, cos) = found.sin_cos();

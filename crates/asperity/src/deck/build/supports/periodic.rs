@@ -36,20 +36,27 @@ impl Builder<'_> {
             let nearest = target.iter().copied().min_by(|&a, &b| distance(a).total_cmp(&distance(b)))?;
             Some((nearest, distance(nearest)))
         };
+        if surface.len() != target.len() {
+            let what = format!(
+                "`{}` has {} nodes and `{}` has {}: a periodic cell has as many on opposite sides",
+                keys.surface,
+                surface.len(),
+                keys.target,
+                target.len()
+            );
+            self.refuse(what, keys.place);
+            return None;
+        }
         let mut pairs = Vec::new();
         for &node in &surface {
             let (other, distance) = opposite(node)?;
-            if distance > OFF * mesh.size() || surface.len() != target.len() {
+            if distance > OFF * mesh.size() {
                 let number = mesh.node_number(node);
                 let what = format!(
                     "node {number} of `{}` has no node of `{}` opposite: the nearest is {distance:.3e} off",
                     keys.surface, keys.target
                 );
-                let help = format!(
-                    "both sides need nodes in the same places; they have {} and {}",
-                    surface.len(),
-                    target.len()
-                );
+                let help = "give opposite sides nodes in the same places";
                 self.found.push(Diagnostic::error(what).at(keys.surface.place).help(help));
                 return None;
             }

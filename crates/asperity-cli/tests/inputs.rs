@@ -168,13 +168,16 @@ fn the_command_takes_input_decks_as_they_are() {
 #[test]
 fn the_command_tells_all_that_is_wrong_in_an_input_deck() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("bad.inp"), "*NODE\n1, 0., x\n*TIE\n*BOUNDERY\n*STEP\n*STATIC\n*END STEP\n")
-        .unwrap();
+    std::fs::write(
+        folder.path().join("bad.inp"),
+        "*NODE\n1, 0., x\n*EMBEDDED ELEMENT\n*BOUNDERY\n*STEP\n*STATIC\n*END STEP\n",
+    )
+    .unwrap();
     let (code, told) = asperity(folder.path(), &["run", "bad.inp"]);
     assert_eq!(code, 2);
     for said in [
         "bad.inp:2: a coordinate is 'x'",
-        "bad.inp:3: *TIE cannot be translated",
+        "bad.inp:3: *EMBEDDED ELEMENT cannot be translated",
         "bad.inp:4: there is no keyword *BOUNDERY",
     ] {
         assert!(told.contains(said), "{told}");

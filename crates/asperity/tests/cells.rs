@@ -56,6 +56,8 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
                 })
             })
             .collect(),
+        idle: vec![],
+        leaving: vec![],
     };
     let material = Arc::new(Rate(Elastic::new(200.0, 0.3)));
     let cells = (0..mesh.cell_count()).collect();
@@ -77,6 +79,8 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         loads: vec![],
         steps: fields.iter().map(step).collect(),
         supports: vec![],
+        ties: vec![],
+        rigid: vec![],
         newton: NewtonOptions { tolerance: 1e-12, ..NewtonOptions::default() },
     });
     let state = model.problem.initial_state();

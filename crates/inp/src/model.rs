@@ -229,6 +229,21 @@ pub struct Pair {
     pub field: bool,
 }
 
+/// Two surfaces that are glued.
+#[derive(Debug, Clone)]
+pub struct Tie {
+    /// Where it stands.
+    pub place: Place,
+    /// The surface whose nodes follow: scope and name in capitals.
+    pub slave: (usize, String),
+    /// What they follow.
+    pub master: (usize, String),
+    /// The largest gap, if it is given.
+    pub tolerance: Option<f64>,
+    /// Whether nodes are moved onto the master.
+    pub adjust: bool,
+}
+
 /// A rigid body: what follows a reference node.
 #[derive(Debug, Clone)]
 pub struct Rigid {
@@ -251,6 +266,8 @@ pub enum RigidPart {
     Elements(Vec<usize>),
     /// Nodes of bodies.
     Nodes(Vec<usize>, String),
+    /// The nodes of a surface of bodies.
+    Sides(usize, String),
 }
 
 /// A sum of displacements with factors that is zero.
@@ -300,6 +317,8 @@ pub enum ActionKind {
     Volume(Target, [f64; 3], bool),
     /// A temperature of nodes.
     Temperature(Target, f64),
+    /// The contact of two surfaces ends, or is there again where this is true.
+    Contact((usize, String), (usize, String), bool),
 }
 
 /// Kinds of conditions that a step can begin anew.
@@ -361,6 +380,8 @@ pub struct Model {
     pub interactions: Vec<Interaction>,
     /// Contact pairs.
     pub pairs: Vec<Pair>,
+    /// Ties.
+    pub ties: Vec<Tie>,
     /// Rigid bodies.
     pub rigid: Vec<Rigid>,
     /// Linear equations.

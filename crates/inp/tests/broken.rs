@@ -166,13 +166,13 @@ fn files_that_are_no_decks_are_told() {
 fn all_faults_at_once() {
     let folder = folder();
     let text =
-        "*NODE\n1, 0., x\n*ELEMENT, TYPE=B31\n*ELASTIC\n1., 0.\n*TIE, NAME=T\n*BOUNDERY\nA, 1\n*STEP\n*DYNAMIC\n";
+        "*NODE\n1, 0., x\n*ELEMENT, TYPE=B31\n*ELASTIC\n1., 0.\n*EMBEDDED ELEMENT\n*BOUNDERY\nA, 1\n*STEP\n*DYNAMIC\n";
     let found = errors(folder.path(), text);
     for (line, said) in [
         (2, "a coordinate is 'x'"),
         (3, "elements of type B31"),
         (4, "belongs to no material"),
-        (6, "*TIE cannot be translated"),
+        (6, "*EMBEDDED ELEMENT cannot be translated"),
         (7, "did you mean 'BOUNDARY'?"),
         (10, "only *STATIC steps"),
     ] {

@@ -112,7 +112,7 @@ impl Audit {
         Self { subject, prepared: OnceLock::new() }
     }
 
-    /// What of the state at `u`, with histories of the terms, lies where it must not, or came through something on the way
+    /// What of the state at `u`, with histories of the terms and those that are idle, lies where it must not, or came through something on the way
     /// from the accepted unknowns; bodies are looked at between too where that way was `straight`.
     ///
     /// # Errors
@@ -120,11 +120,18 @@ impl Audit {
     pub fn check(
         &self,
         [accepted, u]: [&[f64]; 2],
-        histories: &[History],
+        (histories, idle): (&[History], &[usize]),
         straight: bool,
     ) -> Result<Interpenetration, Failure> {
         let prepared = self.prepared();
         let mut reported = vec![0.0_f64; prepared.initial.len()];
+        let claimed = || self.subject.claims.iter().map(|claim| claim.term).zip(&prepared.claimed);
+        for (_, pairs) in claimed().filter(|(term, _)| idle.contains(term)) {
+            pairs.iter().for_each(|&pair| reported[pair] = f64::INFINITY);
+        }
+        for (_, pairs) in claimed().filter(|(term, _)| !idle.contains(term)) {
+            pairs.iter().for_each(|&pair| reported[pair] = 0.0);
+        }
         for (claim, pairs) in self.subject.claims.iter().zip(&prepared.claimed) {
             let most = histories.get(claim.term).map_or(0.0, |history| (claim.penetration)(history));
             pairs.iter().for_each(|&pair| reported[pair] = reported[pair].max(most));

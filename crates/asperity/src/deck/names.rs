@@ -29,7 +29,13 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
     match names {
         Names::Condition => None,
         Names::Target => target(mention, mentions, mesh),
-        Names::Group | Names::Cells | Names::Sides => {
+        Names::Movable if defined(mentions, Names::Tool).contains(&name.text.as_str()) => None,
+        Names::Removable => {
+            let valid = [defined(mentions, Names::Contact), defined(mentions, Names::Tool)].concat();
+            (!valid.contains(&name.text.as_str()))
+                .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
+        }
+        Names::Movable | Names::Group | Names::Cells | Names::Sides => {
             group(name, *names, mesh?).map(|diagnostic| otherwise(diagnostic, name, mentions, mesh))
         }
         _ => {

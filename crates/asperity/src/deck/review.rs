@@ -66,6 +66,8 @@ pub fn review(made: &Made) -> Result<Review, Error> {
     for (name, keys) in &made.deck.contact {
         Seen::of(&all, name).for_each(|seen| page.contact(name, keys, seen));
     }
+    page.ties(made);
+    page.rigid(made);
     page.steps(made);
     problems.extend(page.motions(made)?);
     problems.extend(page.cost(made)?);
@@ -164,9 +166,30 @@ impl Page {
         });
     }
 
+    fn ties(&mut self, made: &Made) {
+        for ([surface, target], tie) in &made.model.ties {
+            let count = tie.conditions.iter().filter(|condition| condition.follows).count();
+            let (gap, tolerance) = (tie.gap, tie.tolerance);
+            self.line(format!(
+                "tie: {count} nodes of {surface} follow {target}; largest gap {gap:.3e}, tolerance {tolerance:.3e}"
+            ));
+        }
+    }
+
+    fn rigid(&mut self, made: &Made) {
+        for group in &made.model.rigid {
+            let (count, [x, y, z]) = (group.nodes.len(), group.reference.0);
+            self.line(format!("rigid {}: {count} nodes follow the point ({x}, {y}, {z})", group.name));
+        }
+    }
+
     fn steps(&mut self, made: &Made) {
         for step in &made.model.problem.steps {
             self.line(describe(step));
+            if !step.idle.is_empty() {
+                let names = step.idle.iter().map(|&term| made.model.problem.terms[term].name()).collect::<Vec<_>>();
+                self.line(format!("  without {}", names.join(", ")));
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 //! What the contacts of a model claim, for the audit: which pairs they are about and how deep their points lie.
 
 use crate::audit::Claim;
-use crate::contact::field::{FieldContact, FieldTarget, Surface};
+use crate::contact::field::{FieldContact, FieldTarget, Surface, Tie};
 use crate::contact::{self, Contact};
 use std::sync::Arc;
 
@@ -10,12 +10,13 @@ pub(super) fn claims(
     bodies: usize,
     (plane, space): (&[Arc<Contact>], &[Arc<contact::space::Contact>]),
     fields: &[Arc<FieldContact>],
+    ties: &[([String; 2], Tie)],
 ) -> Vec<Claim> {
     let flat = plane.iter().enumerate().map(|(i, contact)| in_plane(contact, bodies + i));
     let solid = space.iter().enumerate().map(|(i, contact)| in_space(contact, bodies + plane.len() + i));
     let first = bodies + plane.len() + space.len();
     let field = fields.iter().enumerate().map(|(i, contact)| of_field(contact, first + i));
-    flat.chain(solid).chain(field).collect()
+    flat.chain(solid).chain(field).chain(ties.iter().map(|(_, tie)| of_tie(tie))).collect()
 }
 
 fn in_plane(contact: &Arc<Contact>, term: usize) -> Claim {
@@ -47,3 +48,12 @@ fn of_field(contact: &Arc<FieldContact>, term: usize) -> Claim {
     let (surface, contact) = (nodes(contact.surface()), contact.clone());
     Claim { surface, target, term, penetration: Box::new(move |history| contact.largest_penetration(history)) }
 }
+
+/// Meshes that do not match lie in each other a little where they are glued, and report nothing of it.
+fn of_tie(tie: &Tie) -> Claim {
+    let [surface, target] = tie.nodes.clone();
+    Claim { surface, target: Ok(target), term: NO_TERM, penetration: Box::new(|_| 0.0) }
+}
+
+/// The number of no term.
+const NO_TERM: usize = usize::MAX;

@@ -4,4 +4,4 @@ mod audited;
 #[allow(clippy::module_inception)] // the room and the type it is about share the field's word
 mod model;
 
-pub use model::{Model, ModelParts};
+pub use model::{Model, ModelParts, RigidGroup};

@@ -2,12 +2,13 @@
 
 use super::audited::claims;
 use crate::audit::{Audit, Subject};
-use crate::contact::field::FieldContact;
+use crate::contact::field::{FieldContact, Tie};
 use crate::contact::{self, Contact};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
 use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
-use crate::system::{Dofs, State, Term, Whole};
+use crate::system::{Dofs, Following, State, Term, Whole};
+use crate::tensor::Vec3;
 use crate::tool::{self, Tool};
 use std::sync::Arc;
 
@@ -45,8 +46,23 @@ pub struct ModelParts {
     pub steps: Vec<Step>,
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
+    /// What is glued, each with the names of surface and target.
+    pub ties: Vec<([String; 2], Tie)>,
+    /// Groups of nodes that are rigid, in the order of their unknowns, which follow those of the tools.
+    pub rigid: Vec<RigidGroup>,
     /// Options of the iterations.
     pub newton: NewtonOptions,
+}
+
+/// Nodes that follow a reference point as a rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidGroup {
+    /// Its name.
+    pub name: String,
+    /// The reference point.
+    pub reference: Vec3,
+    /// The nodes.
+    pub nodes: Vec<usize>,
 }
 
 /// What is to be solved. Terms are numbered bodies first, then contacts, springs and loads.
@@ -77,6 +93,10 @@ pub struct Model {
     pub springs: usize,
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
+    /// What is glued, each with the names of surface and target.
+    pub ties: Vec<([String; 2], Tie)>,
+    /// Groups of nodes that are rigid.
+    pub rigid: Vec<RigidGroup>,
     /// The terms, steps and options that are solved.
     pub problem: Problem,
 }
@@ -94,6 +114,8 @@ impl Model {
             tools,
             solid_tools,
             supports,
+            ties,
+            rigid,
             steps,
             newton,
             ..
@@ -108,6 +130,16 @@ impl Model {
         terms.extend(solid_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(field_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
+        let arms = |group: &RigidGroup| {
+            let arm = |&node: &usize| (node, mesh.points[node] - group.reference);
+            group.nodes.iter().map(arm).collect()
+        };
+        let first = tools.len() + solid_tools.len();
+        let groups: Vec<_> = rigid.iter().enumerate().map(|(i, group)| (first + i, arms(group))).collect();
+        let following = Arc::new(Following::new(&dofs, &groups));
+        if !following.is_empty() {
+            terms = terms.into_iter().map(|term| Following::wrap(&following, term)).collect();
+        }
         let cells = bodies.iter().flat_map(|(body, _)| body.cells());
         let audit = Audit::new(Subject {
             mesh: mesh.clone(),
@@ -116,11 +148,13 @@ impl Model {
             bodies: bodies.iter().map(|(body, _)| (body.name().to_owned(), body.cells().to_vec())).collect(),
             tools: tools.clone(),
             solid_tools: solid_tools.clone(),
-            claims: claims(bodies.len(), (&contacts, &solid_contacts), &field_contacts),
+            claims: claims(bodies.len(), (&contacts, &solid_contacts), &field_contacts, &ties),
             cell_size: smallest_cell(&mesh),
             limit: INTERPENETRATION[0],
             contact_limit: INTERPENETRATION[1],
         });
+        let glued: Vec<Vec<usize>> = ties.iter().map(|(_, tie)| tie.nodes.concat()).collect();
+        let glued = glued.iter().map(Vec::as_slice);
         let problem = Problem {
             terms,
             audit: Some(audit),
@@ -129,13 +163,15 @@ impl Model {
             newton,
             size: mesh.size(),
             cell_size: smallest_cell(&mesh),
-            wholes: Whole::all(cells.map(|&cell| mesh.cell(cell).nodes), &mesh.points, space),
+            wholes: Whole::all(cells.map(|&cell| mesh.cell(cell).nodes).chain(glued), &mesh.points, space),
             tools: tools
                 .iter()
                 .map(|tool| tool.name())
                 .chain(solid_tools.iter().map(|tool| tool.name()))
+                .chain(rigid.iter().map(|group| group.name.as_str()))
                 .map(str::to_owned)
                 .collect(),
+            following,
             node_name: node_namer(mesh.clone()),
         };
         Self {
@@ -152,6 +188,8 @@ impl Model {
             field_contacts,
             springs,
             supports,
+            ties,
+            rigid,
             problem,
         }
     }

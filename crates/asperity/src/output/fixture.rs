@@ -49,6 +49,7 @@ impl Fixture {
             springs: vec![],
             tools: vec![],
             solid_tools: vec![],
+            rigid: vec![],
             supports: vec![("all".into(), (0..self.mesh.points.len()).collect())],
             constraints: vec![&self.held],
         }

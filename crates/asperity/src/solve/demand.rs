@@ -85,8 +85,7 @@ impl Problem {
     /// Unknowns that couple: those of each stencil, and what the terms reach besides.
     fn groups(&self, state: &State, at: Instant) -> Result<Couplings, Failure> {
         let (mut groups, mut stencils) = (Couplings::default(), Stencils::default());
-        for (term, history) in self.terms.iter().zip(&state.histories) {
-            let attempt = term.attempt(state, history, at)?;
+        for attempt in self.open(state, at)? {
             stencils.clear();
             attempt.stencils(&state.u, &mut stencils)?;
             groups.extend(&stencils);

@@ -5,6 +5,7 @@ mod bend;
 mod convergence;
 mod demand;
 mod free;
+mod hand_over;
 mod influences;
 mod jump;
 mod linear;

@@ -206,10 +206,9 @@ impl<'a> Newton<'a> {
     ) -> Result<Self, Failure> {
         let step = &problem.steps[state.step];
         let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
-        let opened = problem.terms.iter().zip(&state.histories).map(|(term, history)| term.attempt(state, history, at));
-        let attempts = opened.collect::<Result<Vec<_>, _>>()?;
-        let assembly =
-            Assembly { terms: &problem.terms, attempts, dofs: &problem.dofs, constraints: &step.constraints };
+        let attempts = problem.open(state, at)?;
+        let (terms, dofs) = (&problem.terms, &problem.dofs);
+        let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, leaving: &step.leaving };
         memory.workspace.prepare(&assembly, state)?;
         memory.mixed.begin(&assembly, &memory.workspace);
         let evaluation = memory.spare.take().unwrap_or_else(|| Evaluation::new(&problem.terms, state));
@@ -339,10 +338,21 @@ impl<'a> Newton<'a> {
         self.linearised = tangent != Tangent::None;
         let trial = Trial { u, missing, tangent, acting: self.memory.mixed.acting() };
         self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
+        self.let_go();
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         self.step.constraints.gather(&unbalanced, &mut self.residual);
         self.drag(u, tangent != Tangent::None);
         Ok(())
+    }
+
+    /// Adds what is left of the forces that held before the step, and goes with its time.
+    fn let_go(&mut self) {
+        let left = 1.0 - (self.at.step_time / self.step.duration).min(1.0);
+        let Evaluation { load, magnitude, .. } = &mut self.evaluation;
+        for ((load, magnitude), handed) in load.iter_mut().zip(magnitude).zip(&self.state.handed) {
+            *load += left * handed;
+            *magnitude += (left * handed).abs();
+        }
     }
 
     pub(super) fn measure(&self) -> Norms {

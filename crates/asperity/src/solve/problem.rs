@@ -3,8 +3,9 @@
 use super::newton::NewtonOptions;
 use super::observer::IterationRecord;
 use super::schedule::Step;
+use crate::Failure;
 use crate::audit::Audit;
-use crate::system::{Dofs, Energies, History, State, Term, Unknown, Whole};
+use crate::system::{Attempt, Dofs, Energies, Following, History, Idle, Instant, State, Term, Unknown, Whole};
 use std::sync::Arc;
 
 /// What is to be solved: terms, numbering, steps.
@@ -25,8 +26,10 @@ pub struct Problem {
     pub wholes: Vec<Whole>,
     /// The independent check of every increment, if it is wanted.
     pub audit: Option<Audit>,
-    /// Names of the tools.
+    /// Names of the tools, and of the rigid groups behind them.
     pub tools: Vec<String>,
+    /// Nodes that follow tools as rigid bodies.
+    pub following: Arc<Following>,
     /// Names a node in messages: its number and group.
     pub node_name: Box<dyn Fn(usize) -> String + Send + Sync>,
 }
@@ -51,6 +54,19 @@ impl Problem {
             histories,
             ..State::default()
         }
+    }
+
+    /// Opens all terms at an accepted state, those that the step does without as nothing.
+    ///
+    /// # Errors
+    /// A [`Failure`] of a term that cannot go on from there.
+    pub(super) fn open<'a>(&'a self, state: &'a State, at: Instant) -> Result<Vec<Box<dyn Attempt + 'a>>, Failure> {
+        let idle = self.steps.get(at.step).map_or(&[][..], |step| &step.idle);
+        let open = |(number, (term, history)): (usize, (&'a Arc<dyn Term>, &'a History))| match idle.contains(&number) {
+            true => Ok(Box::new(Idle) as Box<dyn Attempt + 'a>),
+            false => term.attempt(state, history, at),
+        };
+        self.terms.iter().zip(&state.histories).enumerate().map(open).collect()
     }
 
     /// Whether a state read from elsewhere is one of this problem.

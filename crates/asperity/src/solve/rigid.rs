@@ -81,10 +81,9 @@ struct Resistance<'a> {
 impl<'a> Resistance<'a> {
     fn new(problem: &'a Problem, state: &'a State, step: &'a Step, dt: f64) -> Result<Self, Failure> {
         let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
-        let opened = problem.terms.iter().zip(&state.histories).map(|(term, history)| term.attempt(state, history, at));
-        let attempts = opened.collect::<Result<Vec<_>, _>>()?;
-        let assembly =
-            Assembly { terms: &problem.terms, attempts, dofs: &problem.dofs, constraints: &step.constraints };
+        let attempts = problem.open(state, at)?;
+        let (terms, dofs) = (&problem.terms, &problem.dofs);
+        let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, leaving: &[] };
         let mut workspace = Workspace::default();
         workspace.list_stencils(&assembly, state)?;
         let evaluation = Evaluation::new(&problem.terms, state);

@@ -110,6 +110,7 @@ impl<'a> Run<'a> {
             self.ended = Kind::TooMany;
             return Err(self.too_many(step));
         }
+        self.enter();
         let record = self.increment(step, observer)?;
         observer.accepted(&self.state, &record)?;
         if self.state.step > record.step {
@@ -197,7 +198,8 @@ impl<'a> Run<'a> {
     fn audit(&mut self, converged: &Converged, straight: bool) -> Result<Interpenetration, Failure> {
         let Some(audit) = &self.problem.audit else { return Ok(Interpenetration::default()) };
         let begun = Instant::now();
-        let found = audit.check([&self.state.u, &converged.u], &converged.evaluation.histories, straight);
+        let idle = self.problem.steps.get(self.state.step).map_or(&[][..], |step| &step.idle);
+        let found = audit.check([&self.state.u, &converged.u], (&converged.evaluation.histories, idle), straight);
         self.audited += begun.elapsed();
         found
     }
@@ -255,7 +257,9 @@ impl<'a> Run<'a> {
         if self.problem.newton.rehearse {
             let _ = solve(&mut record.clone(), &mut super::Silent);
         }
-        solve(record, observer)
+        let mut converged = solve(record, observer)?;
+        self.problem.following.place(&mut converged.u);
+        Ok(converged)
     }
 
     fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
@@ -316,7 +320,12 @@ impl<'a> Run<'a> {
         }
         std::mem::swap(&mut state.internal, &mut evaluation.internal);
         std::mem::swap(&mut state.load, &mut evaluation.load);
-        std::mem::swap(&mut state.histories, &mut evaluation.histories);
+        let idle = self.problem.steps.get(state.step).map_or(&[][..], |step| &step.idle);
+        let histories = state.histories.iter_mut().zip(&mut evaluation.histories).enumerate();
+        for (_, (old, new)) in histories.filter(|(number, _)| !idle.contains(number)) {
+            std::mem::swap(old, new);
+        }
+        std::mem::swap(&mut state.leaving, &mut evaluation.leaving);
         self.memory.spare = Some(evaluation);
         state.preconditioner = self.memory.preconditioner(self.solver.as_ref());
         for (past, now) in state.in_play.iter_mut().zip(converged.in_play) {
@@ -327,6 +336,7 @@ impl<'a> Run<'a> {
     fn begin_next_step(&mut self) {
         let state = &mut self.state;
         state.step += 1;
+        state.entered = false;
         (state.step_increment, state.step_time) = (0, 0.0);
         state.last_dt = 0.0;
         state.caution = Caution::default();

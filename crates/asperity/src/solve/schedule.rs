@@ -86,6 +86,10 @@ pub struct Step {
     pub constraints: Constraints,
     /// What they are constrained to.
     pub prescribed: Vec<Prescribed>,
+    /// Terms that it does without, ascending.
+    pub idle: Vec<usize>,
+    /// Terms that only the next step does without, ascending.
+    pub leaving: Vec<usize>,
 }
 
 /// Iterations up to which an increment counts as easy.
@@ -183,7 +187,15 @@ mod tests {
     fn no_sliver_remains_at_the_end_of_a_step() {
         let constraints = Constraints::new(0, &[], &[]);
         let increments = Increments { first: 0.3, largest: 0.3, ..Increments::default() };
-        let step = Step { name: "s".into(), duration: 1.0, increments, constraints, prescribed: Vec::new() };
+        let step = Step {
+            name: "s".into(),
+            duration: 1.0,
+            increments,
+            constraints,
+            prescribed: Vec::new(),
+            idle: vec![],
+            leaving: vec![],
+        };
         let (mut done, mut sizes) = (0.0, Vec::new());
         while done < 1.0 {
             sizes.push(step.next(0.3, done));

@@ -52,6 +52,8 @@ pub struct Evaluation {
     pub magnitude: Vec<f64>,
     /// Forces that the motion still missing at the prescribed unknowns adds to first order.
     pub carried: Vec<f64>,
+    /// Forces on all unknowns of the terms that leave; empty where none does.
+    pub leaving: Vec<f64>,
     /// Matrix values in the order of the pattern; meaningful when the tangent was wanted.
     pub values: Vec<f64>,
     /// History of each term at the trial state.
@@ -72,6 +74,8 @@ pub struct Assembly<'a> {
     pub dofs: &'a Dofs,
     /// What is prescribed.
     pub constraints: &'a Constraints,
+    /// Terms that the next step does without, whose forces are asked for apart.
+    pub leaving: &'a [usize],
 }
 
 /// Memory that lives through the run: pattern, places in it, chunk buffers.
@@ -181,6 +185,8 @@ impl Workspace {
         self.find_stencils(assembly, trial.u)?;
         loop {
             out.clear(assembly.dofs.count(), self.pattern().columns.len(), trial.tangent);
+            out.leaving.clear();
+            out.leaving.resize(if assembly.leaving.is_empty() { 0 } else { assembly.dofs.count() }, 0.0);
             let mut miss = false;
             for t in 0..assembly.terms.len() {
                 match self.evaluate_term(assembly, t, trial, out)? {
@@ -222,7 +228,7 @@ impl Workspace {
         let role = assembly.terms[t].role();
         let sign = if role == Role::Load { -1.0 } else { 1.0 };
         let frame = Frame { constraints: assembly.constraints, pattern, places, sign };
-        let mut sink = Sink::new((out, t), (trial, role), frame);
+        let mut sink = Sink::new((out, t), (trial, role), frame).leaving(assembly.leaving.contains(&t));
         let (mut result, count) = (Ok(()), stencils.list.len());
         let round = CHUNK * ROUND[usize::from(rayon::current_num_threads() > 1)];
         for first in (0..count).step_by(round) {

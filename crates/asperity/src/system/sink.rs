@@ -34,6 +34,7 @@ pub struct Sink<'a> {
     trial: &'a Trial<'a>,
     role: Role,
     frame: Frame<'a>,
+    leaving: bool,
 }
 
 impl<'a> Sink<'a> {
@@ -43,7 +44,12 @@ impl<'a> Sink<'a> {
         (trial, role): (&'a Trial<'a>, Role),
         frame: Frame<'a>,
     ) -> Self {
-        Self { out, term, trial, role, frame }
+        Self { out, term, trial, role, frame, leaving: false }
+    }
+
+    /// The same for a term whose forces are asked for apart too.
+    pub fn leaving(self, leaving: bool) -> Self {
+        Self { leaving, ..self }
     }
 
     /// Adds the results of a round; the sink's order is that of the calls.
@@ -80,6 +86,9 @@ impl<'a> Sink<'a> {
         for (&dof, &force) in dofs.iter().zip(forces) {
             sum[dof] += force;
             magnitude[dof] += force.abs();
+        }
+        if self.leaving {
+            dofs.iter().zip(forces).for_each(|(&dof, force)| self.out.leaving[dof] += force);
         }
     }
 

@@ -141,6 +141,13 @@ pub struct State {
     pub internal: Vec<f64>,
     /// Forces of all loads on all unknowns.
     pub load: Vec<f64>,
+    /// Whether what the step lets go has been noted.
+    pub entered: bool,
+    /// Forces on all unknowns of what the next step does without, found in the last increment before it; else empty.
+    pub leaving: Vec<f64>,
+    /// Forces on all unknowns that held when the step began and that are let go little by little over it; empty where there are
+    /// none.
+    pub handed: Vec<f64>,
     /// The largest force and moment that have been in play: sums of the magnitudes of the forces of stencils on an unknown.
     pub in_play: [f64; 2],
     /// Energies of each term.

@@ -37,6 +37,11 @@ impl Whole {
         wholes.into_iter().map(|(_, whole)| whole).collect()
     }
 
+    /// The nodes.
+    pub fn nodes(&self) -> impl Iterator<Item = usize> + '_ {
+        self.nodes.iter().map(|(node, _)| *node)
+    }
+
     /// Writes to `u` the accepted state with the motion of the last increment, times `part`, carried on.
     pub fn carry(&self, dofs: &Dofs, state: &State, part: f64, u: &mut [f64]) {
         let (now, arms) = self.placed(dofs, |dof| state.u[dof]);

@@ -146,6 +146,8 @@ pub fn model(size: usize, factors: Factors) -> Model {
         loads: vec![Box::new(ball)],
         steps: ["press", "slide"].map(|name| step(name, &dofs, &bottom)).into(),
         supports: vec![],
+        ties: vec![],
+        rigid: vec![],
         newton: NewtonOptions { factors, ..NewtonOptions::default() },
         mesh: mesh.clone(),
         dofs,
@@ -160,6 +162,8 @@ fn step(name: &str, dofs: &Dofs, held: &[usize]) -> Step {
         increments: Increments { first: 0.25, largest: 0.25, ..Increments::default() },
         constraints: Constraints::new(dofs.count(), held, &[]),
         prescribed: held.iter().map(hold).collect(),
+        idle: vec![],
+        leaving: vec![],
     }
 }
 

@@ -6,7 +6,8 @@ const OUTPUT: &str = "all fields are written to VTU, reactions and contact force
 const STATIC_ONLY: &str = "only *STATIC steps can be solved";
 const SOLIDS_ONLY: &str = "bodies are made of solid, plane or axisymmetric cells with a *SOLID SECTION";
 const BY_HAND: &str = "the deck of Asperity has laws of this kind: write the material there by hand";
-const CONSTRAINTS: &str = "of the constraints between nodes only *EQUATION can be solved; mesh the parts as one";
+const CONSTRAINTS: &str =
+    "of the constraints between nodes only *EQUATION, *TIE, *RIGID BODY and *COUPLING with *KINEMATIC can be solved";
 const PAIRS_ONLY: &str = "name the surfaces in a *CONTACT PAIR";
 const BEGINNING: &str = "only temperatures can be given at the beginning; stresses: `initial_stress` of a body";
 
@@ -45,11 +46,11 @@ pub static OTHER: &[Keyword] = &[
     without_effect("ORIENTATION", "all laws are isotropic"),
     without_effect("MASS", "nothing moves by inertia in a static step"),
     without_effect("ROTARY INERTIA", "nothing moves by inertia in a static step"),
-    no("TIE", CONSTRAINTS),
     no("MPC", CONSTRAINTS),
-    no("COUPLING", CONSTRAINTS),
-    no("KINEMATIC", CONSTRAINTS),
-    no("DISTRIBUTING", CONSTRAINTS),
+    no(
+        "DISTRIBUTING",
+        "only *KINEMATIC couplings can be solved; lay the force on the surface by *DSLOAD or on its nodes by *CLOAD",
+    ),
     no("KINEMATIC COUPLING", CONSTRAINTS),
     no("DISTRIBUTING COUPLING", CONSTRAINTS),
     no("EMBEDDED ELEMENT", CONSTRAINTS),
@@ -58,7 +59,6 @@ pub static OTHER: &[Keyword] = &[
     no("TRANSFORM", "lead the nodes along the axes, or write `along` into the deck of Asperity"),
     no("CHANGE FRICTION", "friction stays what it is over a run"),
     no("CHANGE SURFACE BEHAVIOR", "the penalty stays what it is over a run"),
-    no("MODEL CHANGE", "contacts and elements stay over a run; lift the tool off by *BOUNDARY"),
     no("CHANGE MATERIAL", "materials stay what they are over a run"),
     no("CLEARANCE", "move the nodes, or give ADJUST to the *CONTACT PAIR"),
     no("CONTACT INTERFERENCE", "model the overlap in the mesh: it presses from the first increment on"),

@@ -3,7 +3,7 @@
 use super::Reader;
 use crate::elements::Dialect;
 use crate::message::{Place, suggestion};
-use crate::model::{Interaction, Pair};
+use crate::model::{Interaction, Pair, Tie};
 use crate::source::Block;
 
 impl Reader {
@@ -74,6 +74,33 @@ impl Reader {
         self.of_interaction(block.place, "FRICTION", |interaction| {
             *interaction = Interaction { name: interaction.name.clone(), slope: interaction.slope, ..changed };
         });
+    }
+
+    /// `*TIE`.
+    pub(crate) fn tie(&mut self, block: &Block) {
+        if self.first_line(block, "the two surfaces").is_none() {
+            return;
+        }
+        let tolerance = match block.value("POSITION TOLERANCE") {
+            Some(value) => match self.number(block.place, value, "POSITION TOLERANCE") {
+                Some(value) if value > 0.0 => Some(value),
+                Some(_) => return self.error(block.place, "POSITION TOLERANCE must be positive"),
+                None => return,
+            },
+            None => None,
+        };
+        let adjust = block.word("ADJUST").is_none_or(|word| word != "NO");
+        for line in &block.lines {
+            let fields = line.fields();
+            let [first, second, ..] = fields.as_slice() else {
+                self.error(line.place, "a tie has two surfaces: the one that follows, and the one that it follows");
+                continue;
+            };
+            let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
+            if let (Some(slave), Some(master)) = (slave, master) {
+                self.model.ties.push(Tie { place: line.place, slave, master, tolerance, adjust });
+            }
+        }
     }
 
     /// `*CONTACT PAIR`.

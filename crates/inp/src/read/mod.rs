@@ -25,6 +25,8 @@ pub struct Reader {
     material: Option<usize>,
     interaction: Option<usize>,
     step: Option<usize>,
+    /// Where the `*COUPLING` stands whose kind is still to be said.
+    coupling: Option<Place>,
 }
 
 /// The model that blocks say.
@@ -36,6 +38,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
         material: None,
         interaction: None,
         step: None,
+        coupling: None,
     };
     reader.model.dialect = dialect(blocks);
     let laid_out = reader.lay_out(blocks);
@@ -57,6 +60,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
             read(&mut reader, block);
         }
     }
+    reader.end_coupling();
     reader.finish(blocks);
     *messages = reader.messages;
     reader.model

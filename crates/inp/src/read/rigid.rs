@@ -146,6 +146,52 @@ impl Reader {
         }
     }
 
+    /// `*COUPLING`: a surface that goes with a node, as the block below says.
+    pub(crate) fn coupling(&mut self, block: &Block) {
+        self.end_coupling();
+        let place = block.place;
+        let Some(node) = self.required(block, "REF NODE").map(str::to_string) else { return };
+        let Some(surface) = self.required(block, "SURFACE").map(str::to_string) else { return };
+        let (Some(node), Some((scope, name))) = (self.one_node(place, &node), self.named_surface(place, &surface))
+        else {
+            return;
+        };
+        self.coupling = Some(place);
+        let what = RigidPart::Sides(scope, name);
+        self.model.rigid.push(Rigid { place, node, rotation_node: None, what });
+    }
+
+    /// `*KINEMATIC`: along which axes.
+    pub(crate) fn kinematic(&mut self, block: &Block) {
+        if self.coupling.take().is_none() {
+            return self.error(block.place, "*KINEMATIC stands below no *COUPLING that says what it is about");
+        }
+        let mut held = [block.lines.is_empty(); 3];
+        for line in &block.lines {
+            let Some(first) = self.axis(line, 0) else { return };
+            let last = match line.fields().get(1) {
+                Some(field) if !field.is_empty() => match self.axis(line, 1) {
+                    Some(last) => last,
+                    None => return,
+                },
+                _ => first,
+            };
+            held.iter_mut().take(last + 1).skip(first).for_each(|held| *held = true);
+        }
+        let plane = self.model.elements.iter().all(|element| element.kind.family != Family::Solid);
+        if !held.iter().take(if plane { 2 } else { 3 }).all(|&held| held) {
+            let what = "nodes that go with a node along some axes only cannot be translated; couple degrees of freedom 1 to 3, or say \
+                        by *EQUATION what goes together";
+            self.error(block.place, what);
+        }
+    }
+
+    pub(super) fn end_coupling(&mut self) {
+        if let Some(place) = self.coupling.take() {
+            self.error(place, "the *COUPLING says no kind; write *KINEMATIC below it");
+        }
+    }
+
     fn nodes_of(&self, elements: &[usize]) -> Vec<usize> {
         let mut nodes: Vec<usize> =
             elements.iter().flat_map(|&element| self.model.elements[element].nodes.iter().copied()).collect();

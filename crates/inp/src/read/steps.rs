@@ -232,6 +232,30 @@ impl Reader {
         }
     }
 
+    /// `*MODEL CHANGE` of contact pairs.
+    pub(crate) fn model_change(&mut self, block: &Block) {
+        if block.word("TYPE").is_none_or(|kind| kind != "CONTACTPAIR") {
+            let what = "only contact pairs can be removed and added; write TYPE=CONTACT PAIR";
+            return self.error(block.place, what);
+        }
+        let (add, remove) = (block.has("ADD"), block.has("REMOVE"));
+        if add == remove {
+            return self.error(block.place, "*MODEL CHANGE needs either ADD or REMOVE");
+        }
+        if self.first_line(block, "the two surfaces").is_none() {
+            return;
+        }
+        for line in &block.lines {
+            let fields = line.fields();
+            let first = fields.first().copied().unwrap_or("");
+            let second = fields.get(1).copied().filter(|field| !field.is_empty()).unwrap_or(first);
+            let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
+            if let (Some(slave), Some(master)) = (slave, master) {
+                self.act(line.place, None, ActionKind::Contact(slave, master, add));
+            }
+        }
+    }
+
     /// `*TEMPERATURE`.
     pub(crate) fn temperature(&mut self, block: &Block) {
         let Some(course) = self.begin(block, Condition::Temperature) else { return };

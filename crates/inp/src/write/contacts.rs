@@ -3,12 +3,14 @@
 use super::{Writer, quoted};
 use crate::elements::Family;
 use crate::message::Place;
-use crate::model::{Interaction, Pair, SurfaceKind};
+use crate::model::{ActionKind, Interaction, Pair, SurfaceKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A side of a contact.
-enum Sided {
+pub(super) enum Sided {
+    /// Faces of bodies, by their group.
     Sides(String),
+    /// A tool.
     Tool(String),
 }
 
@@ -37,7 +39,7 @@ impl Writer<'_> {
     }
 
     fn contact(&mut self, number: usize, pair: &Pair) -> Option<()> {
-        let (slave, master) = (self.sided(pair, &pair.slave)?, self.sided(pair, &pair.master)?);
+        let (slave, master) = (self.sided(pair.place, &pair.slave)?, self.sided(pair.place, &pair.master)?);
         let of_bodies = matches!((&slave, &master), (Sided::Sides(_), Sided::Sides(_)));
         let (surface, target) = match (slave, master) {
             (Sided::Sides(surface), Sided::Sides(target) | Sided::Tool(target)) => (surface, target),
@@ -52,10 +54,7 @@ impl Writer<'_> {
         };
         let interaction = self.model.interactions.get(pair.interaction)?;
         let law = self.friction(interaction, pair.place);
-        let name = match self.model.pairs.iter().filter(|other| other.interaction == pair.interaction).count() {
-            1 => interaction.name.clone(),
-            _ => format!("{} {number}", interaction.name),
-        };
+        let name = self.contact_name(number, pair)?;
         let from = self.from(pair.place);
         let mut text = format!(
             "\n[contact.{}]{from}\nsurface = {}\ntarget = {}\n",
@@ -78,6 +77,54 @@ impl Writer<'_> {
         text += &format!("overlap = \"{}\"\n", if pair.adjust { "adjust" } else { "keep" });
         self.text += &text;
         Some(())
+    }
+
+    /// One tie for each.
+    pub(super) fn ties(&mut self) {
+        let model = self.model;
+        for tie in &model.ties {
+            let (Some(slave), Some(master)) = (self.sided(tie.place, &tie.slave), self.sided(tie.place, &tie.master))
+            else {
+                continue;
+            };
+            let (Sided::Sides(surface), Sided::Sides(target)) = (slave, master) else {
+                self.error(tie.place, "a rigid surface cannot be tied; both sides must be those of bodies");
+                continue;
+            };
+            let from = self.from(tie.place);
+            self.text += &format!("\n[[tie]]{from}\nsurface = {}\ntarget = {}\n", quoted(&surface), quoted(&target));
+            if let Some(tolerance) = tie.tolerance {
+                self.text += &format!("tolerance = {tolerance:?}\n");
+            }
+            if !tie.adjust {
+                self.text += "gap = \"keep\"\n";
+            }
+        }
+    }
+
+    /// What the contact of a pair is called.
+    fn contact_name(&self, number: usize, pair: &Pair) -> Option<String> {
+        let name = &self.model.interactions.get(pair.interaction)?.name;
+        let alike = self.model.pairs.iter().filter(|other| other.interaction == pair.interaction);
+        Some(if alike.count() == 1 { name.clone() } else { format!("{name} {number}") })
+    }
+
+    /// The contacts that a step ends, and those that are there again.
+    pub(super) fn changed_contacts(&mut self, step: usize) -> [Vec<String>; 2] {
+        let (model, mut changed) = (self.model, [vec![], vec![]]);
+        for action in model.actions(step) {
+            let ActionKind::Contact(slave, master, add) = &action.kind else { continue };
+            let pairs = model.pairs.iter().enumerate();
+            let names: Vec<String> = pairs
+                .filter(|(_, pair)| (&pair.slave, &pair.master) == (slave, master))
+                .filter_map(|(number, pair)| self.contact_name(number + 1, pair))
+                .collect();
+            if names.is_empty() {
+                self.error(action.place, format!("there is no *CONTACT PAIR of '{}' and '{}'", slave.1, master.1));
+            }
+            changed[usize::from(*add)].extend(names.iter().map(|name| quoted(name)));
+        }
+        changed
     }
 
     /// The law of an interaction.
@@ -103,22 +150,19 @@ impl Writer<'_> {
     }
 
     /// What a surface of a pair is here.
-    fn sided(&mut self, pair: &Pair, name: &(usize, String)) -> Option<Sided> {
+    pub(super) fn sided(&mut self, place: Place, name: &(usize, String)) -> Option<Sided> {
         let surface = self.model.surface(name)?;
         let rigid = |element: usize| self.model.elements[element].kind.family == Family::Rigid;
         match &surface.kind {
             SurfaceKind::Analytical(_) => self.tool_of_surface(name).map(Sided::Tool).or_else(|| {
                 let what = format!("surface '{}' has no *RIGID BODY, which says what it follows", surface.name);
-                self.error(pair.place, what);
+                self.error(place, what);
                 None
             }),
             SurfaceKind::Faces(faces) if faces.iter().any(|&(element, ..)| rigid(element)) => {
                 let found = faces.first().and_then(|&(element, ..)| self.tool_of_element(element));
                 found.map(Sided::Tool).or_else(|| {
-                    self.error(
-                        pair.place,
-                        format!("surface '{}' lies on rigid elements of no *RIGID BODY", surface.name),
-                    );
+                    self.error(place, format!("surface '{}' lies on rigid elements of no *RIGID BODY", surface.name));
                     None
                 })
             }
@@ -134,7 +178,7 @@ impl Writer<'_> {
                 };
                 let faces: Vec<_> = faces.into_iter().filter(outer).collect();
                 if faces.is_empty() {
-                    self.error(pair.place, format!("surface '{}' has no face on the outside of a body", surface.name));
+                    self.error(place, format!("surface '{}' has no face on the outside of a body", surface.name));
                     return None;
                 }
                 if faces.len() < count {
@@ -152,7 +196,7 @@ impl Writer<'_> {
                 if faces.is_empty() {
                     let what =
                         format!("the nodes of surface '{}' make up no face; name faces of elements", surface.name);
-                    self.error(pair.place, what);
+                    self.error(place, what);
                     return None;
                 }
                 self.note(surface.place, format!("surface '{}' of nodes becomes the faces between them", surface.name));

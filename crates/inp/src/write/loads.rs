@@ -59,8 +59,8 @@ impl Writer<'_> {
                 for &record in owner {
                     let (end, course) = self.followed(&records[record], number);
                     let place = records[record].place;
-                    if let Some(tool) = self.tools.iter().find(|tool| tool.node == *node) {
-                        add(&mut tools, (tool.name.clone(), *axis), Item { end, start: None, course, place });
+                    if let Some(led) = self.led_tool(*node, *axis) {
+                        add(&mut tools, led, Item { end, start: None, course, place });
                     } else if self.used[*node] && *axis < self.dimension() {
                         pieces.entry((record, *axis)).or_default().push(*node);
                     } else if !self.used[*node] && !model.rigid.iter().any(|rigid| rigid.node == *node) {

@@ -58,6 +58,7 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
     writer.tools();
     writer.contacts();
     writer.equations();
+    writer.ties();
     writer.steps();
     writer.named_sets();
     let mesh = writer.groups.mesh(model, &writer.section, &writer.used);

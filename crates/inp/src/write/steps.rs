@@ -50,6 +50,12 @@ impl Writer<'_> {
             if !released.is_empty() {
                 text += &format!("release = [{}]\n", released.join(", "));
             }
+            let changed = self.changed_contacts(number);
+            for (key, names) in ["remove", "add"].iter().zip(&changed) {
+                if !names.is_empty() {
+                    text += &format!("{key} = [{}]\n", names.join(", "));
+                }
+            }
             text.extend(said.iter().flat_map(|kind| kind[number].lines.clone()));
             self.text += &text;
             if released.iter().any(|name| name.starts_with("\"displacement.")) {

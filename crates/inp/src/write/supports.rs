@@ -3,6 +3,7 @@
 use super::Writer;
 use super::conditions::Table;
 use super::courses::{Item, Record};
+use crate::elements::Family;
 use crate::message::Place;
 use crate::model::{ActionKind, Condition, RigidPart};
 use std::collections::BTreeMap;
@@ -64,9 +65,9 @@ impl Writer<'_> {
         for (key @ (node, axis), &record) in owners {
             let (end, course) = self.followed(&records[record], step);
             let place = records[record].place;
-            if let Some(tool) = self.tools.iter().find(|tool| tool.node == *node) {
-                motion
-                    .insert((tool.name.clone(), *axis), Item { end, start: start(key), course: course.clone(), place });
+            if let Some(led) = self.led_tool(*node, *axis) {
+                motion.insert(led, Item { end, start: start(key), course: course.clone(), place });
+                continue;
             }
             if self.used[*node] && *axis < self.dimension() {
                 let from = course.as_ref().and_then(|_| start(key)).map(f64::to_bits);
@@ -102,6 +103,9 @@ impl Writer<'_> {
         let mut led = Vec::new();
         for rigid in &model.rigid {
             let RigidPart::Nodes(nodes, name) = &rigid.what else { continue };
+            if self.family != Family::Axisymmetric {
+                continue;
+            }
             let turns: Vec<usize> = if dimension == 3 { vec![3, 4, 5] } else { vec![5] };
             let turn = |&axis: &usize| match rigid.rotation_node {
                 Some(node) => owners.get(&(node, axis - 3)),

@@ -1,5 +1,6 @@
 //! Rigid tools: analytical profiles and rigid elements.
 
+use super::contacts::Sided;
 use super::{Writer, list, quoted};
 use crate::elements::Family;
 use crate::message::Place;
@@ -40,7 +41,22 @@ impl Writer<'_> {
                     let name = self.name_of(elements).unwrap_or_else(|| format!("rigid {}", number + 1));
                     self.facets(elements, negative, rigid.place).map(|shape| (name, shape))
                 }
-                RigidPart::Nodes(..) => None,
+                RigidPart::Nodes(..) if self.family == Family::Axisymmetric => None,
+                RigidPart::Nodes(nodes, name) => {
+                    let group = self.groups.nodes(name, nodes.clone());
+                    self.rigid_group(&group, number);
+                    None
+                }
+                RigidPart::Sides(scope, name) => {
+                    match self.sided(rigid.place, &(*scope, name.clone())) {
+                        Some(Sided::Sides(group)) => self.rigid_group(&group, number),
+                        Some(Sided::Tool(_)) => {
+                            self.error(rigid.place, "a rigid surface cannot be coupled; name one of bodies")
+                        }
+                        None => {}
+                    }
+                    None
+                }
             };
             let Some((name, shape)) = shape else { continue };
             let from = self.from(rigid.place);
@@ -48,6 +64,31 @@ impl Writer<'_> {
             self.text += &format!("\n[tool.{}]{from}\n{shape}reference = {}\n", quoted(&name), list(reference));
             self.tools.push(Tool { name, node: rigid.node, rigid: number, place: rigid.place });
         }
+    }
+
+    /// A group of nodes that goes with the node of a rigid body.
+    fn rigid_group(&mut self, group: &str, number: usize) {
+        let rigid = &self.model.rigid[number];
+        let taken = |name: &str| self.tools.iter().any(|tool| tool.name == name);
+        let name = if taken(group) { format!("{group} {}", number + 1) } else { group.to_owned() };
+        let (from, reference) = (self.from(rigid.place), &self.model.nodes[rigid.node].x[..self.dimension()]);
+        self.text +=
+            &format!("\n[rigid.{}]{from}\ngroup = {}\nreference = {}\n", quoted(&name), quoted(group), list(reference));
+        self.tools.push(Tool { name, node: rigid.node, rigid: number, place: rigid.place });
+    }
+
+    /// The tool that a node leads, and along which axis: a node of its rotation has turns for translations.
+    pub(super) fn led_tool(&self, node: usize, axis: usize) -> Option<(String, usize)> {
+        let of = |tool: &Tool| {
+            let turns = self.model.rigid[tool.rigid].rotation_node == Some(node);
+            match (tool.node == node, turns) {
+                (true, _) => Some((tool.name.clone(), axis)),
+                // In the plane the turn is about the third axis.
+                (false, true) => Some((tool.name.clone(), axis + 3)),
+                _ => None,
+            }
+        };
+        self.tools.iter().find_map(of)
     }
 
     /// The tool of an analytical surface.

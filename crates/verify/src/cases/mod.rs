@@ -24,13 +24,16 @@ mod partial_slip;
 mod partial_slip_3d;
 mod pile;
 mod pull_out;
+mod rigid_hub;
 mod ring_compression;
 mod rolling;
 mod rotated_pair;
 mod shallow_ironing;
+mod springback;
 mod strip_footing;
 mod strip_punch;
 mod thick_shells;
+mod tie_patch;
 mod tube;
 mod two_body_patch;
 mod upsetting;
@@ -75,4 +78,7 @@ pub const ALL: &[&Case] = &[
     &ring_compression::CASE,
     &rolling::CASE,
     &pile::CASE,
+    &tie_patch::CASE,
+    &rigid_hub::CASE,
+    &springback::CASE,
 ];

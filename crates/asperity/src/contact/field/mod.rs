@@ -29,11 +29,13 @@ mod space;
 mod stencil;
 mod surface;
 mod term;
+mod tie;
 mod tip;
 mod tool;
 
 pub use surface::Surface;
 pub use term::{FieldContact, FieldParts, FieldTarget};
+pub use tie::{Apart, Condition, Tie, TieParts};
 
 #[cfg(test)]
 mod tests;

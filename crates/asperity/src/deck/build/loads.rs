@@ -40,7 +40,7 @@ fn timeline<T>(
         let new = said(step).iter().find(|(other, _)| other.text == name).and_then(|(_, keys)| value(keys));
         match new {
             Some((value, amplitude)) => Change::To(value, amplitude),
-            None if step.releases(kind, name) => Change::Release,
+            None if step.releases(kind, name) || (kind == "load" && step.holds(name)) => Change::Release,
             None => Change::Keep,
         }
     };
@@ -184,7 +184,7 @@ impl Builder<'_> {
         let said: Said<_> = |step| &step.load;
         let mut terms = Terms::new();
         for name in names(&self.deck.step, said) {
-            let tool = self.deck.tool.iter().position(|(tool, _)| tool.text == name.text)?;
+            let tool = self.leader(&name.text)?;
             let (plane, title) = (self.plane(), format!("load.{name}"));
             let values = (0..self.site.dofs.per_tool()).map(|i| {
                 timeline(&self.deck.step, ("load", &name.text), said, |load| {

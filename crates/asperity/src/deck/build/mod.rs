@@ -2,14 +2,17 @@
 //! become constraints and timelines. What the parts of a model say against the deck is shown at the deck's lines; all of
 //! it at once.
 
+mod absent;
 mod bodies;
 mod contacts;
 mod field_contacts;
 mod loads;
 mod overlaps;
+mod rigid;
 mod solid_contacts;
 mod solid_tools;
 mod supports;
+mod ties;
 mod tools;
 
 pub(super) use contacts::backings;
@@ -24,7 +27,7 @@ use crate::model::{Model, ModelParts};
 use crate::output::Asked;
 use crate::output::checkpoint::InputHash;
 use crate::solve::{Increments, Step};
-use crate::system::Dofs;
+use crate::system::{Dofs, Term};
 use crate::{Error, machine};
 use std::path::Path;
 use std::sync::Arc;
@@ -50,6 +53,7 @@ struct Builder<'d> {
     /// Where files are looked for, and the bytes of those that were read.
     folder: &'d Path,
     files: Vec<Vec<u8>>,
+    ties: Vec<ties::Glued>,
     found: Vec<Diagnostic>,
 }
 
@@ -95,10 +99,11 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     let prints = prints(&loaded);
     let Loaded { deck, mesh, folder, unsaid, mut diagnostics } = loaded;
     let space = *deck.space;
-    let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len());
+    let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len() + deck.rigid.len());
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
     let site = Site { mesh: Arc::new(mesh), dofs, space, thickness };
-    let mut builder = Builder { deck: &deck, site, folder: &folder, files: Vec::new(), found: Vec::new() };
+    let mut builder =
+        Builder { deck: &deck, site, folder: &folder, files: Vec::new(), ties: Vec::new(), found: Vec::new() };
     let built = builder.settled();
     let input = InputHash::of(&prints.iter().chain(&builder.files).map(Vec::as_slice).collect::<Vec<_>>());
     diagnostics.list.append(&mut builder.found);
@@ -131,6 +136,15 @@ const ROUNDS: usize = 5;
 impl Builder<'_> {
     /// Everything, with the nodes moved that are to be.
     fn settled(&mut self) -> Option<ModelParts> {
+        self.glue();
+        let glued = std::mem::take(&mut self.found);
+        let built = self.adjusted();
+        self.found.extend(glued);
+        built
+    }
+
+    /// Everything, with the nodes moved out of targets that are to be.
+    fn adjusted(&mut self) -> Option<ModelParts> {
         let mut built = self.everything()?;
         for _ in 0..ROUNDS {
             if !self.adjust(&built) {
@@ -157,9 +171,18 @@ impl Builder<'_> {
         let solid = solid_tools.as_ref().filter(|_| !plane);
         let solid_contacts = solid.and_then(|tools| self.solid_contacts(tools, bodies.as_deref()?));
         let field_contacts = self.field_contacts((tools.as_deref(), solid_tools.as_deref()), bodies.as_deref());
-        let (springs, loads) = (self.springs(), self.loads());
+        let (springs, loads, rigid) = (self.springs(), self.loads(), self.rigid());
         let (constrained, supports) = self.supports();
+        let plane_names = contacts.iter().flatten().map(|contact| contact.name().to_owned());
+        let solid_names = solid_contacts.iter().flatten().map(|contact| contact.name().to_owned());
+        let field_names = field_contacts.iter().flatten().map(|contact| contact.name().to_owned());
+        let names: Vec<String> = plane_names.chain(solid_names).chain(field_names).collect();
+        let absent = self.absent(&names, bodies.as_ref().map_or(0, Vec::len));
         let steps = self.deck.step.iter().enumerate().zip(constrained);
+        let leaving = |i: usize| {
+            let next = absent.get(i + 1).into_iter().flatten().copied();
+            next.filter(|term| !absent[i].contains(term)).collect()
+        };
         Some(ModelParts {
             title: self.deck.title.clone(),
             space: self.site.space,
@@ -182,9 +205,13 @@ impl Builder<'_> {
                     increments: increments(&step.increments),
                     constraints,
                     prescribed,
+                    idle: absent[i].clone(),
+                    leaving: leaving(i),
                 })
                 .collect(),
             supports,
+            ties: self.ties.iter().map(|glued| (glued.names.clone(), glued.tie.clone())).collect(),
+            rigid,
             newton: self.deck.solver.newton_options(),
         })
     }

@@ -26,10 +26,14 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
     let standard = keys.is_some_and(|keys| *keys.formulation == Formulation::Standard);
     let full = keys.is_some_and(|keys| *keys.integration == Integration::Full);
     let locks = |kind: &'static Cell| kind.degree == 1 && standard && (full || kind.reduced.is_none());
-    let held = model.supports.iter().any(|(_, held)| held.iter().any(|node| nodes.contains(node)));
+    // What is glued to it is held with it.
+    let wholes = model.problem.wholes.iter().filter(|whole| whole.nodes().any(|node| nodes.contains(&node)));
+    let together: BTreeSet<usize> = wholes.flat_map(|whole| whole.nodes()).collect();
+    let held = model.supports.iter().any(|(_, held)| held.iter().any(|node| together.contains(node)));
     let springs = made.deck.step.iter().flat_map(|step| &step.spring);
-    let sprung =
-        springs.filter_map(|(name, _)| mesh.groups.get(&name.text)).any(|g| g.nodes.iter().any(|n| nodes.contains(n)));
+    let sprung = springs
+        .filter_map(|(name, _)| mesh.groups.get(&name.text))
+        .any(|g| g.nodes.iter().any(|n| together.contains(n)));
     BodyFacts {
         name: body.name().into(),
         material: made.model.materials.get(material).cloned().unwrap_or_default(),
@@ -48,7 +52,7 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
         hourglass: body.unseen() > 0,
         small_strain: keys.is_some_and(|keys| *keys.strain == Strain::Small),
         left: if fills(model, body, &nodes) { left(model, &nodes) } else { 1.0 },
-        unheld: if sprung { Vec::new() } else { unheld(model, &nodes) },
+        unheld: if sprung { Vec::new() } else { unheld(model, &together) },
         held: held || sprung,
     }
 }
@@ -56,7 +60,15 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
 /// Axes along which no step constrains any of some nodes.
 fn unheld(model: &Model, nodes: &BTreeSet<usize>) -> Vec<&'static str> {
     let dofs = &model.problem.dofs;
-    let free = |dof: usize| model.problem.steps.iter().all(|step| matches!(step.constraints.row(dof), Row::Free(_)));
+    let glued: BTreeSet<usize> = model.ties.iter().flat_map(|(_, tie)| tie.nodes[0].iter().copied()).collect();
+    let free = |dof: usize| {
+        let follows = |row: &Row| matches!(row, Row::Combined(_)) && glued.contains(&(dof / dofs.per_node()));
+        model
+            .problem
+            .steps
+            .iter()
+            .all(|step| matches!(step.constraints.row(dof), Row::Free(_)) || follows(step.constraints.row(dof)))
+    };
     let axes = (0..dofs.per_node()).filter(|axis| nodes.iter().all(|&node| free(dofs.node(node) + axis)));
     axes.filter(|&axis| model.space != Space::Axisymmetric || axis != 0).map(|axis| ["x", "y", "z"][axis]).collect()
 }

@@ -8,11 +8,14 @@ mod initial_stress;
 mod limits;
 mod mesh;
 mod output;
+mod periodic;
 mod point;
+mod rigid;
 mod slide;
 mod solid_tool;
 mod solver;
 mod step;
+mod tie;
 mod tool;
 mod update;
 
@@ -26,11 +29,14 @@ pub use initial_stress::InitialStressKeys;
 pub use limits::LimitKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::Output;
+pub use periodic::Periodic;
 pub use point::{PointCurve, PointDeck, PointStep};
+pub use rigid::RigidKeys;
 pub use slide::{InterfaceDeck, InterfaceStep};
 pub use solid_tool::{Extrude, FacetKeys, Revolve, StlKeys};
 pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
+pub use tie::{Tie, TieGap};
 pub use tool::{Segment, ToolKeys};
 pub use update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys, integrated};
 
@@ -72,6 +78,12 @@ table! {
         contact: Vec<(Name, Contact)> = map(defines(Names::Contact), table_of()).or("{}"),
         /// Linear equations between displacements, in all steps.
         equation: Vec<Equation> = list(table_of(), 0..=usize::MAX).or("[]"),
+        /// Opposite sides of a periodic cell.
+        periodic: Vec<Periodic> = list(table_of(), 0..=usize::MAX).or("[]"),
+        /// Groups of nodes that are rigid, called as tools are.
+        rigid: Vec<(Name, RigidKeys)> = map(defines(Names::Tool), table_of()).or("{}"),
+        /// Surfaces that are glued.
+        tie: Vec<Tie> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// What is done, in order.
         step: Vec<Step> = step::steps().required(),
         /// How the equations are solved.

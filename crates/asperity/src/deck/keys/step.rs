@@ -48,7 +48,13 @@ table! {
         motion: Vec<(Name, Motion)> = map(refers(Names::Tool), table_of()).or("{}"),
         /// Forces and torques on tools that are free to follow them.
         load: Vec<(Name, ToolLoad)> = map(refers(Names::Tool), table_of()).or("{}"),
-        /// Conditions of earlier steps that end here: `["pressure.bore", "displacement.far_end"]`.
+        /// Tools, rigid groups and groups of nodes that stay where they are: whatever led or loaded them ends.
+        hold: Vec<Name> = list(refers(Names::Movable), 0..=usize::MAX).or("[]"),
+        /// Contacts that end here, or tools with all of their contacts; their forces fade over the step.
+        remove: Vec<Name> = list(refers(Names::Removable), 0..=usize::MAX).or("[]"),
+        /// Contacts that were removed and are there again, or tools with all of theirs.
+        add: Vec<Name> = list(refers(Names::Removable), 0..=usize::MAX).or("[]"),
+        /// Conditions of earlier steps that end here; what they held is let go over the step: `["pressure.bore", "displacement.far_end"]`.
         release: Vec<Name> = list(refers(Names::Condition), 0..=usize::MAX).or("[]"),
     }
 }
@@ -129,16 +135,18 @@ impl Increments {
 }
 
 impl Step {
-    /// All conditions of the step by the names under which a later step may release them. A motion cannot be released:
-    /// a tool that nothing moves is held.
+    /// All conditions of the step by the names under which a later step may release them.
     pub fn conditions(&self) -> Vec<(String, &Name)> {
         fn of<'a, T>(kind: &str, list: &'a [(Name, T)]) -> Vec<(String, &'a Name)> {
             list.iter().map(|(name, _)| (format!("{kind}.{name}"), name)).collect()
         }
+        let holds = self.hold.iter().map(|name| (format!("hold.{name}"), name)).collect();
         let symmetries = self.symmetry.iter().map(|name| (format!("symmetry.{name}"), name)).collect();
         [
             of("displacement", &self.displacement),
             symmetries,
+            holds,
+            of("motion", &self.motion),
             of("force", &self.force),
             of("pressure", &self.pressure),
             of("traction", &self.traction),
@@ -155,17 +163,23 @@ impl Step {
         self.releases_path(&format!("{kind}.{name}"))
     }
 
+    /// Whether the step holds a tool or group where it is.
+    pub fn holds(&self, name: &str) -> bool {
+        self.hold.iter().any(|held| held.text == name)
+    }
+
     /// The same for `kind.name`.
     pub fn releases_path(&self, path: &str) -> bool {
         self.release.iter().any(|released| released.text == path)
     }
 }
 
-/// Words on a release of nothing: the kind may be missing, and a motion ends by itself.
+/// Words on a release of nothing: the kind may be missing.
 fn unknown_release(released: &Name, standing: &BTreeSet<String>, what: String) -> Diagnostic {
     let diagnostic = Diagnostic::error(what).at(released.place);
     if let Some(tool) = released.text.strip_prefix("motion.") {
-        return diagnostic.help(format!("a tool that no step moves stands still: say nothing of `{tool}`, or load it"));
+        return diagnostic
+            .help(format!("a tool that no step has moved stands still: load `{tool}` along what it is to follow"));
     }
     let meant = standing.iter().find(|c| c.split_once('.').is_some_and(|(_, name)| name == released.text));
     match meant {
@@ -177,6 +191,11 @@ fn unknown_release(released: &Name, standing: &BTreeSet<String>, what: String) -
 
 /// A tool cannot be moved and loaded along the same direction.
 fn conflicts(step: &Step, reader: &mut Reader) {
+    let led = step.motion.iter().map(|(name, _)| name).chain(step.load.iter().map(|(name, _)| name));
+    for name in led.filter(|name| step.holds(&name.text)) {
+        let what = format!("`{}` both holds `{name}` and moves or loads it", reader.path());
+        reader.report(Diagnostic::error(what).at(name.place).help("keep one of the two"));
+    }
     for (tool, load) in &step.load {
         let Some((_, motion)) = step.motion.iter().find(|(name, _)| name.text == tool.text) else { continue };
         let keys = ["x", "y", "z", "rotation_x", "rotation_y", "rotation_z", "x", "y", "rotation"];

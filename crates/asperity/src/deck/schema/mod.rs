@@ -109,6 +109,10 @@ pub enum Names {
     Target,
     /// A condition of an earlier step: `pressure.bore`.
     Condition,
+    /// What may be held: a tool, or a group of nodes.
+    Movable,
+    /// What may be removed: a contact, or a tool.
+    Removable,
 }
 
 impl Names {
@@ -126,6 +130,8 @@ impl Names {
             Self::Sides => "group of sides",
             Self::Target => "tool or group of sides",
             Self::Condition => "condition of an earlier step",
+            Self::Movable => "tool or group",
+            Self::Removable => "contact or tool",
         }
     }
 }

@@ -48,6 +48,8 @@ pub struct Parts<'a> {
     pub tools: Vec<&'a Tool>,
     /// The rigid tools of a model in space.
     pub solid_tools: Vec<&'a tool::space::Tool>,
+    /// Names of the rigid groups, whose unknowns follow those of the tools.
+    pub rigid: Vec<&'a str>,
     /// Names and nodes of the groups that anything holds or moves in any step.
     pub supports: Vec<(String, Vec<usize>)>,
     /// For each step what it does with each unknown.
@@ -151,6 +153,7 @@ impl<'a> Parts<'a> {
             springs: (model.first_spring()..).take(model.springs).collect(),
             tools: model.tools.iter().map(AsRef::as_ref).collect(),
             solid_tools: model.solid_tools.iter().map(AsRef::as_ref).collect(),
+            rigid: model.rigid.iter().map(|group| group.name.as_str()).collect(),
             supports: model.supports.clone(),
             constraints: model.problem.steps.iter().map(|step| &step.constraints).collect(),
         }
@@ -158,10 +161,10 @@ impl<'a> Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// Names of the tools, in the order of their unknowns.
+    /// Names of the tools and of the rigid groups, in the order of their unknowns.
     pub fn tool_names(&self) -> Vec<&str> {
         let solid = self.solid_tools.iter().map(|tool| tool.name());
-        self.tools.iter().map(|tool| tool.name()).chain(solid).collect()
+        self.tools.iter().map(|tool| tool.name()).chain(solid).chain(self.rigid.iter().copied()).collect()
     }
     /// Whether a column out of the plane would say nothing.
     pub fn is_plane(&self) -> bool {

@@ -6,6 +6,6 @@ mod search;
 mod spot;
 mod triad;
 
-pub use overlap::{Spread, spread};
+pub use overlap::{Part, Spread, spread};
 pub use spot::Spot;
 pub use triad::Line;

@@ -138,6 +138,7 @@ pub fn spread<T: Scalar>(degree: usize, own: &[Vec3<T>], other: &[Vec3<T>], mut 
 
 /// A part of a face, in its plane: its vertices and its centroid in reference coordinates come first.
 pub struct Part {
+    flat: Flat<f64>,
     polygon: Polygon<f64>,
     places: Vec<[f64; 2]>,
 }
@@ -149,12 +150,30 @@ impl Part {
         let polygon = common(&flat, other)?;
         let places =
             polygon.vertices().iter().chain([&polygon.moments().centre]).map(|&p| flat.pull_back(p).0).collect();
-        Some(Self { polygon, places })
+        Some(Self { flat, polygon, places })
     }
 
     /// Its vertices and then its centroid, in reference coordinates.
     pub fn places(&self) -> &[[f64; 2]] {
         &self.places
+    }
+
+    /// Places all over it, by a rule of the interval from -1 to 1 laid on triangles about one of its vertices, two of whose
+    /// sides it is drawn together to.
+    pub fn spread(&self, rule: &[(f64, f64)]) -> impl Iterator<Item = Spread<f64>> {
+        let vertices = self.polygon.vertices();
+        let triangles = (2..vertices.len()).map(|k| [vertices[0], vertices[k - 1], vertices[k]]);
+        triangles.flat_map(move |[o, a, b]| {
+            let twice = left_of([o, a], b);
+            rule.iter().flat_map(move |&(s, ws)| {
+                rule.iter().map(move |&(t, wt)| {
+                    let (r, q) = (0.5 * (s + 1.0), 0.5 * (t + 1.0));
+                    let at = [0, 1].map(|i| o[i] + r * (a[i] - o[i] + q * (b[i] - a[i])));
+                    let (xi, density) = self.flat.pull_back(at);
+                    Spread { xi, weight: 0.25 * ws * wt * r * twice * density }
+                })
+            })
+        })
     }
 
     /// Whether it covers another in more than a line.

@@ -33,8 +33,10 @@ impl Builder<'_> {
     /// Constraints and prescribed values from all claims of a step and the equations.
     pub(super) fn constrain(&mut self, claims: &[&Claim], equations: &[Equation]) -> (Constraints, Vec<Prescribed>) {
         let mut sorted = Sorted::default();
-        // A node of no cell is held, but not where an equation says what it does.
-        let related: BTreeSet<usize> = equations.iter().flat_map(|e| e.terms.iter().map(|term| term.0)).collect();
+        // A node of no cell is held, but not where an equation or a rigid group says what it does.
+        let mut related: BTreeSet<usize> = equations.iter().flat_map(|e| e.terms.iter().map(|term| term.0)).collect();
+        let unknowns = |node: usize| self.site.dofs.node(node)..self.site.dofs.node(node) + self.site.dofs.per_node();
+        related.extend(self.rigid_nodes().into_keys().flat_map(unknowns));
         let held = |claim: &Claim, dof: &usize| !(claim.is_weak() && related.contains(dof));
         for claim in claims {
             if let Some(dof) = claim.single().filter(|dof| held(claim, dof)) {
@@ -51,11 +53,56 @@ impl Builder<'_> {
         }
         let fixed: BTreeMap<usize, bool> =
             sorted.fixed.iter().map(|(&dof, claim)| (dof, claim.course != Course::Hold)).collect();
-        let relations = Relations::of(sorted.relations(), &fixed, equations);
-        for (equation, why) in &relations.refused {
-            self.refuse(format!("`equation` cannot hold: {why}"), equations[*equation].place);
+        let mut relations = Relations::of(sorted.relations(), &fixed, equations);
+        for glued in &self.ties {
+            (0..self.site.dofs.per_node()).for_each(|axis| relations.tie(glued, (&self.site.dofs, axis), &fixed));
         }
-        sorted.constraints(self.site.dofs.count(), &relations)
+        for (what, place) in &relations.refused {
+            // The same for each of its nodes and in each step is told once.
+            if !self.found.iter().any(|d| d.what == *what && d.place == Some(*place)) {
+                self.refuse(what, *place);
+            }
+        }
+        let rigid = self.rigid_unknowns(&sorted, equations);
+        sorted.constraints(self.site.dofs.count(), &relations, &rigid)
+    }
+
+    /// Unknowns of nodes of rigid groups, which nothing else may hold or relate.
+    fn rigid_unknowns(&mut self, sorted: &Sorted, equations: &[Equation]) -> Vec<usize> {
+        let (dofs, mut found) = (&self.site.dofs, BTreeMap::new());
+        let nodes: BTreeMap<usize, String> =
+            self.rigid_nodes().into_iter().map(|(node, name)| (node, name.text.clone())).collect();
+        if nodes.is_empty() {
+            return Vec::new();
+        }
+        let group = |dof: usize| nodes.get(&(dof / dofs.per_node())).filter(|_| dof < dofs.node(dofs.nodes()));
+        let claims = sorted.fixed.iter().map(|(&dof, claim)| (dof, *claim));
+        let directions = sorted.combined.iter().map(|(&dof, (_, claim))| (dof, *claim));
+        for (dof, claim) in claims.chain(directions).filter(|(_, claim)| !claim.is_weak()) {
+            if let Some(name) = group(dof) {
+                found.insert((claim.by.clone(), name.clone()), (format!("`{}`", claim.by), claim.place));
+            }
+        }
+        for equation in equations {
+            if let Some(name) = equation.terms.iter().find_map(|term| group(term.0)) {
+                found.insert((equation.by.into(), name.clone()), ("an equation".into(), equation.place));
+            }
+        }
+        for glued in &self.ties {
+            if let Some(name) = glued.tie.nodes.iter().flatten().find_map(|node| nodes.get(node)) {
+                found.insert(("tie".into(), name.clone()), ("a tie".into(), glued.place));
+            }
+        }
+        let unknowns = nodes.keys().flat_map(|&node| dofs.node(node)..dofs.node(node) + dofs.per_node()).collect();
+        for ((_, name), (what, place)) in found {
+            let what = format!("{what} holds nodes of `rigid.{name}`, which follow its reference point");
+            if self.found.iter().any(|d| d.what == what) {
+                continue;
+            }
+            let help = format!("say `motion.{name}` or `load.{name}`, or let the groups have no node in common");
+            self.found.push(Diagnostic::error(what).at(place).help(help));
+        }
+        unknowns
     }
 
     /// Reports two claims that do not agree; the same two once, at however many nodes.
@@ -121,13 +168,13 @@ impl<'c> Sorted<'c> {
         self.combined.iter().map(relation).collect()
     }
 
-    fn constraints(&self, count: usize, relations: &Relations) -> (Constraints, Vec<Prescribed>) {
+    fn constraints(&self, count: usize, relations: &Relations, rigid: &[usize]) -> (Constraints, Vec<Prescribed>) {
         let list = &relations.list;
         let rows: Vec<_> = list.iter().map(|(&dof, relation)| (dof, relation.others.clone())).collect();
         let simple = self.fixed.iter().map(|(&dof, claim)| (dof, vec![], claim.course.clone()));
         let related = list.iter().map(|(&dof, relation)| (dof, relation.others.clone(), relation.course.clone()));
         let prescribed = simple.chain(related).map(|(dof, others, course)| Prescribed { dof, others, course });
-        let fixed: Vec<usize> = self.fixed.keys().copied().collect();
+        let fixed: Vec<usize> = self.fixed.keys().chain(rigid).copied().collect();
         let tied = list.iter().filter(|(_, relation)| relation.equation);
         let tied = tied.map(|(&dof, relation)| (dof, relation.others.clone())).collect();
         (Constraints::new(count, &fixed, &rows).tied(tied), prescribed.collect())

@@ -14,8 +14,10 @@ const ROUNDING: f64 = 1e-12;
 pub struct Equation {
     /// Unknowns and factors.
     pub terms: Vec<(usize, f64)>,
-    /// Where the deck says it.
+    /// Where the deck says it,
     pub place: Place,
+    /// and by which key.
+    pub by: &'static str,
 }
 
 /// What an unknown follows: a combination of others, plus a course.
@@ -33,21 +35,34 @@ pub struct Relation {
 pub struct Relations {
     /// The relations.
     pub list: BTreeMap<usize, Relation>,
-    /// Equations that cannot hold, and why.
-    pub refused: Vec<(usize, String)>,
+    /// Equations that cannot hold: which and why, and where.
+    pub refused: Vec<(String, Place)>,
+    /// For each unknown those that may follow it.
+    followers: BTreeMap<usize, Vec<usize>>,
 }
 
 impl Relations {
     /// Solves each equation for its first unknown that is free and has a factor to speak of. `fixed` are the prescribed
     /// unknowns, and whether they move. An equation that follows from others is left out.
     pub fn of(given: BTreeMap<usize, Relation>, fixed: &BTreeMap<usize, bool>, equations: &[Equation]) -> Self {
-        let mut relations = Self { list: given, refused: vec![] };
-        for (number, equation) in equations.iter().enumerate() {
-            if let Err(why) = relations.add(equation, fixed) {
-                relations.refused.push((number, why));
-            }
-        }
+        let mut relations = Self { list: BTreeMap::new(), refused: vec![], followers: BTreeMap::new() };
+        given.into_iter().for_each(|(dof, relation)| relations.insert(dof, relation));
+        equations.iter().for_each(|equation| relations.hold(equation, fixed));
         relations
+    }
+
+    /// Adds an equation, or takes note that it cannot hold.
+    pub fn hold(&mut self, equation: &Equation, fixed: &BTreeMap<usize, bool>) {
+        if let Err(why) = self.add(equation, fixed) {
+            self.refused.push((format!("`{}` cannot hold: {why}", equation.by), equation.place));
+        }
+    }
+
+    fn insert(&mut self, dof: usize, relation: Relation) {
+        for (other, _) in &relation.others {
+            self.followers.entry(*other).or_default().push(dof);
+        }
+        self.list.insert(dof, relation);
     }
 
     fn add(&mut self, equation: &Equation, fixed: &BTreeMap<usize, bool>) -> Result<(), String> {
@@ -75,22 +90,26 @@ impl Relations {
         let scale = -1.0 / sum[&pivot];
         let others: Vec<(usize, f64)> =
             sum.iter().filter(|(dof, _)| **dof != pivot).map(|(&dof, factor)| (dof, factor * scale)).collect();
-        for relation in self.list.values_mut() {
-            relation.replace(pivot, &others);
+        for follower in self.followers.remove(&pivot).unwrap_or_default() {
+            let Some(relation) = self.list.get_mut(&follower) else { continue };
+            if relation.replace(pivot, &others) {
+                others.iter().for_each(|(other, _)| self.followers.entry(*other).or_default().push(follower));
+            }
         }
-        self.list.insert(pivot, Relation { others, course: Course::Hold, equation: true });
+        self.insert(pivot, Relation { others, course: Course::Hold, equation: true });
         Ok(())
     }
 }
 
 impl Relation {
-    /// Puts what an unknown follows in its place.
-    fn replace(&mut self, dof: usize, by: &[(usize, f64)]) {
-        let Some(at) = self.others.iter().position(|other| other.0 == dof) else { return };
+    /// Puts what an unknown follows in its place, if it is among these.
+    fn replace(&mut self, dof: usize, by: &[(usize, f64)]) -> bool {
+        let Some(at) = self.others.iter().position(|other| other.0 == dof) else { return false };
         let (_, factor) = self.others.swap_remove(at);
         let mut sum: BTreeMap<usize, f64> = self.others.drain(..).collect();
         by.iter().for_each(|&(other, c)| *sum.entry(other).or_default() += factor * c);
         self.others = sum.into_iter().filter(|(_, c)| *c != 0.0).collect();
+        true
     }
 }
 
@@ -119,7 +138,7 @@ impl Builder<'_> {
                 let rest =
                     rest.iter().map(|term| (unknown(self.nodes(&term.group.text)[0], term.axis.value.0), term.factor));
                 let terms = std::iter::once((unknown(node, first.axis.value.0), first.factor)).chain(rest).collect();
-                equations.push(Equation { terms, place: said.place });
+                equations.push(Equation { terms, place: said.place, by: "equation" });
             }
         }
         equations
@@ -131,7 +150,7 @@ mod tests {
     use super::*;
 
     fn equation(terms: &[(usize, f64)]) -> Equation {
-        Equation { terms: terms.to_vec(), place: Place::default() }
+        Equation { terms: terms.to_vec(), place: Place::default(), by: "equation" }
     }
 
     #[test]
@@ -149,7 +168,7 @@ mod tests {
     fn what_is_led_all_over_cannot_follow() {
         let fixed = BTreeMap::from([(0, true), (1, false)]);
         let refused = Relations::of(BTreeMap::new(), &fixed, &[equation(&[(0, 1.0), (1, -1.0)])]).refused;
-        assert!(refused[0].1.contains("held or led"));
+        assert!(refused[0].0.contains("held or led"));
         let held = BTreeMap::from([(0, false), (1, false)]);
         assert!(Relations::of(BTreeMap::new(), &held, &[equation(&[(0, 1.0), (1, -1.0)])]).refused.is_empty());
     }

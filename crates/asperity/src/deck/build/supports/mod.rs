@@ -7,17 +7,20 @@ mod claim;
 mod combine;
 mod equations;
 mod flat;
+mod periodic;
+mod ties;
+mod tools;
 
 use super::Builder;
-use crate::amplitude::Amplitude;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::{Components, Displacement, Step, ToolCondition};
+use crate::deck::keys::{Components, Displacement, Step};
 use crate::deck::reader::Name;
 use crate::mesh::{Mesh, Space};
 use crate::solve::{Course, Prescribed};
 use crate::system::{Constraints, Row};
 use claim::{Claim, Claims, Known, What, hold};
-use flat::{ROUNDING, flat_normal, unit};
+pub(super) use flat::flat_normal;
+use flat::{ROUNDING, unit};
 use std::collections::BTreeMap;
 
 /// Constraints and prescribed values of one step.
@@ -30,7 +33,7 @@ impl Builder<'_> {
     pub(super) fn supports(&mut self) -> (Vec<Held>, Vec<Nodes>) {
         let mut claims = self.standing();
         let (deck, mut known) = (self.deck, Known::new(self.site.dofs.count()));
-        let equations = self.equations();
+        let equations: Vec<_> = self.equations().into_iter().chain(self.periodic()).collect();
         let steps = deck.step.iter().map(|step| {
             self.release(step, &mut claims);
             hold(&mut claims);
@@ -44,18 +47,28 @@ impl Builder<'_> {
         (steps.collect(), self.groups())
     }
 
-    /// A force along which all its nodes are held or led moves nothing; most likely one of the two is a slip.
+    /// A load along which all its nodes are held or led moves nothing: one of the two is a slip.
     fn look_for_idle_forces(&mut self, step: &Step, constraints: &Constraints) {
-        for (name, force) in &step.force {
-            for (axis, value) in force.components().iter().enumerate().take(self.site.space.dimension()) {
-                let led = |&node: &usize| !matches!(constraints.row(self.site.dofs.node(node) + axis), Row::Free(_));
+        let forces = step.force.iter().map(|(name, force)| ("force", name, force.components()));
+        let tractions = step.traction.iter().map(|(name, load)| ("traction", name, load.components()));
+        for (kind, name, components) in forces.chain(tractions) {
+            for (axis, value) in components.iter().enumerate().take(self.site.space.dimension()) {
+                let rigid = self.rigid_nodes();
+                let row = |node: usize| constraints.row(self.site.dofs.node(node) + axis);
+                let led = |node: &usize| !matches!(row(*node), Row::Free(_)) && !rigid.contains_key(node);
                 if value.is_some_and(|value| value != 0.0) && self.nodes(&name.text).iter().all(led) {
-                    let what = format!("`force.{name}` moves nothing along {}", ["x", "y", "z"][axis]);
-                    let warning = Diagnostic::warning(what).at(name.place).label("all its nodes are held there");
-                    self.found.push(warning.help("remove the force, or release the nodes"));
+                    let what = format!("`{kind}.{name}` moves nothing along {}", ["x", "y", "z"][axis]);
+                    let error = Diagnostic::error(what).at(name.place).label("all its nodes are held there");
+                    self.found.push(error.help("remove the load, or release the nodes"));
                 }
             }
         }
+    }
+
+    /// Nodes of rigid groups, with the names of these.
+    fn rigid_nodes(&self) -> BTreeMap<usize, &Name> {
+        let groups = self.deck.rigid.iter().map(|(name, keys)| (name, self.nodes(&keys.group.text)));
+        groups.flat_map(|(name, nodes)| nodes.iter().map(move |&node| (node, name))).collect()
     }
 
     fn groups(&self) -> Vec<Nodes> {
@@ -75,7 +88,7 @@ impl Builder<'_> {
             what: What::Unknown(dof),
             course: Course::Hold,
         };
-        for (tool, (name, _)) in self.deck.tool.iter().enumerate() {
+        for (tool, name) in self.leaders().enumerate() {
             for i in 0..dofs.per_tool() {
                 let dof = dofs.tool(tool) + i;
                 claims.insert((format!("motion.{name}"), i), vec![claim(&format!("motion.{name}"), dof)]);
@@ -89,28 +102,30 @@ impl Builder<'_> {
         claims
     }
 
-    fn release(&self, step: &Step, claims: &mut Claims) {
-        claims.retain(|(by, _), _| by.is_empty() || by.starts_with("motion.") || !step.releases_path(by));
-        // A tool that is released from a load is held again.
-        for (tool, (name, _)) in self.deck.tool.iter().enumerate() {
-            if step.releases("load", &name.text) {
-                self.hold_tool(tool, name, claims);
-            }
-        }
-    }
-
-    fn hold_tool(&self, tool: usize, name: &Name, claims: &mut Claims) {
-        for i in 0..self.site.dofs.per_tool() {
-            let (by, dof) = (format!("motion.{name}"), self.site.dofs.tool(tool) + i);
-            let claim =
-                || vec![Claim { by: by.clone(), place: name.place, what: What::Unknown(dof), course: Course::Hold }];
-            claims.entry((by.clone(), i)).or_insert_with(claim);
+    /// Holds all nodes of a group where they are.
+    fn hold_group(&self, name: &Name, claims: &mut Claims) {
+        let (by, dofs) = (format!("hold.{name}"), &self.site.dofs);
+        for axis in 0..dofs.per_node() {
+            let claim = |&node: &usize| {
+                let what = What::Unknown(dofs.node(node) + axis);
+                Claim { by: by.clone(), place: name.place, what, course: Course::Hold }
+            };
+            claims.insert((by.clone(), axis), self.nodes(&name.text).iter().map(claim).collect());
         }
     }
 
     /// What a step says.
     fn claim(&mut self, step: &Step, claims: &mut Claims) {
-        let deck = self.deck;
+        for released in &step.release {
+            if let Some(name) = released.text.strip_prefix("hold.").filter(|name| self.leader(name).is_some()) {
+                let what = format!("`{name}` stays where it is until it is moved or loaded");
+                let help = format!("say `motion.{name}` or `load.{name}` in place of releasing it");
+                self.found.push(Diagnostic::error(what).at(released.place).help(help));
+            }
+        }
+        for name in step.hold.iter().filter(|name| self.leader(&name.text).is_none()) {
+            self.hold_group(name, claims);
+        }
         for (name, keys) in &step.displacement {
             self.displace(name, keys, claims);
         }
@@ -124,31 +139,15 @@ impl Builder<'_> {
                 value.map(|value| if i < translations { value } else { value.to_radians() })
             };
             let values: Vec<_> = values.into_iter().enumerate().map(value).collect();
-            self.move_tool(name, &values, &keys.amplitude, claims);
+            self.move_tool((step, name), &values, &keys.amplitude, claims);
         }
         for (name, keys) in &step.load {
-            let tool = deck.tool.iter().position(|(tool, _)| tool.text == name.text);
+            let tool = self.leader(&name.text);
             let loaded = self.of_tool("load", name, keys);
             for (i, _) in loaded.iter().enumerate().filter(|(_, value)| value.is_some() && tool.is_some()) {
                 claims.remove(&(format!("motion.{name}"), i));
             }
         }
-    }
-
-    /// What a condition says of each unknown of a tool; keys of the other kind of space are refused.
-    fn of_tool(&mut self, kind: &str, name: &Name, keys: &impl ToolCondition) -> Vec<Option<f64>> {
-        let (space, plane) = keys.foreign();
-        let (foreign, help): (&[_], _) = match self.plane() {
-            true => (&space, "remove it: the model is plane"),
-            false => (&[plane], "say it by its components `_x`, `_y`, `_z`: the model is in space"),
-        };
-        for (key, spot) in foreign {
-            if let Some(spot) = spot {
-                let what = format!("`{kind}.{name}` cannot say `{key}` where space = \"{}\"", self.site.space.name());
-                self.found.push(Diagnostic::error(what).at(spot.place).help(help));
-            }
-        }
-        if self.plane() { keys.plane().to_vec() } else { keys.space().to_vec() }
     }
 
     fn displace(&mut self, name: &Name, keys: &Displacement, claims: &mut Claims) {
@@ -201,24 +200,6 @@ impl Builder<'_> {
         let made = group.nodes.iter().map(claim).collect();
         claims.insert((by.clone(), 3), made);
     }
-
-    fn move_tool(&mut self, name: &Name, to: &[Option<f64>], amplitude: &Amplitude, claims: &mut Claims) {
-        let Some(tool) = self.deck.tool.iter().position(|(tool, _)| tool.text == name.text) else { return };
-        let by = format!("motion.{name}");
-        for (i, value) in to.iter().enumerate().filter_map(|(i, value)| Some((i, (*value)?))) {
-            let what = What::Unknown(self.site.dofs.tool(tool) + i);
-            let course = Course::To(value, amplitude.clone());
-            let claim = Claim { by: by.clone(), place: name.place, what, course };
-            if claims.insert((by.clone(), i), vec![claim]).is_none() {
-                let what = format!("tool `{name}` is moved along what an earlier step loads");
-                self.found.push(
-                    Diagnostic::error(what)
-                        .at(name.place)
-                        .help(format!("release it in this step: release = [\"load.{name}\"]")),
-                );
-            }
-        }
-    }
 }
 
 /// Nodes that no cell uses.
@@ -229,7 +210,7 @@ fn unused(mesh: &Mesh) -> Vec<usize> {
 }
 
 /// Nodes that the axis of revolution keeps from moving along the radius.
-fn on_axis(mesh: &Mesh, space: Space) -> Vec<usize> {
+pub(super) fn on_axis(mesh: &Mesh, space: Space) -> Vec<usize> {
     let near = ROUNDING * mesh.size();
     let on = |&node: &usize| space == Space::Axisymmetric && mesh.points[node][0].abs() <= near;
     (0..mesh.points.len()).filter(on).collect()

@@ -1,0 +1,122 @@
+//! Surfaces that are glued: found before anything else, since their nodes may move.
+
+use super::Builder;
+use crate::contact::field::{Apart, Tie, TieParts};
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::keys::{self, TieGap};
+use crate::deck::source::Place;
+use crate::mesh::Mesh;
+use crate::tensor::Vec3;
+use std::sync::Arc;
+
+/// Motions below this part of the size of the mesh are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A tie and where the deck says it.
+pub(super) struct Glued {
+    /// What was found.
+    pub tie: Tie,
+    /// The groups of surface and target.
+    pub names: [String; 2],
+    /// Where.
+    pub place: Place,
+}
+
+impl Builder<'_> {
+    /// Finds the ties of the deck and closes their gaps.
+    pub(super) fn glue(&mut self) {
+        let deck = self.deck;
+        self.ties = deck.tie.iter().filter_map(|keys| self.tie(keys)).collect();
+    }
+
+    fn tie(&mut self, keys: &keys::Tie) -> Option<Glued> {
+        let mesh = self.site.mesh.clone();
+        let sides = |group: &str| mesh.groups.get(group).map(|group| group.sides.as_slice());
+        let (surface, target) = (sides(&keys.surface.text)?, sides(&keys.target.text)?);
+        if surface.iter().any(|side| target.contains(side)) {
+            let what = format!("`{}` and `{}` share some of their sides", keys.surface, keys.target);
+            self.found.push(Diagnostic::error(what).at(keys.target.place).help("a tie is between two surfaces"));
+            return None;
+        }
+        let tolerance = keys.tolerance.map(|tolerance| tolerance.value);
+        let parts = TieParts { mesh: &mesh, space: self.site.space, surface, target, tolerance };
+        let tie = match Tie::new(&parts) {
+            Ok(tie) => tie,
+            Err(apart) => {
+                self.apart(keys, &apart);
+                return None;
+            }
+        };
+        if tie.open > 0 {
+            let (count, all) = (tie.open, tie.nodes[0].len());
+            let what = format!("{count} of the {all} nodes of `{}` follow nothing", keys.surface);
+            let label = format!("no face of `{}` lies opposite", keys.target);
+            let shared = tie.nodes[0].iter().filter(|node| tie.nodes[1].binary_search(node).is_ok()).count();
+            if shared < count {
+                self.found.push(Diagnostic::note(what).at(keys.surface.place).label(label));
+            }
+        }
+        if keys.gap == TieGap::Close {
+            self.close(&tie);
+        }
+        let names = [keys.surface.text.clone(), keys.target.text.clone()];
+        Some(Glued { tie, names, place: keys.place })
+    }
+
+    fn apart(&mut self, keys: &keys::Tie, apart: &Apart) {
+        let (keys::Tie { surface, target, .. }, plane) = (keys, self.plane());
+        let at = |x: &Vec3| match plane {
+            true => format!("({:.4}, {:.4})", x[0], x[1]),
+            false => format!("({:.4}, {:.4}, {:.4})", x[0], x[1], x[2]),
+        };
+        let (what, help) = match apart {
+            Apart::Far(distance, x, tolerance) => (
+                format!(
+                    "`{surface}` lies {distance:.3e} from `{target}` at {}, which is more than the tolerance, {tolerance:.3e}",
+                    at(x)
+                ),
+                format!(
+                    "name the part that is to be glued by [group.NAME], move it, or say tolerance = {:.2e}",
+                    1.01 * distance
+                ),
+            ),
+            Apart::Nothing(distance, x, tolerance) => (
+                format!(
+                    "no face of `{surface}` has `{target}` opposite within {tolerance:.3e}; the nearest nodes are {distance:.3e} \
+                     apart, at {}",
+                    at(x)
+                ),
+                "is it the right side of the right body? Raise `tolerance` where the gap is meant".into(),
+            ),
+        };
+        self.found.push(Diagnostic::error(what).at(keys.place).help(help));
+    }
+
+    /// Moves the nodes of a tie together, within the planes that hold them.
+    fn close(&mut self, tie: &Tie) {
+        let (mut mesh, least) = ((*self.site.mesh).clone(), ROUNDING * self.site.mesh.size());
+        let planes = self.planes(&mesh);
+        for (node, to) in tie.fitted(&mesh.points) {
+            let mut by = to - mesh.points[node];
+            for (_, normal) in planes.iter().filter(|(nodes, _)| nodes.binary_search(&node).is_ok()) {
+                by = by - *normal * normal.dot(by);
+            }
+            if by.norm() > least {
+                mesh.points[node] += by;
+            }
+        }
+        self.site.mesh = Arc::new(mesh);
+    }
+
+    /// Nodes and normals of the flat groups that a step holds or moves, and of the axis of revolution.
+    fn planes(&self, mesh: &Mesh) -> Vec<(Vec<usize>, Vec3)> {
+        let steps = self.deck.step.iter();
+        let names = steps.flat_map(|step| step.displacement.iter().map(|(name, _)| name).chain(&step.symmetry));
+        let plane = |name: &crate::deck::reader::Name| {
+            let group = mesh.groups.get(&name.text).filter(|group| !group.sides.is_empty())?;
+            Some((group.nodes.clone(), Vec3(super::supports::flat_normal(mesh, &group.sides)?)))
+        };
+        let axis = (super::supports::on_axis(mesh, self.site.space), Vec3::new(1.0, 0.0, 0.0));
+        names.filter_map(plane).chain([axis]).collect()
+    }
+}

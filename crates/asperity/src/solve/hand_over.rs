@@ -1,0 +1,53 @@
+//! From one step to the next: what held and no longer does is let go little by little.
+//!
+//! The forces of supports that are released and of terms that the step does without act on as loads when it begins, so that nothing
+//! moves, and fall to zero over it.
+
+use super::run::Run;
+use crate::system::Row;
+
+impl Run<'_> {
+    /// Before the first increment of a step: notes the forces that it lets go, and forgets what its idle terms remember.
+    pub(super) fn enter(&mut self) {
+        let (steps, state) = (&self.problem.steps, &mut self.state);
+        if std::mem::replace(&mut state.entered, true) {
+            return;
+        }
+        let leaving = std::mem::take(&mut state.leaving);
+        state.handed.clear();
+        let before = state.step.checked_sub(1).and_then(|before| steps.get(before));
+        let (Some(before), Some(now)) = (before, steps.get(state.step)) else { return };
+        let (rows, after) = (&before.constraints, &now.constraints);
+        let mut handed = vec![0.0; state.u.len()];
+        for dof in 0..handed.len() {
+            let held = state.internal[dof] - state.load[dof];
+            match (rows.row(dof), after.row(dof)) {
+                (Row::Fixed, Row::Free(_) | Row::Combined(_)) => handed[dof] += held,
+                (Row::Combined(others), Row::Free(_)) => {
+                    handed[dof] += held;
+                    others.iter().for_each(|&(free, c)| handed[rows.free()[free]] -= c * held);
+                }
+                _ => {}
+            }
+        }
+        for (dof, force) in leaving.iter().enumerate() {
+            handed[dof] -= force;
+            state.internal[dof] -= force;
+        }
+        for (dof, handed) in handed.iter_mut().enumerate() {
+            if *after.row(dof) == Row::Fixed {
+                *handed = 0.0;
+            }
+            state.load[dof] += *handed;
+        }
+        if handed.iter().any(|&force| force != 0.0) {
+            state.handed = handed;
+        }
+        for &term in &before.leaving {
+            state.histories[term] = self.problem.terms[term].initial();
+            // What it had stored is not given back.
+            let energies = &mut state.energies[term];
+            energies.dissipated += std::mem::take(&mut energies.stored);
+        }
+    }
+}

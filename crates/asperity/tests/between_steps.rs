@@ -1,0 +1,95 @@
+//! From one step to the next: what is released or removed is let go little by little, what is held stays.
+
+mod support;
+
+use std::collections::BTreeMap;
+use support::{columns, model, run};
+
+/// A block of unit modulus under a plate that moves down by 0.1, and what a second step says.
+fn history(second: &str) -> BTreeMap<String, Vec<f64>> {
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [2.0, 1.0], cells = [4, 2], cell = "quad4" }}
+material.soft.elastic = {{ young = 100.0, poisson = 0.0 }}
+body.block.material = "soft"
+tool.plate.profile = [{{ line = [[-9.0, 1.0], [9.0, 1.0]] }}]
+contact.top = {{ surface = "block.top", target = "plate", law.coulomb = {{ friction = 0.0 }} }}
+solver.tolerance = 1e-10
+[[step]]
+increments = {{ count = 2 }}
+symmetry = ["block.left", "block.bottom"]
+motion.plate = {{ y = -0.1 }}
+[[step]]
+increments = {{ count = 4 }}
+{second}
+"#
+    );
+    let model = model(&deck, &[]);
+    let keep = run(&model);
+    columns(&model, &keep)
+}
+
+/// Vertical force of the contact at the end of each increment of the second step, over that at the end of the first.
+fn fading(second: &str) -> Vec<f64> {
+    let force = &history(second)["contact.top.force.y"];
+    assert!(force[1].abs() > 15.0, "{force:?}");
+    force[2..].iter().map(|f| f / force[1]).collect()
+}
+
+fn near(found: &[f64], wanted: &[f64], within: f64) {
+    let same = |(a, b): (&f64, &f64)| (a - b).abs() < within;
+    assert!(found.len() == wanted.len() && found.iter().zip(wanted).all(same), "{found:?} {wanted:?}");
+}
+
+#[test]
+fn a_tool_that_is_let_go_follows_its_reaction_to_nothing() {
+    near(&fading("release = [\"motion.plate\"]"), &[0.75, 0.5, 0.25, 0.0], 1e-6);
+}
+
+#[test]
+fn a_load_that_takes_over_begins_at_the_reaction() {
+    let force = history("load.plate = { y = -5.0 }")["contact.top.force.y"].clone();
+    let (first, to) = (force[1].abs(), 5.0);
+    let wanted: Vec<f64> = [0.25, 0.5, 0.75, 1.0].map(|t| first + t * (to - first)).into();
+    near(&force[2..].iter().map(|f| f.abs()).collect::<Vec<_>>(), &wanted, 1e-5);
+}
+
+/// The block goes back to its height while the contact is there no more, though the plate stays where it is.
+#[test]
+fn what_a_contact_bore_fades_when_it_is_removed() {
+    for name in ["top", "plate"] {
+        let deck = format!("remove = [\"{name}\"]\ndisplacement.\"block.top_left\" = {{ y = 0.0 }}");
+        near(&fading(&deck), &[0.0; 4], 1e-12);
+    }
+    let history = history("remove = [\"plate\"]");
+    let strain = &history["energy.strain"];
+    near(&strain[2..].iter().map(|e| e / strain[1]).collect::<Vec<_>>(), &[0.5625, 0.25, 0.0625, 0.0], 0.03);
+}
+
+#[test]
+fn a_contact_that_is_back_bears_again() {
+    let deck = "remove = [\"plate\"]\nmotion.plate = { y = 0.5 }\n[[step]]\nincrements = { count = 4 }\nadd = [\"top\"]\nmotion.plate = { y = -0.1 }";
+    let force = &history(deck)["contact.top.force.y"];
+    // The law integrates a rate, by increments of another number.
+    near(&[force[9] / force[1]], &[1.0], 2e-3);
+}
+
+#[test]
+fn what_is_held_stays_where_it_is() {
+    let deck = "load.plate = { y = -5.0 }\n[[step]]\nincrements = { count = 1 }\nhold = [\"plate\"]";
+    let history = history(deck);
+    let (place, force) = (&history["tool.plate.translation.y"], &history["contact.top.force.y"]);
+    near(&[place[6], force[6]], &[place[5], force[5]], 1e-8);
+    let reaction = &history["tool.plate.force.y"];
+    near(&[reaction[5].abs(), reaction[6].abs()], &[0.0, 5.0], 1e-6);
+}
+
+/// A free side that was led back half of its way, held there.
+#[test]
+fn a_group_is_held_where_it_is() {
+    let deck = "remove = [\"plate\"]\nhold = [\"block.top\"]\n";
+    let strain = &history(deck)["energy.strain"];
+    near(&strain[2..], &[strain[1]; 4], 1e-8);
+}

@@ -1,0 +1,70 @@
+//! Nodes that follow a reference point as a rigid body, by a large rotation.
+
+mod support;
+
+use support::{Keep, model, run};
+
+fn stored(keep: &Keep) -> [f64; 2] {
+    let state = keep.states.last().unwrap();
+    [state.energies.iter().map(|energies| energies.stored).sum(), state.external_work]
+}
+
+/// Circular shear of a neo-Hookean ring: `T = 4 pi G psi / (1/a^2 - 1/b^2)`.
+#[test]
+fn a_hub_is_turned_by_200_degrees_under_torque() {
+    let turn = 200_f64.to_radians();
+    let torque = 16.0 * std::f64::consts::PI * turn / 0.75;
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.ring.annulus = {{ centre = [0.0, 0.0], from = [1.0, 0.0], to = [2.0, 360.0], cells = [6, 36], cell = "quad8" }}
+material.rubber.neo_hookean = {{ shear = 4.0, bulk = 4000.0 }}
+body.ring = {{ material = "rubber", integration = "reduced" }}
+rigid.hub = {{ group = "ring.inner" }}
+[[step]]
+increments = {{ count = 20 }}
+displacement."ring.outer" = {{ x = 0.0, y = 0.0 }}
+load.hub = {{ x = 0.0, y = 0.0, torque = {torque} }}
+"#
+    );
+    let model = model(&deck, &[]);
+    let keep = run(&model);
+    let u = &keep.states.last().unwrap().u;
+    let found = u[model.problem.dofs.tool(0) + 2];
+    assert!((found / turn - 1.0).abs() < 0.02, "{found} {turn}");
+    let [stored, work] = stored(&keep);
+    assert!((work / stored - 1.0).abs() < 1e-4, "{work} {stored}");
+    assert!((work / (0.5 * torque * turn) - 1.0).abs() < 0.03, "{work}");
+    for &node in &model.mesh.groups["ring.inner"].nodes {
+        let x = model.mesh.points[node];
+        let (sin, cos) = found.sin_cos();
+        let to = [cos * x[0] - sin * x[1], sin * x[0] + cos * x[1]];
+        let is = [x[0] + u[2 * node], x[1] + u[2 * node + 1]];
+        assert!((0..2).all(|a| (to[a] - is[a]).abs() < 1e-9), "{to:?} {is:?}");
+    }
+}
+
+/// The same end turned about each axis of space in turn does the same work: a bar of one cell, quarter by quarter.
+#[test]
+fn a_plate_in_space_is_turned_by_200_degrees() {
+    let deck = r#"
+version = 1
+space = "solid"
+mesh.part.bar.box = { from = [-1.0, -1.0, 0.0], to = [1.0, 1.0, 6.0], cells = [2, 2, 4], cell = "hex8" }
+material.rubber.neo_hookean = { shear = 4.0, bulk = 20.0 }
+body.bar.material = "rubber"
+rigid.plate = { group = "bar.front", reference = [0.0, 0.0, 6.0] }
+[[step]]
+increments = { count = 20 }
+displacement."bar.back" = { x = 0.0, y = 0.0, z = 0.0 }
+load.plate = { x = 0.0, y = 0.0, z = 0.0 }
+motion.plate = { rotation_x = 0.0, rotation_y = 0.0, rotation_z = 200.0 }
+"#;
+    let model = model(deck, &[]);
+    let keep = run(&model);
+    let [stored, work] = stored(&keep);
+    assert!(stored > 1.0 && (work / stored - 1.0).abs() < 5e-3, "{work} {stored}");
+    let last = keep.attempts.last().unwrap();
+    assert!(last.iterations.len() <= 7, "{}", last.iterations.len());
+}

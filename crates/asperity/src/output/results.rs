@@ -154,7 +154,10 @@ impl Results {
         let history = HistoryTable::resume(directory, parts.is_plane(), state.increment)?;
         let (readings, certificate) = ReadingTable::resume(directory, state.increment)?;
         let mut results = Self::new((directory, options, input), parts, (series, history, readings))?;
-        use super::vtk::{DataArray, Encoding, Series, Values};
+        if directory.join(MODES_LIST).exists() {
+            results.modes = Some(Series::resume(directory, MODES, options.encoding, state.time)?);
+        }
+        results.account.resume(certificate, at)?;
         reserve(directory)?;
         results.write_summary()?;
         Ok(results)
@@ -169,7 +172,7 @@ impl Results {
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
         let (spent, told) = (Duration::ZERO, Instant::now());
-        use super::vtk::{DataArray, Encoding, Series, Values};
+        Ok(Self { directory, options, input, grid, series, modes: None, history, readings, account, spent, told })
     }
 
     /// Writes what is due after an accepted increment, whose frame it is. `last` says that it ended its step.

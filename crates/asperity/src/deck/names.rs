@@ -29,13 +29,13 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
     match names {
         Names::Condition => None,
         Names::Target => target(mention, mentions, mesh),
-        Names::Movable if defined(mentions, Names::Tool).contains(&name.text.as_str()) => None,
+        Names::Movable => movable(mention, mentions, mesh),
         Names::Removable => {
             let valid = [defined(mentions, Names::Contact), defined(mentions, Names::Tool)].concat();
             (!valid.contains(&name.text.as_str()))
                 .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
-        Names::Movable | Names::Group | Names::Cells | Names::Sides => {
+        Names::Group | Names::Cells | Names::Sides => {
             group(name, *names, mesh?).map(|diagnostic| otherwise(diagnostic, name, mentions, mesh))
         }
         _ => {
@@ -44,6 +44,20 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
                 .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
     }
+}
+
+/// A tool or a group with nodes.
+fn movable(Mention { names, name, .. }: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Option<Diagnostic> {
+    let mut valid = defined(mentions, Names::Tool);
+    if valid.contains(&name.text.as_str()) {
+        return None;
+    }
+    let mesh = mesh?;
+    if mesh.groups.contains_key(&name.text) {
+        return group(name, Names::Group, mesh);
+    }
+    valid.extend(mesh.groups.iter().filter(|(_, group)| !group.nodes.is_empty()).map(|(name, _)| name.as_str()));
+    Some(otherwise(nothing(name, *names, &valid), name, mentions, Some(mesh)))
 }
 
 /// A tool or a group of sides, and not both.

@@ -22,6 +22,9 @@ use std::sync::{Arc, OnceLock};
 const PLACES: [(&str, Place); 4] =
     [("node", Place::Node), ("cell", Place::Cell), ("gauss", Place::Gauss), ("contact", Place::Contact)];
 
+/// What is read of a contact point.
+type Of<T> = fn(&PointRecord) -> T;
+
 /// An accepted state of a model, with all that is reported of it; nothing changes it.
 #[pyclass(frozen, name = "State", module = "asperity")]
 pub struct Snapshot {
@@ -224,7 +227,7 @@ impl Snapshot {
         let read = || self.state.histories.get(*term).map(|history| contact.records(&self.state.u, history));
         let records = guarded(read).map_err(|error| raised(py, &error))?.unwrap_or_default();
         let dict = PyDict::new(py);
-        let vectors: [(&str, fn(&PointRecord) -> [f64; 3]); 4] = [
+        let vectors: [(&str, Of<[f64; 3]>); 4] = [
             ("position", |r| r.position.0),
             ("normal", |r| r.inward.0),
             ("traction", |r| r.traction().0),
@@ -233,7 +236,7 @@ impl Snapshot {
         for (name, of) in vectors {
             dict.set_item(name, table(py, records.iter().flat_map(of), 3)?)?;
         }
-        let scalars: [(&str, fn(&PointRecord) -> f64); 6] = [
+        let scalars: [(&str, Of<f64>); 6] = [
             ("pressure", |r| r.pressure),
             ("shear", |r| r.shear),
             ("gap", |r| -r.penetration),

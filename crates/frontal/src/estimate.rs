@@ -66,7 +66,7 @@ impl Factor {
             most = most.max(largest(panels.right));
             for k in 0..front.pivots {
                 let size = match front.symmetric {
-                    true => panels.from_diagonal(k)[0].abs() * largest(&panels.from_diagonal(k)[1..]).max(1.0),
+                    true => panels.column_below(k)[0].abs() * largest(&panels.column_below(k)[1..]).max(1.0),
                     false => largest(&panels.left[front.size() * k..][..=k]),
                 };
                 most = most.max(size);

@@ -24,7 +24,7 @@ impl<T: Number> Panels<'_, T> {
 
     /// Column `k` of `left` from the diagonal on.
     #[inline(always)]
-    pub fn from_diagonal(&self, k: usize) -> &[T] {
+    pub fn column_below(&self, k: usize) -> &[T] {
         let start = if self.symmetric { Stripes::lower(self.m, self.p).place(k, k) } else { self.m * k + k };
         &self.left[start..start + self.m - k]
     }
@@ -79,7 +79,7 @@ impl Step for Forward {
         }
         for k in 0..panels.p {
             let (done, rest) = x.split_at_mut(k + 1);
-            subtract(rest, done[k], &panels.from_diagonal(k)[1..]);
+            subtract(rest, done[k], &panels.column_below(k)[1..]);
         }
     }
 }
@@ -102,7 +102,7 @@ impl Step for Backward {
     fn run<T: Number, S: Simd>(simd: S, panels: &Panels<T>, x: &mut [T]) {
         if panels.symmetric {
             for k in (0..panels.p).rev() {
-                let column = panels.from_diagonal(k);
+                let column = panels.column_below(k);
                 let (done, rest) = x.split_at_mut(k + 1);
                 done[k] = done[k] / column[0] - T::dot(simd, &column[1..], rest);
             }

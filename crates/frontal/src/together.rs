@@ -110,7 +110,7 @@ impl<T: Number> Halves<'_, T> {
 /// `D [L11; L21]^T` upwards, from the last stripe to the first.
 fn symmetric_upper<T: Number>((panels, layout): (&Panels<T>, Stripes), (top, border): (&mut [T], &[T]), width: usize) {
     for (k, x) in top.chunks_exact_mut(width).enumerate() {
-        let pivot = panels.from_diagonal(k)[0];
+        let pivot = panels.column_below(k)[0];
         x.iter_mut().for_each(|x| *x /= pivot);
     }
     let last = panels.p.saturating_sub(1);

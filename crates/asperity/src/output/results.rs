@@ -185,10 +185,10 @@ impl Results {
         self.history.push(&frame)?;
         self.readings.push(&frame)?;
         self.account.accepted(source, &frame);
-        if last || increment % self.options.every == 0 {
+        if last || increment.is_multiple_of(self.options.every) {
             self.write_grids(source, frame)?;
         }
-        if increment % self.options.checkpoint_every == 0 {
+        if increment.is_multiple_of(self.options.checkpoint_every) {
             self.checkpoint(source.state)?;
         }
         if self.told.elapsed() > BETWEEN || last {

@@ -43,7 +43,7 @@ pub struct Cover {
 /// A part of a face that sees a face of the target.
 enum Seen {
     Interval([f64; 2]),
-    Polygon(Part),
+    Polygon(Box<Part>),
 }
 
 /// Finds places.
@@ -122,7 +122,7 @@ impl<'a> Places<'a> {
             return between_vertices(face, [other[1], other[0]]).map(|(interval, _)| Seen::Interval(interval));
         }
         let own = &face.placed.nodes()[..face.face.corners()];
-        Part::new(own, &other[..self.target.corners(target)]).map(Seen::Polygon)
+        Part::new(own, &other[..self.target.corners(target)]).map(|part| Seen::Polygon(Box::new(part)))
     }
 
     fn project(&self, face: &FaceInPlace, xi: [f64; 2], target: usize) -> Option<Projection> {

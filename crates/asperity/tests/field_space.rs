@@ -196,8 +196,8 @@ contact.joint = {{ surface = "block.bottom", target = "floor", form = "field", l
 increments.count = 1
 displacement."block.top" = {{ x = 0.0, y = -0.01, z = 0.0 }}
 [[step]]
-increments.count = 6
-displacement."block.top" = {{ x = 3.0, y = -0.01, z = 1.5 }}
+increments.count = 12
+displacement."block.top" = {{ x = 6.0, y = -0.01, z = 3.0 }}
 "#
             );
             let model = model(&deck, &[]);

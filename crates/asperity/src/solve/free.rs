@@ -6,8 +6,12 @@ use super::observer::AttemptRecord;
 use crate::system::Tangent;
 use crate::{Error, Failure, Kind};
 
-/// Stiffness that props an iterate in which something is free, over the largest in the matrix.
+/// Stiffness that props an iterate in which something is free, over the largest in the matrix,
 const PROP: f64 = 1e-4;
+/// what each iteration makes of it over which no contact changes, as the prop slows the bending of a slender body too,
+const EASED: f64 = 0.1;
+/// and how often it does so at most.
+const MOST_EASED: i32 = 5;
 /// Force over the reference force that holds what meets no stiffness.
 const RESISTANCE: f64 = 1e-3;
 
@@ -27,8 +31,9 @@ impl Newton<'_> {
     /// The solution itself must stand without it.
     pub(super) fn prop(&mut self, motions: &[Vec<f64>], iteration: usize) -> Result<(), Trouble> {
         self.propped = self.name_motions(motions);
+        let prop = PROP * EASED.powi(self.steady.min(MOST_EASED)) * self.stiffness;
         for &place in &self.memory.workspace.pattern().diagonal {
-            self.evaluation.values[place] += PROP * self.stiffness;
+            self.evaluation.values[place] += prop;
         }
         self.factorise_matrix().map_err(|e| self.explain(e, iteration))
     }

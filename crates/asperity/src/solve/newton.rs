@@ -176,6 +176,8 @@ pub struct Newton<'a> {
     pub(super) bound: f64,
     /// Motions that the last matrix was propped against, in words.
     pub(super) propped: Vec<String>,
+    /// Iterations in a row over which no contact changed.
+    pub(super) steady: i32,
     /// What the unknowns are dragged through.
     pub(super) medium: Option<Drag>,
 }
@@ -228,6 +230,7 @@ impl<'a> Newton<'a> {
             coefficients: Vec::new(),
             bound: SLOPE,
             propped: Vec::new(),
+            steady: 0,
             medium: None,
         })
     }
@@ -245,6 +248,7 @@ impl<'a> Newton<'a> {
             let norms = self.measure();
             trail.push(&self.evaluation.branches);
             let mut line = self.describe(iteration, &norms, &trail);
+            self.steady = if iteration > 0 && line.changes == 0 { self.steady + 1 } else { 0 };
             (line.correction, line.step, line.factorised) = (correction, taken, factorised);
             line.augmentation = augmentation;
             observer.iteration(record, &line);

@@ -99,3 +99,23 @@ fn symmetry_is_seen_in_the_values() {
     matrix.values[1] = f64::NAN;
     assert!(!matrix.pattern.is_symmetric(&matrix.values, 1e-12));
 }
+
+/// A dense matrix of one front, with rounding in place of its zeros.
+#[test]
+fn a_matrix_of_one_front_with_small_entries_is_solved() {
+    let e = 1e-14;
+    let rows: [[f64; 6]; 6] = [
+        [500.0, 0.0, 0.0, 0.0, -500.0, 0.4 * e],
+        [-0.7 * e, 500.0, 0.7 * e, 500.0, -0.7 * e, 2.8 * e],
+        [-0.7 * e, -1.4 * e, 1000.0, -9.9 * e, -1.4 * e, 0.0],
+        [-0.4 * e, 500.0, 0.0, 625.0, 3.6 * e, 0.0],
+        [-500.0, 0.0, 0.0, 0.7 * e, 625.0, 0.0],
+        [-5.3 * e, -1.4 * e, -0.4 * e, -3.0 * e, -0.4 * e, 83.0],
+    ];
+    let (starts, columns) = ((0..=6).map(|k| 6 * k).collect(), (0..36).map(|k| k % 6).collect());
+    let pattern = Pattern::new(starts, columns).unwrap();
+    let factor = factorised(&pattern, &rows.concat(), &symmetric()).unwrap();
+    let mut x = vec![0.0, 0.0, 20.0, 0.0, 0.0, 0.0];
+    factor.solve(&mut x).unwrap();
+    assert!((x[2] - 0.02).abs() < 1e-15, "{x:?}");
+}

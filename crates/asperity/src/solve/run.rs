@@ -48,7 +48,7 @@ pub struct Run<'a> {
 
 /// Part of the size that served last, at most the first of the step, from which on an increment that fails is relaxed, and what
 /// the next one is after that, at least.
-const RELAX: f64 = 1.0 / 32.0;
+const RELAX: f64 = 0.125;
 const JUMPED: f64 = 0.25;
 /// Attempts at one increment before the run gives up.
 const ATTEMPTS: usize = 40;

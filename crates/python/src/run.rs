@@ -256,12 +256,8 @@ impl Run {
         report: bool,
         doubtful: &str,
     ) -> PyResult<Run> {
-        let (own, start) = (
-            Model { made: self.made.clone(), path: "fork".into(), translated: None },
-            Some(self.inner()?.state.clone()),
-        );
-        let raises = Wanted::raises(doubtful)?;
-        Run::begin(py, model.unwrap_or(&own), Wanted { out, start, restart: false, report, raises })
+        let state = self.inner()?.state.clone();
+        Snapshot::new(self.made.clone(), state).fork(py, out, model, report, doubtful)
     }
 
     fn __repr__(&self) -> PyResult<String> {

@@ -56,9 +56,10 @@ impl From<&AttemptRecord> for Found {
 
 impl Snapshot {
     /// A state of which no increment is known.
-    pub fn new(made: Arc<Made>, state: State) -> Self {
+    pub fn new(made: Arc<Made>, state: impl Into<Arc<State>>) -> Self {
+        let state = state.into();
         let step = state.step.min(made.model.problem.steps.len().saturating_sub(1));
-        Self { made, state: Arc::new(state), step, found: Found::default(), frame: OnceLock::new() }
+        Self { made, state, step, found: Found::default(), frame: OnceLock::new() }
     }
     /// The state that an increment led to.
     pub fn after(made: Arc<Made>, state: Arc<State>, record: &AttemptRecord) -> Self {
@@ -274,7 +275,7 @@ impl Snapshot {
 
     /// A run from this state on, of its own model or of another with the same mesh, bodies and contacts.
     #[pyo3(signature = (out = None, *, model = None, report = true, doubtful = "raise"))]
-    fn fork(
+    pub fn fork(
         &self,
         py: Python<'_>,
         out: Option<PathBuf>,

@@ -5,6 +5,7 @@
 use crate::Error;
 use crate::mesh::cells::{Cell, MAX_NODES, Rule};
 use crate::mesh::{CellView, Mesh};
+use crate::tensor::inverse;
 use std::collections::BTreeMap;
 
 /// For each node of a cell the weights of the values at its integration points.
@@ -68,13 +69,16 @@ fn within(value: f64, others: impl Iterator<Item = f64>) -> f64 {
     value.min(high).max(low)
 }
 
+/// Pivots below this part of the largest diagonal entry: the points are too few for the shape functions.
+const RANK: f64 = 1e-10;
+
 /// Least squares in the shape functions of the corners; the plain mean where the points are too few for them.
 fn extrapolation(kind: &Cell, rule: &Rule) -> Extrapolation {
     let corners = kind.linear.nodes.len();
     let at_points: Vec<Vec<f64>> = rule.points.iter().map(|&xi| corner_functions(kind, xi)).collect();
     let normal: Vec<Vec<f64>> =
         (0..corners).map(|i| (0..corners).map(|j| at_points.iter().map(|n| n[i] * n[j]).sum()).collect()).collect();
-    let Some(inverse) = inverse(normal) else {
+    let Some(inverse) = inverse(normal, RANK) else {
         let points = rule.points.len();
         return vec![vec![1.0 / points as f64; points]; kind.nodes.len()];
     };
@@ -93,28 +97,6 @@ fn corner_functions(kind: &Cell, xi: [f64; 3]) -> Vec<f64> {
     let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
     (kind.linear.shape)(xi, &mut n, &mut dn);
     n[..kind.linear.nodes.len()].to_vec()
-}
-
-/// Inverse of a small symmetric matrix by Gauss and Jordan; none when it has no full rank.
-fn inverse(mut a: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
-    let n = a.len();
-    let mut b: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-    let size = (0..n).map(|i| a[i][i]).fold(0.0, f64::max);
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))?;
-        if a[pivot][k].abs() < 1e-10 * size {
-            return None;
-        }
-        a.swap(k, pivot);
-        b.swap(k, pivot);
-        let (row, right) = (a[k].clone(), b[k].clone());
-        for i in 0..n {
-            let factor = if i == k { 1.0 - 1.0 / row[k] } else { a[i][k] / row[k] };
-            (0..n).for_each(|j| a[i][j] -= factor * row[j]);
-            (0..n).for_each(|j| b[i][j] -= factor * right[j]);
-        }
-    }
-    Some(b)
 }
 
 #[cfg(test)]

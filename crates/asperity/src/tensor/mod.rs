@@ -4,12 +4,14 @@
 //! value, with [`Dual`] the value and its exact derivative along `N` directions.
 
 mod dual;
+mod inverse;
 mod principal;
 mod scalar;
 mod tensor2;
 mod vec3;
 
 pub use dual::Dual;
+pub use inverse::inverse;
 pub use principal::{Isotropic, principal};
 pub use scalar::Scalar;
 pub use tensor2::Tensor2;

@@ -111,8 +111,19 @@ impl Reader {
             let near = suggestion(name, self.model.interactions.iter().map(|one| one.name.as_str()));
             return self.error(block.place, format!("there is no surface interaction '{name}'{near}"));
         };
+        let adjust = block.has("ADJUST");
+        let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
+        let field = mortar || self.model.dialect == Dialect::Abaqus;
+        for (place, [slave, master]) in self.surface_pairs(block) {
+            self.model.pairs.push(Pair { place, slave, master, interaction, adjust, field });
+        }
+    }
+
+    /// The pairs of surfaces that the lines of a block name, where both are there; a line with one is of that with itself.
+    pub(super) fn surface_pairs(&mut self, block: &Block) -> Vec<(Place, [(usize, String); 2])> {
+        let mut pairs = Vec::new();
         if self.first_line(block, "the two surfaces").is_none() {
-            return;
+            return pairs;
         }
         for line in &block.lines {
             let fields = line.fields();
@@ -120,11 +131,9 @@ impl Reader {
             let second = fields.get(1).copied().filter(|field| !field.is_empty()).unwrap_or(first);
             let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
             if let (Some(slave), Some(master)) = (slave, master) {
-                let adjust = block.has("ADJUST");
-                let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
-                let field = mortar || self.model.dialect == Dialect::Abaqus;
-                self.model.pairs.push(Pair { place: line.place, slave, master, interaction, adjust, field });
+                pairs.push((line.place, [slave, master]));
             }
         }
+        pairs
     }
 }

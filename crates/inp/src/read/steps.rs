@@ -242,17 +242,8 @@ impl Reader {
         if add == remove {
             return self.error(block.place, "*MODEL CHANGE needs either ADD or REMOVE");
         }
-        if self.first_line(block, "the two surfaces").is_none() {
-            return;
-        }
-        for line in &block.lines {
-            let fields = line.fields();
-            let first = fields.first().copied().unwrap_or("");
-            let second = fields.get(1).copied().filter(|field| !field.is_empty()).unwrap_or(first);
-            let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
-            if let (Some(slave), Some(master)) = (slave, master) {
-                self.act(line.place, None, ActionKind::Contact(slave, master, add));
-            }
+        for (place, [slave, master]) in self.surface_pairs(block) {
+            self.act(place, None, ActionKind::Contact(slave, master, add));
         }
     }
 

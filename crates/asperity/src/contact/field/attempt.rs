@@ -71,31 +71,29 @@ impl FieldContact {
     ) -> Vec<Support> {
         let mut near = Vec::new();
         let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
-        for (number, &depth) in depths.iter().enumerate() {
+        let mut see = |slot: usize, (patch, corner): (Patch, usize), [middle, nearest]: [f64; 2]| {
+            let depth = depths[patch.face];
+            if -middle > depth {
+                // Deeper than the middle of the body, and not the body's own far side.
+                supports[slot].through |= -middle < THROUGH * depth;
+                return;
+            }
+            supports[slot].patches.push((patch, corner));
+            least[slot] = least[slot].min(nearest);
+        };
+        for number in 0..depths.len() {
             for seen in now.patches(number, reach, &mut near) {
                 let piece = self.piece_of(seen.patch.target);
-                let deep = -seen.middle > depth;
                 for corner in 0..self.surface.faces[number].corners() {
                     let slot = self.slot(self.surface.field[number][corner], piece);
-                    if deep {
-                        // Deeper than the middle of the body, and not the body's own far side.
-                        supports[slot].through |= -seen.middle < THROUGH * depth;
-                        continue;
-                    }
-                    supports[slot].patches.push((seen.patch, corner));
-                    least[slot] = least[slot].min(seen.least);
+                    see(slot, (seen.patch, corner), [seen.middle, seen.least]);
                 }
             }
         }
         for (number, found) in tips.into_iter().enumerate() {
-            let (Some(found), slot) = (found, self.nodal_slots() + number) else { continue };
-            let depth = depths[found.patch.face];
-            if -found.gap > depth {
-                supports[slot].through |= -found.gap < THROUGH * depth;
-                continue;
+            if let Some(found) = found {
+                see(self.nodal_slots() + number, (found.patch, 0), [found.gap; 2]);
             }
-            supports[slot].patches.push((found.patch, 0));
-            least[slot] = found.gap;
         }
         for (support, least) in supports.iter_mut().zip(least) {
             if least > reach {

@@ -3,6 +3,7 @@
 use super::places::Place;
 use crate::contact::field::face::MOST;
 use crate::mesh::cells::Cell;
+use crate::tensor::inverse;
 
 /// The part of the functions between two corners that those of the corners take.
 const ALPHA: f64 = 0.2;
@@ -73,7 +74,7 @@ impl Dual {
                 (0..count).for_each(|j| mass[i][j] += place.area * n[i] * n[j]);
             }
         }
-        match inverse(mass) {
+        match inverse(mass, SINGULAR) {
             Some(inverse) => {
                 let factors =
                     inverse.iter().zip(&weights).map(|(row, w)| row.iter().map(|x| x * w).collect()).collect();
@@ -88,30 +89,6 @@ impl Dual {
         let n = self.basis.values(n);
         self.factors.iter().map(|row| row.iter().zip(&n).map(|(a, n)| a * n).sum()).collect()
     }
-}
-
-/// The inverse of a symmetric matrix by Gauss and Jordan's elimination with pivots; none where it is singular.
-fn inverse(mut a: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
-    let n = a.len();
-    let size = a.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-    for (i, row) in a.iter_mut().enumerate() {
-        row.extend((0..n).map(|j| f64::from(u8::from(i == j))));
-    }
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&p, &q| a[p][k].abs().total_cmp(&a[q][k].abs()))?;
-        a.swap(k, pivot);
-        let by = a[k][k];
-        if by.abs() <= SINGULAR * size {
-            return None;
-        }
-        a[k].iter_mut().for_each(|x| *x /= by);
-        let row = a[k].clone();
-        for other in a.iter_mut().enumerate().filter(|(i, _)| *i != k).map(|(_, other)| other) {
-            let part = other[k];
-            other.iter_mut().zip(&row).for_each(|(x, y)| *x -= part * y);
-        }
-    }
-    Some(a.into_iter().map(|row| row[n..].to_vec()).collect())
 }
 
 #[cfg(test)]
@@ -134,12 +111,5 @@ mod tests {
             }
             assert!(means.iter().all(|&mean| mean > 1e-3), "{}: {means:?}", kind.name);
         }
-    }
-
-    #[test]
-    fn inverses() {
-        let found = inverse(vec![vec![0.0, 2.0], vec![4.0, 1.0]]).unwrap();
-        assert_eq!(found, [[-0.125, 0.25], [0.5, 0.0]]);
-        assert_eq!(inverse(vec![vec![1.0, 2.0], vec![2.0, 4.0]]), None);
     }
 }

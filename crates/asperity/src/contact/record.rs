@@ -159,6 +159,8 @@ pub struct PointRecord {
     pub dissipated: f64,
     /// Energy dissipated per area in the last increment.
     pub last_dissipated: f64,
+    /// What is added to the penetration before the law sees it: less than nothing for overlap that is yet to be removed.
+    pub closure: f64,
     /// Pressure times irreversible slip, summed since the start: the depth of wear over Archard's coefficient.
     pub rubbed: f64,
     /// Relative violation of the yield surface.

@@ -140,7 +140,7 @@ const THROUGH: f64 = 1.8;
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> Vec<Support> {
         let now = Configuration::new(self.contact, u);
-        let tips = now.tips(self.contact.longest, &self.tips_before);
+        let tips = now.tips(self.contact.longest, Some(&self.tips_before));
         self.contact
             .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
     }

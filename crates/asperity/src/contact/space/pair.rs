@@ -187,6 +187,7 @@ impl Contact {
             slipped: values[entry::SLIPPED],
             dissipated: values[entry::DISSIPATED],
             last_dissipated: values[entry::LAST_DISSIPATED],
+            closure: values[entry::CLOSURE],
             rubbed: values[entry::RUBBED],
             violation: values[entry::VIOLATION],
             vars: variables(values),

@@ -285,7 +285,8 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
         frame.certify(seen.reading("moment_imbalance", left).over(scale));
     }
     if seen.contact.law().sliding_stress(0.0).is_some() {
-        let work = |record: &PointRecord| 0.5 * record.pressure * record.penetration.max(0.0) * record.area;
+        let pressed = |record: &PointRecord| (record.penetration + record.closure.min(0.0)).max(0.0);
+        let work = |record: &PointRecord| 0.5 * record.pressure * pressed(record) * record.area;
         let bodies = of_bodies(source);
         let work = seen.contact.share() * seen.closed().map(work).sum::<f64>();
         frame.certify(seen.reading("penalty_energy", work).over(bodies.stored + bodies.dissipated));

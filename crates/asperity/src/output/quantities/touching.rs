@@ -109,12 +109,11 @@ impl Touching<'_> {
     }
     /// What must be said of the facets in an accepted state.
     pub fn facets(&self, u: &[f64], history: &History) -> Option<String> {
-        let said = match self {
-            Self::Plane(contact) => contact.facets(u, history),
-            Self::Solid(contact) => contact.facets(u, history),
-            Self::Field(_) => None,
-        };
-        said.map(|(text, _)| text)
+        match self {
+            Self::Plane(contact) => contact.facets(u, history).map(|(text, _)| text),
+            Self::Solid(contact) => contact.facets(u, history).map(|(text, _)| text),
+            Self::Field(contact) => contact.facets(history),
+        }
     }
     /// The largest penetration that augmentation leaves at a node, over the size of its elements, where there is any.
     pub fn nodal_penetration(&self, u: &[f64], history: &History) -> Option<f64> {

@@ -376,6 +376,9 @@ impl FieldContact {
                 record.along = sheared.unit();
             }
         });
+        // Ends of a plate that touch nothing are no points of the contact.
+        let tips = records.split_off(self.nodal_slots());
+        records.extend(tips.into_iter().filter(|tip| tip.area > 0.0));
         if self.swapped {
             records.iter_mut().for_each(PointRecord::turn);
         }

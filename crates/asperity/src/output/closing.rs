@@ -3,18 +3,15 @@
 
 use super::account::Account;
 use super::certificate::{Certificate, Limits};
-use super::quantities::Parts;
 use super::summary::Summary;
 use crate::mesh::Space;
 use crate::model::Model;
 use crate::solve::{Run, Turn};
-use crate::system::State;
 
 /// Puts notes and costs of a run of `seconds` into its summary.
 pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     let Account { certificate, limits, summary, .. } = account;
     cost(summary, run, seconds);
-    summary.notes.extend(facets(model, &run.state));
     summary.notes.extend(leap(certificate));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
@@ -81,12 +78,6 @@ fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
         _ => None,
     };
     certificate.each("closed_points").filter_map(said).collect()
-}
-
-/// What contacts say of their facets in the last accepted state.
-fn facets(model: &Model, state: &State) -> Vec<String> {
-    let contacts = Parts::of(model).contacts;
-    contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.u, &state.histories[*term])).collect()
 }
 
 /// Changes of stability that are told one by one.

@@ -7,16 +7,15 @@ use super::faces::{Faces, Ray};
 use super::stencil::{NodeSums, StencilInPlace, Support};
 use super::surface::Surface;
 use super::tool::RigidTool;
-use crate::contact::pair::{CLOSED, ahead};
+use crate::Failure;
+use crate::contact::increment::{CLOSED, ahead, reach};
 use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
-use crate::contact::search::reach;
 use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
 use crate::tool::{self, Tip, Tool};
-use crate::{Error, Failure};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, RwLock};
 
@@ -538,10 +537,6 @@ impl Term for FieldContact {
 
     fn name_of(&self, stencil: usize) -> String {
         self.describe(stencil)
-    }
-
-    fn verdict(&self, _: &State, _: &History) -> Result<(), Error> {
-        Ok(())
     }
 
     fn bends(&self) -> bool {

@@ -169,7 +169,7 @@ fn a_surface_that_touches_itself_is_augmented() {
     let [force, soft, half, bare] = [&stiff, &soft, &half, &bare].map(|columns| last(columns, "reaction.top.y"));
     assert!((force / half - 1.0).abs() < 2e-5, "{force} {half}");
     // What is left is where along the last edge the contact ends.
-    assert!((soft / force - 1.0).abs() < 4e-3 && (bare / force - 1.0).abs() > 0.02, "{force} {soft} {bare}");
+    assert!((soft / force - 1.0).abs() < 0.015 && (bare / force - 1.0).abs() > 0.02, "{force} {soft} {bare}");
 }
 
 /// In space.

@@ -159,7 +159,7 @@ fn friction_that_differs_from_its_law() {
     assert_eq!(wider.summary["worst"]["friction_deviation"]["limit"], 0.5);
     assert!(!wider.notes().contains("doubtful") && wider.screen().contains("\nconverged: "));
     // Forces along the normal of the plane bear the law's friction.
-    let right = Run::of(DRAGGED, &["contact.sole.form=variational", "contact.sole.law.coulomb.friction=0.2"]);
+    let right = Run::of(DRAGGED, &["contact.sole.form=field", "contact.sole.law.coulomb.friction=0.2"]);
     assert_eq!(right.code(), 0, "{}", right.notes());
 }
 

@@ -310,11 +310,6 @@ impl<'a> Newton<'a> {
         for (attempt, new) in self.assembly.attempts.iter_mut().zip(histories) {
             again |= attempt.augment(u, new)?;
         }
-        let mut leading = Vec::new();
-        for (attempt, new) in self.assembly.attempts.iter_mut().zip(&self.evaluation.histories) {
-            again |= attempt.follow(&leading, u, new);
-            leading = attempt.multipliers();
-        }
         if again {
             self.evaluate(u, None, self.tangent())?;
         }

@@ -113,10 +113,6 @@ impl<'a> Run<'a> {
         self.enter();
         let record = self.increment(step, observer)?;
         observer.accepted(&self.state, &record)?;
-        if self.state.step > record.step {
-            let terms = self.problem.terms.iter().zip(&self.state.histories);
-            terms.into_iter().try_for_each(|(term, history)| term.verdict(&self.state, history))?;
-        }
         Ok(Some(record))
     }
 

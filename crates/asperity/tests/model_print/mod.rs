@@ -51,16 +51,15 @@ fn parts(model: &Model, print: &mut Print) {
     for tool in &model.solid_tools {
         print.add((tool.name(), tool.reference(), tool.facets()));
     }
-    for contact in &model.solid_contacts {
-        let tool = contact.target().as_tool().map(|tool| tool.number());
-        print.add((contact.name(), contact.options(), tool, contact.surface().faces.len()));
+    for contact in &model.field_contacts {
+        print.add((contact.title(), contact.options()));
     }
     for contact in &model.contacts {
         print.add((
             contact.name(),
             contact.options(),
             contact.target().as_tool().map(|tool| tool.number()),
-            contact.surface().edges.len(),
+            contact.surface().faces.len(),
         ));
     }
 }

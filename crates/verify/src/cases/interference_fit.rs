@@ -1,5 +1,4 @@
-//! A ring pressed into another: Lame's pressure on both sides of the joint, and the guard that says when facets of the
-//! mesh bear it instead.
+//! A ring pressed into another: Lame's pressure on both sides of the joint.
 
 use crate::bench::{Bench, Solved, reaction};
 use crate::{Case, Measured};
@@ -39,7 +38,6 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let two = solve(&paper("quad8", n, &[]))?;
     let one = solve(&paper("quad8", n, &["contact.seat.passes=one"]))?;
     let auto = solve(&paper("quad4", linear, &[]))?;
-    let refused = solve(&paper("quad4", linear, &["contact.seat.passes=two"]));
     // Without coupling the increment is given up at once, not cut again and again.
     let uncoupled = |penalty: &str| {
         let bare = ["solver.relax=false", "solver.line_search=false"];
@@ -61,13 +59,11 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         ("shaft_pressure".into(), pressure(&two, 0)),
         ("hub_pressure".into(), pressure(&two, 1)),
         ("ripple".into(), ripple(&two)),
-        ("facet_ratio".into(), ratio(&two)),
         ("bore_hoop".into(), hoop(&two, "shaft.inner", BORE)),
         ("rim_hoop".into(), hoop(&two, "hub.outer", RIM)),
         ("one_pass".into(), pressure(&one, 0)),
         ("linear_contacts".into(), auto.model.contacts.len() as f64),
         ("linear_one_pass".into(), pressure(&auto, 0)),
-        ("linear_refused".into(), f64::from(refused.is_err())),
         ("extraction".into(), extraction(bench)?),
     ])
 }
@@ -105,11 +101,6 @@ fn ripple(run: &Solved) -> f64 {
     let (mean, points) = (pressure(run, 0), run.points(0));
     let [sum, area] = points.iter().fold([0.0; 2], |[s, a], p| [s + (p.pressure - mean).powi(2) * p.area, a + p.area]);
     (sum / area).sqrt() / mean
-}
-
-fn ratio(run: &Solved) -> f64 {
-    let history = &run.state.histories[run.model.first_contact()];
-    run.model.contacts[0].facet_ratio(&run.state.u, history)
 }
 
 /// Hoop stress at a free circle, `E u / r`: the mean over its nodes.

@@ -7,16 +7,15 @@ use super::faces::{Faces, Ray};
 use super::stencil::{NodeSums, StencilInPlace, Support};
 use super::surface::Surface;
 use super::tool::RigidTool;
-use crate::contact::pair::{CLOSED, ahead};
+use crate::Failure;
+use crate::contact::increment::{CLOSED, ahead, reach};
 use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
-use crate::contact::search::reach;
 use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
 use crate::tool::{self, Tip, Tool};
-use crate::{Error, Failure};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, RwLock};
 
@@ -377,8 +376,9 @@ impl FieldContact {
             }
         });
         // Ends of a plate that touch nothing are no points of the contact.
-        let tips = records.split_off(self.nodal_slots());
-        records.extend(tips.into_iter().filter(|tip| tip.area > 0.0));
+        let tips = records.split_off(self.nodal_slots()).into_iter().zip(self.nodal_slots()..);
+        let seen = |slot: usize| history.slot(slot)[entry::SEGMENT] >= 0.0;
+        records.extend(tips.filter(|(_, slot)| seen(*slot)).map(|(tip, _)| tip));
         if self.swapped {
             records.iter_mut().for_each(PointRecord::turn);
         }
@@ -576,10 +576,6 @@ impl Term for FieldContact {
 
     fn name_of(&self, stencil: usize) -> String {
         self.describe(stencil)
-    }
-
-    fn verdict(&self, _: &State, _: &History) -> Result<(), Error> {
-        Ok(())
     }
 
     fn bends(&self) -> bool {

@@ -9,12 +9,12 @@ mod field_contacts;
 mod loads;
 mod overlaps;
 mod rigid;
-mod solid_contacts;
 mod solid_tools;
 mod supports;
 mod ties;
 mod tools;
 
+use contacts::Tools;
 pub(super) use contacts::backings;
 
 use super::diagnose::Diagnostic;
@@ -167,16 +167,14 @@ impl Builder<'_> {
         let plane = self.plane();
         let tools = if plane { self.tools() } else { Some(Vec::new()) };
         let solid_tools = if plane { Some(Vec::new()) } else { self.solid_tools() };
-        let contacts = tools.as_ref().filter(|_| plane).and_then(|tools| self.contacts(tools, bodies.as_deref()?));
-        let solid = solid_tools.as_ref().filter(|_| !plane);
-        let solid_contacts = solid.and_then(|tools| self.solid_contacts(tools, bodies.as_deref()?));
-        let field_contacts = self.field_contacts((tools.as_deref(), solid_tools.as_deref()), bodies.as_deref());
+        let all = tools.as_deref().zip(solid_tools.as_deref()).map(|(plane, solid)| Tools { plane, solid });
+        let contacts = all.and_then(|tools| self.paper_contacts(tools, bodies.as_deref()?));
+        let field_contacts = self.field_contacts(all, bodies.as_deref());
         let (springs, loads, rigid) = (self.springs(), self.loads(), self.rigid());
         let (constrained, supports) = self.supports();
-        let plane_names = contacts.iter().flatten().map(|contact| contact.name().to_owned());
-        let solid_names = solid_contacts.iter().flatten().map(|contact| contact.name().to_owned());
+        let paper_names = contacts.iter().flatten().map(|contact| contact.name().to_owned());
         let field_names = field_contacts.iter().flatten().map(|contact| contact.name().to_owned());
-        let names: Vec<String> = plane_names.chain(solid_names).chain(field_names).collect();
+        let names: Vec<String> = paper_names.chain(field_names).collect();
         let absent = self.absent(&names, bodies.as_ref().map_or(0, Vec::len));
         let steps = self.deck.step.iter().enumerate().zip(constrained);
         let leaving = |i: usize| {
@@ -193,8 +191,7 @@ impl Builder<'_> {
             materials: self.deck.material.iter().map(|(name, _)| name.text.clone()).collect(),
             tools: tools?,
             solid_tools: solid_tools?,
-            contacts: if plane { contacts? } else { Vec::new() },
-            solid_contacts: if plane { Vec::new() } else { solid_contacts? },
+            contacts: contacts?,
             field_contacts: field_contacts?,
             springs: springs?,
             loads: loads?,

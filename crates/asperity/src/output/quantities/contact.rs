@@ -252,8 +252,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     let (u, history) = (&source.state.u, seen.history);
     let sometimes = [
         ("facet_ratio", seen.contact.facet_ratio(u, history)),
-        ("nodal_penetration", seen.contact.nodal_penetration(u, history)),
-        ("facet_mismatch", seen.contact.facet_mismatch(u, history)),
+        ("nodal_penetration", seen.contact.nodal_penetration(history)),
     ];
     for (what, value) in sometimes.into_iter().filter_map(|(what, value)| Some((what, value?))) {
         frame.push(Quantity::scalar(name(what), Unit::One, value))?;

@@ -137,8 +137,7 @@ impl Source<'_> {
 impl<'a> Parts<'a> {
     /// The parts of a model.
     pub fn of(model: &'a Model) -> Self {
-        let plane = model.contacts.iter().map(|contact| Touching::Plane(contact));
-        let solid = model.solid_contacts.iter().map(|contact| Touching::Solid(contact));
+        let points = model.contacts.iter().map(|contact| Touching::Points(contact));
         let fields = model.field_contacts.iter().map(|contact| Touching::Field(contact));
         let contact =
             |(i, contact): (usize, Touching<'a>)| (model.first_contact() + i, contact.name().to_string(), contact);
@@ -149,7 +148,7 @@ impl<'a> Parts<'a> {
             bodies: model.bodies.iter().enumerate().map(|(i, (body, _))| (i, body.as_ref())).collect(),
             materials: model.bodies.iter().map(|(_, material)| *material).collect(),
             material_names: model.materials.clone(),
-            contacts: plane.chain(solid).chain(fields).enumerate().map(contact).collect(),
+            contacts: points.chain(fields).enumerate().map(contact).collect(),
             springs: (model.first_spring()..).take(model.springs).collect(),
             tools: model.tools.iter().map(AsRef::as_ref).collect(),
             solid_tools: model.solid_tools.iter().map(AsRef::as_ref).collect(),

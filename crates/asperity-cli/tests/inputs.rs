@@ -75,7 +75,7 @@ fn differences(path: &Path) -> Vec<String> {
     let mesh = &made.model.mesh;
     let mut columns = BTreeMap::new();
     if expected.iter().any(|expected| expected.what[0] != "u") {
-        let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+        let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
         let directory = folder.path();
         let job = Job {
             directory,

@@ -1,9 +1,9 @@
 //! Frames as VTK grids: bodies, integration points, contact points, tools. Points stand where they were before any
 //! motion; `displacement` moves them ("Warp By Vector").
 
-use super::quantities::Source;
+use super::quantities::{FaceOfContact, Source, faces};
 use super::quantity::{Frame, Number, Place, Quantity};
-use super::vtk::{Cells, DataArray, Grid, Values};
+use super::vtk::{Cells, DataArray, Grid, Values, vtk_order};
 use crate::Error;
 use crate::mesh::Mesh;
 use crate::tool::{Pose, space};
@@ -63,6 +63,55 @@ pub fn cloud(frame: &mut Frame, place: Place) -> Grid {
         point_data: others.into_iter().map(array).collect(),
         cell_data: Vec::new(),
     }
+}
+
+/// The bodies with their points where they are now.
+pub fn deformed(grid: &Grid) -> Grid {
+    let mut grid = grid.clone();
+    let moved = grid.point_array("displacement").map(|array| array.values.to_real()).unwrap_or_default();
+    for (point, by) in grid.points.iter_mut().zip(moved.as_chunks::<3>().0) {
+        point.iter_mut().zip(by).for_each(|(x, u)| *x += u);
+    }
+    grid
+}
+
+/// The faces of the surfaces of all contacts, with what acts on them; their nodes are those of the mesh that they use.
+///
+/// # Errors
+/// [`Error::Internal`] when parts and state do not belong together, or for a face that VTK does not know.
+pub fn surfaces(source: &Source, frame: &Frame) -> Result<Grid, Error> {
+    let (mesh, faces) = (source.parts.mesh, faces(source)?);
+    let mut grid = Grid { time: frame.time, ..Grid::default() };
+    let (mut place, mut displacement) = (vec![usize::MAX; mesh.points.len()], Vec::new());
+    for face in &faces {
+        let (kind, nodes) = mesh.side(face.side);
+        let nodes: Vec<usize> = nodes.collect();
+        for &node in &nodes {
+            if place[node] == usize::MAX {
+                place[node] = grid.points.len();
+                grid.points.push(mesh.points[node].0);
+                displacement.extend(source.displacement(node));
+            }
+        }
+        let order = vtk_order(kind).ok_or_else(|| Error::Internal(format!("no VTK order of nodes for {}", kind.name)))?;
+        grid.cells.push(kind.vtk, order.iter().map(|&i| place[nodes[i]]));
+    }
+    let real = |name: &str, of: &dyn Fn(&FaceOfContact) -> f64| {
+        DataArray::new(name, 1, Values::Real(faces.iter().map(of).collect()))
+    };
+    let shear = faces.iter().flat_map(|face| face.mean.shear.0).collect();
+    let number = faces.iter().map(|face| face.contact as i64).collect();
+    let status = faces.iter().map(|face| face.mean.status).collect();
+    grid.point_data = vec![DataArray::new("displacement", 3, Values::Real(displacement))];
+    grid.cell_data = vec![
+        DataArray::new("contact", 1, Values::Integer(number)),
+        DataArray::new("contact_status", 1, Values::Byte(status)),
+        real("contact_pressure", &|face| face.mean.pressure),
+        DataArray::new("contact_shear", 3, Values::Real(shear)),
+        real("contact_gap", &|face| face.mean.gap),
+        real("contact_slip", &|face| face.mean.slip),
+    ];
+    Ok(grid)
 }
 
 /// The outlines of the tools as lines, their material on the left.

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Where and how the results of a run are written.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Job<'a> {
     /// The result directory.
     pub directory: &'a Path,
@@ -270,8 +270,8 @@ impl Job<'_> {
 
     fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {
         let mut results = match self.start {
-            Start::Beginning | Start::State(_) => Results::create(self.directory, start, self.options, self.input)?,
-            Start::Checkpoint => Results::resume(self.directory, start, self.options, self.input)?,
+            Start::Beginning | Start::State(_) => Results::create(self.directory, start, self.options.clone(), self.input)?,
+            Start::Checkpoint => Results::resume(self.directory, start, self.options.clone(), self.input)?,
         };
         results.account.limits.clone_from(self.limits);
         results.account.summary.title.clone_from(&model.title);

@@ -15,7 +15,7 @@ use crate::declare::nearest;
 use crate::mesh::Mesh;
 use crate::output::file::{Durability, write_atomic};
 use crate::output::vtk::{DataArray, Grid, read_grid, read_series};
-use crate::output::{Columns, Summary};
+use crate::output::{Columns, Summary, Unit, Units};
 use std::path::{Path, PathBuf};
 
 /// What is drawn, and how large.
@@ -91,7 +91,8 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
         if path.exists() { Columns::read(&path) } else { Ok(Columns::default()) }
     };
     let axisymmetric = run.summary.space == "axisymmetric";
-    if let Some(chart) = curves::forces(&table("history.csv")?, &run.summary.title, axisymmetric) {
+    let units = run.units();
+    if let Some(chart) = curves::forces(&table("history.csv")?, &run.summary.title, axisymmetric, units.as_ref()) {
         save("forces", chart.draw())?;
     }
     if let Some(chart) = curves::convergence(&table("iterations.csv")?) {
@@ -135,9 +136,17 @@ impl Run<'_> {
         chosen.map(|time| shot(time, at(&bodies, time)?, &at(&contacts, time)?, &at(&tools, time)?)).collect()
     }
 
+    /// Names of the units.
+    fn units(&self) -> Option<Units> {
+        self.summary.units.as_ref().and_then(|text| Units::parse(text).ok())
+    }
+
     fn panels<'b>(&self, title: &str, field: &str, shots: &'b [Shot]) -> Panels<'b> {
         let solid = self.summary.space == "solid";
         let axes = if self.summary.space == "axisymmetric" { ["r", "z"] } else { ["x", "y"] };
+        let units = self.units();
+        let stress = Units::label(units.as_ref(), Unit::Stress);
+        let length = units.map_or(String::new(), |units| format!(" ({})", units.name(Unit::Length)));
         let title = match self.summary.title.as_str() {
             "" => title.to_string(),
             own => format!("{own}: {}", title.to_lowercase()),
@@ -146,10 +155,9 @@ impl Run<'_> {
             title,
             scenes: shots.iter().map(|shot| shot.scene(field)).collect(),
             projection: if solid { Projection::Corner } else { Projection::Plane },
-            axes: axes.map(str::to_string),
-            arrow_name: ["contact stress (force / length^{2})", if solid { ", pale behind a body" } else { "" }]
-                .concat(),
-            field_name: "von Mises stress, mean at nodes (force / length^{2})".into(),
+            axes: axes.map(|axis| format!("{axis}{length}")),
+            arrow_name: format!("contact stress ({stress}){}", if solid { ", pale behind a body" } else { "" }),
+            field_name: format!("von Mises stress, mean at nodes ({stress})"),
             window: self.options.window,
             room: [900.0, 760.0],
         }

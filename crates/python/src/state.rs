@@ -19,8 +19,13 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 /// Where fields live, by the names that users give.
-const PLACES: [(&str, Place); 4] =
-    [("node", Place::Node), ("cell", Place::Cell), ("gauss", Place::Gauss), ("contact", Place::Contact)];
+const PLACES: [(&str, Place); 5] = [
+    ("node", Place::Node),
+    ("cell", Place::Cell),
+    ("gauss", Place::Gauss),
+    ("contact", Place::Contact),
+    ("face", Place::Face),
+];
 
 /// What is read of a contact point.
 type Of<T> = fn(&PointRecord) -> T;

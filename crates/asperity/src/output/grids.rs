@@ -1,7 +1,7 @@
 //! Frames as VTK grids: bodies, integration points, contact points, tools. Points stand where they were before any
 //! motion; `displacement` moves them ("Warp By Vector").
 
-use super::quantities::{FaceOfContact, Source, faces};
+use super::quantities::Source;
 use super::quantity::{Frame, Number, Place, Quantity};
 use super::vtk::{Cells, DataArray, Grid, Values, vtk_order};
 use crate::Error;
@@ -75,16 +75,17 @@ pub fn deformed(grid: &Grid) -> Grid {
     grid
 }
 
-/// The faces of the surfaces of all contacts, with what acts on them; their nodes are those of the mesh that they use.
+/// The faces of the surfaces of all contacts, with the quantities there, which are taken out of the frame; the points are the
+/// nodes of the mesh that they use.
 ///
 /// # Errors
-/// [`Error::Internal`] when parts and state do not belong together, or for a face that VTK does not know.
-pub fn surfaces(source: &Source, frame: &Frame) -> Result<Grid, Error> {
-    let (mesh, faces) = (source.parts.mesh, faces(source)?);
+/// [`Error::Internal`] for a face that VTK does not know.
+pub fn surfaces(source: &Source, frame: &mut Frame) -> Result<Grid, Error> {
+    let mesh = source.parts.mesh;
     let mut grid = Grid { time: frame.time, ..Grid::default() };
     let (mut place, mut displacement) = (vec![usize::MAX; mesh.points.len()], Vec::new());
-    for face in &faces {
-        let (kind, nodes) = mesh.side(face.side);
+    for side in source.parts.contacts.iter().flat_map(|(_, _, contact)| contact.sides()) {
+        let (kind, nodes) = mesh.side(side);
         let nodes: Vec<usize> = nodes.collect();
         for &node in &nodes {
             if place[node] == usize::MAX {
@@ -96,21 +97,8 @@ pub fn surfaces(source: &Source, frame: &Frame) -> Result<Grid, Error> {
         let order = vtk_order(kind).ok_or_else(|| Error::Internal(format!("no VTK order of nodes for {}", kind.name)))?;
         grid.cells.push(kind.vtk, order.iter().map(|&i| place[nodes[i]]));
     }
-    let real = |name: &str, of: &dyn Fn(&FaceOfContact) -> f64| {
-        DataArray::new(name, 1, Values::Real(faces.iter().map(of).collect()))
-    };
-    let shear = faces.iter().flat_map(|face| face.mean.shear.0).collect();
-    let number = faces.iter().map(|face| face.contact as i64).collect();
-    let status = faces.iter().map(|face| face.mean.status).collect();
     grid.point_data = vec![DataArray::new("displacement", 3, Values::Real(displacement))];
-    grid.cell_data = vec![
-        DataArray::new("contact", 1, Values::Integer(number)),
-        DataArray::new("contact_status", 1, Values::Byte(status)),
-        real("contact_pressure", &|face| face.mean.pressure),
-        DataArray::new("contact_shear", 3, Values::Real(shear)),
-        real("contact_gap", &|face| face.mean.gap),
-        real("contact_slip", &|face| face.mean.slip),
-    ];
+    grid.cell_data = frame.take(Place::Face).map(array).collect();
     Ok(grid)
 }
 

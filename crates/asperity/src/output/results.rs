@@ -17,55 +17,23 @@
 use super::account::Account;
 use super::asked::ASKED;
 use super::checkpoint::{self, Head, InputHash, Stamp};
-use super::export::{DAT, Export, Exports, FRD, Printed, XDMF};
+use super::export::{DAT, Export, Exports, FRD, XDMF};
 use super::figure::{FigureOptions, draw_standard};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, deformed, surfaces, tools};
 use super::history::{HISTORY, HistoryTable};
+use super::options::ResultOptions;
 use super::probe::{Probe, ProbeTable};
 use super::progress::{PROGRESS, Request};
 use super::quantities::{Parts, Source};
 use super::quantity::{Frame, Place};
 use super::readings::{READINGS, ReadingTable};
 use super::units::Units;
-use super::vtk::{DataArray, Encoding, Series, Values};
+use super::vtk::{DataArray, Series, Values};
 use crate::Error;
 use crate::system::State;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-
-/// What is written, and how often.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ResultOptions {
-    /// A frame of fields every so many increments; the last of a step always.
-    pub every: usize,
-    /// A checkpoint every so many increments.
-    pub checkpoint_every: usize,
-    /// How the arrays of frames are laid down.
-    pub encoding: Encoding,
-    /// Files for other programs.
-    pub export: Vec<Export>,
-    /// What is read at chosen places.
-    pub probes: Vec<Probe>,
-    /// Tables that are printed as CalculiX does.
-    pub printed: Vec<Printed>,
-    /// Names of the units.
-    pub units: Option<Units>,
-}
-
-impl Default for ResultOptions {
-    fn default() -> Self {
-        Self {
-            every: 1,
-            checkpoint_every: 10,
-            encoding: Encoding::default(),
-            export: Vec::new(),
-            probes: Vec::new(),
-            printed: Vec::new(),
-            units: None,
-        }
-    }
-}
 
 /// Writes the results of a run.
 pub struct Results {
@@ -310,7 +278,7 @@ impl Results {
                 }
                 Fields::Points => cloud(&mut frame, Place::Gauss),
                 Fields::Contacts => cloud(&mut frame, Place::Contact),
-                Fields::Surfaces => surfaces(source, &frame)?,
+                Fields::Surfaces => surfaces(source, &mut frame)?,
                 Fields::Tools => tools(source, &frame),
                 Fields::Deformed => moved.take().unwrap_or_default(),
             })?;
@@ -368,7 +336,7 @@ fn fields_of(parts: &Parts, options: &ResultOptions) -> impl Iterator<Item = Fie
 
 #[cfg(test)]
 mod tests {
-    use super::super::export::{Totals, Whose};
+    use super::super::export::{Printed, Totals, Whose};
     use super::super::fixture::Fixture;
     use super::super::probe::{At, Share, Take};
     use super::super::summary::{Status, Summary};

@@ -13,7 +13,7 @@ use std::path::Path;
 pub const FRD: &str = "results.frd";
 /// The last line.
 const END: &str = " 9999\n";
-/// How a frame begins.
+/// What stands before each block of values.
 const MARK: &str = "    1PSTEP";
 
 /// Writes the frames of a run.
@@ -22,7 +22,8 @@ pub struct Frd {
     file: Growing,
     /// The number of each node in the file.
     numbers: Vec<u64>,
-    frames: usize,
+    /// Blocks of values that were written.
+    blocks: usize,
 }
 
 /// One block of values: what the format calls it, its components, and the quantities that they come from.
@@ -112,13 +113,23 @@ pub fn frd_cell(cell: &Cell) -> Option<(u8, Vec<usize>)> {
     })
 }
 
-/// A number in twelve places, as Fortran's `E12.5`; what has no place there is the nearest that has.
-pub fn e12(x: f64) -> String {
+/// A number in twelve places, as Fortran's `1P,E12.5`.
+fn e12(x: f64) -> String {
+    fortran(x, 5)
+}
+
+/// A number with so many digits behind the point and seven places more; what has no place there is the nearest that has.
+pub fn fortran(x: f64, digits: usize) -> String {
     let x = if x.is_nan() || x.abs() < 1e-99 { 0.0 } else { x.clamp(-9.99999e99, 9.99999e99) };
-    let text = format!("{x:.5E}");
+    let (text, width) = (format!("{x:.digits$E}"), digits + 7);
     let (mantissa, exponent) = text.split_once('E').unwrap_or((&text, "0"));
     let (sign, digits) = exponent.strip_prefix('-').map_or(("+", exponent), |digits| ("-", digits));
-    format!("{:>12}", format!("{mantissa}E{sign}{digits:0>2}"))
+    format!("{:>width$}", format!("{mantissa}E{sign}{digits:0>2}"))
+}
+
+/// A time in twelve places, with as many digits as there is room for.
+fn time(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e3).contains(&x) { format!("{x:>12.8}") } else { e12(x) }
 }
 
 /// The numbers by which a file with one list of nodes or cells may call them: the user's where all differ and fit.
@@ -136,7 +147,7 @@ impl Frd {
     /// [`Error::File`] when it cannot be written.
     pub fn create(directory: &Path, mesh: &Mesh, bodies: &[usize]) -> Result<Self, Error> {
         let (head, numbers) = head(mesh, bodies);
-        Ok(Self { file: Growing::create(&directory.join(FRD), &head, END)?, numbers, frames: 0 })
+        Ok(Self { file: Growing::create(&directory.join(FRD), &head, END)?, numbers, blocks: 0 })
     }
     /// Continues the file of a run after its increment; what came later is dropped.
     ///
@@ -152,17 +163,22 @@ impl Frd {
             fits
         };
         let file = Growing::resume(&directory.join(FRD), (&head, END), MARK, keep)?;
-        Ok(Self { file, numbers, frames: kept.get() })
+        Ok(Self { file, numbers, blocks: kept.get() })
     }
     /// Adds a frame.
     ///
     /// # Errors
     /// [`Error::Write`] when it cannot be written.
     pub fn push(&mut self, frame: &Frame) -> Result<(), Error> {
-        self.frames += 1;
-        let head = format!("{MARK:<24}{:>12}{:>12}{:>12}\n", self.frames, frame.increment, frame.step);
-        let text: String = BLOCKS.iter().filter_map(|block| self.block(block, frame)).collect();
-        self.file.push(&(head + &text))
+        let mut all = String::new();
+        for block in BLOCKS {
+            if let Some(text) = self.block(block, frame) {
+                self.blocks += 1;
+                let _ = writeln!(all, "{MARK:<24}{:>12}{:>12}{:>12}", self.blocks, frame.increment, frame.step);
+                all += &text;
+            }
+        }
+        self.file.push(&all)
     }
 
     /// A block of values; none where the model has no such quantity. Nodes without a value are left out.
@@ -178,11 +194,11 @@ impl Frd {
         let (count, vector) = (block.components.len(), block.kind == Kind::Vector);
         let mut text = format!(
             "  100CL  101{}{:>12}{:20}{:>2}{:>5}{:10}{:>2}\n",
-            e12(frame.time),
+            time(frame.time),
             nodes.len(),
             "",
             0,
-            self.frames,
+            frame.increment,
             "",
             1
         );

@@ -65,9 +65,10 @@ impl Exports {
     /// # Errors
     /// [`Error::Write`] when a file cannot be written.
     pub fn push(&mut self, source: &Source, frame: &Frame) -> Result<(), Error> {
-        self.frd.as_mut().map_or(Ok(()), |frd| frd.push(frame))?;
         self.xdmf.as_mut().map_or(Ok(()), |xdmf| xdmf.push(frame))?;
-        // Nothing was found before the first increment.
+        // CalculiX writes nothing before the first increment.
+        let frd = self.frd.as_mut().filter(|_| frame.increment > 0);
+        frd.map_or(Ok(()), |frd| frd.push(frame))?;
         let dat = self.dat.as_mut().filter(|_| frame.increment > 0);
         dat.map_or(Ok(()), |dat| dat.push(source, frame))
     }

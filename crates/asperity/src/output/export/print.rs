@@ -1,11 +1,11 @@
 //! Tables of values at the nodes of a group, the integration points of its cells or the points of a contact, as CalculiX
 //! prints them: `results.dat`. Source: "CalculiX CrunchiX user's manual", `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT`.
 
-use super::frd::distinct;
+use super::frd::{distinct, fortran};
 use super::growing::Growing;
 use crate::Error;
 use crate::output::quantities::Source;
-use crate::output::{Frame, Place, Quantity, Width};
+use crate::output::{Frame, Place, Quantity, Unit, Width};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -22,7 +22,7 @@ pub struct Printed {
     pub whose: Whose,
     /// The quantities: names at nodes, at integration points, at contact points.
     pub quantities: Vec<String>,
-    /// Whether values, their sum or both are printed, at nodes.
+    /// Whether values, the sum of forces or both are printed.
     pub totals: Totals,
 }
 
@@ -142,7 +142,7 @@ fn rows(source: &Source, frame: &Frame, whose: &Whose) -> Vec<(usize, String)> {
 /// The order of a symmetric tensor in these tables: XX YY ZZ XY XZ YZ.
 const TENSOR: [usize; 6] = [0, 1, 2, 3, 5, 4];
 
-fn table(text: &mut String, (printed, quantity): (&Printed, &Quantity), rows: &[(usize, String)], time: f64) {
+fn table(text: &mut String, (printed, quantity): (&Printed, &Quantity), rows: &[(usize, String)], at: f64) {
     let (words, components) = words(quantity);
     let lead = match printed.whose {
         Whose::Nodes(_) => "",
@@ -150,7 +150,7 @@ fn table(text: &mut String, (printed, quantity): (&Printed, &Quantity), rows: &[
         Whose::Contact(_) => "point,",
     };
     let kind = if matches!(printed.whose, Whose::Contact(_)) { "contact" } else { "set" };
-    let end = format!("for {kind} {} and time {}\n\n", printed.whose.name(), e14(time));
+    let end = format!("for {kind} {} and time {}\n\n", printed.whose.name(), time(at));
     let order: &[usize] = if quantity.width == Width::Symmetric { &TENSOR } else { &[0, 1, 2][..quantity.width.size()] };
     if printed.totals != Totals::Only {
         let _ = write!(text, "\n {words} ({lead}{components}) {end}");
@@ -161,7 +161,8 @@ fn table(text: &mut String, (printed, quantity): (&Printed, &Quantity), rows: &[
             text.push('\n');
         }
     }
-    if printed.totals != Totals::No {
+    // Fields do not add up.
+    if printed.totals != Totals::No && quantity.unit == Unit::Force {
         let words = if words == "forces" { "force" } else { &words };
         let _ = write!(text, "\n total {words} ({components}) {end}          ");
         for &i in order {
@@ -192,36 +193,31 @@ fn words(quantity: &Quantity) -> (String, &'static str) {
     (words.to_owned(), components)
 }
 
-/// A number in fourteen places, as Fortran's `E14.6`: the digits begin behind the point.
+/// A number in fourteen places, as Fortran's `1P,E14.6`.
 fn e14(x: f64) -> String {
-    if x.is_nan() {
-        return format!("{:>14}", "NaN");
-    }
-    if x == 0.0 || x.abs() < 1e-98 {
-        return format!("{:>14}", "0.000000E+00");
-    }
-    let text = format!("{:.5E}", x.clamp(-9.99999e98, 9.99999e98));
-    let (mantissa, exponent) = text.split_once('E').unwrap_or((&text, "0"));
-    let exponent = exponent.parse::<i32>().unwrap_or(0) + 1;
-    let (sign, digits) = mantissa.strip_prefix('-').map_or(("", mantissa), |digits| ("-", digits));
-    let digits: String = digits.chars().filter(char::is_ascii_digit).collect();
-    let power = if exponent < 0 { '-' } else { '+' };
-    format!("{:>14}", format!("{sign}0.{digits}E{power}{:02}", exponent.abs()))
+    if x.is_nan() { format!("{:>14}", "NaN") } else { fortran(x, 6) }
+}
+
+/// A time as Fortran's `E14.7`, whose digits begin behind the point.
+fn time(x: f64) -> String {
+    let text = fortran(0.1 * x, 6);
+    let (mantissa, exponent) = text.trim().split_once('E').unwrap_or(("0.000000", "+00"));
+    let exponent = exponent.parse::<i32>().unwrap_or(0) + i32::from(x != 0.0) * 2;
+    let digits = mantissa.replace('.', "");
+    format!("{:>14}", format!("0.{digits}E{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs()))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::e14;
+    use super::{e14, time};
 
     #[test]
-    fn numbers_begin_behind_the_point() {
-        assert_eq!(e14(1.0), "  0.100000E+01");
-        assert_eq!(e14(-0.0123456), " -0.123456E-01");
-        assert_eq!(e14(0.0), "  0.000000E+00");
-        for x in [f64::NAN, f64::MAX, f64::MIN_POSITIVE, 9.999999e-5] {
+    fn numbers_take_fourteen_places() {
+        assert_eq!((e14(-0.02), e14(0.0)), (" -2.000000E-02".to_owned(), "  0.000000E+00".to_owned()));
+        assert_eq!((time(1.0), time(0.25)), (" 0.1000000E+01".to_owned(), " 0.2500000E+00".to_owned()));
+        assert_eq!((time(0.0), time(1234.5)), (" 0.0000000E+00".to_owned(), " 0.1234500E+04".to_owned()));
+        for x in [f64::NAN, f64::MAX, f64::MIN_POSITIVE, 9.9999999e-5] {
             assert_eq!(e14(x).len(), 14, "{x}");
-            let read = e14(x).trim().parse::<f64>().unwrap();
-            assert!(read.is_nan() || x > 1e98 || (read - x).abs() <= 1e-6 * x, "{read}");
         }
     }
 }

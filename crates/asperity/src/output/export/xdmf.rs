@@ -1,5 +1,5 @@
 //! All frames of the bodies in one file: `results.xdmf`, a temporal collection whose numbers stand in the text, so that no
-//! other file and no library goes with it. The mesh stands in the first frame; the others include it.
+//! other file and no library goes with it. The mesh stands in the first frame; the others refer to it.
 //! Source of the format: "XDMF model and format", xdmf.org.
 
 use super::growing::Growing;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// Name of the file in the result directory.
 pub const XDMF: &str = "results.xdmf";
-const HEAD: &str = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" xmlns:xi=\"https://www.w3.org/2001/XInclude\">\n<Domain>\n\
+const HEAD: &str = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n\
                     <Grid Name=\"results\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
 const END: &str = "</Grid>\n</Domain>\n</Xdmf>\n";
 const MARK: &str = "<Grid Name=\"increment ";
@@ -23,8 +23,6 @@ pub struct Xdmf {
     file: Growing,
     /// Topology and geometry, until they are written.
     mesh: Option<String>,
-    /// The frame that holds them.
-    first: String,
 }
 
 /// Name and number of a kind of cell, by VTK's number.
@@ -128,7 +126,7 @@ impl Xdmf {
     /// [`Error::File`] when it cannot be written.
     pub fn create(directory: &Path, mesh: &Mesh) -> Result<Self, Error> {
         let file = Growing::create(&directory.join(XDMF), HEAD, END)?;
-        Ok(Self { file, mesh: Some(described(mesh)?), first: String::new() })
+        Ok(Self { file, mesh: Some(described(mesh)?) })
     }
     /// Continues the file of a run after its increment; what came later is dropped.
     ///
@@ -139,42 +137,33 @@ impl Xdmf {
             let digits = block.strip_prefix(MARK)?.split('"').next()?;
             digits.parse::<usize>().ok()
         };
-        let first = std::cell::Cell::new(None);
+        let kept = std::cell::Cell::new(false);
         let keep = |block: &str| {
-            let at = number(block).filter(|&at| at <= increment);
-            first.set(first.get().or(at));
-            at.is_some()
+            let keeps = number(block).is_some_and(|at| at <= increment);
+            kept.set(kept.get() || keeps);
+            keeps
         };
         let file = Growing::resume(&directory.join(XDMF), (HEAD, END), MARK, keep)?;
-        let mesh = if first.get().is_some() { None } else { Some(described(mesh)?) };
-        Ok(Self { file, mesh, first: first.get().map_or_else(String::new, name) })
+        let mesh = if kept.get() { None } else { Some(described(mesh)?) };
+        Ok(Self { file, mesh })
     }
     /// Adds a frame.
     ///
     /// # Errors
     /// [`Error::Write`] when it cannot be written.
     pub fn push(&mut self, frame: &Frame) -> Result<(), Error> {
-        let name = name(frame.increment);
-        let mut text = format!("<Grid Name=\"{name}\" GridType=\"Uniform\">\n<Time Value=\"{:?}\"/>\n", frame.time);
+        let mut text =
+            format!("{MARK}{}\" GridType=\"Uniform\">\n<Time Value=\"{:?}\"/>\n", frame.increment, frame.time);
         match self.mesh.take() {
-            Some(mesh) => {
-                text += &mesh;
-                self.first = name;
-            }
+            Some(mesh) => text += &mesh,
             None => {
-                let _ = writeln!(
-                    text,
-                    "<xi:include xpointer=\"xpointer(//Grid[@Name=&quot;{}&quot;]/*[self::Topology or self::Geometry])\"/>",
-                    self.first
-                );
+                for part in ["Topology", "Geometry"] {
+                    let _ = writeln!(text, "<{part} Reference=\"XML\">/Xdmf/Domain/Grid/Grid[1]/{part}</{part}>");
+                }
             }
         }
         text.extend(frame.at(Place::Node).map(|quantity| attribute(quantity, "Node")));
         text.extend(frame.at(Place::Cell).map(|quantity| attribute(quantity, "Cell")));
         self.file.push(&(text + "</Grid>\n"))
     }
-}
-
-fn name(increment: usize) -> String {
-    format!("increment {increment}")
 }

@@ -71,7 +71,11 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
         last.values(quantity)?;
         let file: String = quantity.chars().filter(|c| c.is_ascii_alphanumeric() || "._-".contains(*c)).collect();
         let panels = run.panels(&quantity.replace('_', " "), quantity, &shots);
-        let panels = Panels { field_name: format!("{}, at nodes", quantity.replace('_', " ")), ..panels };
+        let unit = match (dimension(quantity), run.units()) {
+            (Some(unit), Some(units)) => format!(" ({})", Units::label(Some(&units), unit)),
+            _ => String::new(),
+        };
+        let panels = Panels { field_name: format!("{}, at nodes{unit}", quantity.replace('_', " ")), ..panels };
         if !options.film {
             save(&file, panels.draw())?;
             return Ok(written);
@@ -162,6 +166,17 @@ impl Run<'_> {
             room: [900.0, 760.0],
         }
     }
+}
+
+/// The dimension of a quantity at nodes, whose file does not say it; none for a pure number.
+fn dimension(quantity: &str) -> Option<Unit> {
+    let name = quantity.split('.').next().unwrap_or(quantity).trim_end_matches("_averaged");
+    Some(match name {
+        "displacement" | "contact_gap" | "contact_slip" => Unit::Length,
+        "reaction" | "load" => Unit::Force,
+        "cauchy_stress" | "von_mises" | "pressure" | "contact_pressure" | "contact_shear" => Unit::Stress,
+        _ => return None,
+    })
 }
 
 /// Components of arrays of so many numbers a node, by their names.

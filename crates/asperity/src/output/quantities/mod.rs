@@ -18,7 +18,6 @@ mod tests;
 mod tools;
 mod touching;
 
-pub use surface::{FaceOfContact, faces};
 pub use touching::Touching;
 
 use super::Frame;
@@ -80,7 +79,6 @@ static ALL: &[Report] = &[
     oscillation::report,
     reactions::report,
     contact::report,
-    surface::report,
     tools::report,
     energy::report,
     equilibrium::report,

@@ -47,7 +47,9 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         return Err(Error::Internal("stress is reported after what follows from it".into()));
     };
     let pressure: Vec<f64> = stress.as_chunks::<6>().0.iter().map(|s| -(s[0] + s[1] + s[2]) / 3.0).collect();
-    let triaxiality = pressure.iter().zip(equivalent).map(|(pressure, equivalent)| -pressure / equivalent).collect();
+    // Without a deviator the ratio has no value.
+    let ratio = |(pressure, equivalent): (&f64, &f64)| if *equivalent > 0.0 { -pressure / equivalent } else { f64::NAN };
+    let triaxiality = pressure.iter().zip(equivalent).map(ratio).collect();
     frame.push(nodal("pressure", Unit::Stress, Width::Scalar, pressure))?;
     frame.push(nodal("triaxiality", Unit::One, Width::Scalar, triaxiality))
 }

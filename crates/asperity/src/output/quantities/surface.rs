@@ -3,12 +3,12 @@
 //! A contact point gives to the corners of its face by the shape functions of the corners, weighed with its area; a node of
 //! a field gives to itself. Nodes between corners get the mean of those. Nodes of no surface have no value.
 
+use super::Touching;
 use super::touching::Stand;
-use super::{Source, Touching};
 use crate::Error;
 use crate::contact::{PointRecord, PointStatus};
 use crate::mesh::cells::MAX_NODES;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::Mesh;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
 use crate::tensor::Vec3;
 
@@ -28,27 +28,16 @@ struct Sum {
 
 /// Means over a face or at a node.
 #[derive(Debug, Clone, Copy)]
-pub struct Mean {
-    /// Pressure.
-    pub pressure: f64,
+struct Mean {
+    pressure: f64,
     /// Shear stress on the solid.
-    pub shear: Vec3,
+    shear: Vec3,
     /// Distance, negative for a penetration.
-    pub gap: f64,
-    /// Slip: with its sign in the plane, its size in space.
-    pub slip: f64,
+    gap: f64,
+    /// With its sign in the plane, its size in space.
+    slip: f64,
     /// 0 open, 1 sticking, 2 slipping: the highest of its points.
-    pub status: u8,
-}
-
-/// A face of the surface of a contact.
-pub struct FaceOfContact {
-    /// The side of the mesh.
-    pub side: Side,
-    /// Number of the contact.
-    pub contact: usize,
-    /// What its points say.
-    pub mean: Mean,
+    status: u8,
 }
 
 impl Sum {
@@ -74,13 +63,8 @@ impl Sum {
     }
 }
 
-/// The means at all nodes of a contact's surface, and its faces.
-fn of_contact(
-    mesh: &Mesh,
-    (number, contact): (usize, Touching),
-    records: &[PointRecord],
-    nodes: &mut [Sum],
-) -> Vec<FaceOfContact> {
+/// Adds what a contact says to the sums at all nodes; the sums over its faces.
+fn of_contact(mesh: &Mesh, contact: Touching, records: &[PointRecord], nodes: &mut [Sum]) -> Vec<Sum> {
     let sides = contact.sides();
     let (mut faces, mut own) = (vec![Sum::default(); sides.len()], vec![Sum::default(); mesh.points.len()]);
     for (slot, record) in records.iter().enumerate() {
@@ -113,8 +97,7 @@ fn of_contact(
         }
     }
     nodes.iter_mut().zip(&own).for_each(|(all, own)| all.join(own, 1.0));
-    let found = sides.into_iter().zip(faces);
-    found.filter_map(|(side, sum)| Some(FaceOfContact { side, contact: number, mean: sum.mean()? })).collect()
+    faces
 }
 
 impl Sum {
@@ -128,37 +111,36 @@ impl Sum {
     }
 }
 
-/// The faces of all contacts and the sums at all nodes.
-fn gathered(source: &Source) -> Result<(Vec<FaceOfContact>, Vec<Sum>), Error> {
-    let mesh = source.parts.mesh;
+/// Reports faces and nodes of the contacts with their records.
+pub(super) fn report(mesh: &Mesh, all: &[(Touching, &[PointRecord])], frame: &mut Frame) -> Result<(), Error> {
     let (mut faces, mut nodes) = (Vec::new(), vec![Sum::default(); mesh.points.len()]);
-    for (number, (term, _, contact)) in source.parts.contacts.iter().enumerate() {
-        let records = contact.records(&source.state.u, source.history(*term)?);
-        faces.extend(of_contact(mesh, (number, *contact), &records, &mut nodes));
+    let mut number = Vec::new();
+    for (i, (contact, records)) in all.iter().enumerate() {
+        faces.extend(of_contact(mesh, *contact, records, &mut nodes));
+        number.resize(faces.len(), i as f64);
     }
-    Ok((faces, nodes))
-}
-
-/// The faces of all contacts.
-///
-/// # Errors
-/// [`Error::Internal`] when parts and state do not belong together.
-pub fn faces(source: &Source) -> Result<Vec<FaceOfContact>, Error> {
-    Ok(gathered(source)?.0)
-}
-
-pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    if source.parts.contacts.is_empty() {
-        return Ok(());
-    }
-    let means: Vec<Option<Mean>> = gathered(source)?.1.iter().map(Sum::mean).collect();
+    let [faces, nodes] = [faces, nodes].map(|sums| sums.iter().map(Sum::mean).collect::<Vec<_>>());
+    let values = |means: &[Option<Mean>], of: &dyn Fn(&Mean) -> f64| -> Vec<f64> {
+        means.iter().map(|mean| mean.as_ref().map_or(f64::NAN, of)).collect()
+    };
+    let status = |mean: &Mean| f64::from(mean.status);
+    frame.push(Quantity::integer("contact", Place::Face, number))?;
+    // A face of which nothing is said is open.
+    let open = values(&faces, &status).into_iter().map(|status| if status.is_nan() { 0.0 } else { status }).collect();
+    frame.push(Quantity::byte("contact_status", Place::Face, open))?;
+    let shear = faces.iter().flat_map(|mean| mean.map_or([f64::NAN; 3], |mean| mean.shear.0)).collect();
+    frame.push(Quantity::new("contact_shear", Unit::Stress, Place::Face, Width::Vector, shear))?;
     let mut push = |name: &str, unit, of: &dyn Fn(&Mean) -> f64| {
-        let values = means.iter().map(|mean| mean.as_ref().map_or(f64::NAN, of)).collect();
-        frame.push(Quantity::new(format!("{name}_averaged"), unit, Place::Node, Width::Scalar, values))
+        let scalar = |name: String, place, values| Quantity::new(name, unit, place, Width::Scalar, values);
+        frame.push(scalar(name.to_owned(), Place::Face, values(&faces, of)))?;
+        frame.push(scalar(format!("{name}_averaged"), Place::Node, values(&nodes, of)))
     };
     push("contact_pressure", Unit::Stress, &|mean| mean.pressure)?;
-    push("contact_shear", Unit::Stress, &|mean| mean.shear.norm())?;
     push("contact_gap", Unit::Length, &|mean| mean.gap)?;
     push("contact_slip", Unit::Length, &|mean| mean.slip)?;
-    push("contact_status", Unit::One, &|mean| f64::from(mean.status))
+    let mut nodal = |name: &str, unit, of: &dyn Fn(&Mean) -> f64| {
+        frame.push(Quantity::new(name, unit, Place::Node, Width::Scalar, values(&nodes, of)))
+    };
+    nodal("contact_shear_averaged", Unit::Stress, &|mean| mean.shear.norm())?;
+    nodal("contact_status_averaged", Unit::One, &status)
 }

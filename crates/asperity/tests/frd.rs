@@ -235,7 +235,11 @@ fn compare(frd: &Frd, mesh: &Mesh, folder: &Path) {
         "reaction",
     ]) {
         assert!((block.time - last.time).abs() < 1e-5, "{name}");
-        let values = last.point_array(name).unwrap().values.to_real();
+        let mut values = last.point_array(name).unwrap().values.to_real();
+        if name == "reaction" {
+            let load = last.point_array("load").unwrap().values.to_real();
+            values.iter_mut().zip(load).for_each(|(value, load)| *value += load);
+        }
         let width = values.len() / mesh.points.len();
         assert_eq!(block.components.len(), width);
         for node in 0..mesh.points.len() {
@@ -247,7 +251,10 @@ fn compare(frd: &Frd, mesh: &Mesh, folder: &Path) {
     }
     let contact = &frd.blocks[names.len() * (frames.len() - 1) - 1];
     assert_eq!(contact.components, ["COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2"]);
-    assert!(contact.values.len() >= mesh.groups["block.bottom"].nodes.len() - 1 && contact.values.values().any(|v| v[3] > 0.0));
+    assert!(
+        contact.values.len() >= mesh.groups["block.bottom"].nodes.len() - 1
+            && contact.values.values().any(|v| v[3] > 0.0)
+    );
     let moved = read_series(&folder.join("deformed.pvd")).unwrap();
     let moved = read_grid(&folder.join(&moved.last().unwrap().1)).unwrap();
     let u = last.point_array("displacement").unwrap().values.to_real();

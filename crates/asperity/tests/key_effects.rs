@@ -38,7 +38,9 @@ fn others(schema: &Schema, value: &Value, names: &[String]) -> Vec<Value> {
         Schema::Flag => vec![(!value.as_bool().unwrap()).into()],
         Schema::Text("the path of a mesh file") => vec!["../meshes/plane2-41a.msh".into()],
         Schema::Text("names of units") => vec!["kN, m".into()],
-        Schema::Text("the name of a quantity") => vec!["displacement".into(), "cauchy_stress".into(), "contact_gap".into()],
+        Schema::Text("the name of a quantity") => {
+            vec!["displacement".into(), "cauchy_stress".into(), "contact_gap".into()]
+        }
         Schema::Text("the path of an STL file") => vec!["../meshes/cube2.stl".into()],
         Schema::Text(_) => vec!["another".into()],
         Schema::Word(words) => words.iter().map(|(word, _)| Value::from(*word)).filter(|word| word != value).collect(),

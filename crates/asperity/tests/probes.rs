@@ -119,10 +119,8 @@ fn a_stretched_bar_is_what_it_is_everywhere() {
 #[test]
 fn plastic_strain_is_what_the_curve_leaves() {
     let law = "material.steel={von_mises={young=1000.0,poisson=0.3,yield_stress=50.0,hardening=100.0}}";
-    let folder = results(
-        BAR,
-        &[law, "probe.point.quantities=[\"equivalent_plastic_strain\", \"cauchy_stress.major\"]"],
-    );
+    let folder =
+        results(BAR, &[law, "probe.point.quantities=[\"equivalent_plastic_strain\", \"cauchy_stress.major\"]"]);
     let (plastic, stress) =
         (last(&folder, "point", "equivalent_plastic_strain"), last(&folder, "point", "cauchy_stress.major"));
     // 50 + 100 p = 1000 (e - p)
@@ -198,7 +196,10 @@ fn contact_stress_on_faces_is_that_of_the_block() {
         assert_eq!((faces.cells.len(), faces.points.len()), (5, 6));
         let cell = |name: &str| faces.cell_array(name).unwrap().values.to_real();
         assert!(cell("contact_pressure").iter().all(|p| (p - force / 4.0).abs() < 1e-6 * force));
-        assert!(cell("contact_shear").chunks_exact(3).all(|s| (s[0] + 0.2 * force / 4.0).abs() < 1e-6 * force), "against the way");
+        assert!(
+            cell("contact_shear").chunks_exact(3).all(|s| (s[0] + 0.2 * force / 4.0).abs() < 1e-6 * force),
+            "against the way"
+        );
         assert_eq!(cell("contact_status"), [2.0; 5]);
     }
 }

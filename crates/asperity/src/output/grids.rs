@@ -94,7 +94,8 @@ pub fn surfaces(source: &Source, frame: &mut Frame) -> Result<Grid, Error> {
                 displacement.extend(source.displacement(node));
             }
         }
-        let order = vtk_order(kind).ok_or_else(|| Error::Internal(format!("no VTK order of nodes for {}", kind.name)))?;
+        let order =
+            vtk_order(kind).ok_or_else(|| Error::Internal(format!("no VTK order of nodes for {}", kind.name)))?;
         grid.cells.push(kind.vtk, order.iter().map(|&i| place[nodes[i]]));
     }
     grid.point_data = vec![DataArray::new("displacement", 3, Values::Real(displacement))];

@@ -92,8 +92,7 @@ fn reserve(directory: &Path) -> Result<(), Error> {
 }
 
 impl Fields {
-    const ALL: [Self; 6] =
-        [Self::Bodies, Self::Points, Self::Contacts, Self::Surfaces, Self::Tools, Self::Deformed];
+    const ALL: [Self; 6] = [Self::Bodies, Self::Points, Self::Contacts, Self::Surfaces, Self::Tools, Self::Deformed];
     fn name(self) -> &'static str {
         match self {
             Self::Bodies => "bodies",
@@ -354,7 +353,15 @@ mod tests {
         let probe = Probe { name: "corner".into(), at, quantities: vec!["reaction".into()] };
         let units = Units::parse("N, mm, s").ok();
         let default = ResultOptions::default();
-        ResultOptions { every: 2, checkpoint_every: 3, export, probes: vec![probe], printed: vec![printed], units, ..default }
+        ResultOptions {
+            every: 2,
+            checkpoint_every: 3,
+            export,
+            probes: vec![probe],
+            printed: vec![printed],
+            units,
+            ..default
+        }
     }
 
     fn states(fixture: &Fixture) -> Vec<State> {

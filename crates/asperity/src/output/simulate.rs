@@ -271,7 +271,9 @@ impl Job<'_> {
 
     fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {
         let mut results = match self.start {
-            Start::Beginning | Start::State(_) => Results::create(self.directory, start, self.options.clone(), self.input)?,
+            Start::Beginning | Start::State(_) => {
+                Results::create(self.directory, start, self.options.clone(), self.input)?
+            }
             Start::Checkpoint => Results::resume(self.directory, start, self.options.clone(), self.input)?,
         };
         results.account.limits.clone_from(self.limits);

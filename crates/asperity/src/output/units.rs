@@ -13,7 +13,8 @@ pub struct Units {
     time: Option<String>,
 }
 
-const FORCES: &[&str] = &["N", "mN", "µN", "uN", "nN", "daN", "kN", "MN", "GN", "kgf", "gf", "tf", "lbf", "ozf", "kip", "dyn"];
+const FORCES: &[&str] =
+    &["N", "mN", "µN", "uN", "nN", "daN", "kN", "MN", "GN", "kgf", "gf", "tf", "lbf", "ozf", "kip", "dyn"];
 const LENGTHS: &[&str] = &["m", "mm", "µm", "um", "nm", "cm", "dm", "km", "in", "ft", "yd", "mil"];
 const TIMES: &[&str] = &["s", "ms", "µs", "us", "ns", "min", "h", "d", "a"];
 
@@ -41,7 +42,11 @@ impl Units {
         let (force, length, time) = match words[..] {
             [force, length] => (force, length, None),
             [force, length, time] => (force, length, Some(time)),
-            _ => return Err(format!("units are those of force and length, and maybe of time: \"N, mm, s\", not \"{text}\"")),
+            _ => {
+                return Err(format!(
+                    "units are those of force and length, and maybe of time: \"N, mm, s\", not \"{text}\""
+                ));
+            }
         };
         let known = |word: &str, what: &str, all: &[&str]| match all.contains(&word) {
             true => Ok(word.to_owned()),

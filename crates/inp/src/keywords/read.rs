@@ -395,7 +395,12 @@ pub static READ: &[Keyword] = &[
     output("CONTACT FILE", Reader::contact_file, FILED, FILES),
     output("NODE PRINT", Reader::node_print, PRINTED, "a table of `results.dat`: U, RF"),
     output("EL PRINT", Reader::element_print, PRINTED, "a table of `results.dat`: S, E, PEEQ"),
-    output("CONTACT PRINT", Reader::contact_print, PRINTED, "tables of `results.dat`: CDIS, CSTR, CF at the contact points"),
+    output(
+        "CONTACT PRINT",
+        Reader::contact_print,
+        PRINTED,
+        "tables of `results.dat`: CDIS, CSTR, CF at the contact points",
+    ),
     Keyword {
         name: "END STEP",
         place: Where::Step,

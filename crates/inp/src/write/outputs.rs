@@ -32,7 +32,10 @@ impl Writer<'_> {
             };
             let owners = self.owners(whose);
             if owners.is_empty() {
-                self.note(output.place, "nothing of a body belongs to what is to be printed; its values are in history.csv");
+                self.note(
+                    output.place,
+                    "nothing of a body belongs to what is to be printed; its values are in history.csv",
+                );
             }
             for owner in owners {
                 let table = format!("{owner}quantities = [{}]\n{totals}", known.join(", "));
@@ -77,7 +80,8 @@ impl Writer<'_> {
                 vec![format!("of.cells = {}\n", quoted(&self.groups.cells(&name, members)))]
             }
             Printed::Contacts([slave, master]) => {
-                let fits = |wanted: &Option<(usize, String)>, own: &(usize, String)| wanted.as_ref().is_none_or(|w| w == own);
+                let fits =
+                    |wanted: &Option<(usize, String)>, own: &(usize, String)| wanted.as_ref().is_none_or(|w| w == own);
                 let pairs = model.pairs.iter().enumerate();
                 let pairs = pairs.filter(|(_, pair)| fits(slave, &pair.slave) && fits(master, &pair.master));
                 let names = pairs.filter_map(|(number, pair)| self.contact_name(number + 1, pair));

@@ -80,7 +80,8 @@ fn place(model: &Model, keys: &ProbeKeys, found: &mut Vec<Diagnostic>) -> Option
             let x = coordinates(model, point, found)?;
             let spot = spot(mesh, cells(model), x);
             if spot.is_none() {
-                found.push(Diagnostic::error("there is no material at this point").at(point.place).help(near(model, x)));
+                found
+                    .push(Diagnostic::error("there is no material at this point").at(point.place).help(near(model, x)));
             }
             spot.map(At::Point)
         }
@@ -98,7 +99,8 @@ fn path(model: &Model, keys: &PathKeys, found: &mut Vec<Diagnostic>) -> Option<A
         match spot(&model.mesh, cells(model), x) {
             Some(spot) => spots.push(((x - from).norm(), spot)),
             None => {
-                let what = format!("point {} of the path lies at {}, where there is no material", i + 1, words(model, x));
+                let what =
+                    format!("point {} of the path lies at {}, where there is no material", i + 1, words(model, x));
                 found.push(Diagnostic::error(what).at(keys.place).help(near(model, x)));
                 return None;
             }
@@ -148,7 +150,8 @@ fn printed(deck: &Deck, frame: &Frame, found: &mut Vec<Diagnostic>) -> Vec<Print
         let known = || frame.at(whose.place()).map(|quantity| quantity.name.as_str());
         for quantity in keys.quantities.iter().filter(|quantity| known().all(|name| name != quantity.value)) {
             let what = format!("there is no quantity `{}` here", quantity.value);
-            let near = nearest(&quantity.value, known()).map_or(String::new(), |near| format!("did you mean `{near}`?"));
+            let near =
+                nearest(&quantity.value, known()).map_or(String::new(), |near| format!("did you mean `{near}`?"));
             let help = format!("there are {}", known().collect::<Vec<_>>().join(", "));
             found.push(Diagnostic::error(what).at(quantity.place).label(near).help(help));
         }

@@ -33,8 +33,8 @@ struct Block {
     kind: Kind,
     /// Nodal quantities, one after another.
     from: &'static [&'static str],
-    /// Components of those, by place; none is zero.
-    places: &'static [Option<usize>],
+    /// Components of those, by place, which are added up; of none zero.
+    places: &'static [&'static [usize]],
 }
 
 /// How viewers take the components together.
@@ -45,8 +45,8 @@ enum Kind {
     Tensor,
 }
 
-const XYZ: &[Option<usize>] = &[Some(0), Some(1), Some(2)];
-const SIX: &[Option<usize>] = &[Some(0), Some(1), Some(2), Some(3), Some(4), Some(5)];
+const XYZ: &[&[usize]] = &[&[0], &[1], &[2]];
+const SIX: &[&[usize]] = &[&[0], &[1], &[2], &[3], &[4], &[5]];
 
 /// What is written, in the order of the file. Stress and strain run XX YY ZZ XY YZ ZX.
 static BLOCKS: &[Block] = &[
@@ -70,21 +70,23 @@ static BLOCKS: &[Block] = &[
         components: &["PE"],
         kind: Kind::Scalar,
         from: &["equivalent_plastic_strain_averaged"],
-        places: &[Some(0)],
+        places: &[&[0]],
     },
-    Block { name: "FORC", components: &["F1", "F2", "F3"], kind: Kind::Vector, from: &["reaction"], places: XYZ },
+    // All that acts on a node from outside, as CalculiX has it.
+    Block {
+        name: "FORC",
+        components: &["F1", "F2", "F3"],
+        kind: Kind::Vector,
+        from: &["reaction", "load"],
+        places: &[&[0, 3], &[1, 4], &[2, 5]],
+    },
     // The second slip and shear stress are those along a second tangent, on which nothing is told apart.
     Block {
         name: "CONTACT",
         components: &["COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2"],
         kind: Kind::Tensor,
-        from: &[
-            "contact_gap_averaged",
-            "contact_slip_averaged",
-            "contact_pressure_averaged",
-            "contact_shear_averaged",
-        ],
-        places: &[Some(0), Some(1), None, Some(2), Some(3), None],
+        from: &["contact_gap_averaged", "contact_slip_averaged", "contact_pressure_averaged", "contact_shear_averaged"],
+        places: &[&[0], &[1], &[], &[2], &[3], &[]],
     },
 ];
 
@@ -187,7 +189,7 @@ impl Frd {
         let from = from?;
         let values = |node: usize| -> Vec<f64> {
             let all: Vec<f64> = from.iter().flat_map(|quantity| quantity.at(node)).copied().collect();
-            block.places.iter().map(|place| place.map_or(0.0, |place| all[place])).collect()
+            block.places.iter().map(|places| places.iter().map(|&place| all[place]).sum()).collect()
         };
         let known = |node: &usize| from.iter().all(|quantity| quantity.at(*node).iter().all(|x| !x.is_nan()));
         let nodes: Vec<usize> = (0..self.numbers.len()).filter(known).collect();
@@ -227,7 +229,8 @@ impl Frd {
 fn head(mesh: &Mesh, bodies: &[usize]) -> (String, Vec<u64>) {
     let nodes = distinct(mesh.points.len(), |node| mesh.node_number(node));
     let cells = distinct(mesh.cell_count(), |cell| mesh.cell_number(cell));
-    let mut text = format!("    1C{:<6}\n    1U{:<20}{}\n", "run", "PGM", concat!("Asperity ", env!("CARGO_PKG_VERSION")));
+    let mut text =
+        format!("    1C{:<6}\n    1U{:<20}{}\n", "run", "PGM", concat!("Asperity ", env!("CARGO_PKG_VERSION")));
     let _ = writeln!(text, "    2C{:18}{:>12}{:37}1", "", nodes.len(), "");
     for (number, point) in nodes.iter().zip(&mesh.points) {
         let _ = writeln!(text, " -1{number:>10}{}{}{}", e12(point[0]), e12(point[1]), e12(point[2]));

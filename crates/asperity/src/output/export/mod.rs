@@ -41,7 +41,11 @@ impl Exports {
     ///
     /// # Errors
     /// [`Error::File`] when one cannot be written.
-    pub fn create(directory: &Path, source: &Source, (wanted, printed): (&[Export], &[Printed])) -> Result<Self, Error> {
+    pub fn create(
+        directory: &Path,
+        source: &Source,
+        (wanted, printed): (&[Export], &[Printed]),
+    ) -> Result<Self, Error> {
         let (mesh, has) = (source.parts.mesh, |export| wanted.contains(&export));
         let frd = has(Export::Frd).then(|| Frd::create(directory, mesh, &bodies(source)));
         let xdmf = has(Export::Xdmf).then(|| Xdmf::create(directory, mesh));
@@ -52,7 +56,11 @@ impl Exports {
     ///
     /// # Errors
     /// [`Error::File`] when one cannot be read or written.
-    pub fn resume(directory: &Path, source: &Source, (wanted, printed): (&[Export], &[Printed])) -> Result<Self, Error> {
+    pub fn resume(
+        directory: &Path,
+        source: &Source,
+        (wanted, printed): (&[Export], &[Printed]),
+    ) -> Result<Self, Error> {
         let (mesh, has) = (source.parts.mesh, |export| wanted.contains(&export));
         let at = source.state.increment;
         let frd = has(Export::Frd).then(|| Frd::resume(directory, mesh, &bodies(source), at));

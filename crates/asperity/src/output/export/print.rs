@@ -151,7 +151,8 @@ fn table(text: &mut String, (printed, quantity): (&Printed, &Quantity), rows: &[
     };
     let kind = if matches!(printed.whose, Whose::Contact(_)) { "contact" } else { "set" };
     let end = format!("for {kind} {} and time {}\n\n", printed.whose.name(), time(at));
-    let order: &[usize] = if quantity.width == Width::Symmetric { &TENSOR } else { &[0, 1, 2][..quantity.width.size()] };
+    let order: &[usize] =
+        if quantity.width == Width::Symmetric { &TENSOR } else { &[0, 1, 2][..quantity.width.size()] };
     if printed.totals != Totals::Only {
         let _ = write!(text, "\n {words} ({lead}{components}) {end}");
         for (place, begin) in rows {
@@ -195,7 +196,7 @@ fn words(quantity: &Quantity) -> (String, &'static str) {
 
 /// A number in fourteen places, as Fortran's `1P,E14.6`.
 fn e14(x: f64) -> String {
-    if x.is_nan() { format!("{:>14}", "NaN") } else { fortran(x, 6) }
+    format!("{:>14}", if x.is_nan() { "NaN".into() } else { fortran(x, 6) })
 }
 
 /// A time as Fortran's `E14.7`, whose digits begin behind the point.

@@ -79,9 +79,10 @@ impl Probe {
         let sums = matches!(&self.at, At::Nodes(_, takes) if takes.contains(&Take::Sum));
         let fault = |(i, name): (usize, &String)| match Pick::new(name, frame, plane) {
             Err(fault) => Some((i, fault)),
-            Ok(pick) if sums && !pick.adds_up() => {
-                Some((i, format!("a sum of `{name}` over nodes has no meaning: forces and loads add up, fields have a mean")))
-            }
+            Ok(pick) if sums && !pick.adds_up() => Some((
+                i,
+                format!("a sum of `{name}` over nodes has no meaning: forces and loads add up, fields have a mean"),
+            )),
             Ok(_) => None,
         };
         self.quantities.iter().enumerate().filter_map(fault).collect()

@@ -67,7 +67,8 @@ pub fn spot(mesh: &Mesh, cells: impl Iterator<Item = usize>, point: Vec3) -> Opt
         let apart = (0..3).any(|axis| {
             let [low, high] = corners().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(x[axis]), h.max(x[axis])]);
             // Curved sides bulge beyond their nodes.
-            let room = 0.3 * corners().map(|x| (x - point).norm()).fold(0.0, f64::max).min(high - low) + 1e-9 * high.abs();
+            let room =
+                0.3 * corners().map(|x| (x - point).norm()).fold(0.0, f64::max).min(high - low) + 1e-9 * high.abs();
             !(point[axis] >= low - room && point[axis] <= high + room)
         });
         if apart {
@@ -167,6 +168,9 @@ mod tests {
         let whole: f64 = shares(&mesh, &group, Space::PlaneStrain).iter().map(|share| share.part).sum();
         assert!((whole - mesh.measure(0)).abs() < 1e-12);
         let nodes = Group::new(&mesh, vec![], vec![], vec![0, 2]);
-        assert_eq!(shares(&mesh, &nodes, Space::PlaneStrain).iter().map(|share| share.part).collect::<Vec<_>>(), [1.0; 2]);
+        assert_eq!(
+            shares(&mesh, &nodes, Space::PlaneStrain).iter().map(|share| share.part).collect::<Vec<_>>(),
+            [1.0; 2]
+        );
     }
 }

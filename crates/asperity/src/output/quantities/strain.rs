@@ -35,9 +35,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         }
     }
     frame.push(Quantity::new(STRAIN, Unit::One, Place::Gauss, Width::Symmetric, all))?;
-    let nodal = |name: &str, unit, width, values| {
-        Quantity::new(format!("{name}_averaged"), unit, Place::Node, width, values)
-    };
+    let nodal =
+        |name: &str, unit, width, values| Quantity::new(format!("{name}_averaged"), unit, Place::Node, width, values);
     frame.push(nodal(STRAIN, Unit::One, Width::Symmetric, mean.finish()))?;
     for (name, mean) in variables {
         frame.push(nodal(name, Unit::One, Width::Scalar, mean.finish()))?;
@@ -48,7 +47,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     };
     let pressure: Vec<f64> = stress.as_chunks::<6>().0.iter().map(|s| -(s[0] + s[1] + s[2]) / 3.0).collect();
     // Without a deviator the ratio has no value.
-    let ratio = |(pressure, equivalent): (&f64, &f64)| if *equivalent > 0.0 { -pressure / equivalent } else { f64::NAN };
+    let ratio =
+        |(pressure, equivalent): (&f64, &f64)| if *equivalent > 0.0 { -pressure / equivalent } else { f64::NAN };
     let triaxiality = pressure.iter().zip(equivalent).map(ratio).collect();
     frame.push(nodal("pressure", Unit::Stress, Width::Scalar, pressure))?;
     frame.push(nodal("triaxiality", Unit::One, Width::Scalar, triaxiality))

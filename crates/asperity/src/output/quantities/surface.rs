@@ -7,8 +7,8 @@ use super::Touching;
 use super::touching::Stand;
 use crate::Error;
 use crate::contact::{PointRecord, PointStatus};
-use crate::mesh::cells::MAX_NODES;
 use crate::mesh::Mesh;
+use crate::mesh::cells::MAX_NODES;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
 use crate::tensor::Vec3;
 

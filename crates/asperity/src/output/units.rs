@@ -52,8 +52,8 @@ impl Units {
             true => Ok(word.to_owned()),
             false => {
                 let near = nearest(word, all.iter().copied());
-                let near = near.map_or(String::new(), |near| format!("; did you mean \"{near}\"?"));
-                Err(format!("\"{word}\" is no unit of {what}{near} Known are {}", all.join(", ")))
+                let near = near.map_or("; ".to_owned(), |near| format!("; did you mean \"{near}\"? "));
+                Err(format!("\"{word}\" is no unit of {what}{near}there are {}", all.join(", ")))
             }
         };
         Ok(Self {

@@ -201,9 +201,9 @@ fn e14(x: f64) -> String {
 
 /// A time as Fortran's `E14.7`, whose digits begin behind the point.
 fn time(x: f64) -> String {
-    let text = fortran(0.1 * x, 6);
+    let text = fortran(x, 6);
     let (mantissa, exponent) = text.trim().split_once('E').unwrap_or(("0.000000", "+00"));
-    let exponent = exponent.parse::<i32>().unwrap_or(0) + i32::from(x != 0.0) * 2;
+    let exponent = exponent.parse::<i32>().unwrap_or(0) + i32::from(x != 0.0);
     let digits = mantissa.replace('.', "");
     format!("{:>14}", format!("0.{digits}E{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs()))
 }

@@ -87,7 +87,7 @@ impl Probe {
         };
         self.quantities.iter().enumerate().filter_map(fault).collect()
     }
-    /// Whether frames have nodes at all.
+    /// The values of a quantity at the nodes, one after another.
     fn values(frame: &Frame, pick: &Pick) -> Option<Vec<f64>> {
         frame.get(Place::Node, &pick.quantity).map(|quantity| quantity.values.clone())
     }

@@ -79,9 +79,9 @@ impl Pick {
         }
         let lost = |name: &str| {
             let all = || names(frame).flat_map(|name| [name, name.strip_suffix(MEANS).unwrap_or(name)]);
-            let near = nearest(name, all()).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let near = nearest(name, all()).map_or("; ".to_owned(), |near| format!("; did you mean `{near}`? "));
             let list = names(frame).map(|name| name.strip_suffix(MEANS).unwrap_or(name)).collect::<Vec<_>>().join(", ");
-            format!("there is no quantity `{name}` at the nodes{near} There are {list}")
+            format!("there is no quantity `{name}` at the nodes{near}there are {list}")
         };
         let Some((name, word)) = text.rsplit_once('.') else { return Err(lost(text)) };
         let Some(found) = find(name) else { return Err(lost(name)) };
@@ -89,9 +89,9 @@ impl Pick {
         let Some((_, part)) = known.iter().find(|(known, _)| *known == word) else {
             let list = known.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
             let near = nearest(word, known.iter().map(|(word, _)| *word));
-            let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let near = near.map_or("; ".to_owned(), |near| format!("; did you mean `{near}`? "));
             let has = if known.is_empty() { "it is a single number".to_owned() } else { format!("it has {list}") };
-            return Err(format!("`{name}` has no part `{word}`{near} {has}"));
+            return Err(format!("`{name}` has no part `{word}`{near}{has}"));
         };
         picked(name, vec![(text.to_owned(), *part)]).ok_or_else(String::new)
     }

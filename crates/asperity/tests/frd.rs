@@ -177,8 +177,8 @@ fn an_frd_file_holds_what_the_frames_hold() {
             let x = |i: usize| frd.nodes[&nodes[i % corners]];
             let area: f64 = (0..corners).map(|i| 0.5 * (x(i)[0] * x(i + 1)[1] - x(i + 1)[0] * x(i)[1])).sum();
             assert!(area > 0.0);
-            for middle in corners..nodes.len() {
-                let (a, b, m) = (x(middle), x(middle + 1), frd.nodes[&nodes[middle]]);
+            for (middle, number) in nodes.iter().enumerate().skip(corners) {
+                let (a, b, m) = (x(middle), x(middle + 1), frd.nodes[number]);
                 assert!((0..2).all(|i| (0.5 * (a[i] + b[i]) - m[i]).abs() < 1e-5), "{cell}: middle {middle}");
             }
         }

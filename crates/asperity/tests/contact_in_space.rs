@@ -168,7 +168,7 @@ increments.count = 30
     let directory = tempfile::tempdir().unwrap();
     let job = Job {
         directory: directory.path(),
-        options: made.deck.output.options(),
+        options: made.results.clone(),
         input: made.input,
         start: Start::Beginning,
         limits: &Limits::default(),

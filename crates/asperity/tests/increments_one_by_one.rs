@@ -17,7 +17,7 @@ fn tube() -> Made {
 }
 
 fn job<'a>(made: &'a Made, directory: &'a Path, start: Start<'a>, facts: &'a asperity::diagnosis::Facts) -> Job<'a> {
-    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
     Job { directory, options, input: made.input, start, limits, notes: &[], facts }
 }
 

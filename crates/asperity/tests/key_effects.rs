@@ -37,6 +37,10 @@ fn others(schema: &Schema, value: &Value, names: &[String]) -> Vec<Value> {
         }
         Schema::Flag => vec![(!value.as_bool().unwrap()).into()],
         Schema::Text("the path of a mesh file") => vec!["../meshes/plane2-41a.msh".into()],
+        Schema::Text("names of units") => vec!["kN, m".into()],
+        Schema::Text("the name of a quantity") => {
+            vec!["displacement".into(), "cauchy_stress".into(), "contact_gap".into()]
+        }
         Schema::Text("the path of an STL file") => vec!["../meshes/cube2.stl".into()],
         Schema::Text(_) => vec!["another".into()],
         Schema::Word(words) => words.iter().map(|(word, _)| Value::from(*word)).filter(|word| word != value).collect(),
@@ -50,7 +54,7 @@ fn names(deck: &Value) -> BTreeMap<bool, Vec<String>> {
     let loaded = loaded(deck).unwrap();
     let given = |key: &str| deck.get(key).and_then(Value::as_table).into_iter().flat_map(|table| table.keys().cloned());
     let groups = loaded.mesh.groups.keys().cloned();
-    let plain = groups.chain(given("material")).chain(given("tool")).collect();
+    let plain = groups.chain(given("material")).chain(given("tool")).chain(given("contact")).collect();
     let conditions = loaded.deck.step.iter().flat_map(|step| step.conditions()).map(|(path, _)| path).collect();
     BTreeMap::from([(false, plain), (true, conditions)])
 }
@@ -172,6 +176,10 @@ fn keys_of_solver_and_output_change_the_run() {
         "solver.piecewise=false",
         "output.every=3",
         "output.checkpoint_every=4",
+        "output.export=[\"frd\"]",
+        "output.export=[\"deformed\"]",
+        "output.print=[{of.nodes=\"block.top\",quantities=[\"reaction\"]}]",
+        "probe.top={at.group=\"block.top\",quantities=[\"reaction\"]}",
         "step.1.increments.most=2",
         "step.1.increments.first=0.1",
         "step.1.increments.largest=0.3",

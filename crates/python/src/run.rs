@@ -44,7 +44,7 @@ impl Run {
             let claim = claim.map_err(Nothing::Error)?;
             let course = match &wanted.out {
                 Some(directory) => {
-                    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+                    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
                     let (input, start) = (made.input, wanted.begins());
                     let job = Job { directory, options, input, start, limits, notes: &notes, facts: &facts };
                     Course::recorded(made.clone(), &job)

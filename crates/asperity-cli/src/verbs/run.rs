@@ -61,7 +61,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     if let Some(translated) = translated {
         translated.write(&directory.join(format!("{}.toml", translate::stem(&arguments.deck.path))))?;
     }
-    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
     let facts = asperity::deck::facts(&made);
     let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes, facts: &facts };
     if start == Start::Beginning || !directory.join(ASKED).exists() {

@@ -6,10 +6,11 @@ use super::certificate::Limits;
 use super::checkpoint::{self, InputHash};
 use super::closing;
 use super::log::RunLog;
+use super::options::ResultOptions;
 use super::progress::Request;
 use super::quantities::{Parts, Source};
 use super::recorder::{Files, Keeper, Recorder};
-use super::results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
+use super::results::{CHECKPOINT, Results, SUMMARY};
 use super::summary::{Status, Summary};
 use super::witness::Witness;
 use crate::Error;
@@ -21,7 +22,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Where and how the results of a run are written.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Job<'a> {
     /// The result directory.
     pub directory: &'a Path,
@@ -270,8 +271,10 @@ impl Job<'_> {
 
     fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {
         let mut results = match self.start {
-            Start::Beginning | Start::State(_) => Results::create(self.directory, start, self.options, self.input)?,
-            Start::Checkpoint => Results::resume(self.directory, start, self.options, self.input)?,
+            Start::Beginning | Start::State(_) => {
+                Results::create(self.directory, start, self.options.clone(), self.input)?
+            }
+            Start::Checkpoint => Results::resume(self.directory, start, self.options.clone(), self.input)?,
         };
         results.account.limits.clone_from(self.limits);
         results.account.summary.title.clone_from(&model.title);

@@ -27,7 +27,7 @@ pub fn print(made: &Made) -> u64 {
     print.add((&model.title, model.space, model.thickness, &model.materials, &model.supports));
     mesh(model, &mut print);
     parts(model, &mut print);
-    print.add((&model.problem.steps, &model.problem.newton, made.deck.output.options(), &made.deck.limits.limits));
+    print.add((&model.problem.steps, &model.problem.newton, made.results.clone(), &made.deck.limits.limits));
     for (i, term) in model.problem.terms.iter().enumerate() {
         forces(model, i, term.as_ref(), &mut print);
     }
@@ -139,7 +139,7 @@ impl Observer for Listener {
 /// Whether a run converged, and its print: its attempts with their residuals, and which files and checkpoint it leaves.
 pub fn run_print(made: &Made) -> (bool, u64) {
     let directory = tempfile::tempdir().unwrap();
-    let options = made.deck.output.options();
+    let options = made.results.clone();
     let job = Job {
         directory: directory.path(),
         options,

@@ -191,6 +191,10 @@ impl FieldContact {
     pub(super) fn nodal_slots(&self) -> usize {
         self.surface.nodes.len() * self.pieces
     }
+    /// The node of the mesh that a record stands for; none for that of a tip.
+    pub fn node_at(&self, record: usize) -> Option<usize> {
+        self.node_of(record).map(|node| self.surface.nodes[node].node)
+    }
     /// The node of a stencil; none for that of a tip.
     fn node_of(&self, slot: usize) -> Option<usize> {
         (slot < self.nodal_slots()).then(|| slot / self.pieces)

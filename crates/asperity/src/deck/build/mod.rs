@@ -8,6 +8,7 @@ mod contacts;
 mod field_contacts;
 mod loads;
 mod overlaps;
+mod results;
 mod rigid;
 mod solid_tools;
 mod supports;
@@ -24,8 +25,8 @@ use super::{Diagnostics, Loaded, Unsaid};
 use crate::load::Site;
 use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
-use crate::output::Asked;
 use crate::output::checkpoint::InputHash;
+use crate::output::{Asked, ResultOptions};
 use crate::solve::{Increments, Step};
 use crate::system::{Dofs, Term};
 use crate::{Error, machine};
@@ -38,6 +39,8 @@ pub struct Made {
     pub deck: Deck,
     /// The model.
     pub model: Model,
+    /// What its run writes, and how often.
+    pub results: ResultOptions,
     /// What was not said, and what holds instead.
     pub unsaid: Vec<Unsaid>,
     /// Fingerprint of the deck's text, what was set over it, and the mesh.
@@ -111,7 +114,13 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     match built {
         Some(parts) if !diagnostics.has_errors() => {
             let model = Model::new(parts);
-            Ok(Made { deck, model, unsaid, input, diagnostics })
+            let (results, mut found) = results::results(&deck, &model);
+            diagnostics.list.append(&mut found);
+            diagnostics.sort();
+            if diagnostics.has_errors() {
+                return Err(diagnostics.without_notes());
+            }
+            Ok(Made { deck, model, results, unsaid, input, diagnostics })
         }
         _ => Err(diagnostics.without_notes()),
     }

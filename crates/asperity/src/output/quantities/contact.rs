@@ -2,7 +2,7 @@
 //! stress vectors are those that the target exerts on the surface.
 
 use super::energy::of_bodies;
-use super::{Source, Touching};
+use super::{Source, Touching, surface};
 use crate::Error;
 use crate::contact::{PointRecord, PointStatus, second_name};
 use crate::declare::Variable;
@@ -50,6 +50,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     }
     if !all.is_empty() {
         report_points(&all, frame)?;
+        let records: Vec<_> = all.iter().map(|seen| (seen.contact, seen.records.as_slice())).collect();
+        surface::report(source.parts.mesh, &records, frame)?;
     }
     all.iter().try_for_each(|seen| report_contact(source, seen, frame))?;
     for first in &all {

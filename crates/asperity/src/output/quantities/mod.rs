@@ -10,7 +10,9 @@ mod nodes;
 mod oscillation;
 mod reactions;
 mod small_strain;
+mod strain;
 mod stress;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod tools;
@@ -73,6 +75,7 @@ type Report = fn(&Source, &mut Frame) -> Result<(), Error>;
 static ALL: &[Report] = &[
     nodes::report,
     stress::report,
+    strain::report,
     oscillation::report,
     reactions::report,
     contact::report,
@@ -95,7 +98,7 @@ impl Source<'_> {
         Ok(frame)
     }
     /// Displacement of a node.
-    fn displacement(&self, node: usize) -> [f64; 3] {
+    pub(in crate::output) fn displacement(&self, node: usize) -> [f64; 3] {
         self.nodal(&self.state.u, node)
     }
     /// Components at all nodes of values on all unknowns, one after the other.

@@ -4,6 +4,8 @@ use crate::contact::field::FieldContact;
 use crate::contact::{ContactOptions, PaperContact, PointRecord, Sample};
 use crate::declare::Variable;
 use crate::interface::Interface;
+use crate::mesh::Side;
+use crate::mesh::cells::{Cell, MAX_NODES};
 use crate::system::{History, Term};
 use crate::tensor::Vec3;
 
@@ -16,7 +18,51 @@ pub enum Touching<'a> {
     Field(&'a FieldContact),
 }
 
+/// What a record of a contact speaks for.
+pub enum Stand {
+    /// A part of a face: its number, and the corners with their shape functions there.
+    Face(usize, Vec<(usize, f64)>),
+    /// A node of the mesh.
+    Node(usize),
+    /// A tip of a tool, which stands on no node of the surface.
+    Apart,
+}
+
+/// The corners of a face with the shape functions of the cell of first degree at `xi`.
+fn corners(kind: &Cell, nodes: &[usize], xi: [f64; 3]) -> Vec<(usize, f64)> {
+    let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+    (kind.linear.shape)(xi, &mut n, &mut dn);
+    nodes.iter().copied().zip(n).take(kind.linear.nodes.len()).collect()
+}
+
 impl Touching<'_> {
+    /// The sides of the mesh that are the surface, each once.
+    pub fn sides(&self) -> Vec<Side> {
+        let mut sides: Vec<Side> = match self {
+            Self::Plane(contact) => contact.surface().edges.iter().map(|edge| edge.side).collect(),
+            Self::Solid(contact) => contact.surface().faces.iter().map(|face| face.side).collect(),
+            Self::Field(contact) => contact.surface().faces.iter().map(|face| face.side).collect(),
+        };
+        // The halves of an edge of second degree follow each other.
+        sides.dedup();
+        sides
+    }
+    /// What the record in place `slot` speaks for.
+    pub fn stand(&self, slot: usize) -> Stand {
+        match self {
+            Self::Plane(contact) => {
+                let point = &contact.surface().points[slot];
+                let edge = &contact.surface().edges[point.edge];
+                Stand::Face(point.edge, corners(edge.kind, &edge.nodes, [point.xi, 0.0, 0.0]))
+            }
+            Self::Solid(contact) => {
+                let point = &contact.surface().points[slot];
+                let face = &contact.surface().faces[point.face];
+                Stand::Face(point.face, corners(face.kind, &face.nodes, [point.xi[0], point.xi[1], 0.0]))
+            }
+            Self::Field(contact) => contact.node_at(slot).map_or(Stand::Apart, Stand::Node),
+        }
+    }
     /// The user's name for it.
     pub fn name(&self) -> &str {
         match self {

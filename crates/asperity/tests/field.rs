@@ -107,7 +107,7 @@ fn a_tip_is_felt_over_a_node_and_within_an_edge_and_the_corner_of_a_punch_is_non
     }
     let sides = "{ line = [[2.4, -1.0], [2.4, 0.0]] }, { line = [[2.4, 0.0], [1.3, 0.0]] }, { line = [[1.3, 0.0], [1.3, -1.0]] }";
     let (force, tips) = pressed(&format!("[{sides}]"));
-    assert!(force > 1.0 && tips == [0.0, 0.0], "{force} {tips:?}");
+    assert!(force > 1.0 && tips.iter().all(|&pressure| pressure == 0.0), "{force} {tips:?}");
 }
 
 /// Random states of a contact after random accepted ones: all nodes move by up to `size`, the upper ones down.

@@ -4,11 +4,9 @@ mod support;
 
 use asperity::mesh::Mesh;
 use asperity::output::vtk::{read_grid, read_series};
-use asperity::output::{Job, Limits, Start, simulate};
-use asperity::solve::Silent;
 use std::collections::BTreeMap;
 use std::path::Path;
-use support::made;
+use support::{made, write_results};
 
 /// One block of values: its name, its components, and the values by node.
 struct Block {
@@ -149,18 +147,7 @@ const PLATE: &str = "profile = [{ line = [[9.0, 0.0], [-9.0, 0.0]] }]";
 
 fn run(deck: &str, directory: &Path) -> Mesh {
     let made = made(deck, &[]);
-    let limits = Limits::default();
-    let job = Job {
-        directory,
-        options: made.results.clone(),
-        input: made.input,
-        start: Start::Beginning,
-        limits: &limits,
-        notes: &[],
-        facts: &Default::default(),
-    };
-    let (_, ended) = simulate(&made.model, &job, &mut Silent).unwrap();
-    ended.unwrap();
+    write_results(&made, directory);
     (*made.model.mesh).clone()
 }
 

@@ -2,27 +2,15 @@
 
 mod support;
 
+use asperity::output::Columns;
 use asperity::output::vtk::{read_grid, read_series};
-use asperity::output::{Columns, Job, Limits, Start, simulate};
-use asperity::solve::Silent;
-use support::made;
+use support::{made, write_results};
 use tempfile::TempDir;
 
 /// Runs a deck with all its files.
 fn results(deck: &str, sets: &[&str]) -> TempDir {
     let (made, folder) = (made(deck, sets), tempfile::tempdir().unwrap());
-    let limits = Limits::default();
-    let job = Job {
-        directory: folder.path(),
-        options: made.results.clone(),
-        input: made.input,
-        start: Start::Beginning,
-        limits: &limits,
-        notes: &[],
-        facts: &Default::default(),
-    };
-    let (_, ended) = simulate(&made.model, &job, &mut Silent).unwrap();
-    ended.unwrap();
+    write_results(&made, folder.path());
     folder
 }
 

@@ -89,9 +89,18 @@ pub(super) struct Found {
     pub(super) sagitta: f64,
     pub(super) size: f64,
     place: Vec3,
-    pub(super) through: bool,
-    /// Whether it is told and not refused: a side that no contact bears has folded behind an open profile.
-    told: bool,
+    pub(super) manner: Manner,
+}
+
+/// How a point comes to lie where it must not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Manner {
+    /// It lies deep.
+    Deep,
+    /// It came through.
+    Through,
+    /// It belongs to a side that no contact bears and that has folded behind an open profile: told, and not refused.
+    Folded,
 }
 
 /// The worst so far, and how bad it is.
@@ -302,23 +311,23 @@ impl Look<'_> {
             if !meet(&bounds([from, to]), &b.swept) {
                 continue;
             }
-            let mut report = |depth: f64, piece: usize, through: bool| {
+            let mut report = |depth: f64, piece: usize, manner: Manner| {
                 let sagitta = a.sagitta_at(vertex) + b.sagitta_of(piece);
                 let size = a.size_at(vertex).min(b.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), b.surface.body_of(piece)];
                 let other = Other::Whole(other);
-                found(Found { own, other, bodies, depth, sagitta, size, place: to, through, told: false });
+                found(Found { own, other, bodies, depth, sagitta, size, place: to, manner });
             };
             if meet(&[to, to], &b.bounds)
                 && let Some(deep) = b.depth(to)
             {
-                report(deep.depth, deep.piece, false);
+                report(deep.depth, deep.piece, Manner::Deep);
             }
             let (at, piece) = (|part| a.at(vertex, part), |number, part| b.piece_at(number, part));
             let near = self.near(own, Other::Whole(other), a.size_at(vertex), a.sagitta_at(vertex));
             let way = Way { at: &at, piece: &piece, steps: STEPS, near };
             if let Some(passage) = way.passage(&b.tree, &|_| true) {
-                report(passage.depth, passage.piece, true);
+                report(passage.depth, passage.piece, Manner::Through);
             }
         }
     }
@@ -328,24 +337,24 @@ impl Look<'_> {
         for (vertex, normal) in a.vertex_normals().into_iter().enumerate() {
             let place = a.now[vertex];
             let far = |piece: usize| !a.surface.is_near(vertex, piece);
-            let mut report = |depth: f64, piece: usize, through: bool| {
+            let mut report = |depth: f64, piece: usize, manner: Manner| {
                 let sagitta = a.sagitta_at(vertex) + a.sagitta_of(piece);
                 let size = a.size_at(vertex).min(a.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), a.surface.body_of(piece)];
                 let other = Other::Whole(own);
-                found(Found { own, other, bodies, depth, sagitta, size, place, through, told: false });
+                found(Found { own, other, bodies, depth, sagitta, size, place, manner });
             };
             if is_inside(&a.tree, a.bounds, (place, normal), &|piece| !a.surface.touches(vertex, piece)) {
                 let facing = |piece: usize| far(piece) && a.normals[piece].dot(normal) < 0.0;
                 if let Some(deep) = depth(&a.tree, place, (f64::INFINITY, false), &|piece, _| facing(piece)) {
-                    report(deep.depth, deep.piece, false);
+                    report(deep.depth, deep.piece, Manner::Deep);
                 }
             }
             let (at, piece) = (|part| a.at(vertex, part), |number, part| a.piece_at(number, part));
             let near = self.near(own, Other::Whole(own), a.size_at(vertex), a.sagitta_at(vertex));
             let way = Way { at: &at, piece: &piece, steps: STEPS, near };
             if let Some(passage) = way.passage(&a.tree, &far) {
-                report(passage.depth, passage.piece, true);
+                report(passage.depth, passage.piece, Manner::Through);
             }
         }
     }
@@ -359,17 +368,7 @@ impl Look<'_> {
             let body = a.surface.body_at(vertex);
             let size = a.size_at(vertex);
             let (other, bodies) = (Other::Axis, [body, body]);
-            found(Found {
-                own,
-                other,
-                bodies,
-                depth: -place[0],
-                sagitta: 0.0,
-                size,
-                place,
-                through: false,
-                told: false,
-            });
+            found(Found { own, other, bodies, depth: -place[0], sagitta: 0.0, size, place, manner: Manner::Deep });
         }
     }
 
@@ -388,19 +387,9 @@ impl Look<'_> {
             let body = a.surface.body_at(vertex);
             let borne = a.surface.lies_among(vertex, &self.prepared.borne[number]);
             let folded = !tool.closed && self.prepared.known[pair] && !borne;
-            let mut report = |depth: f64, bulge: f64, through: bool| {
+            let mut report = |depth: f64, bulge: f64, manner: Manner| {
                 let sagitta = sagitta + bulge;
-                found(Found {
-                    own,
-                    other,
-                    bodies: [body, body],
-                    depth,
-                    sagitta,
-                    size,
-                    place,
-                    through,
-                    told: folded && !through,
-                });
+                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place, manner });
             };
             let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
             let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
@@ -414,24 +403,24 @@ impl Look<'_> {
                 // Only a contact bears points, and lies in the tool between them.
                 let bears = self.prepared.known[pair];
                 let bulge = if bears { tool.bulge(here, deep.piece, a.length_at(vertex)) } else { 0.0 };
-                report(deep.depth, bulge, false);
+                report(deep.depth, bulge, if folded { Manner::Folded } else { Manner::Deep });
             }
             self.through_tool(&path, tool, self.near(own, other, size, sagitta), &mut report);
             if let Some(depth) = grazed(&path, tool, size) {
-                report(depth, 0.0, true);
+                report(depth, 0.0, Manner::Through);
             }
         }
     }
 
     /// Reports a point that came through a tool: a thin one, or from behind.
-    fn through_tool(&self, path: &[Vec3], tool: &Rigid, near: f64, report: &mut dyn FnMut(f64, f64, bool)) {
+    fn through_tool(&self, path: &[Vec3], tool: &Rigid, near: f64, report: &mut dyn FnMut(f64, f64, Manner)) {
         if !meet(&bounds(path.iter().copied()), &tool.bounds) {
             return;
         }
         let (at, piece) = (|part| along(path, part), |number: usize, _| tool.pieces[number]);
         let way = Way { at: &at, piece: &piece, steps: path.len() - 1, near };
         if let Some(passage) = way.passage(&tool.tree, &|_| true) {
-            report(passage.depth, 0.0, true);
+            report(passage.depth, 0.0, Manner::Through);
         }
     }
 
@@ -446,35 +435,25 @@ impl Look<'_> {
             if !meet(&bounds(path.iter().copied()), &a.swept) {
                 continue;
             }
-            let mut report = |depth: f64, piece: usize, through: bool| {
+            let mut report = |depth: f64, piece: usize, manner: Manner| {
                 let size = a.size_of(piece);
                 // Between the points of a contact the nose of a tool lies in a straight side by its sagitta.
                 let length = a.length_of(piece);
                 let bears = f64::from(u8::from(self.prepared.known[self.prepared.pair(own, other)]));
                 let nose = bears * (curvature * length * length / 8.0).min(0.5 * length);
                 let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
-                found(Found {
-                    own,
-                    other,
-                    bodies: [body, body],
-                    depth,
-                    sagitta,
-                    size,
-                    place: here,
-                    through,
-                    told: false,
-                });
+                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place: here, manner });
             };
             if meet(&[here, here], &a.bounds)
                 && let Some(deep) = a.depth(here)
             {
-                report(deep.depth, deep.piece, false);
+                report(deep.depth, deep.piece, Manner::Deep);
             }
             let (at, piece) = (|part| along(&path, part), |number, part| a.piece_at(number, part));
             let way =
                 Way { at: &at, piece: &piece, steps: STEPS, near: self.near(own, other, self.subject.cell_size, 0.0) };
             if let Some(passage) = way.passage(&a.tree, &|_| true) {
-                report(passage.depth, passage.piece, true);
+                report(passage.depth, passage.piece, Manner::Through);
             }
         }
     }
@@ -489,8 +468,8 @@ impl Look<'_> {
             let beyond = |excused: f64| (found.depth - found.sagitta - self.reported[pair] - excused) / found.size;
             keep(&mut worst, (beyond(known), found));
             // What came through came through, whatever is left between the points of a contact.
-            let limit = if found.through { self.subject.limit } else { self.limit(pair) };
-            if !found.told {
+            let limit = if found.manner == Manner::Through { self.subject.limit } else { self.limit(pair) };
+            if found.manner != Manner::Folded {
                 keep(&mut refused, (beyond(initial) / limit, found));
             }
         });
@@ -534,8 +513,8 @@ impl Look<'_> {
             format!("({x:.6}, {y:.6}, {z:.6})")
         };
         let part = found.depth / found.size;
-        match (found.other, found.through) {
-            (_, true) => format!("{own} passes through {other} at {place}, {part:.2} cells thick"),
+        match (found.other, found.manner) {
+            (_, Manner::Through) => format!("{own} passes through {other} at {place}, {part:.2} cells thick"),
             (Other::Axis, _) => format!("{own} reaches {part:.2} cells beyond the axis at {place}"),
             (Other::Whole(other), _) if other == found.own => {
                 format!("{own} lies {part:.2} cells deep in itself at {place}")

@@ -1,6 +1,6 @@
 //! Ways that graze: in at one side of something and out at another that does not look the other way, deep in it between.
 
-use super::check::{Look, Other, Worst, along, keep};
+use super::check::{Look, Manner, Other, Worst, along, keep};
 use super::hierarchy::{bounds, meet};
 use super::rigid::Rigid;
 use crate::Failure;
@@ -67,7 +67,7 @@ impl Look<'_> {
         }
         match worst.filter(|(part, _)| *part > GRAZED) {
             Some((_, mut found)) => {
-                found.through = true;
+                found.manner = Manner::Through;
                 Err(self.refusal(&found))
             }
             None => Ok(()),

@@ -158,6 +158,35 @@ pub struct PointRecord {
 }
 
 impl PointRecord {
+    /// What the history of a point says, at no place yet.
+    pub(super) fn of(values: &[f64], plane: bool) -> Self {
+        // In the plane with their signs, in space their sizes.
+        let along = |[s, t]: [usize; 2]| if plane { values[s] } else { values[s].hypot(values[t]) };
+        let nowhere = Vec3::zero();
+        Self {
+            position: nowhere,
+            inward: nowhere,
+            thrust: nowhere,
+            facing: nowhere,
+            along: nowhere,
+            area: 0.0,
+            resultant: None,
+            status: PointStatus::from_value(values[entry::STATUS]),
+            pressure: values[entry::PRESSURE],
+            shear: along([entry::SHEAR, entry::SHEAR2]),
+            penetration: if values[entry::SEGMENT] >= 0.0 { values[entry::PENETRATION] } else { f64::NAN },
+            slip: along([entry::SLIP, entry::SLIP2]),
+            slipped: values[entry::SLIPPED],
+            dissipated: values[entry::DISSIPATED],
+            last_dissipated: values[entry::LAST_DISSIPATED],
+            closure: values[entry::CLOSURE],
+            rubbed: values[entry::RUBBED],
+            violation: values[entry::VIOLATION],
+            vars: variables(values),
+            segment: None,
+            edge: 0,
+        }
+    }
     /// Stress vector on the solid.
     pub fn traction(&self) -> Vec3 {
         self.thrust * self.pressure + self.along * self.shear

@@ -2,7 +2,7 @@
 
 use super::{Body, Strain};
 use crate::mesh::Space;
-use crate::tensor::{Tensor2, Vec3, principal};
+use crate::tensor::{Tensor2, principal};
 
 impl Body {
     /// Strain at each integration point of the cell in place `slot` of the body's cells, XX YY ZZ XY YZ XZ with tensor
@@ -14,51 +14,17 @@ impl Body {
         u: &'a [f64],
         states: &'a [f64],
     ) -> impl Iterator<Item = [f64; 6]> + 'a {
-        let points = states.chunks_exact(self.point_len()).enumerate();
-        points.map(move |(point, state)| {
-            let f = self.total_gradient((self.cells[slot], point), u, state);
+        let points = states.chunks_exact(self.point_len());
+        points.zip(self.displacement_gradients(self.cells[slot], u)).map(|(state, gradient)| {
+            let mut gradient = gradient.unwrap_or_else(|| Tensor2::from_fn(|_, _| f64::NAN));
+            if self.space == Space::PlaneStress {
+                gradient[(2, 2)] = state[self.material().state_len()] - 1.0;
+            }
             match self.options.strain {
-                Strain::Small => {
-                    let mut strain = f.sym();
-                    (0..3).for_each(|i| strain[(i, i)] -= 1.0);
-                    strain.to_voigt()
-                }
-                Strain::Finite => logarithm(&f),
+                Strain::Small => gradient.sym().to_voigt(),
+                Strain::Finite => logarithm(&(gradient + Tensor2::identity())),
             }
         })
-    }
-
-    /// Deformation gradient of a point from the undeformed state on; in plane stress with the stretch of the thickness.
-    fn total_gradient(&self, (cell, point): (usize, usize), u: &[f64], state: &[f64]) -> Tensor2 {
-        let view = self.mesh.cell(cell);
-        let shapes = &self.shapes(view.kind).points[point];
-        let (mut jacobian, mut along) = (Tensor2::<f64>::zero(), Tensor2::<f64>::zero());
-        let (mut radius, mut outward) = (0.0, 0.0);
-        for (&node, (n, dn)) in view.nodes.iter().zip(shapes.n.iter().zip(&shapes.dn)) {
-            let (x, first) = (self.mesh.points[node], self.dofs.node(node));
-            let mut moved = Vec3::zero();
-            (0..self.dofs.per_node()).for_each(|a| moved[a] = u[first + a]);
-            for i in 0..3 {
-                for a in 0..3 {
-                    jacobian[(i, a)] += x[i] * dn[a];
-                    along[(i, a)] += moved[i] * dn[a];
-                }
-            }
-            radius += n * x[0];
-            outward += n * moved[0];
-        }
-        if self.space != Space::Solid {
-            jacobian[(2, 2)] = 1.0;
-        }
-        let inverse = jacobian.inverse();
-        let mut f = Tensor2::from_fn(|i, j| (0..3).map(|a| along[(i, a)] * inverse[(a, j)]).sum());
-        (0..3).for_each(|i| f[(i, i)] += 1.0);
-        match self.space {
-            Space::Axisymmetric => f[(2, 2)] = 1.0 + outward / radius,
-            Space::PlaneStress => f[(2, 2)] = state[self.material().state_len()],
-            Space::PlaneStrain | Space::Solid => {}
-        }
-        f
     }
 }
 

@@ -12,7 +12,7 @@ use super::point::{PointLaw, PointStress};
 use crate::Failure;
 use crate::material::Material;
 use crate::mesh::Space;
-use crate::tensor::{Tensor2, Vec3};
+use crate::tensor::Tensor2;
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -148,29 +148,35 @@ impl Body {
     /// Of a body in small strain the largest displacement gradient at an integration point: the root of the sum of the
     /// squares of its components, rotation among them. Strains are wrong by a part of that order.
     pub fn largest_gradient(&self, u: &[f64]) -> Option<f64> {
-        let of_cell = |&cell: &usize| self.gradient_of(cell, u);
-        let squares = || self.cells.iter().map(of_cell).fold(0.0, f64::max);
-        (self.options.strain == Strain::Small).then(|| squares().sqrt())
+        let square = |g: Tensor2| -> f64 { (0..9).map(|k| g[(k / 3, k % 3)].powi(2)).sum() };
+        let all = || self.cells.iter().flat_map(|&cell| self.displacement_gradients(cell, u)).flatten();
+        (self.options.strain == Strain::Small).then(|| all().map(square).fold(0.0, f64::max).sqrt())
     }
 
-    /// The largest square of a displacement gradient in a cell.
-    fn gradient_of(&self, cell: usize, u: &[f64]) -> f64 {
-        let (view, mut rows, mut largest) = (self.mesh.cell(cell), Vec::new(), 0.0_f64);
+    /// Displacement gradients at the integration points of a cell, on the undeformed places; the strain around the axis of axial
+    /// symmetry is the last on the diagonal. None where the cell is inside out.
+    pub(super) fn displacement_gradients<'a>(
+        &'a self,
+        cell: usize,
+        u: &'a [f64],
+    ) -> impl Iterator<Item = Option<Tensor2>> + 'a {
+        let (view, axes) = (self.mesh.cell(cell), self.dofs.per_node());
         let x: Vec<_> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
-        for shapes in &self.shapes(view.kind).points {
+        let mut rows = Vec::new();
+        self.shapes(view.kind).points.iter().map(move |shapes| {
             rows.clear();
-            if gradient::at(shapes, &x, self.space, &mut rows).is_none() {
-                continue;
-            }
+            gradient::at(shapes, &x, self.space, &mut rows)?;
             let length = rows.len() / 3;
             let along = |axis: usize, row: usize| -> f64 {
                 let row = &rows[row * length..];
                 view.nodes.iter().zip(row).map(|(&node, g)| g * u[self.dofs.node(node) + axis]).sum()
             };
-            let axes = self.dofs.per_node();
-            let of_axis = |i: usize| Vec3([0, 1, 2].map(|j| if j < axes || i == 0 { along(i, j) } else { 0.0 }));
-            largest = largest.max((0..axes).map(of_axis).map(|g| g.dot(g)).sum());
-        }
-        largest
+            Some(Tensor2::from_fn(|i, j| match (i < axes, j < axes) {
+                (true, true) => along(i, j),
+                // The row of `N / r`, zero in the plane.
+                (false, false) => along(0, 2),
+                _ => 0.0,
+            }))
+        })
     }
 }

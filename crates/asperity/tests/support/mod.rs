@@ -3,8 +3,8 @@
 
 use asperity::deck::{Made, build, read};
 use asperity::model::Model;
-use asperity::output::{Certificate, Frame, Parts, Source, global_columns};
-use asperity::solve::{AttemptRecord, Observer, RunOptions};
+use asperity::output::{Certificate, Frame, Job, Limits, Parts, Source, Start, global_columns, simulate};
+use asperity::solve::{AttemptRecord, Observer, RunOptions, Silent};
 use asperity::system::State;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,6 +19,20 @@ pub fn made(deck: &str, sets: &[&str]) -> Made {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
     let made = read(deck, "test.toml", Path::new(""), &sets).and_then(build);
     made.unwrap_or_else(|found| panic!("{}", found.render(false)))
+}
+
+/// Runs a model to its end with all its files.
+pub fn write_results(made: &Made, directory: &Path) {
+    let job = Job {
+        directory,
+        options: made.results.clone(),
+        input: made.input,
+        start: Start::Beginning,
+        limits: &Limits::default(),
+        notes: &[],
+        facts: &Default::default(),
+    };
+    simulate(&made.model, &job, &mut Silent).unwrap().1.unwrap();
 }
 
 /// Keeps every attempt and every accepted state.

@@ -9,7 +9,7 @@ use super::surface::Surface;
 use super::tool::RigidTool;
 use crate::Failure;
 use crate::contact::increment::{CLOSED, ahead, reach};
-use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
+use crate::contact::record::{PointRecord, entry, largest_penetration};
 use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::Interface;
 use crate::mesh::{Mesh, Side, Space};
@@ -412,8 +412,6 @@ impl FieldContact {
                 tool.map_or((tip.point, -tip.outward, 0), place)
             }
         };
-        let seen = values[entry::SEGMENT] >= 0.0;
-        let shear = values[entry::SHEAR];
         PointRecord {
             position,
             inward: -outward,
@@ -423,26 +421,9 @@ impl FieldContact {
                 Some(node) if !self.surface.plane => self.rest_line(node),
                 _ => outward.left(),
             },
-            area: 0.0,
-            resultant: None,
-            status: PointStatus::from_value(values[entry::STATUS]),
-            pressure: values[entry::PRESSURE],
-            shear: if self.surface.plane { shear } else { shear.hypot(values[entry::SHEAR2]) },
-            penetration: if seen { values[entry::PENETRATION] } else { f64::NAN },
-            slip: if self.surface.plane {
-                values[entry::SLIP]
-            } else {
-                values[entry::SLIP].hypot(values[entry::SLIP2])
-            },
-            slipped: values[entry::SLIPPED],
-            dissipated: values[entry::DISSIPATED],
-            last_dissipated: values[entry::LAST_DISSIPATED],
-            closure: values[entry::CLOSURE],
-            rubbed: values[entry::RUBBED],
-            violation: values[entry::VIOLATION],
-            vars: variables(values),
-            segment: seen.then_some(slot % self.pieces),
+            segment: (values[entry::SEGMENT] >= 0.0).then_some(slot % self.pieces),
             edge,
+            ..PointRecord::of(values, self.surface.plane)
         }
     }
 

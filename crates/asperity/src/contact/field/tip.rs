@@ -66,16 +66,24 @@ struct Place {
 }
 
 impl Edge<'_> {
+    fn tangent(&self, xi: f64) -> Vec3 {
+        self.face.shape([xi, 0.0]).tangents(self.placed.nodes(), true)[0]
+    }
     fn at(&self, xi: f64) -> Place {
         let shape = self.face.shape([xi, 0.0]);
-        let tangent = |xi: f64| self.face.shape([xi, 0.0]).tangents(self.placed.nodes(), true)[0];
         // Shape functions of second degree have linear slopes, of which a central difference is exact.
         Place {
             x: shape.value(self.placed.nodes()),
-            tangent: tangent(xi),
-            bend: tangent(xi + 0.5) - tangent(xi - 0.5),
+            tangent: self.tangent(xi),
+            bend: self.tangent(xi + 0.5) - self.tangent(xi - 0.5),
             shape,
         }
+    }
+    /// Whether a tip that points so points at no place of the edge, along which the tangent changes linearly.
+    fn looks_away(&self, points: Vec3) -> bool {
+        let ends = [-1.0, 1.0].map(|xi| self.tangent(xi));
+        let least = POINTS * (ends[0].norm() - (ends[1] - ends[0]).norm());
+        ends.iter().all(|tangent| tangent.cross(unit(2)).dot(points) > -least)
     }
     /// Derivative of half the square of the distance to `c`, with its slope.
     fn offset(&self, xi: f64, c: Vec3) -> [f64; 2] {
@@ -121,22 +129,28 @@ impl Configuration<'_> {
             let nearer = best.is_none_or(|best| found.gap.abs() < best.gap.abs());
             best = if nearer { Some(found) } else { best };
         };
-        for (f, face) in self.contact.surface.faces.iter().enumerate() {
+        let surface = &self.contact.surface;
+        for (f, face) in surface.faces.iter().enumerate() {
             let edge = Edge { face, placed: &self.placed[f] };
+            let is_end = |corner: usize| surface.nodes[surface.field[f][corner]].support.len() == 1;
+            // Most edges do not see the end of a plate that lies along them.
+            if edge.looks_away(points) && !(0..2).any(is_end) {
+                continue;
+            }
             let xi = edge.closest(vertex);
             let at = edge.at(xi);
             let (n, to) = (outward(at.tangent), vertex - at.x);
-            let (surface, nearer) = (&self.contact.surface, usize::from(xi > 0.0));
-            let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
+            let nearer = usize::from(xi > 0.0);
+            let ends = is_end(nearer);
             let inner = if ends { 1.0 - AT_END } else { 1.0 };
             let corner = if xi.abs() < inner { None } else { Some(nearer) };
             // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
-            let border = corner.filter(|_| ends).map(|_| self.undeformed_normal(face));
-            if border.unwrap_or(n).dot(points) > -POINTS {
+            let rest = corner.filter(|_| ends).map(|_| self.undeformed_normal(face));
+            if rest.unwrap_or(n).dot(points) > -POINTS {
                 continue;
             }
             let landed = |corner: Option<usize>, border: Option<usize>| {
-                let share = self.share((f, nearer), flanks, border.map(|_| self.undeformed_normal(face)));
+                let share = self.share((f, nearer), flanks, rest);
                 let tip = Some(Landing { xi, corner, border, share });
                 Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], tip }
             };
@@ -171,7 +185,7 @@ impl Configuration<'_> {
 
     /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
     /// the end of the surface on the normal it had, which a plane of symmetry keeps.
-    fn share(&self, (f, corner): (usize, usize), flanks: [Vec3; 2], border: Option<Vec3>) -> f64 {
+    fn share(&self, (f, corner): (usize, usize), flanks: [Vec3; 2], rest: Option<Vec3>) -> f64 {
         let surface = &self.contact.surface;
         let area = |f: usize| {
             let face = &surface.faces[f];
@@ -180,7 +194,7 @@ impl Configuration<'_> {
         let both =
             surface.nodes[surface.field[f][corner]].support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
         let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
-        let cosine = border.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
+        let cosine = rest.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
         let t = ((cosine - FLAT[0]) / (FLAT[1] - FLAT[0])).clamp(0.0, 1.0);
         1.0 - t * t * (3.0 - 2.0 * t)
     }

@@ -5,7 +5,7 @@ use super::attempt::touched;
 use super::contact::PaperContact;
 use super::point::Triad;
 use crate::contact::Move;
-use crate::contact::record::{PointRecord, PointStatus, entry, variables};
+use crate::contact::record::{PointRecord, PointStatus, entry};
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::{Ray, Rejected};
@@ -46,32 +46,20 @@ impl PaperContact {
 
     fn record(&self, index: usize, u: &[f64], values: &[f64]) -> PointRecord {
         let (position, Triad { inward, along, .. }) = self.triad(index, u);
-        let [s, t] = [values[entry::SHEAR], values[entry::SHEAR2]];
-        let (plane, size) = (self.surface().plane, s.hypot(t));
-        let sheared = !plane && size > 0.0;
-        let segment = touched(values).map(|(segment, _)| segment);
+        let plane = self.surface().plane;
+        let record = PointRecord::of(values, plane);
+        let [s, t] = [entry::SHEAR, entry::SHEAR2].map(|shear| values[shear]);
+        let sheared = !plane && record.shear > 0.0;
         PointRecord {
             position,
             inward,
             thrust: inward,
             facing: self.facing(values, u, &Ray { origin: position, direction: inward }),
-            along: if sheared { (along[0] * s + along[1] * t) * size.recip() } else { along[0] },
+            along: if sheared { (along[0] * s + along[1] * t) * record.shear.recip() } else { along[0] },
             area: self.area(index, u),
-            resultant: None,
-            status: PointStatus::from_value(values[entry::STATUS]),
-            pressure: values[entry::PRESSURE],
-            shear: if plane { s } else { size },
-            penetration: if segment.is_some() { values[entry::PENETRATION] } else { f64::NAN },
-            slip: if plane { values[entry::SLIP] } else { values[entry::SLIP].hypot(values[entry::SLIP2]) },
-            slipped: values[entry::SLIPPED],
-            dissipated: values[entry::DISSIPATED],
-            last_dissipated: values[entry::LAST_DISSIPATED],
-            closure: values[entry::CLOSURE],
-            rubbed: values[entry::RUBBED],
-            violation: values[entry::VIOLATION],
-            vars: variables(values),
-            segment,
+            segment: touched(values).map(|(segment, _)| segment),
             edge: self.parts.surface.points[index].face,
+            ..record
         }
     }
 

@@ -3,7 +3,7 @@
 //! - Orowan: `tau_y = min(mu p, m k)`;
 //! - smooth: `tau_y = m k tanh x`;
 //! - Shaw: `tau_y = mu p / (1 + x^n)^(1/n)`;
-//! - constant shear factor: `tau_y = m k` at any pressure, but `tau_y <= 10 p` so that it is gone as the contact opens.
+//! - constant shear factor: Orowan's with the steepest friction, `tau_y = min(10 p, m k)`, so that it is gone as the contact opens.
 //!
 //! The limit depends on the pressure only, so the radial return is in closed form; on one line of slip it is exact.
 
@@ -68,7 +68,7 @@ pub(super) const FACTOR_ONLY: Entry<Box<dyn Interface>> = Entry {
     meaning: "a constant part of the shear strength, up to ten times the pressure",
     parameters: &[STRENGTH, FACTOR],
     pairs: None,
-    build: |v| Ok(law(ShearLimited { friction: 0.0, most: v[0] * v[1], transition: Transition::Constant })),
+    build: |v| Ok(law(ShearLimited { friction: STEEPEST, most: v[0] * v[1], transition: Transition::Sharp })),
 };
 
 /// How friction reaches its largest value.
@@ -80,8 +80,6 @@ pub enum Transition {
     Smooth,
     /// Shaw's formula with its power.
     Shaw(f64),
-    /// It is there at all but the least pressures.
-    Constant,
 }
 
 /// The law.
@@ -98,13 +96,12 @@ pub struct ShearLimited {
 impl ShearLimited {
     /// Largest shear stress at a pressure.
     pub fn limit<T: Scalar>(&self, pressure: T) -> T {
-        let friction = if self.transition == Transition::Constant { STEEPEST } else { self.friction };
-        let (dry, most) = (pressure * friction, T::from(self.most));
+        let (dry, most) = (pressure * self.friction, T::from(self.most));
         // A trial may come with a pressure below zero.
         let closed = dry.re() > 0.0;
         match self.transition {
             _ if !closed => dry,
-            Transition::Sharp | Transition::Constant => dry.min(most),
+            Transition::Sharp => dry.min(most),
             Transition::Smooth => (dry / most).tanh() * most,
             Transition::Shaw(n) => dry / ((dry / most).powf(n) + 1.0).powf(1.0 / n),
         }
@@ -131,13 +128,13 @@ mod tests {
     /// Friction 0.3, strength 100: the values at pressures of 200 and 500.
     #[test]
     fn limits_at_two_pressures() {
-        for (transition, values) in [
-            (Transition::Sharp, [60.0, 100.0]),
-            (Transition::Smooth, [53.7050, 90.5148]),
-            (Transition::Shaw(2.0), [51.4496, 83.2050]),
-            (Transition::Constant, [100.0, 100.0]),
+        for (transition, friction, values) in [
+            (Transition::Sharp, 0.3, [60.0, 100.0]),
+            (Transition::Smooth, 0.3, [53.7050, 90.5148]),
+            (Transition::Shaw(2.0), 0.3, [51.4496, 83.2050]),
+            (Transition::Sharp, STEEPEST, [100.0, 100.0]),
         ] {
-            let law = ShearLimited { friction: 0.3, most: 100.0, transition };
+            let law = ShearLimited { friction, most: 100.0, transition };
             for (pressure, value) in [200.0, 500.0].into_iter().zip(values) {
                 assert!((law.limit(pressure) - value).abs() < 1e-4, "{transition:?}: {}", law.limit(pressure));
             }

@@ -172,6 +172,8 @@ increments.count = 30
         directory: directory.path(),
         options: made.deck.output.options(),
         input: made.input,
+        parts: &made.parts,
+        asked: None,
         start: Start::Beginning,
         limits: &Limits::default(),
         notes: &[],

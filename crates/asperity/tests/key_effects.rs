@@ -50,7 +50,8 @@ fn names(deck: &Value) -> BTreeMap<bool, Vec<String>> {
     let loaded = loaded(deck).unwrap();
     let given = |key: &str| deck.get(key).and_then(Value::as_table).into_iter().flat_map(|table| table.keys().cloned());
     let groups = loaded.mesh.groups.keys().cloned();
-    let plain = groups.chain(given("material")).chain(given("tool")).collect();
+    let given = ["material", "tool", "contact", "distributing"].into_iter().flat_map(given);
+    let plain = groups.chain(given).collect();
     let conditions = loaded.deck.step.iter().flat_map(|step| step.conditions()).map(|(path, _)| path).collect();
     BTreeMap::from([(false, plain), (true, conditions)])
 }

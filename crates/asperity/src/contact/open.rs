@@ -12,11 +12,12 @@ use super::seed::Seed;
 use super::surface::SurfacePoint;
 use super::target::{Hit, Standing};
 use super::variational::ContactForm;
-use crate::interface::{Linearised, Past};
+use crate::interface::{Interface, Linearised, Past};
 use crate::mesh::Space;
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Vec3};
 use crate::{Failure, Kind};
+use std::sync::Arc;
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -24,6 +25,8 @@ pub(super) type D = Dual<DIRECTIONS>;
 pub struct OpenContact<'a> {
     /// The contact.
     pub contact: &'a Contact,
+    /// The law at its end.
+    pub law: Arc<dyn Interface>,
     /// Its history in the accepted state.
     pub history: &'a History,
     /// Accepted unknowns.
@@ -89,7 +92,7 @@ impl Attempt for OpenContact<'_> {
                 return Err(Failure::new(reason).of(Kind::Passage));
             }
             write_hit(&self.contact.surface.points[index], None, new);
-            leave(&*self.contact.law, self.history.slot(index), new);
+            leave(&*self.law, self.history.slot(index), new);
             return Ok(0);
         };
         if local.wants_tangent {
@@ -112,7 +115,7 @@ impl Attempt for OpenContact<'_> {
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let shear = self.history.slot(stencil)[entry::SHEAR];
-        let (law, past) = (&*self.contact.law, self.past(stencil, shear));
+        let (law, past) = (&*self.law, self.past(stencil, shear));
         if self.contact.neighbours.is_empty() {
             return answer(law, &past, self.contact.least, y);
         }
@@ -158,7 +161,7 @@ impl OpenContact<'_> {
         let (contact, old, g) = (self.contact, self.history.slot(index), geometry);
         let mut past = self.past(index, g.before.shear);
         if g.before.entered {
-            past.penetration = contact.law.touch(&past);
+            past.penetration = self.law.touch(&past);
         }
         let (place, constants) = (seeded::<T>(g), self.constants(index, g, &past, local.acting));
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
@@ -168,12 +171,12 @@ impl OpenContact<'_> {
         let mean = self.mean_pressure(index, g, &local.u);
         let (by, mut by_mean) = (mean.as_ref().map(|mean| mean.pressure), [0.0; 2]);
         let (_, closed) = point::evaluate(&place, &constants, |motion| {
-            let (response, slopes) = nonlocal::ask((&*contact.law, by), motion, &past, &mut new[entry::COUNT..])?;
+            let (response, slopes) = nonlocal::ask((&*self.law, by), motion, &past, &mut new[entry::COUNT..])?;
             by_mean = slopes;
             Ok(response)
         })?;
         let Some(closed) = closed else {
-            leave(&*self.contact.law, self.history.slot(index), new);
+            leave(&*self.law, self.history.slot(index), new);
             self.account(index, g, Carried::default(), local);
             return Ok(0);
         };
@@ -200,8 +203,8 @@ impl OpenContact<'_> {
             normal: g.hit.normal,
             closure: self.closure(index),
             before: past.penetration,
-            touch: contact.law.touch(past),
-            opens: contact.law.opens(past, [g.place.slip(), 0.0]),
+            touch: self.law.touch(past),
+            opens: self.law.opens(past, [g.place.slip(), 0.0]),
             least: contact.least,
             weight: g.spot.weight * contact.thickness(),
             acting,

@@ -13,7 +13,7 @@ use super::record::{PointRecord, PointStatus, entry, largest_penetration, variab
 use super::search::relatives;
 use super::surface::{Edge, Surface, SurfacePoint};
 use super::target::Target;
-use crate::interface::Interface;
+use crate::interface::{Interface, Rule};
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
@@ -36,7 +36,7 @@ pub struct Contact {
     /// The connected whole of each cell.
     pub(super) wholes: Vec<usize>,
     pub(super) target: Target,
-    pub(super) law: Arc<dyn Interface>,
+    pub(super) law: Rule,
     pub(super) options: ContactOptions,
     /// Penetration from which a point counts as closed.
     pub(super) least: f64,
@@ -61,7 +61,7 @@ impl Contact {
         (mesh, dofs, space): (Arc<Mesh>, Dofs, Space),
         (surface, boundary): (Surface, Vec<Side>),
         target: Target,
-        (law, options): (Arc<dyn Interface>, ContactOptions),
+        (law, options): (Rule, ContactOptions),
     ) -> Self {
         let faces = target.as_faces().map_or(&[][..], Faces::edges);
         let relatives = relatives(surface.edges.iter().map(|edge| &edge.nodes), faces.iter().map(|edge| &edge.nodes));
@@ -105,7 +105,7 @@ impl Contact {
             contact.corners = contact.corners_of_edges();
             contact.opposite = contact.corners_of_target();
         }
-        if let Some(radius) = radius(&*contact.law) {
+        if let Some(radius) = radius(contact.law.first()) {
             let (places, edge) = (contact.undeformed_places(), |i: usize| contact.surface.points[i].edge);
             contact.neighbours = Neighbours::new(&places, edge, radius, |i| contact.undeformed_area(i));
         }
@@ -130,7 +130,7 @@ impl Contact {
     }
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
-        &*self.law
+        self.law.first()
     }
     /// The largest penetration at a closed point, from the history of a state; a length.
     pub fn largest_penetration(&self, history: &History) -> f64 {
@@ -252,14 +252,14 @@ impl Term for Contact {
     }
 
     fn initial(&self) -> History {
-        let vars: usize = self.law.variables().iter().map(|v| v.len()).sum();
+        let vars: usize = self.law.first().variables().iter().map(|v| v.len()).sum();
         let points = self.surface.points.iter().map(|_| entry::COUNT + vars);
         let mut history = History::new(points.chain(self.options.augmentation.map(|_| self.corners.count())));
         let u = vec![0.0; self.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(&self.surface.points[i], hit, history.slot_mut(i));
             self.options.overlap.begin(history.slot_mut(i), self.least);
-            self.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
+            self.law.first().initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
         history
     }
@@ -275,6 +275,7 @@ impl Term for Contact {
         let standing = self.target.deforms().then(|| self.target.stand(&accepted.u));
         Ok(Box::new(OpenContact {
             contact: self,
+            law: self.law.at(at.step, at.step_time)?,
             history,
             accepted: &accepted.u,
             standing,

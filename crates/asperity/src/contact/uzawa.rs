@@ -88,7 +88,7 @@ impl Contact {
         let borne = new[entry::PRESSURE] / self.options.penalty;
         let (closed, sticks) = (status != PointStatus::Open, status == PointStatus::Stick);
         let seen = || new[entry::PENETRATION] + new[entry::CLOSURE] - shift.closure;
-        let gap = || seen() - touch_after(&*self.law, &self.options, new);
+        let gap = || seen() - touch_after(self.law.first(), &self.options, new);
         let sliding = (new[entry::SLIPPED] - old[entry::SLIPPED]).copysign(new[entry::SHEAR]);
         let slip = new[entry::SLIP] - old[entry::SLIP] - sliding;
         let borne_shear = (new[entry::SHEAR] - old[entry::SHEAR]) / self.options.tangential_penalty;

@@ -15,6 +15,8 @@ pub struct HistoryTable {
     plane: bool,
     columns: Vec<String>,
     table: Option<Table>,
+    /// Whether the run has just gone on, with a deck whose quantities may be others.
+    resumed: bool,
 }
 
 /// Name of the table of histories in the result directory.
@@ -32,7 +34,7 @@ pub fn global_columns(frame: &Frame, plane: bool) -> Vec<(String, f64)> {
 impl HistoryTable {
     /// A history in `directory`; the file appears with the first frame.
     pub fn create(directory: &Path, plane: bool) -> Self {
-        Self { path: directory.join(HISTORY), plane, columns: Vec::new(), table: None }
+        Self { path: directory.join(HISTORY), plane, columns: Vec::new(), table: None, resumed: false }
     }
     /// Continues a history after a restart from `increment`; later rows are dropped.
     ///
@@ -47,6 +49,7 @@ impl HistoryTable {
             let at = columns.position("increment").and_then(|i| row[i].parse::<usize>().ok());
             at.is_some_and(|at| at <= increment)
         })?);
+        history.resumed = true;
         history.columns = Columns::read(&history.path)?.header.split_off(LEADING.len());
         Ok(history)
     }
@@ -62,8 +65,15 @@ impl HistoryTable {
             self.columns.clone_from(&names);
         }
         if let Some(odd) = first_difference(&self.columns, &names) {
-            return Err(Error::Internal(format!("the columns of history.csv changed within the run, at '{odd}'")));
+            if !std::mem::take(&mut self.resumed) {
+                return Err(Error::Internal(format!("the columns of history.csv changed within the run, at '{odd}'")));
+            }
+            let header: Vec<String> =
+                LEADING.iter().map(|name| name.to_string()).chain(names.iter().cloned()).collect();
+            self.table = Some(Table::relay(&self.path, &header)?);
+            self.columns.clone_from(&names);
         }
+        self.resumed = false;
         let leading = [frame.time.into(), frame.step.into(), frame.increment.into()];
         let row: Vec<Field> = leading.into_iter().chain(values.into_iter().map(Field::Real)).collect();
         self.table.as_mut().map_or(Ok(()), |table| table.push(&row))

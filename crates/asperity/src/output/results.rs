@@ -8,15 +8,18 @@
 //! | `certificate.csv` | readings for the certificate |
 //! | `summary.json` | how the run ended and its certificate |
 //! | `run.checkpoint` | the last checkpoint |
+//! | `checkpoints` | those that are kept |
 //! | `status.json` | where the run stands, while it goes |
 
 use super::account::Account;
 use super::asked::ASKED;
-use super::checkpoint::{self, Head, InputHash, Stamp};
+use super::checkpoint::{self, Head, Stamp};
 use super::figure::{FigureOptions, draw_standard};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, tools};
 use super::history::{HISTORY, HistoryTable};
+use super::input::Origin;
+use super::kept::{self, KEPT, Keep};
 use super::progress::{PROGRESS, Request};
 use super::quantities::{Parts, Source};
 use super::quantity::{Frame, Place};
@@ -32,15 +35,17 @@ use std::time::{Duration, Instant};
 pub struct ResultOptions {
     /// A frame of fields every so many increments; the last of a step always.
     pub every: usize,
-    /// A checkpoint every so many increments.
+    /// A checkpoint every so many increments, and at the end of each step.
     pub checkpoint_every: usize,
+    /// Which checkpoints are kept.
+    pub keep: Keep,
     /// How the arrays of frames are laid down.
     pub encoding: Encoding,
 }
 
 impl Default for ResultOptions {
     fn default() -> Self {
-        Self { every: 1, checkpoint_every: 10, encoding: Encoding::default() }
+        Self { every: 1, checkpoint_every: 10, keep: Keep::Last, encoding: Encoding::default() }
     }
 }
 
@@ -48,7 +53,7 @@ impl Default for ResultOptions {
 pub struct Results {
     directory: PathBuf,
     options: ResultOptions,
-    input: InputHash,
+    origin: Origin,
     grid: BodyGrid,
     series: Vec<(Fields, Series)>,
     /// Frames where stability was lost or found again, from the first such on.
@@ -113,13 +118,13 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`] when something cannot be written.
-    pub fn create(directory: &Path, start: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
+    pub fn create(directory: &Path, start: &Source, options: ResultOptions, origin: Origin) -> Result<Self, Error> {
         Self::clear(directory)?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
         let history = HistoryTable::create(directory, start.parts.is_plane());
         let readings = ReadingTable::create(directory)?;
-        let mut results = Self::new((directory, options, input), start.parts, (series, history, readings))?;
+        let mut results = Self::new((directory, options, origin), start.parts, (series, history, readings))?;
         results.write_frame(start)?;
         reserve(directory)?;
         results.write_summary()?;
@@ -134,6 +139,7 @@ impl Results {
         make_directory(directory)?;
         sweep(directory)?;
         Request::clear(directory)?;
+        kept::drop_after(directory, None)?;
         let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT, MODES_LIST].map(String::from);
         remove(directory, late.into_iter().chain(pictures()))
     }
@@ -141,11 +147,14 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`] when an old file cannot be read or a new one not written.
-    pub fn resume(directory: &Path, at: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
+    pub fn resume(directory: &Path, at: &Source, options: ResultOptions, origin: Origin) -> Result<Self, Error> {
         let (parts, state) = (at.parts, at.state);
         make_directory(directory)?;
         sweep(directory)?;
         Request::clear(directory)?;
+        // Before anything of what came later is dropped.
+        write_checkpoint(&directory.join(CHECKPOINT), &origin, state)?;
+        kept::drop_after(directory, Some(state.increment))?;
         let series = |fields: Fields| {
             let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
             Ok((fields, series))
@@ -153,7 +162,7 @@ impl Results {
         let series = fields_of(parts).map(series).collect::<Result<_, Error>>()?;
         let history = HistoryTable::resume(directory, parts.is_plane(), state.increment)?;
         let (readings, certificate) = ReadingTable::resume(directory, state.increment)?;
-        let mut results = Self::new((directory, options, input), parts, (series, history, readings))?;
+        let mut results = Self::new((directory, options, origin), parts, (series, history, readings))?;
         if directory.join(MODES_LIST).exists() {
             results.modes = Some(Series::resume(directory, MODES, options.encoding, state.time)?);
         }
@@ -163,16 +172,16 @@ impl Results {
         Ok(results)
     }
     fn new(
-        (directory, options, input): (&Path, ResultOptions, InputHash),
+        (directory, options, origin): (&Path, ResultOptions, Origin),
         parts: &Parts,
         (series, history, readings): (Vec<(Fields, Series)>, HistoryTable, ReadingTable),
     ) -> Result<Self, Error> {
         let mut account = Account::new(parts);
-        account.summary.input_hash = Some(input.to_string());
+        account.summary.input_hash = Some(origin.input.to_string());
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
         let (spent, told) = (Duration::ZERO, Instant::now());
-        Ok(Self { directory, options, input, grid, series, modes: None, history, readings, account, spent, told })
+        Ok(Self { directory, options, origin, grid, series, modes: None, history, readings, account, spent, told })
     }
 
     /// Writes what is due after an accepted increment, whose frame it is. `last` says that it ended its step.
@@ -188,8 +197,12 @@ impl Results {
         if last || increment.is_multiple_of(self.options.every) {
             self.write_grids(source, frame)?;
         }
-        if increment.is_multiple_of(self.options.checkpoint_every) {
+        if last || increment.is_multiple_of(self.options.checkpoint_every) {
             self.checkpoint(source.state)?;
+            if self.options.keep == Keep::All || (last && self.options.keep == Keep::Steps) {
+                make_directory(&self.directory.join(KEPT))?;
+                write_checkpoint(&kept::path_of(&self.directory, increment), &self.origin, source.state)?;
+            }
         }
         if self.told.elapsed() > BETWEEN || last {
             self.told = Instant::now();
@@ -215,8 +228,7 @@ impl Results {
     /// # Errors
     /// [`Error::File`] when it cannot be written; the one before then still stands.
     pub fn checkpoint(&self, state: &State) -> Result<(), Error> {
-        let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
-        checkpoint::save(&self.directory.join(CHECKPOINT), &Head { input: self.input, stamp }, state)
+        write_checkpoint(&self.directory.join(CHECKPOINT), &self.origin, state)
     }
     /// Says in the summary how the run ended, and draws the standard pictures. A picture that cannot be drawn is a note
     /// in the summary and no failure of the run.
@@ -273,6 +285,12 @@ impl Results {
     }
 }
 
+fn write_checkpoint(path: &Path, Origin { input, parts, terms }: &Origin, state: &State) -> Result<(), Error> {
+    let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
+    // As the fields of `Kept`.
+    checkpoint::save(path, &Head { input: *input, stamp }, &(parts, terms, state))
+}
+
 /// The files of the standard pictures.
 fn pictures() -> impl Iterator<Item = String> {
     let names = ["contact_stress", "von_mises", "forces", "convergence"].into_iter();
@@ -291,15 +309,21 @@ fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::checkpoint::InputHash;
     use super::super::fixture::Fixture;
+    use super::super::input::Kept;
     use super::super::summary::{Status, Summary};
     use super::super::vtk::{read_grid, read_series};
     use super::*;
     use crate::mesh::Space;
     use crate::solid::{Formulation, Integration};
 
-    const OPTIONS: ResultOptions =
-        ResultOptions { every: 2, checkpoint_every: 3, encoding: Encoding { base64: false, compress: false } };
+    const OPTIONS: ResultOptions = ResultOptions {
+        every: 2,
+        checkpoint_every: 3,
+        keep: Keep::Last,
+        encoding: Encoding { base64: false, compress: false },
+    };
 
     fn states(fixture: &Fixture) -> Vec<State> {
         let step = |before: &State, i: i32| Some(fixture.after(before, 0.2 * f64::from(i)));
@@ -310,8 +334,8 @@ mod tests {
         Fixture::new(Space::Axisymmetric, Formulation::Standard, Integration::Reduced)
     }
 
-    fn input() -> InputHash {
-        InputHash::of(&[b"deck"])
+    fn origin() -> Origin {
+        Origin { input: InputHash::of(&[b"deck"]), ..Origin::default() }
     }
 
     /// Writes the increments after the first `done`.
@@ -325,7 +349,7 @@ mod tests {
 
     fn begin(directory: &Path, fixture: &Fixture) -> Results {
         let (parts, state) = (fixture.parts(), fixture.start());
-        Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, OPTIONS, input()).unwrap()
+        Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, OPTIONS, origin()).unwrap()
     }
 
     #[test]
@@ -387,11 +411,12 @@ mod tests {
         let fixture = fixture();
         write(&mut begin(whole.path(), &fixture), &fixture, 0, 5);
         write(&mut begin(cut.path(), &fixture), &fixture, 0, 4);
-        let (stamp, state) = checkpoint::load::<State>(&cut.path().join(CHECKPOINT), &input()).unwrap();
-        assert_eq!((stamp.increment, &state), (3, &states(&fixture)[2]));
+        let (head, kept) = checkpoint::read::<Kept>(&cut.path().join(CHECKPOINT)).unwrap();
+        let state = kept.state;
+        assert_eq!((head.stamp.increment, &state), (3, &states(&fixture)[2]));
         let parts = fixture.parts();
         let source = Source { parts: &parts, state: &state, step: 0 };
-        let mut results = Results::resume(cut.path(), &source, OPTIONS, input()).unwrap();
+        let mut results = Results::resume(cut.path(), &source, OPTIONS, origin()).unwrap();
         let balance = results.account.certificate.figure("energy_balance");
         assert!(balance.is_some(), "the certificate covers the rows before the restart");
         write(&mut results, &fixture, 3, 5);

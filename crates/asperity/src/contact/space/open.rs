@@ -14,10 +14,11 @@ use crate::contact::kink::{answer, answer_by_mean};
 use crate::contact::nonlocal;
 use crate::contact::record::{entry, leave, stresses, write};
 use crate::contact::seed::Seed;
-use crate::interface::{Linearised, Past};
+use crate::interface::{Interface, Linearised, Past};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::{Dual, Vec3};
 use crate::tool::space::Hit;
+use std::sync::Arc;
 
 pub(super) type D = Dual<DIRECTIONS>;
 
@@ -25,6 +26,8 @@ pub(super) type D = Dual<DIRECTIONS>;
 pub struct OpenContact<'a> {
     /// The contact.
     pub contact: &'a Contact,
+    /// The law at its end.
+    pub law: Arc<dyn Interface>,
     /// Its history in the accepted state.
     pub history: &'a History,
     /// Accepted unknowns.
@@ -90,7 +93,7 @@ impl Attempt for OpenContact<'_> {
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, (stencil, local.wants_tangent), &local.u)? else {
             write_hit(&self.contact.parts.surface.points[index], None, new);
-            leave(&*self.contact.parts.law, self.history.slot(index), new);
+            leave(&*self.law, self.history.slot(index), new);
             return Ok(0);
         };
         if local.wants_tangent {
@@ -112,7 +115,7 @@ impl Attempt for OpenContact<'_> {
     }
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        let (law, past, least) = (&*self.contact.parts.law, self.past(stencil), self.contact.least);
+        let (law, past, least) = (&*self.law, self.past(stencil), self.contact.least);
         if self.contact.neighbours.is_empty() {
             return answer(law, &past, least, y);
         }
@@ -149,7 +152,7 @@ impl OpenContact<'_> {
         let place = Self::seeded::<T>(g);
         let mut past = self.past(index);
         if g.before.entered {
-            past.penetration = self.contact.parts.law.touch(&past);
+            past.penetration = self.law.touch(&past);
         }
         let constants = self.constants(index, g, &past, local.acting);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
@@ -157,7 +160,7 @@ impl OpenContact<'_> {
         new[entry::CLOSURE] = constants.closure;
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let mean = self.mean_pressure(index, g, &local.u);
-        let law = (&*self.contact.parts.law, mean.as_ref().map(|mean| mean.pressure));
+        let law = (&*self.law, mean.as_ref().map(|mean| mean.pressure));
         let mut by_mean = [0.0; 2];
         let (_, closed) = point::evaluate(&place, &constants, |motion| {
             let (response, slopes) = nonlocal::ask(law, motion, &past, &mut new[entry::COUNT..])?;
@@ -165,7 +168,7 @@ impl OpenContact<'_> {
             Ok(response)
         })?;
         let Some(closed) = closed else {
-            leave(&*self.contact.parts.law, self.history.slot(index), new);
+            leave(&*self.law, self.history.slot(index), new);
             self.account(index, g, Carried::default(), local);
             return Ok(0);
         };
@@ -190,13 +193,12 @@ impl OpenContact<'_> {
     }
 
     fn constants(&self, index: usize, g: &Geometry, past: &Past, acting: Option<Coordinates>) -> Constants {
-        let parts = &self.contact.parts;
         Constants {
             normal: g.hit.normal,
             closure: self.closure(index),
             before: past.penetration,
-            touch: parts.law.touch(past),
-            opens: parts.law.opens(past, g.place.slip()),
+            touch: self.law.touch(past),
+            opens: self.law.opens(past, g.place.slip()),
             least: self.contact.least,
             weight: g.spot.weight,
             acting,

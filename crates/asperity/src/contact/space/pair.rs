@@ -13,7 +13,7 @@ use crate::contact::pair::{CLOSED, ahead};
 use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
 use crate::contact::search::relatives;
 use crate::contact::{ContactOptions, Loads, Normals};
-use crate::interface::Interface;
+use crate::interface::{Interface, Rule};
 use crate::mesh::{CellView, Mesh, Side};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
@@ -36,7 +36,7 @@ pub struct Parts {
     /// What they may touch.
     pub target: Target,
     /// The law of the interface.
-    pub law: Arc<dyn Interface>,
+    pub law: Rule,
     /// How it is computed.
     pub options: ContactOptions,
 }
@@ -92,7 +92,7 @@ impl Contact {
             contact.corners = contact.corners_of_faces();
             contact.opposite = contact.corners_of_target();
         }
-        if let Some(radius) = radius(&*contact.parts.law) {
+        if let Some(radius) = radius(contact.parts.law.first()) {
             let places: Vec<Vec3> = contact.rays().iter().map(|ray| ray.origin).collect();
             let face = |i: usize| contact.parts.surface.points[i].face;
             contact.neighbours = Neighbours::new(&places, face, radius, |i| contact.undeformed_area(i));
@@ -122,7 +122,7 @@ impl Contact {
     }
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
-        &*self.parts.law
+        self.parts.law.first()
     }
     /// The largest penetration at a closed point, from the history of a state; a length.
     pub fn largest_penetration(&self, history: &History) -> f64 {
@@ -232,7 +232,7 @@ impl Term for Contact {
     }
 
     fn initial(&self) -> History {
-        let vars: usize = self.parts.law.variables().iter().map(|v| v.len()).sum();
+        let vars: usize = self.parts.law.first().variables().iter().map(|v| v.len()).sum();
         let points = self.parts.surface.points.iter().map(|_| entry::COUNT + vars);
         let corners = self.parts.options.augmentation.map(|_| self.corners.count());
         let mut history = History::new(points.chain(corners));
@@ -240,7 +240,7 @@ impl Term for Contact {
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             write_hit(&self.parts.surface.points[i], hit, history.slot_mut(i));
             self.parts.options.overlap.begin(history.slot_mut(i), self.least);
-            self.parts.law.initial(&mut history.slot_mut(i)[entry::COUNT..]);
+            self.parts.law.first().initial(&mut history.slot_mut(i)[entry::COUNT..]);
         }
         history
     }
@@ -254,6 +254,7 @@ impl Term for Contact {
         let parts = &self.parts;
         Ok(Box::new(OpenContact {
             contact: self,
+            law: parts.law.at(at.step, at.step_time)?,
             history,
             accepted: &accepted.u,
             standing: parts.target.deforms().then(|| parts.target.stand(&accepted.u)),

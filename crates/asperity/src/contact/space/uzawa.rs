@@ -104,7 +104,7 @@ impl Contact {
         let borne = new[entry::PRESSURE] / parts.options.penalty;
         let (closed, sticks) = (status != PointStatus::Open, status == PointStatus::Stick);
         let seen = || new[entry::PENETRATION] + new[entry::CLOSURE] - shift.closure;
-        let gap = || seen() - touch_after(&*parts.law, &parts.options, new);
+        let gap = || seen() - touch_after(parts.law.first(), &parts.options, new);
         let [slip, borne_shear] = slips(old, new, parts.options.tangential_penalty);
         let along = |[s, t]: [f64; 2]| frame[0] * s + frame[1] * t;
         Some(Report {

@@ -49,7 +49,7 @@ impl Builder<'_> {
         (plane_tools, solid_tools): (&[Arc<Tool>], SolidTools),
         backings: &[Backing],
     ) -> Option<FieldContact> {
-        let law = self.interface(keys)?;
+        let law = self.interface(name, keys)?;
         if !self.check_field(keys) {
             return None;
         }

@@ -30,7 +30,7 @@ impl Builder<'_> {
         tools: &[Arc<Tool>],
         backings: &[Backing],
     ) -> Option<Vec<Contact>> {
-        let law = self.interface(keys)?;
+        let law = self.interface(name, keys)?;
         let (mesh, dofs) = (self.site.mesh.clone(), self.site.dofs.clone());
         let sides = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;

@@ -123,6 +123,8 @@ fn every_key_changes_the_model() {
     }
     // There is one version so far, and no other to compare with.
     assert!(idle.remove(".version"));
+    // Where nothing bears yet a fluid comes everywhere: `tests/fluids.rs` has contact that does.
+    assert!(idle.remove(".step.ITEM.pressure.NAME.from"));
     assert!(idle.is_empty(), "read and ignored: {idle:#?}");
 }
 
@@ -172,7 +174,7 @@ fn keys_of_solver_and_output_change_the_run() {
         "solver.iterations=2",
         "solver.piecewise=false",
         "output.every=3",
-        "output.checkpoint_every=4",
+        "output.checkpoints=steps",
         "step.1.increments.most=2",
         "step.1.increments.first=0.1",
         "step.1.increments.largest=0.3",
@@ -181,6 +183,9 @@ fn keys_of_solver_and_output_change_the_run() {
     for change in changes {
         assert_ne!(plain, run(&[change]), "{change}");
     }
+    // At the end only the last checkpoint is there, unless all are kept.
+    let all = "output.checkpoints=all";
+    assert_ne!(run(&[all]), run(&[all, "output.checkpoint_every=4"]));
     // Full corrections serve that run well; the search has work where points find out one by one about a ridge.
     let ridge = "{ line = [[9.0, -1.0], [2.2, 0.0]] }, { line = [[2.2, 0.0], [-9.0, -5.0]] }";
     let hard = [&*format!("tool.plate.profile=[{ridge}]"), "solver.piecewise=false"];

@@ -6,7 +6,7 @@ mod perturbed;
 
 use asperity::contact::{Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Normals, Surface, Target};
 use asperity::interface::{
-    Interface, Law,
+    Rule,
     laws::{Coulomb, OdenPires},
 };
 use asperity::mesh::generate::Rectangle;
@@ -65,7 +65,7 @@ fn tool(shape: &str) -> Arc<Tool> {
     Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)))
 }
 
-fn scene_of((mesh, space): (Mesh, Space), against: Against, law: Arc<dyn Interface>, options: ContactOptions) -> Scene {
+fn scene_of((mesh, space): (Mesh, Space), against: Against, law: Rule, options: ContactOptions) -> Scene {
     let dofs = Dofs::new(2, mesh.points.len(), 1);
     let mesh = Arc::new(mesh);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
@@ -82,7 +82,7 @@ fn scene_of((mesh, space): (Mesh, Space), against: Against, law: Arc<dyn Interfa
 }
 
 fn scene(cell: &str, against: Against, space: Space, options: ContactOptions) -> Scene {
-    scene_of((mesh(cell, 0.2), space), against, Arc::new(Law(Coulomb::new(0.4))), options)
+    scene_of((mesh(cell, 0.2), space), against, Coulomb::new(0.4).into(), options)
 }
 
 impl Scene {
@@ -184,7 +184,7 @@ fn tangents_of_other_forms_are_exact() {
         let variational = ContactOptions { form: ContactForm::Variational, ..options(Normals::Averaged, Loads::Both) };
         let met = scene("quad8", Against::Tool("parabola"), space, variational).check(0.13);
         assert!(met.good(), "{met:?}");
-        let law = Arc::new(Law(OdenPires { friction: 0.4, length: 0.05, radius: 0.5 }));
+        let law = OdenPires { friction: 0.4, length: 0.05, radius: 0.5 }.into();
         let parts = (mesh("quad4", 0.2), space);
         let nonlocal = scene_of(parts, Against::Tool("line"), law, options(Normals::Averaged, Loads::Both));
         let met = nonlocal.check(0.25);
@@ -237,7 +237,7 @@ fn a_turned_state_has_turned_forces() {
 fn a_flat_surface_answers_as_with_its_own_normals() {
     for against in [Against::Tool("line"), Against::Wide, Against::Narrow] {
         let [flat, bent] = [0.0, 0.2].map(|bow| {
-            let law: Arc<dyn Interface> = Arc::new(Law(Coulomb::new(0.4)));
+            let law: Rule = Coulomb::new(0.4).into();
             let both = [Normals::Own, Normals::Averaged].map(|normals| {
                 let parts = (mesh("quad4", bow), Space::PlaneStrain);
                 scene_of(parts, against, law.clone(), options(normals, Loads::Both))

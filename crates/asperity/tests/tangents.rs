@@ -7,10 +7,7 @@ mod perturbed;
 use asperity::Failure;
 use asperity::contact::{Augmentation, Contact, ContactForm, ContactOptions, Loads, Role, Surface, Target};
 use asperity::declare::find;
-use asperity::interface::{
-    Law,
-    laws::{Coulomb, OdenPires},
-};
+use asperity::interface::laws::{Coulomb, OdenPires};
 use asperity::material::{Material, Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
@@ -125,7 +122,7 @@ fn contact_with(
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
     let mut options = ContactOptions { thickness: 0.8, ..perturbed::options(Loads::Both) };
     change(&mut options);
-    let law = Arc::new(Law(Coulomb::new(friction)));
+    let law = Coulomb::new(friction).into();
     let parts = (mesh, dofs.clone(), space);
     let target = Target::tool(tool, 0, &dofs);
     (Contact::new("c", parts, (surface, boundary), target, (law, options)), dofs)
@@ -278,7 +275,7 @@ fn nonlocal(radius: f64, space: Space) -> (Contact, Dofs) {
     let tool = Arc::new(Tool::new("t", vec![profile], Vec3::new(1.5, -1.0, 0.0)));
     let boundary = mesh.boundary(&[0, 1, 2]);
     let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
-    let law = Arc::new(Law(OdenPires { friction: 0.4, length: 0.05, radius }));
+    let law = OdenPires { friction: 0.4, length: 0.05, radius }.into();
     let options = *contact("quad8", "line", space).0.options();
     let target = Target::tool(tool, 0, &dofs);
     (Contact::new("c", (mesh, dofs.clone(), space), (surface, boundary), target, (law, options)), dofs)

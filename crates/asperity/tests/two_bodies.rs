@@ -5,7 +5,7 @@
 mod perturbed;
 
 use asperity::contact::{Contact, ContactOptions, Faces, Loads, Surface, Target};
-use asperity::interface::{Law, laws::Coulomb};
+use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
 use asperity::system::{Attempt, Dofs, Local, Stencils, Term};
@@ -46,7 +46,7 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
     let boundary = mesh.boundary(&mesh.groups[body].cells);
     let options = ContactOptions { thickness: 0.8, ..perturbed::options(loads) };
     let parts = (mesh.clone(), dofs.clone(), space);
-    let law = Arc::new(Law(Coulomb::new(0.4)));
+    let law = Coulomb::new(0.4).into();
     (Contact::new("c", parts, (surface, boundary), target, (law, options)), dofs)
 }
 

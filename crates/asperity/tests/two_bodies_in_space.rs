@@ -7,7 +7,7 @@ mod perturbed;
 
 use asperity::contact::Loads;
 use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
-use asperity::interface::{Law, laws::Coulomb};
+use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh};
 use asperity::system::{Attempt, Dofs, Local, State, Stencils, Term};
@@ -200,7 +200,7 @@ fn a_ring_that_closes_touches_itself() {
             surface: Surface::new(&mesh, &sides, None),
             boundary: mesh.boundary(&mesh.groups["ring"].cells),
             target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), &sides)),
-            law: Arc::new(Law(Coulomb::new(0.4))),
+            law: Coulomb::new(0.4).into(),
             options,
             dofs: dofs.clone(),
             mesh: mesh.clone(),

@@ -1,6 +1,6 @@
 //! The law of a contact over a run: one law, or one whose numbers run in time.
 
-use super::Interface;
+use super::{Interface, InterfaceLaw, Law};
 use crate::Failure;
 use std::sync::Arc;
 
@@ -17,6 +17,12 @@ pub struct Rule {
 impl From<Arc<dyn Interface>> for Rule {
     fn from(law: Arc<dyn Interface>) -> Self {
         Self { first: law, course: None }
+    }
+}
+
+impl<L: InterfaceLaw> From<L> for Rule {
+    fn from(law: L) -> Self {
+        Self { first: Arc::new(Law(law)), course: None }
     }
 }
 

@@ -53,7 +53,7 @@ impl DistributedLoad {
         components: Vec<Timeline>,
     ) -> Result<Self, Error> {
         let sum: f64 = carriers.iter().map(|(_, weight)| weight).sum();
-        if !(sum > 0.0) {
+        if sum.is_nan() || sum <= 0.0 {
             return Err(Error::input(format!("'{name}': the weights of the nodes have no positive sum")));
         }
         let weights: Vec<f64> = carriers.iter().map(|(_, weight)| weight / sum).collect();

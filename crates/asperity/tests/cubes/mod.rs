@@ -3,7 +3,7 @@
 use super::perturbed::{Random, options};
 use asperity::contact::space::{Contact, Parts, Surface, Target};
 use asperity::contact::{ContactForm, ContactOptions, Loads};
-use asperity::interface::{InterfaceLaw, Law};
+use asperity::interface::InterfaceLaw;
 use asperity::mesh::{Cell, generate::Block};
 use asperity::system::Dofs;
 use asperity::tensor::Vec3;
@@ -67,7 +67,7 @@ pub fn contact_with<L: InterfaceLaw>(
         dofs: dofs.clone(),
         boundary,
         target: Target::tool(tool, 0, &dofs),
-        law: Arc::new(Law(law)),
+        law: law.into(),
         options,
     };
     (Contact::new(parts), dofs)

@@ -3,7 +3,7 @@
 use super::perturbed::Random;
 use asperity::contact::ContactOptions;
 use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
-use asperity::interface::{Law, laws::Coulomb};
+use asperity::interface::laws::Coulomb;
 use asperity::mesh::Mesh;
 use asperity::system::Dofs;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions
         surface: Surface::new(&mesh, sides(own), None),
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides(other))),
-        law: Arc::new(Law(Coulomb::new(friction))),
+        law: Coulomb::new(friction).into(),
         options,
         dofs: dofs.clone(),
         mesh: mesh.clone(),

@@ -178,7 +178,8 @@ impl<'d> Builder<'d> {
             let from = first.from.as_ref();
             let (title, value, sides) = (format!("pressure.{name}"), self.pressure_value(name), self.sides(name));
             let (source, bearing) = (from.map(|from| self.nodes(&from.text).to_vec()), self.bearing.clone());
-            let fluid = PenetratingPressure::new(&title, self.site.clone(), (&sides, source.as_deref()), value, bearing);
+            let fluid =
+                PenetratingPressure::new(&title, self.site.clone(), (&sides, source.as_deref()), value, bearing);
             fluids.push(Arc::new(self.keep(fluid, from.unwrap_or(name).place)?));
         }
         Some(fluids)

@@ -144,6 +144,46 @@ def check_reactions(bodies, row, figures):
         figures.add("nodal reactions and reaction.GROUP", forces.sum(), float(value), size, ROUNDING)
 
 
+# The order of a symmetric tensor in VTU, in PyVista's nine components of an XDMF file and in meshio's six.
+NINE = [0, 4, 8, 1, 5, 2]
+SIX = [0, 3, 5, 1, 4, 2]
+
+
+def check_xdmf(path, bodies, figures):
+    """All frames in one file, by both readers, against the frames of the bodies."""
+    reader = pyvista.get_reader(str(path))
+    with meshio.xdmf.TimeSeriesReader(path) as other:
+        points, _ = other.read_points_cells()
+        found = {time: (points, fields) for time, fields, _ in map(other.read_data, range(other.num_steps))}
+    for time, grid in bodies.items():
+        reader.set_active_time_value(time)
+        own, (points, fields) = reader.read(), found[time]
+        same = np.array_equal(points, grid.points) and np.array_equal(own.points, grid.points)
+        sizes = [mesh.compute_cell_sizes().cell_data for mesh in (own, grid)]
+        measure = [np.asarray(size["Area"]) + np.asarray(size["Volume"]) for size in sizes]
+        figures.add("cells of the XDMF file", measure[0], measure[1], float(np.max(measure[1])), ROUNDING)
+        for name in set(grid.point_data) & set(fields):
+            wanted = np.nan_to_num(np.asarray(grid.point_data[name]))
+            arrays = [np.asarray(own.point_data[name]), fields[name]]
+            if wanted.ndim > 1 and wanted.shape[1] == 6:
+                arrays = [array.reshape(len(wanted), -1) for array in arrays]
+                arrays = [array[:, NINE if array.shape[1] == 9 else SIX] for array in arrays]
+            same &= all(np.array_equal(array, wanted) for array in arrays)
+        figures.add("arrays of the XDMF file", 0.0 if same else 1.0, 0.0, 1.0, 0.0)
+
+
+def check_deformed(series, bodies, figures):
+    for time, path in series.items():
+        figures.add("points of deformed.pvd", pyvista.read(path).points, moved(bodies[time]), 1.0, 0.0)
+
+
+def check_surfaces(path, contacts, figures):
+    """The mean pressures of faces lie within those at the points."""
+    mean = np.asarray(pyvista.read(path).cell_data["contact_pressure"])
+    within = np.max(mean, initial=0.0) <= np.max(contacts.point_data["contact_pressure"], initial=0.0) * (1.0 + ROUNDING)
+    figures.add("pressure on faces within that at points", 0.0 if within else 1.0, 0.0, 1.0, 0.0)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("directory", type=Path)
@@ -152,20 +192,28 @@ def main():
     directory = arguments.directory
     summary = json.loads((directory / "summary.json").read_text())
     with open(directory / "history.csv", newline="") as file:
-        history = list(csv.DictReader(file))
-    series = {name: frames(directory, name) for name in ("bodies", "points", "contacts", "tools")}
-    figures = Figures()
+        # Units stand behind the names of columns where the deck names them.
+        history = [{name.split(" [")[0]: value for name, value in row.items()} for row in csv.DictReader(file)]
+    series = {name: frames(directory, name) for name in ("bodies", "points", "contacts", "tools", "surfaces", "deformed")}
+    figures, grids = Figures(), {}
     for time, path in series["bodies"].items():
         bodies, points = read(path, figures), read(series["points"][time], figures)
+        grids[time] = bodies
         contacts = read(series["contacts"][time], figures) if time in series["contacts"] else None
         if time in series["tools"]:
             read(series["tools"][time], figures)
         check_equilibrium(bodies, points, contacts, summary["space"], figures, arguments.tolerance)
+        if time in series["surfaces"]:
+            read(series["surfaces"][time], figures)
+            check_surfaces(series["surfaces"][time], contacts, figures)
         row = row_at(history, time)
         if row is not None:
             check_reactions(bodies, row, figures)
             if contacts is not None:
                 check_contacts(contacts, summary["contact_order"], row, figures)
+    check_deformed(series["deformed"], grids, figures)
+    if (directory / "results.xdmf").exists():
+        check_xdmf(directory / "results.xdmf", grids, figures)
     count = len(series["bodies"])
     print(f"{summary['title'] or directory}: {summary['status']}, {count} frames, {len(history)} rows")
     good = figures.report()

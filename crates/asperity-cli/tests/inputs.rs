@@ -75,7 +75,7 @@ fn differences(path: &Path) -> Vec<String> {
     let mesh = &made.model.mesh;
     let mut columns = BTreeMap::new();
     if expected.iter().any(|expected| expected.what[0] != "u") {
-        let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+        let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
         let directory = folder.path();
         let job = Job {
             directory,
@@ -165,6 +165,26 @@ fn the_command_takes_input_decks_as_they_are() {
     std::fs::write(folder.path().join("mine.toml"), "version = 1\n").unwrap();
     let (code, told) = asperity(folder.path(), &["translate", "block.inp", "--out", "mine.toml"]);
     assert!(code == 2 && told.contains("was not translated"), "{told}");
+}
+
+/// Files and tables that an input deck asks for: the totals of `*NODE PRINT` are the closed form of the deck.
+#[test]
+fn what_an_input_deck_asks_for_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../inp/tests/decks/outputs.inp");
+    std::fs::copy(&deck, folder.path().join("block.inp")).unwrap();
+    let (code, told) = asperity(folder.path(), &["run", "block.inp", "--no-report"]);
+    assert_eq!(code, 0, "{told}");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("block.results").join(name)).unwrap();
+    let (frd, dat) = (read("results.frd"), read("results.dat"));
+    assert!(frd.contains(" -4  CONTACT     6    1\n") && frd.ends_with(" -3\n 9999\n"));
+    let at = dat.find(" total force (fx,fy,fz) for set TOP and time  0.1000000E+01\n").expect("a total");
+    let row = dat[at..].lines().nth(2).unwrap();
+    let force: f64 = row.split_whitespace().nth(1).unwrap().parse().unwrap();
+    assert!((force + 39.60396).abs() < 1e-3, "{row}");
+    // The elements keep their numbers.
+    assert!(dat.contains("\n       101   1") && !dat.contains("\n         1   1"));
+    assert!(dat.contains(" contact pressure (point,value) for contact DRY and time"));
 }
 
 #[test]

@@ -17,7 +17,7 @@ mesh.part.slab.box = { from = [-5.0, -5.0, -1.0], to = [5.0, 5.0, 0.0], cells = 
 material.rubber.elastic = { young = 1.0, poisson = 0.3 }
 body.slab.material = "rubber"
 tool.ball.stl = { file = "ball.stl", scale = 10.0, origin = [0.0, 0.0, 10.0] }
-contact.top = { surface = "slab.front", target = "ball", law.coulomb = { friction = 0.3 } }
+contact.top = { surface = "slab.front", target = "ball", form = "paper", law.coulomb = { friction = 0.3 } }
 [[step]]
 displacement."slab.back" = { x = 0.0, y = 0.0, z = 0.0 }
 motion.ball = { x = 0.02, z = -0.05 }
@@ -54,10 +54,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let begin = Instant::now();
     let made = read(DECK, "search", folder.path(), &[]).and_then(build).map_err(|d| d.render(false))?;
     println!("deck, mesh and tree   {:9.4} s", begin.elapsed().as_secs_f64());
-    let contact = &made.model.solid_contacts[0];
-    let tool = contact.target().as_tool().ok_or("the ball is a tool")?.tool();
+    let (contact, tool) = (&made.model.contacts[0], &made.model.solid_tools[0]);
     println!("triangles             {:9}", tool.facets().len());
-    println!("contact points        {:9}", contact.surface().points.len());
+    println!("contact points        {:9}", contact.points().points.len());
     let state = made.model.problem.initial_state();
     let history = &state.histories[made.model.first_contact()];
     let begin = Instant::now();

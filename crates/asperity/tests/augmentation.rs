@@ -7,15 +7,12 @@ use asperity::system::State;
 use support::{all_bytes, bytes, columns, go_on, model, run};
 
 const ROLLER: &str = include_str!("../../../cases/hertz-cylinder/roller.toml");
-const FLUSH: &str = include_str!("../../../cases/two-body-patch/flush.toml");
-const FLUSH_BOX: &str = include_str!("../../../cases/two-body-patch/flush_box.toml");
 const RING: &str = include_str!("../../../cases/crushed-ring/ring.toml");
 const HALF: &str = include_str!("../../../cases/crushed-ring/half.toml");
-const COARSE: [&str; 5] = [
+const COARSE: [&str; 4] = [
     "mesh.part.roller.annulus.along_radius=[{ to = 49.0, cells = 6, ratio = 0.01 }, { to = 50.0, cells = 5 }]",
     "mesh.part.roller.annulus.along_angle=[{ to = -89.0, cells = 5 }, { to = 0.0, cells = 8, smooth = true }]",
     "step.load.increments.count=5",
-    "contact.foot.form=paper",
     "contact.foot.augmentation={}",
 ];
 
@@ -27,7 +24,7 @@ mesh.part.block.rectangle = { from = [0.0, 0.0], to = [4.0, 2.0], cells = [4, 2]
 material.rubber.elastic = { young = 10.0, poisson = 0.3 }
 body.block.material = "rubber"
 tool.plate.profile = [{ line = [[9.0, 0.0], [-9.0, 0.0]] }]
-contact.base = { surface = "block.bottom", target = "plate", form = "paper", law.coulomb = { friction = 0.5 }, augmentation = { loops = 40 } }
+contact.base = { surface = "block.bottom", target = "plate", law.coulomb = { friction = 0.5 }, augmentation = { loops = 40 } }
 [[step]]
 increments.count = 2
 displacement."block.top" = { x = 0.0, y = -0.1 }
@@ -73,7 +70,6 @@ fn penetration_is_taken_out() {
     assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none() && attempt.augmentations() <= 6));
     assert!(keep.attempts.iter().any(|attempt| attempt.augmentations() > 0));
     assert!(columns["contact.foot.nodal_penetration"].iter().all(|left| *left <= 1e-6));
-    assert!(last(&columns, "contact.foot.facet_mismatch") > 0.0);
     assert!((last(&columns, "contact.foot.force.y") - 500.0).abs() < 1e-4);
 }
 
@@ -108,7 +104,7 @@ fn creep_is_taken_out() {
         assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
         let slip = |state: &State| {
             let history = &state.histories[model.first_contact()];
-            model.contacts[0].records(&state.u, history).map(|record| record.slip).collect::<Vec<_>>()
+            model.field_contacts[0].records(&state.u, history).iter().map(|record| record.slip).collect::<Vec<_>>()
         };
         let (pressed, drawn) = (slip(&keep.states[1]), slip(&keep.states[5]));
         pressed.iter().zip(drawn).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -150,78 +146,30 @@ fn multipliers_are_part_of_the_state() {
     assert!(whole == all_bytes(&run(&twice)));
 }
 
-/// Penetrations at the nodes of every increment, and the largest difference of the mean pressures of both sides.
-fn nodal(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> [f64; 2] {
-    let column = |what: &str| columns.get(&format!("contact.{name}.{what}"));
-    let most = |what: &str| column(what).into_iter().flatten().copied().fold(0.0, f64::max);
-    [most("nodal_penetration"), most("mismatch")]
-}
-
-/// Two passes, in the plane and in space: the target's side follows the surface's multipliers, so that pressure and
-/// counter-pressure stay equal where they were.
-#[test]
-fn two_passes_share_their_multipliers() {
-    for deck in [FLUSH, FLUSH_BOX] {
-        let model = model(deck, &["contact.joint.augmentation={}", "contact.joint.penalty=2e3"]);
-        let keep = run(&model);
-        assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none() && attempt.augmentations() > 0));
-        let [left, mismatch] = nodal(&columns(&model, &keep), "joint");
-        assert!(left <= 1e-6 && mismatch < 1e-9, "{left} {mismatch}");
-    }
-}
-
-/// Pressed and sheared between rough plates, where stresses peak at the corners: the penalty no longer matters, and two
-/// passes bear what one bears.
-#[test]
-fn two_passes_do_without_their_penalty() {
-    let step = r#"
-[[step]]
-increments.count = 2
-displacement."foundation.bottom" = { x = 0.0, y = 0.0 }
-displacement."punch.top" = { x = 0.002, y = -0.01 }
-"#;
-    let deck = FLUSH.split("[[step]]").next().unwrap_or_default().to_owned() + step;
-    let pressed = |passes: &str, penalty: &str| {
-        let augmented = "contact.joint.augmentation={ penetration = 1e-4, slip = 1e-4, loops = 60 }";
-        let more = ["contact.joint.law.coulomb.friction=0.3", "solver.tolerance=1e-8", augmented, passes, penalty];
-        let model = model(&deck, &more);
-        let keep = run(&model);
-        assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
-        columns(&model, &keep)
-    };
-    let (two, soft) = (
-        pressed("contact.joint.passes=two", "contact.joint.penalty=1e4"),
-        pressed("contact.joint.passes=two", "contact.joint.penalty=3e3"),
-    );
-    let one = pressed("contact.joint.passes=one", "contact.joint.penalty=1e4");
-    let [left, mismatch] = nodal(&two, "joint");
-    assert!(left <= 1e-4 && mismatch < 0.02, "{left} {mismatch}");
-    let thrust = |columns| last(columns, "contact.joint.thrust");
-    let (of_soft, of_one) = (thrust(&soft) / thrust(&two) - 1.0, thrust(&one) / thrust(&two) - 1.0);
-    assert!(of_soft.abs() < 5e-3 && of_one.abs() < 1e-2, "{of_soft} {of_one}");
+/// Largest penetration at the nodes in any increment.
+fn nodal(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> f64 {
+    columns[&format!("contact.{name}.nodal_penetration")].iter().copied().fold(0.0, f64::max)
 }
 
 /// A ring that touches itself is twice its half on a plane, with multipliers as without, and whatever the penalty.
 #[test]
 fn a_surface_that_touches_itself_is_augmented() {
     let crushed = |deck: &str, sets: [&str; 2]| {
-        let model =
-            model(deck, &["contact.bore.form=paper", "contact.bore.augmentation={ loops = 60 }", sets[0], sets[1]]);
+        let model = model(deck, &["contact.bore.augmentation={ loops = 60 }", sets[0], sets[1]]);
         let keep = run(&model);
         assert!(keep.attempts.iter().any(|attempt| attempt.augmentations() > 0));
         columns(&model, &keep)
     };
     let ring = |penalty: &str| crushed(RING, ["mesh.part.ring.annulus.cells=[1, 192]", penalty]);
     let (stiff, soft) = (ring("contact.bore.penalty=1e4"), ring("contact.bore.penalty=3e3"));
-    assert!([&stiff, &soft].into_iter().all(|columns| nodal(columns, "bore")[0] <= 1e-6));
+    assert!([&stiff, &soft].into_iter().all(|columns| nodal(columns, "bore") <= 1e-6));
     let half = crushed(HALF, ["mesh.part.ring.annulus.cells=[1, 96]", "contact.bore.penalty=2e4"]);
-    let bare =
-        model(RING, &["mesh.part.ring.annulus.cells=[1, 192]", "contact.bore.form=paper", "contact.bore.penalty=3e3"]);
+    let bare = model(RING, &["mesh.part.ring.annulus.cells=[1, 192]", "contact.bore.penalty=3e3"]);
     let bare = columns(&bare, &run(&bare));
     let [force, soft, half, bare] = [&stiff, &soft, &half, &bare].map(|columns| last(columns, "reaction.top.y"));
-    assert!((force / half - 1.0).abs() < 1e-5, "{force} {half}");
+    assert!((force / half - 1.0).abs() < 2e-5, "{force} {half}");
     // What is left is where along the last edge the contact ends.
-    assert!((soft / force - 1.0).abs() < 4e-3 && (bare / force - 1.0).abs() > 0.02, "{force} {soft} {bare}");
+    assert!((soft / force - 1.0).abs() < 0.015 && (bare / force - 1.0).abs() > 0.02, "{force} {soft} {bare}");
 }
 
 /// In space.

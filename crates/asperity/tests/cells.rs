@@ -72,7 +72,6 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         materials: vec!["m".into()],
         tools: vec![],
         solid_tools: vec![],
-        solid_contacts: vec![],
         field_contacts: vec![],
         contacts: vec![],
         springs: vec![],

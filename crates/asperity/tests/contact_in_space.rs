@@ -4,8 +4,7 @@
 mod cubes;
 mod perturbed;
 
-use asperity::contact::ContactForm;
-use asperity::contact::space::{Contact, Rigid};
+use asperity::contact::PaperContact;
 use asperity::deck::{build, read};
 use asperity::interface::laws::Coulomb;
 use asperity::output::{Job, Limits, Start, simulate};
@@ -21,22 +20,18 @@ use std::path::Path;
 const ALLOWED: f64 = 1e-7;
 
 /// A contact of a single cell with Coulomb friction.
-fn contact(cell: &str, kind: &str) -> (Contact, Dofs) {
+fn contact(cell: &str, kind: &str) -> (PaperContact, Dofs) {
     with_friction(cell, kind, 0.4)
 }
 
-fn with_friction(cell: &str, kind: &str, friction: f64) -> (Contact, Dofs) {
-    cubes::contact((cell, 1), kind, Coulomb::new(friction), ContactForm::Traction)
-}
-
-fn rigid(contact: &Contact) -> &Rigid {
-    contact.target().as_tool().unwrap()
+fn with_friction(cell: &str, kind: &str, friction: f64) -> (PaperContact, Dofs) {
+    cubes::contact((cell, 1), kind, Coulomb::new(friction))
 }
 
 /// A pressure of some steps of the differences, times the penalty.
 const LITTLE: f64 = 1e-2;
 
-fn pressures(contact: &Contact, state: &State) -> Vec<f64> {
+fn pressures(contact: &PaperContact, state: &State) -> Vec<f64> {
     contact.records(&state.u, &state.histories[0]).iter().map(|record| record.pressure).collect()
 }
 
@@ -93,7 +88,7 @@ fn a_loaded_pair_turns_without_slip() {
             (0..3).for_each(|axis| u[first + axis] = now[axis]);
         };
         (0..rest).for_each(|node| carry(contact.mesh().points[node], dofs.node(node)));
-        carry(rigid(&contact).tool().reference(), dofs.tool(0));
+        carry(contact.pole(&vec![0.0; dofs.count()]), dofs.tool(0));
         (0..3).for_each(|i| u[dofs.tool(0) + 3 + i] = axis[i]);
         let turned = commit(&contact, &loaded, u).unwrap();
         let before = contact.records(&loaded.u, &loaded.histories[0]);
@@ -133,7 +128,10 @@ fn forces_and_moments_of_the_two_sides_balance() {
         }
         let (tool, pole) = (dofs.tool(0), contact.pole(&u));
         let f = at(&sum, tool);
-        (force, moment) = (force + f, moment + pole.cross(f) + rigid(&contact).pose(&u).moment(at(&sum, tool + 3)));
+        (force, moment) = (
+            force + f,
+            moment + pole.cross(f) + Pose::new(std::array::from_fn(|i| u[tool + i])).moment(at(&sum, tool + 3)),
+        );
         assert!(force.norm() <= 1e-13 * size && moment.norm() <= 1e-13 * size, "{force:?} {moment:?}");
         pressed += usize::from(size > 1e-3);
     }
@@ -170,7 +168,7 @@ increments.count = 30
     let directory = tempfile::tempdir().unwrap();
     let job = Job {
         directory: directory.path(),
-        options: made.deck.output.options(),
+        options: made.results.clone(),
         input: made.input,
         parts: &made.parts,
         asked: None,

@@ -24,7 +24,7 @@ fn limit(sets: &[&str]) -> (f64, f64) {
 }
 
 #[test]
-fn the_variational_form_keeps_the_energy() {
+fn a_field_keeps_the_energy() {
     let (left, order) = limit(&[]);
     assert!(left.abs() < 1e-6 && order > 1.8, "{left:.2e} {order}");
     let (traction, _) = limit(&["contact.base.form=paper"]);

@@ -1,62 +1,22 @@
-//! The variational form and friction by a mean pressure, both with tools in space: tangents against differences, the
-//! potential, the weights of the mean, and whole runs.
+//! Friction by a mean pressure with tools in space: tangents against differences, the weights of the mean, and a whole run.
 
 mod cubes;
 mod perturbed;
 mod support;
 
-use asperity::contact::ContactForm;
-use asperity::contact::space::Contact;
-use asperity::interface::laws::{Coulomb, OdenPires};
+use asperity::contact::PaperContact;
+use asperity::interface::laws::OdenPires;
 use asperity::system::{Dofs, State, Stencils, Term};
 use cubes::{contact, motion};
-use perturbed::{Random, check, commit, gradient_error, instant, state};
-use support::{columns, go_on, model, run};
+use perturbed::{Random, check, commit, instant, state};
+use support::{go_on, model, run};
 
 /// Largest difference of an entry over the largest entry.
 const ALLOWED: f64 = 1e-7;
 
-#[test]
-fn tangents_of_the_variational_form_are_exact() {
-    for (cell, kind) in [("hex8", "quad"), ("hex20", "sphere"), ("tet10", "cone"), ("hex27", "torus")] {
-        let made = contact((cell, 1), kind, Coulomb::new(0.4), ContactForm::Variational);
-        let ((contact, dofs), mut random) = (made, Random(13));
-        let start = state(vec![0.0; dofs.count()], contact.initial());
-        let (mut met, mut worst) = ([0; 3], 0.0_f64);
-        for _ in 0..60 {
-            let accepted = commit(&contact, &start, motion(&dofs, &mut random)).unwrap();
-            let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
-            let trial = motion(&dofs, &mut random);
-            let end = commit(&contact, &accepted, trial.clone()).unwrap();
-            let records = contact.records(&end.u, &end.histories[0]);
-            for (result, record) in check(attempt.as_ref(), &trial).unwrap().into_iter().zip(records) {
-                met[usize::from(result.branch)] += 1;
-                // Where hardly anything is left of the pressure, the steps of the differences are not small.
-                let smooth = result.smooth && (record.pressure == 0.0 || record.pressure > 1e-2);
-                worst = if smooth { worst.max(result.error) } else { worst };
-            }
-        }
-        assert!(met.iter().all(|&met| met >= 4) && worst < ALLOWED, "{cell} {kind}: {met:?} {worst:.1e}");
-    }
-}
-
-/// Without friction its forces are the gradient of the energy that it stores; those of the paper's form are not.
-#[test]
-fn the_variational_form_has_a_potential() {
-    for (cell, kind) in [("hex8", "cone"), ("hex20", "sphere")] {
-        let [potential, traction] = [ContactForm::Variational, ContactForm::Traction].map(|form| {
-            let ((contact, dofs), mut random) = (contact((cell, 1), kind, Coulomb::new(0.0), form), Random(17));
-            let start = state(vec![0.0; dofs.count()], contact.initial());
-            let attempt = contact.attempt(&start, &start.histories[0], instant()).unwrap();
-            (0..60).map(|_| gradient_error(attempt.as_ref(), &motion(&dofs, &mut random))).fold(0.0, f64::max)
-        });
-        assert!(potential < ALLOWED && traction > 1e-3, "{cell} {kind}: {potential:.1e} {traction:.1e}");
-    }
-}
-
 /// Two by two cells, with friction by the mean pressure within a radius.
-fn nonlocal(cell: &str, radius: f64) -> (Contact, Dofs) {
-    contact((cell, 2), "quad", OdenPires { friction: 0.4, length: 0.05, radius }, ContactForm::Traction)
+fn nonlocal(cell: &str, radius: f64) -> (PaperContact, Dofs) {
+    contact((cell, 2), "quad", OdenPires { friction: 0.4, length: 0.05, radius })
 }
 
 /// Pressed by enough to be closed everywhere: the mean has no other bends.
@@ -100,7 +60,7 @@ fn tangents_of_nonlocal_friction_are_exact() {
 fn nonlocal_friction_takes_the_mean() {
     let ((wide, dofs), (narrow, _)) = (nonlocal("hex8", 0.8), nonlocal("hex8", 1e-3));
     let u = pressed(&dofs, &mut Random(23));
-    let records = |contact: &Contact| {
+    let records = |contact: &PaperContact| {
         let start = state(vec![0.0; dofs.count()], contact.initial());
         let first = commit(contact, &start, pressed(&dofs, &mut Random(29))).unwrap();
         let end = commit(contact, &first, u.clone()).unwrap();
@@ -143,27 +103,6 @@ name = "draw"
 increments.count = 8
 displacement."block.front" = { x = 0.2, y = 0.1, z = -0.2 }
 "#;
-
-/// What a run misses of the stored energy.
-fn missing(sets: &[&str]) -> f64 {
-    let model = model(BLOCK, sets);
-    let keep = run(&model);
-    assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
-    let columns = columns(&model, &keep);
-    let last = |name: &str| *columns[name].last().unwrap();
-    last("energy.missing").abs() / last("energy.strain")
-}
-
-#[test]
-fn the_variational_form_keeps_the_energy() {
-    let form = "contact.base.form=variational";
-    let [coarse, fine] = ["8", "32"].map(|count| {
-        let counts = [0, 1].map(|step| format!("step.{}.increments.count={count}", step + 1));
-        missing(&[form, &counts[0], &counts[1]])
-    });
-    eprintln!("{coarse:.1e} {fine:.1e}");
-    assert!(fine < 0.2 * coarse, "{coarse} {fine}");
-}
 
 #[test]
 fn neighbours_are_in_the_matrix_and_in_no_state() {

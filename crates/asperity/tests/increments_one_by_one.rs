@@ -17,7 +17,7 @@ fn tube() -> Made {
 }
 
 fn job<'a>(made: &'a Made, directory: &'a Path, start: Start<'a>, facts: &'a asperity::diagnosis::Facts) -> Job<'a> {
-    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
     let (input, parts) = (made.input, &made.parts[..]);
     Job { directory, options, input, parts, asked: None, start, limits, notes: &[], facts }
 }

@@ -37,6 +37,10 @@ fn others(schema: &Schema, value: &Value, names: &[String]) -> Vec<Value> {
         }
         Schema::Flag => vec![(!value.as_bool().unwrap()).into()],
         Schema::Text("the path of a mesh file") => vec!["../meshes/plane2-41a.msh".into()],
+        Schema::Text("names of units") => vec!["kN, m".into()],
+        Schema::Text("the name of a quantity") => {
+            vec!["displacement".into(), "cauchy_stress".into(), "contact_gap".into()]
+        }
         Schema::Text("the path of an STL file") => vec!["../meshes/cube2.stl".into()],
         Schema::Text(_) => vec!["another".into()],
         Schema::Word(words) => words.iter().map(|(word, _)| Value::from(*word)).filter(|word| word != value).collect(),
@@ -175,6 +179,11 @@ fn keys_of_solver_and_output_change_the_run() {
         "solver.piecewise=false",
         "output.every=3",
         "output.checkpoints=steps",
+        "output.checkpoint_every=4",
+        "output.export=[\"frd\"]",
+        "output.export=[\"deformed\"]",
+        "output.print=[{of.nodes=\"block.top\",quantities=[\"reaction\"]}]",
+        "probe.top={at.group=\"block.top\",quantities=[\"reaction\"]}",
         "step.1.increments.most=2",
         "step.1.increments.first=0.1",
         "step.1.increments.largest=0.3",

@@ -49,6 +49,8 @@ const SLAB: Moved = ("slab", "bottom", [0.0, 0.0]);
 /// Pressed, then drawn along, then all is carried off and the drag goes on.
 const TOOLED: &[(&[Moved], [f64; 2])] =
     &[(&[HELD], [0.0, -0.02]), (&[HELD], [0.05, -0.03]), (&[("block", "bottom", [2.0, 1.0])], [2.1, 0.965])];
+/// Where points may lose a target that ends, an equilibrium need not exist: pressed and drawn only.
+const DRAWN: &[(&[Moved], [f64; 2])] = &[PAIRED[0], PAIRED[1]];
 const PAIRED: &[(&[Moved], [f64; 2])] = &[
     (&[SLAB, ("block", "top", [0.0, -0.02])], [0.0; 2]),
     (&[SLAB, ("block", "top", [0.2, -0.03])], [0.0; 2]),
@@ -75,15 +77,6 @@ const CASES: &[Case] = &[
         steps: TOOLED,
     },
     Case {
-        name: "a round tool, variational",
-        degree: 1,
-        blocks: ONE,
-        tool: Some(ARC),
-        contact: [["block", "top"], ["die", ""]],
-        keys: "law.coulomb = { friction = 0.1 }, form = \"variational\"",
-        steps: TOOLED,
-    },
-    Case {
         name: "two bodies, one pass",
         degree: 1,
         blocks: TWO,
@@ -99,7 +92,7 @@ const CASES: &[Case] = &[
         tool: None,
         contact: [["slab", "top"], ["block", "bottom"]],
         keys: "law.coulomb = { friction = 0.2 }, passes = \"one\"",
-        steps: PAIRED,
+        steps: DRAWN,
     },
     Case {
         name: "two bodies, two passes",
@@ -108,7 +101,7 @@ const CASES: &[Case] = &[
         tool: None,
         contact: [["block", "bottom"], ["slab", "top"]],
         keys: "law.coulomb = { friction = 0.2 }, passes = \"two\"",
-        steps: PAIRED,
+        steps: DRAWN,
     },
 ];
 
@@ -224,11 +217,6 @@ const COMPARED: [&str; 9] = [
 ];
 /// Largest difference, over the largest value of the column.
 const ALLOWED: f64 = 1e-7;
-/// The same for the energy of friction of two passes. On edges that are covered in part the plane fits the friction stress
-/// of the accepted state to the places of the points; in space it stays with the number of the point, since what a law that
-/// turns the stress would answer to another one is not known as a derivative.
-const REFITTED: f64 = 0.02;
-
 #[test]
 fn a_strip_and_a_layer_of_solid_cells_answer_alike() {
     let mut found = Vec::new();
@@ -250,8 +238,7 @@ fn a_strip_and_a_layer_of_solid_cells_answer_alike() {
                 let (a, b) = (&flat[name], &solid[name]);
                 let size = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
                 let off = a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-                let refitted = *name == *"energy.friction" && case.keys.contains("two");
-                if a.len() != b.len() || off > if refitted { REFITTED } else { ALLOWED } * size {
+                if a.len() != b.len() || off > ALLOWED * size {
                     found.push(format!("{}, {:?}: {name} differs by {off:.1e} of {size:.3e}", case.name, frame.axes));
                 }
             }

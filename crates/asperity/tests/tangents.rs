@@ -5,9 +5,13 @@
 mod perturbed;
 
 use asperity::Failure;
-use asperity::contact::{Augmentation, Contact, ContactForm, ContactOptions, Loads, Role, Surface, Target};
+use asperity::contact::field::FieldTarget;
+use asperity::contact::{ContactOptions, Loads, PaperContact, PaperParts, PointSurface};
 use asperity::declare::find;
-use asperity::interface::laws::{Coulomb, OdenPires};
+use asperity::interface::{
+    Rule,
+    laws::{Coulomb, OdenPires},
+};
 use asperity::material::{Material, Rate, laws::Elastic};
 use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
@@ -16,7 +20,7 @@ use asperity::solid::{Body, BodyOptions, Formulation, Integration, Strain};
 use asperity::system::{Attempt, Branch, Dofs, Local, Stencil, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::{Tool, shapes};
-use perturbed::{Random, check, commit, gradient_error, instant, state};
+use perturbed::{Random, check, commit, instant, state};
 use std::sync::Arc;
 
 /// Largest difference of an entry over the largest entry.
@@ -93,21 +97,7 @@ fn body_is_exact(
 }
 
 /// A contact of the lower side of one cell with a target of one segment below it, its tool free to move.
-fn contact(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
-    contact_with((cell, shape), space, 0.4, |_| {})
-}
-
-fn augmented(cell: &str, shape: &str, space: Space) -> (Contact, Dofs) {
-    let augmentation = Augmentation { penetration: 1e-9, slip: 1e-9, loops: 3, role: Role::Leads };
-    contact_with((cell, shape), space, 0.4, |options| options.augmentation = Some(augmentation))
-}
-
-fn contact_with(
-    (cell, shape): (&str, &str),
-    space: Space,
-    friction: f64,
-    change: impl FnOnce(&mut ContactOptions),
-) -> (Contact, Dofs) {
+fn contact(cell: &str, shape: &str, space: Space) -> (PaperContact, Dofs) {
     let mesh = Rectangle::new([1.0, 0.0], [2.0, 1.0], [1; 2], Cell::named(cell).unwrap()).mesh("b").unwrap();
     let dofs = Dofs::new(2, mesh.points.len(), 1);
     let mesh = Arc::new(mesh);
@@ -119,13 +109,27 @@ fn contact_with(
     let profile = vec![shapes::find(shape).unwrap().build(&nodes).unwrap()];
     let tool = Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)));
     let boundary = (0..mesh.kinds[0].faces.len()).map(|face| Side { cell: 0, face }).collect();
-    let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
-    let mut options = ContactOptions { thickness: 0.8, ..perturbed::options(Loads::Both) };
-    change(&mut options);
-    let law = Coulomb::new(friction).into();
-    let parts = (mesh, dofs.clone(), space);
-    let target = Target::tool(tool, 0, &dofs);
-    (Contact::new("c", parts, (surface, boundary), target, (law, options)), dofs)
+    (made((mesh, &dofs, space), boundary, tool, Coulomb::new(0.4).into()), dofs)
+}
+
+/// The contact of the lower side of a body with a tool.
+fn made(
+    (mesh, dofs, space): (Arc<Mesh>, &Dofs, Space),
+    boundary: Vec<Side>,
+    tool: Arc<Tool>,
+    law: Rule,
+) -> PaperContact {
+    PaperContact::new(PaperParts {
+        name: "c".into(),
+        surface: PointSurface::new(&mesh, &mesh.groups["b.bottom"].sides, (space, 0.8), (None, 1)),
+        mesh,
+        dofs: dofs.clone(),
+        space,
+        boundary,
+        target: FieldTarget::tool(tool, 0, dofs),
+        law,
+        options: ContactOptions { thickness: 0.8, ..perturbed::options(Loads::Both) },
+    })
 }
 
 /// Random motion: the cell by up to a tenth and downwards, its nodes and the tool by a little.
@@ -206,67 +210,8 @@ fn a_wrong_derivative_is_found() {
     assert!(found > 100);
 }
 
-/// With multipliers in play the tangent stays what it was: exact.
-#[test]
-fn tangents_of_augmented_contact_are_exact() {
-    for space in [Space::PlaneStrain, Space::Axisymmetric] {
-        let ((contact, dofs), mut random) = (augmented("quad8", "arc", space), Random(11));
-        let start = state(vec![0.0; dofs.count()], contact.initial());
-        let (mut met, mut worst, mut shifted) = ([0; 3], 0.0_f64, 0);
-        for _ in 0..300 {
-            let accepted = commit(&contact, &start, motion(&dofs, &mut random)).unwrap();
-            let mut attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
-            let trial = motion(&dofs, &mut random);
-            let mut new = commit(&contact, &accepted, trial.clone()).unwrap().histories.remove(0);
-            shifted += usize::from(attempt.augment(&trial, &mut new).unwrap());
-            for result in check(attempt.as_ref(), &motion(&dofs, &mut random)).unwrap() {
-                met[usize::from(result.branch)] += 1;
-                worst = if result.smooth { worst.max(result.error) } else { worst };
-            }
-        }
-        assert!(shifted > 200 && met.iter().all(|&met| met >= 10) && worst < ALLOWED, "{shifted} {met:?} {worst:.1e}");
-    }
-}
-
-/// The variational form: its tangent is exact too, on every shape of target, with friction.
-#[test]
-fn tangents_of_the_variational_form_are_exact() {
-    for shape in ["line", "parabola", "arc"] {
-        for space in [Space::PlaneStrain, Space::Axisymmetric] {
-            let variational = |options: &mut ContactOptions| options.form = ContactForm::Variational;
-            let ((contact, dofs), mut random) = (contact_with(("quad8", shape), space, 0.4, variational), Random(13));
-            let start = state(vec![0.0; dofs.count()], contact.initial());
-            let (mut met, mut worst) = ([0; 3], 0.0_f64);
-            for _ in 0..300 {
-                let accepted = commit(&contact, &start, motion(&dofs, &mut random)).unwrap();
-                let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
-                for result in check(attempt.as_ref(), &motion(&dofs, &mut random)).unwrap() {
-                    met[usize::from(result.branch)] += 1;
-                    worst = if result.smooth { worst.max(result.error) } else { worst };
-                }
-            }
-            assert!(met.iter().all(|&met| met >= 10) && worst < ALLOWED, "{shape} {space:?}: {met:?} {worst:.1e}");
-        }
-    }
-}
-
-/// Without friction its forces are the gradient of the energy that it stores; those of the paper's form are not.
-#[test]
-fn the_variational_form_has_a_potential() {
-    for space in [Space::PlaneStrain, Space::Axisymmetric] {
-        let [potential, traction] = [ContactForm::Variational, ContactForm::Traction].map(|form| {
-            let frictionless = |options: &mut ContactOptions| options.form = form;
-            let ((contact, dofs), mut random) = (contact_with(("quad8", "arc"), space, 0.0, frictionless), Random(17));
-            let start = state(vec![0.0; dofs.count()], contact.initial());
-            let attempt = contact.attempt(&start, &start.histories[0], instant()).unwrap();
-            (0..200).map(|_| gradient_error(attempt.as_ref(), &motion(&dofs, &mut random))).fold(0.0, f64::max)
-        });
-        assert!(potential < ALLOWED && traction > 1e-3, "{space:?}: {potential:.1e} {traction:.1e}");
-    }
-}
-
 /// A strip of three cells on a slanted line, with friction by the mean pressure within a radius.
-fn nonlocal(radius: f64, space: Space) -> (Contact, Dofs) {
+fn nonlocal(radius: f64, space: Space) -> (PaperContact, Dofs) {
     let mesh = Rectangle::new([1.0, 0.0], [2.0, 1.0], [3, 1], Cell::named("quad8").unwrap()).mesh("b").unwrap();
     let dofs = Dofs::new(2, mesh.points.len(), 1);
     let mesh = Arc::new(mesh);
@@ -274,11 +219,8 @@ fn nonlocal(radius: f64, space: Space) -> (Contact, Dofs) {
     let profile = vec![shapes::find("line").unwrap().build(&nodes).unwrap()];
     let tool = Arc::new(Tool::new("t", vec![profile], Vec3::new(1.5, -1.0, 0.0)));
     let boundary = mesh.boundary(&[0, 1, 2]);
-    let surface = Surface::new(&mesh, &mesh.groups["b.bottom"].sides, None);
     let law = OdenPires { friction: 0.4, length: 0.05, radius }.into();
-    let options = *contact("quad8", "line", space).0.options();
-    let target = Target::tool(tool, 0, &dofs);
-    (Contact::new("c", (mesh, dofs.clone(), space), (surface, boundary), target, (law, options)), dofs)
+    (made((mesh, &dofs, space), boundary, tool, law), dofs)
 }
 
 /// Pressed by enough to be closed everywhere: the mean has no other bends.
@@ -319,11 +261,11 @@ fn nonlocal_friction_takes_the_mean() {
     let ((wide, dofs), mut random) = (nonlocal(0.5, Space::PlaneStrain), Random(23));
     let (narrow, _) = nonlocal(1e-3, Space::PlaneStrain);
     let u = pressed(&dofs, &mut random);
-    let records = |contact: &Contact| {
+    let records = |contact: &PaperContact| {
         let start = state(vec![0.0; dofs.count()], contact.initial());
         let first = commit(contact, &start, pressed(&dofs, &mut Random(29))).unwrap();
         let end = commit(contact, &first, u.clone()).unwrap();
-        contact.records(&end.u, &end.histories[0]).collect::<Vec<_>>()
+        contact.records(&end.u, &end.histories[0])
     };
     let (mean, local) = (records(&wide), records(&narrow));
     let rest = |i: usize| 1.0 + (i / 2) as f64 / 3.0 + (0.5 + [-0.5, 0.5][i % 2] / 3.0_f64.sqrt()) / 3.0;

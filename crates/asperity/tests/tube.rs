@@ -20,7 +20,7 @@ fn model(deck: &str, sets: &[&str]) -> Model {
 }
 
 fn records(model: &Model, state: &State) -> Vec<PointRecord> {
-    model.contacts[0].records(&state.u, &state.histories[model.first_contact()]).collect()
+    model.contacts[0].records(&state.u, &state.histories[model.first_contact()])
 }
 
 /// Travel and force along the axis after each increment.

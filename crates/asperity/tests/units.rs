@@ -75,7 +75,7 @@ impl Scaled {
         other: &'a Self,
         frame: usize,
     ) -> impl Iterator<Item = (&'a Quantity, Vec<f64>, &'a [f64])> {
-        let places = [Place::Node, Place::Cell, Place::Gauss, Place::Contact, Place::Global];
+        let places = [Place::Node, Place::Cell, Place::Gauss, Place::Contact, Place::Face, Place::Global];
         let quantities =
             places.into_iter().flat_map(move |place| self.frames[frame].at(place).zip(other.frames[frame].at(place)));
         quantities.map(|(mine, theirs)| {

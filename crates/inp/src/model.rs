@@ -285,7 +285,7 @@ pub struct Equation {
 pub type Course = Option<usize>;
 
 /// Nodes and the name that the deck gives them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Target {
     /// The name of a set or a number.
     pub name: String,
@@ -361,6 +361,55 @@ pub struct Step {
     pub actions: Vec<Action>,
 }
 
+/// A file or a table that is to be written.
+#[derive(Debug)]
+pub struct Output {
+    /// Where it stands.
+    pub place: Place,
+    /// Every so many increments.
+    pub every: u64,
+    /// What.
+    pub kind: OutputKind,
+}
+
+/// What is to be written.
+#[derive(Debug, PartialEq)]
+pub enum OutputKind {
+    /// All fields, for viewers.
+    File,
+    /// A table of quantities, by the names that they have in results.
+    Print {
+        /// Whose.
+        whose: Printed,
+        /// The names.
+        quantities: Vec<&'static str>,
+        /// Whether values, their sum or both.
+        totals: Totals,
+    },
+}
+
+/// Whose values are printed; of all where nothing is named.
+#[derive(Debug, PartialEq)]
+pub enum Printed {
+    /// Of nodes.
+    Nodes(Option<Target>),
+    /// Of the integration points of elements.
+    Elements(Option<Target>),
+    /// Of contact pairs: their surfaces by scope and name in capitals.
+    Contacts([Option<(usize, String)>; 2]),
+}
+
+/// Values or sums.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Totals {
+    /// Values.
+    No,
+    /// Both.
+    Yes,
+    /// Sums.
+    Only,
+}
+
 /// All that a deck says.
 #[derive(Debug, Default)]
 pub struct Model {
@@ -396,6 +445,8 @@ pub struct Model {
     pub initial: Vec<Action>,
     /// Steps.
     pub steps: Vec<Step>,
+    /// What is to be written.
+    pub outputs: Vec<Output>,
 }
 
 impl Model {

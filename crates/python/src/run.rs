@@ -44,7 +44,7 @@ impl Run {
             let claim = claim.map_err(Nothing::Error)?;
             let course = match &wanted.out {
                 Some(directory) => {
-                    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+                    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
                     let (input, parts, start) = (made.input, &made.parts[..], wanted.begins());
                     let (asked, notes, facts) = (made.asked(), &notes, &facts);
                     let asked = Some(&asked);

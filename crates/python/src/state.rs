@@ -19,8 +19,13 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 /// Where fields live, by the names that users give.
-const PLACES: [(&str, Place); 4] =
-    [("node", Place::Node), ("cell", Place::Cell), ("gauss", Place::Gauss), ("contact", Place::Contact)];
+const PLACES: [(&str, Place); 5] = [
+    ("node", Place::Node),
+    ("cell", Place::Cell),
+    ("gauss", Place::Gauss),
+    ("contact", Place::Contact),
+    ("face", Place::Face),
+];
 
 /// What is read of a contact point.
 type Of<T> = fn(&PointRecord) -> T;
@@ -143,7 +148,8 @@ impl Snapshot {
         self.found.relaxed
     }
 
-    /// Names of the fields, by place: "node", "cell", "gauss" (integration points of bodies), "contact".
+    /// Names of the fields, by place: "node", "cell", "gauss" (integration points of bodies), "contact" (points), "face" (faces
+    /// of contact surfaces).
     #[getter]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let frame = self.frame(py)?;
@@ -156,7 +162,7 @@ impl Snapshot {
 
     /// A field by its name in the result files, one row a place: three columns of a vector, six of a stress (XX YY ZZ XY YZ XZ).
     ///
-    /// `at` is its place; if not given, the first of node, cell, gauss, contact that has the name.
+    /// `at` is its place; if not given, the first of node, cell, gauss, contact, face that has the name.
     #[pyo3(signature = (name, at = None))]
     fn field<'py>(&self, py: Python<'py>, name: &str, at: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
         let frame = self.frame(py)?;

@@ -177,15 +177,14 @@ impl Bench {
     }
 }
 
-/// What a case measures by default, and with `form = "paper"` said of a contact under `points-`.
+/// What a case measures by default, and under `points-` what it measures with the sets of the paper's form.
 ///
 /// # Errors
 /// Those of the case.
-pub fn both_forms(contact: &str, measure: impl Fn(&[String]) -> Result<Measured, Error>) -> Result<Measured, Error> {
-    let points = |form: String| {
-        Ok::<_, Error>(measure(&[form])?.into_iter().map(|(key, value)| (format!("points-{key}"), value)))
-    };
-    Ok(measure(&[])?.into_iter().chain(points(format!("contact.{contact}.form=paper"))?).collect())
+pub fn both_forms(paper: &[&str], measure: impl Fn(&[String]) -> Result<Measured, Error>) -> Result<Measured, Error> {
+    let paper: Vec<String> = paper.iter().map(|&set| set.to_owned()).collect();
+    let points = measure(&paper)?.into_iter().map(|(key, value)| (format!("points-{key}"), value));
+    Ok(measure(&[])?.into_iter().chain(points).collect())
 }
 
 /// The text of a file.

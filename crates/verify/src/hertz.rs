@@ -23,7 +23,7 @@ pub struct Study {
 impl Study {
     /// With the contact that is the default, and with points.
     pub fn measure(&self, bench: &Bench) -> Result<Measured, Error> {
-        both_forms("foot", |form| self.measure_form(bench, form))
+        both_forms(&["contact.foot.form=paper"], |form| self.measure_form(bench, form))
     }
 
     /// `a`, `p0`, the error of the pressure and the force on the finest mesh; the order of the error if there are more.

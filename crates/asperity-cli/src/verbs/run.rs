@@ -92,7 +92,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&a
     if let Some(translated) = translated {
         translated.write(&directory.join(format!("{}.toml", translate::stem(&arguments.deck.path))))?;
     }
-    let (options, limits) = (made.deck.output.options(), &made.deck.limits.limits);
+    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
     let facts = asperity::deck::facts(&made);
     let checkpoint = source.map(|source| taken(source, &directory)).transpose()?;
     let start = checkpoint.as_deref().map_or(Start::Beginning, Start::Kept);

@@ -9,6 +9,7 @@ use crate::mesh::Mesh;
 use crate::system::{Dofs, History, Interpenetration};
 use crate::tensor::Vec3;
 use crate::{Failure, Kind};
+use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
 /// What a contact claims, in the words of the audit.
@@ -64,6 +65,8 @@ pub(super) struct Prepared {
     pub(super) initial: Vec<f64>,
     /// For each pair whether a contact knows of it.
     known: Vec<bool>,
+    /// For each tool the nodes that contacts bear on it.
+    borne: Vec<BTreeSet<usize>>,
 }
 
 /// What a whole may lie in.
@@ -87,6 +90,8 @@ pub(super) struct Found {
     pub(super) size: f64,
     place: Vec3,
     pub(super) through: bool,
+    /// Whether it is told and not refused: a side that no contact bears has folded behind an open profile.
+    told: bool,
 }
 
 /// The worst so far, and how bad it is.
@@ -183,8 +188,14 @@ impl Prepared {
             surface.nodes.iter().for_each(|&node| whole[node] = i);
         }
         let pairs = surfaces.len() * (surfaces.len() + tools.len() + 1);
-        let mut prepared =
-            Self { surfaces, tools, claimed: Vec::new(), initial: vec![0.0; pairs], known: vec![false; pairs] };
+        let mut borne = vec![BTreeSet::new(); tools.len()];
+        for claim in &subject.claims {
+            if let Err(tool) = claim.target {
+                borne[tool].extend(&claim.surface);
+            }
+        }
+        let (initial, known) = (vec![0.0; pairs], vec![false; pairs]);
+        let mut prepared = Self { surfaces, tools, claimed: Vec::new(), initial, known, borne };
         prepared.claimed = subject.claims.iter().map(|claim| prepared.pairs_of(claim, &whole)).collect();
         let known: Vec<usize> = prepared.claimed.iter().flatten().copied().collect();
         known.into_iter().for_each(|pair| prepared.known[pair] = true);
@@ -296,7 +307,7 @@ impl Look<'_> {
                 let size = a.size_at(vertex).min(b.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), b.surface.body_of(piece)];
                 let other = Other::Whole(other);
-                found(Found { own, other, bodies, depth, sagitta, size, place: to, through });
+                found(Found { own, other, bodies, depth, sagitta, size, place: to, through, told: false });
             };
             if meet(&[to, to], &b.bounds)
                 && let Some(deep) = b.depth(to)
@@ -322,7 +333,7 @@ impl Look<'_> {
                 let size = a.size_at(vertex).min(a.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), a.surface.body_of(piece)];
                 let other = Other::Whole(own);
-                found(Found { own, other, bodies, depth, sagitta, size, place, through });
+                found(Found { own, other, bodies, depth, sagitta, size, place, through, told: false });
             };
             if is_inside(&a.tree, a.bounds, (place, normal), &|piece| !a.surface.touches(vertex, piece)) {
                 let facing = |piece: usize| far(piece) && a.normals[piece].dot(normal) < 0.0;
@@ -348,7 +359,17 @@ impl Look<'_> {
             let body = a.surface.body_at(vertex);
             let size = a.size_at(vertex);
             let (other, bodies) = (Other::Axis, [body, body]);
-            found(Found { own, other, bodies, depth: -place[0], sagitta: 0.0, size, place, through: false });
+            found(Found {
+                own,
+                other,
+                bodies,
+                depth: -place[0],
+                sagitta: 0.0,
+                size,
+                place,
+                through: false,
+                told: false,
+            });
         }
     }
 
@@ -365,15 +386,27 @@ impl Look<'_> {
         for (vertex, &place) in a.now.iter().enumerate() {
             let (size, sagitta) = (a.size_at(vertex), a.sagitta_at(vertex) + tool.sagitta);
             let body = a.surface.body_at(vertex);
+            let borne = a.surface.lies_among(vertex, &self.prepared.borne[number]);
+            let folded = !tool.closed && self.prepared.known[pair] && !borne;
             let mut report = |depth: f64, bulge: f64, through: bool| {
                 let sagitta = sagitta + bulge;
-                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place, through });
+                found(Found {
+                    own,
+                    other,
+                    bodies: [body, body],
+                    depth,
+                    sagitta,
+                    size,
+                    place,
+                    through,
+                    told: folded && !through,
+                });
             };
             let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
             let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
             let here = path[steps];
-            // Behind an open profile lies what no box about it holds; a contact looks there itself.
-            let unseen = !tool.closed && !self.prepared.known[pair];
+            // Behind an open profile lies what no box about it holds; a contact looks there itself for the points that it bears.
+            let unseen = !tool.closed && !borne;
             let behind = Vec3([if unseen { size } else { 0.0 }; 3]);
             if meet(&[here - behind, here + behind], &tool.bounds)
                 && let Some(deep) = tool.depth(here, size)
@@ -420,7 +453,17 @@ impl Look<'_> {
                 let bears = f64::from(u8::from(self.prepared.known[self.prepared.pair(own, other)]));
                 let nose = bears * (curvature * length * length / 8.0).min(0.5 * length);
                 let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
-                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place: here, through });
+                found(Found {
+                    own,
+                    other,
+                    bodies: [body, body],
+                    depth,
+                    sagitta,
+                    size,
+                    place: here,
+                    through,
+                    told: false,
+                });
             };
             if meet(&[here, here], &a.bounds)
                 && let Some(deep) = a.depth(here)
@@ -447,7 +490,9 @@ impl Look<'_> {
             keep(&mut worst, (beyond(known), found));
             // What came through came through, whatever is left between the points of a contact.
             let limit = if found.through { self.subject.limit } else { self.limit(pair) };
-            keep(&mut refused, (beyond(initial) / limit, found));
+            if !found.told {
+                keep(&mut refused, (beyond(initial) / limit, found));
+            }
         });
         match refused.filter(|(part, _)| *part > 1.0) {
             Some((_, found)) => Err(self.refusal(&found)),

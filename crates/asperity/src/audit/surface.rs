@@ -6,7 +6,7 @@ use super::simplex::Simplex;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A vertex of the boundary: a node, or the centre of a side as a sum over its nodes.
 #[derive(Debug, Clone)]
@@ -142,6 +142,10 @@ impl Surface {
     /// Whose the material behind a vertex is.
     pub fn body_at(&self, vertex: usize) -> usize {
         self.sides[self.vertices[vertex].sides[0]].body
+    }
+    /// Whether a vertex lies among these nodes.
+    pub fn lies_among(&self, vertex: usize, nodes: &BTreeSet<usize>) -> bool {
+        self.vertices[vertex].nodes.iter().all(|(node, _)| nodes.contains(node))
     }
     /// Number of vertices.
     pub fn len(&self) -> usize {

@@ -1,41 +1,27 @@
-//! Penetration and slip of a point as the coordinates over which its forces bend.
+//! What a contact answers over the coordinates over which its forces bend: penetration and slips.
 
-use super::geometry::{Geometry, MAX_DOFS};
-use super::open::OpenContact;
-use super::point::{in_contact, triad};
-use super::variational::ContactForm;
+use super::increment::in_contact;
 use crate::Failure;
 use crate::interface::{Interface, MOST_VARIABLES, Past};
-use crate::system::{Answer, COORDINATES, Coordinates, Kinks, Stencil};
+use crate::system::{Answer, COORDINATES, Coordinates};
 use crate::tensor::Dual;
 
-impl OpenContact<'_> {
-    /// Adds the coordinates of a point at values `u` of its unknowns to the stencil begun last.
-    pub(super) fn bend(&self, (index, stencil): (usize, &Stencil), g: &Geometry, u: &[f64], out: &mut Kinks) {
-        let ([penetration, slip], rates) = self.rates(g, u);
-        let (along, inward, _) = triad(g.place.tangent);
-        let present = self.contact.area(&g.spot, g.place.a, g.place.tangent);
-        let undeformed = self.contact.undeformed_area(index);
-        let coordinates = [(penetration + self.closure(index), inward), (slip, along)];
-        for ((y, direction), rates) in coordinates.into_iter().zip(&rates) {
-            let beyond = std::iter::repeat_n(0.0, stencil.len.saturating_sub(MAX_DOFS));
-            let rates = rates.iter().take(stencil.len).copied().chain(beyond.clone());
-            match self.contact.options.form {
-                ContactForm::Traction => {
-                    let rows = self.rows::<f64>((g, u), (g.place.b, g.place.b), direction * present);
-                    out.coordinate(y, rates, rows.into_iter().take(stencil.len).chain(beyond));
-                }
-                ContactForm::Variational | ContactForm::Field => {
-                    out.coordinate(y, rates.clone(), rates.map(|rate| rate * undeformed))
-                }
-            }
-        }
-        if let Some(mean) = self.mean_pressure(index, g, u) {
-            let penalty = self.contact.options.penalty;
-            let rates = mean.slopes.iter().map(|slope| slope / penalty);
-            out.coordinate(mean.pressure / penalty, rates, std::iter::repeat_n(0.0, stencil.len));
-        }
+/// Pressure and shear over penetration and slip `y`, for what `past` is before the increment; a point that is farther
+/// than `least` beyond touching is closed.
+pub(in crate::contact) fn answer(
+    law: &dyn Interface,
+    past: &Past,
+    least: f64,
+    y: &Coordinates,
+) -> Result<Answer, Failure> {
+    let mut answer = Answer::default();
+    if y[0] <= law.opens(past, [y[1], y[2]]) + least {
+        return Ok(answer);
     }
+    for (i, stress) in stress_of(law, past, motion(law, past, least, y))?.into_iter().enumerate() {
+        (answer.stress[i], answer.slopes[i]) = (stress.re, stress.du);
+    }
+    Ok(answer)
 }
 
 /// The same where friction goes by the mean pressure around the point: over penetration, `slips` slips, and the
@@ -60,24 +46,6 @@ pub(in crate::contact) fn answer_by_mean(
     }
     (whole.stress[mean], whole.slopes[mean]) = (0.0, [0.0; COORDINATES]);
     Ok(whole)
-}
-
-/// Pressure and shear over penetration and slip `y`, for what `past` is before the increment; a point that is farther
-/// than `least` beyond touching is closed.
-pub(in crate::contact) fn answer(
-    law: &dyn Interface,
-    past: &Past,
-    least: f64,
-    y: &Coordinates,
-) -> Result<Answer, Failure> {
-    let mut answer = Answer::default();
-    if y[0] <= law.opens(past, [y[1], y[2]]) + least {
-        return Ok(answer);
-    }
-    for (i, stress) in stress_of(law, past, motion(law, past, least, y))?.into_iter().enumerate() {
-        (answer.stress[i], answer.slopes[i]) = (stress.re, stress.du);
-    }
-    Ok(answer)
 }
 
 type Coordinate = Dual<COORDINATES>;

@@ -1,9 +1,8 @@
 //! How a contact is computed.
 
 use super::augment::Augmentation;
-use super::guard::Guard;
 use super::overlap::{Overlap, Wear};
-use super::variational::ContactForm;
+use crate::tensor::Vec3;
 
 /// How a contact is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,27 +20,34 @@ pub struct ContactOptions {
     pub loads: Loads,
     /// Whether the tangent holds the coupling of the two sides.
     pub coupling: bool,
-    /// What is done when the facets of a curved face bear too much of the pressure.
-    pub guard: Guard,
     /// How far penetration and elastic slip are taken out by multipliers, if they are.
     pub augmentation: Option<Augmentation>,
     /// What becomes of penetration before the first increment.
     pub overlap: Overlap,
     /// How the surface wears, if it does.
     pub wear: Option<Wear>,
-    /// How stresses become forces.
+    /// Where contact stress lives.
     pub form: ContactForm,
-    /// Along which normals its points look for the target and bear pressure.
-    pub normals: Normals,
 }
 
-/// The normals of a surface.
+/// Where contact stress lives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Normals {
-    /// Each point has that of its own edge or face.
-    Own,
-    /// Means at the nodes, over the edges or faces that meet there without a corner, and interpolated between the nodes.
-    Averaged,
+pub enum ContactForm {
+    /// At Gauss points: see [`PaperContact`](super::PaperContact).
+    Paper,
+    /// At the nodes of a field: see [`field`](super::field).
+    Field,
+}
+
+/// A node that is to be moved before the first increment, without strain, by how much, and the cell behind it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Move {
+    /// The node.
+    pub node: usize,
+    /// The way.
+    pub by: Vec3,
+    /// A cell behind it.
+    pub cell: usize,
 }
 
 /// Name of the second of two passes, whose points lie on what is the target of the first.

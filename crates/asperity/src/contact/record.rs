@@ -1,7 +1,6 @@
 //! History of a contact point, and what outputs may ask of it.
 
-use super::ContactOptions;
-use crate::interface::{Interface, Linearised, MOST_VARIABLES, Past};
+use crate::interface::{Interface, Linearised, MOST_VARIABLES};
 use crate::system::{Coordinates, History};
 use crate::tensor::Vec3;
 
@@ -35,9 +34,9 @@ pub mod entry {
     pub const SHEAR2: usize = 12;
     /// Slip along the second tangent, accumulated with its sign since the start, in space.
     pub const SLIP2: usize = 13;
-    /// Place on the edge of the surface, from -1 to 1, or first coordinate on its face.
+    /// Area that a node of a field stands for.
     pub const XI: usize = 14;
-    /// Half of the length, from -1 to 1, of the part of the edge on which the points stand, or the root of that of the face.
+    /// Stretch of that area.
     pub const HALF: usize = 15;
     /// Pressure times irreversible slip, summed since the start.
     pub const RUBBED: usize = 16;
@@ -45,10 +44,8 @@ pub mod entry {
     pub const CLOSURE: usize = 17;
     /// Penetration before the first increment that is removed little by little.
     pub const OVERLAP: usize = 18;
-    /// Second coordinate on the face, in space.
-    pub const XI2: usize = 19;
     /// Number of these values.
-    pub const COUNT: usize = 20;
+    pub const COUNT: usize = 19;
 }
 
 /// Pressure and shear stresses over the coordinates of a point; the last of these has none.
@@ -69,19 +66,6 @@ pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]
     new[entry::STATUS] = f64::from(response.status as u8);
     new[entry::VIOLATION] = response.violation;
     new[entry::LAST_DISSIPATED] = response.dissipated;
-}
-
-/// The penetration from which a point that is open at the end of an increment would be closed.
-pub fn touch_after(law: &dyn Interface, options: &ContactOptions, new: &[f64]) -> f64 {
-    law.touch(&Past {
-        penalty: options.penalty,
-        tangential_penalty: options.tangential_penalty,
-        penetration: new[entry::PENETRATION],
-        pressure: 0.0,
-        shear: [0.0; 2],
-        vars: &new[entry::COUNT..],
-        dt: 0.0,
-    })
 }
 
 /// An open point keeps what has been, and of the law's own state what the law says.
@@ -159,6 +143,8 @@ pub struct PointRecord {
     pub dissipated: f64,
     /// Energy dissipated per area in the last increment.
     pub last_dissipated: f64,
+    /// What is added to the penetration before the law sees it: less than nothing for overlap that is yet to be removed.
+    pub closure: f64,
     /// Pressure times irreversible slip, summed since the start: the depth of wear over Archard's coefficient.
     pub rubbed: f64,
     /// Relative violation of the yield surface.

@@ -6,13 +6,12 @@ use super::diagnose::{Diagnostic, Severity};
 use super::facts::facts_seen;
 use super::keys;
 use super::reader::Name;
-use crate::contact::field::FieldContact;
-use crate::contact::space::Contact as Solid;
-use crate::contact::{self, Contact, ContactOptions, Loads, second_name};
+use crate::contact::field::{FieldContact, Surface};
+use crate::contact::{ContactOptions, Loads, PaperContact, second_name};
 use crate::diagnosis::oddities;
 use crate::solve::Step;
 use crate::system::Term;
-use crate::tool::space::Hit;
+use crate::tool::Hit;
 use crate::tool::{Rejected, Tool};
 use crate::{Error, machine};
 use rayon::current_num_threads;
@@ -268,9 +267,8 @@ impl<'a> Seen<'a> {
     /// Every contact, and every second side, in the undeformed state.
     pub fn all(made: &'a Made) -> Vec<Self> {
         let still = vec![0.0; made.model.problem.dofs.count()];
-        let plane = made.model.contacts.iter().map(|contact| Self::plane(contact, &still));
-        let solid = made.model.solid_contacts.iter().map(|contact| Self::solid(contact, &still));
-        plane.chain(solid).chain(made.model.field_contacts.iter().map(|contact| Self::field(contact))).collect()
+        let points = made.model.contacts.iter().map(|contact| Self::points(contact, &still));
+        points.chain(made.model.field_contacts.iter().map(|contact| Self::field(contact))).collect()
     }
 
     /// Those of one contact of the deck.
@@ -279,33 +277,18 @@ impl<'a> Seen<'a> {
         all.iter().filter(move |seen| names.iter().any(|name| name == seen.name))
     }
 
-    fn plane(contact: &'a Contact, u: &[f64]) -> Self {
-        let (hits, rejected) = contact.search(u);
-        let part = |(i, hit): (usize, &Option<contact::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.edge_length(i)));
+    fn points(contact: &'a PaperContact, u: &[f64]) -> Self {
+        let ((hits, rejected), surface) = (contact.search(u), contact.surface());
+        let part = |(i, hit): (usize, &Option<Hit>)| hit.map(|hit| (hit.u, hit.u / contact.face_size(i)));
         Self {
-            name: contact.name(),
+            name: contact.title(),
             options: contact.options(),
             deforms: contact.target().deforms(),
             points: hits.len(),
-            pieces: format!("{} edges", contact.surface().edges.len()),
+            pieces: pieces(surface),
             found: hits.iter().enumerate().filter_map(part).collect(),
             rejected,
-            advice: PROFILE_ADVICE,
-        }
-    }
-
-    fn solid(contact: &'a Solid, u: &[f64]) -> Self {
-        let (hits, rejected) = contact.search(u);
-        let part = |(i, hit): (usize, &Option<Hit>)| hit.map(|hit| (hit.u, hit.u / contact.face_length(i)));
-        Self {
-            name: contact.name(),
-            options: contact.options(),
-            deforms: contact.target().deforms(),
-            points: hits.len(),
-            pieces: format!("{} faces", contact.surface().faces.len()),
-            found: hits.iter().enumerate().filter_map(part).collect(),
-            rejected,
-            advice: FACETS_ADVICE,
+            advice: advice(surface),
         }
     }
 
@@ -316,10 +299,10 @@ impl<'a> Seen<'a> {
             options: contact.options(),
             deforms: contact.target().as_faces().is_some(),
             points: surface.nodes.len(),
-            pieces: format!("{} {}", surface.faces.len(), if surface.plane { "edges" } else { "faces" }),
+            pieces: pieces(surface),
             found: contact.initial_gaps(),
             rejected: Rejected::default(),
-            advice: if surface.plane { PROFILE_ADVICE } else { FACETS_ADVICE },
+            advice: advice(surface),
         }
     }
 
@@ -342,6 +325,15 @@ impl<'a> Seen<'a> {
         let label = format!("the deepest by {u:.3e}, {part:.1e} of its edge");
         (*part > OVERLAP).then(|| Diagnostic::warning(what).at(name.place).label(label).help(help))
     }
+}
+
+/// On how many edges or faces points stand.
+fn pieces(surface: &Surface) -> String {
+    format!("{} {}", surface.faces.len(), if surface.plane { "edges" } else { "faces" })
+}
+
+fn advice(surface: &Surface) -> &'static str {
+    if surface.plane { PROFILE_ADVICE } else { FACETS_ADVICE }
 }
 
 const PROFILE_ADVICE: &str =

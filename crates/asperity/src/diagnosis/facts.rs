@@ -74,6 +74,8 @@ pub struct ContactFacts {
     pub gap: Option<f64>,
     /// Part of the nodes of the surface's bodies that lie in the material of the tool before any motion.
     pub inside: f64,
+    /// Whether the surface may touch itself, which it need not.
+    pub itself: bool,
     /// Distance from the surface to the target, whichever way they face.
     pub distance: f64,
     /// Length of an edge of the surface.

@@ -3,8 +3,8 @@
 use super::audited::claims;
 use super::bearing::bearing;
 use crate::audit::{Audit, Subject};
+use crate::contact::PaperContact;
 use crate::contact::field::{FieldContact, Tie};
-use crate::contact::{self, Contact};
 use crate::load::{Bearing, PenetratingPressure};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
@@ -34,10 +34,8 @@ pub struct ModelParts {
     pub tools: Vec<Arc<Tool>>,
     /// The tools of a model in space, in the order of their unknowns.
     pub solid_tools: Vec<Arc<tool::space::Tool>>,
-    /// The contacts of a plane model.
-    pub contacts: Vec<Contact>,
-    /// The contacts of a model in space.
-    pub solid_contacts: Vec<contact::space::Contact>,
+    /// The contacts whose stress lives at Gauss points.
+    pub contacts: Vec<PaperContact>,
     /// The contacts whose stress is a field of nodal values.
     pub field_contacts: Vec<FieldContact>,
     /// Springs.
@@ -89,10 +87,8 @@ pub struct Model {
     pub tools: Vec<Arc<Tool>>,
     /// The tools of a model in space, in the order of their unknowns.
     pub solid_tools: Vec<Arc<tool::space::Tool>>,
-    /// The contacts of a plane model.
-    pub contacts: Vec<Arc<Contact>>,
-    /// The contacts of a model in space.
-    pub solid_contacts: Vec<Arc<contact::space::Contact>>,
+    /// The contacts whose stress lives at Gauss points.
+    pub contacts: Vec<Arc<PaperContact>>,
     /// The contacts whose stress is a field of nodal values, which follow these.
     pub field_contacts: Vec<Arc<FieldContact>>,
     /// Number of springs.
@@ -130,25 +126,23 @@ impl Model {
         } = parts;
         let bodies: Vec<_> = parts.bodies.into_iter().map(|(body, material)| (Arc::new(body), material)).collect();
         let contacts: Vec<_> = parts.contacts.into_iter().map(Arc::new).collect();
-        let solid_contacts: Vec<_> = parts.solid_contacts.into_iter().map(Arc::new).collect();
         let field_contacts: Vec<_> = parts.field_contacts.into_iter().map(Arc::new).collect();
         let springs = parts.springs.len();
         let mut terms: Vec<Arc<dyn Term>> = bodies.iter().map(|(body, _)| body.clone() as Arc<dyn Term>).collect();
         terms.extend(contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
-        terms.extend(solid_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(field_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
         let fluids = parts.fluids;
         terms.extend(fluids.iter().map(|fluid| fluid.clone() as Arc<dyn Term>));
         if !fluids.is_empty() {
-            parts.bearing.tell(bearing(bodies.len(), (&contacts, &solid_contacts), &field_contacts));
+            parts.bearing.tell(bearing(bodies.len(), &contacts, &field_contacts));
         }
         let arms = |group: &RigidGroup| {
             let arm = |&node: &usize| (node, mesh.points[node] - group.reference);
             group.nodes.iter().map(arm).collect()
         };
         let first = tools.len() + solid_tools.len();
-        let contacts_end = bodies.len() + contacts.len() + solid_contacts.len() + field_contacts.len();
+        let contacts_end = bodies.len() + contacts.len() + field_contacts.len();
         let groups: Vec<_> = rigid.iter().enumerate().map(|(i, group)| (first + i, arms(group))).collect();
         let following = Arc::new(Following::new(&dofs, &groups));
         if !following.is_empty() {
@@ -162,7 +156,7 @@ impl Model {
             bodies: bodies.iter().map(|(body, _)| (body.name().to_owned(), body.cells().to_vec())).collect(),
             tools: tools.clone(),
             solid_tools: solid_tools.clone(),
-            claims: claims(bodies.len(), (&contacts, &solid_contacts), &field_contacts, &ties),
+            claims: claims(bodies.len(), &contacts, &field_contacts, &ties),
             cell_size: smallest_cell(&mesh),
             limit: INTERPENETRATION[0],
             contact_limit: INTERPENETRATION[1],
@@ -199,7 +193,6 @@ impl Model {
             tools,
             solid_tools,
             contacts,
-            solid_contacts,
             field_contacts,
             springs,
             fluids,
@@ -220,7 +213,7 @@ impl Model {
     }
     /// Number of the first spring among the terms.
     pub fn first_spring(&self) -> usize {
-        self.bodies.len() + self.contacts.len() + self.solid_contacts.len() + self.field_contacts.len()
+        self.bodies.len() + self.contacts.len() + self.field_contacts.len()
     }
 
     /// A run from a given state: the initial one ([`Problem::initial_state`]) or that of a checkpoint.

@@ -60,7 +60,8 @@ impl Account {
     /// Says in the summary what the run most likely suffers from, if it failed or is doubtful.
     pub fn diagnose(&mut self, facts: &Facts, course: Course) {
         let mut course = certified(course, &self.certificate, &self.limits);
-        self.idle = course.ended == End::Well && course.never_closed();
+        let meant = facts.contacts.iter().any(|contact| !contact.itself);
+        self.idle = course.ended == End::Well && meant && course.never_closed();
         if self.idle {
             course.doubts.push(Doubted { figure: "closed_points".into(), ..Doubted::default() });
         }

@@ -117,8 +117,8 @@ pub static FIGURES: &[Figure] = &[
         "0.075",
         "Shear force of the slipping points of a contact on the target's normals, less what the law allows there, relative to \
          the shear force of the contact; where that is nothing, the shear force relative to the normal force.",
-        "normals = \"averaged\", form = \"variational\", or a finer surface: forces follow the edges of the strained surface, \
-         which turn out of what they touch",
+        "form = \"field\", or a finer surface: with form = \"paper\" forces follow the edges of the strained surface, which turn out of \
+         what they touch",
     ),
     largest("closed_points", "closed points, at most"),
     largest("least_dissipation", "least dissipation").folded(Fold::Least),
@@ -128,7 +128,6 @@ pub static FIGURES: &[Figure] = &[
         "a finer mesh, edges of second degree, matching nodes, or a softer `penalty`: above one the pressure of points may be \
          anything",
     ),
-    largest("facet_mismatch", "facets stand off by"),
     largest("mismatch", "mean pressures of the sides differ by"),
     largest("rejected_false_contacts", "false contacts refused").folded(Fold::Sum),
     largest("leap", "largest leap over the size"),

@@ -3,7 +3,7 @@
 
 use super::quantities::Source;
 use super::quantity::{Frame, Number, Place, Quantity};
-use super::vtk::{Cells, DataArray, Grid, Values};
+use super::vtk::{Cells, DataArray, Grid, Values, vtk_order};
 use crate::Error;
 use crate::mesh::Mesh;
 use crate::tool::{Pose, space};
@@ -63,6 +63,44 @@ pub fn cloud(frame: &mut Frame, place: Place) -> Grid {
         point_data: others.into_iter().map(array).collect(),
         cell_data: Vec::new(),
     }
+}
+
+/// The bodies with their points where they are now.
+pub fn deformed(grid: &Grid) -> Grid {
+    let mut grid = grid.clone();
+    let moved = grid.point_array("displacement").map(|array| array.values.to_real()).unwrap_or_default();
+    for (point, by) in grid.points.iter_mut().zip(moved.as_chunks::<3>().0) {
+        point.iter_mut().zip(by).for_each(|(x, u)| *x += u);
+    }
+    grid
+}
+
+/// The faces of the surfaces of all contacts, with the quantities there, which are taken out of the frame; the points are the
+/// nodes of the mesh that they use.
+///
+/// # Errors
+/// [`Error::Internal`] for a face that VTK does not know.
+pub fn surfaces(source: &Source, frame: &mut Frame) -> Result<Grid, Error> {
+    let mesh = source.parts.mesh;
+    let mut grid = Grid { time: frame.time, ..Grid::default() };
+    let (mut place, mut displacement) = (vec![usize::MAX; mesh.points.len()], Vec::new());
+    for side in source.parts.contacts.iter().flat_map(|(_, _, contact)| contact.sides()) {
+        let (kind, nodes) = mesh.side(side);
+        let nodes: Vec<usize> = nodes.collect();
+        for &node in &nodes {
+            if place[node] == usize::MAX {
+                place[node] = grid.points.len();
+                grid.points.push(mesh.points[node].0);
+                displacement.extend(source.displacement(node));
+            }
+        }
+        let order =
+            vtk_order(kind).ok_or_else(|| Error::Internal(format!("no VTK order of nodes for {}", kind.name)))?;
+        grid.cells.push(kind.vtk, order.iter().map(|&i| place[nodes[i]]));
+    }
+    grid.point_data = vec![DataArray::new("displacement", 3, Values::Real(displacement))];
+    grid.cell_data = frame.take(Place::Face).map(array).collect();
+    Ok(grid)
 }
 
 /// The outlines of the tools as lines, their material on the left.

@@ -1,7 +1,8 @@
 //! `history.csv`: one row an accepted increment, one column a component of every global quantity of its frame.
 
-use super::quantity::{Frame, Place};
+use super::quantity::{Frame, Place, Unit};
 use super::table::{Columns, Field, Table};
+use super::units::Units;
 use crate::Error;
 use std::path::{Path, PathBuf};
 
@@ -13,6 +14,7 @@ const LEADING: [&str; 3] = ["time", "step", "increment"];
 pub struct HistoryTable {
     path: PathBuf,
     plane: bool,
+    units: Option<Units>,
     columns: Vec<String>,
     table: Option<Table>,
     /// Whether the run has just gone on, with a deck whose quantities may be others.
@@ -33,15 +35,15 @@ pub fn global_columns(frame: &Frame, plane: bool) -> Vec<(String, f64)> {
 
 impl HistoryTable {
     /// A history in `directory`; the file appears with the first frame.
-    pub fn create(directory: &Path, plane: bool) -> Self {
-        Self { path: directory.join(HISTORY), plane, columns: Vec::new(), table: None, resumed: false }
+    pub fn create(directory: &Path, plane: bool, units: Option<Units>) -> Self {
+        Self { path: directory.join(HISTORY), plane, units, columns: Vec::new(), table: None, resumed: false }
     }
     /// Continues a history after a restart from `increment`; later rows are dropped.
     ///
     /// # Errors
     /// [`Error::File`] when the old history cannot be read or rewritten.
-    pub fn resume(directory: &Path, plane: bool, increment: usize) -> Result<Self, Error> {
-        let mut history = Self::create(directory, plane);
+    pub fn resume(directory: &Path, plane: bool, increment: usize, units: Option<Units>) -> Result<Self, Error> {
+        let mut history = Self::create(directory, plane, units);
         if !history.path.exists() {
             return Ok(history);
         }
@@ -53,6 +55,16 @@ impl HistoryTable {
         history.columns = Columns::read(&history.path)?.header.split_off(LEADING.len());
         Ok(history)
     }
+    /// The names of the columns, with their units where those have names.
+    fn header(&self, frame: &Frame) -> Vec<String> {
+        let named = |name: &str, unit| Units::header(self.units.as_ref(), name, unit);
+        let leading = LEADING.iter().map(|&name| named(name, if name == "time" { Unit::Time } else { Unit::One }));
+        let columns = frame.at(Place::Global).flat_map(|quantity| {
+            let columns = quantity.width.columns(self.plane).iter();
+            columns.map(|(_, suffix)| named(&format!("{}{suffix}", quantity.name), quantity.unit)).collect::<Vec<_>>()
+        });
+        leading.chain(columns).collect()
+    }
     /// Adds the row of a frame.
     ///
     /// # Errors
@@ -60,20 +72,16 @@ impl HistoryTable {
     pub fn push(&mut self, frame: &Frame) -> Result<(), Error> {
         let (names, values): (Vec<String>, Vec<f64>) = global_columns(frame, self.plane).into_iter().unzip();
         if self.table.is_none() {
-            let header = LEADING.iter().map(|name| name.to_string()).chain(names.iter().cloned());
-            self.table = Some(Table::create(&self.path, &header.collect::<Vec<_>>())?);
+            self.table = Some(Table::create(&self.path, &self.header(frame))?);
+            self.columns.clone_from(&names);
+        }
+        if std::mem::take(&mut self.resumed) {
+            self.table = Some(Table::relay(&self.path, &self.header(frame))?);
             self.columns.clone_from(&names);
         }
         if let Some(odd) = first_difference(&self.columns, &names) {
-            if !std::mem::take(&mut self.resumed) {
-                return Err(Error::Internal(format!("the columns of history.csv changed within the run, at '{odd}'")));
-            }
-            let header: Vec<String> =
-                LEADING.iter().map(|name| name.to_string()).chain(names.iter().cloned()).collect();
-            self.table = Some(Table::relay(&self.path, &header)?);
-            self.columns.clone_from(&names);
+            return Err(Error::Internal(format!("the columns of history.csv changed within the run, at '{odd}'")));
         }
-        self.resumed = false;
         let leading = [frame.time.into(), frame.step.into(), frame.increment.into()];
         let row: Vec<Field> = leading.into_iter().chain(values.into_iter().map(Field::Real)).collect();
         self.table.as_mut().map_or(Ok(()), |table| table.push(&row))
@@ -88,7 +96,7 @@ fn first_difference<'a>(old: &'a [String], new: &'a [String]) -> Option<&'a str>
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Quantity, Unit, Width};
+    use super::super::{Quantity, Width};
     use super::*;
 
     fn frame(increment: usize, names: &[&str]) -> Frame {
@@ -103,7 +111,7 @@ mod tests {
     #[test]
     fn columns_follow_the_space_and_rows_the_frames() {
         let directory = tempfile::tempdir().unwrap();
-        let mut history = HistoryTable::create(directory.path(), true);
+        let mut history = HistoryTable::create(directory.path(), true, None);
         (1..=3).for_each(|i| history.push(&frame(i, &["reaction.end"])).unwrap());
         let columns = Columns::read(&directory.path().join("history.csv")).unwrap();
         assert_eq!(columns.header, ["time", "step", "increment", "reaction.end.x", "reaction.end.y"]);
@@ -114,9 +122,11 @@ mod tests {
     #[test]
     fn a_restart_continues_the_same_columns() {
         let directory = tempfile::tempdir().unwrap();
-        let mut history = HistoryTable::create(directory.path(), false);
+        let mut history = HistoryTable::create(directory.path(), false, Units::parse("N, mm").ok());
         (1..=3).for_each(|i| history.push(&frame(i, &["a"])).unwrap());
-        let mut history = HistoryTable::resume(directory.path(), false, 2).unwrap();
+        let mut history = HistoryTable::resume(directory.path(), false, 2, Units::parse("N, mm").ok()).unwrap();
+        let text = std::fs::read_to_string(directory.path().join(HISTORY)).unwrap();
+        assert!(text.starts_with("time,step,increment,a.x [N],"), "{text}");
         assert_eq!(Columns::read(&directory.path().join(HISTORY)).unwrap().rows.len(), 2);
         history.push(&frame(3, &["a"])).unwrap();
         assert!(history.push(&frame(4, &["a", "b"])).unwrap_err().to_string().contains("b.x"));

@@ -2,7 +2,7 @@
 //!
 //! | part | when it may change |
 //! | --- | --- |
-//! | `title`, `solver`, `limits`, `output` | always |
+//! | `title`, `solver`, `limits`, `output`, `probe`, `units` | always |
 //! | `step N`, its conditions and its duration | until it has begun |
 //! | `step N increments` | always |
 //! | a group | it may be added or left out |
@@ -53,7 +53,7 @@ impl Default for Origin {
 }
 
 /// The parts that may be other than they were, whenever they like.
-const FREE: [&str; 4] = ["title", "solver", "limits", "output"];
+const FREE: [&str; 6] = ["title", "solver", "limits", "output", "probe", "units"];
 
 /// The keys of parts that differ.
 fn differences(old: &[Part], new: &[Part]) -> BTreeSet<String> {
@@ -90,7 +90,7 @@ impl Kept {
             return Err(format!(
                 "this checkpoint belongs to another deck or mesh: what lies behind it must be what it was, and {} {}; \
                  `step {}` and later steps may change, and of all steps the increments, `solver`, `limits`, `output`, \
-                 `title`; if it was run with --set, give the same --set again",
+                 `probe`, `units`, `title`; if it was run with --set, give the same --set again",
                 lost.join(", "),
                 if lost.len() == 1 { "is not" } else { "are not" },
                 behind + 1,

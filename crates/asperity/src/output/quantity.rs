@@ -16,6 +16,8 @@ pub enum Place {
     Gauss,
     /// One value an integration point of a contact surface.
     Contact,
+    /// One value a face of a contact surface, contact after contact.
+    Face,
     /// One value for the whole model.
     Global,
 }

@@ -3,8 +3,12 @@
 //! | file | what |
 //! | --- | --- |
 //! | `bodies.pvd`, `points.pvd`, `contacts.pvd`, `tools.pvd` | frames: meshes, integration points, contact points, outlines |
+//! | `surfaces.pvd` | frames: the faces of the surfaces of contacts with their contact stress |
+//! | `deformed.pvd` | frames: the bodies at their present places, where asked for |
 //! | `modes.pvd` | frames with the mode where stability was lost or found again |
 //! | `history.csv` | global quantities, a row an increment |
+//! | `probe.NAME.csv` | what a probe reads |
+//! | `results.frd`, `results.xdmf`, `results.dat` | the same for other programs, where asked for |
 //! | `certificate.csv` | readings for the certificate |
 //! | `summary.json` | how the run ended and its certificate |
 //! | `run.checkpoint` | the last checkpoint |
@@ -14,40 +18,25 @@
 use super::account::Account;
 use super::asked::ASKED;
 use super::checkpoint::{self, Head, Stamp};
+use super::export::{DAT, Export, Exports, FRD, XDMF};
 use super::figure::{FigureOptions, draw_standard};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
-use super::grids::{BodyGrid, cloud, tools};
+use super::grids::{BodyGrid, cloud, deformed, surfaces, tools};
 use super::history::{HISTORY, HistoryTable};
 use super::input::Origin;
 use super::kept::{self, KEPT, Keep};
+use super::options::ResultOptions;
+use super::probe::{Probe, ProbeTable};
 use super::progress::{PROGRESS, Request};
 use super::quantities::{Parts, Source};
 use super::quantity::{Frame, Place};
 use super::readings::{READINGS, ReadingTable};
-use super::vtk::{DataArray, Encoding, Series, Values};
+use super::units::Units;
+use super::vtk::{DataArray, Series, Values};
 use crate::Error;
 use crate::system::State;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-
-/// What is written, and how often.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ResultOptions {
-    /// A frame of fields every so many increments; the last of a step always.
-    pub every: usize,
-    /// A checkpoint every so many increments, and at the end of each step.
-    pub checkpoint_every: usize,
-    /// Which checkpoints are kept.
-    pub keep: Keep,
-    /// How the arrays of frames are laid down.
-    pub encoding: Encoding,
-}
-
-impl Default for ResultOptions {
-    fn default() -> Self {
-        Self { every: 1, checkpoint_every: 10, keep: Keep::Last, encoding: Encoding::default() }
-    }
-}
 
 /// Writes the results of a run.
 pub struct Results {
@@ -60,6 +49,8 @@ pub struct Results {
     modes: Option<Series>,
     history: HistoryTable,
     readings: ReadingTable,
+    probes: Vec<ProbeTable>,
+    exports: Exports,
     /// What is known of the run; the caller fills into its summary what the results do not know.
     pub account: Account,
     /// Time that the results took.
@@ -74,7 +65,9 @@ enum Fields {
     Bodies,
     Points,
     Contacts,
+    Surfaces,
     Tools,
+    Deformed,
 }
 
 /// Name of the checkpoint in the result directory.
@@ -102,13 +95,15 @@ fn reserve(directory: &Path) -> Result<(), Error> {
 }
 
 impl Fields {
-    const ALL: [Self; 4] = [Self::Bodies, Self::Points, Self::Contacts, Self::Tools];
+    const ALL: [Self; 6] = [Self::Bodies, Self::Points, Self::Contacts, Self::Surfaces, Self::Tools, Self::Deformed];
     fn name(self) -> &'static str {
         match self {
             Self::Bodies => "bodies",
             Self::Points => "points",
             Self::Contacts => "contacts",
+            Self::Surfaces => "surfaces",
             Self::Tools => "tools",
+            Self::Deformed => "deformed",
         }
     }
 }
@@ -121,11 +116,17 @@ impl Results {
     pub fn create(directory: &Path, start: &Source, options: ResultOptions, origin: Origin) -> Result<Self, Error> {
         Self::clear(directory)?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
-        let series = fields_of(start.parts).map(series).collect::<Result<_, Error>>()?;
-        let history = HistoryTable::create(directory, start.parts.is_plane());
+        let series = fields_of(start.parts, &options).map(series).collect::<Result<_, Error>>()?;
+        let plane = start.parts.is_plane();
+        let history = HistoryTable::create(directory, plane, options.units.clone());
         let readings = ReadingTable::create(directory)?;
-        let mut results = Self::new((directory, options, origin), start.parts, (series, history, readings))?;
-        results.write_frame(start)?;
+        let (frame, units) = (start.gather()?, options.units.as_ref());
+        let probe = |probe: &Probe| ProbeTable::create(directory, probe, (&frame, plane), units);
+        let probes = options.probes.iter().map(probe).collect::<Result<_, _>>()?;
+        let exports = Exports::create(directory, start, (&options.export, &options.printed))?;
+        let tables = (history, readings, probes, exports);
+        let mut results = Self::new((directory, options, origin), start.parts, (series, tables))?;
+        results.write_grids(start, frame)?;
         reserve(directory)?;
         results.write_summary()?;
         Ok(results)
@@ -140,8 +141,8 @@ impl Results {
         sweep(directory)?;
         Request::clear(directory)?;
         kept::drop_after(directory, None)?;
-        let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT, MODES_LIST].map(String::from);
-        remove(directory, late.into_iter().chain(pictures()))
+        let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT, MODES_LIST, FRD, XDMF, DAT, "deformed.pvd"];
+        remove(directory, late.map(String::from).into_iter().chain(pictures()).chain(probe_tables(directory)))
     }
     /// Continues the results of a run from a checkpoint: what came after it is dropped.
     ///
@@ -159,12 +160,18 @@ impl Results {
             let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
             Ok((fields, series))
         };
-        let series = fields_of(parts).map(series).collect::<Result<_, Error>>()?;
-        let history = HistoryTable::resume(directory, parts.is_plane(), state.increment)?;
+        let series = fields_of(parts, &options).map(series).collect::<Result<_, Error>>()?;
+        let plane = parts.is_plane();
+        let history = HistoryTable::resume(directory, plane, state.increment, options.units.clone())?;
         let (readings, certificate) = ReadingTable::resume(directory, state.increment)?;
-        let mut results = Self::new((directory, options, origin), parts, (series, history, readings))?;
+        let (frame, units) = (at.gather()?, options.units.as_ref());
+        let probe = |probe: &Probe| ProbeTable::resume(directory, probe, (&frame, plane), units);
+        let probes = options.probes.iter().map(probe).collect::<Result<_, _>>()?;
+        let exports = Exports::resume(directory, at, (&options.export, &options.printed))?;
+        let tables = (history, readings, probes, exports);
+        let mut results = Self::new((directory, options, origin), parts, (series, tables))?;
         if directory.join(MODES_LIST).exists() {
-            results.modes = Some(Series::resume(directory, MODES, options.encoding, state.time)?);
+            results.modes = Some(Series::resume(directory, MODES, results.options.encoding, state.time)?);
         }
         results.account.resume(certificate, at)?;
         reserve(directory)?;
@@ -174,14 +181,29 @@ impl Results {
     fn new(
         (directory, options, origin): (&Path, ResultOptions, Origin),
         parts: &Parts,
-        (series, history, readings): (Vec<(Fields, Series)>, HistoryTable, ReadingTable),
+        (series, (history, readings, probes, exports)): (Vec<(Fields, Series)>, Tables),
     ) -> Result<Self, Error> {
         let mut account = Account::new(parts);
         account.summary.input_hash = Some(origin.input.to_string());
+        account.summary.units = options.units.as_ref().map(Units::to_string);
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
         let (spent, told) = (Duration::ZERO, Instant::now());
-        Ok(Self { directory, options, origin, grid, series, modes: None, history, readings, account, spent, told })
+        Ok(Self {
+            directory,
+            options,
+            origin,
+            grid,
+            series,
+            modes: None,
+            history,
+            readings,
+            probes,
+            exports,
+            account,
+            spent,
+            told,
+        })
     }
 
     /// Writes what is due after an accepted increment, whose frame it is. `last` says that it ended its step.
@@ -193,6 +215,7 @@ impl Results {
         let increment = source.state.increment;
         self.history.push(&frame)?;
         self.readings.push(&frame)?;
+        self.probes.iter_mut().try_for_each(|probe| probe.push(&frame))?;
         self.account.accepted(source, &frame);
         if last || increment.is_multiple_of(self.options.every) {
             self.write_grids(source, frame)?;
@@ -252,16 +275,21 @@ impl Results {
         &self.directory
     }
 
-    fn write_frame(&mut self, source: &Source) -> Result<(), Error> {
-        self.write_grids(source, source.gather()?)
-    }
     fn write_grids(&mut self, source: &Source, mut frame: Frame) -> Result<(), Error> {
+        self.exports.push(source, &frame)?;
+        let mut moved = None;
         for (fields, series) in &mut self.series {
             series.push(&match fields {
-                Fields::Bodies => self.grid.at(&mut frame),
+                Fields::Bodies => {
+                    let grid = self.grid.at(&mut frame);
+                    moved = self.options.export.contains(&Export::Deformed).then(|| deformed(&grid));
+                    grid
+                }
                 Fields::Points => cloud(&mut frame, Place::Gauss),
                 Fields::Contacts => cloud(&mut frame, Place::Contact),
+                Fields::Surfaces => surfaces(source, &mut frame)?,
                 Fields::Tools => tools(source, &frame),
+                Fields::Deformed => moved.take().unwrap_or_default(),
             })?;
         }
         Ok(())
@@ -280,7 +308,9 @@ impl Results {
         let tables =
             [MODES_LIST, HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
                 .map(String::from);
-        let all = frames.chain(tables).chain(pictures());
+        let probes = self.options.probes.iter().map(|probe| ProbeTable::file(&probe.name));
+        let others = probes.chain([FRD, XDMF, DAT].map(String::from));
+        let all = frames.chain(tables).chain(others).chain(pictures());
         all.filter(|name| self.directory.join(name).exists()).collect()
     }
 }
@@ -291,6 +321,16 @@ fn write_checkpoint(path: &Path, Origin { input, parts, terms }: &Origin, state:
     checkpoint::save(path, &Head { input: *input, stamp }, &(parts, terms, state))
 }
 
+/// The tables that grow by rows, and the files for other programs.
+type Tables = (HistoryTable, ReadingTable, Vec<ProbeTable>, Exports);
+
+/// The tables that probes of an earlier run left.
+fn probe_tables(directory: &Path) -> Vec<String> {
+    let names = std::fs::read_dir(directory).into_iter().flatten().flatten();
+    let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.starts_with("probe.") && name.ends_with(".csv")).collect()
+}
+
 /// The files of the standard pictures.
 fn pictures() -> impl Iterator<Item = String> {
     let names = ["contact_stress", "von_mises", "forces", "convergence"].into_iter();
@@ -298,32 +338,49 @@ fn pictures() -> impl Iterator<Item = String> {
 }
 
 /// The kinds of frames that a model has.
-fn fields_of(parts: &Parts) -> impl Iterator<Item = Fields> {
+fn fields_of(parts: &Parts, options: &ResultOptions) -> impl Iterator<Item = Fields> + use<> {
     let (contacts, tools) = (!parts.contacts.is_empty(), !parts.tool_names().is_empty());
+    let deformed = options.export.contains(&Export::Deformed);
     Fields::ALL.into_iter().filter(move |fields| match fields {
         Fields::Bodies | Fields::Points => true,
-        Fields::Contacts => contacts,
+        Fields::Contacts | Fields::Surfaces => contacts,
         Fields::Tools => tools,
+        Fields::Deformed => deformed,
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::checkpoint::InputHash;
+    use super::super::export::{Printed, Totals, Whose};
     use super::super::fixture::Fixture;
     use super::super::input::Kept;
+    use super::super::probe::{At, Share, Take};
     use super::super::summary::{Status, Summary};
     use super::super::vtk::{read_grid, read_series};
     use super::*;
     use crate::mesh::Space;
     use crate::solid::{Formulation, Integration};
 
-    const OPTIONS: ResultOptions = ResultOptions {
-        every: 2,
-        checkpoint_every: 3,
-        keep: Keep::Last,
-        encoding: Encoding { base64: false, compress: false },
-    };
+    fn options() -> ResultOptions {
+        let export = vec![Export::Frd, Export::Xdmf, Export::Deformed];
+        let nodes = Whose::Nodes("block.left".into());
+        let printed = Printed { whose: nodes, quantities: vec!["displacement".into()], totals: Totals::Yes };
+        let whole = Take::ALL.map(|(take, _)| take).to_vec();
+        let at = At::Nodes(vec![Share { node: 0, part: 1.0 }, Share { node: 1, part: 2.0 }], whole);
+        let probe = Probe { name: "corner".into(), at, quantities: vec!["reaction".into()] };
+        let units = Units::parse("N, mm, s").ok();
+        let default = ResultOptions::default();
+        ResultOptions {
+            every: 2,
+            checkpoint_every: 3,
+            export,
+            probes: vec![probe],
+            printed: vec![printed],
+            units,
+            ..default
+        }
+    }
 
     fn states(fixture: &Fixture) -> Vec<State> {
         let step = |before: &State, i: i32| Some(fixture.after(before, 0.2 * f64::from(i)));
@@ -349,7 +406,7 @@ mod tests {
 
     fn begin(directory: &Path, fixture: &Fixture) -> Results {
         let (parts, state) = (fixture.parts(), fixture.start());
-        Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, OPTIONS, origin()).unwrap()
+        Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, options(), origin()).unwrap()
     }
 
     #[test]
@@ -373,7 +430,8 @@ mod tests {
         let summary = Summary::read(&directory.path().join(SUMMARY)).unwrap();
         assert_eq!((summary.status, summary.increments), (Status::Converged, 5));
         assert_eq!(summary.bodies, ["block"]);
-        assert_eq!(summary.files[..6], ["bodies.pvd", "points.pvd", "history.csv", READINGS, CHECKPOINT, SUMMARY]);
+        assert_eq!(summary.files[..4], ["bodies.pvd", "points.pvd", "deformed.pvd", "history.csv"]);
+        assert_eq!(summary.files[4..7], [READINGS, CHECKPOINT, SUMMARY]);
         assert!(summary.files.contains(&"von_mises.png".into()) && summary.notes.is_empty(), "{summary:?}");
         assert!(summary.files.iter().all(|file| directory.path().join(file).exists()));
     }
@@ -416,12 +474,13 @@ mod tests {
         assert_eq!((head.stamp.increment, &state), (3, &states(&fixture)[2]));
         let parts = fixture.parts();
         let source = Source { parts: &parts, state: &state, step: 0 };
-        let mut results = Results::resume(cut.path(), &source, OPTIONS, origin()).unwrap();
+        let mut results = Results::resume(cut.path(), &source, options(), origin()).unwrap();
         let balance = results.account.certificate.figure("energy_balance");
         assert!(balance.is_some(), "the certificate covers the rows before the restart");
         write(&mut results, &fixture, 3, 5);
+        let others = [FRD, XDMF, DAT, "probe.corner.csv", "deformed/deformed_000003.vtu"];
         let names = ["history.csv", READINGS, "bodies.pvd", "bodies/bodies_000003.vtu", "points/points_000002.vtu"];
-        for name in names {
+        for name in names.into_iter().chain(others) {
             let read = |directory: &tempfile::TempDir| std::fs::read(directory.path().join(name)).unwrap();
             assert_eq!(read(&whole), read(&cut), "{name}");
         }

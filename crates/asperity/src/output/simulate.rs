@@ -8,10 +8,11 @@ use super::checkpoint::InputHash;
 use super::closing;
 use super::input::{Origin, Part, resumed, terms_of};
 use super::log::RunLog;
+use super::options::ResultOptions;
 use super::progress::Request;
 use super::quantities::{Parts, Source};
 use super::recorder::{Files, Keeper, Recorder};
-use super::results::{CHECKPOINT, ResultOptions, Results, SUMMARY};
+use super::results::{CHECKPOINT, Results, SUMMARY};
 use super::summary::{Status, Summary};
 use super::witness::Witness;
 use crate::Error;
@@ -23,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Where and how the results of a run are written.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Job<'a> {
     /// The result directory.
     pub directory: &'a Path,
@@ -286,9 +287,9 @@ impl Job<'_> {
     fn open(&self, model: &Model, start: &Source, changed: &[String]) -> Result<(Results, RunLog), Error> {
         let origin = Origin { input: self.input, parts: self.parts.to_vec(), terms: terms_of(&model.problem) };
         let mut results = if self.goes_on() {
-            Results::resume(self.directory, start, self.options, origin)?
+            Results::resume(self.directory, start, self.options.clone(), origin)?
         } else {
-            Results::create(self.directory, start, self.options, origin)?
+            Results::create(self.directory, start, self.options.clone(), origin)?
         };
         if let Some(asked) = self.asked {
             asked.write(self.directory)?;

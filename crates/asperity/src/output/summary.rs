@@ -48,6 +48,9 @@ pub struct Summary {
     pub title: String,
     /// The space of the model.
     pub space: String,
+    /// Names of the units of force, length and maybe time, where the deck gives them.
+    #[serde(default)]
+    pub units: Option<String>,
     /// How the run stands.
     pub status: Status,
     /// Why it ended so, in words; null when all steps were completed.
@@ -114,6 +117,7 @@ impl Summary {
             version: env!("CARGO_PKG_VERSION").into(),
             title: title.into(),
             space: space.into(),
+            units: None,
             status: Status::Running,
             reason: None,
             input_hash: None,

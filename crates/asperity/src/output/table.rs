@@ -2,6 +2,7 @@
 //! no half of one. Numbers are written with as many digits as give the same bits back.
 
 use super::file::{self, Durability, write_atomic};
+use super::units::bare;
 use crate::Error;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -31,7 +32,7 @@ pub struct Table {
 /// A table read back.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Columns {
-    /// Names of the columns.
+    /// Names of the columns, without units.
     pub header: Vec<String>,
     /// Entries, row after row; all rows are as long as the header.
     pub rows: Vec<Vec<String>>,
@@ -86,9 +87,10 @@ impl Table {
     /// # Errors
     /// [`Error::File`] when the old file cannot be read, or the new one not written.
     pub fn resume(path: &Path, keep: impl Fn(&Columns, &[String]) -> bool) -> Result<Self, Error> {
+        let header = Columns::written(path, &file::read(path)?)?.header;
         let mut old = Columns::read(path)?;
         let kept = old.rows.iter().filter(|row| keep(&old, row)).cloned().collect();
-        old.rows = kept;
+        (old.rows, old.header) = (kept, header);
         Self::begin(path, &old)
     }
     /// Continues a table with other columns: rows keep what stood under the names that stay, and are empty under new ones.
@@ -97,7 +99,7 @@ impl Table {
     /// As [`resume`](Self::resume).
     pub fn relay(path: &Path, header: &[String]) -> Result<Self, Error> {
         let old = Columns::read(path)?;
-        let places: Vec<_> = header.iter().map(|name| old.position(name)).collect();
+        let places: Vec<_> = header.iter().map(|name| old.position(bare(name))).collect();
         let row = |row: &Vec<String>| places.iter().map(|at| at.map_or(String::new(), |at| row[at].clone())).collect();
         Self::begin(path, &Columns { header: header.to_vec(), rows: old.rows.iter().map(row).collect() })
     }
@@ -150,6 +152,12 @@ impl Columns {
     /// # Errors
     /// [`Error::File`] when it is no table.
     pub fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Error> {
+        let mut columns = Self::written(path, bytes)?;
+        columns.header.iter_mut().for_each(|name| *name = bare(name).to_owned());
+        Ok(columns)
+    }
+    /// The same with the units behind the names.
+    fn written(path: &Path, bytes: &[u8]) -> Result<Self, Error> {
         let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(bytes);
         let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
         let header = texts(reader.headers().map_err(|error| Error::file(path, error))?);

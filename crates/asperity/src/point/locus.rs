@@ -109,7 +109,9 @@ mod tests {
     }
 
     #[test]
-    fn what_never_slips_has_no_surface() {
-        assert!(yield_surface("a", &Law(Sticking), [1e3, 700.0], 200.0).is_none());
+    fn what_sticks_slips_only_as_it_opens() {
+        for row in rows(&Law(Sticking)) {
+            assert!((row[1] - 10.0 * row[0]).abs() < 1e-6 * (1.0 + row[0]), "{row:?}");
+        }
     }
 }

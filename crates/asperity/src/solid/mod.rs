@@ -13,6 +13,7 @@ mod heat;
 mod hourglass;
 mod initial_stress;
 mod lanes;
+mod measure;
 mod operator;
 mod piola;
 mod plane_stress;

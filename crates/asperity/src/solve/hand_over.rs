@@ -18,6 +18,7 @@ impl Run<'_> {
         let before = state.step.checked_sub(1).and_then(|before| steps.get(before));
         let (Some(before), Some(now)) = (before, steps.get(state.step)) else { return };
         let (rows, after) = (&before.constraints, &now.constraints);
+        state.stopped.retain(|&dof| matches!(after.row(dof), Row::Free(_)));
         let mut handed = vec![0.0; state.u.len()];
         for dof in 0..handed.len() {
             let held = state.internal[dof] - state.load[dof];

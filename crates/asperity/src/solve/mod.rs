@@ -23,6 +23,7 @@ mod run;
 mod schedule;
 mod stability;
 mod step;
+mod stop;
 mod trail;
 
 pub use convergence::{Norms, Worst};

@@ -113,6 +113,8 @@ pub struct Memory {
     pub(super) kinks: Kinks,
     pub(super) mixed: Mixed,
     pub(super) influences: Influences,
+    /// Unknowns of tools that nothing bore where the last attempt failed.
+    pub(super) unborne: Vec<usize>,
     /// The evaluation of the last accepted increment: room for the next.
     pub spare: Option<Evaluation>,
     /// Room for the evaluation of another first guess.
@@ -299,6 +301,7 @@ impl<'a> Newton<'a> {
             correction = largest(&mut u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);
             missing = missing.filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
         }
+        self.memory.unborne = self.unborne();
         let kind = if trail.cycle().is_some() { Kind::Cycle } else { Kind::Iterations };
         Err(Failure::new(self.why_not(record, &trail)).of(kind).into())
     }
@@ -308,11 +311,6 @@ impl<'a> Newton<'a> {
         let (mut again, histories) = (false, &mut self.evaluation.histories);
         for (attempt, new) in self.assembly.attempts.iter_mut().zip(histories) {
             again |= attempt.augment(u, new)?;
-        }
-        let mut leading = Vec::new();
-        for (attempt, new) in self.assembly.attempts.iter_mut().zip(&self.evaluation.histories) {
-            again |= attempt.follow(&leading, u, new);
-            leading = attempt.multipliers();
         }
         if again {
             self.evaluate(u, None, self.tangent())?;
@@ -345,6 +343,7 @@ impl<'a> Newton<'a> {
         let trial = Trial { u, missing, tangent, acting: self.memory.mixed.acting() };
         self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
         self.let_go();
+        self.stop(u, tangent != Tangent::None);
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         self.step.constraints.gather(&unbalanced, &mut self.residual);
         self.drag(u, tangent != Tangent::None);

@@ -113,10 +113,6 @@ impl<'a> Run<'a> {
         self.enter();
         let record = self.increment(step, observer)?;
         observer.accepted(&self.state, &record)?;
-        if self.state.step > record.step {
-            let terms = self.problem.terms.iter().zip(&self.state.histories);
-            terms.into_iter().try_for_each(|(term, history)| term.verdict(&self.state, history))?;
-        }
         Ok(Some(record))
     }
 
@@ -142,10 +138,16 @@ impl<'a> Run<'a> {
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
             let mut record = self.begin(attempt, dt, relaxing);
+            self.memory.unborne.clear();
             let result = self.attempt(dt, &mut record, observer);
             self.state.attempts += 1;
             self.state.iterations += record.solutions();
-            let result = result.and_then(|converged| Ok((self.audit(&converged, !relaxing)?, converged)));
+            let result = result.and_then(|mut converged| {
+                self.stops_push(&converged.evaluation.load, &converged.u)?;
+                converged.held.extend(self.stopped());
+                self.take_stops(&mut converged);
+                Ok((self.audit(&converged, !relaxing)?, converged))
+            });
             match result {
                 Ok((found, converged)) => {
                     if converged.held.is_empty() {
@@ -182,6 +184,9 @@ impl<'a> Run<'a> {
                     relaxed |= relaxing;
                     caution.vain |= relaxing;
                     let small = dt <= RELAX * usual && !caution.vain;
+                    if small && self.stops() {
+                        continue;
+                    }
                     relaxing = !relaxed && (small || 0.5 * dt < smallest);
                     wanted = if relaxing { dt } else { 0.5 * dt };
                     if wanted < smallest {

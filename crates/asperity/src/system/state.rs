@@ -149,6 +149,8 @@ pub struct State {
     /// Forces on all unknowns that held when the step began and that are let go little by little over it; empty where there are
     /// none.
     pub handed: Vec<f64>,
+    /// Unknowns of tools that a load drives and that stand on a stop, since nothing bears them any more in the step.
+    pub stopped: Vec<usize>,
     /// The largest force and moment that have been in play: sums of the magnitudes of the forces of stencils on an unknown.
     pub in_play: [f64; 2],
     /// Energies of each term.

@@ -1,7 +1,7 @@
 //! What equilibrium is a sum of.
 
 use super::{Answer, Coordinates, Couplings, History, Kinks, State};
-use crate::{Error, Failure};
+use crate::Failure;
 
 /// Whether a term resists (a body, a contact, a spring) or acts from outside (a load).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,10 +40,6 @@ pub struct Stencil {
     pub choice: u32,
     /// Where on it, roughly: which of several roots is meant.
     pub near: [f64; 2],
-    /// Further discrete choices, whose meaning belongs to the term.
-    pub also: [u32; 3],
-    /// Nodes of a target's border, as the term writes them.
-    pub border: [u32; 4],
 }
 
 /// The stencils of a term, owned by the assembly for one iteration.
@@ -162,13 +158,6 @@ pub trait Term: Send + Sync {
     ) -> Result<Box<dyn Attempt + 'a>, Failure>;
     /// Words for a stencil in messages: "cell 12 of body 'tube'".
     fn name_of(&self, stencil: usize) -> String;
-    /// Whether the accepted state at the end of a step may stand.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`] with what is wrong with it.
-    fn verdict(&self, _state: &State, _history: &History) -> Result<(), Error> {
-        Ok(())
-    }
     /// Whether its stencils bend within a step, see [`Attempt::kink`]; it may then hold at the end of a step what it did
     /// not hold at its beginning.
     fn bends(&self) -> bool {
@@ -219,15 +208,6 @@ pub trait Attempt: Send + Sync {
     /// A [`Failure`] when there is no more to improve and it does not suffice.
     fn augment(&mut self, _u: &[f64], _new: &mut History) -> Result<bool, Failure> {
         Ok(false)
-    }
-    /// Multipliers that the term behind this one may follow: a closure and a slip each.
-    fn multipliers(&self) -> Vec<[f64; 4]> {
-        Vec::new()
-    }
-    /// Takes up the multipliers of the term before this one when the iterations have converged at `u`, and says whether
-    /// they must go on. `new` is the term's history there.
-    fn follow(&mut self, _leading: &[[f64; 4]], _u: &[f64], _new: &History) -> bool {
-        false
     }
     /// Stresses of a stencil that bends in the accepted state.
     fn before(&self, _stencil: usize) -> Coordinates {

@@ -27,7 +27,7 @@ pub use fillet::{Draft, rounded};
 pub use finding::{Finding, Severity};
 pub use pose::Pose;
 pub use search::Tree;
-pub use select::{Met, Rejected, Rules, select};
+pub use select::{Rejected, Rules, select};
 pub use shapes::{Bounds, Kind, Ray, Shape};
 pub use tips::Tip;
 pub use tool::{Chain, Hit, Tool};

@@ -8,28 +8,6 @@
 use super::Hit;
 use crate::tensor::Vec3;
 
-/// A hit on a piece of a target.
-pub trait Met: Copy {
-    /// The piece's number: of equally near hits that on the lowest one is taken.
-    fn piece(&self) -> usize;
-    /// Signed distance along the ray.
-    fn u(&self) -> f64;
-    /// Outward unit normal of the target there.
-    fn normal(&self) -> Vec3;
-}
-
-impl Met for Hit {
-    fn piece(&self) -> usize {
-        self.segment
-    }
-    fn u(&self) -> f64 {
-        self.u
-    }
-    fn normal(&self) -> Vec3 {
-        self.normal
-    }
-}
-
 /// When a hit is admissible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules {
@@ -74,13 +52,13 @@ impl Rejected {
 
 /// The contact among the hits of a ray along `direction`, if there is one. What the rules reject is counted in
 /// `rejected`.
-pub fn select<H: Met>(direction: Vec3, hits: &[H], rules: &Rules, rejected: &mut Rejected) -> Option<H> {
-    let facing = |hit: &H| direction.dot(hit.normal()) > rules.least_cosine;
-    let admissible = |hit: &&H| facing(hit) && hit.u() <= rules.deepest;
-    hits.iter().for_each(|hit| rejected.count(facing(hit), hit.u(), rules));
-    let nearest = hits.iter().filter(admissible).map(|hit| hit.u().abs()).fold(f64::INFINITY, f64::min);
-    let equal = |hit: &&H| hit.u().abs() <= nearest + rules.equal;
-    hits.iter().filter(admissible).filter(equal).min_by_key(|hit| hit.piece()).copied()
+pub fn select(direction: Vec3, hits: &[Hit], rules: &Rules, rejected: &mut Rejected) -> Option<Hit> {
+    let facing = |hit: &Hit| direction.dot(hit.normal) > rules.least_cosine;
+    let admissible = |hit: &&Hit| facing(hit) && hit.u <= rules.deepest;
+    hits.iter().for_each(|hit| rejected.count(facing(hit), hit.u, rules));
+    let nearest = hits.iter().filter(admissible).map(|hit| hit.u.abs()).fold(f64::INFINITY, f64::min);
+    let equal = |hit: &&Hit| hit.u.abs() <= nearest + rules.equal;
+    hits.iter().filter(admissible).filter(equal).min_by_key(|hit| hit.segment).copied()
 }
 
 #[cfg(test)]
@@ -88,7 +66,7 @@ mod tests {
     use super::*;
 
     fn hit(segment: usize, u: f64, cosine: f64) -> Hit {
-        Hit { segment, s: 0.5, u, normal: Vec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0) }
+        Hit { segment, s: [0.5, 0.0], u, normal: Vec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0) }
     }
 
     fn choose(hits: &[Hit]) -> (Option<usize>, Rejected) {

@@ -50,8 +50,8 @@ proptest! {
         prop_assert_eq!(hits.len(), expected.len());
         for (hit, (segment, place)) in hits.iter().zip(&expected) {
             prop_assert_eq!(hit.segment, *segment);
-            prop_assert!((hit.u - place.u).abs() < 1e-9 && (hit.s - place.s).abs() < 1e-9);
-            let on_tool = tool.point(&pose, hit.segment, hit.s);
+            prop_assert!((hit.u - place.u).abs() < 1e-9 && (hit.s[0] - place.s).abs() < 1e-9);
+            let on_tool = tool.point(&pose, hit.segment, hit.s[0]);
             prop_assert!((on_tool - ray.point(hit.u)).norm() < 1e-9);
         }
         let range = [-1.0, 1.5];
@@ -81,7 +81,7 @@ proptest! {
         let (target, inwards) = (tool.point(&pose, segment, s), -tool.normal(&pose, segment, s));
         let ray = Ray { origin: target - inwards * 0.3, direction: inwards };
         let hit = tool.cast_segment(&pose, segment, &ray, s).unwrap();
-        prop_assert!((hit.u - 0.3).abs() < 1e-12 && (hit.s - s).abs() < 1e-11);
+        prop_assert!((hit.u - 0.3).abs() < 1e-12 && (hit.s[0] - s).abs() < 1e-11);
         let mut hits: Vec<Hit> = Vec::new();
         tool.cast(&pose, &ray, [0.0, 1.0], &mut hits);
         let among = hits.iter().any(|h| h.segment == segment && (h.u - hit.u).abs() < 1e-12);

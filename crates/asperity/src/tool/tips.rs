@@ -1,4 +1,4 @@
-//! Sharp edges and small roundings of a profile: what may lie within one face of a body.
+//! Sharp edges, free ends and small roundings of a profile: what may lie within one face of a body.
 
 use super::shapes::Shape;
 use super::tool::Tool;
@@ -33,6 +33,13 @@ impl Tool {
                     let (outward, flanks) = ((a - b).unit(), [-a.left(), -b.left()]);
                     tips.push(Tip { point: one.point(1.0), outward, flanks });
                 }
+            }
+            // Of a wedge that is drawn from its plane or axis of symmetry the edge is an end of the profile.
+            if !chain.closed && count > 0 {
+                let [first, last] = [chain.first, chain.end - 1].map(|i| &self.segments()[i]);
+                let (a, b) = (last.tangent(1.0).unit(), first.tangent(0.0).unit());
+                tips.push(Tip { point: first.point(0.0), outward: -b, flanks: [-b.left(); 2] });
+                tips.push(Tip { point: last.point(1.0), outward: a, flanks: [-a.left(); 2] });
             }
             for segment in &self.segments()[chain.first..chain.end] {
                 if segment.is_tip(rounding) {
@@ -76,15 +83,18 @@ mod tests {
     #[test]
     fn wedges_and_needles_have_tips() {
         let sharp = tips(&[("line", &[[-1.0, 2.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [1.0, 2.0]])]);
-        assert_eq!(sharp.len(), 1);
+        // The edge, and the two ends.
+        assert_eq!(sharp.len(), 3);
         assert!((sharp[0].outward - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
         let blunt = tips(&[("line", &[[-2.0, 1.0], [0.0, 0.0]]), ("line", &[[0.0, 0.0], [2.0, 1.0]])]);
-        assert_eq!(blunt, []);
+        assert_eq!(blunt.len(), 2);
+        assert!(blunt.iter().all(|tip| tip.outward[1] > 0.0), "both ends point away from what is below");
         let arc: &[[f64; 2]] = &[[-0.2, 0.0], [0.0, -0.2], [0.2, 0.0]];
         let needle = tips(&[("line", &[[-0.2, 2.0], [-0.2, 0.0]]), ("arc", arc), ("line", &[[0.2, 0.0], [0.2, 2.0]])]);
-        assert_eq!(needle.len(), 1);
-        let Tip { point, outward, .. } = needle[0];
+        assert_eq!(needle.len(), 3);
+        let Tip { point, outward, .. } = needle[2];
         assert!((point - Vec3::new(0.0, -0.2, 0.0)).norm() < 1e-12 && outward[1] < -0.99);
-        assert_eq!(tips(&[("arc", &[[-2.0, 0.0], [0.0, -2.0], [2.0, 0.0]])]), [], "felt by the faces it touches");
+        let ends = tips(&[("arc", &[[-2.0, 0.0], [0.0, -2.0], [2.0, 0.0]])]);
+        assert!(ends.iter().all(|tip| tip.point[1] == 0.0), "the arc is felt by the faces it touches");
     }
 }

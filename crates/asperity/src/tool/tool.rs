@@ -28,16 +28,16 @@ pub struct Chain {
     pub closed: bool,
 }
 
-/// A place where a ray meets a tool.
+/// A place where a ray meets a segment of a profile, a facet of a tool in space, or a face of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// The segment.
+    /// The segment, facet or face.
     pub segment: usize,
-    /// Coordinate along the segment.
-    pub s: f64,
+    /// Coordinates on it; on a segment of the plane the second is zero.
+    pub s: [f64; 2],
     /// Signed distance along the ray.
     pub u: f64,
-    /// Outward unit normal of the tool there, in space.
+    /// Outward unit normal of the target there, in space.
     pub normal: Vec3,
 }
 
@@ -119,7 +119,7 @@ impl Tool {
     /// Where a ray meets one given segment, whether or not others are nearer, by [`Shape::meet_near`].
     pub fn cast_segment(&self, pose: &Pose, segment: usize, ray: &Ray, near: f64) -> Option<Hit> {
         let (place, tangent) = self.segments[segment].meet_near(&self.own_frame(pose, ray), near)?;
-        Some(Hit { segment, s: place.s, u: place.u, normal: pose.rotate(-tangent.left().unit()) })
+        Some(Hit { segment, s: [place.s, 0.0], u: place.u, normal: pose.rotate(-tangent.left().unit()) })
     }
 
     /// The profiles in space as polylines nowhere farther than `sagitta` from them, for drawing.
@@ -140,7 +140,7 @@ impl Tool {
         Ray { origin, direction: pose.rotate_back(ray.direction) }
     }
     fn hit(&self, pose: &Pose, segment: usize, u: f64, s: f64) -> Hit {
-        Hit { segment, s, u, normal: self.normal(pose, segment, s) }
+        Hit { segment, s: [s, 0.0], u, normal: self.normal(pose, segment, s) }
     }
 }
 

@@ -1,10 +1,10 @@
 //! A bent unit cube over a tool of any kind, and random motions that press the one on the other.
 
 use super::perturbed::{Random, options};
-use asperity::contact::space::{Contact, Parts, Surface, Target};
-use asperity::contact::{ContactForm, ContactOptions, Loads};
+use asperity::contact::field::FieldTarget;
+use asperity::contact::{Loads, PaperContact, PaperParts, PointSurface};
 use asperity::interface::InterfaceLaw;
-use asperity::mesh::{Cell, generate::Block};
+use asperity::mesh::{Cell, Space, generate::Block};
 use asperity::system::Dofs;
 use asperity::tensor::Vec3;
 use asperity::tool::shapes;
@@ -36,18 +36,7 @@ fn target(kind: &str) -> Facets {
 }
 
 /// A contact of the lower faces of a bent unit cube of `n` times `n` cells with a target below it, its tool free to move.
-#[allow(dead_code)] // each test binary uses one of the two
-pub fn contact<L: InterfaceLaw>(cells: (&str, usize), kind: &str, law: L, form: ContactForm) -> (Contact, Dofs) {
-    contact_with(cells, kind, law, |options| options.form = form)
-}
-
-/// The same with options changed.
-pub fn contact_with<L: InterfaceLaw>(
-    (cell, n): (&str, usize),
-    kind: &str,
-    law: L,
-    change: impl FnOnce(&mut ContactOptions),
-) -> (Contact, Dofs) {
+pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L) -> (PaperContact, Dofs) {
     let mut mesh = Block::new([0.0; 3], [1.0; 3], [n, n, 1], Cell::named(cell).unwrap()).mesh("b").unwrap();
     for x in &mut mesh.points {
         let [a, b, c] = x.0;
@@ -58,19 +47,18 @@ pub fn contact_with<L: InterfaceLaw>(
     let tool = Arc::new(Tool::new("t", target(kind), at(0.5, 0.3, -1.0)));
     let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
     let lower = mesh.groups["b.back"].sides.clone();
-    let mut options = options(Loads::Both);
-    change(&mut options);
-    let parts = Parts {
+    let parts = PaperParts {
         name: "c".into(),
-        surface: Surface::new(&mesh, &lower, None),
+        surface: PointSurface::new(&mesh, &lower, (Space::Solid, 1.0), (None, 1)),
+        space: Space::Solid,
         mesh,
         dofs: dofs.clone(),
         boundary,
-        target: Target::tool(tool, 0, &dofs),
+        target: FieldTarget::solid_tool(tool, 0, &dofs),
         law: law.into(),
-        options,
+        options: options(Loads::Both),
     };
-    (Contact::new(parts), dofs)
+    (PaperContact::new(parts), dofs)
 }
 
 /// Random motion: the cube by up to a tenth and downwards, its nodes and the tool by a little.

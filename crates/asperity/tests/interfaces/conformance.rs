@@ -141,7 +141,8 @@ fn can(law: &str, kind: usize) -> bool {
     match kind {
         // Velocity is never zero where friction depends on its logarithm; regularised friction is one smooth curve.
         STICK => !law.starts_with("rate_and_state") && !["oden_pires", "frictionless"].contains(&law),
-        SLIP | APEX => law != "sticking",
+        // Only on the way to its opening.
+        SLIP => law != "sticking",
         _ => true,
     }
 }

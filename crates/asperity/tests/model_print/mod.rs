@@ -27,7 +27,7 @@ pub fn print(made: &Made) -> u64 {
     print.add((&model.title, model.space, model.thickness, &model.materials, &model.supports));
     mesh(model, &mut print);
     parts(model, &mut print);
-    print.add((&model.problem.steps, &model.problem.newton, made.deck.output.options(), &made.deck.limits.limits));
+    print.add((&model.problem.steps, &model.problem.newton, made.results.clone(), &made.deck.limits.limits));
     for (i, term) in model.problem.terms.iter().enumerate() {
         forces(model, i, term.as_ref(), &mut print);
     }
@@ -51,16 +51,15 @@ fn parts(model: &Model, print: &mut Print) {
     for tool in &model.solid_tools {
         print.add((tool.name(), tool.reference(), tool.facets()));
     }
-    for contact in &model.solid_contacts {
-        let tool = contact.target().as_tool().map(|tool| tool.number());
-        print.add((contact.name(), contact.options(), tool, contact.surface().faces.len()));
+    for contact in &model.field_contacts {
+        print.add((contact.title(), contact.options()));
     }
     for contact in &model.contacts {
         print.add((
             contact.name(),
             contact.options(),
             contact.target().as_tool().map(|tool| tool.number()),
-            contact.surface().edges.len(),
+            contact.surface().faces.len(),
         ));
     }
 }
@@ -140,7 +139,7 @@ impl Observer for Listener {
 /// Whether a run converged, and its print: its attempts with their residuals, and which files and checkpoint it leaves.
 pub fn run_print(made: &Made) -> (bool, u64) {
     let directory = tempfile::tempdir().unwrap();
-    let options = made.deck.output.options();
+    let options = made.results.clone();
     let job = Job {
         directory: directory.path(),
         options,

@@ -1,10 +1,10 @@
 //! A small block in space, `upper`, that touches a larger one, `lower`, from above, and random motions of both.
 
 use super::perturbed::Random;
-use asperity::contact::ContactOptions;
-use asperity::contact::space::{Contact, Faces, Parts, Surface, Target};
+use asperity::contact::field::{FieldTarget, Surface};
+use asperity::contact::{ContactOptions, PaperContact, PaperParts, PointSurface};
 use asperity::interface::laws::Coulomb;
-use asperity::mesh::Mesh;
+use asperity::mesh::{Mesh, Space};
 use asperity::system::Dofs;
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub enum Carrier {
 }
 
 /// The contact between them.
-pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions) -> (Contact, Dofs) {
+pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions) -> (PaperContact, Dofs) {
     let mesh = Arc::new(mesh);
     let (own, other) = match carrier {
         Carrier::Small => ("upper.back", "lower.front"),
@@ -26,21 +26,22 @@ pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions
     };
     let dofs = Dofs::new(3, mesh.points.len(), 0);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
-    let parts = Parts {
+    let parts = PaperParts {
         name: "c".into(),
-        surface: Surface::new(&mesh, sides(own), None),
+        surface: PointSurface::new(&mesh, sides(own), (Space::Solid, 1.0), (None, 1)),
+        space: Space::Solid,
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
-        target: Target::Faces(Faces::new(mesh.clone(), dofs.clone(), sides(other))),
+        target: FieldTarget::faces(Surface::whole(&mesh, sides(other), Space::Solid, 1.0), &mesh),
         law: Coulomb::new(friction).into(),
         options,
         dofs: dofs.clone(),
         mesh: mesh.clone(),
     };
-    (Contact::new(parts), dofs)
+    (PaperContact::new(parts), dofs)
 }
 
 /// Random motion: the small block by up to a tenth and down by `down`, `less` more or less, all nodes by a little.
-pub fn motion((contact, dofs): (&Contact, &Dofs), [down, less]: [f64; 2], random: &mut Random) -> Vec<f64> {
+pub fn motion((contact, dofs): (&PaperContact, &Dofs), [down, less]: [f64; 2], random: &mut Random) -> Vec<f64> {
     let by = [0.08 * random.next(), 0.08 * random.next(), -down - less * random.next()];
     let mut u = vec![0.0; dofs.count()];
     for node in 0..dofs.nodes() {

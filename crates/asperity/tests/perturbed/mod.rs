@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test binary uses a part of it
 
 use asperity::Failure;
-use asperity::contact::{ContactForm, ContactOptions, Guard, Loads, Normals, Overlap};
+use asperity::contact::{ContactForm, ContactOptions, Loads, Overlap};
 use asperity::system::{Attempt, History, Instant, Local, State, Stencil, Stencils, TangentCheck, Term, check_tangent};
 
 /// Numbers in (-1, 1) from a linear congruence (Knuth's MMIX), the same in every run.
@@ -47,12 +47,10 @@ pub fn options(loads: Loads) -> ContactOptions {
         thickness: 1.0,
         loads,
         coupling: true,
-        guard: Guard::Refuse,
         augmentation: None,
         overlap: Overlap::Keep,
         wear: None,
-        form: ContactForm::Traction,
-        normals: Normals::Own,
+        form: ContactForm::Paper,
     }
 }
 
@@ -86,37 +84,4 @@ pub fn check(attempt: &dyn Attempt, u: &[f64]) -> Result<Vec<TangentCheck>, Fail
         check_tangent(attempt, i, stencil, &here, &vec![1.0; here.len()])
     };
     stencils.list.iter().enumerate().map(one).collect()
-}
-
-/// Largest difference of forces and central differences of the stored energy over the largest force, over all closed
-/// points without shear.
-pub fn gradient_error(attempt: &dyn Attempt, u: &[f64]) -> f64 {
-    let (mut stencils, mut worst) = (Stencils::default(), 0.0_f64);
-    attempt.stencils(u, &mut stencils).unwrap();
-    for (i, stencil) in stencils.list.iter().enumerate() {
-        let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
-        let (mut local, mut history) = (Local::default(), attempt.scratch(i));
-        let mut at = |u: Vec<f64>| {
-            local.u = u;
-            local.reset(stencil.len);
-            let branch = attempt.evaluate(i, stencil, &mut history, &mut local).unwrap();
-            (branch, local.stored, local.force.clone())
-        };
-        let (branch, _, force) = at(here.clone());
-        if branch == 0 {
-            continue;
-        }
-        let largest = force.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        for (k, force) in force.iter().enumerate() {
-            let mut slope = |h: f64| {
-                let moved = |h: f64| here.iter().enumerate().map(|(j, u)| u + if j == k { h } else { 0.0 }).collect();
-                let (one, other) = (at(moved(h)), at(moved(-h)));
-                (one.0 == branch && other.0 == branch).then(|| (one.1 - other.1) / (2.0 * h))
-            };
-            if let (Some(coarse), Some(fine)) = (slope(2e-4), slope(1e-4)) {
-                worst = worst.max(((4.0 * fine - coarse) / 3.0 - force).abs() / largest);
-            }
-        }
-    }
-    worst
 }

@@ -139,7 +139,6 @@ pub fn model(size: usize, factors: Factors) -> Model {
         materials: vec!["rubber".into()],
         tools: vec![],
         solid_tools: vec![],
-        solid_contacts: vec![],
         field_contacts: vec![],
         contacts: vec![],
         springs: vec![],

@@ -14,12 +14,6 @@ const BEGINNING: &str = "only temperatures can be given at the beginning; stress
 /// In the order of the manual.
 pub static OTHER: &[Keyword] = &[
     without_effect("PREPRINT", OUTPUT),
-    without_effect("NODE PRINT", OUTPUT),
-    without_effect("EL PRINT", OUTPUT),
-    without_effect("CONTACT PRINT", OUTPUT),
-    without_effect("NODE FILE", OUTPUT),
-    without_effect("EL FILE", OUTPUT),
-    without_effect("CONTACT FILE", OUTPUT),
     without_effect("SECTION PRINT", OUTPUT),
     without_effect("FACE PRINT", OUTPUT),
     without_effect("OUTPUT", OUTPUT),

@@ -4,6 +4,7 @@ use super::{
     Keyword, Parameter, Treated, Where, late, left, noted, of_model, of_step, one_of, refused, structure, used,
 };
 use crate::read::Reader;
+use crate::source::Block;
 
 const INSTANCES: &str = "list the members, or put the set into the part";
 const COURSE: [Parameter; 2] = [used("AMPLITUDE"), one_of("OP", &["MOD", "NEW"])];
@@ -11,6 +12,43 @@ const COMPLEX: &str = "only real, static loads are read; leave it out";
 const TABLE_OF_TEMPERATURE: &str = "give one row of constants";
 const STATIC_ONLY: &str = "only *STATIC steps can be solved";
 const BY_HAND: &str = "the deck of Asperity has laws of this kind: write the material there by hand";
+
+const FILES: &str = "`results.frd`, with all that it holds";
+const FREQUENCY: [Parameter; 2] = [used("FREQUENCY"), used("FREQUENCYF")];
+const TIME_POINTS: Parameter = noted("TIME POINTS", "all increments are written");
+const FILED: &[Parameter] = &[
+    FREQUENCY[0],
+    FREQUENCY[1],
+    TIME_POINTS,
+    noted("NSET", "all nodes are written"),
+    noted("ELSET", "all elements are written"),
+    left("GLOBAL"),
+    left("OUTPUT"),
+    left("OUTPUT ALL"),
+    noted("LAST ITERATIONS", "only accepted increments are written"),
+    noted("CONTACT ELEMENTS", "contact is written at the nodes of its surfaces"),
+    left("SECTION FORCES"),
+];
+const PRINTED: &[Parameter] = &[
+    FREQUENCY[0],
+    FREQUENCY[1],
+    used("NSET"),
+    used("ELSET"),
+    used("SLAVE"),
+    used("MASTER"),
+    one_of("TOTALS", &["YES", "ONLY", "NO"]),
+    TIME_POINTS,
+    left("GLOBAL"),
+];
+
+const fn output(
+    name: &'static str,
+    read: fn(&mut Reader, &Block),
+    parameters: &'static [Parameter],
+    becomes: &'static str,
+) -> Keyword {
+    Keyword { name, place: Where::Anywhere, treated: Treated::Read(read), parameters, becomes }
+}
 
 /// In the order of the manual.
 pub static READ: &[Keyword] = &[
@@ -370,6 +408,17 @@ pub static READ: &[Keyword] = &[
             refused("USER", "give the values"),
         ],
         "`temperature`, one for each body",
+    ),
+    output("NODE FILE", Reader::node_file, FILED, FILES),
+    output("EL FILE", Reader::element_file, FILED, FILES),
+    output("CONTACT FILE", Reader::contact_file, FILED, FILES),
+    output("NODE PRINT", Reader::node_print, PRINTED, "a table of `results.dat`: U, RF"),
+    output("EL PRINT", Reader::element_print, PRINTED, "a table of `results.dat`: S, E, PEEQ"),
+    output(
+        "CONTACT PRINT",
+        Reader::contact_print,
+        PRINTED,
+        "tables of `results.dat`: CDIS, CSTR, CF at the contact points",
     ),
     Keyword {
         name: "END STEP",

@@ -6,6 +6,7 @@ mod equations;
 mod materials;
 mod mesh;
 mod names;
+mod outputs;
 mod rigid;
 mod steps;
 
@@ -14,6 +15,8 @@ use crate::keywords::{self, Treated, Value, Where};
 use crate::message::{Messages, Place, suggestion};
 use crate::model::{Model, Step};
 use crate::source::{Block, Line};
+
+pub use outputs::PLASTIC;
 
 /// What reads the blocks.
 pub struct Reader {

@@ -103,7 +103,7 @@ impl Writer<'_> {
     }
 
     /// What the contact of a pair is called.
-    fn contact_name(&self, number: usize, pair: &Pair) -> Option<String> {
+    pub(super) fn contact_name(&self, number: usize, pair: &Pair) -> Option<String> {
         let name = &self.model.interactions.get(pair.interaction)?.name;
         let alike = self.model.pairs.iter().filter(|other| other.interaction == pair.interaction);
         Some(if alike.count() == 1 { name.clone() } else { format!("{name} {number}") })

@@ -7,6 +7,7 @@ mod courses;
 mod equations;
 mod groups;
 mod loads;
+mod outputs;
 mod rubber;
 mod steps;
 mod supports;
@@ -60,6 +61,7 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
     writer.equations();
     writer.ties();
     writer.steps();
+    writer.outputs();
     writer.named_sets();
     let mesh = writer.groups.mesh(model, &writer.section, &writer.used);
     let title = if model.title.is_empty() { name } else { &model.title };

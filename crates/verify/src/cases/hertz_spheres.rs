@@ -1,7 +1,7 @@
 //! Two equal elastic spheres under a force: `a^3 = 3 F R' / (4 E')` with `R' = R/2`, `E' = E / (2 (1 - nu^2))`, and
 //! `p0 = 3 F / (2 pi a^2)`.
 
-use crate::bench::{Bench, points, reaction};
+use crate::bench::{Bench, both_forms, points, reaction, sides};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 use asperity::model::Model;
@@ -22,9 +22,14 @@ type Pressures = Vec<(f64, f64)>;
 type Moment = (f64, [f64; 2]);
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
+    // The contact ends within edges.
+    both_forms(&["contact.touch.form=paper", "contact.touch.gauss=3"], |form| pressed(bench, form))
+}
+
+fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     let n = bench.pick(1, 2);
     let mut moments: Vec<Moment> = Vec::new();
-    let finite = bench.follow("spheres.toml", &refined(n), |model, state| {
+    let finite = bench.follow("spheres.toml", &[&refined(n), form].concat(), |model, state| {
         let force = reaction(model, state, "lower.start")[1];
         moments.push((force, over_hertz(force, &present(model, state))));
     })?;
@@ -33,8 +38,9 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         moments.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied().unwrap_or_default()
     };
     let small = ["lower", "upper"].map(|body| format!("body.{body}.strain=small"));
-    let small = bench.solve("spheres.toml", &[refined(n), small.into()].concat())?;
-    let carried = |contact: usize| finite.points(contact).iter().map(|point| point.force()[1]).sum::<f64>().abs();
+    let small = bench.solve("spheres.toml", &[&refined(n)[..], &small, form].concat())?;
+    let carried =
+        sides(&finite.model, &finite.state).map(|side| side.iter().map(|point| point.force()[1]).sum::<f64>().abs());
     let (whole, eighth) = (near(FORCE), near(0.125 * FORCE));
     let figures = [
         (["a", "p0"], whole.1),
@@ -48,7 +54,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     measured.extend([
         ("force".into(), whole.0),
         ("force_small".into(), small.reaction("lower.start")[1]),
-        ("balance".into(), carried(0) / carried(1) - 1.0),
+        ("balance".into(), carried[0] / carried[1] - 1.0),
     ]);
     Ok(measured)
 }

@@ -15,7 +15,7 @@ const RADIUS: f64 = 8.0;
 const MODULUS: f64 = 200.0 / (1.0 - 0.3 * 0.3);
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    both_forms("line", |form| pressed(bench, form))
+    both_forms(&["contact.line.form=paper"], |form| pressed(bench, form))
 }
 
 fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {

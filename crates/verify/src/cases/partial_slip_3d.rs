@@ -38,7 +38,7 @@ struct Moment {
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     match bench.size {
         Size::Quick => pressed(bench, &[]),
-        Size::Full => both_forms("spot", |form| pressed(bench, form)),
+        Size::Full => both_forms(&["contact.spot.form=paper"], |form| pressed(bench, form)),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Two blocks of different meshes under uniform pressure: the stress is uniform to rounding with two passes.
+//! Two blocks of different meshes under uniform pressure: the stress is uniform to rounding.
 
 use crate::bench::{Bench, Solved};
 use crate::{Case, Measured};
@@ -23,21 +23,20 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         sets.extend(more.iter().map(|set| (*set).to_owned()));
         bench.solve("flush.toml", &sets)
     };
-    let flush = with(meshed("quad4", "quad4"), &[])?;
     let one = with(meshed("quad4", "quad4"), &["contact.joint.passes=one", "contact.joint.gauss=2"])?;
     Ok(vec![
-        ("flush_quad4".into(), error(&flush)),
+        ("flush_quad4".into(), error(&with(meshed("quad4", "quad4"), &[])?)),
         ("flush_quad8".into(), error(&with(meshed("quad8", "quad8"), &[])?)),
         ("flush_mixed".into(), error(&with(meshed("quad4", "quad8"), &[])?)),
         ("punch_quad4".into(), error(&bench.solve("punch4.toml", &[])?)),
         ("punch_quad8".into(), error(&bench.solve("punch8.toml", &[])?)),
         ("one_pass".into(), error(&one)),
+        ("two_passes".into(), error(&with(meshed("quad8", "quad8"), &["contact.joint.passes=two"])?)),
         ("one_pass_quad8".into(), error(&with(meshed("quad8", "quad8"), &["contact.joint.passes=one"])?)),
         ("flush_hex8".into(), error(&bench.solve("flush_box.toml", &boxes(bench, "hex8", "hex8"))?)),
         ("flush_hex20".into(), error(&bench.solve("flush_box.toml", &boxes(bench, "hex20", "hex20"))?)),
         ("flush_tet10".into(), error(&bench.solve("flush_box.toml", &boxes(bench, "tet10", "hex8"))?)),
         ("punch_hex8".into(), error(&bench.solve("punch_box.toml", &[])?)),
-        ("mismatch".into(), mean_pressure(&flush, 0) / mean_pressure(&flush, 1) - 1.0),
     ])
 }
 
@@ -57,10 +56,4 @@ fn error(run: &Solved) -> f64 {
     let bodies = run.model.bodies.iter().zip(&run.state.histories);
     let stresses = bodies.flat_map(|((body, _), history)| body.records(&run.state.u, history));
     stresses.map(|record| (record.state[1] + PRESSURE).abs() / PRESSURE).fold(0.0, f64::max)
-}
-
-fn mean_pressure(run: &Solved, contact: usize) -> f64 {
-    let points = run.points(contact);
-    let [force, area] = points.iter().fold([0.0; 2], |[f, a], p| [f + p.pressure * p.area, a + p.area]);
-    force / area
 }

@@ -9,10 +9,11 @@ use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::term::{FieldContact, FieldTarget};
 use super::tip::Found;
+use crate::contact::augment;
+use crate::contact::increment::{in_contact, refuse_turn};
 use crate::contact::kink::answer;
 use crate::contact::overlap::recession;
 use crate::contact::record::{entry, leave, stresses, write};
-use crate::contact::{augment, capture::refuse_turn, point::in_contact};
 use crate::interface::{Interface, Past};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::Vec3;
@@ -142,7 +143,7 @@ const THROUGH: f64 = 1.8;
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> Vec<Support> {
         let now = Configuration::new(self.contact, u);
-        let tips = now.tips(self.contact.longest, &self.tips_before);
+        let tips = now.tips(self.contact.longest, Some(&self.tips_before));
         self.contact
             .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
     }

@@ -113,10 +113,11 @@ impl Faces {
             }
             // The steps of Newton's method are squared: the next would be lost in rounding.
             if ds.iter().all(|ds| ds.abs() < SETTLED) && dg.abs() <= SETTLED * size {
-                break;
+                return Some(self.at(number, placed, s, gap));
             }
         }
-        Some(self.at(number, placed, s, gap))
+        // A ray that passes by a curved face has no foot on it, and the iteration wanders.
+        None
     }
 
     fn at(&self, number: usize, placed: &Placed, s: [f64; 2], gap: f64) -> Projection {

@@ -19,19 +19,19 @@
 //! tangent `e_z`; what differs is the cover of a face, which is in `space`, and the pose of a tool.
 
 mod attempt;
-mod configuration;
+pub(super) mod configuration;
 mod cover;
-mod face;
-mod faces;
+pub(super) mod face;
+pub(super) mod faces;
 mod linear;
 mod point;
 mod space;
 mod stencil;
-mod surface;
+pub(super) mod surface;
 mod term;
 mod tie;
 mod tip;
-mod tool;
+pub(super) mod tool;
 
 pub use surface::Surface;
 pub use term::{FieldContact, FieldParts, FieldTarget};

@@ -7,16 +7,15 @@ use super::faces::{Faces, Ray};
 use super::stencil::{NodeSums, StencilInPlace, Support};
 use super::surface::Surface;
 use super::tool::RigidTool;
-use crate::contact::pair::{CLOSED, ahead};
+use crate::Failure;
+use crate::contact::increment::{CLOSED, ahead, reach};
 use crate::contact::record::{PointRecord, PointStatus, entry, largest_penetration, variables};
-use crate::contact::search::reach;
 use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::{Interface, Rule};
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
 use crate::tool::{self, Tip, Tool};
-use crate::{Error, Failure};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, RwLock};
 
@@ -192,6 +191,10 @@ impl FieldContact {
     pub(super) fn nodal_slots(&self) -> usize {
         self.surface.nodes.len() * self.pieces
     }
+    /// The node of the mesh that a record stands for; none for that of a tip.
+    pub fn node_at(&self, record: usize) -> Option<usize> {
+        self.node_of(record).map(|node| self.surface.nodes[node].node)
+    }
     /// The node of a stencil; none for that of a tip.
     fn node_of(&self, slot: usize) -> Option<usize> {
         (slot < self.nodal_slots()).then(|| slot / self.pieces)
@@ -251,9 +254,9 @@ impl FieldContact {
     }
 
     /// What each node sees at displacements `u`, as far as the accepted state alone tells.
-    fn supports(&self, u: &[f64], reach: f64) -> Vec<Support> {
+    fn supports(&self, u: &[f64], reach: f64, whole: bool) -> Vec<Support> {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
-        let tips = now.tips(self.longest, &[]);
+        let tips = now.tips(self.longest, if whole { None } else { Some(&[]) });
         self.find((&now, tips), reach, &depths, |_, _, _| {})
     }
 
@@ -267,9 +270,15 @@ impl FieldContact {
     }
 
     /// Calls `take` with the slots that see something at displacements `u`.
-    fn each_seen(&self, u: &[f64], reach: f64, mut take: impl FnMut(usize, &StencilInPlace, &NodeSums)) {
+    fn each_seen(
+        &self,
+        u: &[f64],
+        (reach, whole): (f64, bool),
+        mut take: impl FnMut(usize, &StencilInPlace, &NodeSums),
+    ) {
         let mut sums = NodeSums::default();
-        for (slot, support) in self.supports(u, reach).iter().enumerate().filter(|(_, s)| !s.patches.is_empty()) {
+        for (slot, support) in self.supports(u, reach, whole).iter().enumerate().filter(|(_, s)| !s.patches.is_empty())
+        {
             let values = self.values(support, u);
             let stencil = StencilInPlace::new(self, support, &values);
             if stencil.sum(&|_, _| None, false, &mut sums).is_some() {
@@ -303,7 +312,7 @@ impl FieldContact {
     /// the faces there.
     pub fn initial_gaps(&self) -> Vec<(f64, f64)> {
         let (still, mut found) = (vec![0.0; self.dofs.count()], Vec::new());
-        self.each_seen(&still, self.reach(&still), |slot, _, sums| {
+        self.each_seen(&still, (self.reach(&still), false), |slot, _, sums| {
             found.push((sums.y[0], sums.y[0] / self.size_at(slot)));
         });
         found
@@ -318,7 +327,7 @@ impl FieldContact {
     pub fn moves(&self) -> Vec<Move> {
         let still = vec![0.0; self.dofs.count()];
         let (now, mut moves) = (Configuration::new(self, &still), BTreeMap::new());
-        let supports = self.supports(&still, self.reach(&still));
+        let supports = self.supports(&still, self.reach(&still), false);
         for (patch, _) in supports.iter().flat_map(|support| &support.patches) {
             let (face, own) = (now.face(patch.face), &self.surface.faces[patch.face]);
             for (k, &node) in own.nodes.iter().enumerate() {
@@ -350,7 +359,7 @@ impl FieldContact {
     pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
         let mut records: Vec<PointRecord> =
             (0..self.slots()).map(|slot| self.unseen(slot, u, history.slot(slot))).collect();
-        self.each_seen(u, self.reach(&vec![0.0; u.len()]), |slot, stencil, sums| {
+        self.each_seen(u, (self.reach(&vec![0.0; u.len()]), true), |slot, stencil, sums| {
             let values = history.slot(slot);
             if values[entry::SEGMENT] < 0.0 {
                 return;
@@ -359,7 +368,9 @@ impl FieldContact {
             let record = &mut records[slot];
             let sheared = e1 * values[entry::SHEAR] + e2 * values[entry::SHEAR2];
             let stretch = values[entry::HALF];
-            record.area = sums.area * stretch;
+            // The part that a tip has in its face is that of the increment.
+            let area = if self.node_of(slot).is_some() { sums.area } else { values[entry::XI] };
+            record.area = area * stretch;
             let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
             record.resultant = Some([force, sums.place]);
             (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), thrust.unit());
@@ -368,6 +379,10 @@ impl FieldContact {
                 record.along = sheared.unit();
             }
         });
+        // Ends of a plate that touch nothing are no points of the contact.
+        let tips = records.split_off(self.nodal_slots()).into_iter().zip(self.nodal_slots()..);
+        let seen = |slot: usize| history.slot(slot)[entry::SEGMENT] >= 0.0;
+        records.extend(tips.filter(|(_, slot)| seen(*slot)).map(|(tip, _)| tip));
         if self.swapped {
             records.iter_mut().for_each(PointRecord::turn);
         }
@@ -422,6 +437,7 @@ impl FieldContact {
             slipped: values[entry::SLIPPED],
             dissipated: values[entry::DISSIPATED],
             last_dissipated: values[entry::LAST_DISSIPATED],
+            closure: values[entry::CLOSURE],
             rubbed: values[entry::RUBBED],
             violation: values[entry::VIOLATION],
             vars: variables(values),
@@ -435,6 +451,30 @@ impl FieldContact {
         self.options.augmentation?;
         let closed = (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0);
         Some(closed.map(|slot| history.slot(slot)[entry::PENETRATION] / self.size_at(slot)).fold(0.0, f64::max))
+    }
+
+    /// Facets of first degree whose mean distance is not that of the curved surfaces they stand for: with an overlap that is to
+    /// be pressed apart, what they add to it or take from it is pressure.
+    pub fn facets(&self, history: &History) -> Option<String> {
+        let faces = self.target.as_faces().filter(|_| self.options.overlap != Overlap::Fit)?;
+        let overlaps =
+            (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
+        let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
+        // Of a parabola over a chord the mean height is two thirds of the largest.
+        let stands = |surface: &Surface| {
+            let all = (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.mesh)).sum::<f64>();
+            2.0 / 3.0 * all / surface.nodes.len().max(1) as f64
+        };
+        let [overlap, apart] = [sum / count, (stands(&self.surface) - stands(&faces.surface)).abs()];
+        (count > 0.0 && apart > MISPLACED * overlap).then(|| {
+            format!(
+                "contact '{}': its facets stand {apart:.2e} farther apart, or less, than the curved surfaces that they are meant for, \
+                 {:.0} % of the overlap of {overlap:.2e}, and the pressure is off by about as much; cells of second degree, matching \
+                 or finer facets, or the clearance of a smooth fit by overlap = \"fit\"",
+                self.name,
+                100.0 * apart / overlap
+            )
+        })
     }
 
     /// How far the facets of both sides stand off a smooth surface at most, a length.
@@ -459,6 +499,8 @@ impl FieldContact {
 const SOFTEST: f64 = 0.05;
 /// Largest radius of a tip over the length of the shortest face: a larger one is felt by the faces around it.
 const SMALL: f64 = 1.0;
+/// Mean distance of facets from curved surfaces over the overlap from which on it is told.
+const MISPLACED: f64 = 0.02;
 /// Gaps up to this multiple of what the facets of both sides stand off a smooth surface are theirs, where bodies fit.
 const FITS: f64 = 2.0;
 
@@ -495,7 +537,7 @@ impl Term for FieldContact {
             self.law.first().initial(&mut values[entry::COUNT..]);
         }
         let (still, fits) = (vec![0.0; self.dofs.count()], FITS * self.sagitta());
-        self.each_seen(&still, self.reach(&still), |slot, _, sums| {
+        self.each_seen(&still, (self.reach(&still), false), |slot, _, sums| {
             let values = history.slot_mut(slot);
             (values[entry::SEGMENT], values[entry::PENETRATION], values[entry::XI]) = (0.0, sums.y[0], sums.area);
             let gap = -sums.y[0];
@@ -521,7 +563,7 @@ impl Term for FieldContact {
             contact: self,
             history,
             accepted: &accepted.u,
-            tips_before: before.tips(f64::INFINITY, &[]),
+            tips_before: before.tips(f64::INFINITY, Some(&[])),
             before,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),
@@ -540,10 +582,6 @@ impl Term for FieldContact {
 
     fn name_of(&self, stencil: usize) -> String {
         self.describe(stencil)
-    }
-
-    fn verdict(&self, _: &State, _: &History) -> Result<(), Error> {
-        Ok(())
     }
 
     fn bends(&self) -> bool {

@@ -24,6 +24,8 @@ pub struct Landing {
     pub xi: f64,
     /// The corner of the face that is closest, where the tip lies in a valley.
     pub corner: Option<usize>,
+    /// The corner that it lies over where the surface ends, as on a plane or axis of symmetry.
+    pub border: Option<usize>,
     /// Part of the face's area that it has.
     pub share: f64,
 }
@@ -42,6 +44,10 @@ const POINTS: f64 = 0.1;
 /// Cosines of the angle between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner
 /// of a punch does: the flank's own nodes then feel all that there is, and the tip nothing.
 const FLAT: [f64; 2] = [0.75, 0.9];
+/// How far beside the end of the surface, over half of its face there, a tip may lie that lies over that end,
+const BESIDE: f64 = 0.5;
+/// and how far from it along the face, likewise.
+const AT_END: f64 = 1e-3;
 /// Starts of the search for the closest place of an edge.
 const STARTS: [f64; 3] = [-0.5, 0.0, 0.5];
 
@@ -93,14 +99,14 @@ fn outward(tangent: Vec3) -> Vec3 {
 
 impl Configuration<'_> {
     /// Where the tips of the tool lie, up to `reach` away from the surface: tip after tip. The part that a tip has in a face is the
-    /// one it had `before`, at the accepted state, so that it stays over an increment.
-    pub fn tips(&self, reach: f64, before: &[Option<Found>]) -> Vec<Option<Found>> {
+    /// one it had `before`, at the accepted state, so that it stays over an increment; all of it where that is not given.
+    pub fn tips(&self, reach: f64, before: Option<&[Option<Found>]>) -> Vec<Option<Found>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let land = |(number, tip): (usize, &Tip)| {
             let mut found = self.land((number, tip), tool)?;
-            let had = before.get(number).copied().flatten().and_then(|found| found.patch.tip);
-            if let (Some(landing), Some(had)) = (&mut found.patch.tip, had) {
-                landing.share = had.share;
+            if let Some(landing) = &mut found.patch.tip {
+                let had = before.map(|before| before.get(number).copied().flatten().and_then(|found| found.patch.tip));
+                landing.share = had.map_or(1.0, |had| had.map_or(landing.share, |had| had.share));
             }
             Some(found).filter(|found| found.gap <= reach && found.patch.tip.is_some_and(|tip| tip.share > 0.0))
         };
@@ -120,16 +126,28 @@ impl Configuration<'_> {
             let xi = edge.closest(vertex);
             let at = edge.at(xi);
             let (n, to) = (outward(at.tangent), vertex - at.x);
-            if n.dot(points) > -POINTS {
+            let (surface, nearer) = (&self.contact.surface, usize::from(xi > 0.0));
+            let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
+            let inner = if ends { 1.0 - AT_END } else { 1.0 };
+            let corner = if xi.abs() < inner { None } else { Some(nearer) };
+            // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
+            let border = corner.filter(|_| ends).map(|_| self.undeformed_normal(face));
+            if border.unwrap_or(n).dot(points) > -POINTS {
                 continue;
             }
-            let corner = if xi.abs() < 1.0 { None } else { Some(usize::from(xi > 0.0)) };
-            let patch = |corner: Option<usize>| {
-                let tip = Some(Landing { xi, corner, share: self.share((f, usize::from(xi > 0.0)), flanks) });
+            let landed = |corner: Option<usize>, border: Option<usize>| {
+                let share = self.share((f, nearer), flanks, border.map(|_| self.undeformed_normal(face)));
+                let tip = Some(Landing { xi, corner, border, share });
                 Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], tip }
             };
+            let patch = |corner: Option<usize>| landed(corner, None);
             match corner {
                 None => offer(Found { patch: patch(None), gap: to.dot(n) }),
+                Some(corner) if ends => {
+                    if to.dot(at.tangent).abs() <= BESIDE * at.tangent.dot(at.tangent) {
+                        offer(Found { patch: landed(None, Some(corner)), gap: to.dot(n) });
+                    }
+                }
                 // Within both edges that meet there.
                 Some(corner) if to.dot(n) < 0.0 => {
                     let (node, gap) = (face.corner_node(corner), -to.norm());
@@ -146,8 +164,14 @@ impl Configuration<'_> {
         best
     }
 
-    /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together.
-    fn share(&self, (f, corner): (usize, usize), flanks: [Vec3; 2]) -> f64 {
+    fn undeformed_normal(&self, face: &Face) -> Vec3 {
+        let rest = face.at_rest(&self.contact.mesh);
+        outward(face.shape(face.middle()).tangents(rest.nodes(), true)[0])
+    }
+
+    /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
+    /// the end of the surface on the normal it had, which a plane of symmetry keeps.
+    fn share(&self, (f, corner): (usize, usize), flanks: [Vec3; 2], border: Option<Vec3>) -> f64 {
         let surface = &self.contact.surface;
         let area = |f: usize| {
             let face = &surface.faces[f];
@@ -156,7 +180,7 @@ impl Configuration<'_> {
         let both =
             surface.nodes[surface.field[f][corner]].support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
         let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
-        let cosine = flat(area(f).unit()).min(flat(both.unit()));
+        let cosine = border.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
         let t = ((cosine - FLAT[0]) / (FLAT[1] - FLAT[0])).clamp(0.0, 1.0);
         1.0 - t * t * (3.0 - 2.0 * t)
     }
@@ -177,7 +201,7 @@ impl StencilInPlace<'_> {
         let placed = self.placed(face);
         let edge = Edge { face, placed: &placed };
         let vertex = tool.place(tip.point);
-        let xi = match landing.corner {
+        let xi = match landing.corner.or(landing.border) {
             Some(corner) => face.corner_place(corner)[0],
             None => root_near(landing.xi, |xi| edge.offset(xi, vertex)),
         };
@@ -186,9 +210,10 @@ impl StencilInPlace<'_> {
         let n = if landing.corner.is_some() { -to.unit() } else { outward(at.tangent) };
         let gap = to.dot(n);
         let density = if derivatives { Surface::density } else { Surface::density_there };
-        let (density, [slope, _]) = density(&contact.surface, face, &face.at_rest(&contact.mesh), [xi, 0.0]);
-        // The length of the face in reference coordinates.
-        let weight = 2.0 * density * landing.share;
+        // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
+        let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
+        let (density, [slope, _]) = density(&contact.surface, face, &face.at_rest(&contact.mesh), [over, 0.0]);
+        let weight = length * density * landing.share;
         let touched = recall(patch, [xi, 0.0]);
         let v = touched.map_or(Vec3::zero(), |touched| vertex - touched.now);
         let e = [n.left(), unit(2)];
@@ -209,7 +234,8 @@ impl StencilInPlace<'_> {
                     (0.0, (n * n.dot(apart) - apart) * to.norm().recip())
                 } else {
                     let stiff = at.tangent.dot(at.tangent) - to.dot(at.bend);
-                    let dxi = (apart.dot(at.tangent) + to.dot(dtangent)) / stiff;
+                    let stays = landing.border.is_some();
+                    let dxi = if stays { 0.0 } else { (apart.dot(at.tangent) + to.dot(dtangent)) / stiff };
                     let dm = (dtangent + at.bend * dxi).cross(unit(2));
                     (dxi, (dm - n * n.dot(dm)) * at.tangent.norm().recip())
                 };
@@ -219,7 +245,7 @@ impl StencilInPlace<'_> {
                     Rates {
                         weight: 2.0 * slope * dxi * landing.share,
                         xi: [dxi, 0.0],
-                        gap: n.dot(apart),
+                        gap: n.dot(apart) + if landing.border.is_some() { dn.dot(to) } else { 0.0 },
                         n: dn,
                         e: [dn.left(), Vec3::zero()],
                         slip: [dn.left().dot(v) + e[0].dot(left), 0.0],

@@ -4,7 +4,7 @@ use super::surface::unit;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
-use crate::tool::{Pose, SmoothPiece, Tip, Tool};
+use crate::tool::{Hit, Pose, Ray, SmoothPiece, Tip, Tool};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -256,5 +256,31 @@ impl ToolInPlace<'_> {
             *rate += spin.cross(arm).dot(f) + turned.cross(whole).dot(f);
         }
         rates
+    }
+}
+
+impl ToolInPlace<'_> {
+    /// All places within a range where a ray meets the tool's segments; `hits` is cleared first.
+    pub fn cast(&self, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+        match (&self.rigid.shape, &self.stand) {
+            (RigidShape::Plane(tool, _), Stand::Plane(pose)) => tool.cast(pose, ray, range, hits),
+            (RigidShape::Space(tool, _), Stand::Space(stance, _)) => tool.cast(&stance.pose, ray, range, hits),
+            _ => hits.clear(),
+        }
+    }
+    /// Where a ray meets one segment or what continues it, near a place on it.
+    pub fn meet(&self, segment: usize, ray: &Ray, near: [f64; 2]) -> Option<Hit> {
+        match (&self.rigid.shape, &self.stand) {
+            (RigidShape::Plane(tool, _), Stand::Plane(pose)) => tool.cast_segment(pose, segment, ray, near[0]),
+            (RigidShape::Space(tool, _), Stand::Space(stance, _)) => tool.cast_facet(&stance.pose, segment, ray, near),
+            _ => None,
+        }
+    }
+    /// Present place of the material point at `s` on a segment.
+    pub fn point(&self, segment: usize, s: [f64; 2]) -> Vec3 {
+        self.place(match &self.rigid.shape {
+            RigidShape::Plane(tool, _) => tool.segments()[segment].point(s[0]),
+            RigidShape::Space(tool, _) => tool.facets()[segment].point(s),
+        })
     }
 }

@@ -2,9 +2,10 @@
 
 use super::Builder;
 use super::friction::integrated;
+use crate::contact::field::{FieldTarget, Surface};
 use crate::contact::{
-    Augmentation, Backing, Contact, ContactForm, ContactOptions, Faces, Guard, Loads, Role, Surface, TWO_PASSES,
-    Target, default_penalty, plates, second_name,
+    Backing, ContactForm, ContactOptions, Loads, PaperContact, PaperParts, PointSurface, TWO_PASSES, default_penalty,
+    plates, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -12,7 +13,8 @@ use crate::deck::reader::Name;
 use crate::interface::Rule;
 use crate::mesh::{Mesh, Side, Space};
 use crate::solid::Body;
-use crate::tool::Tool;
+use crate::system::Dofs;
+use crate::tool::{self, Tool};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -26,18 +28,36 @@ pub(super) enum Opposite<'a> {
     Sides(&'a [Side]),
 }
 
+/// The tools of a model, those of the plane or those of space.
+#[derive(Clone, Copy)]
+pub(super) struct Tools<'a> {
+    pub plane: &'a [Arc<Tool>],
+    pub solid: &'a [Arc<tool::space::Tool>],
+}
+
+impl Tools<'_> {
+    /// A tool as what a contact may touch.
+    pub(super) fn target(&self, number: usize, dofs: &Dofs) -> Option<FieldTarget> {
+        match (self.plane.get(number), self.solid.get(number)) {
+            (Some(tool), _) => Some(FieldTarget::tool(tool.clone(), number, dofs)),
+            (_, Some(tool)) => Some(FieldTarget::solid_tool(tool.clone(), number, dofs)),
+            (None, None) => None,
+        }
+    }
+}
+
 /// Multiple of the computed penalty beyond which a matrix in double precision holds next to nothing of the cells.
 const LARGEST_PENALTY: f64 = 1e12;
 
 impl Builder<'_> {
-    /// The contacts, those of the second of two passes right behind those of the first.
-    pub(super) fn contacts(&mut self, tools: &[Arc<Tool>], bodies: &[(Body, usize)]) -> Option<Vec<Contact>> {
+    /// The contacts of Gauss points, those of the second of two passes right behind those of the first.
+    pub(super) fn paper_contacts(&mut self, tools: Tools, bodies: &[(Body, usize)]) -> Option<Vec<PaperContact>> {
         let backings = backings(&self.site.mesh, bodies.iter().map(|(body, _)| body));
         let deck = self.deck;
         self.check_doubles();
         let of_points: Vec<_> = deck.contact.iter().filter(|(_, keys)| !self.is_field(keys)).collect();
         let contacts: Vec<_> =
-            of_points.into_iter().map(|(name, keys)| self.contact(name, keys, tools, &backings)).collect();
+            of_points.into_iter().map(|(name, keys)| self.paper_contact(name, keys, tools, &backings)).collect();
         Some(contacts.into_iter().collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
@@ -77,45 +97,66 @@ impl Builder<'_> {
         self.found.append(&mut found);
     }
 
-    fn contact(
+    fn paper_contact(
         &mut self,
         name: &Name,
         keys: &keys::Contact,
-        tools: &[Arc<Tool>],
+        tools: Tools,
         backings: &[Backing],
-    ) -> Option<Vec<Contact>> {
+    ) -> Option<Vec<PaperContact>> {
         let law = self.interface(name, keys)?;
-        let mesh = self.site.mesh.clone();
+        let (mesh, dofs, space) = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), backings);
         self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings));
         self.check_elastic_slip(keys, &options);
-        let build = |name: &str, sides: &[Side], target: Target, options: ContactOptions| {
-            let gauss = keys.gauss.map(|gauss| gauss.value);
-            let carrier = match self.site.space {
-                Space::Axisymmetric => Surface::around_axis(&mesh, sides, gauss),
-                _ => Surface::new(&mesh, sides, gauss),
-            };
-            let carrier = carrier.divided(keys.parts.map_or(1, |parts| parts.value));
-            let boundary = boundary_behind(&mesh, sides, &self.deck.body);
-            let site = (mesh.clone(), self.site.dofs.clone(), self.site.space);
-            Contact::new(name, site, (carrier, boundary), target, (law.clone(), options))
+        if !self.check_passes(name, keys, (surface, opposite)) || !self.check_points(keys) {
+            return None;
+        }
+        let thickness = self.site.thickness;
+        let order = (keys.gauss.map(|gauss| gauss.value), keys.parts.map_or(1, |parts| parts.value));
+        let build = |name: &str, sides: &[Side], target: FieldTarget| {
+            PaperContact::new(PaperParts {
+                name: name.into(),
+                surface: PointSurface::new(&mesh, sides, (space, thickness), order),
+                boundary: boundary_behind(&mesh, sides, &self.deck.body),
+                target,
+                law: law.clone(),
+                options,
+                space,
+                dofs: dofs.clone(),
+                mesh: mesh.clone(),
+            })
         };
-        let faces = |sides: &[Side]| Target::Faces(Faces::new(mesh.clone(), self.site.dofs.clone(), sides));
-        let contacts = match opposite {
-            Opposite::Tool(number) => {
-                let target = Target::tool(tools[number].clone(), number, &self.site.dofs);
-                vec![build(&name.text, surface, target, options)]
-            }
+        let faces = |sides: &[Side]| FieldTarget::faces(Surface::whole(&mesh, sides, space, thickness), &mesh);
+        Some(match opposite {
+            Opposite::Tool(number) => vec![build(&name.text, surface, tools.target(number, &dofs)?)],
             Opposite::Sides(sides) => {
-                let first = build(&name.text, surface, faces(sides), options);
-                let second = is_double(&options, surface, sides)
-                    .then(|| build(&second_name(&name.text), sides, faces(surface), following(options)));
-                std::iter::once(first).chain(second).collect()
+                let second =
+                    is_double(&options, surface, sides).then(|| build(&second_name(&name.text), sides, faces(surface)));
+                std::iter::once(build(&name.text, surface, faces(sides))).chain(second).collect()
             }
-        };
-        self.check_passes(name, keys, (surface, opposite)).then_some(contacts)
+        })
+    }
+
+    /// What is said of a field, or of the plane, says nothing of Gauss points there.
+    fn check_points(&mut self, keys: &keys::Contact) -> bool {
+        let solid = self.site.space == Space::Solid;
+        let said = [
+            keys.parts.filter(|_| solid).map(|parts| {
+                ("`parts` divides edges, which carry contact in the plane and in axial symmetry", parts.place)
+            }),
+            keys.augmentation.as_ref().map(|keys| {
+                (
+                    "`augmentation` is for a field of contact stress: form = \"field\", without what only points have",
+                    keys.place,
+                )
+            }),
+        ];
+        let found = self.found.len();
+        said.into_iter().flatten().for_each(|(what, place)| self.refuse(what, place));
+        self.found.len() == found
     }
 
     pub(super) fn options(
@@ -126,8 +167,6 @@ impl Builder<'_> {
     ) -> ContactOptions {
         let loads = self.carried(keys, (surface, opposite));
         let penalty = keys.penalty.unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), backings));
-        let itself = matches!(opposite, Opposite::Sides(others) if same_sides(surface, others));
-        let role = if itself { Role::Itself } else { Role::Leads };
         ContactOptions {
             penalty,
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
@@ -135,15 +174,9 @@ impl Builder<'_> {
             thickness: self.site.thickness,
             loads,
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
-            guard: keys.guard.map_or(Guard::Refuse, |guard| guard.value),
-            augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation(role)),
+            augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation()),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
-            form: if self.is_field(keys) {
-                ContactForm::Field
-            } else {
-                keys.form.map_or(ContactForm::Traction, |form| form.value)
-            },
-            normals: keys.normals,
+            form: if self.is_field(keys) { ContactForm::Field } else { ContactForm::Paper },
             wear: keys.wear.as_ref().map(keys::WearKeys::wear),
         }
     }
@@ -206,7 +239,6 @@ impl Builder<'_> {
             Passes::One => false,
             Passes::Two => true,
             Passes::Auto if same_sides(surface, others) => true,
-            Passes::Auto if keys.augmentation.is_some() => false,
             Passes::Auto => smooth(surface) && smooth(others),
         };
         if two { Loads::Own } else { Loads::Both }
@@ -222,19 +254,12 @@ impl Builder<'_> {
         let before = self.found.len();
         let rigid = matches!(opposite, Opposite::Tool(_));
         let local = keys.law.build().is_ok_and(|law| law.radius() == 0.0);
-        if !local && (!rigid || keys.form.is_some_and(|form| form.value == ContactForm::Variational)) {
-            let what = "a mean of the pressure is for contact with a tool, and form = \"traction\"";
-            self.refuse(what, keys.law.place);
-        }
-        if let Some(form) = keys.form.filter(|form| !rigid && form.value == ContactForm::Variational) {
-            self.refuse("the variational form is for contact with a tool", form.place);
+        if !local && !rigid {
+            self.refuse("a mean of the pressure is for contact with a tool", keys.law.place);
         }
         let Opposite::Sides(others) = opposite else {
-            let said = [
-                keys.passes.map(|spot| ("passes", spot.place)),
-                keys.coupling.map(|spot| ("coupling", spot.place)),
-                keys.guard.map(|spot| ("guard", spot.place)),
-            ];
+            let said =
+                [keys.passes.map(|spot| ("passes", spot.place)), keys.coupling.map(|spot| ("coupling", spot.place))];
             for (key, place) in said.into_iter().flatten() {
                 self.refuse(format!("`{key}` is for the contact of two bodies; `{}` is a tool", keys.target), place);
             }
@@ -270,12 +295,6 @@ impl Builder<'_> {
 /// Whether the target of a contact carries points of its own, in a second pass.
 pub(super) fn is_double(options: &ContactOptions, surface: &[Side], target: &[Side]) -> bool {
     options.loads == Loads::Own && !same_sides(surface, target)
-}
-
-/// The options of the second of two passes.
-pub(super) fn following(options: ContactOptions) -> ContactOptions {
-    let augmentation = options.augmentation.map(|augmentation| Augmentation { role: Role::Follows, ..augmentation });
-    ContactOptions { augmentation, ..options }
 }
 
 /// Whether two lists hold the same sides; those of a group are sorted.

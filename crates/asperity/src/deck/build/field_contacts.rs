@@ -1,19 +1,14 @@
 //! Contacts whose stress is a field of nodal values.
 
 use super::Builder;
-use super::contacts::{Opposite, backings, boundary_behind};
+use super::contacts::{Opposite, Tools, backings, boundary_behind};
 use crate::contact::field::{FieldContact, FieldParts, FieldTarget, Surface};
-use crate::contact::{Backing, ContactForm, Normals};
+use crate::contact::{Backing, ContactForm};
 use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
 use crate::deck::source::Place;
 use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
-use crate::tool::{self, Tool};
-use std::sync::Arc;
-
-/// The tools of a model in space.
-type SolidTools<'a> = &'a [Arc<tool::space::Tool>];
 
 impl Builder<'_> {
     /// Whether a contact is a field.
@@ -27,7 +22,7 @@ impl Builder<'_> {
     /// The contacts that are fields.
     pub(super) fn field_contacts(
         &mut self,
-        (plane_tools, solid_tools): (Option<&[Arc<Tool>]>, Option<SolidTools>),
+        tools: Option<Tools>,
         bodies: Option<&[(Body, usize)]>,
     ) -> Option<Vec<FieldContact>> {
         let deck = self.deck;
@@ -36,7 +31,7 @@ impl Builder<'_> {
             return Some(Vec::new());
         }
         let backings = backings(&self.site.mesh, bodies?.iter().map(|(body, _)| body));
-        let tools = (plane_tools?, solid_tools?);
+        let tools = tools?;
         let contacts: Vec<_> =
             fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools, &backings)).collect();
         contacts.into_iter().collect()
@@ -46,7 +41,7 @@ impl Builder<'_> {
         &mut self,
         name: &Name,
         keys: &keys::Contact,
-        (plane_tools, solid_tools): (&[Arc<Tool>], SolidTools),
+        tools: Tools,
         backings: &[Backing],
     ) -> Option<FieldContact> {
         let law = self.interface(name, keys)?;
@@ -66,11 +61,7 @@ impl Builder<'_> {
         let carrier = |sides: &[Side]| Surface::new(&mesh, sides, space, self.site.thickness);
         let (mut sides, mut swapped, mut itself) = (surface, false, false);
         let target = match opposite {
-            Opposite::Tool(number) => match (plane_tools.get(number), solid_tools.get(number)) {
-                (Some(tool), _) => FieldTarget::tool(tool.clone(), number, &dofs),
-                (_, Some(tool)) => FieldTarget::solid_tool(tool.clone(), number, &dofs),
-                (None, None) => return None,
-            },
+            Opposite::Tool(number) => tools.target(number, &dofs)?,
             Opposite::Sides(others) => {
                 itself = others == surface;
                 swapped = !itself && keys.roles == Roles::Auto && suits_better(&whole(others), &whole(surface), &mesh);
@@ -116,15 +107,12 @@ impl Builder<'_> {
 
 /// What a deck says that only stresses at points have, and where.
 fn said_of_points(keys: &keys::Contact) -> Vec<(&'static str, Place)> {
-    let averaged = keys.normals != Normals::Own;
     let mean = !keys.law.build().is_ok_and(|law| law.radius() == 0.0);
     let said = [
         keys.gauss.map(|spot| ("`gauss` is", spot.place)),
         keys.parts.map(|spot| ("`parts` is", spot.place)),
         keys.passes.map(|spot| ("`passes` is", spot.place)),
         keys.coupling.map(|spot| ("`coupling` is", spot.place)),
-        keys.guard.map(|spot| ("`guard` is", spot.place)),
-        averaged.then(|| ("averaged `normals` are", keys.form.map_or(keys.law.place, |form| form.place))),
         mean.then_some(("a mean of the pressure is", keys.law.place)),
     ];
     said.into_iter().flatten().collect()

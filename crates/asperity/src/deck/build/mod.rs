@@ -10,13 +10,14 @@ mod field_contacts;
 mod friction;
 mod loads;
 mod overlaps;
+mod results;
 mod rigid;
-mod solid_contacts;
 mod solid_tools;
 mod supports;
 mod ties;
 mod tools;
 
+use contacts::Tools;
 pub(super) use contacts::backings;
 
 use super::diagnose::Diagnostic;
@@ -27,7 +28,7 @@ use crate::load::{Bearing, Site};
 use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
 use crate::output::checkpoint::InputHash;
-use crate::output::{Asked, Part};
+use crate::output::{Asked, Part, ResultOptions};
 use crate::solve::{Increments, Step};
 use crate::system::{Dofs, Term};
 use crate::{Error, machine};
@@ -40,6 +41,8 @@ pub struct Made {
     pub deck: Deck,
     /// The model.
     pub model: Model,
+    /// What its run writes, and how often.
+    pub results: ResultOptions,
     /// What was not said, and what holds instead.
     pub unsaid: Vec<Unsaid>,
     /// Fingerprint of the deck's text, what was set over it, and the mesh.
@@ -125,7 +128,13 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     match built {
         Some(built) if !diagnostics.has_errors() => {
             let model = Model::new(built);
-            Ok(Made { deck, model, unsaid, input, parts, diagnostics })
+            let (results, mut found) = results::results(&deck, &model);
+            diagnostics.list.append(&mut found);
+            diagnostics.sort();
+            if diagnostics.has_errors() {
+                return Err(diagnostics.without_notes());
+            }
+            Ok(Made { deck, model, results, unsaid, input, parts, diagnostics })
         }
         _ => Err(diagnostics.without_notes()),
     }
@@ -177,16 +186,14 @@ impl Builder<'_> {
         let plane = self.plane();
         let tools = if plane { self.tools() } else { Some(Vec::new()) };
         let solid_tools = if plane { Some(Vec::new()) } else { self.solid_tools() };
-        let contacts = tools.as_ref().filter(|_| plane).and_then(|tools| self.contacts(tools, bodies.as_deref()?));
-        let solid = solid_tools.as_ref().filter(|_| !plane);
-        let solid_contacts = solid.and_then(|tools| self.solid_contacts(tools, bodies.as_deref()?));
-        let field_contacts = self.field_contacts((tools.as_deref(), solid_tools.as_deref()), bodies.as_deref());
+        let all = tools.as_deref().zip(solid_tools.as_deref()).map(|(plane, solid)| Tools { plane, solid });
+        let contacts = all.and_then(|tools| self.paper_contacts(tools, bodies.as_deref()?));
+        let field_contacts = self.field_contacts(all, bodies.as_deref());
         let (springs, loads, fluids, rigid) = (self.springs(), self.loads(), self.fluids(), self.rigid());
         let (constrained, supports) = self.supports();
-        let plane_names = contacts.iter().flatten().map(|contact| contact.name().to_owned());
-        let solid_names = solid_contacts.iter().flatten().map(|contact| contact.name().to_owned());
+        let paper_names = contacts.iter().flatten().map(|contact| contact.name().to_owned());
         let field_names = field_contacts.iter().flatten().map(|contact| contact.name().to_owned());
-        let names: Vec<String> = plane_names.chain(solid_names).chain(field_names).collect();
+        let names: Vec<String> = paper_names.chain(field_names).collect();
         let absent = self.absent(&names, bodies.as_ref().map_or(0, Vec::len));
         let steps = self.deck.step.iter().enumerate().zip(constrained);
         let leaving = |i: usize| {
@@ -203,8 +210,7 @@ impl Builder<'_> {
             materials: self.deck.material.iter().map(|(name, _)| name.text.clone()).collect(),
             tools: tools?,
             solid_tools: solid_tools?,
-            contacts: if plane { contacts? } else { Vec::new() },
-            solid_contacts: if plane { Vec::new() } else { solid_contacts? },
+            contacts: contacts?,
             field_contacts: field_contacts?,
             springs: springs?,
             loads: loads?,

@@ -5,6 +5,7 @@ use crate::contact::Move;
 use crate::deck::keys::{self, OverlapWord};
 use crate::deck::reader::Name;
 use crate::model::ModelParts;
+use crate::tool::Hit;
 use std::sync::Arc;
 
 /// Overlap up to this part of an edge or face is none.
@@ -17,20 +18,13 @@ type Found = (String, Vec<(f64, f64)>);
 
 fn penetrations(parts: &ModelParts) -> Vec<Found> {
     let still = vec![0.0; parts.dofs.count()];
-    let plane = parts.contacts.iter().map(|contact| {
+    let points = parts.contacts.iter().map(|contact| {
         let hits = contact.search(&still).0.into_iter().enumerate();
-        let part =
-            |(i, hit): (usize, Option<crate::contact::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.edge_length(i)));
-        (contact.title().to_owned(), hits.filter_map(part).collect())
-    });
-    let solid = parts.solid_contacts.iter().map(|contact| {
-        let hits = contact.search(&still).0.into_iter().enumerate();
-        let part =
-            |(i, hit): (usize, Option<crate::tool::space::Hit>)| hit.map(|hit| (hit.u, hit.u / contact.face_length(i)));
+        let part = |(i, hit): (usize, Option<Hit>)| hit.map(|hit| (hit.u, hit.u / contact.face_size(i)));
         (contact.title().to_owned(), hits.filter_map(part).collect())
     });
     let fields = parts.field_contacts.iter().map(|c| (c.title().to_owned(), c.initial_penetrations()));
-    plane.chain(solid).chain(fields).collect()
+    points.chain(fields).collect()
 }
 
 impl Builder<'_> {
@@ -62,10 +56,9 @@ impl Builder<'_> {
     pub(super) fn adjust(&mut self, parts: &ModelParts) -> bool {
         let mut moves = Vec::new();
         for (name, keys) in self.said(OverlapWord::Adjust) {
-            let plane = parts.contacts.iter().filter(|contact| contact.title() == name.text).flat_map(|c| c.moves());
-            let solid = parts.solid_contacts.iter().filter(|c| c.title() == name.text).flat_map(|c| c.moves());
+            let points = parts.contacts.iter().filter(|c| c.title() == name.text).flat_map(|c| c.moves());
             let fields = parts.field_contacts.iter().filter(|c| c.title() == name.text).flat_map(|c| c.moves());
-            moves.extend(plane.chain(solid).chain(fields).map(|moved| (moved, keys.overlap.place)));
+            moves.extend(points.chain(fields).map(|moved| (moved, keys.overlap.place)));
         }
         let mut mesh = (*self.site.mesh).clone();
         for (Move { node, by, cell }, place) in &moves {

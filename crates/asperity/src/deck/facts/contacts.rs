@@ -80,6 +80,7 @@ fn contact_facts(made: &Made, (name, keys): (&Name, &Contact), all: &[Seen], bac
         seeing: found().count(),
         gap: found().map(|(u, _)| -u).reduce(f64::min),
         inside,
+        itself: surface == target,
         distance,
         edge: edges.fold(f64::INFINITY, f64::min),
         penalty: keys.penalty.map(|given| given / computed),

@@ -4,6 +4,7 @@ mod law;
 mod list;
 mod name;
 mod one_of;
+mod removed;
 mod scalar;
 mod table;
 mod word;

@@ -1,5 +1,6 @@
 //! Tables: a Rust struct, its reader and its schema from one declaration.
 
+use super::removed::successor;
 use super::{Field, Form};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::reader::Reader;
@@ -91,7 +92,11 @@ impl<'n> Fields<'n> {
             "" => format!("a deck has no key `{}`", entry.key),
             _ => format!("`{path}` has no key `{}`", entry.key),
         };
-        Diagnostic::error(what).at(entry.place).suggest(&entry.key, meant.iter().copied())
+        let unknown = Diagnostic::error(what).at(entry.place);
+        match successor(path, &entry.key) {
+            Some(help) => unknown.help(help),
+            None => unknown.suggest(&entry.key, meant.iter().copied()),
+        }
     }
 
     fn lacks(&self, keys: &[&str], path: &str) -> Diagnostic {

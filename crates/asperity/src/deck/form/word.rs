@@ -1,6 +1,7 @@
 //! One of a few words.
 
 use super::Form;
+use super::removed::successor;
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::reader::Reader;
 use crate::deck::schema::Schema;
@@ -38,7 +39,9 @@ impl<T: Words> Form for Word<T> {
             let what = format!("`{}` cannot be `{text}`", reader.path());
             let near = nearest(text, words.iter().map(|&(_, word, _)| word));
             let label = near.map(|near| format!("did you mean `{near}`?")).unwrap_or_default();
-            reader.report(Diagnostic::error(what).at(node.place).label(label).help(format!("one of {}", list(&words))));
+            let help =
+                successor(&reader.path(), text).map_or_else(|| format!("one of {}", list(&words)), str::to_owned);
+            reader.report(Diagnostic::error(what).at(node.place).label(label).help(help));
         }
         found
     }

@@ -1,7 +1,7 @@
 //! Contacts.
 
 use super::UpdateKeys;
-use crate::contact::{Augmentation, ContactForm, Guard, Normals, Overlap, Role, Wear};
+use crate::contact::{Augmentation, ContactForm, Overlap, Wear};
 use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, table_of, whole, word, words};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
@@ -43,20 +43,16 @@ table! {
             "two between sides of second degree, one where a side is of first degree; a tool carries none"),
         /// Whether the tangent holds the coupling of the two bodies. Without it the paper's iterations are reproduced.
         coupling: Option<Spot<bool>> = flag().spot().computed("true"),
-        /// What is done when, with two passes, the facets of curved faces bear more than half of the pressure.
-        guard: Option<Spot<Guard>> = word().spot().computed("refuse"),
         /// Where contact stress lives, and how it becomes forces.
-        form: Option<Spot<ContactForm>> = word().spot().computed("field in plane and axisymmetric models, paper in space and where \
-             `gauss`, `parts`, `passes`, `coupling`, `guard`, averaged `normals` or a law over a mean of the pressure are said"),
+        form: Option<Spot<ContactForm>> = word().spot().computed("field, or paper where \
+             `gauss`, `parts`, `passes`, `coupling` or a law over a mean of the pressure are said"),
         /// Which of two bodies carries the field of contact stress.
         roles: Roles = word().or("\"auto\""),
-        /// Along which normals points look for the target and bear pressure. Averaged ones do not jump from edge to edge.
-        normals: Normals = word().or("\"own\""),
         /// What becomes of points that lie inside the target before the first increment.
         overlap: Spot<OverlapWord> = word().spot().or("\"ramp\""),
         /// Wear of the surface: reported as a depth, and felt as a gap if it recedes.
         wear: Option<WearKeys> = table_of().unless_given("the surface does not wear"),
-        /// Multipliers that take out what the penalties leave of penetration and elastic slip: `augmentation = {}`.
+        /// Multipliers of a field that take out what the penalties leave of penetration and elastic slip: `augmentation = {}`.
         augmentation: Option<Spot<AugmentationKeys>> = table_of().spot().unless_given("penetration and elastic slip stay"),
     }
 }
@@ -118,9 +114,9 @@ impl WearKeys {
 }
 
 impl AugmentationKeys {
-    /// What the keys say, for a contact of that role.
-    pub fn augmentation(&self, role: Role) -> Augmentation {
-        Augmentation { penetration: self.penetration, slip: self.slip, loops: self.loops, role }
+    /// What the keys say.
+    pub fn augmentation(&self) -> Augmentation {
+        Augmentation { penetration: self.penetration, slip: self.slip, loops: self.loops }
     }
 }
 
@@ -151,30 +147,10 @@ impl Words for ContactForm {
         vec![
             (Self::Field, "field", "as a field of nodal values, along the normals of what is touched"),
             (
-                Self::Traction,
+                Self::Paper,
                 "paper",
                 "at the integration points, along the normal of the strained surface, over its present area",
             ),
-            (Self::Variational, "variational", "as the gradient of a potential over the undeformed area"),
         ]
-    }
-}
-
-impl Words for Normals {
-    fn words() -> Vec<(Self, &'static str, &'static str)> {
-        vec![
-            (Self::Own, "own", "of each edge or face, as it lies"),
-            (
-                Self::Averaged,
-                "averaged",
-                "means at the nodes over the edges or faces that meet there at less than 40 degrees, interpolated between the nodes",
-            ),
-        ]
-    }
-}
-
-impl Words for Guard {
-    fn words() -> Vec<(Self, &'static str, &'static str)> {
-        vec![(Self::Refuse, "refuse", "the run ends with its step"), (Self::Warn, "warn", "the summary notes it")]
     }
 }

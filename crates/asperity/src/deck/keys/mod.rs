@@ -11,6 +11,7 @@ mod mesh;
 mod output;
 mod periodic;
 mod point;
+mod probe;
 mod rigid;
 mod slide;
 mod solid_tool;
@@ -30,9 +31,10 @@ pub use equation::{Equation, EquationTerm};
 pub use initial_stress::InitialStressKeys;
 pub use limits::LimitKeys;
 pub use mesh::{Generator, MeshKeys, Run, Selection};
-pub use output::Output;
+pub use output::{Output, PrintKeys, PrintedOf};
 pub use periodic::Periodic;
 pub use point::{PointCurve, PointDeck, PointStep};
+pub use probe::{PathKeys, ProbeAt, ProbeKeys};
 pub use rigid::RigidKeys;
 pub use slide::{InterfaceDeck, InterfaceStep};
 pub use solid_tool::{Extrude, FacetKeys, Revolve, StlKeys};
@@ -50,6 +52,7 @@ use super::source::Spot;
 use crate::declare::{Range, unit};
 use crate::material::{self, Material};
 use crate::mesh::Space;
+use crate::output::Units;
 use crate::solid::{Formulation, Integration, Strain};
 
 table! {
@@ -62,6 +65,9 @@ table! {
         /// What the coordinates mean. In `axisymmetric` x is the radius and y the axis, and forces are those of the
         /// full circumference.
         space: Spot<Space> = word().spot().required(),
+        /// Names of the units of force and length, and maybe of time, that the numbers are in: `"N, mm"`. Nothing is converted; they
+        /// are written on pictures and in headers of tables.
+        units: Option<Spot<String>> = text(UNITS).spot().unless_given("no names of units"),
         /// Thickness of a plane model.
         thickness: Option<Spot<f64>> =
             number(unit::LENGTH, Range::POSITIVE).spot().computed("1 in the plane spaces"),
@@ -96,6 +102,8 @@ table! {
         limits: LimitKeys = table_of().or("{}"),
         /// What is written, and how often.
         output: Output = table_of().or("{}"),
+        /// Chosen quantities at chosen places, in tables of their own.
+        probe: Vec<(Name, ProbeKeys)> = map(defines(Names::Probe), table_of()).or("{}"),
     }
 }
 
@@ -158,8 +166,16 @@ impl Words for Space {
     }
 }
 
+/// What the schema calls the names of units.
+const UNITS: &str = "names of units";
+
 /// What several keys of a deck say together.
 fn deck(deck: &Deck, reader: &mut Reader) {
+    if let Some(units) = &deck.units
+        && let Err(fault) = Units::parse(units)
+    {
+        reader.report(Diagnostic::error(fault).at(units.place));
+    }
     if let Some(thickness) = deck.thickness.filter(|_| !matches!(*deck.space, Space::PlaneStrain | Space::PlaneStress))
     {
         let what = format!("`thickness` has no meaning where space = \"{}\"", deck.space.name());

@@ -95,6 +95,8 @@ pub enum Names {
     Tool,
     /// A contact.
     Contact,
+    /// A probe.
+    Probe,
     /// A part of a generated mesh.
     Part,
     /// A step.
@@ -127,6 +129,7 @@ impl Names {
             Self::Interface => "interface",
             Self::Tool => "tool",
             Self::Contact => "contact",
+            Self::Probe => "probe",
             Self::Part => "part of the mesh",
             Self::Step => "step",
             Self::Group => "group",

@@ -3,13 +3,13 @@
 //! - Orowan: `tau_y = min(mu p, m k)`;
 //! - smooth: `tau_y = m k tanh x`;
 //! - Shaw: `tau_y = mu p / (1 + x^n)^(1/n)`;
-//! - constant shear factor: `tau_y = m k` at any pressure.
+//! - constant shear factor: `tau_y = m k` at any pressure, but `tau_y <= 10 p` so that it is gone as the contact opens.
 //!
 //! The limit depends on the pressure only, so the radial return is in closed form; on one line of slip it is exact.
 
 use super::coulomb::FRICTION;
 use super::law;
-use super::trial::Trial;
+use super::trial::{STEEPEST, Trial};
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, unit};
 use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response};
@@ -65,7 +65,7 @@ pub(super) const SHAW: Entry<Box<dyn Interface>> = Entry {
 
 pub(super) const FACTOR_ONLY: Entry<Box<dyn Interface>> = Entry {
     name: "shear_factor",
-    meaning: "a constant part of the shear strength at any pressure",
+    meaning: "a constant part of the shear strength, up to ten times the pressure",
     parameters: &[STRENGTH, FACTOR],
     pairs: None,
     build: |v| Ok(law(ShearLimited { friction: 0.0, most: v[0] * v[1], transition: Transition::Constant })),
@@ -80,7 +80,7 @@ pub enum Transition {
     Smooth,
     /// Shaw's formula with its power.
     Shaw(f64),
-    /// It is there at any pressure.
+    /// It is there at all but the least pressures.
     Constant,
 }
 
@@ -98,13 +98,13 @@ pub struct ShearLimited {
 impl ShearLimited {
     /// Largest shear stress at a pressure.
     pub fn limit<T: Scalar>(&self, pressure: T) -> T {
-        let (dry, most) = (pressure * self.friction, T::from(self.most));
+        let friction = if self.transition == Transition::Constant { STEEPEST } else { self.friction };
+        let (dry, most) = (pressure * friction, T::from(self.most));
         // A trial may come with a pressure below zero.
         let closed = dry.re() > 0.0;
         match self.transition {
-            Transition::Constant => most,
             _ if !closed => dry,
-            Transition::Sharp => dry.min(most),
+            Transition::Sharp | Transition::Constant => dry.min(most),
             Transition::Smooth => (dry / most).tanh() * most,
             Transition::Shaw(n) => dry / ((dry / most).powf(n) + 1.0).powf(1.0 / n),
         }

@@ -1,6 +1,7 @@
-//! Contact that never slips while it is closed: `p = K_p u`, `tau = tau_n + K_t d`.
+//! Contact that does not slip while it is closed: `p = K_p u`, `tau = tau_n + K_t d`, and `|tau| <= 10 p` so that the shear
+//! stress is gone as the contact opens.
 
-use super::trial::Trial;
+use super::trial::{STEEPEST, Trial};
 use super::{law, nothing_to_integrate};
 use crate::Failure;
 use crate::declare::{Entry, Variable};
@@ -10,7 +11,7 @@ use crate::tensor::Scalar;
 
 pub(super) const ENTRY: Entry<Box<dyn Interface>> = Entry {
     name: "sticking",
-    meaning: "no slip while closed, whatever the shear",
+    meaning: "no slip while closed, up to a shear of ten times the pressure",
     parameters: &[],
     pairs: None,
     build: |_| Ok(law(Sticking)),
@@ -24,7 +25,8 @@ impl InterfaceLaw for Sticking {
     const VARIABLES: &'static [Variable] = &[];
 
     fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, _: &mut [T]) -> Result<Response<T>, Failure> {
-        Ok(Trial::new(motion, past).stick(motion.penetration * past.penalty))
+        let pressure = motion.penetration * past.penalty;
+        Ok(Trial::new(motion, past).within(pressure, pressure * STEEPEST))
     }
 
     fn updated(&self, _: Update) -> Result<Box<dyn Interface>, String> {

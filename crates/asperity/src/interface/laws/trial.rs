@@ -6,6 +6,10 @@
 use crate::interface::{Motion, Past, Response, Status};
 use crate::tensor::Scalar;
 
+/// Shear over pressure up to which a law bears what does not follow from the pressure. Without it the shear stress would jump
+/// to nothing as a contact opens, and between the two no state is in equilibrium.
+pub(super) const STEEPEST: f64 = 10.0;
+
 /// The trial shear stress.
 pub(super) struct Trial<T> {
     pub shear: [T; 2],

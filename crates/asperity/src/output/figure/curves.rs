@@ -1,7 +1,7 @@
 //! The standard curves of a run, from its tables: forces over travel, residuals over iterations.
 
 use super::chart::Chart;
-use crate::output::Columns;
+use crate::output::{Columns, Unit, Units};
 use std::collections::BTreeMap;
 
 /// Forces smaller than this part of the largest are not drawn.
@@ -14,7 +14,7 @@ type Column = (String, Vec<f64>);
 
 /// Contact forces over the way of what is driven, or over time; reactions where there is no contact. Contact begins
 /// without force, which no row of the history says.
-pub fn forces(history: &Columns, title: &str, axisymmetric: bool) -> Option<Chart> {
+pub fn forces(history: &Columns, title: &str, axisymmetric: bool, units: Option<&Units>) -> Option<Chart> {
     let of = |column: &String| Some((column.clone(), history.numbers(column)?));
     let columns: Vec<Column> = history.header.iter().filter_map(of).collect();
     let axes = if axisymmetric { ["r", "z", ""] } else { ["x", "y", "z"] };
@@ -26,7 +26,12 @@ pub fn forces(history: &Columns, title: &str, axisymmetric: bool) -> Option<Char
         true => ("reaction", drawn(&columns, "reaction.", "", shown)),
         false => ("contact force", contact),
     };
-    let mut chart = Chart::new(title, name, what);
+    let with = |what: &str, unit| match units.map(|units| units.name(unit)).filter(|name| !name.is_empty()) {
+        Some(name) => format!("{what} ({name})"),
+        None => what.to_owned(),
+    };
+    let across = if name == "time" { Unit::Time } else { Unit::Length };
+    let mut chart = Chart::new(title, with(&name, across), with(what, Unit::Force));
     for (name, axis, values) in lines {
         let origin = (what == "contact force").then_some([0.0, 0.0]);
         let points = origin.into_iter().chain(travel.iter().zip(values).map(|(&x, &y)| [x, y])).collect();
@@ -169,7 +174,7 @@ mod tests {
     fn contact_forces_begin_at_the_origin() {
         let header = ["time", "step", "displacement.end.y", "contact.sole.force.y"].map(String::from).to_vec();
         let rows = vec![["1.0", "1", "-0.5", "7.0"].map(String::from).to_vec()];
-        let chart = forces(&Columns { header, rows }, "", false).unwrap();
+        let chart = forces(&Columns { header, rows }, "", false, None).unwrap();
         assert_eq!(chart.series[0].points, [[0.0, 0.0], [0.5, 7.0]]);
     }
 

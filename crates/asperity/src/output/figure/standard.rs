@@ -15,7 +15,7 @@ use crate::declare::nearest;
 use crate::mesh::Mesh;
 use crate::output::file::{Durability, write_atomic};
 use crate::output::vtk::{DataArray, Grid, read_grid, read_series};
-use crate::output::{Columns, Summary};
+use crate::output::{Columns, Summary, Unit, Units};
 use std::path::{Path, PathBuf};
 
 /// What is drawn, and how large.
@@ -71,7 +71,11 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
         last.values(quantity)?;
         let file: String = quantity.chars().filter(|c| c.is_ascii_alphanumeric() || "._-".contains(*c)).collect();
         let panels = run.panels(&quantity.replace('_', " "), quantity, &shots);
-        let panels = Panels { field_name: format!("{}, at nodes", quantity.replace('_', " ")), ..panels };
+        let unit = match (dimension(quantity), run.units()) {
+            (Some(unit), Some(units)) => format!(" ({})", Units::label(Some(&units), unit)),
+            _ => String::new(),
+        };
+        let panels = Panels { field_name: format!("{}, at nodes{unit}", quantity.replace('_', " ")), ..panels };
         if !options.film {
             save(&file, panels.draw())?;
             return Ok(written);
@@ -91,7 +95,8 @@ pub fn draw_standard(directory: &Path, options: &FigureOptions) -> Result<Vec<Pa
         if path.exists() { Columns::read(&path) } else { Ok(Columns::default()) }
     };
     let axisymmetric = run.summary.space == "axisymmetric";
-    if let Some(chart) = curves::forces(&table("history.csv")?, &run.summary.title, axisymmetric) {
+    let units = run.units();
+    if let Some(chart) = curves::forces(&table("history.csv")?, &run.summary.title, axisymmetric, units.as_ref()) {
         save("forces", chart.draw())?;
     }
     if let Some(chart) = curves::convergence(&table("iterations.csv")?) {
@@ -135,9 +140,17 @@ impl Run<'_> {
         chosen.map(|time| shot(time, at(&bodies, time)?, &at(&contacts, time)?, &at(&tools, time)?)).collect()
     }
 
+    /// Names of the units.
+    fn units(&self) -> Option<Units> {
+        self.summary.units.as_ref().and_then(|text| Units::parse(text).ok())
+    }
+
     fn panels<'b>(&self, title: &str, field: &str, shots: &'b [Shot]) -> Panels<'b> {
         let solid = self.summary.space == "solid";
         let axes = if self.summary.space == "axisymmetric" { ["r", "z"] } else { ["x", "y"] };
+        let units = self.units();
+        let stress = Units::label(units.as_ref(), Unit::Stress);
+        let length = units.map_or(String::new(), |units| format!(" ({})", units.name(Unit::Length)));
         let title = match self.summary.title.as_str() {
             "" => title.to_string(),
             own => format!("{own}: {}", title.to_lowercase()),
@@ -146,14 +159,24 @@ impl Run<'_> {
             title,
             scenes: shots.iter().map(|shot| shot.scene(field)).collect(),
             projection: if solid { Projection::Corner } else { Projection::Plane },
-            axes: axes.map(str::to_string),
-            arrow_name: ["contact stress (force / length^{2})", if solid { ", pale behind a body" } else { "" }]
-                .concat(),
-            field_name: "von Mises stress, mean at nodes (force / length^{2})".into(),
+            axes: axes.map(|axis| format!("{axis}{length}")),
+            arrow_name: format!("contact stress ({stress}){}", if solid { ", pale behind a body" } else { "" }),
+            field_name: format!("von Mises stress, mean at nodes ({stress})"),
             window: self.options.window,
             room: [900.0, 760.0],
         }
     }
+}
+
+/// The dimension of a quantity at nodes, whose file does not say it; none for a pure number.
+fn dimension(quantity: &str) -> Option<Unit> {
+    let name = quantity.split('.').next().unwrap_or(quantity).trim_end_matches("_averaged");
+    Some(match name {
+        "displacement" | "contact_gap" | "contact_slip" => Unit::Length,
+        "reaction" | "load" => Unit::Force,
+        "cauchy_stress" | "von_mises" | "pressure" | "contact_pressure" | "contact_shear" => Unit::Stress,
+        _ => return None,
+    })
 }
 
 /// Components of arrays of so many numbers a node, by their names.

@@ -2,7 +2,7 @@
 //! stress vectors are those that the target exerts on the surface.
 
 use super::energy::of_bodies;
-use super::{Source, Touching};
+use super::{Source, Touching, surface};
 use crate::Error;
 use crate::contact::{PointRecord, PointStatus, second_name};
 use crate::declare::Variable;
@@ -50,6 +50,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     }
     if !all.is_empty() {
         report_points(&all, frame)?;
+        let records: Vec<_> = all.iter().map(|seen| (seen.contact, seen.records.as_slice())).collect();
+        surface::report(source.parts.mesh, &records, frame)?;
     }
     all.iter().try_for_each(|seen| report_contact(source, seen, frame))?;
     for first in &all {
@@ -252,8 +254,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     let (u, history) = (&source.state.u, seen.history);
     let sometimes = [
         ("facet_ratio", seen.contact.facet_ratio(u, history)),
-        ("nodal_penetration", seen.contact.nodal_penetration(u, history)),
-        ("facet_mismatch", seen.contact.facet_mismatch(u, history)),
+        ("nodal_penetration", seen.contact.nodal_penetration(history)),
     ];
     for (what, value) in sometimes.into_iter().filter_map(|(what, value)| Some((what, value?))) {
         frame.push(Quantity::scalar(name(what), Unit::One, value))?;
@@ -285,7 +286,8 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
         frame.certify(seen.reading("moment_imbalance", left).over(scale));
     }
     if seen.contact.law().sliding_stress(0.0).is_some() {
-        let work = |record: &PointRecord| 0.5 * record.pressure * record.penetration.max(0.0) * record.area;
+        let pressed = |record: &PointRecord| (record.penetration + record.closure.min(0.0)).max(0.0);
+        let work = |record: &PointRecord| 0.5 * record.pressure * pressed(record) * record.area;
         let bodies = of_bodies(source);
         let work = seen.contact.share() * seen.closed().map(work).sum::<f64>();
         frame.certify(seen.reading("penalty_energy", work).over(bodies.stored + bodies.dissipated));

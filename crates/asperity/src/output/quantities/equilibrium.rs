@@ -51,7 +51,8 @@ fn unbalanced(source: &Source, reactions: &[f64]) -> Vec<f64> {
     if let Some(constraints) = source.parts.constraints.get(source.step) {
         let mut reduced = vec![0.0; constraints.free_count()];
         constraints.gather(reactions, &mut reduced);
-        constraints.free().iter().zip(reduced).for_each(|(&dof, force)| full[dof] = force);
+        let free = constraints.free().iter().zip(reduced);
+        free.filter(|(dof, _)| !source.state.stopped.contains(dof)).for_each(|(&dof, force)| full[dof] = force);
     }
     full
 }

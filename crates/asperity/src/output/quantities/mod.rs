@@ -11,7 +11,9 @@ mod nodes;
 mod oscillation;
 mod reactions;
 mod small_strain;
+mod strain;
 mod stress;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod tools;
@@ -77,6 +79,7 @@ type Report = fn(&Source, &mut Frame) -> Result<(), Error>;
 static ALL: &[Report] = &[
     nodes::report,
     stress::report,
+    strain::report,
     oscillation::report,
     reactions::report,
     contact::report,
@@ -100,7 +103,7 @@ impl Source<'_> {
         Ok(frame)
     }
     /// Displacement of a node.
-    fn displacement(&self, node: usize) -> [f64; 3] {
+    pub(in crate::output) fn displacement(&self, node: usize) -> [f64; 3] {
         self.nodal(&self.state.u, node)
     }
     /// Components at all nodes of values on all unknowns, one after the other.
@@ -142,8 +145,7 @@ impl Source<'_> {
 impl<'a> Parts<'a> {
     /// The parts of a model.
     pub fn of(model: &'a Model) -> Self {
-        let plane = model.contacts.iter().map(|contact| Touching::Plane(contact));
-        let solid = model.solid_contacts.iter().map(|contact| Touching::Solid(contact));
+        let points = model.contacts.iter().map(|contact| Touching::Points(contact));
         let fields = model.field_contacts.iter().map(|contact| Touching::Field(contact));
         let contact =
             |(i, contact): (usize, Touching<'a>)| (model.first_contact() + i, contact.name().to_string(), contact);
@@ -154,7 +156,7 @@ impl<'a> Parts<'a> {
             bodies: model.bodies.iter().enumerate().map(|(i, (body, _))| (i, body.as_ref())).collect(),
             materials: model.bodies.iter().map(|(_, material)| *material).collect(),
             material_names: model.materials.clone(),
-            contacts: plane.chain(solid).chain(fields).enumerate().map(contact).collect(),
+            contacts: points.chain(fields).enumerate().map(contact).collect(),
             fluids: model
                 .fluids
                 .iter()

@@ -17,3 +17,4 @@ pub use order::{from_vtk, vtk_order};
 pub use pvd::{Series, read_series};
 pub use read::read_grid;
 pub use write::Encoding;
+pub(super) use write::escape;

@@ -184,7 +184,7 @@ fn deflate(block: &[u8]) -> Result<Vec<u8>, Error> {
 }
 
 /// A name as it may stand in an attribute.
-pub(super) fn escape(name: &str) -> String {
+pub(in crate::output) fn escape(name: &str) -> String {
     let mut text = String::with_capacity(name.len());
     for c in name.chars() {
         match c {

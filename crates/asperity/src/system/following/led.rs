@@ -2,12 +2,12 @@
 
 use super::map::Map;
 use super::{Arm, Following};
+use crate::Failure;
 use crate::system::{
     Answer, Attempt, Branch, Coordinates, Couplings, History, Instant, Kinks, Local, Role, State, Stencil, Stencils,
     Term,
 };
 use crate::tensor::Vec3;
-use crate::{Error, Failure};
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// A term some of whose nodes follow.
@@ -60,9 +60,6 @@ impl Term for Led {
     }
     fn name_of(&self, stencil: usize) -> String {
         self.term.name_of(stencil)
-    }
-    fn verdict(&self, state: &State, history: &History) -> Result<(), Error> {
-        self.term.verdict(state, history)
     }
     fn bends(&self) -> bool {
         self.term.bends()
@@ -172,13 +169,6 @@ impl Attempt for LedAttempt<'_> {
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
         let placed = self.placed(u);
         self.attempt.augment(&placed, new)
-    }
-    fn multipliers(&self) -> Vec<[f64; 4]> {
-        self.attempt.multipliers()
-    }
-    fn follow(&mut self, leading: &[[f64; 4]], u: &[f64], new: &History) -> bool {
-        let placed = self.placed(u);
-        self.attempt.follow(leading, &placed, new)
     }
     fn before(&self, stencil: usize) -> Coordinates {
         self.attempt.before(stencil)

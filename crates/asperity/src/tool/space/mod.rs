@@ -25,4 +25,4 @@ pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
 pub use polygons::{Quad, Triangle};
 pub use pose::{Pose, Stance};
 pub use swept::Frame;
-pub use tool::{Hit, Tiles, Tool};
+pub use tool::{Tiles, Tool};

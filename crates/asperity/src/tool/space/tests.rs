@@ -3,8 +3,9 @@
 use super::facet::{Facet, Meeting};
 use super::polygons::{Quad, Triangle};
 use super::solids::{Facets, cone, extruded, filleted, plane, polygons, revolved, sphere, torus};
-use super::{Finding, Frame, Hit, Pose, Tool};
+use super::{Finding, Frame, Pose, Tool};
 use crate::tensor::Vec3;
+use crate::tool::Hit;
 use crate::tool::shapes::{ALL, Ray, find};
 use crate::tool::{Rejected, Rules, select};
 use proptest::prelude::*;
@@ -222,11 +223,11 @@ proptest! {
         for (i, facet) in tool.facets().iter().enumerate() {
             facet.cast(&own, &mut |place| {
                 let normal = tool.normal(&pose, i, place.s);
-                expected.push(Hit { facet: i, s: place.s, u: place.u, normal });
+                expected.push(Hit { segment: i, s: place.s, u: place.u, normal });
             });
         }
         expected.retain(|hit| (range.0..=range.1).contains(&hit.u));
-        expected.sort_by(|a, b| a.facet.cmp(&b.facet).then(a.u.total_cmp(&b.u)));
+        expected.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
         let mut hits = Vec::new();
         tool.cast(&pose, &ray, [range.0, range.1], &mut hits);
         prop_assert_eq!(&hits, &expected);
@@ -236,8 +237,8 @@ proptest! {
         };
         prop_assert_eq!(choose(&hits), choose(&expected));
         for hit in &hits {
-            prop_assert!((tool.point(&pose, hit.facet, hit.s) - ray.point(hit.u)).norm() < 1e-9);
-            let again = tool.cast_facet(&pose, hit.facet, &ray, hit.s).unwrap();
+            prop_assert!((tool.point(&pose, hit.segment, hit.s) - ray.point(hit.u)).norm() < 1e-9);
+            let again = tool.cast_facet(&pose, hit.segment, &ray, hit.s).unwrap();
             prop_assert!((again.u - hit.u).abs() < 1e-9, "{:?} {:?}", hit, again);
         }
     }
@@ -333,7 +334,7 @@ fn the_surface_for_drawing_lies_on_the_tool() {
             let mut off = f64::INFINITY;
             let mut hits = Vec::new();
             tool.cast(&pose, &ray, [-0.1, 0.1], &mut hits);
-            hits.iter().filter(|hit| hit.facet == *facet).for_each(|hit| off = off.min(hit.u.abs()));
+            hits.iter().filter(|hit| hit.segment == *facet).for_each(|hit| off = off.min(hit.u.abs()));
             assert!(off < 4e-3, "{name} {facet} {off} {near:?}");
         }
     }

@@ -4,8 +4,8 @@ use super::facet::{Facet, Meeting};
 use super::nearest::RigidFacet;
 use super::{Finding, Pose, check};
 use crate::tensor::{Scalar, Vec3};
+use crate::tool::Hit;
 use crate::tool::search::Tree;
-use crate::tool::select::Met;
 use crate::tool::shapes::{Bounds, Ray};
 
 /// A rigid tool in space: facets with the material behind them, and a reference point.
@@ -16,31 +16,6 @@ pub struct Tool {
     facets: Vec<Box<dyn RigidFacet>>,
     bounds: Bounds,
     tree: Tree,
-}
-
-/// A place where a ray meets a tool in space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hit {
-    /// The facet.
-    pub facet: usize,
-    /// Coordinates on the facet.
-    pub s: [f64; 2],
-    /// Signed distance along the ray.
-    pub u: f64,
-    /// Outward unit normal of the tool there, in space.
-    pub normal: Vec3,
-}
-
-impl Met for Hit {
-    fn piece(&self) -> usize {
-        self.facet
-    }
-    fn u(&self) -> f64 {
-        self.u
-    }
-    fn normal(&self) -> Vec3 {
-        self.normal
-    }
 }
 
 /// The surface of a tool as triangles and quadrilaterals, for drawing.
@@ -111,7 +86,7 @@ impl Tool {
                 }
             });
         });
-        hits.sort_unstable_by(|a, b| a.facet.cmp(&b.facet).then(a.u.total_cmp(&b.u)));
+        hits.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
     }
 
     /// Where a ray meets one given facet or what continues it, whether or not others are nearer: see
@@ -136,7 +111,7 @@ impl Tool {
         Ray { origin, direction: pose.rotate_back(ray.direction) }
     }
     fn hit(&self, pose: &Pose, facet: usize, place: Meeting) -> Hit {
-        Hit { facet, s: place.s, u: place.u, normal: self.normal(pose, facet, place.s) }
+        Hit { segment: facet, s: place.s, u: place.u, normal: self.normal(pose, facet, place.s) }
     }
 }
 

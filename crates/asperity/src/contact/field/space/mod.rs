@@ -2,6 +2,7 @@
 //! quadrature, and the search.
 
 mod overlap;
+mod polygon;
 mod search;
 mod spot;
 mod triad;

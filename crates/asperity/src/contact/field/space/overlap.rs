@@ -8,7 +8,7 @@
 //! (xi, eta) + h xi eta` with its twist `h`, solved for `(xi, eta)` at each point of the rule. All is a function of the
 //! corners of both, generic in the numbers. Faces of second degree are laid out between their corners.
 
-use crate::contact::space::polygon::{Laid, Polygon, left_of};
+use super::polygon::{Laid, Polygon, left_of};
 use crate::mesh::cells::{QUAD4, TRI3};
 use crate::tensor::{Scalar, Vec3};
 

@@ -1,0 +1,198 @@
+//! Convex polygons in the coordinates of a face, cut by lines, and the affine map that lays a quadrature rule on one.
+//!
+//! With area `A`, centroid `c` and covariance `C` of the polygon, and `A0`, `c0`, `C0` those of the whole face, the map is
+//! `c + C^(1/2) C0^(-1/2) (xi - c0)`, the weights times `A / A0`. A rule of degree two or more then integrates
+//! polynomials of degree two exactly over any polygon, and on a part cut off along the face's coordinates it is the rule
+//! of that part, with all of its degree. All is a function of the vertices, generic in the numbers.
+
+use crate::tensor::Scalar;
+
+/// Coordinates on a face.
+pub type Point<T> = [T; 2];
+
+/// Most vertices: four and one more for each cut.
+const MOST: usize = 10;
+
+/// Distance from a line within which a vertex is on it, where faces have sizes of about one.
+const ON: f64 = 1e-11;
+
+/// A convex polygon, its vertices counter-clockwise.
+#[derive(Debug, Clone, Copy)]
+pub struct Polygon<T> {
+    vertices: [Point<T>; MOST],
+    count: usize,
+}
+
+/// How far a point lies to the left of the line from `a` to `b`, times the length of `ab`.
+pub fn left_of<T: Scalar>([a, b]: [Point<T>; 2], p: Point<T>) -> T {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+/// Area, centroid and covariance (xx, xy, yy).
+#[derive(Debug, Clone, Copy)]
+pub struct Moments<T> {
+    /// Area.
+    pub area: T,
+    /// Centroid.
+    pub centre: Point<T>,
+    spread: [T; 3],
+}
+
+impl<T: Scalar> Polygon<T> {
+    /// The whole of a face with so many corners.
+    pub fn whole(corners: usize) -> Self {
+        let triangle: &[[f64; 2]] = &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let square: &[[f64; 2]] = &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let mut polygon = Self { vertices: [[T::zero(); 2]; MOST], count: 0 };
+        for vertex in if corners == 3 { triangle } else { square } {
+            polygon.push(vertex.map(T::from));
+        }
+        polygon
+    }
+
+    /// Of so many vertices, counter-clockwise.
+    pub fn of(vertices: impl IntoIterator<Item = Point<T>>) -> Self {
+        let mut polygon = Self { vertices: [[T::zero(); 2]; MOST], count: 0 };
+        vertices.into_iter().for_each(|vertex| polygon.push(vertex));
+        polygon
+    }
+
+    /// Its vertices.
+    pub fn vertices(&self) -> &[Point<T>] {
+        &self.vertices[..self.count]
+    }
+
+    fn push(&mut self, vertex: Point<T>) {
+        if self.count < MOST {
+            self.vertices[self.count] = vertex;
+            self.count += 1;
+        }
+    }
+
+    /// Its edges.
+    pub fn edges(&self) -> impl Iterator<Item = [Point<T>; 2]> + '_ {
+        (0..self.count).map(|i| [self.vertices[i], self.vertices[(i + 1) % self.count]])
+    }
+
+    /// What of it lies to the left of a line, where vertices within the part [`ON`] of the line's length are on it: common
+    /// edges of two polygons make no sliver, whose vertices would run along them.
+    pub fn clip(&self, line: [Point<T>; 2]) -> Self {
+        let [x, y] = [0, 1].map(|i| line[1][i].re() - line[0][i].re());
+        let near = ON * (x * x + y * y).max(f64::MIN_POSITIVE).sqrt();
+        let side = |off: T| if off.re().abs() <= near { 0.0 } else { off.re().signum() };
+        let mut part = Self { count: 0, ..*self };
+        for [p, q] in self.edges() {
+            let (here, there) = (left_of(line, p), left_of(line, q));
+            if side(here) >= 0.0 {
+                part.push(p);
+            }
+            if side(here) * side(there) < 0.0 {
+                let at = here / (here - there);
+                part.push([0, 1].map(|i| p[i] + (q[i] - p[i]) * at));
+            }
+        }
+        part
+    }
+
+    /// Its moments; the area is zero where nothing is left.
+    pub fn moments(&self) -> Moments<T> {
+        let o: [f64; 2] = self.vertices[0].map(T::re);
+        let (mut area, mut first, mut second) = (T::zero(), [T::zero(); 2], [T::zero(); 3]);
+        for edge in self.edges() {
+            let [p, q] = edge.map(|p| [p[0] - T::from(o[0]), p[1] - T::from(o[1])]);
+            let cross = p[0] * q[1] - p[1] * q[0];
+            area += cross * 0.5;
+            (0..2).for_each(|i| first[i] += cross * (p[i] + q[i]) * (1.0 / 6.0));
+            for (k, (i, j)) in [(0, 0), (0, 1), (1, 1)].into_iter().enumerate() {
+                let product = p[i] * p[j] + q[i] * q[j] + (p[i] + q[i]) * (p[j] + q[j]);
+                second[k] += cross * product * (1.0 / 24.0);
+            }
+        }
+        let c = first.map(|f| f / area);
+        let spread = [(0, 0), (0, 1), (1, 1)].into_iter().enumerate();
+        let mut moments = Moments { area, centre: [c[0] + T::from(o[0]), c[1] + T::from(o[1])], spread: second };
+        spread.for_each(|(k, (i, j))| moments.spread[k] = second[k] / area - c[i] * c[j]);
+        moments
+    }
+}
+
+impl<T: Scalar> Moments<T> {
+    /// The symmetric root of the covariance: xx, xy, yy. `(C + s I) / t` with `s^2 = det C`, `t^2 = tr C + 2 s`.
+    fn root(&self) -> [T; 3] {
+        let [a, b, c] = self.spread;
+        let s = (a * c - b * b).sqrt();
+        let t = (a + c + s * 2.0).sqrt().recip();
+        [(a + s) * t, b * t, (c + s) * t]
+    }
+}
+
+/// The map from a whole face to a part of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Laid<T> {
+    from: Moments<f64>,
+    to: Moments<T>,
+    map: [[T; 2]; 2],
+}
+
+impl<T: Scalar> Laid<T> {
+    /// From the face with so many corners to a polygon on it.
+    pub fn new(corners: usize, part: &Polygon<T>) -> Self {
+        let (from, to) = (Polygon::<f64>::whole(corners).moments(), part.moments());
+        let ([a, b, c], [p, q, r]) = (from.root(), to.root());
+        let inverse = [c, -b, a].map(|x| x / (a * c - b * b));
+        let [i, j, k] = inverse;
+        Self { from, to, map: [[p * i + q * j, p * j + q * k], [q * i + r * j, q * j + r * k]] }
+    }
+    /// Where a point of the rule comes to lie.
+    pub fn place(&self, xi: [f64; 2]) -> Point<T> {
+        let d = [xi[0] - self.from.centre[0], xi[1] - self.from.centre[1]];
+        [0, 1].map(|i| self.to.centre[i] + self.map[i][0] * d[0] + self.map[i][1] * d[1])
+    }
+    /// Root of the ratio of the areas: by so much lengths on the face shrink.
+    pub fn scale(&self) -> T {
+        (self.to.area * (1.0 / self.from.area)).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::cells::{QUAD4, TRI3};
+
+    /// Integrals of monomials over a polygon by the rule laid on it, against Gauss' rule on fans of triangles.
+    #[test]
+    fn rules_of_second_degree_stay_exact_on_any_part() {
+        let lines: [&[[Point<f64>; 2]]; 4] = [
+            &[],
+            &[[[0.3, 1.0], [0.3, -1.0]], [[-1.0, 0.45], [1.0, 0.45]].map(|[x, y]: [f64; 2]| [-x, y])],
+            &[[[0.5, 0.3], [-0.2, 0.9]]],
+            &[[[0.6, 0.1], [0.1, 0.8]], [[-0.1, 0.1], [0.7, -0.05]].map(|[x, y]: [f64; 2]| [x, y])],
+        ];
+        for (corners, cell) in [(3, &TRI3), (4, &QUAD4)] {
+            let rule = cell.gauss[1].unwrap();
+            for cuts in lines {
+                let part = cuts.iter().fold(Polygon::whole(corners), |part, &line| part.clip(line));
+                let laid = Laid::new(corners, &part);
+                assert!(part.moments().area > 1e-3);
+                for (i, j) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)] {
+                    let f = |p: Point<f64>| p[0].powi(i) * p[1].powi(j);
+                    let share = laid.scale() * laid.scale();
+                    let points = rule.points.iter().zip(rule.weights);
+                    let found: f64 = points.map(|(&[x, y, _], w)| share * w * f(laid.place([x, y]))).sum();
+                    let first = part.vertices[0];
+                    let exact: f64 = part
+                        .edges()
+                        .map(|[p, q]| {
+                            let middle = |a: Point<f64>, b: Point<f64>| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+                            let sum = f(middle(first, p)) + f(middle(p, q)) + f(middle(q, first));
+                            0.5 * left_of([first, p], q) * sum / 3.0
+                        })
+                        .sum();
+                    assert!((found - exact).abs() < 1e-14, "{corners} {cuts:?} {i} {j}: {found} {exact}");
+                }
+                let inside = |p: Point<f64>| part.edges().all(|edge| left_of(edge, p) > 0.0);
+                assert!(rule.points.iter().all(|&[x, y, _]| inside(laid.place([x, y]))), "{corners} {cuts:?}");
+            }
+        }
+    }
+}

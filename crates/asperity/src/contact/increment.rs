@@ -1,0 +1,49 @@
+//! What contacts of both forms know of an increment: where the last one leads, how far a target is seen, how far a point may
+//! come and a tool turn, and for which part of it a point is in contact.
+
+use crate::system::State;
+use crate::tensor::Scalar;
+use crate::{Failure, Kind};
+use std::f64::consts::FRAC_PI_2;
+
+/// A point counts as closed from this part of the shortest edge on. One depth for all points: a flat surface
+/// under uniform pressure then stays flat.
+pub const CLOSED: f64 = 1e-10;
+
+/// Unknowns that the last increment, carried on over `dt`, leads to.
+pub fn ahead(accepted: &State, dt: f64) -> Vec<f64> {
+    let part = if accepted.last_dt > 0.0 { dt / accepted.last_dt } else { 0.0 };
+    accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect()
+}
+
+/// The largest gap at which faces no longer than `longest` are seen in the increment after `last_change`: their unknowns would
+/// couple for nothing beyond an edge's length and twice the motion of the last increment.
+pub fn reach(longest: f64, last_change: &[f64]) -> f64 {
+    longest + 2.0 * last_change.iter().fold(0.0_f64, |most, d| most.max(d.abs()))
+}
+
+/// Refuses a point that nothing was seen from before and that now lies deep: it has jumped over the target's face.
+/// `depth` is its largest admissible penetration.
+pub fn refuse_jump(penetration: f64, depth: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
+    if penetration > 0.25 * depth {
+        let reason = format!("{} came to lie {penetration:.3e} deep in one increment", name());
+        return Err(Failure::new(reason).of(Kind::Passage));
+    }
+    Ok(())
+}
+
+/// Refuses a touching tool that turned by more than a quarter of a turn, in radians: the slip is a chord, and half a turn
+/// brings what was touched to the other side, where none is seen.
+pub fn refuse_turn(turned: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
+    if turned.abs() > FRAC_PI_2 {
+        let degrees = turned.abs().to_degrees();
+        let reason = format!("{}: its tool turned by {degrees:.0} degrees in one increment", name());
+        return Err(Failure::new(reason).of(Kind::Turn));
+    }
+    Ok(())
+}
+
+/// The part of the increment during which a point that began open is in contact, at constant speed of approach.
+pub fn in_contact<T: Scalar>(penetration: T, before: f64) -> T {
+    if before < 0.0 && penetration.re() > 0.0 { penetration / (penetration - before) } else { T::one() }
+}

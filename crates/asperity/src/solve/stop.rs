@@ -1,0 +1,93 @@
+//! Tools that a load drives and that nothing bears any more: they stop where they are, as against a spacer, and the stop bears
+//! what their contacts do not.
+//!
+//! A blank holder that the rim of the blank has left is the common case. Without a stop no state is in equilibrium.
+
+use super::newton::{Converged, IfFree, Newton, Trouble};
+use super::run::Run;
+use crate::Failure;
+use crate::system::{Evaluation, Row, State};
+
+/// Part of its load that contacts may bear on a tool that they have lost.
+const LOST: f64 = 0.01;
+/// Yield of a stop under the whole load, over the size of a cell.
+const YIELD: f64 = 1e-4;
+/// Part of its load by which contact may exceed it before a tool leaves its stop.
+const LEAVES: f64 = 1e-3;
+
+/// Force of a stop under a load after some motion, and its stiffness.
+fn stop(load: f64, motion: f64, cell: f64) -> [f64; 2] {
+    let stiffness = load.abs() / (YIELD * cell);
+    [load + stiffness * motion, stiffness]
+}
+
+impl Newton<'_> {
+    /// Adds the forces of the stops at `u` and, where the matrix is new, their stiffness.
+    pub(super) fn stop(&mut self, u: &[f64], matrix: bool) {
+        for &dof in &self.state.stopped {
+            let (load, Row::Free(row)) = (self.evaluation.load[dof], self.step.constraints.row(dof)) else { continue };
+            let [force, stiffness] = stop(load, u[dof] - self.state.u[dof], self.problem.cell_size);
+            self.evaluation.internal[dof] += force;
+            if matrix {
+                self.evaluation.values[self.memory.workspace.pattern().diagonal[*row]] += stiffness;
+            }
+        }
+    }
+
+    /// The unknowns of tools that a load drives, and that no contact bears in the present evaluation though one did before.
+    pub(super) fn unborne(&self) -> Vec<usize> {
+        let (dofs, state) = (&self.problem.dofs, self.state);
+        let (load, internal) = (&self.evaluation.load, &self.evaluation.internal);
+        let lost = |dof: &usize| {
+            load[*dof] != 0.0
+                && matches!(self.step.constraints.row(*dof), Row::Free(_))
+                && internal[*dof].abs() <= LOST * load[*dof].abs()
+                && state.internal[*dof].abs() > LOST * load[*dof].abs()
+        };
+        let tools = dofs.node(dofs.nodes())..state.u.len();
+        tools.filter(|dof| !dofs.is_rotation(*dof)).filter(lost).collect()
+    }
+}
+
+impl Run<'_> {
+    /// Stops what nothing bears any more after an attempt that failed; whether there was anything.
+    pub(super) fn stops(&mut self) -> bool {
+        let unborne = std::mem::take(&mut self.memory.unborne);
+        let may = self.problem.newton.if_free != IfFree::Stop && self.state.increment > 0;
+        let new = unborne.into_iter().filter(|dof| may && !self.state.stopped.contains(dof)).collect::<Vec<_>>();
+        self.state.stopped.extend(&new);
+        !new.is_empty()
+    }
+
+    /// Whether contacts lift no tool off its stop in a converged attempt; those that are lifted are let go of.
+    ///
+    /// # Errors
+    /// The failure of an attempt whose stops would pull.
+    pub(super) fn stops_push(&mut self, load: &[f64], u: &[f64]) -> Result<(), Trouble> {
+        let State { stopped, u: before, .. } = &mut self.state;
+        let cell = self.problem.cell_size;
+        let pulls = |dof: usize| {
+            stop(load[dof], u[dof] - before[dof], cell)[0] * load[dof].signum() < -LEAVES * load[dof].abs()
+        };
+        let lifted = stopped.iter().copied().find(|&dof| pulls(dof));
+        stopped.retain(|&dof| load[dof] != 0.0 && !pulls(dof));
+        match lifted {
+            Some(dof) => Err(Failure::new(format!("{} leaves its stop", self.problem.name_of(dof))).into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the forces of the stops out of those of the terms: they are reactions.
+    pub(super) fn take_stops(&self, converged: &mut Converged) {
+        let Evaluation { internal, load, .. } = &mut converged.evaluation;
+        for &dof in &self.state.stopped {
+            internal[dof] -= stop(load[dof], converged.u[dof] - self.state.u[dof], self.problem.cell_size)[0];
+        }
+    }
+
+    /// The tools that stand on a stop, in words.
+    pub(super) fn stopped(&self) -> Vec<String> {
+        let name = |&dof: &usize| format!("{} under its load", self.problem.name_of(dof));
+        self.state.stopped.iter().map(name).collect()
+    }
+}

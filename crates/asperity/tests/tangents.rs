@@ -121,7 +121,7 @@ fn made(
 ) -> PaperContact {
     PaperContact::new(PaperParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, &mesh.groups["b.bottom"].sides, (space, 0.8), (None, 1)),
+        surface: PointSurface::new(&mesh, &mesh.groups["b.bottom"].sides, (space, 0.8), None),
         mesh,
         dofs: dofs.clone(),
         space,

@@ -44,7 +44,7 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (PaperCo
     let target = FieldTarget::faces(Surface::whole(&mesh, sides(other), space, 0.8), &mesh);
     let parts = PaperParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, sides(own), (space, 0.8), (None, 1)),
+        surface: PointSurface::new(&mesh, sides(own), (space, 0.8), None),
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target,
         law: Coulomb::new(0.4).into(),

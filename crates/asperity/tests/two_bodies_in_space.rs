@@ -193,7 +193,7 @@ fn a_ring_that_closes_touches_itself() {
         let options = options(Loads::Own);
         let contact = PaperContact::new(PaperParts {
             name: "slit".into(),
-            surface: PointSurface::new(&mesh, &sides, (Space::Solid, 1.0), (None, 1)),
+            surface: PointSurface::new(&mesh, &sides, (Space::Solid, 1.0), None),
             space: Space::Solid,
             boundary: mesh.boundary(&mesh.groups["ring"].cells),
             target: FieldTarget::faces(Surface::whole(&mesh, &sides, Space::Solid, 1.0), &mesh),

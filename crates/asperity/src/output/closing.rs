@@ -76,7 +76,7 @@ fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
         )),
         most if most < few => Some(format!(
             "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves; a \
-             finer surface, a higher `gauss` or `parts` of an edge give it more"
+             finer surface, a higher `gauss` gives it more"
         )),
         _ => None,
     };

@@ -65,13 +65,13 @@ pub static FIGURES: &[Figure] = &[
     largest("sampled_penetration", "  the same between the points").limited(
         "0.5",
         "Largest penetration found along rays between the contact points, over the length of the edge or face there.",
-        "a finer surface, more points (`gauss`, `parts` of an edge), or the finer side as the surface",
+        "a finer surface, more points (`gauss`), or the finer side as the surface",
     ),
     largest("interpenetration", "interpenetration that nothing explains").limited(
         "0.1",
         "Depth to which a body lies in another, in itself, in a tool or beyond the axis, beyond what contacts report, what curved \
          sides explain and what overlapped between two sides of a contact before any motion, over the size of the cell.",
-        "a finer surface, more points (`gauss`, `parts` of an edge), a stiffer `penalty`, or a contact where none is declared",
+        "a finer surface, more points (`gauss`), a stiffer `penalty`, or a contact where none is declared",
     ),
     largest("pressure_oscillation", "jumps of the pressure in cells").limited(
         "3.0",

@@ -49,7 +49,7 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L) ->
     let lower = mesh.groups["b.back"].sides.clone();
     let parts = PaperParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, &lower, (Space::Solid, 1.0), (None, 1)),
+        surface: PointSurface::new(&mesh, &lower, (Space::Solid, 1.0), None),
         space: Space::Solid,
         mesh,
         dofs: dofs.clone(),

@@ -28,7 +28,7 @@ pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
     let parts = PaperParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, sides(own), (Space::Solid, 1.0), (None, 1)),
+        surface: PointSurface::new(&mesh, sides(own), (Space::Solid, 1.0), None),
         space: Space::Solid,
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target: FieldTarget::faces(Surface::whole(&mesh, sides(other), Space::Solid, 1.0), &mesh),

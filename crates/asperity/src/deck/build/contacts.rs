@@ -11,7 +11,7 @@ use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
 use crate::interface::Rule;
-use crate::mesh::{Mesh, Side, Space};
+use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
 use crate::system::Dofs;
 use crate::tool::{self, Tool};
@@ -115,7 +115,7 @@ impl Builder<'_> {
             return None;
         }
         let thickness = self.site.thickness;
-        let order = (keys.gauss.map(|gauss| gauss.value), keys.parts.map_or(1, |parts| parts.value));
+        let order = keys.gauss.map(|gauss| gauss.value);
         let build = |name: &str, sides: &[Side], target: FieldTarget| {
             PaperContact::new(PaperParts {
                 name: name.into(),
@@ -140,23 +140,13 @@ impl Builder<'_> {
         })
     }
 
-    /// What is said of a field, or of the plane, says nothing of Gauss points there.
+    /// What is said of a field says nothing of Gauss points.
     fn check_points(&mut self, keys: &keys::Contact) -> bool {
-        let solid = self.site.space == Space::Solid;
-        let said = [
-            keys.parts.filter(|_| solid).map(|parts| {
-                ("`parts` divides edges, which carry contact in the plane and in axial symmetry", parts.place)
-            }),
-            keys.augmentation.as_ref().map(|keys| {
-                (
-                    "`augmentation` is for a field of contact stress: form = \"field\", without what only points have",
-                    keys.place,
-                )
-            }),
-        ];
-        let found = self.found.len();
-        said.into_iter().flatten().for_each(|(what, place)| self.refuse(what, place));
-        self.found.len() == found
+        let what = "`augmentation` is for a field of contact stress: form = \"field\", without what only points have";
+        if let Some(keys) = &keys.augmentation {
+            self.refuse(what, keys.place);
+        }
+        keys.augmentation.is_none()
     }
 
     pub(super) fn options(

@@ -110,7 +110,6 @@ fn said_of_points(keys: &keys::Contact) -> Vec<(&'static str, Place)> {
     let mean = !keys.law.build().is_ok_and(|law| law.radius() == 0.0);
     let said = [
         keys.gauss.map(|spot| ("`gauss` is", spot.place)),
-        keys.parts.map(|spot| ("`parts` is", spot.place)),
         keys.passes.map(|spot| ("`passes` is", spot.place)),
         keys.coupling.map(|spot| ("`coupling` is", spot.place)),
         mean.then_some(("a mean of the pressure is", keys.law.place)),

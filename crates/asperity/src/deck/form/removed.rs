@@ -8,6 +8,11 @@ const REMOVED: &[(&str, &str, &str)] = &[
         "leave it out: facets are judged by the figure `facet_ratio`, whose limit is `limits.facet_ratio`",
     ),
     ("contact", "normals", "leave it out: a field of contact stress, form = \"field\", has averaged normals"),
+    (
+        "contact",
+        "parts",
+        "leave it out: a field of contact stress, form = \"field\", feels what is narrower than an edge",
+    ),
     ("contact", "traction", "form = \"paper\" is what it is called now"),
     (
         "contact",

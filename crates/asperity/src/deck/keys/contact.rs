@@ -24,8 +24,6 @@ table! {
         gauss: Option<Spot<usize>> =
             whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree; in axial symmetry 2 \
              also on edges of first degree within about ten of their lengths from the axis, over which the radius changes"),
-        /// Equal parts of an edge that carry these points each: more than one where contact is narrower than an edge.
-        parts: Option<Spot<usize>> = whole(1..=64).spot().computed("1"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
             .computed("50 times the modulus over the depth of the cells behind the faces, or what bending of a thin body makes of it, the \
@@ -45,7 +43,7 @@ table! {
         coupling: Option<Spot<bool>> = flag().spot().computed("true"),
         /// Where contact stress lives, and how it becomes forces.
         form: Option<Spot<ContactForm>> = word().spot().computed("field, or paper where \
-             `gauss`, `parts`, `passes`, `coupling` or a law over a mean of the pressure are said"),
+             `gauss`, `passes`, `coupling` or a law over a mean of the pressure are said"),
         /// Which of two bodies carries the field of contact stress.
         roles: Roles = word().or("\"auto\""),
         /// What becomes of points that lie inside the target before the first increment.

@@ -172,7 +172,7 @@ pub(super) fn cycle(facts: &Facts, course: &Course) -> Option<Finding> {
             .shown(if friction > 0.8 { format!("a coefficient of friction of {friction}") } else { String::new() })
             .try_to(&[
                 "`piecewise = true` and `line_search = true` under `[solver]` if they are off",
-                "smaller increments; more points (`gauss`, `parts` of an edge) where contact is narrower than an edge",
+                "smaller increments; more points (`gauss`) where contact is narrower than an edge",
                 "a softer `penalty` or `tangential_penalty`, a finer surface; less friction, to see whether it is the cause",
             ])
     })

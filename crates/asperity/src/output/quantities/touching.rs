@@ -39,8 +39,7 @@ impl Touching<'_> {
     /// The sides of the mesh that are the surface, each once.
     pub fn sides(&self) -> Vec<Side> {
         let mut sides: Vec<Side> = match self {
-            Self::Plane(contact) => contact.surface().edges.iter().map(|edge| edge.side).collect(),
-            Self::Solid(contact) => contact.surface().faces.iter().map(|face| face.side).collect(),
+            Self::Points(contact) => contact.surface().faces.iter().map(|face| face.side).collect(),
             Self::Field(contact) => contact.surface().faces.iter().map(|face| face.side).collect(),
         };
         // The halves of an edge of second degree follow each other.
@@ -50,14 +49,8 @@ impl Touching<'_> {
     /// What the record in place `slot` speaks for.
     pub fn stand(&self, slot: usize) -> Stand {
         match self {
-            Self::Plane(contact) => {
-                let point = &contact.surface().points[slot];
-                let edge = &contact.surface().edges[point.edge];
-                Stand::Face(point.edge, corners(edge.kind, &edge.nodes, [point.xi, 0.0, 0.0]))
-            }
-            Self::Solid(contact) => {
-                let point = &contact.surface().points[slot];
-                let face = &contact.surface().faces[point.face];
+            Self::Points(contact) => {
+                let (point, face) = (&contact.points().points[slot], contact.points().face(slot));
                 Stand::Face(point.face, corners(face.kind, &face.nodes, [point.xi[0], point.xi[1], 0.0]))
             }
             Self::Field(contact) => contact.node_at(slot).map_or(Stand::Apart, Stand::Node),

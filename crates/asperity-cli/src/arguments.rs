@@ -24,8 +24,8 @@ const EXITS: &str = "Exit codes: 0 done, 1 fault of the program or results that 
 pub enum Command {
     /// Solve a deck and write its results.
     Run(Run),
-    /// Go on from the checkpoint in a deck's result directory.
-    Restart(Run),
+    /// Go on from a checkpoint in a deck's result directory, with the deck as it was or with what lies ahead changed.
+    Restart(Restart),
     /// Draw the pictures of a finished run anew.
     Figure(Figure),
     /// Write the report of a run, one page of HTML, from its results.
@@ -83,6 +83,21 @@ pub struct Run {
     /// Write no report.html at the end.
     #[arg(long)]
     pub no_report: bool,
+}
+
+/// Arguments of `restart`.
+#[derive(Debug, Args)]
+pub struct Restart {
+    /// What is run.
+    #[command(flatten)]
+    pub run: Run,
+    /// Go on from the end of a step, by its name or number, or from the last checkpoint up to a time, with a decimal point;
+    /// what came after it is dropped. `output.checkpoints` says which are kept.
+    #[arg(long, value_name = "STEP|TIME")]
+    pub from: Option<String>,
+    /// Branch: go on from the results in this directory, which stay as they are; those up to there are taken over.
+    #[arg(long, value_name = "DIR")]
+    pub of: Option<PathBuf>,
 }
 
 /// Arguments of `report`.

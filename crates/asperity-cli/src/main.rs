@@ -29,7 +29,7 @@ fn main() -> ExitCode {
 fn obey(line: Line, interrupts: &Interrupts) -> Outcome {
     match line.command {
         Command::Run(run) => verbs::run(&run, interrupts),
-        Command::Restart(run) => verbs::restart(&run, interrupts),
+        Command::Restart(restart) => verbs::restart(&restart, interrupts),
         Command::Figure(figure) => verbs::figure(&figure),
         Command::Report(report) => verbs::report(&report),
         Command::Watch(watch) => verbs::watch(&watch, interrupts),

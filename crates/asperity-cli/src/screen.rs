@@ -153,8 +153,9 @@ fn bar() -> ProgressBar {
     ProgressBar::new(TICKS).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-/// How a run ended, how far its answer can be trusted, and where its files are; `again` is the command that goes on.
-pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
+/// How a run ended, how far its answer can be trusted, and where its files are; `again` is the command that goes
+/// on, with a setting of its own or none.
+pub fn farewell(summary: &Summary, directory: &Path, again: &dyn Fn(Option<&str>) -> String) -> String {
     let mut text = String::from("\n");
     let word = match summary.status {
         Status::Converged => "converged",
@@ -182,7 +183,10 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &str) -> String {
     let _ = writeln!(text, "certificate, the worst of all increments:               limit");
     figures(summary).for_each(|line| text += &line);
     if !matches!(summary.status, Status::Converged | Status::Doubtful | Status::FileError | Status::InputError) {
-        let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {again}");
+        let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {}", again(None));
+        for setting in &summary.settings {
+            let _ = writeln!(text, "or, with {}\n  {}", setting.what, again(Some(&setting.set)));
+        }
     }
     let _ = writeln!(text, "results in {}: {}", directory.display(), summary.files.join(" "));
     text

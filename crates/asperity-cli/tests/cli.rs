@@ -184,9 +184,15 @@ fn an_interrupted_run_goes_on() {
     assert_eq!(stopped["status"], "stopped");
     assert!(stopped["increments"].as_u64().unwrap() < 202);
 
-    let other = asperity(folder.path(), &["restart", "block.toml", "--set", "title=\"Another\""]);
+    let other = asperity(folder.path(), &["restart", "block.toml", "--set", "material.steel.elastic.young=2e5"]);
     assert_eq!(code(&other), 2);
-    assert!(error(&other).contains("another deck") && error(&other).contains("--set"), "{}", error(&other));
+    assert!(
+        error(&other).contains("another deck")
+            && error(&other).contains("`material.steel` is not")
+            && error(&other).contains("--set"),
+        "{}",
+        error(&other)
+    );
 
     assert_eq!(code(&asperity(folder.path(), &["restart", "block.toml", "--threads", "1"])), 0);
     assert_eq!(code(&asperity(folder.path(), &["run", "block.toml", "--out", "whole", "--threads", "2"])), 0);

@@ -81,6 +81,8 @@ fn differences(path: &Path) -> Vec<String> {
             directory,
             options,
             input: made.input,
+            parts: &made.parts,
+            asked: None,
             start: Start::Beginning,
             limits,
             notes: &[],

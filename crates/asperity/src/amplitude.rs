@@ -81,7 +81,10 @@ impl Piece {
 impl Timeline {
     /// From the duration of each step and what it says; there are as many changes as steps.
     pub fn new(steps: impl IntoIterator<Item = (f64, Change)>) -> Self {
-        let mut from = 0.0;
+        Self::from(0.0, steps)
+    }
+    /// The same of a value that is not zero before the first step.
+    pub fn from(mut from: f64, steps: impl IntoIterator<Item = (f64, Change)>) -> Self {
         let piece = |(duration, change)| {
             let (to, amplitude) = match change {
                 Change::Keep => (from, Amplitude::ramp()),

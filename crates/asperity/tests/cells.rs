@@ -76,6 +76,8 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         contacts: vec![],
         springs: vec![],
         loads: vec![],
+        fluids: vec![],
+        bearing: Default::default(),
         steps: fields.iter().map(step).collect(),
         supports: vec![],
         ties: vec![],

@@ -170,6 +170,8 @@ increments.count = 30
         directory: directory.path(),
         options: made.results.clone(),
         input: made.input,
+        parts: &made.parts,
+        asked: None,
         start: Start::Beginning,
         limits: &Limits::default(),
         notes: &[],

@@ -4,7 +4,7 @@
 
 use asperity::deck::{build, read};
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
-use asperity::output::{Job, Limits, ResultOptions, Start, simulate};
+use asperity::output::{Job, Kept, Limits, ResultOptions, Start, simulate};
 use asperity::solve::Silent;
 use asperity::system::{Energies, History, State};
 use sha2::{Digest, Sha256};
@@ -50,7 +50,7 @@ impl File {
     /// What reading these bytes gives; an error must be one sentence that names the file.
     fn load(&self, bytes: &[u8]) -> Result<State, String> {
         std::fs::write(&self.path, bytes).unwrap();
-        let loaded = checkpoint::load::<State>(&self.path, &input());
+        let loaded = checkpoint::read::<State>(&self.path);
         loaded.map(|(_, state)| state).map_err(|error| {
             let text = error.to_string();
             assert!(text.contains("run.checkpoint") && !text.contains('\n') && text.len() < 400, "{text}");
@@ -151,6 +151,8 @@ fn restart(deck: &str, directory: &Path) -> String {
         directory,
         options,
         input: made.input,
+        parts: &made.parts,
+        asked: None,
         start: Start::Checkpoint,
         limits: &Limits::default(),
         notes: &[],
@@ -167,11 +169,13 @@ fn a_checkpoint_of_another_deck_or_of_another_model_is_refused() {
     assert!(missing.contains("run.checkpoint"), "{missing}");
     let made = read(DECK, "deck.toml", Path::new(""), &[]).and_then(build).unwrap_or_else(|d| panic!("{d:?}"));
     let head = Head { input: made.input, stamp: Stamp { step: 0, increment: 1, time: 0.1 } };
-    checkpoint::save(&path, &head, &made.model.problem.initial_state()).unwrap();
+    let terms = made.model.problem.terms.iter().map(|term| term.name().to_owned()).collect();
+    let kept = Kept { parts: made.parts.clone(), terms, state: made.model.problem.initial_state() };
+    checkpoint::save(&path, &head, &kept).unwrap();
     let other = restart(&DECK.replace("210e3", "200e3"), directory.path());
     assert!(other.contains("another deck or mesh"), "{other}");
     // The right deck, but a state of something else.
-    checkpoint::save(&path, &head, &state()).unwrap();
+    checkpoint::save(&path, &head, &Kept { state: state(), ..kept }).unwrap();
     let unfit = restart(DECK, directory.path());
     assert!(unfit.contains("run.checkpoint"), "{unfit}");
     // What was refused leaves no results behind.

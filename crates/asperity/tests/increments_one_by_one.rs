@@ -18,7 +18,8 @@ fn tube() -> Made {
 
 fn job<'a>(made: &'a Made, directory: &'a Path, start: Start<'a>, facts: &'a asperity::diagnosis::Facts) -> Job<'a> {
     let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
-    Job { directory, options, input: made.input, start, limits, notes: &[], facts }
+    let (input, parts) = (made.input, &made.parts[..]);
+    Job { directory, options, input, parts, asked: None, start, limits, notes: &[], facts }
 }
 
 fn begun<'m>(made: &'m Made, job: &Job) -> Box<Simulation<'m>> {

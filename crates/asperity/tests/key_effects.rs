@@ -54,7 +54,8 @@ fn names(deck: &Value) -> BTreeMap<bool, Vec<String>> {
     let loaded = loaded(deck).unwrap();
     let given = |key: &str| deck.get(key).and_then(Value::as_table).into_iter().flat_map(|table| table.keys().cloned());
     let groups = loaded.mesh.groups.keys().cloned();
-    let plain = groups.chain(given("material")).chain(given("tool")).chain(given("contact")).collect();
+    let given = ["material", "tool", "contact", "distributing"].into_iter().flat_map(given);
+    let plain = groups.chain(given).collect();
     let conditions = loaded.deck.step.iter().flat_map(|step| step.conditions()).map(|(path, _)| path).collect();
     BTreeMap::from([(false, plain), (true, conditions)])
 }
@@ -126,6 +127,8 @@ fn every_key_changes_the_model() {
     }
     // There is one version so far, and no other to compare with.
     assert!(idle.remove(".version"));
+    // Where nothing bears yet a fluid comes everywhere: `tests/fluids.rs` has contact that does.
+    assert!(idle.remove(".step.ITEM.pressure.NAME.from"));
     assert!(idle.is_empty(), "read and ignored: {idle:#?}");
 }
 
@@ -175,6 +178,7 @@ fn keys_of_solver_and_output_change_the_run() {
         "solver.iterations=2",
         "solver.piecewise=false",
         "output.every=3",
+        "output.checkpoints=steps",
         "output.checkpoint_every=4",
         "output.export=[\"frd\"]",
         "output.export=[\"deformed\"]",
@@ -188,6 +192,9 @@ fn keys_of_solver_and_output_change_the_run() {
     for change in changes {
         assert_ne!(plain, run(&[change]), "{change}");
     }
+    // At the end only the last checkpoint is there, unless all are kept.
+    let all = "output.checkpoints=all";
+    assert_ne!(run(&[all]), run(&[all, "output.checkpoint_every=4"]));
     // Full corrections serve that run well; the search has work where points find out one by one about a ridge.
     let ridge = "{ line = [[9.0, -1.0], [2.2, 0.0]] }, { line = [[2.2, 0.0], [-9.0, -5.0]] }";
     let hard = [&*format!("tool.plate.profile=[{ridge}]"), "solver.piecewise=false"];

@@ -31,7 +31,7 @@ fn checkpoint_path(directory: &Path) -> PathBuf {
 #[ignore = "the child of the other test"]
 fn child() {
     let Some(directory) = std::env::var_os(DIRECTORY).map(PathBuf::from) else { return };
-    let before = checkpoint::load::<State>(&checkpoint_path(&directory), &input());
+    let before = checkpoint::read::<State>(&checkpoint_path(&directory));
     let first = before.map_or(0, |(_, state)| state.increment) + 1;
     let mut series = Series::create(&directory, "frames", Encoding::default()).unwrap();
     let mut table = Table::create(&directory.join("rows.csv"), &["increment", "text"]).unwrap();
@@ -76,8 +76,8 @@ fn what_stands_after_a_kill_is_whole() {
         std::thread::sleep(Duration::from_micros(u64::from(kill.wrapping_mul(2_654_435_761) % 20_000)));
         child.kill().unwrap();
         child.wait().unwrap();
-        let (stamp, found) = checkpoint::load::<State>(&checkpoint_path(directory), &input()).unwrap();
-        assert!(found.increment > last && stamp.increment == found.increment as u64);
+        let (head, found) = checkpoint::read::<State>(&checkpoint_path(directory)).unwrap();
+        assert!(found.increment > last && head.stamp.increment == found.increment as u64);
         assert_eq!(found, state(found.increment));
         last = found.increment;
         let frames = read_series(&directory.join("frames.pvd")).unwrap();

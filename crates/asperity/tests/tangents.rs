@@ -9,7 +9,7 @@ use asperity::contact::field::FieldTarget;
 use asperity::contact::{ContactOptions, Loads, PaperContact, PaperParts, PointSurface};
 use asperity::declare::find;
 use asperity::interface::{
-    Interface, Law,
+    Rule,
     laws::{Coulomb, OdenPires},
 };
 use asperity::material::{Material, Rate, laws::Elastic};
@@ -109,7 +109,7 @@ fn contact(cell: &str, shape: &str, space: Space) -> (PaperContact, Dofs) {
     let profile = vec![shapes::find(shape).unwrap().build(&nodes).unwrap()];
     let tool = Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)));
     let boundary = (0..mesh.kinds[0].faces.len()).map(|face| Side { cell: 0, face }).collect();
-    (made((mesh, &dofs, space), boundary, tool, Arc::new(Law(Coulomb::new(0.4)))), dofs)
+    (made((mesh, &dofs, space), boundary, tool, Coulomb::new(0.4).into()), dofs)
 }
 
 /// The contact of the lower side of a body with a tool.
@@ -117,7 +117,7 @@ fn made(
     (mesh, dofs, space): (Arc<Mesh>, &Dofs, Space),
     boundary: Vec<Side>,
     tool: Arc<Tool>,
-    law: Arc<dyn Interface>,
+    law: Rule,
 ) -> PaperContact {
     PaperContact::new(PaperParts {
         name: "c".into(),
@@ -219,7 +219,7 @@ fn nonlocal(radius: f64, space: Space) -> (PaperContact, Dofs) {
     let profile = vec![shapes::find("line").unwrap().build(&nodes).unwrap()];
     let tool = Arc::new(Tool::new("t", vec![profile], Vec3::new(1.5, -1.0, 0.0)));
     let boundary = mesh.boundary(&[0, 1, 2]);
-    let law = Arc::new(Law(OdenPires { friction: 0.4, length: 0.05, radius }));
+    let law = OdenPires { friction: 0.4, length: 0.05, radius }.into();
     (made((mesh, &dofs, space), boundary, tool, law), dofs)
 }
 

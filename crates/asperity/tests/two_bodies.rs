@@ -6,7 +6,7 @@ mod perturbed;
 
 use asperity::contact::field::{FieldTarget, Surface};
 use asperity::contact::{ContactOptions, Loads, PaperContact, PaperParts, PointSurface};
-use asperity::interface::{Law, laws::Coulomb};
+use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
 use asperity::system::{Attempt, Dofs, Local, Stencils, Term};
@@ -47,7 +47,7 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (PaperCo
         surface: PointSurface::new(&mesh, sides(own), (space, 0.8), None),
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target,
-        law: Arc::new(Law(Coulomb::new(0.4))),
+        law: Coulomb::new(0.4).into(),
         options: ContactOptions { thickness: 0.8, ..perturbed::options(loads) },
         space,
         dofs: dofs.clone(),

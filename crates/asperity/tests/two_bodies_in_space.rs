@@ -7,7 +7,7 @@ mod perturbed;
 
 use asperity::contact::field::{FieldTarget, Surface};
 use asperity::contact::{Loads, PaperContact, PaperParts, PointSurface};
-use asperity::interface::{Law, laws::Coulomb};
+use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh, Space};
 use asperity::system::{Attempt, Dofs, Local, State, Stencils, Term};
@@ -197,7 +197,7 @@ fn a_ring_that_closes_touches_itself() {
             space: Space::Solid,
             boundary: mesh.boundary(&mesh.groups["ring"].cells),
             target: FieldTarget::faces(Surface::whole(&mesh, &sides, Space::Solid, 1.0), &mesh),
-            law: Arc::new(Law(Coulomb::new(0.4))),
+            law: Coulomb::new(0.4).into(),
             options,
             dofs: dofs.clone(),
             mesh: mesh.clone(),

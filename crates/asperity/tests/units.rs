@@ -58,7 +58,7 @@ impl Scaled {
     fn factor(&self, unit: Unit) -> f64 {
         let Self { length, force, .. } = *self;
         match unit {
-            Unit::One | Unit::Time => 1.0,
+            Unit::One | Unit::Angle | Unit::Time => 1.0,
             Unit::Length => length,
             Unit::Area => length * length,
             Unit::Volume => length * length * length,

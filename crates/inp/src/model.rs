@@ -255,6 +255,8 @@ pub struct Rigid {
     pub rotation_node: Option<usize>,
     /// What is rigid.
     pub what: RigidPart,
+    /// Whether its nodes only carry what loads the reference node.
+    pub distributing: bool,
 }
 
 /// What is rigid.
@@ -317,6 +319,8 @@ pub enum ActionKind {
     Volume(Target, [f64; 3], bool),
     /// A temperature of nodes.
     Temperature(Target, f64),
+    /// An interaction has another coefficient of friction.
+    Friction(usize, f64),
     /// The contact of two surfaces ends, or is there again where this is true.
     Contact((usize, String), (usize, String), bool),
 }

@@ -115,7 +115,7 @@ fn evaluate(made: &deck::Made, state: &State, criterion: &mut Criterion) -> f64 
     let attempts = terms.map(|(term, history)| term.attempt(state, history, at)).collect::<Result<Vec<_>, _>>();
     let attempts = attempts.expect("an attempt");
     let assembly =
-        Assembly { terms: &problem.terms, attempts, dofs: &problem.dofs, constraints: &step.constraints, leaving: &[] };
+        Assembly { terms: &problem.terms, attempts, dofs: &problem.dofs, constraints: &step.constraints, apart: 0..0 };
     let (mut workspace, mut evaluation) = (Workspace::default(), Evaluation::new(&problem.terms, state));
     workspace.prepare(&assembly, state).expect("a pattern");
     let u: Vec<f64> = state.u.iter().zip(&state.last_change).map(|(u, change)| u + change).collect();

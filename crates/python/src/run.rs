@@ -45,8 +45,10 @@ impl Run {
             let course = match &wanted.out {
                 Some(directory) => {
                     let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
-                    let (input, start) = (made.input, wanted.begins());
-                    let job = Job { directory, options, input, start, limits, notes: &notes, facts: &facts };
+                    let (input, parts, start) = (made.input, &made.parts[..], wanted.begins());
+                    let (asked, notes, facts) = (made.asked(), &notes, &facts);
+                    let asked = Some(&asked);
+                    let job = Job { directory, options, input, parts, asked, start, limits, notes, facts };
                     Course::recorded(made.clone(), &job)
                 }
                 None => {

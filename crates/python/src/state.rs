@@ -206,7 +206,7 @@ impl Snapshot {
         }
         Ok(dict)
     }
-    /// Of each rigid tool its translation, rotation, and the force and moment that hold it.
+    /// Of each rigid tool its translation, rotation in degrees, and the force and moment that hold it.
     #[getter]
     fn tools<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (frame, dict) = (self.frame(py)?, PyDict::new(py));

@@ -8,7 +8,7 @@ use crate::trouble::{exception, guarded, raised, raised_with, warn};
 use asperity::Error;
 use asperity::deck::Made;
 use asperity::diagnosis::Facts;
-use asperity::output::{ASKED, Claim, Job, Others, Start, Status, Summary, checkpoint};
+use asperity::output::{Claim, Job, Others, Start, Status, Summary, resumed};
 use asperity::solve::{AttemptRecord, Silent};
 use asperity::system::State;
 use pyo3::exceptions::PyValueError;
@@ -81,15 +81,12 @@ pub fn claimed(model: &Model, wanted: &Wanted, out: &Path) -> Result<Claim, Erro
     if let Some(translated) = &model.translated {
         translated.write(out)?;
     }
-    if !wanted.restart || !out.join(ASKED).exists() {
-        model.made.asked().write(out)?;
-    }
     Ok(claim)
 }
 
 /// The state in the checkpoint of a result directory.
 pub fn kept(made: &Made, out: &Path) -> Result<State, Error> {
-    checkpoint::load(&Job::checkpoint_in(out)?, &made.input).map(|(_, state)| state)
+    resumed(&Job::checkpoint_in(out)?, &made.model.problem, &made.parts).map(|(state, _)| state)
 }
 
 impl Inner {

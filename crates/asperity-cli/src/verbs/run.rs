@@ -5,22 +5,53 @@ use crate::arguments;
 use crate::exit::{Exit, Trouble};
 use crate::screen::{Screen, Voice, farewell};
 use crate::signals::Interrupts;
-use asperity::output::{ASKED, Job, SUMMARY, Start, Status, Summary, simulate};
+use asperity::Error;
+use asperity::deck::Made;
+use asperity::output::{CHECKPOINT, Job, Resume, SUMMARY, Start, Status, Summary, branch, resumed, simulate};
 use serde_json::json;
+use std::path::{Path, PathBuf};
 
 /// Runs a deck from its beginning.
 pub fn run(arguments: &arguments::Run, interrupts: &Interrupts) -> Outcome {
-    solve(arguments, interrupts, Start::Beginning)
+    solve(arguments, interrupts, None)
 }
 
-/// Goes on from the checkpoint in the result directory.
-pub fn restart(arguments: &arguments::Run, interrupts: &Interrupts) -> Outcome {
-    solve(arguments, interrupts, Start::Checkpoint)
+/// Goes on from a checkpoint in the result directory, or from one of another in a branch.
+pub fn restart(arguments: &arguments::Restart, interrupts: &Interrupts) -> Outcome {
+    solve(&arguments.run, interrupts, Some(arguments))
 }
 
-/// The command that goes on from the checkpoint, as a shell takes it.
-fn again(arguments: &arguments::Run) -> String {
-    let sets = arguments.deck.sets.iter().flat_map(|set| ["--set".to_owned(), set.clone()]);
+/// Where a run goes on: the directory of the results and the checkpoint in it, which fits.
+fn source(restart: &arguments::Restart, made: &Made) -> Result<(PathBuf, PathBuf), Error> {
+    let source = restart.of.clone().unwrap_or_else(|| results_in(&restart.run));
+    let steps: Vec<&str> = made.model.problem.steps.iter().map(|step| step.name.as_str()).collect();
+    let meant = restart.from.as_deref().map(|from| Resume::parse(from, &steps)).transpose();
+    let path = match meant.map_err(|reason| Error::Input(format!("--from: {reason}")))? {
+        Some(meant) => meant.find(&source)?,
+        None => Job::checkpoint_in(&source)?,
+    };
+    resumed(&path, &made.model.problem, &made.parts)?;
+    Ok((source, path))
+}
+
+/// The checkpoint in the result directory of a run that goes on; a branch takes it over first.
+fn taken((source, path): (PathBuf, PathBuf), directory: &Path) -> Result<PathBuf, Error> {
+    if source.canonicalize().ok() == directory.canonicalize().ok() {
+        return Ok(path);
+    }
+    branch(&source, directory, &path)?;
+    Ok(directory.join(CHECKPOINT))
+}
+
+/// The result directory of a run.
+fn results_in(arguments: &arguments::Run) -> PathBuf {
+    arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path))
+}
+
+/// The command that goes on from the checkpoint, as a shell takes it, with one more setting if there is one.
+fn again(arguments: &arguments::Run, more: Option<&str>) -> String {
+    let sets = arguments.deck.sets.iter().map(String::as_str).chain(more);
+    let sets = sets.flat_map(|set| ["--set".to_owned(), set.to_owned()]);
     let out = arguments.out.iter().flat_map(|out| ["--out".to_owned(), out.display().to_string()]);
     let deck = arguments.deck.path.display().to_string();
     let words = ["asperity".to_owned(), "restart".to_owned(), deck].into_iter().chain(sets).chain(out);
@@ -37,15 +68,14 @@ fn quoted(word: &str) -> String {
     }
 }
 
-fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> Outcome {
+fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&arguments::Restart>) -> Outcome {
     // Before the deck is read: what comes first in need of threads decides their number.
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
         pool.map_err(|error| asperity::Error::Internal(error.to_string()))?;
     }
-    if start == Start::Checkpoint {
-        let directory = arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path));
-        Job::checkpoint_in(&directory)?;
+    if let Some(restart) = restart {
+        Job::checkpoint_in(&restart.of.clone().unwrap_or_else(|| results_in(arguments)))?;
     }
     let voice = if arguments.quiet {
         Voice::Quiet
@@ -57,16 +87,18 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
     let (made, translated) =
         if voice == Voice::Quiet { made_quietly(&arguments.deck)? } else { made(&arguments.deck)? };
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
+    let source = restart.map(|restart| source(restart, &made)).transpose()?;
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     if let Some(translated) = translated {
         translated.write(&directory.join(format!("{}.toml", translate::stem(&arguments.deck.path))))?;
     }
     let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
     let facts = asperity::deck::facts(&made);
-    let job = Job { directory: &directory, options, input: made.input, start, limits, notes: &notes, facts: &facts };
-    if start == Start::Beginning || !directory.join(ASKED).exists() {
-        made.asked().write(&directory)?;
-    }
+    let checkpoint = source.map(|source| taken(source, &directory)).transpose()?;
+    let start = checkpoint.as_deref().map_or(Start::Beginning, Start::Kept);
+    let (input, parts, asked) = (made.input, &made.parts[..], made.asked());
+    let (notes, facts) = (&notes, &facts);
+    let job = Job { directory: &directory, options, input, parts, asked: Some(&asked), start, limits, notes, facts };
     let mut screen = Screen::new(&made.model.problem, interrupts.heed()).speaking(voice);
     screen.begin(&made.model.title, &directory);
     // On a thread of the pool: from outside, every parallel loop would hand over to it and wait.
@@ -79,7 +111,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, start: Start) -> O
         report::conclude(&mut summary, &directory);
     }
     match voice {
-        Voice::Page => print(&farewell(&summary, &directory, &again(arguments)))?,
+        Voice::Page => print(&farewell(&summary, &directory, &|more| again(arguments, more)))?,
         Voice::Json => print(&format!("{}\n", json!({ "event": "end", "directory": directory, "summary": summary })))?,
         Voice::Quiet => Exit::Done,
     };
@@ -97,7 +129,10 @@ mod tests {
     fn the_command_that_goes_on_says_all_that_was_said() {
         let words = ["asperity", "run", "my deck.toml", "--set", "step.push.increments={count=4}", "--out", "here"];
         let Command::Run(run) = Line::parse_from(words).command else { panic!("not a run") };
-        assert_eq!(again(&run), "asperity restart 'my deck.toml' --set 'step.push.increments={count=4}' --out here");
+        assert_eq!(
+            again(&run, None),
+            "asperity restart 'my deck.toml' --set 'step.push.increments={count=4}' --out here"
+        );
         assert_eq!(quoted("it's"), r"'it'\''s'");
     }
 }

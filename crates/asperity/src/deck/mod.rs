@@ -15,6 +15,7 @@ mod names;
 mod overrides;
 mod parts;
 mod point;
+mod prints;
 mod reader;
 mod review;
 pub mod schema;
@@ -35,6 +36,7 @@ pub use slide::{Driven, LoadedInterface, load_driven, read_driven, read_interfac
 use crate::error::Error;
 use crate::files;
 use crate::mesh::Mesh;
+use crate::output::Part;
 use form::Table;
 use kind::Kind;
 use reader::Reader;
@@ -53,6 +55,8 @@ pub struct Loaded {
     pub folder: PathBuf,
     /// What was not said, and what holds instead.
     pub unsaid: Vec<Unsaid>,
+    /// Fingerprints of its parts.
+    pub parts: Vec<Part>,
     /// Warnings and notes, and the texts that later messages point into.
     pub diagnostics: Diagnostics,
 }
@@ -104,8 +108,8 @@ pub fn read_with(
     let (read, reader) = understood(text, name, sets, Kind::Model, wanted);
     let diagnostics = gathered(reader.sources, reader.diagnostics);
     match read {
-        Some((deck, mesh)) if !diagnostics.has_errors() => {
-            Ok(Loaded { deck, mesh, folder: folder.to_path_buf(), unsaid: reader.unsaid, diagnostics })
+        Some((deck, mesh, parts)) if !diagnostics.has_errors() => {
+            Ok(Loaded { deck, mesh, folder: folder.to_path_buf(), unsaid: reader.unsaid, parts, diagnostics })
         }
         _ => Err(diagnostics.without_notes()),
     }
@@ -141,11 +145,13 @@ fn gathered(sources: Vec<Source>, list: Vec<Diagnostic>) -> Diagnostics {
 }
 
 /// Deck and mesh; faults of the one do not hide those of the other.
-fn everything(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader) -> Option<(Deck, Mesh)> {
+fn everything(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader) -> Option<(Deck, Mesh, Vec<Part>)> {
     let deck = Deck::read(tree, reader);
     let mesh = parts::mesh(tree, folder, given, reader);
     names::resolve(mesh.as_ref(), reader);
-    Some((deck?, mesh?))
+    let mesh = mesh?;
+    let parts = prints::of(tree, &mesh);
+    Some((deck?, mesh, parts))
 }
 
 impl From<Diagnostics> for Error {

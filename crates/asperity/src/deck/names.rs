@@ -30,8 +30,9 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
         Names::Condition => None,
         Names::Target => target(mention, mentions, mesh),
         Names::Movable => movable(mention, mentions, mesh),
-        Names::Removable => {
-            let valid = [defined(mentions, Names::Contact), defined(mentions, Names::Tool)].concat();
+        Names::Removable | Names::Loadable => {
+            let first = if *names == Names::Loadable { Names::Distributing } else { Names::Contact };
+            let valid = [defined(mentions, first), defined(mentions, Names::Tool)].concat();
             (!valid.contains(&name.text.as_str()))
                 .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
@@ -90,7 +91,7 @@ fn nothing(name: &Name, names: Names, valid: &[&str]) -> Diagnostic {
 
 /// Says what a name means instead, where it names something of another kind.
 fn otherwise(diagnostic: Diagnostic, name: &Name, mentions: &[Mention], mesh: Option<&Mesh>) -> Diagnostic {
-    let kinds = [Names::Tool, Names::Material, Names::Contact];
+    let kinds = [Names::Tool, Names::Material, Names::Contact, Names::Distributing];
     let other = kinds.into_iter().find(|&kind| defined(mentions, kind).contains(&name.text.as_str()));
     let group = mesh.is_some_and(|mesh| mesh.groups.contains_key(&name.text)).then_some(Names::Group);
     match other.map(Names::noun).or(group.filter(|_| diagnostic.what.starts_with("there is no")).map(Names::noun)) {
@@ -128,9 +129,13 @@ fn group(name: &Name, names: Names, mesh: &Mesh) -> Option<Diagnostic> {
 /// A material or a tool that nothing uses is most likely a slip.
 fn idle(mention: &Mention, mentions: &[Mention]) -> Option<Diagnostic> {
     let Mention { names, name, .. } = mention;
-    let kind = |other: &Mention| other.names == *names || (*names == Names::Tool && other.names == Names::Target);
+    let also = match names {
+        Names::Tool => &[Names::Target, Names::Loadable][..],
+        _ => &[Names::Loadable],
+    };
+    let kind = |other: &Mention| other.names == *names || also.contains(&other.names);
     let uses = |other: &Mention| kind(other) && !other.defines && other.name.text == name.text;
-    let watched = matches!(names, Names::Material | Names::Tool);
+    let watched = matches!(names, Names::Material | Names::Tool | Names::Distributing);
     (watched && !mentions.iter().any(uses))
         .then(|| Diagnostic::warning(format!("nothing uses the {} `{name}`", names.noun())).at(name.place))
 }

@@ -125,6 +125,8 @@ pub struct StepFacts {
     pub largest: f64,
     /// The smallest.
     pub smallest: f64,
+    /// The most that it may take.
+    pub most: usize,
 }
 
 impl Facts {

@@ -8,12 +8,14 @@ mod course;
 mod facts;
 mod plausible;
 mod rules;
+mod settings;
 #[cfg(test)]
 mod tests;
 
 pub use course::{Course, Doubted, End, Fault};
 pub use facts::{BodyFacts, ContactFacts, Facts, Load, StepFacts, ToolFacts};
 pub use plausible::{Oddity, oddities};
+pub use settings::{Setting, settings};
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

@@ -57,5 +57,8 @@
 mod integrated;
 mod law;
 pub mod laws;
+mod rule;
+
+pub use rule::Rule;
 
 pub use law::{Interface, InterfaceLaw, Law, Linearised, MOST_VARIABLES, Motion, Past, Response, Status};

@@ -8,6 +8,7 @@ use crate::Error;
 use crate::mesh::cells::Cell;
 use crate::mesh::{Mesh, Side, Space};
 use crate::tensor::{Scalar, Vec3};
+use std::collections::BTreeMap;
 
 /// Most nodes of an edge or face (quad9).
 pub(super) const MAX_FACE_NODES: usize = 9;
@@ -68,4 +69,20 @@ impl FacePoint {
 /// Outward normal times area for a unit of the reference face, thickness and circumference included.
 pub(super) fn area<T: Scalar>(site: &Site, [x, g1, g2]: [Vec3<T>; 3]) -> Vec3<T> {
     g1.cross(g2) * site.depth(x)
+}
+
+/// The undeformed area around each node of some sides: the integrals of its shape functions.
+///
+/// # Errors
+/// An input error, naming the load, if a side cannot carry one.
+pub fn areas(load: &str, site: &Site, sides: &[Side]) -> Result<Vec<(usize, f64)>, Error> {
+    let mut areas = BTreeMap::<usize, f64>::new();
+    for &side in sides {
+        let face = Face::new(load, &site.mesh, side)?;
+        for point in &face.points {
+            let size = point.weight * area(site, point.place(face.undeformed(&site.mesh), site.space)).norm();
+            face.nodes.iter().zip(&point.n).for_each(|(&node, n)| *areas.entry(node).or_default() += n * size);
+        }
+    }
+    Ok(areas.into_iter().collect())
 }

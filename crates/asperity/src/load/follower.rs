@@ -67,10 +67,25 @@ impl Attempt for OpenPressure<'_> {
         Ok(())
     }
     fn evaluate(&self, index: usize, _: &Stencil, _: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
-        let (site, face) = (&self.load.site, &self.load.faces[index]);
+        OpenFace { site: &self.load.site, face: &self.load.faces[index], pressure: self.value }.press(local);
+        Ok(0)
+    }
+}
+
+/// A face under a pressure.
+pub(super) struct OpenFace<'a> {
+    pub(super) site: &'a Site,
+    pub(super) face: &'a Face,
+    pub(super) pressure: f64,
+}
+
+impl OpenFace<'_> {
+    /// Adds the forces of the pressure, and their derivatives where they are wanted.
+    pub(super) fn press(&self, local: &mut Local) {
+        let (site, face) = (self.site, self.face);
         for point in &face.points {
             let [x, g1, g2] = point.place(present(face, site, &local.u), site.space);
-            let scale = -self.value * point.weight;
+            let scale = -self.pressure * point.weight;
             if local.wants_tangent {
                 let vary = |v: Vec3, first: usize| Vec3(from_fn(|i| Dual::<9>::variable(v[i], first + i)));
                 let q = area(site, [vary(x, 0), vary(g1, 3), vary(g2, 6)]) * Dual::from(scale);
@@ -80,12 +95,11 @@ impl Attempt for OpenPressure<'_> {
                 add_forces(point, area(site, [x, g1, g2]) * scale, site, &mut local.force);
             }
         }
-        Ok(0)
     }
 }
 
 /// Present positions of the nodes of a face with displacements `u`.
-fn present<'a>(face: &'a Face, site: &'a Site, u: &'a [f64]) -> impl Iterator<Item = Vec3> + 'a {
+pub(super) fn present<'a>(face: &'a Face, site: &'a Site, u: &'a [f64]) -> impl Iterator<Item = Vec3> + 'a {
     let displacements = u.chunks_exact(site.space.dimension());
     face.undeformed(&site.mesh).zip(displacements).map(|(mut x, u)| {
         u.iter().enumerate().for_each(|(axis, u)| x[axis] += u);

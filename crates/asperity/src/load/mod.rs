@@ -8,9 +8,11 @@
 
 mod body_force;
 mod dead;
+mod distributed;
 mod face;
 mod follower;
 mod force;
+mod penetrating;
 mod pressure;
 mod spring;
 #[cfg(test)]
@@ -20,8 +22,11 @@ mod traction;
 
 pub use body_force::body_force;
 pub use dead::DeadLoad;
+pub use distributed::DistributedLoad;
+pub use face::areas;
 pub use follower::FollowerPressure;
 pub use force::{force_on_nodes, force_on_tool};
+pub use penetrating::{Bearing, PenetratingPressure};
 pub use pressure::dead_pressure;
 pub use spring::Springs;
 pub use torque::TorqueOnTool;

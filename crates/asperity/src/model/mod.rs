@@ -1,6 +1,7 @@
 //! The model: what is to be solved, put together from parts and immutable from then on.
 
 mod audited;
+mod bearing;
 #[allow(clippy::module_inception)] // the room and the type it is about share the field's word
 mod model;
 

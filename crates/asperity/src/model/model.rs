@@ -1,9 +1,11 @@
 //! A model owns its mesh, bodies, tools, contacts, springs, loads and steps; a run only reads it.
 
 use super::audited::claims;
+use super::bearing::bearing;
 use crate::audit::{Audit, Subject};
 use crate::contact::PaperContact;
 use crate::contact::field::{FieldContact, Tie};
+use crate::load::{Bearing, PenetratingPressure};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
 use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
@@ -40,6 +42,10 @@ pub struct ModelParts {
     pub springs: Vec<Box<dyn Term>>,
     /// Loads.
     pub loads: Vec<Box<dyn Term>>,
+    /// Fluids that enter openings, which are told what contacts bear.
+    pub fluids: Vec<Arc<PenetratingPressure>>,
+    /// Where they are told.
+    pub bearing: Bearing,
     /// The steps.
     pub steps: Vec<Step>,
     /// Names and nodes of the groups that are held or moved in any step.
@@ -87,6 +93,8 @@ pub struct Model {
     pub field_contacts: Vec<Arc<FieldContact>>,
     /// Number of springs.
     pub springs: usize,
+    /// Fluids that enter openings, the last of the terms.
+    pub fluids: Vec<Arc<PenetratingPressure>>,
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
     /// What is glued, each with the names of surface and target.
@@ -124,11 +132,17 @@ impl Model {
         terms.extend(contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(field_contacts.iter().map(|contact| contact.clone() as Arc<dyn Term>));
         terms.extend(parts.springs.into_iter().chain(parts.loads).map(Arc::from));
+        let fluids = parts.fluids;
+        terms.extend(fluids.iter().map(|fluid| fluid.clone() as Arc<dyn Term>));
+        if !fluids.is_empty() {
+            parts.bearing.tell(bearing(bodies.len(), &contacts, &field_contacts));
+        }
         let arms = |group: &RigidGroup| {
             let arm = |&node: &usize| (node, mesh.points[node] - group.reference);
             group.nodes.iter().map(arm).collect()
         };
         let first = tools.len() + solid_tools.len();
+        let contacts_end = bodies.len() + contacts.len() + field_contacts.len();
         let groups: Vec<_> = rigid.iter().enumerate().map(|(i, group)| (first + i, arms(group))).collect();
         let following = Arc::new(Following::new(&dofs, &groups));
         if !following.is_empty() {
@@ -151,6 +165,7 @@ impl Model {
         let glued = glued.iter().map(Vec::as_slice);
         let problem = Problem {
             terms,
+            contacts: bodies.len()..contacts_end,
             audit: Some(audit),
             dofs,
             steps,
@@ -180,6 +195,7 @@ impl Model {
             contacts,
             field_contacts,
             springs,
+            fluids,
             supports,
             ties,
             rigid,
@@ -190,6 +206,10 @@ impl Model {
     /// Number of the first contact among the terms.
     pub fn first_contact(&self) -> usize {
         self.bodies.len()
+    }
+    /// Number of the first fluid among the terms.
+    pub fn first_fluid(&self) -> usize {
+        self.problem.terms.len() - self.fluids.len()
     }
     /// Number of the first spring among the terms.
     pub fn first_spring(&self) -> usize {

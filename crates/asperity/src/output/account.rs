@@ -7,7 +7,7 @@ use super::quantity::Frame;
 use super::summary::{Status, Summary};
 use super::witness::certified;
 use crate::Error;
-use crate::diagnosis::{Course, Doubted, End, Facts, diagnose};
+use crate::diagnosis::{Course, Doubted, End, Facts, diagnose, settings};
 use crate::system::Term;
 
 /// Certificate and summary of a run.
@@ -66,6 +66,7 @@ impl Account {
             course.doubts.push(Doubted { figure: "closed_points".into(), ..Doubted::default() });
         }
         self.summary.diagnosis = diagnose(facts, &course);
+        self.summary.settings = settings(facts, &course);
     }
     /// Puts the figures of the certificate into the summary.
     pub fn certify(&mut self) {

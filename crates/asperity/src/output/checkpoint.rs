@@ -13,19 +13,19 @@
 
 use super::file::{self, Durability, write_atomic};
 use crate::Error;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ASPERITY";
 /// Raised whenever the head or what the state holds changes.
-const VERSION: u32 = 11;
+const VERSION: u32 = 12;
 const HEAD: usize = 8 + 4 + 32 + 8 + 8 + 8 + 8;
 const SUM: usize = 32;
 
 /// Fingerprint of the input of a run: its deck and its mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InputHash(pub [u8; 32]);
 
 /// Where in its run a checkpoint stands.
@@ -87,28 +87,22 @@ pub fn save<S: Serialize>(path: &Path, head: &Head, state: &S) -> Result<(), Err
     write_atomic(path, &bytes, Durability::Machine)
 }
 
-/// Reads a checkpoint of the run with the given input.
+/// Reads a checkpoint.
 ///
 /// # Errors
-/// [`Error::File`] when it cannot be read, is no checkpoint, is of another version, is damaged, or belongs to another
-/// deck or mesh.
-pub fn load<S: DeserializeOwned>(path: &Path, input: &InputHash) -> Result<(Stamp, S), Error> {
+/// [`Error::File`] when it cannot be read, is no checkpoint, is of another version, or is damaged.
+pub fn read<S: DeserializeOwned>(path: &Path) -> Result<(Head, S), Error> {
     let bytes = file::read(path)?;
     let (head, body) = open(&bytes).map_err(|reason| Error::file(path, reason))?;
-    if head.input != *input {
-        let reason = "this checkpoint belongs to another deck or mesh; restart it with the files it was made from; if it \
-                      was run with --set, give the same --set again";
-        return Err(Error::file(path, reason));
-    }
     let unpacked = zstd::stream::decode_all(body).map_err(|error| Error::file(path, error))?;
     let state = postcard::from_bytes(&unpacked).map_err(|error| Error::file(path, error))?;
-    Ok((head.stamp, state))
+    Ok((head, state))
 }
 
 /// Reads only the head of a checkpoint; the whole file is checked all the same.
 ///
 /// # Errors
-/// As [`load`], but for the input.
+/// As [`read`].
 pub fn inspect(path: &Path) -> Result<Head, Error> {
     let bytes = file::read(path)?;
     open(&bytes).map(|(head, _)| head).map_err(|reason| Error::file(path, reason))
@@ -179,8 +173,8 @@ mod tests {
     #[test]
     fn the_state_comes_back_to_the_bit() {
         let (_directory, path) = saved();
-        let (stamp, back) = load::<State>(&path, &head().input).unwrap();
-        assert_eq!((stamp, &back), (head().stamp, &state()));
+        let (found, back) = read::<State>(&path).unwrap();
+        assert_eq!((found, &back), (head(), &state()));
         assert!(back.internal[1].is_sign_negative());
         assert_eq!(inspect(&path).unwrap(), head());
     }
@@ -198,22 +192,20 @@ mod tests {
     fn errors_say_what_is_wrong() {
         let (directory, path) = saved();
         let good = std::fs::read(&path).unwrap();
-        let told = |bytes: &[u8], input: &InputHash| {
+        let told = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
-            load::<State>(&path, input).unwrap_err().to_string()
+            read::<State>(&path).unwrap_err().to_string()
         };
-        let input = head().input;
         let mut other_version = good.clone();
         other_version[8] = 1;
         let mut flipped = good.clone();
         flipped[HEAD + 5] ^= 1;
-        assert!(told(b"", &input).contains("not a checkpoint"));
-        assert!(told(b"# vtk DataFile", &input).contains("not a checkpoint"));
-        assert!(told(&other_version, &input).contains("is of format 1;"));
-        assert!(told(&flipped, &input).contains("damaged"));
-        assert!(told(&good[..good.len() - 1], &input).contains("damaged"));
-        assert!(told(&good, &InputHash::of(&[b"another deck"])).contains("another deck or mesh"));
-        let missing = load::<State>(&directory.path().join("none"), &input).unwrap_err();
+        assert!(told(b"").contains("not a checkpoint"));
+        assert!(told(b"# vtk DataFile").contains("not a checkpoint"));
+        assert!(told(&other_version).contains("is of format 1;"));
+        assert!(told(&flipped).contains("damaged"));
+        assert!(told(&good[..good.len() - 1]).contains("damaged"));
+        let missing = read::<State>(&directory.path().join("none")).unwrap_err();
         assert!(missing.to_string().contains("none: "));
     }
 

@@ -46,6 +46,7 @@ impl Fixture {
             materials: vec![0],
             material_names: vec!["rubber".into()],
             contacts: vec![],
+            fluids: vec![],
             springs: vec![],
             tools: vec![],
             solid_tools: vec![],

@@ -17,6 +17,8 @@ pub struct HistoryTable {
     units: Option<Units>,
     columns: Vec<String>,
     table: Option<Table>,
+    /// Whether the run has just gone on, with a deck whose quantities may be others.
+    resumed: bool,
 }
 
 /// Name of the table of histories in the result directory.
@@ -34,7 +36,7 @@ pub fn global_columns(frame: &Frame, plane: bool) -> Vec<(String, f64)> {
 impl HistoryTable {
     /// A history in `directory`; the file appears with the first frame.
     pub fn create(directory: &Path, plane: bool, units: Option<Units>) -> Self {
-        Self { path: directory.join(HISTORY), plane, units, columns: Vec::new(), table: None }
+        Self { path: directory.join(HISTORY), plane, units, columns: Vec::new(), table: None, resumed: false }
     }
     /// Continues a history after a restart from `increment`; later rows are dropped.
     ///
@@ -49,6 +51,7 @@ impl HistoryTable {
             let at = columns.position("increment").and_then(|i| row[i].parse::<usize>().ok());
             at.is_some_and(|at| at <= increment)
         })?);
+        history.resumed = true;
         history.columns = Columns::read(&history.path)?.header.split_off(LEADING.len());
         Ok(history)
     }
@@ -70,6 +73,10 @@ impl HistoryTable {
         let (names, values): (Vec<String>, Vec<f64>) = global_columns(frame, self.plane).into_iter().unzip();
         if self.table.is_none() {
             self.table = Some(Table::create(&self.path, &self.header(frame))?);
+            self.columns.clone_from(&names);
+        }
+        if std::mem::take(&mut self.resumed) {
+            self.table = Some(Table::relay(&self.path, &self.header(frame))?);
             self.columns.clone_from(&names);
         }
         if let Some(odd) = first_difference(&self.columns, &names) {

@@ -1,6 +1,7 @@
 //! What a run writes, and how often.
 
 use super::export::{Export, Printed};
+use super::kept::Keep;
 use super::probe::Probe;
 use super::units::Units;
 use super::vtk::Encoding;
@@ -10,8 +11,10 @@ use super::vtk::Encoding;
 pub struct ResultOptions {
     /// A frame of fields every so many increments; the last of a step always.
     pub every: usize,
-    /// A checkpoint every so many increments.
+    /// A checkpoint every so many increments, and at the end of each step.
     pub checkpoint_every: usize,
+    /// Which checkpoints are kept.
+    pub keep: Keep,
     /// How the arrays of frames are laid down.
     pub encoding: Encoding,
     /// Files for other programs.
@@ -29,6 +32,7 @@ impl Default for ResultOptions {
         Self {
             every: 1,
             checkpoint_every: 10,
+            keep: Keep::Last,
             encoding: Encoding::default(),
             export: Vec::new(),
             probes: Vec::new(),

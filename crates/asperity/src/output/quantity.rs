@@ -40,6 +40,8 @@ pub enum Width {
 pub enum Unit {
     /// A pure number.
     One,
+    /// An angle, in degrees.
+    Angle,
     /// Time.
     Time,
     /// Length.
@@ -127,6 +129,7 @@ impl Unit {
     pub fn text(self) -> &'static str {
         match self {
             Self::One => "",
+            Self::Angle => "degrees",
             Self::Time => "time",
             Self::Length => "length",
             Self::Area => "length^{2}",

@@ -12,16 +12,19 @@
 //! | `certificate.csv` | readings for the certificate |
 //! | `summary.json` | how the run ended and its certificate |
 //! | `run.checkpoint` | the last checkpoint |
+//! | `checkpoints` | those that are kept |
 //! | `status.json` | where the run stands, while it goes |
 
 use super::account::Account;
 use super::asked::ASKED;
-use super::checkpoint::{self, Head, InputHash, Stamp};
+use super::checkpoint::{self, Head, Stamp};
 use super::export::{DAT, Export, Exports, FRD, XDMF};
 use super::figure::{FigureOptions, draw_standard};
 use super::file::{Durability, make_directory, remove, sweep, write_atomic};
 use super::grids::{BodyGrid, cloud, deformed, surfaces, tools};
 use super::history::{HISTORY, HistoryTable};
+use super::input::Origin;
+use super::kept::{self, KEPT, Keep};
 use super::options::ResultOptions;
 use super::probe::{Probe, ProbeTable};
 use super::progress::{PROGRESS, Request};
@@ -39,7 +42,7 @@ use std::time::{Duration, Instant};
 pub struct Results {
     directory: PathBuf,
     options: ResultOptions,
-    input: InputHash,
+    origin: Origin,
     grid: BodyGrid,
     series: Vec<(Fields, Series)>,
     /// Frames where stability was lost or found again, from the first such on.
@@ -110,7 +113,7 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`] when something cannot be written.
-    pub fn create(directory: &Path, start: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
+    pub fn create(directory: &Path, start: &Source, options: ResultOptions, origin: Origin) -> Result<Self, Error> {
         Self::clear(directory)?;
         let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts, &options).map(series).collect::<Result<_, Error>>()?;
@@ -122,7 +125,7 @@ impl Results {
         let probes = options.probes.iter().map(probe).collect::<Result<_, _>>()?;
         let exports = Exports::create(directory, start, (&options.export, &options.printed))?;
         let tables = (history, readings, probes, exports);
-        let mut results = Self::new((directory, options, input), start.parts, (series, tables))?;
+        let mut results = Self::new((directory, options, origin), start.parts, (series, tables))?;
         results.write_grids(start, frame)?;
         reserve(directory)?;
         results.write_summary()?;
@@ -137,6 +140,7 @@ impl Results {
         make_directory(directory)?;
         sweep(directory)?;
         Request::clear(directory)?;
+        kept::drop_after(directory, None)?;
         let late = [CHECKPOINT, HISTORY, READINGS, PROGRESS, REPORT, MODES_LIST, FRD, XDMF, DAT, "deformed.pvd"];
         remove(directory, late.map(String::from).into_iter().chain(pictures()).chain(probe_tables(directory)))
     }
@@ -144,11 +148,14 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`] when an old file cannot be read or a new one not written.
-    pub fn resume(directory: &Path, at: &Source, options: ResultOptions, input: InputHash) -> Result<Self, Error> {
+    pub fn resume(directory: &Path, at: &Source, options: ResultOptions, origin: Origin) -> Result<Self, Error> {
         let (parts, state) = (at.parts, at.state);
         make_directory(directory)?;
         sweep(directory)?;
         Request::clear(directory)?;
+        // Before anything of what came later is dropped.
+        write_checkpoint(&directory.join(CHECKPOINT), &origin, state)?;
+        kept::drop_after(directory, Some(state.increment))?;
         let series = |fields: Fields| {
             let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
             Ok((fields, series))
@@ -162,7 +169,7 @@ impl Results {
         let probes = options.probes.iter().map(probe).collect::<Result<_, _>>()?;
         let exports = Exports::resume(directory, at, (&options.export, &options.printed))?;
         let tables = (history, readings, probes, exports);
-        let mut results = Self::new((directory, options, input), parts, (series, tables))?;
+        let mut results = Self::new((directory, options, origin), parts, (series, tables))?;
         if directory.join(MODES_LIST).exists() {
             results.modes = Some(Series::resume(directory, MODES, results.options.encoding, state.time)?);
         }
@@ -172,12 +179,12 @@ impl Results {
         Ok(results)
     }
     fn new(
-        (directory, options, input): (&Path, ResultOptions, InputHash),
+        (directory, options, origin): (&Path, ResultOptions, Origin),
         parts: &Parts,
         (series, (history, readings, probes, exports)): (Vec<(Fields, Series)>, Tables),
     ) -> Result<Self, Error> {
         let mut account = Account::new(parts);
-        account.summary.input_hash = Some(input.to_string());
+        account.summary.input_hash = Some(origin.input.to_string());
         account.summary.units = options.units.as_ref().map(Units::to_string);
         let grid = BodyGrid::new(parts.mesh)?;
         let directory = directory.to_path_buf();
@@ -185,7 +192,7 @@ impl Results {
         Ok(Self {
             directory,
             options,
-            input,
+            origin,
             grid,
             series,
             modes: None,
@@ -213,8 +220,12 @@ impl Results {
         if last || increment.is_multiple_of(self.options.every) {
             self.write_grids(source, frame)?;
         }
-        if increment.is_multiple_of(self.options.checkpoint_every) {
+        if last || increment.is_multiple_of(self.options.checkpoint_every) {
             self.checkpoint(source.state)?;
+            if self.options.keep == Keep::All || (last && self.options.keep == Keep::Steps) {
+                make_directory(&self.directory.join(KEPT))?;
+                write_checkpoint(&kept::path_of(&self.directory, increment), &self.origin, source.state)?;
+            }
         }
         if self.told.elapsed() > BETWEEN || last {
             self.told = Instant::now();
@@ -240,8 +251,7 @@ impl Results {
     /// # Errors
     /// [`Error::File`] when it cannot be written; the one before then still stands.
     pub fn checkpoint(&self, state: &State) -> Result<(), Error> {
-        let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
-        checkpoint::save(&self.directory.join(CHECKPOINT), &Head { input: self.input, stamp }, state)
+        write_checkpoint(&self.directory.join(CHECKPOINT), &self.origin, state)
     }
     /// Says in the summary how the run ended, and draws the standard pictures. A picture that cannot be drawn is a note
     /// in the summary and no failure of the run.
@@ -305,6 +315,12 @@ impl Results {
     }
 }
 
+fn write_checkpoint(path: &Path, Origin { input, parts, terms }: &Origin, state: &State) -> Result<(), Error> {
+    let stamp = Stamp { step: state.step as u64, increment: state.increment as u64, time: state.time };
+    // As the fields of `Kept`.
+    checkpoint::save(path, &Head { input: *input, stamp }, &(parts, terms, state))
+}
+
 /// The tables that grow by rows, and the files for other programs.
 type Tables = (HistoryTable, ReadingTable, Vec<ProbeTable>, Exports);
 
@@ -335,8 +351,10 @@ fn fields_of(parts: &Parts, options: &ResultOptions) -> impl Iterator<Item = Fie
 
 #[cfg(test)]
 mod tests {
+    use super::super::checkpoint::InputHash;
     use super::super::export::{Printed, Totals, Whose};
     use super::super::fixture::Fixture;
+    use super::super::input::Kept;
     use super::super::probe::{At, Share, Take};
     use super::super::summary::{Status, Summary};
     use super::super::vtk::{read_grid, read_series};
@@ -373,8 +391,8 @@ mod tests {
         Fixture::new(Space::Axisymmetric, Formulation::Standard, Integration::Reduced)
     }
 
-    fn input() -> InputHash {
-        InputHash::of(&[b"deck"])
+    fn origin() -> Origin {
+        Origin { input: InputHash::of(&[b"deck"]), ..Origin::default() }
     }
 
     /// Writes the increments after the first `done`.
@@ -388,7 +406,7 @@ mod tests {
 
     fn begin(directory: &Path, fixture: &Fixture) -> Results {
         let (parts, state) = (fixture.parts(), fixture.start());
-        Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, options(), input()).unwrap()
+        Results::create(directory, &Source { parts: &parts, state: &state, step: 0 }, options(), origin()).unwrap()
     }
 
     #[test]
@@ -451,11 +469,12 @@ mod tests {
         let fixture = fixture();
         write(&mut begin(whole.path(), &fixture), &fixture, 0, 5);
         write(&mut begin(cut.path(), &fixture), &fixture, 0, 4);
-        let (stamp, state) = checkpoint::load::<State>(&cut.path().join(CHECKPOINT), &input()).unwrap();
-        assert_eq!((stamp.increment, &state), (3, &states(&fixture)[2]));
+        let (head, kept) = checkpoint::read::<Kept>(&cut.path().join(CHECKPOINT)).unwrap();
+        let state = kept.state;
+        assert_eq!((head.stamp.increment, &state), (3, &states(&fixture)[2]));
         let parts = fixture.parts();
         let source = Source { parts: &parts, state: &state, step: 0 };
-        let mut results = Results::resume(cut.path(), &source, options(), input()).unwrap();
+        let mut results = Results::resume(cut.path(), &source, options(), origin()).unwrap();
         let balance = results.account.certificate.figure("energy_balance");
         assert!(balance.is_some(), "the certificate covers the rows before the restart");
         write(&mut results, &fixture, 3, 5);

@@ -2,9 +2,11 @@
 //! state: at once ([`simulate`]), or increment by increment ([`Simulation`]).
 
 use super::account::Account;
+use super::asked::Asked;
 use super::certificate::Limits;
-use super::checkpoint::{self, InputHash};
+use super::checkpoint::InputHash;
 use super::closing;
+use super::input::{Origin, Part, resumed, terms_of};
 use super::log::RunLog;
 use super::options::ResultOptions;
 use super::progress::Request;
@@ -28,8 +30,12 @@ pub struct Job<'a> {
     pub directory: &'a Path,
     /// What is written, and how often.
     pub options: ResultOptions,
-    /// Fingerprint of deck and mesh.
+    /// Fingerprint of deck and mesh,
     pub input: InputHash,
+    /// and of their parts.
+    pub parts: &'a [Part],
+    /// The deck, which is written beside the results.
+    pub asked: Option<&'a Asked>,
     /// Where the run begins.
     pub start: Start<'a>,
     /// What the figures of the certificate may be.
@@ -47,6 +53,8 @@ pub enum Start<'a> {
     Beginning,
     /// At the checkpoint in the result directory.
     Checkpoint,
+    /// At a checkpoint that is kept in the result directory; what came after it is dropped.
+    Kept(&'a Path),
     /// At an accepted state of another run; its results begin there.
     State(&'a State),
 }
@@ -103,7 +111,7 @@ impl<'m> Simulation<'m> {
     /// # Errors
     /// An error when the results cannot be written, the checkpoint not be read, or the state is not of the model.
     pub fn begin(model: &'m Model, job: &Job) -> Result<Begun<'m>, Error> {
-        let state = job.state(model)?;
+        let (state, changed) = job.state(model)?;
         let ended = |ended: Ended| Ok(Begun::Ended(Box::new(ended)));
         if let Some(finished) = job.finished(model, &state) {
             return ended((finished, Ok(())));
@@ -112,7 +120,7 @@ impl<'m> Simulation<'m> {
             return ended((job.refuse(model, &error)?, Err(error)));
         }
         let parts = Parts::of(model);
-        let (results, log) = job.open(model, &Source { parts: &parts, state: &state, step: state.step })?;
+        let (results, log) = job.open(model, &Source { parts: &parts, state: &state, step: state.step }, &changed)?;
         let files = Files::new(results, log, &model.problem);
         Ok(Begun::Going(Box::new(Self::new(model, parts, state, Keeper::Files(Box::new(files))))))
     }
@@ -167,7 +175,10 @@ impl<'m> Simulation<'m> {
     /// An error when the results cannot be written.
     pub fn finish(&mut self, mut ended: Result<(), Error>, facts: &Facts) -> Result<Ended, Error> {
         let state = &self.run.state;
+        // Before the first increment of a step the checkpoint of the one before stands, from which the step may yet be changed.
+        let stands = state.step_increment == 0 && state.increment > 0;
         if let (Keeper::Files(files), Err(why)) = (&mut self.keeper, &ended)
+            && !(stands && files.results.directory().join(CHECKPOINT).exists())
             && let Err(error) = files.results.checkpoint(state)
         {
             let lost = format!("the last accepted increment is not kept: {error}");
@@ -230,30 +241,34 @@ impl Job<'_> {
         if path.exists() { Ok(path) } else { Err(Error::file(&path, reason)) }
     }
 
-    fn state(&self, model: &Model) -> Result<State, Error> {
+    /// The state at which the run begins, and the parts of the deck that have changed since it was reached.
+    fn state(&self, model: &Model) -> Result<(State, Vec<String>), Error> {
         match self.start {
-            Start::Beginning => return Ok(model.problem.initial_state()),
+            Start::Beginning => Ok((model.problem.initial_state(), Vec::new())),
             Start::State(state) => {
                 model.problem.fits(state).map_err(Error::Input)?;
-                return Ok(state.clone());
+                Ok((state.clone(), Vec::new()))
             }
-            Start::Checkpoint => {}
+            Start::Checkpoint => resumed(&Self::checkpoint_in(self.directory)?, &model.problem, self.parts),
+            Start::Kept(path) => resumed(path, &model.problem, self.parts),
         }
-        let path = Self::checkpoint_in(self.directory)?;
-        let (_, state) = checkpoint::load::<State>(&path, &self.input)?;
-        model.problem.fits(&state).map_err(|reason| Error::file(&path, reason))?;
-        Ok(state)
+    }
+
+    /// Whether the results of an earlier run are gone on with.
+    fn goes_on(&self) -> bool {
+        matches!(self.start, Start::Checkpoint | Start::Kept(_))
     }
 
     /// The summary of the run, where it goes on from its own end: that tells more than a run of no increments could.
     fn finished(&self, model: &Model, state: &State) -> Option<Summary> {
-        if self.start != Start::Checkpoint || state.step < model.problem.steps.len() {
+        if !self.goes_on() || state.step < model.problem.steps.len() {
             return None;
         }
         let mut summary = Summary::read(&self.directory.join(SUMMARY)).ok()?;
-        let same = summary.status == Status::Converged && summary.input_hash == Some(self.input.to_string());
+        let ended =
+            matches!(summary.status, Status::Converged | Status::Doubtful) && summary.increments == state.increment;
         summary.notes.push("this run had come to its end before; nothing was computed or written".into());
-        same.then_some(summary)
+        ended.then_some(summary)
     }
 
     /// The summary of a run that does not begin; where it was to go on, that of the run so far stands.
@@ -262,27 +277,39 @@ impl Job<'_> {
         (summary.input_hash, summary.unknowns) = (Some(self.input.to_string()), model.problem.dofs.count());
         summary.notes.extend_from_slice(self.notes);
         summary.end(&Err(error.clone()), false);
-        if self.start != Start::Checkpoint {
+        if !self.goes_on() {
             Results::clear(self.directory)?;
             summary.write(&self.directory.join(SUMMARY))?;
         }
         Ok(summary)
     }
 
-    fn open(&self, model: &Model, start: &Source) -> Result<(Results, RunLog), Error> {
-        let mut results = match self.start {
-            Start::Beginning | Start::State(_) => {
-                Results::create(self.directory, start, self.options.clone(), self.input)?
-            }
-            Start::Checkpoint => Results::resume(self.directory, start, self.options.clone(), self.input)?,
+    fn open(&self, model: &Model, start: &Source, changed: &[String]) -> Result<(Results, RunLog), Error> {
+        let origin = Origin { input: self.input, parts: self.parts.to_vec(), terms: terms_of(&model.problem) };
+        let mut results = if self.goes_on() {
+            Results::resume(self.directory, start, self.options.clone(), origin)?
+        } else {
+            Results::create(self.directory, start, self.options.clone(), origin)?
         };
+        if let Some(asked) = self.asked {
+            asked.write(self.directory)?;
+        }
+        if !changed.is_empty() {
+            let time = start.state.time;
+            let note = format!(
+                "gone on from time {time} with a deck of which these parts have changed: {}",
+                changed.join(", ")
+            );
+            results.account.summary.notes.push(note);
+        }
         results.account.limits.clone_from(self.limits);
         results.account.summary.title.clone_from(&model.title);
         results.account.summary.notes.extend_from_slice(self.notes);
         results.write_summary()?;
-        let log = match self.start {
-            Start::Beginning | Start::State(_) => RunLog::create(self.directory)?,
-            Start::Checkpoint => RunLog::resume(self.directory, start.state.increment)?,
+        let log = if self.goes_on() {
+            RunLog::resume(self.directory, start.state.increment)?
+        } else {
+            RunLog::create(self.directory)?
         };
         Ok((results, log))
     }

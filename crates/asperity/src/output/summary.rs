@@ -5,7 +5,7 @@ use super::certificate::{Certificate, Limits, Occasion};
 use super::figures::FIGURES;
 use super::file::{self, Durability, write_atomic};
 use super::quantity::{Frame, Place, Quantity};
-use crate::diagnosis::Finding;
+use crate::diagnosis::{Finding, Setting};
 use crate::{Error, machine};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -100,6 +100,9 @@ pub struct Summary {
     /// What a run that failed or is doubtful most likely suffers from, the likeliest first.
     #[serde(default)]
     pub diagnosis: Vec<Finding>,
+    /// Settings with which a run that failed may go on from its last accepted increment.
+    #[serde(default)]
+    pub settings: Vec<Setting>,
     /// Notes that the user must see: options that bend a promise, warnings.
     pub notes: Vec<String>,
     /// Result files, relative to the directory of this one.
@@ -138,6 +141,7 @@ impl Summary {
             certificate: FIGURES.iter().map(|figure| (figure.name.into(), None)).collect(),
             worst: BTreeMap::new(),
             diagnosis: Vec::new(),
+            settings: Vec::new(),
             notes: Vec::new(),
             files: Vec::new(),
         }

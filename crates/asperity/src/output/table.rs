@@ -93,6 +93,16 @@ impl Table {
         (old.rows, old.header) = (kept, header);
         Self::begin(path, &old)
     }
+    /// Continues a table with other columns: rows keep what stood under the names that stay, and are empty under new ones.
+    ///
+    /// # Errors
+    /// As [`resume`](Self::resume).
+    pub fn relay(path: &Path, header: &[String]) -> Result<Self, Error> {
+        let old = Columns::read(path)?;
+        let places: Vec<_> = header.iter().map(|name| old.position(bare(name))).collect();
+        let row = |row: &Vec<String>| places.iter().map(|at| at.map_or(String::new(), |at| row[at].clone())).collect();
+        Self::begin(path, &Columns { header: header.to_vec(), rows: old.rows.iter().map(row).collect() })
+    }
     fn begin(path: &Path, start: &Columns) -> Result<Self, Error> {
         let mut text = line(path, &start.header)?;
         for row in &start.rows {

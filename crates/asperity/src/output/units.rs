@@ -67,6 +67,7 @@ impl Units {
         let Self { force, length, time } = self;
         match unit {
             Unit::One => String::new(),
+            Unit::Angle => "degrees".into(),
             Unit::Time => time.clone().unwrap_or_default(),
             Unit::Length => length.clone(),
             Unit::Area => format!("{length}^2"),

@@ -31,7 +31,8 @@ impl Run<'_> {
                 _ => {}
             }
         }
-        for (dof, force) in leaving.iter().enumerate() {
+        let gone = leaving.iter().filter(|(term, _)| before.leaving.contains(term));
+        for &(dof, force) in gone.flat_map(|(_, forces)| forces) {
             handed[dof] -= force;
             state.internal[dof] -= force;
         }

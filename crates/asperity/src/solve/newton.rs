@@ -212,7 +212,9 @@ impl<'a> Newton<'a> {
         let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
         let attempts = problem.open(state, at)?;
         let (terms, dofs) = (&problem.terms, &problem.dofs);
-        let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, leaving: &step.leaving };
+        // The next step may do without any of the contacts.
+        let apart = if step.ends_at(at.step_time) { problem.contacts.clone() } else { 0..0 };
+        let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, apart };
         memory.workspace.prepare(&assembly, state)?;
         memory.mixed.begin(&assembly, &memory.workspace);
         let evaluation = memory.spare.take().unwrap_or_else(|| Evaluation::new(&problem.terms, state));

@@ -6,12 +6,15 @@ use super::schedule::Step;
 use crate::Failure;
 use crate::audit::Audit;
 use crate::system::{Attempt, Dofs, Energies, Following, History, Idle, Instant, State, Term, Unknown, Whole};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What is to be solved: terms, numbering, steps.
 pub struct Problem {
     /// The terms of equilibrium.
     pub terms: Vec<Arc<dyn Term>>,
+    /// Those of them that are contacts, which steps may do without.
+    pub contacts: Range<usize>,
     /// The numbering of the unknowns.
     pub dofs: Dofs,
     /// The steps.
@@ -81,6 +84,12 @@ impl Problem {
             own.histories.len() == state.histories.len() && own.histories.iter().zip(&state.histories).all(same_slots);
         if lengths(&own) != lengths(state) || !same_histories || own.energies.len() != state.energies.len() {
             return Err("this state belongs to another model".into());
+        }
+        let of_contacts = |(term, forces): &(usize, Vec<(usize, f64)>)| {
+            self.contacts.contains(term) && forces.iter().all(|(dof, _)| *dof < state.u.len())
+        };
+        if !state.leaving.iter().all(of_contacts) || !(state.handed.is_empty() || state.handed.len() == state.u.len()) {
+            return Err("the forces of the contacts of this state belong to another model".into());
         }
         if state.step > self.steps.len() || !state.next_dt.is_finite() {
             return Err("this state stands outside the steps of the model".into());

@@ -83,7 +83,7 @@ impl<'a> Resistance<'a> {
         let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
         let attempts = problem.open(state, at)?;
         let (terms, dofs) = (&problem.terms, &problem.dofs);
-        let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, leaving: &[] };
+        let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, apart: 0..0 };
         let mut workspace = Workspace::default();
         workspace.list_stencils(&assembly, state)?;
         let evaluation = Evaluation::new(&problem.terms, state);

@@ -294,7 +294,7 @@ impl<'a> Run<'a> {
         state.step_increment += 1;
         state.time += dt;
         state.step_time += dt;
-        if state.step_time >= step.duration * (1.0 - 1e-9) {
+        if step.ends_at(state.step_time) {
             self.begin_next_step();
         }
     }
@@ -330,7 +330,7 @@ impl<'a> Run<'a> {
         for (_, (old, new)) in histories.filter(|(number, _)| !idle.contains(number)) {
             std::mem::swap(old, new);
         }
-        std::mem::swap(&mut state.leaving, &mut evaluation.leaving);
+        state.leaving = evaluation.apart.drain(..).map(|(term, forces)| (term, added(forces))).collect();
         self.memory.spare = Some(evaluation);
         state.preconditioner = self.memory.preconditioner(self.solver.as_ref());
         for (past, now) in state.in_play.iter_mut().zip(converged.in_play) {
@@ -350,6 +350,13 @@ impl<'a> Run<'a> {
             state.next_dt = next.increments.first * next.duration;
         }
     }
+}
+
+/// Forces with those of one unknown added up in their order, zeros left out.
+fn added(mut forces: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    forces.sort_by_key(|(dof, _)| *dof);
+    let sum = |group: &[(usize, f64)]| (group[0].0, group.iter().map(|(_, force)| force).sum());
+    forces.chunk_by(|a, b| a.0 == b.0).map(sum).filter(|(_, force)| *force != 0.0).collect()
 }
 
 /// Energy that came from outside and that no term has taken up.

@@ -98,6 +98,11 @@ const EASY: usize = 6;
 const GROWTH: f64 = 1.5;
 
 impl Step {
+    /// Whether a time of the step is its end, but for rounding.
+    pub fn ends_at(&self, step_time: f64) -> bool {
+        step_time >= self.duration * (1.0 - 1e-9)
+    }
+
     /// Size of the increment to try when the controller wants `wanted` and `done` of the step is behind: the rest of
     /// the step when that is near, and halves of the rest rather than a sliver at the end.
     pub fn next(&self, wanted: f64, done: f64) -> f64 {

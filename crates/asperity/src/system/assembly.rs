@@ -13,6 +13,7 @@ use super::{
 use crate::Failure;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// How the matrix is to be found.
@@ -52,8 +53,9 @@ pub struct Evaluation {
     pub magnitude: Vec<f64>,
     /// Forces that the motion still missing at the prescribed unknowns adds to first order.
     pub carried: Vec<f64>,
-    /// Forces on all unknowns of the terms that leave; empty where none does.
-    pub leaving: Vec<f64>,
+    /// Of each term whose forces are asked for apart, its number and its forces, in the order of its stencils: unknowns may
+    /// come again.
+    pub apart: Vec<(usize, Vec<(usize, f64)>)>,
     /// Matrix values in the order of the pattern; meaningful when the tangent was wanted.
     pub values: Vec<f64>,
     /// History of each term at the trial state.
@@ -74,8 +76,8 @@ pub struct Assembly<'a> {
     pub dofs: &'a Dofs,
     /// What is prescribed.
     pub constraints: &'a Constraints,
-    /// Terms that the next step does without, whose forces are asked for apart.
-    pub leaving: &'a [usize],
+    /// Terms whose forces are asked for apart.
+    pub apart: Range<usize>,
 }
 
 /// Memory that lives through the run: pattern, places in it, chunk buffers.
@@ -185,8 +187,7 @@ impl Workspace {
         self.find_stencils(assembly, trial.u)?;
         loop {
             out.clear(assembly.dofs.count(), self.pattern().columns.len(), trial.tangent);
-            out.leaving.clear();
-            out.leaving.resize(if assembly.leaving.is_empty() { 0 } else { assembly.dofs.count() }, 0.0);
+            out.apart.clear();
             let mut miss = false;
             for t in 0..assembly.terms.len() {
                 match self.evaluate_term(assembly, t, trial, out)? {
@@ -228,7 +229,11 @@ impl Workspace {
         let role = assembly.terms[t].role();
         let sign = if role == Role::Load { -1.0 } else { 1.0 };
         let frame = Frame { constraints: assembly.constraints, pattern, places, sign };
-        let mut sink = Sink::new((out, t), (trial, role), frame).leaving(assembly.leaving.contains(&t));
+        let apart = assembly.apart.contains(&t);
+        if apart {
+            out.apart.push((t, Vec::new()));
+        }
+        let mut sink = Sink::new((out, t), (trial, role), frame).apart(apart);
         let (mut result, count) = (Ok(()), stencils.list.len());
         let round = CHUNK * ROUND[usize::from(rayon::current_num_threads() > 1)];
         for first in (0..count).step_by(round) {

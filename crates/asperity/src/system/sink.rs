@@ -34,7 +34,7 @@ pub struct Sink<'a> {
     trial: &'a Trial<'a>,
     role: Role,
     frame: Frame<'a>,
-    leaving: bool,
+    apart: bool,
 }
 
 impl<'a> Sink<'a> {
@@ -44,12 +44,12 @@ impl<'a> Sink<'a> {
         (trial, role): (&'a Trial<'a>, Role),
         frame: Frame<'a>,
     ) -> Self {
-        Self { out, term, trial, role, frame, leaving: false }
+        Self { out, term, trial, role, frame, apart: false }
     }
 
     /// The same for a term whose forces are asked for apart too.
-    pub fn leaving(self, leaving: bool) -> Self {
-        Self { leaving, ..self }
+    pub fn apart(self, apart: bool) -> Self {
+        Self { apart, ..self }
     }
 
     /// Adds the results of a round; the sink's order is that of the calls.
@@ -87,8 +87,8 @@ impl<'a> Sink<'a> {
             sum[dof] += force;
             magnitude[dof] += force.abs();
         }
-        if self.leaving {
-            dofs.iter().zip(forces).for_each(|(&dof, force)| self.out.leaving[dof] += force);
+        if let Some((_, apart)) = self.out.apart.last_mut().filter(|_| self.apart) {
+            apart.extend(dofs.iter().copied().zip(forces.iter().copied()));
         }
     }
 

@@ -143,8 +143,9 @@ pub struct State {
     pub load: Vec<f64>,
     /// Whether what the step lets go has been noted.
     pub entered: bool,
-    /// Forces on all unknowns of what the next step does without, found in the last increment before it; else empty.
-    pub leaving: Vec<f64>,
+    /// After the last increment of a step, of each contact its number among the terms and its forces, by unknown: the next
+    /// step may do without it. Else empty.
+    pub leaving: Vec<(usize, Vec<(usize, f64)>)>,
     /// Forces on all unknowns that held when the step began and that are let go little by little over it; empty where there are
     /// none.
     pub handed: Vec<f64>,

@@ -202,7 +202,7 @@ mod tests {
         let terms: Vec<Arc<dyn Term>> = made.iter().map(|made| Arc::new(made.clone()) as _).collect();
         let attempts = made.iter().map(|made| Box::new(made.clone()) as _).collect();
         let assembly =
-            Assembly { terms: &terms, attempts, dofs: &Dofs::new(3, COUNT / 3, 0), constraints, leaving: &[] };
+            Assembly { terms: &terms, attempts, dofs: &Dofs::new(3, COUNT / 3, 0), constraints, apart: 0..0 };
         let histories = made.iter().map(Term::initial).collect();
         let mut accepted = State { u: vec![0.0; COUNT], histories, ..State::default() };
         workspace.prepare(&assembly, &accepted).unwrap();

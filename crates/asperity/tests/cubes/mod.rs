@@ -3,7 +3,7 @@
 use super::perturbed::{Random, options};
 use asperity::contact::field::FieldTarget;
 use asperity::contact::{Loads, PaperContact, PaperParts, PointSurface};
-use asperity::interface::{InterfaceLaw, Law};
+use asperity::interface::InterfaceLaw;
 use asperity::mesh::{Cell, Space, generate::Block};
 use asperity::system::Dofs;
 use asperity::tensor::Vec3;
@@ -55,7 +55,7 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L) ->
         dofs: dofs.clone(),
         boundary,
         target: FieldTarget::solid_tool(tool, 0, &dofs),
-        law: Arc::new(Law(law)),
+        law: law.into(),
         options: options(Loads::Both),
     };
     (PaperContact::new(parts), dofs)

@@ -144,6 +144,8 @@ pub fn run_print(made: &Made) -> (bool, u64) {
         directory: directory.path(),
         options,
         input: made.input,
+        parts: &made.parts,
+        asked: None,
         start: Start::Beginning,
         limits: &Limits::default(),
         notes: &[],

@@ -3,7 +3,7 @@
 use super::perturbed::Random;
 use asperity::contact::field::{FieldTarget, Surface};
 use asperity::contact::{ContactOptions, PaperContact, PaperParts, PointSurface};
-use asperity::interface::{Law, laws::Coulomb};
+use asperity::interface::laws::Coulomb;
 use asperity::mesh::{Mesh, Space};
 use asperity::system::Dofs;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions
         space: Space::Solid,
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target: FieldTarget::faces(Surface::whole(&mesh, sides(other), Space::Solid, 1.0), &mesh),
-        law: Arc::new(Law(Coulomb::new(friction))),
+        law: Coulomb::new(friction).into(),
         options,
         dofs: dofs.clone(),
         mesh: mesh.clone(),

@@ -143,6 +143,8 @@ pub fn model(size: usize, factors: Factors) -> Model {
         contacts: vec![],
         springs: vec![],
         loads: vec![Box::new(ball)],
+        fluids: vec![],
+        bearing: Default::default(),
         steps: ["press", "slide"].map(|name| step(name, &dofs, &bottom)).into(),
         supports: vec![],
         ties: vec![],

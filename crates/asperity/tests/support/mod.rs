@@ -27,6 +27,8 @@ pub fn write_results(made: &Made, directory: &Path) {
         directory,
         options: made.results.clone(),
         input: made.input,
+        parts: &made.parts,
+        asked: None,
         start: Start::Beginning,
         limits: &Limits::default(),
         notes: &[],

@@ -143,9 +143,18 @@ pub static READ: &[Keyword] = &[
             refused("ORIENTATION", "couple along the axes"),
             refused("INFLUENCE RADIUS", "name a surface of the nodes meant"),
         ],
-        "`rigid`, with *KINEMATIC",
+        "`rigid` with *KINEMATIC, `distributing` with *DISTRIBUTING",
     ),
     late("KINEMATIC", Reader::kinematic, &[], "the kind of a coupling"),
+    late(
+        "DISTRIBUTING",
+        Reader::distributing,
+        &[
+            one_of("WEIGHTING METHOD", &["UNIFORM"]),
+            refused("COUPLING", "leave it out: force and moment are carried by forces"),
+        ],
+        "the kind of a coupling: weights are the areas around nodes",
+    ),
     of_model("MATERIAL", Reader::material, &[used("NAME")], "`material`"),
     of_model(
         "ELASTIC",
@@ -234,7 +243,7 @@ pub static READ: &[Keyword] = &[
     ),
     Keyword {
         name: "FRICTION",
-        place: Where::Model,
+        place: Where::Anywhere,
         treated: Treated::Read(Reader::friction),
         parameters: &[
             used("ROUGH"),
@@ -371,6 +380,16 @@ pub static READ: &[Keyword] = &[
             refused("ORIENTATION", "write P"),
         ],
         "`pressure` (P)",
+    ),
+    of_step(
+        "CHANGE FRICTION",
+        Reader::change_friction,
+        &[
+            used("INTERACTION"),
+            refused("AMPLITUDE", "leave it out, and give the translated deck's `friction` an `amplitude`"),
+            refused("ELSET", "name the interaction of contact pairs"),
+        ],
+        "`friction` of the step: over the step from what it was, or at once (CalculiX, AMPLITUDE=STEP)",
     ),
     of_step(
         "MODEL CHANGE",

@@ -42,6 +42,9 @@ impl Reader {
 
     /// `*FRICTION`.
     pub(crate) fn friction(&mut self, block: &Block) {
+        if self.step.is_some() {
+            return self.changed_friction(block);
+        }
         if block.has("ROUGH") {
             return self.of_interaction(block.place, "FRICTION", |interaction| interaction.rough = true);
         }
@@ -103,14 +106,21 @@ impl Reader {
         }
     }
 
+    /// The number of an interaction.
+    pub(super) fn interaction_named(&mut self, place: Place, name: &str) -> Option<usize> {
+        let found = self.model.interactions.iter().position(|one| one.name.eq_ignore_ascii_case(name));
+        if found.is_none() {
+            let near = suggestion(name, self.model.interactions.iter().map(|one| one.name.as_str()));
+            self.error(place, format!("there is no surface interaction '{name}'{near}"));
+        }
+        found
+    }
+
     /// `*CONTACT PAIR`.
     pub(crate) fn contact_pair(&mut self, block: &Block) {
         let Some(name) = self.required(block, "INTERACTION") else { return };
-        let found = self.model.interactions.iter().position(|one| one.name.eq_ignore_ascii_case(name));
-        let Some(interaction) = found else {
-            let near = suggestion(name, self.model.interactions.iter().map(|one| one.name.as_str()));
-            return self.error(block.place, format!("there is no surface interaction '{name}'{near}"));
-        };
+        let name = name.to_string();
+        let Some(interaction) = self.interaction_named(block.place, &name) else { return };
         let adjust = block.has("ADJUST");
         let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
         let field = mortar || self.model.dialect == Dialect::Abaqus;

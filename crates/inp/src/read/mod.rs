@@ -27,6 +27,8 @@ pub struct Reader {
     /// What the blocks below `*MATERIAL`, `*SURFACE INTERACTION` and `*STEP` belong to.
     material: Option<usize>,
     interaction: Option<usize>,
+    /// The interaction of the `*CHANGE FRICTION` whose `*FRICTION` is still to come, and where that stands.
+    changing: Option<(usize, Place)>,
     step: Option<usize>,
     /// Where the `*COUPLING` stands whose kind is still to be said.
     coupling: Option<Place>,
@@ -40,6 +42,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
         scope: 0,
         material: None,
         interaction: None,
+        changing: None,
         step: None,
         coupling: None,
     };
@@ -64,6 +67,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
         }
     }
     reader.end_coupling();
+    reader.end_change();
     reader.finish(blocks);
     *messages = reader.messages;
     reader.model

@@ -142,7 +142,7 @@ impl Reader {
             None
         };
         if let Some(what) = what {
-            self.model.rigid.push(Rigid { place, node, rotation_node, what });
+            self.model.rigid.push(Rigid { place, node, rotation_node, what, distributing: false });
         }
     }
 
@@ -158,7 +158,7 @@ impl Reader {
         };
         self.coupling = Some(place);
         let what = RigidPart::Sides(scope, name);
-        self.model.rigid.push(Rigid { place, node, rotation_node: None, what });
+        self.model.rigid.push(Rigid { place, node, rotation_node: None, what, distributing: false });
     }
 
     /// `*KINEMATIC`: along which axes.
@@ -186,9 +186,19 @@ impl Reader {
         }
     }
 
+    /// `*DISTRIBUTING`: the surface carries what loads the node.
+    pub(crate) fn distributing(&mut self, block: &Block) {
+        if self.coupling.take().is_none() {
+            return self.error(block.place, "*DISTRIBUTING stands below no *COUPLING that says what it is about");
+        }
+        if let Some(coupling) = self.model.rigid.last_mut() {
+            coupling.distributing = true;
+        }
+    }
+
     pub(super) fn end_coupling(&mut self) {
         if let Some(place) = self.coupling.take() {
-            self.error(place, "the *COUPLING says no kind; write *KINEMATIC below it");
+            self.error(place, "the *COUPLING says no kind; write *KINEMATIC or *DISTRIBUTING below it");
         }
     }
 

@@ -232,6 +232,45 @@ impl Reader {
         }
     }
 
+    /// `*CHANGE FRICTION`: the coefficient stands in the `*FRICTION` below it.
+    pub(crate) fn change_friction(&mut self, block: &Block) {
+        self.end_change();
+        let Some(name) = self.required(block, "INTERACTION") else { return };
+        let name = name.to_string();
+        self.changing = self.interaction_named(block.place, &name).map(|interaction| (interaction, block.place));
+    }
+
+    /// A `*CHANGE FRICTION` must have said to what.
+    pub(super) fn end_change(&mut self) {
+        if let Some((_, place)) = self.changing.take() {
+            self.error(place, "*CHANGE FRICTION says no coefficient; put a *FRICTION below it");
+        }
+    }
+
+    /// The `*FRICTION` below a `*CHANGE FRICTION`.
+    pub(super) fn changed_friction(&mut self, block: &Block) {
+        let Some((interaction, _)) = self.changing.take() else {
+            return self.error(block.place, "*FRICTION in a step belongs to a *CHANGE FRICTION; put that above it");
+        };
+        let plain = !["ROUGH", "TAUMAX", "EXPONENTIAL DECAY"].iter().any(|parameter| block.has(parameter));
+        let known = self.model.interactions.get(interaction);
+        if !plain || block.lines.len() > 1 || known.is_some_and(|known| known.rough || known.decay.is_some()) {
+            let what = "only the coefficient of friction can be changed, of an interaction that has one or none";
+            return self.error(block.place, what);
+        }
+        let value = match block.lines.first() {
+            Some(line) => self.real(line, 0, "the coefficient of friction"),
+            None => Some(0.0),
+        };
+        match value {
+            Some(value) if value >= 0.0 => self.act(block.place, None, ActionKind::Friction(interaction, value)),
+            Some(value) => {
+                self.error(block.place, format!("the coefficient of friction is {value}; it must not be negative"));
+            }
+            None => {}
+        }
+    }
+
     /// `*MODEL CHANGE` of contact pairs.
     pub(crate) fn model_change(&mut self, block: &Block) {
         if block.word("TYPE").is_none_or(|kind| kind != "CONTACTPAIR") {

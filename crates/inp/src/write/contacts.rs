@@ -1,9 +1,9 @@
 //! Contacts.
 
 use super::{Writer, quoted};
-use crate::elements::Family;
+use crate::elements::{Dialect, Family};
 use crate::message::Place;
-use crate::model::{ActionKind, Interaction, Pair, SurfaceKind};
+use crate::model::{Action, ActionKind, Interaction, Pair, SurfaceKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A side of a contact.
@@ -53,7 +53,7 @@ impl Writer<'_> {
             }
         };
         let interaction = self.model.interactions.get(pair.interaction)?;
-        let law = self.friction(interaction, pair.place);
+        let law = self.friction((interaction, pair.interaction), pair.place);
         let name = self.contact_name(number, pair)?;
         let from = self.from(pair.place);
         let mut text = format!(
@@ -127,10 +127,30 @@ impl Writer<'_> {
         changed
     }
 
+    /// The lines of coefficients of friction that a step changes.
+    pub(super) fn changed_frictions(&mut self, number: usize) -> Vec<String> {
+        let (model, mut lines) = (self.model, Vec::new());
+        // CalculiX changes it at once, Abaqus over the step.
+        let at_once = model.dialect == Dialect::CalculiX || model.steps.get(number).is_some_and(|step| step.at_once);
+        let course = if at_once { ", amplitude = [[0.0, 1.0], [1.0, 1.0]]" } else { "" };
+        for action in model.actions(number) {
+            let ActionKind::Friction(interaction, value) = action.kind else { continue };
+            for (at, pair) in model.pairs.iter().enumerate().filter(|(_, pair)| pair.interaction == interaction) {
+                let Some(name) = self.contact_name(at + 1, pair) else { continue };
+                let from = self.from(action.place);
+                lines.push(format!("friction.{} = {{ value = {value:?}{course} }}{from}\n", quoted(&name)));
+            }
+        }
+        lines
+    }
+
     /// The law of an interaction.
-    fn friction(&mut self, interaction: &Interaction, place: Place) -> String {
+    fn friction(&mut self, (interaction, number): (&Interaction, usize), place: Place) -> String {
+        let changes = |action: &Action| matches!(action.kind, ActionKind::Friction(other, _) if other == number);
+        let changes = self.model.steps.iter().any(|step| step.actions.iter().any(changes));
         match (interaction.friction, interaction.shear_limit, interaction.decay) {
             _ if interaction.rough => "law.sticking = {}\n".into(),
+            (None | Some(0.0), None, None) if changes => "law.coulomb = { friction = 0.0 }\n".into(),
             (None | Some(0.0), _, None) => "law.frictionless = {}\n".into(),
             (Some(friction), Some(limit), None) => {
                 format!("law.orowan = {{ friction = {friction:?}, shear_strength = {limit:?} }}\n")

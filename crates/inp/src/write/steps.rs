@@ -56,6 +56,7 @@ impl Writer<'_> {
                     text += &format!("{key} = [{}]\n", names.join(", "));
                 }
             }
+            text.extend(self.changed_frictions(number));
             text.extend(said.iter().flat_map(|kind| kind[number].lines.clone()));
             self.text += &text;
             if released.iter().any(|name| name.starts_with("\"displacement.")) {
@@ -73,20 +74,27 @@ impl Writer<'_> {
     /// Motions in degrees, and loads along what is not led: a reference node is free where nothing holds it.
     fn tool_conditions(&mut self, led: Table, forces: &Table) -> (Table, Table) {
         let axes: &[usize] = if self.dimension() == 2 { &[0, 1, 5] } else { &[0, 1, 2, 3, 4, 5] };
-        let mut loads = Table::new();
+        let (model, mut loads, mut held) = (self.model, Table::new(), Vec::new());
         for (step, led) in led.iter().enumerate() {
             let mut row = BTreeMap::new();
             for tool in &self.tools {
                 for &axis in axes {
                     let key = (tool.name.clone(), axis);
                     let free = Item { end: 0.0, start: Some(0.0), course: None, place: tool.place };
-                    if !led.contains_key(&key) {
-                        let force = forces.get(step).and_then(|row| row.get(&key)).cloned();
-                        row.insert(key, force.unwrap_or(free));
+                    let force = forces.get(step).and_then(|row| row.get(&key)).cloned();
+                    match (led.get(&key), model.rigid[tool.rigid].distributing) {
+                        (Some(item), true) => held.push(item.place),
+                        (None, true) => row.extend(force.map(|force| (key, force))),
+                        (None, false) => drop(row.insert(key, force.unwrap_or(free))),
+                        (Some(_), false) => {}
                     }
                 }
             }
             loads.push(row);
+        }
+        for place in held {
+            let what = "the node of a distributing coupling carries forces and moments only; hold or lead nodes of the surface";
+            self.error(place, what);
         }
         let turned = |(key, item): ((String, usize), Item)| {
             let factor = if key.1 < 3 { 1.0 } else { 180.0 / std::f64::consts::PI };

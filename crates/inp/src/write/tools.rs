@@ -72,8 +72,9 @@ impl Writer<'_> {
         let taken = |name: &str| self.tools.iter().any(|tool| tool.name == name);
         let name = if taken(group) { format!("{group} {}", number + 1) } else { group.to_owned() };
         let (from, reference) = (self.from(rigid.place), &self.model.nodes[rigid.node].x[..self.dimension()]);
-        self.text +=
-            &format!("\n[rigid.{}]{from}\ngroup = {}\nreference = {}\n", quoted(&name), quoted(group), list(reference));
+        let (kind, more) = if rigid.distributing { ("distributing", "weights = \"area\"\n") } else { ("rigid", "") };
+        let (title, group) = (quoted(&name), quoted(group));
+        self.text += &format!("\n[{kind}.{title}]{from}\ngroup = {group}\nreference = {}\n{more}", list(reference));
         self.tools.push(Tool { name, node: rigid.node, rigid: number, place: rigid.place });
     }
 

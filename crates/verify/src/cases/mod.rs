@@ -28,6 +28,7 @@ mod rigid_hub;
 mod ring_compression;
 mod rolling;
 mod rotated_pair;
+mod seal;
 mod shallow_ironing;
 mod springback;
 mod strip_footing;
@@ -81,4 +82,5 @@ pub const ALL: &[&Case] = &[
     &tie_patch::CASE,
     &rigid_hub::CASE,
     &springback::CASE,
+    &seal::CASE,
 ];

@@ -14,7 +14,7 @@ use crate::contact::increment::{in_contact, refuse_turn};
 use crate::contact::kink::answer;
 use crate::contact::overlap::recession;
 use crate::contact::record::{entry, leave, stresses, write};
-use crate::interface::Past;
+use crate::interface::{Interface, Past};
 use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
 use crate::tensor::Vec3;
 use crate::{Failure, Kind};
@@ -29,6 +29,8 @@ thread_local! {
 pub struct FieldAttempt<'a> {
     /// The contact.
     pub contact: &'a FieldContact,
+    /// The law at its end.
+    pub law: Arc<dyn Interface>,
     /// Its history in the accepted state.
     pub history: &'a History,
     /// Accepted unknowns.
@@ -270,7 +272,7 @@ impl FieldAttempt<'_> {
             dt: self.dt,
         };
         if old[entry::SEGMENT] < 0.0 {
-            past.penetration = self.contact.law.touch(&past);
+            past.penetration = self.law.touch(&past);
         }
         past
     }
@@ -307,11 +309,11 @@ impl FieldAttempt<'_> {
                 let reason = format!("the target came through at {}", contact.describe(slot));
                 return Err(Failure::new(reason).of(Kind::Passage));
             }
-            leave(&*contact.law, old, new);
+            leave(&*self.law, old, new);
             return Ok(0);
         }
         let (stretch, stretching) = stencil.stretch();
-        let (past, law) = (self.past(slot, stretch), &*contact.law);
+        let (past, law) = (self.past(slot, stretch), &*self.law);
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (0.0, sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
@@ -360,7 +362,7 @@ impl FieldAttempt<'_> {
     /// Derivative of the stresses over undeformed area along the stretch, as a central difference: zero but for laws that know a
     /// stress of their own.
     fn stretch_slopes(&self, (slot, stretch): (usize, f64), y: Coordinates) -> Result<[f64; COUNT], Failure> {
-        let (law, step) = (&*self.contact.law, STRETCHED * stretch);
+        let (law, step) = (&*self.law, STRETCHED * stretch);
         let at = |stretch: f64| {
             let stress = answer(law, &self.past(slot, stretch), self.contact.least, &y)?.stress;
             Ok::<_, Failure>(stress.map(|stress| stress * stretch))
@@ -509,7 +511,7 @@ impl Attempt for FieldAttempt<'_> {
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let stretch = self.supports()[stencil].stretch;
-        answer(&*self.contact.law, &self.past(stencil, stretch), self.contact.least, y)
+        answer(&*self.law, &self.past(stencil, stretch), self.contact.least, y)
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {

@@ -11,7 +11,7 @@ use crate::Failure;
 use crate::contact::increment::{CLOSED, ahead, reach};
 use crate::contact::record::{PointRecord, entry, largest_penetration};
 use crate::contact::{ContactOptions, Move, Overlap};
-use crate::interface::Interface;
+use crate::interface::{Interface, Rule};
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
@@ -78,7 +78,7 @@ pub struct FieldParts {
     /// Whether the user calls the target the surface: forces are reported on that.
     pub swapped: bool,
     /// The law of the interface.
-    pub law: Arc<dyn Interface>,
+    pub law: Rule,
     /// How it is computed.
     pub options: ContactOptions,
 }
@@ -93,7 +93,7 @@ pub struct FieldContact {
     itself: bool,
     swapped: bool,
     boundary: Faces,
-    pub(super) law: Arc<dyn Interface>,
+    pub(super) law: Rule,
     pub(super) options: ContactOptions,
     /// Penetration from which a node counts as closed.
     pub(super) least: f64,
@@ -164,7 +164,7 @@ impl FieldContact {
     }
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
-        &*self.law
+        self.law.first()
     }
     /// The largest penetration of a closed node in an accepted state.
     pub fn largest_penetration(&self, history: &History) -> f64 {
@@ -290,12 +290,12 @@ impl FieldContact {
     /// The tangential penalties of an attempt after an accepted history: a node that is about to slide under its pressure has
     /// slipped elastically by the stated part of its faces, and one under less than the mean pressure as under that. A stiffer
     /// interface resolves nothing that the mesh shows, and has nodes change between stick and slip with every small motion.
-    fn tangential_penalties(&self, history: &History) -> Vec<f64> {
+    fn tangential_penalties(&self, law: &dyn Interface, history: &History) -> Vec<f64> {
         let most = self.options.tangential_penalty;
         let Some(part) = self.options.elastic_slip else { return vec![most; self.slots()] };
         let stiffness = |slot: usize| {
             let values = history.slot(slot);
-            let sliding = self.law.sliding_stress(values[entry::PRESSURE]).unwrap_or(0.0);
+            let sliding = law.sliding_stress(values[entry::PRESSURE]).unwrap_or(0.0);
             (values[entry::STATUS] > 0.0).then(|| sliding * values[entry::HALF] / (part * self.size_at(slot)))
         };
         let closed: Vec<f64> = (0..self.slots()).filter_map(stiffness).filter(|found| *found > 0.0).collect();
@@ -508,14 +508,14 @@ impl Term for FieldContact {
     }
 
     fn initial(&self) -> History {
-        let vars: usize = self.law.variables().iter().map(|v| v.len()).sum();
+        let vars: usize = self.law.first().variables().iter().map(|v| v.len()).sum();
         let slots = (0..self.slots()).map(|_| entry::COUNT + vars);
         let mut history = History::new(slots.chain(self.options.augmentation.map(|_| self.slots())));
         for slot in 0..self.slots() {
             let values = history.slot_mut(slot);
             values[entry::SEGMENT] = -1.0;
             values[entry::HALF] = 1.0;
-            self.law.initial(&mut values[entry::COUNT..]);
+            self.law.first().initial(&mut values[entry::COUNT..]);
         }
         let (still, fits) = (vec![0.0; self.dofs.count()], FITS * self.sagitta());
         self.each_seen(&still, (self.reach(&still), false), |slot, _, sums| {
@@ -539,6 +539,7 @@ impl Term for FieldContact {
         let augmented = self.options.augmentation.is_some();
         let before = Configuration::new(self, &accepted.u);
         let shifts = if augmented { history.slot(self.slots()) } else { &[] };
+        let law = self.law.at(at.step, at.step_time)?;
         Ok(Box::new(FieldAttempt {
             contact: self,
             history,
@@ -551,7 +552,8 @@ impl Term for FieldContact {
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
             augmented: 0,
             settled: self.options.overlap.settled(at),
-            tangential: self.tangential_penalties(history),
+            tangential: self.tangential_penalties(&*law, history),
+            law,
             dt: at.dt,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),

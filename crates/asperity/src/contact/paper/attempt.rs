@@ -3,14 +3,17 @@
 use super::contact::PaperContact;
 use crate::contact::overlap::recession;
 use crate::contact::record::entry;
-use crate::interface::Past;
+use crate::interface::{Interface, Past};
 use crate::system::History;
 use crate::tool::Hit;
+use std::sync::Arc;
 
 /// A contact during one attempt.
 pub struct PaperAttempt<'a> {
     /// The contact.
     pub contact: &'a PaperContact,
+    /// The law at its end.
+    pub law: Arc<dyn Interface>,
     /// Its history in the accepted state.
     pub history: &'a History,
     /// Accepted unknowns.

@@ -8,7 +8,7 @@ use crate::contact::field::{FieldTarget, Surface};
 use crate::contact::increment::CLOSED;
 use crate::contact::record::largest_penetration;
 use crate::contact::{ContactOptions, Loads};
-use crate::interface::Interface;
+use crate::interface::{Interface, Rule};
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Dofs, History};
 use crate::tensor::Vec3;
@@ -32,7 +32,7 @@ pub struct PaperParts {
     /// What they may touch.
     pub target: FieldTarget,
     /// The law of the interface.
-    pub law: Arc<dyn Interface>,
+    pub law: Rule,
     /// How it is computed.
     pub options: ContactOptions,
 }
@@ -67,7 +67,7 @@ impl PaperContact {
         let (wholes, least) = (parts.mesh.wholes(), CLOSED * shortest);
         let neighbours = Neighbours::default();
         let mut contact = Self { parts, boundary, wholes, least, longest, relatives, neighbours };
-        let radius = contact.parts.law.radius();
+        let radius = contact.parts.law.first().radius();
         if radius > 0.0 {
             let still = vec![0.0; contact.parts.dofs.count()];
             let points = 0..contact.parts.surface.points.len();
@@ -100,7 +100,7 @@ impl PaperContact {
     }
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
-        &*self.parts.law
+        self.parts.law.first()
     }
     /// The largest penetration at a closed point, from the history of a state; a length.
     pub fn largest_penetration(&self, history: &History) -> f64 {

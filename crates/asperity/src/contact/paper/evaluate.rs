@@ -46,7 +46,7 @@ impl PaperAttempt<'_> {
         new: &mut [f64],
         local: &mut Local,
     ) -> Result<Branch, Failure> {
-        let (law, old, past) = (&*self.contact.parts.law, self.history.slot(index), self.past(index));
+        let (law, old, past) = (&*self.law, self.history.slot(index), self.past(index));
         let constants = self.constants(index, g, &past, local.acting);
         let past = Past { penetration: constants.before.max(constants.touch), ..past };
         write_hit(Some(g.hit), new);
@@ -83,8 +83,8 @@ impl PaperAttempt<'_> {
             normal: g.hit.normal,
             closure: self.closure(index),
             before: past.penetration,
-            touch: parts.law.touch(past),
-            opens: parts.law.opens(past, slip),
+            touch: self.law.touch(past),
+            opens: self.law.opens(past, slip),
             least: self.contact.least,
             weight: g.point.weight * if flat { parts.options.thickness } else { 1.0 },
             revolves: parts.space == Space::Axisymmetric,

@@ -19,14 +19,14 @@ impl Term for PaperContact {
     }
 
     fn initial(&self) -> History {
-        let vars: usize = self.parts.law.variables().iter().map(|v| v.len()).sum();
+        let vars: usize = self.parts.law.first().variables().iter().map(|v| v.len()).sum();
         let mut history = History::new(self.parts.surface.points.iter().map(|_| entry::COUNT + vars));
         let u = vec![0.0; self.parts.dofs.count()];
         for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
             let values = history.slot_mut(i);
             write_hit(hit, values);
             self.parts.options.overlap.begin(values, self.least);
-            self.parts.law.initial(&mut values[entry::COUNT..]);
+            self.parts.law.first().initial(&mut values[entry::COUNT..]);
         }
         history
     }
@@ -39,6 +39,7 @@ impl Term for PaperContact {
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         Ok(Box::new(PaperAttempt {
             contact: self,
+            law: self.parts.law.at(at.step, at.step_time)?,
             history,
             accepted: &accepted.u,
             depths: self.depths(&accepted.u),
@@ -87,7 +88,7 @@ impl Attempt for PaperAttempt<'_> {
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let Some(geometry) = self.geometry(index, stencil, &local.u)? else {
             write_hit(None, new);
-            leave(&*self.contact.parts.law, self.history.slot(index), new);
+            leave(&*self.law, self.history.slot(index), new);
             return Ok(0);
         };
         if local.wants_tangent {
@@ -109,7 +110,7 @@ impl Attempt for PaperAttempt<'_> {
     }
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        let (law, past, least) = (&*self.contact.parts.law, self.past(stencil), self.contact.least);
+        let (law, past, least) = (&*self.law, self.past(stencil), self.contact.least);
         if self.contact.neighbours.is_empty() {
             return answer(law, &past, least, y);
         }

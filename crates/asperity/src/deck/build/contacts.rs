@@ -1,6 +1,7 @@
 //! Contacts: surface, target, passes, law, penalties.
 
 use super::Builder;
+use super::friction::integrated;
 use crate::contact::field::{FieldTarget, Surface};
 use crate::contact::{
     Backing, ContactForm, ContactOptions, Loads, PaperContact, PaperParts, PointSurface, TWO_PASSES, default_penalty,
@@ -9,7 +10,7 @@ use crate::contact::{
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
-use crate::interface::Interface;
+use crate::interface::Rule;
 use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
 use crate::system::Dofs;
@@ -61,12 +62,13 @@ impl Builder<'_> {
     }
 
     /// The law of a contact, integrated as said.
-    pub(super) fn interface(&mut self, keys: &keys::Contact) -> Option<Arc<dyn Interface>> {
+    pub(super) fn interface(&mut self, name: &Name, keys: &keys::Contact) -> Option<Rule> {
         let law = keys.law.build().map_err(crate::Error::input);
         let law = self.keep(law, keys.law.place)?;
-        let Some(update) = &keys.update else { return Some(Arc::from(law)) };
-        let integrated = law.with_update(update.update()).map_err(crate::Error::input);
-        self.keep(integrated, update.place).map(Arc::from)
+        let update = keys.update.as_ref().map(|update| update.update());
+        let place = keys.update.as_ref().map_or(keys.law.place, |update| update.place);
+        let first = self.keep(integrated(law, update).map_err(crate::Error::input), place)?;
+        self.running(name, keys, first)
     }
 
     pub(super) fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {
@@ -102,7 +104,7 @@ impl Builder<'_> {
         tools: Tools,
         backings: &[Backing],
     ) -> Option<Vec<PaperContact>> {
-        let law = self.interface(keys)?;
+        let law = self.interface(name, keys)?;
         let (mesh, dofs, space) = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;

@@ -44,7 +44,7 @@ impl Builder<'_> {
         tools: Tools,
         backings: &[Backing],
     ) -> Option<FieldContact> {
-        let law = self.interface(keys)?;
+        let law = self.interface(name, keys)?;
         if !self.check_field(keys) {
             return None;
         }

@@ -3,14 +3,16 @@
 use super::Builder;
 use crate::amplitude::{Amplitude, Change, Timeline};
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::{Components, PressureKind, Step, ToolCondition};
+use crate::deck::keys::{Components, Pressure, PressureKind, Step, ToolCondition};
 use crate::deck::reader::Name;
 use crate::deck::source::Spot;
 use crate::load::{
-    FollowerPressure, Springs, TorqueOnTool, body_force, dead_pressure, force_on_nodes, force_on_tool, traction,
+    FollowerPressure, PenetratingPressure, Springs, TorqueOnTool, body_force, dead_pressure, force_on_nodes,
+    force_on_tool, traction,
 };
 use crate::mesh::Side;
 use crate::system::Term;
+use std::sync::Arc;
 
 type Terms = Vec<Box<dyn Term>>;
 
@@ -47,7 +49,7 @@ fn timeline<T>(
     Timeline::new(steps.iter().map(|step| (step.duration, change(step))))
 }
 
-impl Builder<'_> {
+impl<'d> Builder<'d> {
     /// All springs.
     pub(super) fn springs(&mut self) -> Option<Terms> {
         let said: Said<_> = |step| &step.spring;
@@ -151,9 +153,8 @@ impl Builder<'_> {
         let said: Said<_> = |step| &step.pressure;
         let mut terms = Terms::new();
         for name in names(&self.deck.step, said) {
-            let kind = self.pressure_kind(name)?;
-            let value =
-                timeline(&self.deck.step, ("pressure", &name.text), said, |p| Some((p.value, p.amplitude.clone())));
+            let Pressure { kind, penetrates: false, .. } = *self.pressure_of(name)? else { continue };
+            let value = self.pressure_value(name);
             let (title, sides) = (format!("pressure.{name}"), self.sides(name));
             let term: Result<Box<dyn Term>, _> = match kind {
                 PressureKind::Follower => {
@@ -166,33 +167,66 @@ impl Builder<'_> {
         Some(terms)
     }
 
-    /// The kind of a pressure, which all steps must say alike.
-    fn pressure_kind(&mut self, name: &Name) -> Option<PressureKind> {
-        let said = self.deck.step.iter().flat_map(|step| &step.pressure).filter(|(other, _)| other.text == name.text);
+    /// Pressures of fluids that enter between surfaces.
+    pub(super) fn fluids(&mut self) -> Option<Vec<Arc<PenetratingPressure>>> {
+        let mut fluids = Vec::new();
+        for name in names(&self.deck.step, |step| &step.pressure) {
+            let first = self.pressure_of(name)?;
+            if !first.penetrates {
+                continue;
+            }
+            let from = first.from.as_ref();
+            let (title, value, sides) = (format!("pressure.{name}"), self.pressure_value(name), self.sides(name));
+            let (source, bearing) = (from.map(|from| self.nodes(&from.text).to_vec()), self.bearing.clone());
+            let fluid =
+                PenetratingPressure::new(&title, self.site.clone(), (&sides, source.as_deref()), value, bearing);
+            fluids.push(Arc::new(self.keep(fluid, from.unwrap_or(name).place)?));
+        }
+        Some(fluids)
+    }
+
+    fn pressure_value(&self, name: &Name) -> Timeline {
+        let said: Said<_> = |step| &step.pressure;
+        timeline(&self.deck.step, ("pressure", &name.text), said, |p| Some((p.value, p.amplitude.clone())))
+    }
+
+    /// What is said of a pressure first; what kind it is all steps must say alike.
+    fn pressure_of(&mut self, name: &Name) -> Option<&'d Pressure> {
+        let deck = self.deck;
+        let said = deck.step.iter().flat_map(|step| &step.pressure).filter(|(other, _)| other.text == name.text);
         let said: Vec<_> = said.collect();
-        let (_, first) = said.first()?;
-        if let Some((other, _)) = said.iter().find(|(_, pressure)| pressure.kind != first.kind) {
-            let what = format!("the pressure on `{name}` cannot change between follower and dead");
+        let (_, first) = *said.first()?;
+        let from = |pressure: &Pressure| pressure.from.as_ref().map(|from| from.text.clone());
+        let kind = |pressure: &Pressure| (pressure.kind, pressure.penetrates, from(pressure));
+        let other = |pressure: &Pressure| kind(pressure) != kind(first);
+        if let Some((other, _)) = said.iter().find(|(_, pressure)| other(pressure)) {
+            let what = format!(
+                "the pressure on `{name}` cannot change its kind: follower, dead, or of a fluid from one place"
+            );
             let help = "say one kind in all steps, or lay the other on a group of its own";
             self.found.push(Diagnostic::error(what).at(other.place).help(help));
             return None;
         }
-        Some(first.kind)
+        Some(first)
     }
 
     fn tool_loads(&mut self) -> Option<Terms> {
         let said: Said<_> = |step| &step.load;
         let mut terms = Terms::new();
         for name in names(&self.deck.step, said) {
-            let tool = self.leader(&name.text)?;
             let (plane, title) = (self.plane(), format!("load.{name}"));
-            let values = (0..self.site.dofs.per_tool()).map(|i| {
+            let values = (0..if plane { 3 } else { 6 }).map(|i| {
                 timeline(&self.deck.step, ("load", &name.text), said, |load| {
                     let value = if plane { load.plane()[i] } else { load.space()[i] };
                     Some((value?, load.amplitude.clone()))
                 })
             });
             let mut values: Vec<Timeline> = values.collect();
+            if self.distributing(name).is_some() {
+                terms.push(self.distributed(&title, name, values)?);
+                continue;
+            }
+            let tool = self.leader(&name.text)?;
             if !plane {
                 let torques = values.split_off(3);
                 terms.push(Box::new(TorqueOnTool::new(&title, &self.site.dofs, tool, torques)));
@@ -202,7 +236,7 @@ impl Builder<'_> {
         Some(terms)
     }
 
-    fn sides(&self, name: &Name) -> Vec<Side> {
+    pub(super) fn sides(&self, name: &Name) -> Vec<Side> {
         self.site.mesh.groups.get(&name.text).map_or_else(Vec::new, |group| group.sides.clone())
     }
 

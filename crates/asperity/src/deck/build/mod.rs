@@ -5,7 +5,9 @@
 mod absent;
 mod bodies;
 mod contacts;
+mod distributing;
 mod field_contacts;
+mod friction;
 mod loads;
 mod overlaps;
 mod results;
@@ -21,12 +23,12 @@ pub(super) use contacts::backings;
 use super::diagnose::Diagnostic;
 use super::keys::Deck;
 use super::source::Place;
-use super::{Diagnostics, Loaded, Unsaid};
-use crate::load::Site;
+use super::{Diagnostics, Loaded, Unsaid, prints};
+use crate::load::{Bearing, Site};
 use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
 use crate::output::checkpoint::InputHash;
-use crate::output::{Asked, ResultOptions};
+use crate::output::{Asked, Part, ResultOptions};
 use crate::solve::{Increments, Step};
 use crate::system::{Dofs, Term};
 use crate::{Error, machine};
@@ -45,6 +47,8 @@ pub struct Made {
     pub unsaid: Vec<Unsaid>,
     /// Fingerprint of the deck's text, what was set over it, and the mesh.
     pub input: InputHash,
+    /// Those of its parts.
+    pub parts: Vec<Part>,
     /// Warnings and notes, and the texts that later messages point into.
     pub diagnostics: Diagnostics,
 }
@@ -56,6 +60,7 @@ struct Builder<'d> {
     /// Where files are looked for, and the bytes of those that were read.
     folder: &'d Path,
     files: Vec<Vec<u8>>,
+    bearing: Bearing,
     ties: Vec<ties::Glued>,
     found: Vec<Diagnostic>,
 }
@@ -99,42 +104,47 @@ impl Made {
 /// # Errors
 /// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
 pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
-    let prints = prints(&loaded);
-    let Loaded { deck, mesh, folder, unsaid, mut diagnostics } = loaded;
+    let texts = texts(&loaded);
+    let Loaded { deck, mesh, folder, unsaid, mut parts, mut diagnostics } = loaded;
     let space = *deck.space;
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len() + deck.rigid.len());
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
     let site = Site { mesh: Arc::new(mesh), dofs, space, thickness };
-    let mut builder =
-        Builder { deck: &deck, site, folder: &folder, files: Vec::new(), ties: Vec::new(), found: Vec::new() };
+    let mut builder = Builder {
+        deck: &deck,
+        site,
+        folder: &folder,
+        files: Vec::new(),
+        bearing: Bearing::default(),
+        ties: Vec::new(),
+        found: Vec::new(),
+    };
     let built = builder.settled();
-    let input = InputHash::of(&prints.iter().chain(&builder.files).map(Vec::as_slice).collect::<Vec<_>>());
+    let input = InputHash::of(&texts.iter().chain(&builder.files).map(Vec::as_slice).collect::<Vec<_>>());
+    let files: Vec<_> = builder.files.iter().map(Vec::as_slice).collect();
+    parts.push(Part { key: "files".into(), print: InputHash::of(&files) });
     diagnostics.list.append(&mut builder.found);
     diagnostics.sort();
     match built {
-        Some(parts) if !diagnostics.has_errors() => {
-            let model = Model::new(parts);
+        Some(built) if !diagnostics.has_errors() => {
+            let model = Model::new(built);
             let (results, mut found) = results::results(&deck, &model);
             diagnostics.list.append(&mut found);
             diagnostics.sort();
             if diagnostics.has_errors() {
                 return Err(diagnostics.without_notes());
             }
-            Ok(Made { deck, model, results, unsaid, input, diagnostics })
+            Ok(Made { deck, model, results, unsaid, input, parts, diagnostics })
         }
         _ => Err(diagnostics.without_notes()),
     }
 }
 
 /// The deck's text, what was set over it, and the mesh it led to.
-fn prints(loaded: &Loaded) -> Vec<Vec<u8>> {
-    let mesh = &loaded.mesh;
-    let points = mesh.points.iter().flat_map(|point| point.0).flat_map(f64::to_le_bytes).collect::<Vec<_>>();
-    let cells = mesh.starts.iter().chain(&mesh.nodes).flat_map(|&i| (i as u64).to_le_bytes()).collect::<Vec<_>>();
-    let kinds: String = mesh.kinds.iter().flat_map(|kind| [kind.name, " "]).collect();
-    let groups = format!("{:?}", mesh.groups);
+fn texts(loaded: &Loaded) -> Vec<Vec<u8>> {
     let texts = loaded.diagnostics.sources.iter().map(|source| source.text.as_bytes().to_vec());
-    texts.chain([points, cells, kinds.into_bytes(), groups.into_bytes()]).collect()
+    let groups = format!("{:?}", loaded.mesh.groups).into_bytes();
+    texts.chain(prints::mesh(&loaded.mesh)).chain([groups]).collect()
 }
 
 /// Bytes that a model takes for each unknown, at least.
@@ -179,7 +189,7 @@ impl Builder<'_> {
         let all = tools.as_deref().zip(solid_tools.as_deref()).map(|(plane, solid)| Tools { plane, solid });
         let contacts = all.and_then(|tools| self.paper_contacts(tools, bodies.as_deref()?));
         let field_contacts = self.field_contacts(all, bodies.as_deref());
-        let (springs, loads, rigid) = (self.springs(), self.loads(), self.rigid());
+        let (springs, loads, fluids, rigid) = (self.springs(), self.loads(), self.fluids(), self.rigid());
         let (constrained, supports) = self.supports();
         let paper_names = contacts.iter().flatten().map(|contact| contact.name().to_owned());
         let field_names = field_contacts.iter().flatten().map(|contact| contact.name().to_owned());
@@ -204,6 +214,8 @@ impl Builder<'_> {
             field_contacts: field_contacts?,
             springs: springs?,
             loads: loads?,
+            fluids: fluids?,
+            bearing: std::mem::take(&mut self.bearing),
             steps: steps
                 .map(|((i, step), (constraints, prescribed))| Step {
                     name: step.name.as_ref().map_or_else(|| format!("step {}", i + 1), |name| name.value.clone()),

@@ -24,6 +24,7 @@ pub(super) fn facts(made: &Made) -> Vec<StepFacts> {
             first: step.increments.first,
             largest: step.increments.largest,
             smallest: step.increments.smallest,
+            most: step.increments.most,
             loads: loads(made, keys),
             ..StepFacts::default()
         };

@@ -2,9 +2,9 @@
 
 use crate::amplitude::Amplitude;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::form::{Form, list, number, table, word, words};
-use crate::deck::reader::Reader;
-use crate::deck::schema::Schema;
+use crate::deck::form::{Form, flag, list, number, refers, table, word, words};
+use crate::deck::reader::{Name, Reader};
+use crate::deck::schema::{Names, Schema};
 use crate::deck::source::{Place, Spot};
 use crate::deck::tree::Node;
 use crate::declare::{Range, unit};
@@ -116,13 +116,18 @@ pub trait Components {
 
 table! {
     /// A pressure.
-    pub struct Pressure {
+    pub struct Pressure check pressure {
         /// The pressure, positive into the body.
         value: f64 = number(unit::STRESS, Range::ANY).required(),
         /// Whether it turns with the surface.
         kind: PressureKind = word().or("\"follower\""),
         /// Course within the step.
         amplitude: Amplitude = amplitude().or(RAMP),
+        /// Whether it is that of a fluid that enters between surfaces: it acts from where it stands, see `from`, up to where
+        /// contact bears more than it.
+        penetrates: bool = flag().or("false"),
+        /// Nodes at which a fluid stands that penetrates.
+        from: Option<Name> = refers(Names::Group).computed("the rim of the sides, of a pressure that penetrates"),
     }
 }
 
@@ -142,6 +147,16 @@ table! {
         /// Temperature above that at which the undeformed body is free of stress.
         value: f64 = number(unit::TEMPERATURE, Range::ANY).required(),
         /// Course within the step.
+        amplitude: Amplitude = amplitude().or(RAMP),
+    }
+}
+
+table! {
+    /// A coefficient of friction: it goes from what it was to this value.
+    pub struct Friction {
+        /// The coefficient of friction.
+        value: f64 = number(unit::NONE, Range::NOT_NEGATIVE).required(),
+        /// Course within the step; `[[0.0, 1.0], [1.0, 1.0]]` changes it at once.
         amplitude: Amplitude = amplitude().or(RAMP),
     }
 }
@@ -278,6 +293,22 @@ impl ToolCondition for ToolLoad {
     fn foreign(&self) -> ([Said; 4], Said) {
         let turns = [("torque_x", self.torque_x), ("torque_y", self.torque_y), ("torque_z", self.torque_z)];
         ([("z", self.z), turns[0], turns[1], turns[2]], ("torque", self.torque))
+    }
+}
+
+fn pressure(given: &Pressure, reader: &mut Reader) {
+    let fault = match (&given.from, given.penetrates, given.kind) {
+        (Some(_), false, _) => {
+            Some(("says `from`, and does not penetrate", "say `penetrates = true`, or leave `from` out"))
+        }
+        (_, true, PressureKind::Dead) => {
+            Some(("is dead, and penetrates", "a fluid presses along the present normal: leave `kind` out"))
+        }
+        _ => None,
+    };
+    if let Some((what, help)) = fault {
+        let what = format!("`{}` {what}", reader.path());
+        reader.report(Diagnostic::error(what).at(given.place).help(help));
     }
 }
 

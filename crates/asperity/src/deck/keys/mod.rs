@@ -3,6 +3,7 @@
 
 mod condition;
 mod contact;
+mod distributing;
 mod equation;
 mod initial_stress;
 mod limits;
@@ -21,10 +22,11 @@ mod tool;
 mod update;
 
 pub use condition::{
-    BodyForce, Components, Displacement, Force, Gravity, Motion, Pressure, PressureKind, Spring, Temperature,
+    BodyForce, Components, Displacement, Force, Friction, Gravity, Motion, Pressure, PressureKind, Spring, Temperature,
     ToolCondition, ToolLoad, Traction,
 };
 pub use contact::{Contact, OverlapWord, Passes, Roles, WearKeys};
+pub use distributing::{DistributingKeys, Weights};
 pub use equation::{Equation, EquationTerm};
 pub use initial_stress::InitialStressKeys;
 pub use limits::LimitKeys;
@@ -88,6 +90,8 @@ table! {
         periodic: Vec<Periodic> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// Groups of nodes that are rigid, called as tools are.
         rigid: Vec<(Name, RigidKeys)> = map(defines(Names::Tool), table_of()).or("{}"),
+        /// Points whose force and moment groups of nodes carry by weights.
+        distributing: Vec<(Name, DistributingKeys)> = map(defines(Names::Distributing), table_of()).or("{}"),
         /// Surfaces that are glued.
         tie: Vec<Tie> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// What is done, in order.

@@ -4,19 +4,31 @@ use crate::deck::form::{Form, Words, list, one_of, refers, table, table_of, text
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
 use crate::deck::source::Spot;
-use crate::output::{Export, Totals};
+use crate::output::{Export, Keep, Totals};
 
 table! {
     /// What is written, and how often.
     pub struct Output {
         /// A frame of fields every so many increments; the last of a step always.
         every: usize = whole(1..=1_000_000).or("1"),
-        /// A checkpoint every so many increments.
+        /// A checkpoint every so many increments, and at the end of each step.
         checkpoint_every: usize = whole(1..=1_000_000).or("10"),
+        /// Which checkpoints stay in the result directory, to go on from.
+        checkpoints: Keep = word().or("\"last\""),
         /// Files for other programs, with a frame as often as those of VTU.
         export: Vec<Export> = list(word(), 0..=usize::MAX).or("[]"),
         /// Tables of values in `results.dat`, as CalculiX prints them, as often as frames.
         print: Vec<PrintKeys> = list(table_of(), 0..=usize::MAX).or("[]"),
+    }
+}
+
+impl Words for Keep {
+    fn words() -> Vec<(Self, &'static str, &'static str)> {
+        vec![
+            (Self::Last, "last", "the last one"),
+            (Self::Steps, "steps", "those at the ends of steps too, for `asperity restart --from STEP`"),
+            (Self::All, "all", "every one that is written, for `asperity restart --from TIME`"),
+        ]
     }
 }
 

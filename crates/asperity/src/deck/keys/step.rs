@@ -4,7 +4,8 @@
 //! from where it was to the value it says, along its amplitude.
 
 use super::condition::{
-    BodyForce, Displacement, Force, Gravity, Motion, Pressure, Spring, Temperature, ToolCondition, ToolLoad, Traction,
+    BodyForce, Displacement, Force, Friction, Gravity, Motion, Pressure, Spring, Temperature, ToolCondition, ToolLoad,
+    Traction,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::form::{Form, list, map, number, refers, table, table_of, text, whole};
@@ -46,10 +47,12 @@ table! {
         spring: Vec<(Name, Spring)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Motions of tools, from their first place.
         motion: Vec<(Name, Motion)> = map(refers(Names::Tool), table_of()).or("{}"),
-        /// Forces and torques on tools that are free to follow them.
-        load: Vec<(Name, ToolLoad)> = map(refers(Names::Tool), table_of()).or("{}"),
+        /// Forces and torques on tools that are free to follow them, and on points whose loads a group carries.
+        load: Vec<(Name, ToolLoad)> = map(refers(Names::Loadable), table_of()).or("{}"),
         /// Tools, rigid groups and groups of nodes that stay where they are: whatever led or loaded them ends.
         hold: Vec<Name> = list(refers(Names::Movable), 0..=usize::MAX).or("[]"),
+        /// Coefficients of friction of contacts from here on, of laws that have a `friction`.
+        friction: Vec<(Name, Friction)> = map(refers(Names::Contact), table_of()).or("{}"),
         /// Contacts that end here, or tools with all of their contacts; their forces fade over the step.
         remove: Vec<Name> = list(refers(Names::Removable), 0..=usize::MAX).or("[]"),
         /// Contacts that were removed and are there again, or tools with all of theirs.

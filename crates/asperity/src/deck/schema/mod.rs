@@ -115,6 +115,10 @@ pub enum Names {
     Movable,
     /// What may be removed: a contact, or a tool.
     Removable,
+    /// A point whose loads a group carries.
+    Distributing,
+    /// What may be loaded: a tool, or such a point.
+    Loadable,
 }
 
 impl Names {
@@ -135,6 +139,8 @@ impl Names {
             Self::Condition => "condition of an earlier step",
             Self::Movable => "tool or group",
             Self::Removable => "contact or tool",
+            Self::Distributing => "point of loads",
+            Self::Loadable => "tool or point of loads",
         }
     }
 }

@@ -50,11 +50,14 @@ impl ProbeTable {
         if !path.exists() {
             return Self::create(directory, probe, (frame, plane), units);
         }
-        let table = Table::resume(&path, |columns: &Columns, row: &[String]| {
+        Table::resume(&path, |columns: &Columns, row: &[String]| {
             let at = columns.position("increment").and_then(|i| row[i].parse::<usize>().ok());
             at.is_some_and(|at| at <= frame.increment)
         })?;
-        Ok(Self { probe: probe.clone(), picks: picks(probe, frame, plane)?, plane, table })
+        // What is read, and in which units, may have been changed.
+        let picks = picks(probe, frame, plane)?;
+        let table = Table::relay(&path, &header(probe, &picks, plane, units))?;
+        Ok(Self { probe: probe.clone(), picks, plane, table })
     }
     /// Adds the rows of a frame.
     ///

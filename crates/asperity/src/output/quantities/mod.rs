@@ -4,6 +4,7 @@
 mod contact;
 mod energy;
 mod equilibrium;
+mod fluids;
 mod hourglass;
 mod interpenetration;
 mod nodes;
@@ -22,6 +23,7 @@ pub use touching::Touching;
 
 use super::Frame;
 use crate::Error;
+use crate::load::PenetratingPressure;
 use crate::mesh::{Mesh, Space};
 use crate::model::Model;
 use crate::solid::Body;
@@ -44,6 +46,8 @@ pub struct Parts<'a> {
     pub material_names: Vec<String>,
     /// The contacts with their numbers of terms and names.
     pub contacts: Vec<(usize, String, Touching<'a>)>,
+    /// Fluids that enter openings, with their numbers of terms.
+    pub fluids: Vec<(usize, &'a PenetratingPressure)>,
     /// Terms that store energy and are neither bodies nor contacts.
     pub springs: Vec<usize>,
     /// The rigid tools of a plane model.
@@ -80,6 +84,7 @@ static ALL: &[Report] = &[
     reactions::report,
     contact::report,
     tools::report,
+    fluids::report,
     energy::report,
     equilibrium::report,
     interpenetration::report,
@@ -152,6 +157,12 @@ impl<'a> Parts<'a> {
             materials: model.bodies.iter().map(|(_, material)| *material).collect(),
             material_names: model.materials.clone(),
             contacts: points.chain(fields).enumerate().map(contact).collect(),
+            fluids: model
+                .fluids
+                .iter()
+                .enumerate()
+                .map(|(i, fluid)| (model.first_fluid() + i, fluid.as_ref()))
+                .collect(),
             springs: (model.first_spring()..).take(model.springs).collect(),
             tools: model.tools.iter().map(AsRef::as_ref).collect(),
             solid_tools: model.solid_tools.iter().map(AsRef::as_ref).collect(),

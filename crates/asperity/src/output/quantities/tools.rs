@@ -20,7 +20,7 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
             frame.push(Quantity::new(name, unit, Place::Global, width, values.to_vec()))
         };
         push("translation", Unit::Length, Width::Vector, translation(&moved))?;
-        push("rotation", Unit::One, Width::Axial, rotation(&moved))?;
+        push("rotation", Unit::Angle, Width::Axial, rotation(&|dof| moved(dof).to_degrees()))?;
         push("force", Unit::Force, Width::Vector, translation(&held))?;
         let conjugate = rotation(&held);
         let moment = if rotations == 3 { source.solid_pose(number).moment(Vec3(conjugate)).0 } else { conjugate };

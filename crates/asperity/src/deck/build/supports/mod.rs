@@ -41,28 +41,51 @@ impl Builder<'_> {
             claims.values_mut().flatten().for_each(|claim| known.settle(claim));
             known.pass(claims.values().flatten());
             let held = self.constrain(&claims.values().flatten().collect::<Vec<_>>(), &equations);
-            self.look_for_idle_forces(step, &held.0);
+            self.look_for_idle_loads(step, &held.0);
             held
         });
         (steps.collect(), self.groups())
     }
 
     /// A load along which all its nodes are held or led moves nothing: one of the two is a slip.
-    fn look_for_idle_forces(&mut self, step: &Step, constraints: &Constraints) {
-        let forces = step.force.iter().map(|(name, force)| ("force", name, force.components()));
-        let tractions = step.traction.iter().map(|(name, load)| ("traction", name, load.components()));
-        for (kind, name, components) in forces.chain(tractions) {
-            for (axis, value) in components.iter().enumerate().take(self.site.space.dimension()) {
-                let rigid = self.rigid_nodes();
-                let row = |node: usize| constraints.row(self.site.dofs.node(node) + axis);
-                let led = |node: &usize| !matches!(row(*node), Row::Free(_)) && !rigid.contains_key(node);
-                if value.is_some_and(|value| value != 0.0) && self.nodes(&name.text).iter().all(led) {
-                    let what = format!("`{kind}.{name}` moves nothing along {}", ["x", "y", "z"][axis]);
-                    let error = Diagnostic::error(what).at(name.place).label("all its nodes are held there");
-                    self.found.push(error.help("remove the load, or release the nodes"));
+    fn look_for_idle_loads(&mut self, step: &Step, constraints: &Constraints) {
+        let (deck, rigid, dimension) = (self.deck, self.rigid_nodes(), self.site.space.dimension());
+        let forces = step.force.iter().map(|(name, force)| ("force", name, name, force.components()));
+        let tractions = step.traction.iter().map(|(name, load)| ("traction", name, name, load.components()));
+        let volumes = step.body_force.iter().map(|(name, load)| ("body_force", name, name, load.components()));
+        let springs = step.spring.iter().map(|(name, spring)| ("spring", name, name, spring.components()));
+        let axes: Vec<_> = forces.chain(tractions).chain(volumes).chain(springs).collect();
+        let pressures = step.pressure.iter().filter(|(_, pressure)| pressure.value != 0.0);
+        let pressures = pressures.map(|(name, _)| ("pressure", name, name));
+        let points = step.load.iter().filter_map(|(name, _)| {
+            let (_, keys) = deck.distributing.iter().find(|(other, _)| other.text == name.text)?;
+            Some(("load", name, &keys.group))
+        });
+        let mut found = Vec::new();
+        let led = |group: &Name, axis: usize| {
+            let row = |node: usize| constraints.row(self.site.dofs.node(node) + axis);
+            let nodes = self.nodes(&group.text);
+            !nodes.is_empty()
+                && nodes.iter().all(|node| !matches!(row(*node), Row::Free(_)) && !rigid.contains_key(node))
+        };
+        let mut refuse = |kind: &str, name: &Name, along: String| {
+            let what = format!("`{kind}.{name}` moves nothing{along}");
+            let error = Diagnostic::error(what).at(name.place).label("all its nodes are held there");
+            found.push(error.help("remove the load, or release the nodes"));
+        };
+        for (kind, name, group, components) in axes {
+            for (axis, value) in components.iter().enumerate().take(dimension) {
+                if value.is_some_and(|value| value != 0.0) && led(group, axis) {
+                    refuse(kind, name, format!(" along {}", ["x", "y", "z"][axis]));
                 }
             }
         }
+        for (kind, name, group) in pressures.chain(points) {
+            if (0..dimension).all(|axis| led(group, axis)) {
+                refuse(kind, name, String::new());
+            }
+        }
+        self.found.append(&mut found);
     }
 
     /// Nodes of rigid groups, with the names of these.

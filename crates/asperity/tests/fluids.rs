@@ -1,0 +1,58 @@
+//! Fluids that enter between surfaces: from where they stand, up to where contact bears more.
+
+mod support;
+
+use support::{columns, model, run};
+
+/// A soft block whose top is pressed down more on the left than on the right, and a fluid under it: the wet part of its sole at the
+/// ends of increments while the fluid rises to `value`.
+fn wet(value: f64, from: &str) -> Vec<f64> {
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [8.0, 1.0], cells = [16, 2], cell = "quad4" }}
+material.foam.elastic = {{ young = 100.0, poisson = 0.0 }}
+body.block = {{ material = "foam", formulation = "f-bar" }}
+tool.plane.profile = [{{ line = [[90.0, 0.0], [-90.0, 0.0]] }}]
+tool.lid.profile = [{{ line = [[-1.0, 1.0], [9.0, 1.0]] }}]
+tool.lid.reference = [0.0, 1.0]
+contact.sole = {{ surface = "block.bottom", target = "plane", law.frictionless = {{}} }}
+contact.lid = {{ surface = "block.top", target = "lid", law.frictionless = {{}} }}
+[[step]]
+increments = {{ count = 5 }}
+symmetry = ["block.left"]
+motion.lid = {{ y = -0.1, rotation = 0.5 }}
+[[step]]
+increments = {{ count = 10 }}
+pressure."block.bottom" = {{ value = {value:?}, penetrates = true{from} }}
+"#
+    );
+    let model = model(&deck, &[]);
+    columns(&model, &run(&model))["pressure.block.bottom.wetted_part"][5..].to_vec()
+}
+
+/// The sole bears about 10 at its left end and 3 at its right one. A fluid of 5 that stands on the right comes to about where the
+/// sole bears 5, one on the left nowhere; from its rim it comes as from the right.
+#[test]
+fn a_fluid_comes_up_to_where_contact_bears_more() {
+    let right = wet(5.0, ", from = \"block.bottom_right\"");
+    assert!(right.windows(2).all(|pair| pair[1] >= pair[0]), "{right:?}");
+    let end = *right.last().unwrap();
+    assert!((0.15..0.5).contains(&end), "{right:?}");
+    assert!(wet(5.0, ", from = \"block.bottom_left\"").iter().all(|part| *part == 0.0));
+    assert_eq!(wet(5.0, ""), right);
+    assert_eq!(*wet(15.0, "").last().unwrap(), 1.0);
+}
+
+#[test]
+fn what_a_fluid_cannot_be_is_told() {
+    let told = |from: &str| {
+        let refused = std::panic::catch_unwind(|| wet(5.0, from)).unwrap_err();
+        refused.downcast_ref::<String>().cloned().unwrap_or_default()
+    };
+    let nowhere = told(", from = \"block.top\"");
+    assert!(nowhere.contains("no node of `from`"), "{nowhere}");
+    let dead = told(", kind = \"dead\"");
+    assert!(dead.contains("dead, and penetrates"), "{dead}");
+}

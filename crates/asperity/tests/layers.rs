@@ -83,3 +83,37 @@ fn the_reading_finds_uses_in_all_their_forms() {
         "use crate::mesh::Mesh;\n// crate::deck\nuse crate::{Error, solid::Body, tool};\nlet x = crate::tensor::f();";
     assert_eq!(named(text), ["mesh", "Error", "solid", "tool", "tensor"]);
 }
+
+/// Names of the structs, enums and traits that a text defines, at any depth.
+fn types(text: &str) -> Vec<String> {
+    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let defined = |line: &str| {
+        let words = words(line);
+        let keyword = words.iter().position(|word| matches!(&**word, "struct" | "enum" | "trait"))?;
+        let public = words[..keyword].iter().all(|word| word.starts_with("pub") || word == "unsafe");
+        let name = words.get(keyword + 1).filter(|_| public)?;
+        Some(name.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect())
+    };
+    text.lines().filter_map(defined).collect()
+}
+
+#[test]
+fn types_of_contact_and_tools_have_names_of_their_own() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(crates).unwrap() {
+        files(&entry.unwrap().path().join("src"), &mut paths);
+    }
+    let mut owners = std::collections::BTreeMap::<String, Vec<PathBuf>>::new();
+    for path in paths {
+        for name in types(&std::fs::read_to_string(&path).unwrap()) {
+            owners.entry(name).or_default().push(path.strip_prefix(crates).unwrap().to_owned());
+        }
+    }
+    let rooms = [Path::new("asperity/src/contact"), Path::new("asperity/src/tool")];
+    let theirs = |path: &PathBuf| rooms.iter().any(|room| path.starts_with(room));
+    assert!(owners.values().filter(|paths| paths.iter().any(theirs)).count() > 50, "is the reading broken?");
+    let shared = owners.iter().filter(|(_, paths)| paths.len() > 1 && paths.iter().any(theirs));
+    let shared: Vec<_> = shared.map(|(name, paths)| format!("{name}: {paths:?}")).collect();
+    assert!(shared.is_empty(), "{}", shared.join("\n"));
+}

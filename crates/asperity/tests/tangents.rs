@@ -6,7 +6,7 @@ mod perturbed;
 
 use asperity::Failure;
 use asperity::contact::field::FieldTarget;
-use asperity::contact::{ContactOptions, Loads, PaperContact, PaperParts, PointSurface};
+use asperity::contact::{ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface};
 use asperity::declare::find;
 use asperity::interface::{
     Rule,
@@ -19,7 +19,7 @@ use asperity::mesh::{Cell, Mesh, Side, Space};
 use asperity::solid::{Body, BodyOptions, Formulation, Integration, Strain};
 use asperity::system::{Attempt, Branch, Dofs, Local, Stencil, Stencils, Term};
 use asperity::tensor::Vec3;
-use asperity::tool::{Tool, shapes};
+use asperity::tool::{ProfileTool, shapes};
 use perturbed::{Random, check, commit, instant, state};
 use std::sync::Arc;
 
@@ -107,7 +107,7 @@ fn contact(cell: &str, shape: &str, space: Space) -> (PaperContact, Dofs) {
         _ => vec![point(4.0, -0.3), point(1.4, 0.0), point(-1.0, -0.3)],
     };
     let profile = vec![shapes::find(shape).unwrap().build(&nodes).unwrap()];
-    let tool = Arc::new(Tool::new("t", vec![profile], point(1.5, -1.0)));
+    let tool = Arc::new(ProfileTool::new("t", vec![profile], point(1.5, -1.0)));
     let boundary = (0..mesh.kinds[0].faces.len()).map(|face| Side { cell: 0, face }).collect();
     (made((mesh, &dofs, space), boundary, tool, Coulomb::new(0.4).into()), dofs)
 }
@@ -116,7 +116,7 @@ fn contact(cell: &str, shape: &str, space: Space) -> (PaperContact, Dofs) {
 fn made(
     (mesh, dofs, space): (Arc<Mesh>, &Dofs, Space),
     boundary: Vec<Side>,
-    tool: Arc<Tool>,
+    tool: Arc<ProfileTool>,
     law: Rule,
 ) -> PaperContact {
     PaperContact::new(PaperParts {
@@ -128,7 +128,7 @@ fn made(
         boundary,
         target: FieldTarget::tool(tool, 0, dofs),
         law,
-        options: ContactOptions { thickness: 0.8, ..perturbed::options(Loads::Both) },
+        options: ContactOptions { thickness: 0.8, ..perturbed::options(LoadedSides::Both) },
     })
 }
 
@@ -217,7 +217,7 @@ fn nonlocal(radius: f64, space: Space) -> (PaperContact, Dofs) {
     let mesh = Arc::new(mesh);
     let nodes = [Vec3::new(4.0, 0.1, 0.0), Vec3::new(-1.0, -0.1, 0.0)];
     let profile = vec![shapes::find("line").unwrap().build(&nodes).unwrap()];
-    let tool = Arc::new(Tool::new("t", vec![profile], Vec3::new(1.5, -1.0, 0.0)));
+    let tool = Arc::new(ProfileTool::new("t", vec![profile], Vec3::new(1.5, -1.0, 0.0)));
     let boundary = mesh.boundary(&[0, 1, 2]);
     let law = OdenPires { friction: 0.4, length: 0.05, radius }.into();
     (made((mesh, &dofs, space), boundary, tool, law), dofs)

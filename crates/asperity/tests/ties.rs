@@ -3,7 +3,7 @@
 
 mod support;
 
-use asperity::contact::field::Condition;
+use asperity::contact::field::MeanCondition;
 use asperity::model::Model;
 use asperity::tensor::Vec3;
 use support::{model, run};
@@ -144,7 +144,7 @@ fn turning_both_sides_strains_nothing() {
             tie.nodes[0].iter().copied().filter(|&n| points[n][0] < 1e-9 || points[n][1] < 1e-9).collect();
         assert!(tie.gap > 1e-3 || cell == "quad8", "{}", tie.gap);
         // The ends stay in the planes that hold them.
-        let apart = |c: &&Condition| c.terms.iter().all(|(node, _)| !ends.contains(node));
+        let apart = |c: &&MeanCondition| c.terms.iter().all(|(node, _)| !ends.contains(node));
         for condition in tie.conditions.iter().filter(apart) {
             let sum = condition.terms.iter().fold(Vec3::zero(), |sum, &(node, c)| sum + points[node] * c);
             assert!(sum.norm() < 1e-14, "{cell}: {sum:?}");

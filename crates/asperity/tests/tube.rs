@@ -3,7 +3,7 @@
 
 mod support;
 
-use asperity::contact::{PointRecord, PointStatus};
+use asperity::contact::{ContactRecord, PointStatus};
 use asperity::model::Model;
 use asperity::system::State;
 use support::{Keep, certificate, columns, run};
@@ -19,7 +19,7 @@ fn model(deck: &str, sets: &[&str]) -> Model {
     support::model(deck, &[sets, &["contact.bore.form=paper"]].concat())
 }
 
-fn records(model: &Model, state: &State) -> Vec<PointRecord> {
+fn records(model: &Model, state: &State) -> Vec<ContactRecord> {
     model.contacts[0].records(&state.u, &state.histories[model.first_contact()])
 }
 

@@ -4,8 +4,8 @@
 
 mod perturbed;
 
-use asperity::contact::field::{FieldTarget, Surface};
-use asperity::contact::{ContactOptions, Loads, PaperContact, PaperParts, PointSurface};
+use asperity::contact::field::{FieldSurface, FieldTarget};
+use asperity::contact::{ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
@@ -33,7 +33,7 @@ fn mesh(cell: &str) -> Mesh {
     mesh
 }
 
-fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (PaperContact, Dofs) {
+fn contact(cell: &str, carrier: Carrier, loads: LoadedSides, space: Space) -> (PaperContact, Dofs) {
     let mesh = Arc::new(mesh(cell));
     let dofs = Dofs::new(2, mesh.points.len(), 0);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
@@ -41,7 +41,7 @@ fn contact(cell: &str, carrier: Carrier, loads: Loads, space: Space) -> (PaperCo
         Carrier::Narrow => ("narrow.bottom", "wide.top"),
         Carrier::Wide => ("wide.top", "narrow.bottom"),
     };
-    let target = FieldTarget::faces(Surface::whole(&mesh, sides(other), space, 0.8), &mesh);
+    let target = FieldTarget::faces(FieldSurface::whole(&mesh, sides(other), space, 0.8), &mesh);
     let parts = PaperParts {
         name: "c".into(),
         surface: PointSurface::new(&mesh, sides(own), (space, 0.8), None),
@@ -70,7 +70,7 @@ fn motion(mesh: &Mesh, dofs: &Dofs, random: &mut Random) -> Vec<f64> {
 }
 
 /// Looks at random states, each after a random accepted one that itself follows another.
-fn states(cell: &str, carrier: Carrier, loads: Loads, space: Space, look: &mut dyn FnMut(&dyn Attempt, &[f64])) {
+fn states(cell: &str, carrier: Carrier, loads: LoadedSides, space: Space, look: &mut dyn FnMut(&dyn Attempt, &[f64])) {
     let ((contact, dofs), mut random) = (contact(cell, carrier, loads, space), Random(11));
     let mesh = mesh(cell);
     let start = state(vec![0.0; dofs.count()], contact.initial());
@@ -88,7 +88,7 @@ fn states(cell: &str, carrier: Carrier, loads: Loads, space: Space, look: &mut d
 fn tangents_of_contact_between_bodies_are_exact() {
     for cell in ["quad4", "quad8"] {
         for carrier in [Carrier::Narrow, Carrier::Wide] {
-            for (loads, space) in [(Loads::Own, Space::PlaneStrain), (Loads::Both, Space::Axisymmetric)] {
+            for (loads, space) in [(LoadedSides::Own, Space::PlaneStrain), (LoadedSides::Both, Space::Axisymmetric)] {
                 let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
                 states(cell, carrier, loads, space, &mut |attempt, u| {
                     for result in check(attempt, u).into_iter().flatten() {
@@ -115,7 +115,7 @@ fn tangents_of_contact_between_bodies_are_exact() {
 fn forces_of_one_pass_balance() {
     let mut closed = 0;
     for carrier in [Carrier::Narrow, Carrier::Wide] {
-        states("quad8", carrier, Loads::Both, Space::PlaneStrain, &mut |attempt, u| {
+        states("quad8", carrier, LoadedSides::Both, Space::PlaneStrain, &mut |attempt, u| {
             let (mut stencils, mut local) = (Stencils::default(), Local::default());
             attempt.stencils(u, &mut stencils).unwrap();
             for (i, stencil) in stencils.list.iter().enumerate() {

@@ -5,14 +5,14 @@
 mod pairs;
 mod perturbed;
 
-use asperity::contact::field::{FieldTarget, Surface};
-use asperity::contact::{Loads, PaperContact, PaperParts, PointSurface};
+use asperity::contact::field::{FieldSurface, FieldTarget};
+use asperity::contact::{LoadedSides, PaperContact, PaperParts, PointSurface};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh, Space};
 use asperity::system::{Attempt, Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
-use asperity::tool::space::Pose;
+use asperity::tool::space::SpacePose;
 use pairs::Carrier;
 use perturbed::{Random, check, commit, instant, options, state};
 use std::sync::Arc;
@@ -53,7 +53,7 @@ fn mesh([upper, lower]: [&str; 2]) -> Mesh {
     mesh
 }
 
-fn contact(cells: [&str; 2], carrier: Carrier, loads: Loads, friction: f64) -> (PaperContact, Dofs) {
+fn contact(cells: [&str; 2], carrier: Carrier, loads: LoadedSides, friction: f64) -> (PaperContact, Dofs) {
     pairs::pair(mesh(cells), carrier, friction, options(loads))
 }
 
@@ -80,7 +80,8 @@ fn states((contact, dofs): &(PaperContact, Dofs), count: usize, look: &mut Look)
 
 #[test]
 fn tangents_of_contact_between_bodies_are_exact() {
-    let carriers = [(Carrier::Small, Loads::Own), (Carrier::Small, Loads::Both), (Carrier::Large, Loads::Both)];
+    let carriers =
+        [(Carrier::Small, LoadedSides::Own), (Carrier::Small, LoadedSides::Both), (Carrier::Large, LoadedSides::Both)];
     let (mut good, mut found) = (true, Vec::new());
     for cells in PAIRS {
         for (carrier, loads) in carriers {
@@ -118,7 +119,7 @@ fn tangents_of_contact_between_bodies_are_exact() {
 #[test]
 fn forces_of_one_pass_balance() {
     for (cells, friction) in [(["hex20", "tet10"], 0.0), (["hex27", "hex8"], 0.0), (["tet10", "hex20"], 0.4)] {
-        let (contact, dofs) = contact(cells, Carrier::Small, Loads::Both, friction);
+        let (contact, dofs) = contact(cells, Carrier::Small, LoadedSides::Both, friction);
         let mut closed = 0;
         states(&(contact, dofs), 60, &mut |_, attempt, u| {
             let (mut stencils, mut local) = (Stencils::default(), Local::default());
@@ -143,7 +144,7 @@ fn forces_of_one_pass_balance() {
 #[test]
 fn a_loaded_pair_turns_without_slip() {
     for cells in PAIRS {
-        let ((contact, dofs), mut random) = (contact(cells, Carrier::Small, Loads::Own, 0.4), Random(3));
+        let ((contact, dofs), mut random) = (contact(cells, Carrier::Small, LoadedSides::Own, 0.4), Random(3));
         let start = state(vec![0.0; dofs.count()], contact.initial());
         let mut push = || {
             let mut u = motion(&contact, &dofs, &mut random);
@@ -154,7 +155,7 @@ fn a_loaded_pair_turns_without_slip() {
         let pressed = commit(&contact, &start, push()).unwrap();
         let loaded = commit(&contact, &pressed, push()).unwrap();
         let axis = at(0.48, -0.6, 0.64) * 63.0_f64.to_radians();
-        let turn = Pose::new([0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
+        let turn = SpacePose::new([0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
         let mut u = loaded.u.clone();
         for node in 0..dofs.nodes() {
             let (first, x) = (dofs.node(node), contact.mesh().points[node]);
@@ -190,13 +191,13 @@ fn a_ring_that_closes_touches_itself() {
         let mut sides = mesh.groups["ring.left"].sides.clone();
         sides.extend_from_slice(&mesh.groups["ring.right"].sides);
         let mesh = Arc::new(mesh);
-        let options = options(Loads::Own);
+        let options = options(LoadedSides::Own);
         let contact = PaperContact::new(PaperParts {
             name: "slit".into(),
             surface: PointSurface::new(&mesh, &sides, (Space::Solid, 1.0), None),
             space: Space::Solid,
             boundary: mesh.boundary(&mesh.groups["ring"].cells),
-            target: FieldTarget::faces(Surface::whole(&mesh, &sides, Space::Solid, 1.0), &mesh),
+            target: FieldTarget::faces(FieldSurface::whole(&mesh, &sides, Space::Solid, 1.0), &mesh),
             law: Coulomb::new(0.4).into(),
             options,
             dofs: dofs.clone(),

@@ -6,7 +6,7 @@ use crate::run::Run;
 use crate::trouble::{guarded, raised};
 use crate::work::Wanted;
 use asperity::Error;
-use asperity::contact::PointRecord;
+use asperity::contact::ContactRecord;
 use asperity::deck::Made;
 use asperity::declare::nearest;
 use asperity::output::{BodyGrid, Frame, Parts, Place, Quantity, Source, cloud, global_columns, tool_outlines};
@@ -28,7 +28,7 @@ const PLACES: [(&str, Place); 5] = [
 ];
 
 /// What is read of a contact point.
-type Of<T> = fn(&PointRecord) -> T;
+type Of<T> = fn(&ContactRecord) -> T;
 
 /// An accepted state of a model, with all that is reported of it; nothing changes it.
 #[pyclass(frozen, name = "State", module = "asperity")]

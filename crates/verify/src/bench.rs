@@ -1,7 +1,7 @@
 //! Where a case is run: its folder, its size, its decks solved.
 
 use crate::{Measured, Size};
-use asperity::contact::PointRecord;
+use asperity::contact::ContactRecord;
 use asperity::model::Model;
 use asperity::output::Parts;
 use asperity::output::figure::Chart;
@@ -212,19 +212,19 @@ impl<F: FnMut(&Model, &State)> Observer for Follower<'_, F> {
 }
 
 /// The points of a contact in a state.
-pub fn points(model: &Model, state: &State, contact: usize) -> Vec<PointRecord> {
+pub fn points(model: &Model, state: &State, contact: usize) -> Vec<ContactRecord> {
     let (term, _, contact) = Parts::of(model).contacts.swap_remove(contact);
     contact.records(&state.u, &state.histories[term])
 }
 
 /// What both sides of the first contact bear: of a field, which has one side, the same points turned round.
-pub fn sides(model: &Model, state: &State) -> [Vec<PointRecord>; 2] {
+pub fn sides(model: &Model, state: &State) -> [Vec<ContactRecord>; 2] {
     let one = points(model, state, 0);
     if model.field_contacts.is_empty() {
         return [one, points(model, state, 1)];
     }
     let mut other = one.clone();
-    other.iter_mut().for_each(PointRecord::turn);
+    other.iter_mut().for_each(ContactRecord::turn);
     [one, other]
 }
 
@@ -245,7 +245,7 @@ pub fn reaction(model: &Model, state: &State, group: &str) -> [f64; 2] {
 
 impl Solved {
     /// The points of a contact at the end.
-    pub fn points(&self, contact: usize) -> Vec<PointRecord> {
+    pub fn points(&self, contact: usize) -> Vec<ContactRecord> {
         points(&self.model, &self.state, contact)
     }
     /// Force of the supports on the nodes of a group at the end.

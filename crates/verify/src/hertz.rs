@@ -4,7 +4,7 @@
 use crate::bench::{Bench, both_forms, points};
 use crate::{Measured, fit};
 use asperity::Error;
-use asperity::contact::PointRecord;
+use asperity::contact::ContactRecord;
 
 /// A deck with its theory.
 pub struct Study {
@@ -47,7 +47,7 @@ impl Study {
 
     /// The points at the end, and the mean error of the pressure over the increments of the second half of the load, as it
     /// depends on where within an edge the contact ends.
-    fn solve(&self, bench: &Bench, n: usize, form: &[String]) -> Result<(Vec<PointRecord>, f64), Error> {
+    fn solve(&self, bench: &Bench, n: usize, form: &[String]) -> Result<(Vec<ContactRecord>, f64), Error> {
         let mut errors = Vec::new();
         let run = bench.follow(self.deck, &[&(self.refined)(n), form].concat(), |model, state| {
             let points = points(model, state, 0);
@@ -58,12 +58,12 @@ impl Study {
         Ok((run.points(0), errors.iter().sum::<f64>() / errors.len() as f64))
     }
 
-    fn carried(&self, points: &[PointRecord]) -> f64 {
+    fn carried(&self, points: &[ContactRecord]) -> f64 {
         self.share * points.iter().map(|point| point.force()[1]).sum::<f64>()
     }
 
     /// `|p - p_Hertz| / |p_Hertz|` in L2 over the contact points, with Hertz's pressure for the force that they carry.
-    fn pressure_error(&self, points: &[PointRecord]) -> f64 {
+    fn pressure_error(&self, points: &[ContactRecord]) -> f64 {
         let (a, p0) = (self.theory)(self.carried(points));
         let (mut error, mut norm) = (0.0, 0.0);
         for point in points {

@@ -35,9 +35,9 @@ pub struct Subject {
     /// Names and cells of the bodies.
     pub bodies: Vec<(String, Vec<usize>)>,
     /// The tools in the plane, in the order of their unknowns.
-    pub tools: Vec<Arc<crate::tool::Tool>>,
+    pub tools: Vec<Arc<crate::tool::ProfileTool>>,
     /// The tools in space, in the order of their unknowns.
-    pub solid_tools: Vec<Arc<crate::tool::space::Tool>>,
+    pub solid_tools: Vec<Arc<crate::tool::space::SpaceTool>>,
     /// The contacts.
     pub claims: Vec<Claim>,
     /// Size of the smallest cell, a length.

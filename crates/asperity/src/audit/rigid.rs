@@ -6,8 +6,8 @@ use super::simplex::Simplex;
 use super::surface::CURVED;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
-use crate::tool::space::Facet;
-use crate::tool::{self, Shape, Tool};
+use crate::tool::space::ToolFacet;
+use crate::tool::{self, ProfileShape, ProfileTool};
 
 /// A tool.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ pub struct Rigid {
 #[derive(Debug, Clone, Copy)]
 pub enum Pose {
     /// In the plane.
-    Plane(tool::Pose),
+    Plane(tool::PlanePose),
     /// In space.
     Space(tool::space::Stance),
 }
@@ -56,10 +56,10 @@ const TURNS: f64 = 200.0;
 
 impl Rigid {
     /// A tool in the plane, number `number`; `cell` is the size of the smallest cell.
-    pub fn plane(tool: &Tool, number: usize, dofs: &Dofs, cell: f64) -> Self {
+    pub fn plane(tool: &ProfileTool, number: usize, dofs: &Dofs, cell: f64) -> Self {
         let sagitta = (FINE[0] * cell).max(LEAST[0] * tool.size());
-        let flat = |shape: &dyn Shape, sagitta: f64| shape.flatten(sagitta);
-        let chords = |shape: &dyn Shape| -> Vec<Simplex> {
+        let flat = |shape: &dyn ProfileShape, sagitta: f64| shape.flatten(sagitta);
+        let chords = |shape: &dyn ProfileShape| -> Vec<Simplex> {
             flat(shape, sagitta).windows(2).map(|ends| Simplex::segment(ends[0], ends[1])).collect()
         };
         let pieces: Vec<Simplex> = tool.segments().iter().flat_map(|shape| chords(shape.as_ref())).collect();
@@ -69,11 +69,11 @@ impl Rigid {
     }
 
     /// A tool in space.
-    pub fn space(tool: &tool::space::Tool, number: usize, dofs: &Dofs, cell: f64) -> Self {
+    pub fn space(tool: &tool::space::SpaceTool, number: usize, dofs: &Dofs, cell: f64) -> Self {
         let sagitta = (FINE[1] * cell).max(LEAST[1] * tool.size());
         let pieces: Vec<Simplex> = tool.facets().iter().flat_map(|facet| tiles(facet.as_ref(), sagitta)).collect();
         let points = tool.facets().iter().flat_map(|facet| grid(facet.as_ref(), SPARSE * cell)).collect();
-        let open = |finding: &tool::space::Finding| matches!(finding, tool::space::Finding::OpenEdges(..));
+        let open = |finding: &tool::space::FacetFinding| matches!(finding, tool::space::FacetFinding::OpenEdges(..));
         let swept = tool.facets().iter().any(|facet| facet.corners().is_empty());
         let closed = !swept && !tool.check().iter().any(open);
         Self::new((tool.name(), tool.reference()), dofs.tool(number), false, pieces, points, (closed, sagitta))
@@ -97,9 +97,9 @@ impl Rigid {
     pub fn pose(&self, accepted: &[f64], u: &[f64], part: f64) -> Pose {
         let at = |i: usize| accepted[self.first + i] + (u[self.first + i] - accepted[self.first + i]) * part;
         if self.plane {
-            Pose::Plane(tool::Pose::new(at(0), at(1), at(2)))
+            Pose::Plane(tool::PlanePose::new(at(0), at(1), at(2)))
         } else {
-            Pose::Space(tool::space::Pose::new(std::array::from_fn(at)).stance())
+            Pose::Space(tool::space::SpacePose::new(std::array::from_fn(at)).stance())
         }
     }
     /// Into how many parts its way is divided, so that it turns little in each.
@@ -146,7 +146,7 @@ impl Rigid {
 }
 
 /// Points along a segment and its curvature at them.
-fn points_of(shape: &dyn Shape, cell: f64) -> Vec<(Vec3, f64)> {
+fn points_of(shape: &dyn ProfileShape, cell: f64) -> Vec<(Vec3, f64)> {
     let parts = shape.pieces(SPARSE * cell).clamp(1, MOST);
     let s = |i: usize| i as f64 / parts as f64;
     let turn = |i: usize| (shape.tangent(s(i + 1)).unit() - shape.tangent(s(i)).unit()).norm();
@@ -156,7 +156,7 @@ fn points_of(shape: &dyn Shape, cell: f64) -> Vec<(Vec3, f64)> {
 }
 
 /// Points on a facet and its largest curvature.
-fn grid(facet: &dyn Facet, sagitta: f64) -> Vec<(Vec3, f64)> {
+fn grid(facet: &dyn ToolFacet, sagitta: f64) -> Vec<(Vec3, f64)> {
     if !facet.corners().is_empty() {
         return facet.corners().iter().map(|&corner| (corner, 0.0)).collect();
     }
@@ -177,7 +177,7 @@ fn grid(facet: &dyn Facet, sagitta: f64) -> Vec<(Vec3, f64)> {
 }
 
 /// Triangles nowhere much farther than `sagitta` from a facet.
-fn tiles(facet: &dyn Facet, sagitta: f64) -> Vec<Simplex> {
+fn tiles(facet: &dyn ToolFacet, sagitta: f64) -> Vec<Simplex> {
     if let &[a, b, c] = facet.corners() {
         return vec![Simplex::triangle([a, b, c])];
     }

@@ -17,7 +17,7 @@ pub struct ContactOptions {
     /// Thickness in the plane cases.
     pub thickness: f64,
     /// Which side a contact point loads.
-    pub loads: Loads,
+    pub loads: LoadedSides,
     /// Whether the tangent holds the coupling of the two sides.
     pub coupling: bool,
     /// How far penetration and elastic slip are taken out by multipliers, if they are.
@@ -57,14 +57,14 @@ pub fn second_name(name: &str) -> String {
 
 /// Which side a contact point loads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Loads {
+pub enum LoadedSides {
     /// The surface and its target: one pass.
     Both,
     /// The surface alone, since the target carries contact points of its own: one of two passes.
     Own,
 }
 
-impl Loads {
+impl LoadedSides {
     /// Part of the energy of the interface that is counted here: with two passes each side counts half.
     pub fn share(self) -> f64 {
         match self {

@@ -112,7 +112,7 @@ pub fn variables(values: &[f64]) -> [f64; MOST_VARIABLES] {
 
 /// One contact point in an accepted state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PointRecord {
+pub struct ContactRecord {
     /// Present position.
     pub position: Vec3,
     /// Unit normal into the solid.
@@ -157,7 +157,7 @@ pub struct PointRecord {
     pub edge: usize,
 }
 
-impl PointRecord {
+impl ContactRecord {
     /// What the history of a point says, at no place yet.
     pub(super) fn of(values: &[f64], plane: bool) -> Self {
         // In the plane with their signs, in space their sizes.

@@ -6,13 +6,13 @@ use super::diagnose::{Diagnostic, Severity};
 use super::facts::facts_seen;
 use super::keys;
 use super::reader::Name;
-use crate::contact::field::{FieldContact, Surface};
-use crate::contact::{ContactOptions, Loads, PaperContact, second_name};
+use crate::contact::field::{FieldContact, FieldSurface};
+use crate::contact::{ContactOptions, LoadedSides, PaperContact, second_name};
 use crate::diagnosis::oddities;
 use crate::solve::Step;
 use crate::system::Term;
 use crate::tool::Hit;
-use crate::tool::{Rejected, Tool};
+use crate::tool::{ProfileTool, Rejected};
 use crate::{Error, machine};
 use rayon::current_num_threads;
 use std::collections::BTreeMap;
@@ -150,7 +150,7 @@ impl Page {
             _ => format!("  {} see {target}, the nearest {nearest:.3e} away", seen.found.len()),
         });
         if seen.deforms {
-            let two = seen.options.loads == Loads::Own;
+            let two = seen.options.loads == LoadedSides::Own;
             self.line(if two { "  two passes: they load their own side" } else { "  one pass" });
         }
         if seen.rejected.total() > 0 {
@@ -328,11 +328,11 @@ impl<'a> Seen<'a> {
 }
 
 /// On how many edges or faces points stand.
-fn pieces(surface: &Surface) -> String {
+fn pieces(surface: &FieldSurface) -> String {
     format!("{} {}", surface.faces.len(), if surface.plane { "edges" } else { "faces" })
 }
 
-fn advice(surface: &Surface) -> &'static str {
+fn advice(surface: &FieldSurface) -> &'static str {
     if surface.plane { PROFILE_ADVICE } else { FACETS_ADVICE }
 }
 
@@ -340,7 +340,7 @@ const PROFILE_ADVICE: &str =
     "is the surface the right one, and does the profile run with the tool's material on its left?";
 const FACETS_ADVICE: &str = "is the surface the right one, and do the tool's facets look outward?";
 
-fn profile(tool: &Tool) -> String {
+fn profile(tool: &ProfileTool) -> String {
     let closed = tool.chains().iter().all(|chain| chain.closed);
     let bounds = tool.bounds();
     let ends = |axis: usize| format!("{} to {}", bounds.min[axis], bounds.max[axis]);

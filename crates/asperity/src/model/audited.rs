@@ -2,7 +2,7 @@
 
 use crate::audit::Claim;
 use crate::contact::PaperContact;
-use crate::contact::field::{FieldContact, FieldTarget, Surface, Tie};
+use crate::contact::field::{FieldContact, FieldSurface, FieldTarget, TiedSurfaces};
 use crate::system::History;
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ pub(super) fn claims(
     bodies: usize,
     contacts: &[Arc<PaperContact>],
     fields: &[Arc<FieldContact>],
-    ties: &[([String; 2], Tie)],
+    ties: &[([String; 2], TiedSurfaces)],
 ) -> Vec<Claim> {
     let points = contacts.iter().enumerate().map(|(i, contact)| of_points(contact, bodies + i));
     let first = bodies + contacts.len();
@@ -30,10 +30,10 @@ fn of_field(contact: &Arc<FieldContact>, term: usize) -> Claim {
 }
 
 fn claim(
-    (surface, target, term): (&Surface, &FieldTarget, usize),
+    (surface, target, term): (&FieldSurface, &FieldTarget, usize),
     penetration: impl Fn(&History) -> f64 + Send + Sync + 'static,
 ) -> Claim {
-    let nodes = |surface: &Surface| surface.faces.iter().flat_map(|face| face.nodes.iter().copied()).collect();
+    let nodes = |surface: &FieldSurface| surface.faces.iter().flat_map(|face| face.nodes.iter().copied()).collect();
     let target = match target {
         FieldTarget::Tool(tool) => Err(tool.number()),
         FieldTarget::Faces(faces) => Ok(nodes(&faces.surface)),
@@ -42,7 +42,7 @@ fn claim(
 }
 
 /// Meshes that do not match lie in each other a little where they are glued, and report nothing of it.
-fn of_tie(tie: &Tie) -> Claim {
+fn of_tie(tie: &TiedSurfaces) -> Claim {
     let [surface, target] = tie.nodes.clone();
     Claim { surface, target: Ok(target), term: NO_TERM, penetration: Box::new(|_| 0.0) }
 }

@@ -1,7 +1,7 @@
 //! What contacts bear in an accepted state, for fluids that enter where they bear little.
 
 use crate::contact::field::FieldContact;
-use crate::contact::{PaperContact, PointRecord, PointStatus};
+use crate::contact::{ContactRecord, PaperContact, PointStatus};
 use crate::system::State;
 use crate::tensor::Vec3;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ pub(super) fn bearing(
 ) -> impl Fn(&State) -> Vec<(Vec3, f64)> + Send + Sync + 'static {
     let (points, fields) = (points.to_vec(), fields.to_vec());
     move |state| {
-        let (mut term, mut records) = (first, Vec::<PointRecord>::new());
+        let (mut term, mut records) = (first, Vec::<ContactRecord>::new());
         let mut next = || {
             term += 1;
             &state.histories[term - 1]

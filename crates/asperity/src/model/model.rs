@@ -4,14 +4,14 @@ use super::audited::claims;
 use super::bearing::bearing;
 use crate::audit::{Audit, Subject};
 use crate::contact::PaperContact;
-use crate::contact::field::{FieldContact, Tie};
+use crate::contact::field::{FieldContact, TiedSurfaces};
 use crate::load::{Bearing, PenetratingPressure};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
 use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
 use crate::system::{Dofs, Following, State, Term, Whole};
 use crate::tensor::Vec3;
-use crate::tool::{self, Tool};
+use crate::tool::{self, ProfileTool};
 use std::sync::Arc;
 
 /// What a model is put together from.
@@ -31,9 +31,9 @@ pub struct ModelParts {
     /// The names of the materials.
     pub materials: Vec<String>,
     /// The tools of a plane model, in the order of their unknowns.
-    pub tools: Vec<Arc<Tool>>,
+    pub tools: Vec<Arc<ProfileTool>>,
     /// The tools of a model in space, in the order of their unknowns.
-    pub solid_tools: Vec<Arc<tool::space::Tool>>,
+    pub solid_tools: Vec<Arc<tool::space::SpaceTool>>,
     /// The contacts whose stress lives at Gauss points.
     pub contacts: Vec<PaperContact>,
     /// The contacts whose stress is a field of nodal values.
@@ -51,7 +51,7 @@ pub struct ModelParts {
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
     /// What is glued, each with the names of surface and target.
-    pub ties: Vec<([String; 2], Tie)>,
+    pub ties: Vec<([String; 2], TiedSurfaces)>,
     /// Groups of nodes that are rigid, in the order of their unknowns, which follow those of the tools.
     pub rigid: Vec<RigidGroup>,
     /// Options of the iterations.
@@ -84,9 +84,9 @@ pub struct Model {
     /// The names of the materials.
     pub materials: Vec<String>,
     /// The tools of a plane model, in the order of their unknowns.
-    pub tools: Vec<Arc<Tool>>,
+    pub tools: Vec<Arc<ProfileTool>>,
     /// The tools of a model in space, in the order of their unknowns.
-    pub solid_tools: Vec<Arc<tool::space::Tool>>,
+    pub solid_tools: Vec<Arc<tool::space::SpaceTool>>,
     /// The contacts whose stress lives at Gauss points.
     pub contacts: Vec<Arc<PaperContact>>,
     /// The contacts whose stress is a field of nodal values, which follow these.
@@ -98,7 +98,7 @@ pub struct Model {
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
     /// What is glued, each with the names of surface and target.
-    pub ties: Vec<([String; 2], Tie)>,
+    pub ties: Vec<([String; 2], TiedSurfaces)>,
     /// Groups of nodes that are rigid.
     pub rigid: Vec<RigidGroup>,
     /// The terms, steps and options that are solved.

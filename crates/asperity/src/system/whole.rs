@@ -7,7 +7,7 @@
 use super::{Dofs, State};
 use crate::mesh::Space;
 use crate::tensor::{Tensor2, Vec3};
-use crate::tool::space::Pose;
+use crate::tool::space::SpacePose;
 
 /// Nodes that hang together by cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,7 +134,7 @@ fn carried(shift: Vec3, turn: Vec3, part: f64) -> Vec3 {
 
 /// `v` turned by a rotation vector.
 fn rotated(v: Vec3, rotation: Vec3) -> Vec3 {
-    Pose { rotation, ..Pose::default() }.rotate(v)
+    SpacePose { rotation, ..SpacePose::default() }.rotate(v)
 }
 
 #[cfg(test)]

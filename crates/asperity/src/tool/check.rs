@@ -3,9 +3,9 @@
 //! The material lies on the left of a profile, so that a closed one must run counter-clockwise, and a left turn is a
 //! convex edge of the tool. All tolerances are ratios of the tool's size.
 
-use super::Finding;
-use super::shapes::{Bounds, Crossing, Ray, Shape, turn};
-use super::tool::{Chain, Tool};
+use super::ProfileFinding;
+use super::shapes::{BoundingBox, ProfileRay, ProfileShape, RayCrossing, turn};
+use super::tool::{Chain, ProfileTool};
 use crate::tensor::Vec3;
 
 /// Ends nearer to each other than this part of the tool's size are one point.
@@ -18,17 +18,17 @@ const FLAT: f64 = 1e-6;
 const NEIGHBOUR: f64 = 1e-4;
 
 /// All findings, by chain and segment. What would make no sense after a grave one is not looked for.
-pub(super) fn findings(tool: &Tool, axisymmetric: bool) -> Vec<Finding> {
+pub(super) fn findings(tool: &ProfileTool, axisymmetric: bool) -> Vec<ProfileFinding> {
     if tool.segments().is_empty() {
-        return vec![Finding::Empty];
+        return vec![ProfileFinding::Empty];
     }
     let all = 0..tool.segments().len();
     let is_finite = |i: &usize| tool.segments()[*i].nodes().iter().all(|node| node.is_finite());
-    let mut found: Vec<Finding> = all.clone().filter(|i| !is_finite(i)).map(Finding::NotFinite).collect();
+    let mut found: Vec<ProfileFinding> = all.clone().filter(|i| !is_finite(i)).map(ProfileFinding::NotFinite).collect();
     if found.is_empty() {
         // From the nodes: nodes that make no arc can bound a box of any size.
         let nodes = tool.segments().iter().flat_map(|segment| segment.nodes().iter().copied());
-        let together = TOGETHER * Bounds::of(nodes).size();
+        let together = TOGETHER * BoundingBox::of(nodes).size();
         found.extend(all.filter_map(|i| single(tool.segments()[i].as_ref(), i, together, axisymmetric)));
     }
     if found.is_empty() {
@@ -39,67 +39,67 @@ pub(super) fn findings(tool: &Tool, axisymmetric: bool) -> Vec<Finding> {
 }
 
 /// What can be said of one segment alone.
-fn single(segment: &dyn Shape, i: usize, together: f64, axisymmetric: bool) -> Option<Finding> {
+fn single(segment: &dyn ProfileShape, i: usize, together: f64, axisymmetric: bool) -> Option<ProfileFinding> {
     let (ends, least) = ([segment.point(0.0), segment.point(1.0)], segment.bounds().min[0]);
     if (ends[1] - ends[0]).norm() <= together {
-        return Some(Finding::NoLength(i));
+        return Some(ProfileFinding::NoLength(i));
     }
     if let Some(flaw) = segment.flaw() {
-        return Some(Finding::Flaw(i, flaw));
+        return Some(ProfileFinding::Flaw(i, flaw));
     }
-    (axisymmetric && least < -together).then_some(Finding::NegativeRadius(i, least))
+    (axisymmetric && least < -together).then_some(ProfileFinding::NegativeRadius(i, least))
 }
 
 /// Gaps, kinks, ends and orientation of one profile.
-fn along(tool: &Tool, chain: &Chain, found: &mut Vec<Finding>) {
+fn along(tool: &ProfileTool, chain: &Chain, found: &mut Vec<ProfileFinding>) {
     let before = found.len();
     let pairs = (chain.first + 1..chain.end).map(|b| (b - 1, b));
     for (a, b) in pairs.chain(chain.closed.then_some((chain.end - 1, chain.first))) {
         found.extend(joint(tool, a, b));
     }
-    let broken = found[before..].iter().any(|finding| matches!(finding, Finding::Gap(..)));
+    let broken = found[before..].iter().any(|finding| matches!(finding, ProfileFinding::Gap(..)));
     let (first, last) = (chain.first, chain.end - 1);
     if !chain.closed {
         let ends = [tool.segments()[first].point(0.0), tool.segments()[last].point(1.0)];
-        found.push(Finding::Open(first, last, ends));
+        found.push(ProfileFinding::Open(first, last, ends));
     } else if !broken && area(tool, chain) < 0.0 {
-        found.push(Finding::Clockwise(first, last));
+        found.push(ProfileFinding::Clockwise(first, last));
     }
 }
 
 /// What is to be said of the place where segment `b` follows `a`.
-fn joint(tool: &Tool, a: usize, b: usize) -> Option<Finding> {
+fn joint(tool: &ProfileTool, a: usize, b: usize) -> Option<ProfileFinding> {
     let (first, second) = (&tool.segments()[a], &tool.segments()[b]);
     let gap = (second.point(0.0) - first.point(1.0)).norm();
     if gap > TOGETHER * tool.size() {
-        return Some(Finding::Gap(a, b, gap));
+        return Some(ProfileFinding::Gap(a, b, gap));
     }
     let (from, to) = (first.tangent(1.0), second.tangent(0.0));
     let angle = turn(from, to).atan2(from.dot(to)).to_degrees();
-    (angle.abs() > KINK).then_some(Finding::Kink(a, b, angle))
+    (angle.abs() > KINK).then_some(ProfileFinding::Kink(a, b, angle))
 }
 
 /// The area on the left of a closed profile.
-fn area(tool: &Tool, chain: &Chain) -> f64 {
+fn area(tool: &ProfileTool, chain: &Chain) -> f64 {
     let segments = &tool.segments()[chain.first..chain.end];
     let origin = segments[0].point(0.0);
     let points: Vec<Vec3> = segments.iter().flat_map(|s| s.flatten(1e-4 * tool.size())).collect();
     0.5 * points.windows(2).map(|p| turn(p[0] - origin, p[1] - origin)).sum::<f64>()
 }
 
-fn crossings(tool: &Tool, found: &mut Vec<Finding>) {
+fn crossings(tool: &ProfileTool, found: &mut Vec<ProfileFinding>) {
     for (a, segment) in tool.segments().iter().enumerate() {
         let mut others = Vec::new();
         tool.tree().near(&segment.bounds(), &mut |b| others.push(b));
         others.retain(|&b| b > a);
         others.sort_unstable();
-        let crossed = |b: usize| crossing(tool, a, b).map(|place| Finding::Crossing(a, b, place));
+        let crossed = |b: usize| crossing(tool, a, b).map(|place| ProfileFinding::Crossing(a, b, place));
         found.extend(others.into_iter().filter_map(crossed));
     }
 }
 
 /// Where two segments meet elsewhere than at a node in which one follows the other.
-fn crossing(tool: &Tool, a: usize, b: usize) -> Option<Vec3> {
+fn crossing(tool: &ProfileTool, a: usize, b: usize) -> Option<Vec3> {
     let (mut first, mut second) = (tool.segments()[a].as_ref(), tool.segments()[b].as_ref());
     if first.pieces(FLAT * tool.size()) > second.pieces(FLAT * tool.size()) {
         (first, second) = (second, first);
@@ -119,21 +119,21 @@ fn crossing(tool: &Tool, a: usize, b: usize) -> Option<Vec3> {
 }
 
 /// The node in which `b` follows `a`, if it does.
-fn shared(tool: &Tool, a: usize, b: usize) -> Option<Vec3> {
+fn shared(tool: &ProfileTool, a: usize, b: usize) -> Option<Vec3> {
     let chain = tool.chains().iter().find(|chain| (chain.first..chain.end).contains(&a))?;
     let follows = b == a + 1 && b < chain.end || chain.closed && a + 1 == chain.end && b == chain.first;
     follows.then(|| tool.segments()[a].point(1.0))
 }
 
 /// Places where the straight piece from `from` to `to` meets a segment.
-fn meet(from: Vec3, to: Vec3, segment: &dyn Shape, found: &mut dyn FnMut(Vec3)) {
-    let (box_a, box_b) = (Bounds::of([from, to]), segment.bounds());
+fn meet(from: Vec3, to: Vec3, segment: &dyn ProfileShape, found: &mut dyn FnMut(Vec3)) {
+    let (box_a, box_b) = (BoundingBox::of([from, to]), segment.bounds());
     if (0..2).any(|i| box_a.max[i] < box_b.min[i] || box_b.max[i] < box_a.min[i]) {
         return;
     }
     let length = (to - from).norm();
-    let ray = Ray { origin: from, direction: (to - from) * (1.0 / length) };
-    segment.cast(&ray, &mut |Crossing { u, .. }| {
+    let ray = ProfileRay { origin: from, direction: (to - from) * (1.0 / length) };
+    segment.cast(&ray, &mut |RayCrossing { u, .. }| {
         if u >= 0.0 && u <= length {
             found(ray.point(u));
         }
@@ -144,19 +144,19 @@ fn meet(from: Vec3, to: Vec3, segment: &dyn Shape, found: &mut dyn FnMut(Vec3)) 
 mod tests {
     use super::super::conformance::at;
     use super::super::shapes::{ALL, find};
-    use super::super::{Finding, Severity, Tool};
+    use super::super::{FindingSeverity, ProfileFinding, ProfileTool};
     use crate::tensor::Vec3;
 
-    fn square(corners: [[f64; 2]; 4], sides: usize) -> Tool {
+    fn square(corners: [[f64; 2]; 4], sides: usize) -> ProfileTool {
         let corner = |i: usize| at(corners[i % 4][0], corners[i % 4][1]);
         let side = |i: usize| ALL[0].build(&[corner(i), corner(i + 1)]).unwrap();
-        Tool::new("square", vec![(0..sides).map(side).collect()], at(0.0, 0.0))
+        ProfileTool::new("square", vec![(0..sides).map(side).collect()], at(0.0, 0.0))
     }
 
     const UNIT: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
-    fn errors(tool: &Tool) -> Vec<Finding> {
-        let grave = |finding: &Finding| finding.severity() == Severity::Error;
+    fn errors(tool: &ProfileTool) -> Vec<ProfileFinding> {
+        let grave = |finding: &ProfileFinding| finding.severity() == FindingSeverity::Error;
         tool.check(false).into_iter().filter(grave).collect()
     }
 
@@ -165,7 +165,7 @@ mod tests {
         let found = square(UNIT, 4).check(true);
         assert_eq!(found.len(), 4);
         for finding in &found {
-            assert!(matches!(finding, Finding::Kink(_, _, angle) if (angle - 90.0).abs() < 1e-12), "{finding}");
+            assert!(matches!(finding, ProfileFinding::Kink(_, _, angle) if (angle - 90.0).abs() < 1e-12), "{finding}");
         }
         assert_eq!(found[3].segments(), [3, 0]);
         assert_eq!(found[0].to_string(), "segments 1 and 2 meet at a convex edge of 90.0 degrees");
@@ -174,54 +174,54 @@ mod tests {
     #[test]
     fn clockwise_open_gapped_and_crossing_profiles_are_found() {
         let clockwise = square([UNIT[0], UNIT[3], UNIT[2], UNIT[1]], 4);
-        assert_eq!(errors(&clockwise), [Finding::Clockwise(0, 3)]);
-        assert!(clockwise.check(false).iter().any(|f| matches!(f, Finding::Kink(_, _, angle) if *angle < 0.0)));
+        assert_eq!(errors(&clockwise), [ProfileFinding::Clockwise(0, 3)]);
+        assert!(clockwise.check(false).iter().any(|f| matches!(f, ProfileFinding::Kink(_, _, angle) if *angle < 0.0)));
 
         let open = square(UNIT, 3).check(false);
-        assert!(open.contains(&Finding::Open(0, 2, [at(0.0, 0.0), at(0.0, 1.0)])));
+        assert!(open.contains(&ProfileFinding::Open(0, 2, [at(0.0, 0.0), at(0.0, 1.0)])));
 
         let bow_tie = square([UNIT[0], UNIT[2], UNIT[1], UNIT[3]], 4);
-        assert!(errors(&bow_tie).contains(&Finding::Crossing(0, 2, at(0.5, 0.5))), "{:?}", errors(&bow_tie));
+        assert!(errors(&bow_tie).contains(&ProfileFinding::Crossing(0, 2, at(0.5, 0.5))), "{:?}", errors(&bow_tie));
 
         let piece = |a: [f64; 2], b: [f64; 2]| ALL[0].build(&[at(a[0], a[1]), at(b[0], b[1])]).unwrap();
-        let gapped = Tool::new(
+        let gapped = ProfileTool::new(
             "gapped",
             vec![vec![piece([0.0, 0.0], [1.0, 0.0]), piece([1.0, 0.25], [1.0, 1.0])]],
             at(0.0, 0.0),
         );
-        assert_eq!(errors(&gapped), [Finding::Gap(0, 1, 0.25)]);
+        assert_eq!(errors(&gapped), [ProfileFinding::Gap(0, 1, 0.25)]);
         assert_eq!(errors(&gapped)[0].to_string(), "segments 1 and 2 do not meet: 2.500e-1 lies between them");
     }
 
     #[test]
     fn bad_segments_are_named() {
         let tool = |key: &str, nodes: &[Vec3]| {
-            Tool::new("bad", vec![vec![find(key).unwrap().build(nodes).unwrap()]], at(0.0, 0.0))
+            ProfileTool::new("bad", vec![vec![find(key).unwrap().build(nodes).unwrap()]], at(0.0, 0.0))
         };
-        assert_eq!(errors(&Tool::new("none", vec![], at(0.0, 0.0))), [Finding::Empty]);
-        assert_eq!(errors(&tool("line", &[at(0.0, f64::NAN), at(1.0, 0.0)])), [Finding::NotFinite(0)]);
+        assert_eq!(errors(&ProfileTool::new("none", vec![], at(0.0, 0.0))), [ProfileFinding::Empty]);
+        assert_eq!(errors(&tool("line", &[at(0.0, f64::NAN), at(1.0, 0.0)])), [ProfileFinding::NotFinite(0)]);
         assert_eq!(
             errors(&tool("arc", &[at(0.0, 0.0), at(f64::INFINITY, 0.0), at(1.0, 0.0)])),
-            [Finding::NotFinite(0)]
+            [ProfileFinding::NotFinite(0)]
         );
-        assert_eq!(errors(&tool("line", &[at(1.0, 1.0), at(1.0, 1.0)])), [Finding::NoLength(0)]);
-        assert_eq!(errors(&tool("arc", &[at(1.0, 1.0), at(2.0, 1.0), at(1.0, 1.0)])), [Finding::NoLength(0)]);
+        assert_eq!(errors(&tool("line", &[at(1.0, 1.0), at(1.0, 1.0)])), [ProfileFinding::NoLength(0)]);
+        assert_eq!(errors(&tool("arc", &[at(1.0, 1.0), at(2.0, 1.0), at(1.0, 1.0)])), [ProfileFinding::NoLength(0)]);
         for key in ["arc", "parabola"] {
             let beyond = errors(&tool(key, &[at(0.0, 0.0), at(3.0, 0.0), at(1.0, 0.0)]));
-            assert!(matches!(beyond[..], [Finding::Flaw(0, _)]), "{key}: {beyond:?}");
+            assert!(matches!(beyond[..], [ProfileFinding::Flaw(0, _)]), "{key}: {beyond:?}");
         }
         let left = tool("arc", &[at(0.0, 0.0), at(-1.0, 1.0), at(0.0, 2.0)]).check(true);
-        assert!(matches!(left[..], [Finding::NegativeRadius(0, r)] if (r + 1.0).abs() < 1e-15), "{left:?}");
+        assert!(matches!(left[..], [ProfileFinding::NegativeRadius(0, r)] if (r + 1.0).abs() < 1e-15), "{left:?}");
     }
 
     #[test]
     fn crossing_curves_are_found_and_smooth_joints_are_not_crossings() {
         let arc = |nodes: [[f64; 2]; 3]| ALL[2].build(&nodes.map(|[x, y]| at(x, y))).unwrap();
         let wave = vec![arc([[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]), arc([[2.0, 0.0], [3.0, -1.0], [4.0, 0.0]])];
-        assert!(errors(&Tool::new("wave", vec![wave], at(0.0, 0.0))).is_empty());
+        assert!(errors(&ProfileTool::new("wave", vec![wave], at(0.0, 0.0))).is_empty());
         let lens =
             vec![vec![arc([[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]])], vec![arc([[0.0, 1.0], [1.0, 0.0], [2.0, 1.0]])]];
-        let crossed = errors(&Tool::new("lens", lens, at(0.0, 0.0)));
-        assert!(matches!(crossed[..], [Finding::Crossing(0, 1, p)] if (p[1] - 0.5).abs() < 1e-5), "{crossed:?}");
+        let crossed = errors(&ProfileTool::new("lens", lens, at(0.0, 0.0)));
+        assert!(matches!(crossed[..], [ProfileFinding::Crossing(0, 1, p)] if (p[1] - 0.5).abs() < 1e-5), "{crossed:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! Every registered shape against independent and slower answers.
 
-use super::shapes::{ALL, Crossing, Kind, Ray, Shape, turn};
+use super::shapes::{ALL, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
 use crate::tensor::Vec3;
 
 pub(super) fn at(x: f64, y: f64) -> Vec3 {
@@ -8,7 +8,7 @@ pub(super) fn at(x: f64, y: f64) -> Vec3 {
 }
 
 /// Well-shaped nodes for any shape: a bulged row from `from` to `to`.
-pub(super) fn nodes(kind: &Kind, from: Vec3, to: Vec3, bulge: f64) -> Vec<Vec3> {
+pub(super) fn nodes(kind: &ShapeKind, from: Vec3, to: Vec3, bulge: f64) -> Vec<Vec3> {
     let place = |i: usize| {
         let s = i as f64 / (kind.nodes - 1) as f64;
         from + (to - from) * s + (to - from).left() * (bulge * s * (1.0 - s))
@@ -17,7 +17,7 @@ pub(super) fn nodes(kind: &Kind, from: Vec3, to: Vec3, bulge: f64) -> Vec<Vec3> 
 }
 
 /// A unit-sized curve of each kind, turned, with bulges from none over hardly any to beyond half a turn.
-fn shapes() -> Vec<(String, Box<dyn Shape>)> {
+fn shapes() -> Vec<(String, Box<dyn ProfileShape>)> {
     let mut all = Vec::new();
     for &kind in ALL {
         for bulge in [0.0, 1e-15, 1e-9, -1e-4, 0.3, -1.0, 3.0, -8.0] {
@@ -31,19 +31,19 @@ fn shapes() -> Vec<(String, Box<dyn Shape>)> {
     all
 }
 
-fn rays() -> Vec<Ray> {
+fn rays() -> Vec<ProfileRay> {
     let mut all = Vec::new();
     for i in 0..14 {
         for j in 0..11 {
             let angle = 0.05 + f64::from(i) * std::f64::consts::TAU / 14.0;
             let origin = at(0.9, 0.4) + at(-angle.sin(), angle.cos()) * (f64::from(j) * 0.41 - 2.05);
-            all.push(Ray { origin, direction: at(angle.cos(), angle.sin()) });
+            all.push(ProfileRay { origin, direction: at(angle.cos(), angle.sin()) });
         }
     }
     all
 }
 
-pub(super) fn cast(shape: &dyn Shape, ray: &Ray) -> Vec<Crossing> {
+pub(super) fn cast(shape: &dyn ProfileShape, ray: &ProfileRay) -> Vec<RayCrossing> {
     let mut found = Vec::new();
     shape.cast(ray, &mut |crossing| found.push(crossing));
     found.sort_by(|a, b| a.s.total_cmp(&b.s));
@@ -51,7 +51,7 @@ pub(super) fn cast(shape: &dyn Shape, ray: &Ray) -> Vec<Crossing> {
 }
 
 /// Crossings by dense sampling of the side on which a point of the curve lies, then bisection.
-fn brute_force(shape: &dyn Shape, ray: &Ray) -> Vec<Crossing> {
+fn brute_force(shape: &dyn ProfileShape, ray: &ProfileRay) -> Vec<RayCrossing> {
     const SAMPLES: usize = 1500;
     let side = |s: f64| turn(ray.direction, shape.point(s) - ray.origin);
     let mut found = Vec::new();
@@ -64,13 +64,13 @@ fn brute_force(shape: &dyn Shape, ray: &Ray) -> Vec<Crossing> {
             let middle = 0.5 * (a + b);
             if side(middle).signum() == side(a).signum() { a = middle } else { b = middle }
         }
-        found.push(Crossing { u: (shape.point(a) - ray.origin).dot(ray.direction), s: a });
+        found.push(RayCrossing { u: (shape.point(a) - ray.origin).dot(ray.direction), s: a });
     }
     found
 }
 
 /// Rays that graze the curve or pass by its ends may be counted either way.
-fn is_delicate(shape: &dyn Shape, ray: &Ray) -> bool {
+fn is_delicate(shape: &dyn ProfileShape, ray: &ProfileRay) -> bool {
     let grazing = |s: f64| turn(ray.direction, shape.tangent(s).unit()).abs() < 0.03;
     let near_line = |s: f64| turn(ray.direction, shape.point(s) - ray.origin).abs() < 2e-3;
     (0..=300).map(|i| f64::from(i) / 300.0).any(|s| near_line(s) && (grazing(s) || s == 0.0 || s == 1.0))
@@ -108,7 +108,7 @@ fn tangents_are_derivatives_and_lengths_their_integrals() {
     }
 }
 
-fn shape_points(shape: &dyn Shape, n: usize) -> Vec<Vec3> {
+fn shape_points(shape: &dyn ProfileShape, n: usize) -> Vec<Vec3> {
     (0..=n).map(|i| shape.point(i as f64 / n as f64)).collect()
 }
 
@@ -120,7 +120,7 @@ fn nodes_lie_on_the_curve_and_its_ends_are_exact() {
         for end in [1e-9, 1.0 - 1e-9] {
             assert!((shape.point(end) - shape.point(end.round())).norm() < 2e-9 * shape.length(), "{name}");
         }
-        let ray = Ray { origin: nodes[nodes.len() / 2] - at(0.6, 0.8), direction: at(0.6, 0.8) };
+        let ray = ProfileRay { origin: nodes[nodes.len() / 2] - at(0.6, 0.8), direction: at(0.6, 0.8) };
         let on = cast(shape.as_ref(), &ray).iter().any(|c| (c.u - 1.0).abs() < 1e-13);
         assert!(on, "{name}: a ray through a node must hit");
     }
@@ -155,8 +155,8 @@ fn scaling_by_a_power_of_two_scales_every_bit() {
             assert_eq!(larger.length(), shape.length() * factor, "{name}");
             assert_eq!(larger.bounds().max, shape.bounds().max * factor, "{name}");
             for ray in rays() {
-                let far = Ray { origin: ray.origin * factor, ..ray };
-                let expected = cast(shape.as_ref(), &ray).into_iter().map(|c| Crossing { u: c.u * factor, ..c });
+                let far = ProfileRay { origin: ray.origin * factor, ..ray };
+                let expected = cast(shape.as_ref(), &ray).into_iter().map(|c| RayCrossing { u: c.u * factor, ..c });
                 assert_eq!(cast(larger.as_ref(), &far), expected.collect::<Vec<_>>(), "{name}");
             }
         }

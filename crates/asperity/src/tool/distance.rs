@@ -7,7 +7,7 @@
 //! within an edge of the material is asked of the nearer one. At an inward crease two faces bound one corner of the material
 //! around it, and each goes on straight.
 
-use super::tool::Tool;
+use super::tool::ProfileTool;
 use crate::tensor::Vec3;
 
 /// Segments that meet at a larger angle, in radians, form a crease.
@@ -51,7 +51,7 @@ pub struct PieceEnd {
     pub along: Vec3,
 }
 
-impl Tool {
+impl ProfileTool {
     /// Its smooth pieces, profile by profile. An arc that turns as sharply as a crease, with a radius of at most `rounding`, counts as
     /// one in its middle.
     pub fn smooth_pieces(&self, rounding: f64) -> Vec<SmoothPiece> {
@@ -184,7 +184,7 @@ mod tests {
     /// A segment by its key and its nodes.
     type Segment<'a> = (&'a str, &'a [[f64; 2]]);
 
-    fn tool(profiles: &[&[Segment]]) -> Tool {
+    fn tool(profiles: &[&[Segment]]) -> ProfileTool {
         let profile = |segments: &&[Segment]| {
             let build = |(key, nodes): &Segment| {
                 let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
@@ -192,10 +192,10 @@ mod tests {
             };
             segments.iter().map(build).collect()
         };
-        Tool::new("t", profiles.iter().map(profile).collect(), Vec3::zero())
+        ProfileTool::new("t", profiles.iter().map(profile).collect(), Vec3::zero())
     }
 
-    fn round() -> Tool {
+    fn round() -> ProfileTool {
         // A stadium with a parabolic bottom would do as well: lines, arcs and a parabola that join smoothly or not.
         tool(&[&[
             ("line", &[[2.0, 0.0], [2.0, 1.0]]),

@@ -1,6 +1,6 @@
 //! Fillets: arcs that round the corners of a profile, tangent to the two straight segments that they join.
 
-use super::shapes::{Kind, find};
+use super::shapes::{ShapeKind, find};
 use crate::tensor::Vec3;
 
 /// The arc of a radius that rounds the middle corner; none where nothing turns or the profile runs back.
@@ -17,7 +17,7 @@ pub(super) fn fillet([a, b, c]: [Vec3; 3], radius: f64) -> Option<[Vec3; 3]> {
 }
 
 /// A segment of a profile before it is built: which one it was or rounds, its shape and its nodes.
-pub type Draft = (usize, &'static Kind, Vec<Vec3>);
+pub type Draft = (usize, &'static ShapeKind, Vec<Vec3>);
 
 /// Ends nearer to each other than this part of a segment's length are one point.
 const TOGETHER: f64 = 1e-9;

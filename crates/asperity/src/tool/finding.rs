@@ -8,7 +8,7 @@ const REVERSAL: f64 = 179.0;
 
 /// How grave a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
+pub enum FindingSeverity {
     /// Worth knowing.
     Note,
     /// The tool cannot be used.
@@ -17,7 +17,7 @@ pub enum Severity {
 
 /// One finding. Segments are counted from zero here and from one in the sentence that [`Display`](fmt::Display) gives.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Finding {
+pub enum ProfileFinding {
     /// There is no segment.
     Empty,
     /// A coordinate is not a finite number.
@@ -40,13 +40,13 @@ pub enum Finding {
     Open(usize, usize, [Vec3; 2]),
 }
 
-impl Finding {
+impl ProfileFinding {
     /// How grave it is.
-    pub fn severity(&self) -> Severity {
+    pub fn severity(&self) -> FindingSeverity {
         match self {
-            Self::Kink(_, _, angle) if angle.abs() < REVERSAL => Severity::Note,
-            Self::Open(..) => Severity::Note,
-            _ => Severity::Error,
+            Self::Kink(_, _, angle) if angle.abs() < REVERSAL => FindingSeverity::Note,
+            Self::Open(..) => FindingSeverity::Note,
+            _ => FindingSeverity::Error,
         }
     }
     /// The segments it is about, counted from zero; none if it is about the whole tool.
@@ -63,7 +63,7 @@ impl Finding {
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for ProfileFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let at = |p: &Vec3| format!("({}, {})", p[0], p[1]);
         match self {

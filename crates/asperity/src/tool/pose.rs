@@ -8,14 +8,14 @@ use crate::tensor::{Scalar, Vec3};
 
 /// Translation and rotation in the plane, as the unknowns of the tool's reference node give them.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Pose<T = f64> {
+pub struct PlanePose<T = f64> {
     /// Displacement of the reference point, a length.
     pub translation: Vec3<T>,
     /// Rotation about it, counter-clockwise, in radians.
     pub angle: T,
 }
 
-impl<T: Scalar> Pose<T> {
+impl<T: Scalar> PlanePose<T> {
     /// From the unknowns `ux, uy, angle`.
     pub fn new(ux: T, uy: T, angle: T) -> Self {
         Self { translation: Vec3::new(ux, uy, T::zero()), angle }
@@ -31,7 +31,7 @@ impl<T: Scalar> Pose<T> {
     }
 }
 
-impl Pose {
+impl PlanePose {
     /// Where the point that is now at `placed` stood: the inverse of [`place`](Self::place).
     pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
         let back = placed - self.translation;
@@ -65,13 +65,13 @@ mod tests {
 
     #[test]
     fn a_tool_at_rest_is_in_its_place_bit_for_bit() {
-        assert_eq!(Pose::default().place(REFERENCE, POINT), POINT);
-        assert_eq!(Pose::default().withdraw(REFERENCE, POINT), POINT);
+        assert_eq!(PlanePose::default().place(REFERENCE, POINT), POINT);
+        assert_eq!(PlanePose::default().withdraw(REFERENCE, POINT), POINT);
     }
 
     #[test]
     fn withdraw_undoes_place_and_distances_stay() {
-        let pose = Pose::new(0.4, -7.0, 2.5);
+        let pose = PlanePose::new(0.4, -7.0, 2.5);
         let placed = pose.place(REFERENCE, POINT);
         assert!((pose.withdraw(REFERENCE, placed) - POINT).norm() < 1e-14);
         let now = (placed - REFERENCE - pose.translation).norm();
@@ -81,16 +81,16 @@ mod tests {
 
     #[test]
     fn a_quarter_turn_is_counter_clockwise() {
-        let turned =
-            Pose::new(0.0, 0.0, std::f64::consts::FRAC_PI_2).place(REFERENCE, REFERENCE + Vec3::new(1.0, 0.0, 0.0));
+        let turned = PlanePose::new(0.0, 0.0, std::f64::consts::FRAC_PI_2)
+            .place(REFERENCE, REFERENCE + Vec3::new(1.0, 0.0, 0.0));
         assert!((turned - REFERENCE - Vec3::new(0.0, 1.0, 0.0)).norm() < 1e-15);
     }
 
     #[test]
     fn rates_are_the_dual_derivatives_of_place() {
         let (ux, uy, angle) = (0.3, -0.2, 0.9);
-        let dual = Pose::new(Dual::<3>::variable(ux, 0), Dual::variable(uy, 1), Dual::variable(angle, 2));
-        let (placed, pose) = (dual.place(REFERENCE, POINT), Pose::new(ux, uy, angle));
+        let dual = PlanePose::new(Dual::<3>::variable(ux, 0), Dual::variable(uy, 1), Dual::variable(angle, 2));
+        let (placed, pose) = (dual.place(REFERENCE, POINT), PlanePose::new(ux, uy, angle));
         let rates = pose.rates(REFERENCE, placed.re());
         for (j, rate) in rates.iter().enumerate() {
             for i in 0..2 {

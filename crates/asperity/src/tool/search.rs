@@ -5,7 +5,7 @@
 //! out what a ray cannot meet; what it finds is found without it too. A ray passes by a box if it does so seen along one
 //! of the axes.
 
-use super::shapes::{Bounds, Ray};
+use super::shapes::{BoundingBox, ProfileRay};
 use crate::tensor::Vec3;
 
 /// Fewer pieces than this are tried one after another.
@@ -13,48 +13,48 @@ const LEAF: usize = 4;
 
 /// Boxes around boxes around pieces.
 #[derive(Debug, Clone)]
-pub struct Tree {
+pub struct BoxTree {
     /// The root first; the first child of an inner node stands right behind it.
-    nodes: Vec<Node>,
+    nodes: Vec<BoxNode>,
     /// Pieces, in the order of the leaves.
     order: Vec<usize>,
 }
 
 #[derive(Debug, Clone)]
-struct Node {
+struct BoxNode {
     centre: Vec3,
     half: Vec3,
-    content: Content,
+    content: BoxContent,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Content {
+enum BoxContent {
     /// `order[from..to]`.
     Leaf(usize, usize),
     /// The place of the second child.
     Inner(usize),
 }
 
-impl Node {
+impl BoxNode {
     /// From a point to its box.
     fn distance(&self, x: Vec3) -> f64 {
         Vec3(std::array::from_fn(|i| ((x[i] - self.centre[i]).abs() - self.half[i]).max(0.0))).norm()
     }
 }
 
-impl Tree {
+impl BoxTree {
     /// A tree over boxes, each widened by `margin` on all sides.
-    pub fn new(boxes: &[Bounds], margin: f64) -> Self {
+    pub fn new(boxes: &[BoundingBox], margin: f64) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len()).collect() };
         tree.grow(boxes, margin, 0, boxes.len());
         tree
     }
 
-    fn grow(&mut self, boxes: &[Bounds], margin: f64, from: usize, to: usize) {
-        let all = self.order[from..to].iter().fold(Bounds::EMPTY, |b, &i| b.union(boxes[i]));
+    fn grow(&mut self, boxes: &[BoundingBox], margin: f64, from: usize, to: usize) {
+        let all = self.order[from..to].iter().fold(BoundingBox::EMPTY, |b, &i| b.union(boxes[i]));
         let half = (all.max - all.min) * 0.5 + Vec3([margin; 3]);
         let here = self.nodes.len();
-        self.nodes.push(Node { centre: all.centre(), half, content: Content::Leaf(from, to) });
+        self.nodes.push(BoxNode { centre: all.centre(), half, content: BoxContent::Leaf(from, to) });
         if to - from <= LEAF {
             return;
         }
@@ -64,18 +64,20 @@ impl Tree {
         self.order[from..to].sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
         let middle = from + (to - from) / 2;
         self.grow(boxes, margin, from, middle);
-        self.nodes[here].content = Content::Inner(self.nodes.len());
+        self.nodes[here].content = BoxContent::Inner(self.nodes.len());
         self.grow(boxes, margin, middle, to);
     }
 
     /// The same tree around pieces that have moved, each box widened by `margin` on all sides.
-    pub fn refit(&self, boxes: &[Bounds], margin: f64) -> Self {
+    pub fn refit(&self, boxes: &[BoundingBox], margin: f64) -> Self {
         let mut tree = self.clone();
-        let mut all = vec![Bounds::EMPTY; tree.nodes.len()];
+        let mut all = vec![BoundingBox::EMPTY; tree.nodes.len()];
         for here in (0..tree.nodes.len()).rev() {
             all[here] = match tree.nodes[here].content {
-                Content::Leaf(from, to) => self.order[from..to].iter().fold(Bounds::EMPTY, |b, &i| b.union(boxes[i])),
-                Content::Inner(second) => all[here + 1].union(all[second]),
+                BoxContent::Leaf(from, to) => {
+                    self.order[from..to].iter().fold(BoundingBox::EMPTY, |b, &i| b.union(boxes[i]))
+                }
+                BoxContent::Inner(second) => all[here + 1].union(all[second]),
             };
             let node = &mut tree.nodes[here];
             (node.centre, node.half) = (all[here].centre(), (all[here].max - all[here].min) * 0.5 + Vec3([margin; 3]));
@@ -84,7 +86,7 @@ impl Tree {
     }
 
     /// Calls `found` with every piece whose box the part of the ray from `back` to `ahead` may meet.
-    pub fn along(&self, ray: &Ray, [back, ahead]: [f64; 2], found: &mut dyn FnMut(usize)) {
+    pub fn along(&self, ray: &ProfileRay, [back, ahead]: [f64; 2], found: &mut dyn FnMut(usize)) {
         let sides = Vec3(ray.direction.0.map(f64::abs));
         self.visit(
             0,
@@ -103,7 +105,7 @@ impl Tree {
     }
 
     /// Calls `found` with every piece whose box may overlap `bounds`.
-    pub fn near(&self, bounds: &Bounds, found: &mut dyn FnMut(usize)) {
+    pub fn near(&self, bounds: &BoundingBox, found: &mut dyn FnMut(usize)) {
         self.visit(
             0,
             &mut |node| {
@@ -127,8 +129,8 @@ impl Tree {
             return;
         }
         match self.nodes[at].content {
-            Content::Leaf(from, to) => self.order[from..to].iter().for_each(|&i| *least = least.min(of(i))),
-            Content::Inner(second) => {
+            BoxContent::Leaf(from, to) => self.order[from..to].iter().for_each(|&i| *least = least.min(of(i))),
+            BoxContent::Inner(second) => {
                 let mut both = [at + 1, second].map(|child| (child, self.nodes[child].distance(x)));
                 if both[1].1 < both[0].1 {
                     both.swap(0, 1);
@@ -138,14 +140,14 @@ impl Tree {
         }
     }
 
-    fn visit(&self, at: usize, wanted: &mut dyn FnMut(&Node) -> bool, found: &mut dyn FnMut(usize)) {
+    fn visit(&self, at: usize, wanted: &mut dyn FnMut(&BoxNode) -> bool, found: &mut dyn FnMut(usize)) {
         let node = &self.nodes[at];
         if !wanted(node) {
             return;
         }
         match node.content {
-            Content::Leaf(from, to) => self.order[from..to].iter().for_each(|&i| found(i)),
-            Content::Inner(second) => {
+            BoxContent::Leaf(from, to) => self.order[from..to].iter().for_each(|&i| found(i)),
+            BoxContent::Inner(second) => {
                 self.visit(at + 1, wanted, found);
                 self.visit(second, wanted, found);
             }

@@ -1,7 +1,7 @@
 //! Sharp edges, free ends and small roundings of a profile: what may lie within one face of a body.
 
-use super::shapes::Shape;
-use super::tool::Tool;
+use super::shapes::ProfileShape;
+use super::tool::ProfileTool;
 use crate::tensor::Vec3;
 
 /// A crease or an arc that turns outward by at least this angle, in radians, is a tip: the material between its flanks takes less
@@ -19,7 +19,7 @@ pub struct Tip {
     pub flanks: [Vec3; 2],
 }
 
-impl Tool {
+impl ProfileTool {
     /// Its tips, with roundings of radii up to `rounding`.
     pub fn tips(&self, rounding: f64) -> Vec<Tip> {
         let mut tips = Vec::new();
@@ -53,7 +53,7 @@ impl Tool {
     }
 }
 
-impl dyn Shape {
+impl dyn ProfileShape {
     /// Whether it is an arc that turns outward as sharply as a tip, with a radius of at most `largest`.
     pub(super) fn is_tip(&self, largest: f64) -> bool {
         // Both halves of an arc turn by the same angle.
@@ -77,7 +77,7 @@ mod tests {
             let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
             find(kind).and_then(|kind| kind.build(&nodes)).unwrap()
         };
-        Tool::new("t", vec![profile.iter().map(build).collect()], Vec3::zero()).tips(0.3)
+        ProfileTool::new("t", vec![profile.iter().map(build).collect()], Vec3::zero()).tips(0.3)
     }
 
     #[test]

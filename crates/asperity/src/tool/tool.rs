@@ -1,20 +1,20 @@
 //! A rigid tool and what a ray meets on it.
 
-use super::search::Tree;
-use super::shapes::{Bounds, Ray, Shape};
-use super::{Finding, Pose, check};
+use super::search::BoxTree;
+use super::shapes::{BoundingBox, ProfileRay, ProfileShape};
+use super::{PlanePose, ProfileFinding, check};
 use crate::tensor::{Scalar, Vec3};
 
 /// A rigid tool in the plane: chains of segments with the material on their left, and a reference point.
 #[derive(Debug)]
-pub struct Tool {
+pub struct ProfileTool {
     name: String,
     reference: Vec3,
-    segments: Vec<Box<dyn Shape>>,
+    segments: Vec<Box<dyn ProfileShape>>,
     chains: Vec<Chain>,
     size: f64,
-    bounds: Bounds,
-    tree: Tree,
+    bounds: BoundingBox,
+    tree: BoxTree,
 }
 
 /// One profile: segments that follow each other.
@@ -41,18 +41,18 @@ pub struct Hit {
     pub normal: Vec3,
 }
 
-impl Tool {
+impl ProfileTool {
     /// A tool of one or more profiles, each a list of segments in the order of travel; `reference` is the point that
     /// its translation moves and about which it turns. Anything is accepted here; [`check`](Self::check) says what is
     /// wrong with it.
-    pub fn new(name: impl Into<String>, profiles: Vec<Vec<Box<dyn Shape>>>, reference: Vec3) -> Self {
+    pub fn new(name: impl Into<String>, profiles: Vec<Vec<Box<dyn ProfileShape>>>, reference: Vec3) -> Self {
         let lengths: Vec<usize> = profiles.iter().map(Vec::len).collect();
         let segments: Vec<_> = profiles.into_iter().flatten().collect();
-        let boxes: Vec<Bounds> = segments.iter().map(|segment| segment.bounds()).collect();
-        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b));
+        let boxes: Vec<BoundingBox> = segments.iter().map(|segment| segment.bounds()).collect();
+        let bounds = boxes.iter().fold(BoundingBox::EMPTY, |all, &b| all.union(b));
         let size = bounds.size();
         let chains = chains(&segments, &lengths, check::TOGETHER * size);
-        let tree = Tree::new(&boxes, 1e-9 * size);
+        let tree = BoxTree::new(&boxes, 1e-9 * size);
         Self { name: name.into(), reference, segments, chains, size, bounds, tree }
     }
 
@@ -65,7 +65,7 @@ impl Tool {
         self.reference
     }
     /// Its segments, in the order of the profiles.
-    pub fn segments(&self) -> &[Box<dyn Shape>] {
+    pub fn segments(&self) -> &[Box<dyn ProfileShape>] {
         &self.segments
     }
     /// Its profiles.
@@ -73,7 +73,7 @@ impl Tool {
         &self.chains
     }
     /// The box around it in its own frame.
-    pub fn bounds(&self) -> Bounds {
+    pub fn bounds(&self) -> BoundingBox {
         self.bounds
     }
     /// The diagonal of that box, a length.
@@ -81,29 +81,29 @@ impl Tool {
         self.size
     }
     /// What is wrong with its profiles or worth knowing; `axisymmetric` ones must have `r >= 0`.
-    pub fn check(&self, axisymmetric: bool) -> Vec<Finding> {
+    pub fn check(&self, axisymmetric: bool) -> Vec<ProfileFinding> {
         check::findings(self, axisymmetric)
     }
-    pub(super) fn tree(&self) -> &Tree {
+    pub(super) fn tree(&self) -> &BoxTree {
         &self.tree
     }
 
     /// Present position of the material point at `s` on a segment.
-    pub fn point<T: Scalar>(&self, pose: &Pose<T>, segment: usize, s: f64) -> Vec3<T> {
+    pub fn point<T: Scalar>(&self, pose: &PlanePose<T>, segment: usize, s: f64) -> Vec3<T> {
         pose.place(self.reference, self.segments[segment].point(s))
     }
     /// Present `dx/ds` there.
-    pub fn tangent(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
+    pub fn tangent(&self, pose: &PlanePose, segment: usize, s: f64) -> Vec3 {
         pose.rotate(self.segments[segment].tangent(s))
     }
     /// Present outward unit normal there: the material is on the left.
-    pub fn normal(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
+    pub fn normal(&self, pose: &PlanePose, segment: usize, s: f64) -> Vec3 {
         pose.rotate(-self.segments[segment].tangent(s).left().unit())
     }
 
     /// All places with `u` in `range` where the line through `ray` meets the tool, by segment and then by `u`;
     /// `hits` is cleared first and its memory reused.
-    pub fn cast(&self, pose: &Pose, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+    pub fn cast(&self, pose: &PlanePose, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
         hits.clear();
         let own = self.own_frame(pose, ray);
         self.tree.along(&own, range, &mut |segment| {
@@ -116,14 +116,14 @@ impl Tool {
         hits.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
     }
 
-    /// Where a ray meets one given segment, whether or not others are nearer, by [`Shape::meet_near`].
-    pub fn cast_segment(&self, pose: &Pose, segment: usize, ray: &Ray, near: f64) -> Option<Hit> {
+    /// Where a ray meets one given segment, whether or not others are nearer, by [`ProfileShape::meet_near`].
+    pub fn cast_segment(&self, pose: &PlanePose, segment: usize, ray: &ProfileRay, near: f64) -> Option<Hit> {
         let (place, tangent) = self.segments[segment].meet_near(&self.own_frame(pose, ray), near)?;
         Some(Hit { segment, s: [place.s, 0.0], u: place.u, normal: pose.rotate(-tangent.left().unit()) })
     }
 
     /// The profiles in space as polylines nowhere farther than `sagitta` from them, for drawing.
-    pub fn outline(&self, pose: &Pose, sagitta: f64) -> Vec<Vec<Vec3>> {
+    pub fn outline(&self, pose: &PlanePose, sagitta: f64) -> Vec<Vec<Vec3>> {
         let polyline = |chain: &Chain| {
             let mut points: Vec<Vec3> = Vec::new();
             for segment in &self.segments[chain.first..chain.end] {
@@ -135,17 +135,17 @@ impl Tool {
         self.chains.iter().map(polyline).collect()
     }
 
-    fn own_frame(&self, pose: &Pose, ray: &Ray) -> Ray {
+    fn own_frame(&self, pose: &PlanePose, ray: &ProfileRay) -> ProfileRay {
         let origin = pose.withdraw(self.reference, ray.origin);
-        Ray { origin, direction: pose.rotate_back(ray.direction) }
+        ProfileRay { origin, direction: pose.rotate_back(ray.direction) }
     }
-    fn hit(&self, pose: &Pose, segment: usize, u: f64, s: f64) -> Hit {
+    fn hit(&self, pose: &PlanePose, segment: usize, u: f64, s: f64) -> Hit {
         Hit { segment, s: [s, 0.0], u, normal: self.normal(pose, segment, s) }
     }
 }
 
 /// Cuts the list of all segments into profiles and finds which of them close.
-fn chains(segments: &[Box<dyn Shape>], lengths: &[usize], together: f64) -> Vec<Chain> {
+fn chains(segments: &[Box<dyn ProfileShape>], lengths: &[usize], together: f64) -> Vec<Chain> {
     let mut end = 0;
     let ranges = lengths.iter().filter(|&&length| length > 0).map(|length| {
         end += length;

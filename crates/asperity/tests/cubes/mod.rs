@@ -2,14 +2,14 @@
 
 use super::perturbed::{Random, options};
 use asperity::contact::field::FieldTarget;
-use asperity::contact::{Loads, PaperContact, PaperParts, PointSurface};
+use asperity::contact::{LoadedSides, PaperContact, PaperParts, PointSurface};
 use asperity::interface::InterfaceLaw;
 use asperity::mesh::{Cell, Space, generate::Block};
 use asperity::system::Dofs;
 use asperity::tensor::Vec3;
 use asperity::tool::shapes;
 use asperity::tool::space::solids::{Facets, cone, extruded, polygons, sphere, torus};
-use asperity::tool::space::{Frame, Tool};
+use asperity::tool::space::{ProfileFrame, SpaceTool};
 use std::sync::Arc;
 
 /// A point.
@@ -29,7 +29,7 @@ fn target(kind: &str) -> Facets {
         _ => {
             let nodes = [at(4.0, -0.3, 0.0), at(0.5, -0.02, 0.0), at(-3.0, -0.3, 0.0)];
             let shape = shapes::find(kind).unwrap().build(&nodes).unwrap();
-            let frame = Frame::across(at(0.0, 4.0, 0.0), at(0.0, -1.0, 0.01), at(1.0, 0.0, 0.0)).unwrap();
+            let frame = ProfileFrame::across(at(0.0, 4.0, 0.0), at(0.0, -1.0, 0.01), at(1.0, 0.0, 0.0)).unwrap();
             extruded(vec![shape], frame, 8.0)
         }
     }
@@ -44,7 +44,7 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L) ->
     }
     let dofs = Dofs::new(3, mesh.points.len(), 1);
     let mesh = Arc::new(mesh);
-    let tool = Arc::new(Tool::new("t", target(kind), at(0.5, 0.3, -1.0)));
+    let tool = Arc::new(SpaceTool::new("t", target(kind), at(0.5, 0.3, -1.0)));
     let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
     let lower = mesh.groups["b.back"].sides.clone();
     let parts = PaperParts {
@@ -56,7 +56,7 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L) ->
         boundary,
         target: FieldTarget::solid_tool(tool, 0, &dofs),
         law: law.into(),
-        options: options(Loads::Both),
+        options: options(LoadedSides::Both),
     };
     (PaperContact::new(parts), dofs)
 }

@@ -1,7 +1,7 @@
 //! A small block in space, `upper`, that touches a larger one, `lower`, from above, and random motions of both.
 
 use super::perturbed::Random;
-use asperity::contact::field::{FieldTarget, Surface};
+use asperity::contact::field::{FieldSurface, FieldTarget};
 use asperity::contact::{ContactOptions, PaperContact, PaperParts, PointSurface};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::{Mesh, Space};
@@ -31,7 +31,7 @@ pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions
         surface: PointSurface::new(&mesh, sides(own), (Space::Solid, 1.0), None),
         space: Space::Solid,
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
-        target: FieldTarget::faces(Surface::whole(&mesh, sides(other), Space::Solid, 1.0), &mesh),
+        target: FieldTarget::faces(FieldSurface::whole(&mesh, sides(other), Space::Solid, 1.0), &mesh),
         law: Coulomb::new(friction).into(),
         options,
         dofs: dofs.clone(),

@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test binary uses a part of it
 
 use asperity::Failure;
-use asperity::contact::{ContactForm, ContactOptions, Loads, Overlap};
+use asperity::contact::{ContactForm, ContactOptions, LoadedSides, Overlap};
 use asperity::system::{Attempt, History, Instant, Local, State, Stencil, Stencils, TangentCheck, Term, check_tangent};
 
 /// Numbers in (-1, 1) from a linear congruence (Knuth's MMIX), the same in every run.
@@ -39,7 +39,7 @@ pub fn commit(term: &dyn Term, from: &State, u: Vec<f64>) -> Result<State, Failu
 }
 
 /// Options of a contact whose moduli and lengths are of the order of one.
-pub fn options(loads: Loads) -> ContactOptions {
+pub fn options(loads: LoadedSides) -> ContactOptions {
     ContactOptions {
         penalty: 1.0,
         tangential_penalty: 0.7,

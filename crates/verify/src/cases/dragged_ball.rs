@@ -3,7 +3,7 @@
 use crate::bench::{Bench, points};
 use crate::{Case, Measured};
 use asperity::Error;
-use asperity::contact::PointRecord;
+use asperity::contact::ContactRecord;
 
 /// The case.
 pub const CASE: Case = Case { name: "dragged-ball", measure };
@@ -31,7 +31,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 }
 
 /// Friction along the motion over all friction.
-fn along(points: &[PointRecord]) -> f64 {
+fn along(points: &[ContactRecord]) -> f64 {
     let forward: f64 = points.iter().map(|point| point.area * point.shear * point.along[0]).sum();
     forward / points.iter().map(|point| point.area * point.shear).sum::<f64>()
 }

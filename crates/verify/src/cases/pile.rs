@@ -4,7 +4,7 @@
 use crate::bench::{Bench, points};
 use crate::{Case, Measured};
 use asperity::Error;
-use asperity::contact::PointRecord;
+use asperity::contact::ContactRecord;
 use asperity::output::figure::Chart;
 
 /// The case.
@@ -54,7 +54,7 @@ fn push(bench: &Bench, &(_, _, deck, whole, [at_rest, unit]): &Pile) -> Result<(
     let section = 0.25 * std::f64::consts::PI * DIAMETER * DIAMETER;
     let (mut curve, mut normal) = (vec![(0.0, 0.0)], 0.0);
     bench.follow(deck, &sets, |model, state| {
-        let cone: Vec<PointRecord> = points(model, state, 0).into_iter().filter(on_cone).collect();
+        let cone: Vec<ContactRecord> = points(model, state, 0).into_iter().filter(on_cone).collect();
         let force: f64 = cone.iter().map(|p| -p.force()[1]).sum();
         let area: f64 = cone.iter().map(|p| p.area).sum();
         normal = (cone.iter().map(|p| p.pressure * p.area).sum::<f64>() / area - at_rest) / unit;
@@ -64,7 +64,7 @@ fn push(bench: &Bench, &(_, _, deck, whole, [at_rest, unit]): &Pile) -> Result<(
 }
 
 /// Whether a closed point lies on the cone, whose normal dips by 30 degrees, or on the rounding of its ends.
-fn on_cone(point: &PointRecord) -> bool {
+fn on_cone(point: &ContactRecord) -> bool {
     point.pressure > 0.0 && point.inward[1] < -0.1
 }
 

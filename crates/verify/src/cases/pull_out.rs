@@ -3,7 +3,7 @@
 use crate::bench::{Bench, penalty, points};
 use crate::{Case, Measured};
 use asperity::Error;
-use asperity::contact::{PointRecord, PointStatus};
+use asperity::contact::{ContactRecord, PointStatus};
 
 /// The case.
 pub const CASE: Case = Case { name: "pull-out", measure };
@@ -58,7 +58,7 @@ fn risen(penalty: f64, [from, to]: [f64; 2]) -> f64 {
     stiffness * (dilation(to) - dilation(from))
 }
 
-fn mean(points: &[PointRecord], of: impl Fn(&PointRecord) -> (f64, f64)) -> (f64, f64) {
+fn mean(points: &[ContactRecord], of: impl Fn(&ContactRecord) -> (f64, f64)) -> (f64, f64) {
     let closed = || points.iter().filter(|point| point.status != PointStatus::Open);
     let n = closed().count() as f64;
     let sum = closed().map(of).fold((0.0, 0.0), |sum, value| (sum.0 + value.0, sum.1 + value.1));

@@ -4,7 +4,7 @@ use crate::bench::{Bench, both_forms, points};
 use crate::von_karman::Gap;
 use crate::{Case, Measured};
 use asperity::Error;
-use asperity::contact::PointRecord;
+use asperity::contact::ContactRecord;
 use asperity::output::figure::Chart;
 
 /// The case.
@@ -89,7 +89,7 @@ impl Pass {
 
     /// Means over the steady part of force, torque, neutral angle less that of the theory, and pressure there; and the
     /// points of the arc at the end.
-    fn roll(&self, bench: &Bench, form: &[String]) -> Result<([f64; 4], Vec<PointRecord>), Error> {
+    fn roll(&self, bench: &Bench, form: &[String]) -> Result<([f64; 4], Vec<ContactRecord>), Error> {
         let (mut sum, mut count, mut arc) = ([0.0; 4], 0.0, Vec::new());
         bench.follow("strip.toml", &[&self.sets(bench), form].concat(), |model, state| {
             if state.time < STEADY {
@@ -109,16 +109,16 @@ impl Pass {
     }
 
     /// Draws pressure and friction along the way of the strip, and the pressure of the theory in thin lines.
-    fn draw(&self, chart: &mut Chart, arc: &[PointRecord]) {
+    fn draw(&self, chart: &mut Chart, arc: &[ContactRecord]) {
         let ([before, after], style) = (self.gap.thickness, chart.series.len() / 3);
-        let at = |y: &dyn Fn(&PointRecord) -> f64| arc.iter().map(|p| [-self.angle(p.position[0]), y(p)]).collect();
+        let at = |y: &dyn Fn(&ContactRecord) -> f64| arc.iter().map(|p| [-self.angle(p.position[0]), y(p)]).collect();
         chart.line(format!("{before} to {after}"), at(&|p| p.pressure)).styled(style);
         chart.line("", at(&friction)).styled(style);
         let theory = self.gap.theory().pressure.iter().map(|&[a, p]| [-a.to_degrees(), p]).collect();
         chart.line("", theory).styled(style).thin();
     }
 
-    fn state(&self, arc: &[PointRecord]) -> [f64; 4] {
+    fn state(&self, arc: &[ContactRecord]) -> [f64; 4] {
         let force: f64 = arc.iter().map(|p| -p.force()[1]).sum();
         // Only friction turns a circle about its centre.
         let torque: f64 = arc.iter().map(|p| friction(p) * p.area * self.gap.radius).sum();
@@ -128,12 +128,12 @@ impl Pass {
 }
 
 /// Friction on the strip along its way.
-fn friction(point: &PointRecord) -> f64 {
+fn friction(point: &ContactRecord) -> f64 {
     point.shear * point.along[0].signum()
 }
 
 /// Where friction changes its direction, from forwards to backwards, and the pressure there.
-fn neutral(arc: &[PointRecord]) -> [f64; 2] {
+fn neutral(arc: &[ContactRecord]) -> [f64; 2] {
     let Some(two) = arc.windows(2).find(|two| friction(&two[0]) > 0.0 && friction(&two[1]) <= 0.0) else {
         return [f64::NAN; 2];
     };

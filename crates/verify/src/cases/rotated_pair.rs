@@ -5,7 +5,7 @@
 use crate::bench::{Bench, points, reaction};
 use crate::{Case, Measured};
 use asperity::Error;
-use asperity::contact::{PointRecord, PointStatus};
+use asperity::contact::{ContactRecord, PointStatus};
 use asperity::model::Model;
 use asperity::solve::{RunOptions, Silent};
 use asperity::system::State;
@@ -31,7 +31,7 @@ fn turned(bench: &Bench, deck: &str) -> Result<Measured, Error> {
     carry_on_turning(&model, &mut run.state);
     run.run(&RunOptions::default(), &mut Silent)?;
     let (turned, now) = (points(&model, &run.state, 0), reaction(&model, &run.state, "block.top"));
-    let stick = |points: &[PointRecord]| points.iter().filter(|point| point.status == PointStatus::Stick).count();
+    let stick = |points: &[ContactRecord]| points.iter().filter(|point| point.status == PointStatus::Stick).count();
     Ok(vec![
         ("sticking".into(), (stick(&loaded).min(stick(&turned)) as f64) / loaded.len() as f64),
         ("sheared".into(), largest(&loaded, |point| point.shear.abs()) / largest(&loaded, |point| point.pressure)),
@@ -43,11 +43,11 @@ fn turned(bench: &Bench, deck: &str) -> Result<Measured, Error> {
     ])
 }
 
-fn largest(points: &[PointRecord], value: impl Fn(&PointRecord) -> f64) -> f64 {
+fn largest(points: &[ContactRecord], value: impl Fn(&ContactRecord) -> f64) -> f64 {
     points.iter().map(value).fold(0.0, f64::max)
 }
 
-fn change(before: &[PointRecord], after: &[PointRecord], value: impl Fn(&PointRecord) -> f64) -> f64 {
+fn change(before: &[ContactRecord], after: &[ContactRecord], value: impl Fn(&ContactRecord) -> f64) -> f64 {
     before.iter().zip(after).map(|(before, after)| (value(after) - value(before)).abs()).fold(0.0, f64::max)
 }
 

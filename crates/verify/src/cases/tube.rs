@@ -3,7 +3,7 @@
 use crate::bench::{Bench, Solved, points};
 use crate::{Case, Measured};
 use asperity::Error;
-use asperity::contact::PointRecord;
+use asperity::contact::ContactRecord;
 
 /// The case.
 pub const CASE: Case = Case { name: "tube", measure };
@@ -139,9 +139,9 @@ fn frictionless(bench: &Bench, element: &Element, measured: &mut Measured) -> Re
 }
 
 /// Mean pressure of the land away from its ends, and the largest at the leading end.
-fn pressures(points: &[PointRecord]) -> (f64, f64) {
+fn pressures(points: &[ContactRecord]) -> (f64, f64) {
     let lead = points.iter().map(|point| point.position[1]).fold(f64::MAX, f64::min);
-    let behind = |point: &&PointRecord, from: f64, to: f64| (from..to).contains(&(point.position[1] - lead));
+    let behind = |point: &&ContactRecord, from: f64, to: f64| (from..to).contains(&(point.position[1] - lead));
     let middle: Vec<_> = points.iter().filter(|point| behind(point, 35.0, 65.0)).collect();
     let area: f64 = middle.iter().map(|point| point.area).sum();
     let plateau = middle.iter().map(|point| point.pressure * point.area).sum::<f64>() / area;

@@ -2,13 +2,13 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::cover::Patch;
-use super::faces::{LEAST_COSINE, Ray};
+use super::faces::{FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::point::Touched;
 use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::term::{FieldContact, FieldTarget};
-use super::tip::Found;
+use super::tip::TipFoot;
 use crate::contact::augment;
 use crate::contact::increment::{in_contact, refuse_turn};
 use crate::contact::kink::answer;
@@ -38,7 +38,7 @@ pub struct FieldAttempt<'a> {
     /// The accepted configuration.
     pub before: Configuration<'a>,
     /// Where the tips of the tool lay in it.
-    pub tips_before: Vec<Option<Found>>,
+    pub tips_before: Vec<Option<TipFoot>>,
     /// Largest admissible penetration at each face.
     pub depths: Vec<f64>,
     /// Largest gap at which the target is seen.
@@ -67,7 +67,7 @@ impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
     pub(super) fn find(
         &self,
-        (now, tips): (&Configuration, Vec<Option<Found>>),
+        (now, tips): (&Configuration, Vec<Option<TipFoot>>),
         reach: f64,
         depths: &[f64],
         mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
@@ -182,18 +182,18 @@ impl FieldAttempt<'_> {
         patch: &Patch,
         xi: [f64; 2],
         known: impl Fn(usize) -> bool,
-    ) -> Option<(usize, super::faces::Projection)> {
+    ) -> Option<(usize, super::faces::FaceProjection)> {
         let (Some(faces), TargetInPlace::Faces(before)) = (self.contact.target.as_faces(), &self.before.target) else {
             return None;
         };
         let at = self.before.face(patch.face).at(xi);
-        let ray = Ray { x: at.x, n: at.normal.unit() };
+        let ray = FaceRay { x: at.x, n: at.normal.unit() };
         let range = [-2.0 * self.depths[patch.face], 2.0 * self.reach];
-        let admits = |face: usize, hit: &super::faces::Projection| {
+        let admits = |face: usize, hit: &super::faces::FaceProjection| {
             self.contact.may_touch(patch.face, face) && -hit.normal().dot(ray.n) > LEAST_COSINE && known(face)
         };
         let present = faces.project(patch.target, before.placed(patch.target), &ray).map(|hit| (patch.target, hit));
-        let same = |(face, hit): &(usize, super::faces::Projection)| {
+        let same = |(face, hit): &(usize, super::faces::FaceProjection)| {
             let within = faces.surface.faces[*face].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
             within && admits(*face, hit)
         };

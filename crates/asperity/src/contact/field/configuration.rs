@@ -1,19 +1,19 @@
 //! Both sides of a contact in place, and which part of a face sees which part of the target.
 
 use super::cover::{FaceInPlace, Patch, between_vertices, over_piece};
-use super::face::{CORNERS, Placed};
-use super::faces::{FacesInPlace, LEAST_COSINE, Ray};
+use super::face::{CORNERS, PlacedFace};
+use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
 use super::term::{FieldContact, FieldTarget};
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
-use crate::tool::Bounds;
+use crate::tool::BoundingBox;
 
 /// Both sides of a contact at given unknowns.
 pub struct Configuration<'a> {
     /// The contact.
     pub contact: &'a FieldContact,
     /// The faces of the surface.
-    pub placed: Vec<Placed>,
+    pub placed: Vec<PlacedFace>,
     /// Outward unit normals at the nodes of the field; none where nothing asks for them.
     pub normals: Vec<Vec3>,
     /// The target.
@@ -32,7 +32,7 @@ impl<'a> Configuration<'a> {
     /// At unknowns `u`.
     pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
         let (surface, site) = (&contact.surface, (&*contact.mesh, &contact.dofs));
-        let placed: Vec<Placed> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
+        let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
         let target = match &contact.target {
@@ -55,7 +55,7 @@ impl<'a> Configuration<'a> {
 
 /// What a search finds on a face.
 #[derive(Debug, Clone, Copy)]
-pub struct Seen {
+pub struct SeenPart {
     /// The part of the face, and what it sees.
     pub patch: Patch,
     /// Least gap among its samples.
@@ -66,7 +66,7 @@ pub struct Seen {
 
 impl Configuration<'_> {
     /// The patches of a face that look at it, within `reach` or nearly so.
-    pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<Seen> {
+    pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<SeenPart> {
         if !self.contact.surface.plane {
             return self.patches_in_space(number, reach, near);
         }
@@ -81,7 +81,7 @@ impl Configuration<'_> {
                 }
             }
             TargetInPlace::Faces(faces) => {
-                let all = Bounds::of(face.placed.nodes().iter().copied());
+                let all = BoundingBox::of(face.placed.nodes().iter().copied());
                 // Farther than the band, since a node has one and not each of its faces.
                 faces.near(&all, 2.0 * reach, near);
                 for &target in near.iter().filter(|&&target| self.contact.may_touch(number, target)) {
@@ -98,7 +98,7 @@ impl Configuration<'_> {
     }
 
     /// Gaps of a patch at `places`, the last of them its middle; none if it does not look at the surface.
-    pub(super) fn judge(&self, face: &FaceInPlace, patch: Patch, places: &[[f64; 2]]) -> Option<Seen> {
+    pub(super) fn judge(&self, face: &FaceInPlace, patch: Patch, places: &[[f64; 2]]) -> Option<SeenPart> {
         let (mut looks, mut least, mut middle) = (false, f64::INFINITY, f64::INFINITY);
         let mut gap = |xi: [f64; 2]| {
             let at = face.at(xi);
@@ -109,7 +109,7 @@ impl Configuration<'_> {
                     Some(foot.gap)
                 }
                 TargetInPlace::Faces(faces) => {
-                    let ray = Ray { x: at.x, n: at.normal.unit() };
+                    let ray = FaceRay { x: at.x, n: at.normal.unit() };
                     let hit =
                         self.contact.target.as_faces()?.project(patch.target, faces.placed(patch.target), &ray)?;
                     looks |= -hit.normal().dot(ray.n) > LEAST_COSINE;
@@ -121,7 +121,7 @@ impl Configuration<'_> {
             middle = gap(xi)?;
             least = least.min(middle);
         }
-        looks.then_some(Seen { patch, least, middle })
+        looks.then_some(SeenPart { patch, least, middle })
     }
 }
 
@@ -131,10 +131,10 @@ fn samples([from, to]: [f64; 2]) -> [[f64; 2]; 3] {
 }
 
 /// Of patches of one face that lie over each other, keeps the nearest.
-fn keep_nearest(found: &mut Vec<Seen>) {
+fn keep_nearest(found: &mut Vec<SeenPart>) {
     let overlap =
-        |a: &Seen, b: &Seen| a.patch.near[1].min(b.patch.near[1]) - a.patch.near[0].max(b.patch.near[0]) > 1e-6;
-    let nearer = |a: &Seen, b: &Seen| (a.middle.abs(), a.patch.target) < (b.middle.abs(), b.patch.target);
+        |a: &SeenPart, b: &SeenPart| a.patch.near[1].min(b.patch.near[1]) - a.patch.near[0].max(b.patch.near[0]) > 1e-6;
+    let nearer = |a: &SeenPart, b: &SeenPart| (a.middle.abs(), a.patch.target) < (b.middle.abs(), b.patch.target);
     let all = found.clone();
     found.retain(|seen| !all.iter().any(|other| overlap(seen, other) && nearer(other, seen)));
 }

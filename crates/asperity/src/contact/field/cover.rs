@@ -5,7 +5,7 @@
 //! normal of the surface passes through the vertex, `(x_V - x(xi)) . e_S(xi) = 0`; of a tool, where the surface crosses the
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
-use super::face::{CORNERS, Face, Placed, ShapeFunctions};
+use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
 use super::tip::Landing;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
@@ -29,9 +29,9 @@ pub struct Patch {
 #[derive(Debug, Clone, Copy)]
 pub struct FaceInPlace<'a> {
     /// The face.
-    pub face: &'a Face,
+    pub face: &'a FieldFace,
     /// Its nodes.
-    pub placed: Placed,
+    pub placed: PlacedFace,
     /// Unit normals at its corners.
     pub normals: [Vec3; CORNERS],
     /// Whether it is an edge of the plane.
@@ -40,7 +40,7 @@ pub struct FaceInPlace<'a> {
 
 /// A place on a face in place.
 #[derive(Debug, Clone, Copy)]
-pub struct Frame {
+pub struct FaceFrame {
     /// Position.
     pub x: Vec3,
     /// Tangents.
@@ -57,11 +57,11 @@ pub struct Frame {
 
 impl FaceInPlace<'_> {
     /// A place of it.
-    pub fn at(&self, xi: [f64; 2]) -> Frame {
+    pub fn at(&self, xi: [f64; 2]) -> FaceFrame {
         let (shape, corners) = (self.face.shape(xi), self.face.corner_functions(xi));
         let normals = &self.normals[..self.face.corners()];
         let slope = |a: usize| normals.iter().zip(&corners.dn).fold(Vec3::zero(), |sum, (&n, dn)| sum + n * dn[a]);
-        Frame {
+        FaceFrame {
             x: shape.value(self.placed.nodes()),
             tangents: shape.tangents(self.placed.nodes(), self.plane),
             normal: corners.value(normals),

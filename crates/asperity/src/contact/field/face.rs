@@ -15,7 +15,7 @@ const WHOLE: [f64; 2] = [-1.0, 1.0];
 
 /// A face of the boundary, or half of an edge of second degree.
 #[derive(Debug, Clone)]
-pub struct Face {
+pub struct FieldFace {
     /// Where it lies in the mesh.
     pub side: Side,
     /// Its reference cell.
@@ -56,7 +56,7 @@ impl ShapeFunctions {
     }
 }
 
-impl Face {
+impl FieldFace {
     /// A side of the mesh.
     pub fn new(mesh: &Mesh, side: Side) -> Self {
         let (kind, nodes) = mesh.side(side);
@@ -118,14 +118,14 @@ impl Face {
     }
 
     /// Where its nodes are before any motion.
-    pub fn at_rest(&self, mesh: &Mesh) -> Placed {
-        let mut placed = Placed { x: [Vec3::zero(); MOST], count: self.nodes.len() };
+    pub fn at_rest(&self, mesh: &Mesh) -> PlacedFace {
+        let mut placed = PlacedFace { x: [Vec3::zero(); MOST], count: self.nodes.len() };
         placed.x.iter_mut().zip(&self.nodes).for_each(|(x, &node)| *x = mesh.points[node]);
         placed
     }
 
     /// Where its nodes are at unknowns `u`.
-    pub fn placed(&self, mesh: &Mesh, dofs: &Dofs, u: &[f64]) -> Placed {
+    pub fn placed(&self, mesh: &Mesh, dofs: &Dofs, u: &[f64]) -> PlacedFace {
         let mut placed = self.at_rest(mesh);
         for (x, &node) in placed.x.iter_mut().zip(&self.nodes) {
             let first = dofs.node(node);
@@ -145,12 +145,12 @@ impl Face {
 
 /// The nodes of a face in place.
 #[derive(Debug, Clone, Copy)]
-pub struct Placed {
+pub struct PlacedFace {
     x: [Vec3; MOST],
     count: usize,
 }
 
-impl Placed {
+impl PlacedFace {
     /// From positions.
     pub fn new(positions: impl Iterator<Item = Vec3>) -> Self {
         let mut placed = Self { x: [Vec3::zero(); MOST], count: 0 };

@@ -1,12 +1,12 @@
 //! Faces of bodies as a target: where rays from the surface meet them, by Newton's method on
 //! `x + gamma n = sum_K N_K(s) x_K`.
 
-use super::face::{Placed, ShapeFunctions};
-use super::surface::Surface;
+use super::face::{PlacedFace, ShapeFunctions};
+use super::surface::FieldSurface;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
-use crate::tool::{Bounds, Tree};
+use crate::tool::{BoundingBox, BoxTree};
 
 /// Iterations of a projection.
 const ITERATIONS: usize = 20;
@@ -19,7 +19,7 @@ pub const LEAST_COSINE: f64 = 0.1;
 
 /// A ray from the surface along its outward normal.
 #[derive(Debug, Clone, Copy)]
-pub struct Ray {
+pub struct FaceRay {
     /// Its origin.
     pub x: Vec3,
     /// Outward unit normal.
@@ -28,7 +28,7 @@ pub struct Ray {
 
 /// Where a ray meets a face.
 #[derive(Debug, Clone, Copy)]
-pub struct Projection {
+pub struct FaceProjection {
     /// Signed distance along the ray, negative for penetration.
     pub gap: f64,
     /// Reference coordinates.
@@ -41,7 +41,7 @@ pub struct Projection {
     pub tangents: [Vec3; 2],
 }
 
-impl Projection {
+impl FaceProjection {
     /// Derivatives of gap and reference coordinates, for the derivative `r = dx + gamma dn - sum N_K dx_K` of what the
     /// equation leaves along the ray's own motion.
     pub fn follow(&self, n: Vec3, r: Vec3) -> (f64, [f64; 2]) {
@@ -59,29 +59,29 @@ impl Projection {
 
 /// Target faces with their numbers.
 #[derive(Debug)]
-pub struct Faces {
+pub struct TargetFaces {
     /// Faces, smooth pieces, corners.
-    pub surface: Surface,
-    tree: Tree,
+    pub surface: FieldSurface,
+    tree: BoxTree,
     size: f64,
 }
 
 /// Target faces at given unknowns.
 pub struct FacesInPlace<'a> {
-    faces: &'a Faces,
-    placed: Vec<Placed>,
-    tree: Tree,
+    faces: &'a TargetFaces,
+    placed: Vec<PlacedFace>,
+    tree: BoxTree,
 }
 
 /// Margin of the boxes as a part of the size: what is found must not depend on rounding.
 const MARGIN: f64 = 1e-9;
 
-impl Faces {
+impl TargetFaces {
     /// Of a surface.
-    pub fn new(surface: Surface, mesh: &Mesh) -> Self {
-        let boxes: Vec<Bounds> = surface.faces.iter().map(|face| bounds(&face.at_rest(mesh))).collect();
-        let size = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b)).size();
-        let tree = Tree::new(&boxes, MARGIN * size);
+    pub fn new(surface: FieldSurface, mesh: &Mesh) -> Self {
+        let boxes: Vec<BoundingBox> = surface.faces.iter().map(|face| bounds(&face.at_rest(mesh))).collect();
+        let size = boxes.iter().fold(BoundingBox::EMPTY, |all, &b| all.union(b)).size();
+        let tree = BoxTree::new(&boxes, MARGIN * size);
         Self { surface, tree, size }
     }
 
@@ -92,13 +92,13 @@ impl Faces {
 
     /// The faces at unknowns `u`.
     pub fn in_place(&self, (mesh, dofs): (&Mesh, &Dofs), u: &[f64]) -> FacesInPlace<'_> {
-        let placed: Vec<Placed> = self.surface.faces.iter().map(|face| face.placed(mesh, dofs, u)).collect();
-        let boxes: Vec<Bounds> = placed.iter().map(bounds).collect();
+        let placed: Vec<PlacedFace> = self.surface.faces.iter().map(|face| face.placed(mesh, dofs, u)).collect();
+        let boxes: Vec<BoundingBox> = placed.iter().map(bounds).collect();
         FacesInPlace { faces: self, tree: self.tree.refit(&boxes, MARGIN * self.size), placed }
     }
 
     /// Where a ray meets face `number`, placed so, or what continues it.
-    pub fn project(&self, number: usize, placed: &Placed, ray: &Ray) -> Option<Projection> {
+    pub fn project(&self, number: usize, placed: &PlacedFace, ray: &FaceRay) -> Option<FaceProjection> {
         let face = &self.surface.faces[number];
         let (mut s, mut gap) = (face.middle(), 0.0);
         for _ in 0..ITERATIONS {
@@ -120,18 +120,18 @@ impl Faces {
         None
     }
 
-    fn at(&self, number: usize, placed: &Placed, s: [f64; 2], gap: f64) -> Projection {
+    fn at(&self, number: usize, placed: &PlacedFace, s: [f64; 2], gap: f64) -> FaceProjection {
         let shape = self.surface.faces[number].shape(s);
         let tangents = shape.tangents(placed.nodes(), self.surface.plane);
-        Projection { gap, s, shape, y: shape.value(placed.nodes()), tangents }
+        FaceProjection { gap, s, shape, y: shape.value(placed.nodes()), tangents }
     }
 }
 
-fn bounds(placed: &Placed) -> Bounds {
-    let all = Bounds::of(placed.nodes().iter().copied());
+fn bounds(placed: &PlacedFace) -> BoundingBox {
+    let all = BoundingBox::of(placed.nodes().iter().copied());
     // Faces of second degree bulge beyond the box around their nodes.
     let wide = Vec3([if placed.nodes().len() > 4 || placed.nodes().len() == 3 { 0.25 * all.size() } else { 0.0 }; 3]);
-    Bounds { min: all.min - wide, max: all.max + wide }
+    BoundingBox { min: all.min - wide, max: all.max + wide }
 }
 
 impl FacesInPlace<'_> {
@@ -141,27 +141,27 @@ impl FacesInPlace<'_> {
     }
 
     /// A face in place.
-    pub fn placed(&self, number: usize) -> &Placed {
+    pub fn placed(&self, number: usize) -> &PlacedFace {
         &self.placed[number]
     }
 
     /// Numbers of the faces whose boxes come within `margin` of a box, ascending.
-    pub fn near(&self, around: &Bounds, margin: f64, out: &mut Vec<usize>) {
+    pub fn near(&self, around: &BoundingBox, margin: f64, out: &mut Vec<usize>) {
         let wide = Vec3([margin; 3]);
         out.clear();
-        self.tree.near(&Bounds { min: around.min - wide, max: around.max + wide }, &mut |number| out.push(number));
+        self.tree.near(&BoundingBox { min: around.min - wide, max: around.max + wide }, &mut |number| out.push(number));
         out.sort_unstable();
     }
 
     /// Where a ray meets the nearest face that `admits` (face, projection).
     pub fn nearest(
         &self,
-        ray: &Ray,
+        ray: &FaceRay,
         range: [f64; 2],
-        mut admits: impl FnMut(usize, &Projection) -> bool,
-    ) -> Option<(usize, Projection)> {
-        let mut best: Option<(usize, Projection)> = None;
-        let along = crate::tool::Ray { origin: ray.x, direction: ray.n };
+        mut admits: impl FnMut(usize, &FaceProjection) -> bool,
+    ) -> Option<(usize, FaceProjection)> {
+        let mut best: Option<(usize, FaceProjection)> = None;
+        let along = crate::tool::ProfileRay { origin: ray.x, direction: ray.n };
         let mut found = Vec::new();
         self.tree.along(&along, range, &mut |number| found.push(number));
         found.sort_unstable();

@@ -33,9 +33,9 @@ mod tie;
 mod tip;
 pub(super) mod tool;
 
-pub use surface::Surface;
+pub use surface::FieldSurface;
 pub use term::{FieldContact, FieldParts, FieldTarget};
-pub use tie::{Apart, Condition, Tie, TieParts};
+pub use tie::{Apart, MeanCondition, TieParts, TiedSurfaces};
 
 #[cfg(test)]
 mod tests;

@@ -6,10 +6,10 @@
 //! material point that this place of the surface saw at the accepted state and the place itself, both as they are now: under
 //! a common rigid motion it is along `n`, and nothing is left of it in the tangent plane.
 
-use super::cover::{FaceInPlace, Frame, Patch, root_near};
-use super::face::{CORNERS, Placed, ShapeFunctions};
-use super::faces::{Projection, Ray};
-use super::space::{Line, Spot};
+use super::cover::{FaceFrame, FaceInPlace, Patch, root_near};
+use super::face::{CORNERS, PlacedFace, ShapeFunctions};
+use super::faces::{FaceProjection, FaceRay};
+use super::space::{FaceSpot, MaterialLine};
 use super::surface::{NodalNormal, unit};
 use super::tool::{Foot, MOST, ToolInPlace};
 use crate::tensor::Vec3;
@@ -18,7 +18,7 @@ use crate::tensor::Vec3;
 #[derive(Debug, Clone, Copy)]
 pub enum Sight {
     /// A face of a body.
-    Face(Projection),
+    Face(FaceProjection),
     /// The closest point of a tool.
     Tool(Foot),
     /// A tip of a tool.
@@ -38,7 +38,7 @@ pub struct Touched {
 
 /// A quadrature point of one node of the field.
 #[derive(Debug, Clone, Copy)]
-pub struct Point {
+pub struct FieldPoint {
     /// Its patch.
     pub patch: usize,
     /// Undeformed area it stands for times the node's function there.
@@ -61,7 +61,7 @@ pub struct Point {
 
 /// Derivatives of a point along one unknown.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Rates {
+pub struct PointRates {
     /// Of the weight.
     pub weight: f64,
     /// Of the reference coordinates.
@@ -82,7 +82,7 @@ pub struct Rates {
 
 /// One unknown of a stencil, and where its node is in what a patch depends on.
 #[derive(Debug, Clone, Copy)]
-pub enum Column {
+pub enum PointColumn {
     /// A displacement of a node.
     Node {
         /// Axis.
@@ -110,13 +110,13 @@ pub struct PatchInPlace<'a> {
     /// The tool, if it sees one.
     pub tool: Option<ToolInPlace<'a>>,
     /// The face that is seen, as it lies in the target's list, if it sees a body.
-    pub seen: Option<(&'a super::faces::Faces, Placed)>,
+    pub seen: Option<(&'a super::faces::TargetFaces, PlacedFace)>,
     /// The patch itself.
     pub patch: Patch,
     /// Where its interval begins and ends, in the plane.
     pub interval: [f64; 2],
     /// What the tangents of its node follow, in space.
-    pub line: Option<Line>,
+    pub line: Option<MaterialLine>,
     /// Degree of the rule on an overlap, in space.
     pub degree: usize,
 }
@@ -157,7 +157,7 @@ impl PatchInPlace<'_> {
 
     /// Derivatives of the ends of the interval along an unknown. `turning` are those of the sums of area vectors at the
     /// corners.
-    pub fn interval_rates(&self, column: &Column, turning: &[Vec3; CORNERS]) -> IntervalRates {
+    pub fn interval_rates(&self, column: &PointColumn, turning: &[Vec3; CORNERS]) -> IntervalRates {
         let rate = |k: usize| {
             let Some(end) = self.patch.ends[k] else { return 0.0 };
             let xi = self.interval[k];
@@ -172,7 +172,7 @@ impl PatchInPlace<'_> {
                 }
                 (None, Some((_, seen))) => {
                     let vertex = match column {
-                        Column::Node { axis, seen: Some(k), .. } if *k == end => unit(*axis),
+                        PointColumn::Node { axis, seen: Some(k), .. } if *k == end => unit(*axis),
                         _ => Vec3::zero(),
                     };
                     let turned = self.sum_turned(&at.corners, turning);
@@ -186,9 +186,9 @@ impl PatchInPlace<'_> {
     }
 
     /// Displacement of a place of the face along an unknown, at fixed reference coordinates.
-    fn moved(&self, column: &Column, shape: &ShapeFunctions) -> Vec3 {
+    fn moved(&self, column: &PointColumn, shape: &ShapeFunctions) -> Vec3 {
         match column {
-            Column::Node { axis, own: Some(k), .. } => unit(*axis) * shape.n[*k],
+            PointColumn::Node { axis, own: Some(k), .. } => unit(*axis) * shape.n[*k],
             _ => Vec3::zero(),
         }
     }
@@ -206,14 +206,14 @@ impl PatchInPlace<'_> {
     }
 
     /// What is seen from a place of the face.
-    pub fn look(&self, at: &Frame) -> Option<(Sight, Vec3, f64, Vec3)> {
+    pub fn look(&self, at: &FaceFrame) -> Option<(Sight, Vec3, f64, Vec3)> {
         if let Some(tool) = &self.tool {
             let foot = tool.closest(self.patch.target, at.x);
             return Some((Sight::Tool(foot), -foot.normal, foot.gap, foot.point));
         }
         let (faces, seen) = self.seen.as_ref()?;
         let n = at.normal.unit();
-        let hit = faces.project(self.patch.target, seen, &Ray { x: at.x, n })?;
+        let hit = faces.project(self.patch.target, seen, &FaceRay { x: at.x, n })?;
         Some((Sight::Face(hit), n, hit.gap, hit.y))
     }
 
@@ -231,8 +231,8 @@ impl PatchInPlace<'_> {
     }
 
     /// Whether what a point of the patch shows depends on an unknown, besides what it saw at the accepted state.
-    pub fn depends(&self, column: &Column, turning: &[Vec3; CORNERS]) -> bool {
-        let Column::Node { own, seen, node, .. } = column else { return true };
+    pub fn depends(&self, column: &PointColumn, turning: &[Vec3; CORNERS]) -> bool {
+        let PointColumn::Node { own, seen, node, .. } = column else { return true };
         let turns = || turning.iter().any(|dm| *dm != Vec3::zero());
         own.is_some() || seen.is_some() || self.line.is_some_and(|line| line.has(*node)) || turns()
     }
@@ -241,12 +241,12 @@ impl PatchInPlace<'_> {
     /// area density with its slopes, `function` the node's function.
     pub fn rates(
         &self,
-        point: &Point,
-        column: &Column,
-        (spot, at, facing): (&Spot, &Frame, [f64; 2]),
+        point: &FieldPoint,
+        column: &PointColumn,
+        (spot, at, facing): (&FaceSpot, &FaceFrame, [f64; 2]),
         (density, function, touched): (&Function, &Function, &Option<Touched>),
         (ends, turning): (&IntervalRates, &[Vec3; CORNERS]),
-    ) -> Rates {
+    ) -> PointRates {
         let (xi, (dxi, darea)) = (spot.xi, self.spot_rates(spot, column, ends));
         let dx = self.moved(column, &point.shape) + at.tangents[0] * dxi[0] + at.tangents[1] * dxi[1];
         let (gap, n, s, y) = self.sight_rates(point, column, (at, dx, dxi), turning);
@@ -263,7 +263,7 @@ impl PatchInPlace<'_> {
                 * (density_slope * facing[0] * function
                     + density * dfacing * function
                     + density * facing[0] * function_slope);
-        let turned = |line: Line| line.rates(column, (point.n, n), &point.e);
+        let turned = |line: MaterialLine| line.rates(column, (point.n, n), &point.e);
         let e = self.line.map_or([n.left(), Vec3::zero()], turned);
         let mut slip = [0.0; 2];
         if let Some(touched) = touched {
@@ -272,15 +272,15 @@ impl PatchInPlace<'_> {
             let dv = self.touched_rate(column, touched) + carried - dx;
             (0..2).for_each(|a| slip[a] = e[a].dot(v) + point.e[a].dot(dv));
         }
-        Rates { weight, xi: dxi, gap, n, e, slip, s, y }
+        PointRates { weight, xi: dxi, gap, n, e, slip, s, y }
     }
 
     /// Derivatives of gap, direction, coordinates of what is seen, and of the place where it is loaded.
     fn sight_rates(
         &self,
-        point: &Point,
-        column: &Column,
-        (at, dx, dxi): (&Frame, Vec3, [f64; 2]),
+        point: &FieldPoint,
+        column: &PointColumn,
+        (at, dx, dxi): (&FaceFrame, Vec3, [f64; 2]),
         turning: &[Vec3; CORNERS],
     ) -> (f64, Vec3, [f64; 2], Vec3) {
         match (&point.sight, &self.tool) {
@@ -296,7 +296,7 @@ impl PatchInPlace<'_> {
                 let dm = self.sum_turned(&at.corners, turning) + moved;
                 let dn = (dm - point.n * point.n.dot(dm)) * at.normal.norm().recip();
                 let carried = match column {
-                    Column::Node { axis, seen: Some(k), .. } => unit(*axis) * hit.shape.n[*k],
+                    PointColumn::Node { axis, seen: Some(k), .. } => unit(*axis) * hit.shape.n[*k],
                     _ => Vec3::zero(),
                 };
                 let (gap, s) = hit.follow(point.n, dx + dn * hit.gap - carried);
@@ -308,13 +308,15 @@ impl PatchInPlace<'_> {
     }
 
     /// Derivative of the face's own unit normal.
-    fn own_normal_rate(&self, column: &Column, xi: [f64; 2], dxi: [f64; 2]) -> Vec3 {
+    fn own_normal_rate(&self, column: &PointColumn, xi: [f64; 2], dxi: [f64; 2]) -> Vec3 {
         let (face, face_is_plane) = (self.face.face, self.face.plane);
         let shape = face.shape(xi);
         let [a, b] = shape.tangents(self.face.placed.nodes(), self.face.plane);
         let [mut da, db] = match column {
-            Column::Node { axis, own: Some(k), .. } if face_is_plane => [unit(*axis) * shape.dn[*k][0], Vec3::zero()],
-            Column::Node { axis, own: Some(k), .. } => shape.dn[*k].map(|slope| unit(*axis) * slope),
+            PointColumn::Node { axis, own: Some(k), .. } if face_is_plane => {
+                [unit(*axis) * shape.dn[*k][0], Vec3::zero()]
+            }
+            PointColumn::Node { axis, own: Some(k), .. } => shape.dn[*k].map(|slope| unit(*axis) * slope),
             _ => [Vec3::zero(); 2],
         };
         // Over tools in space places stay where they are.
@@ -328,23 +330,23 @@ impl PatchInPlace<'_> {
         (dm - unit * unit.dot(dm)) * m.norm().recip()
     }
 
-    fn touched_rate(&self, column: &Column, touched: &Touched) -> Vec3 {
+    fn touched_rate(&self, column: &PointColumn, touched: &Touched) -> Vec3 {
         match (column, &touched.face, &self.tool) {
-            (Column::Node { axis, node, .. }, Some((face, shape)), _) => {
+            (PointColumn::Node { axis, node, .. }, Some((face, shape)), _) => {
                 let nodes = self.seen.as_ref().map(|(faces, _)| &faces.surface.faces[*face].nodes);
                 let place = nodes.and_then(|nodes| nodes.iter().position(|other| other == node));
                 place.map_or(Vec3::zero(), |k| unit(*axis) * shape.n[k])
             }
-            (Column::Tool(j), None, Some(tool)) => tool.rates(touched.now)[*j],
+            (PointColumn::Tool(j), None, Some(tool)) => tool.rates(touched.now)[*j],
             _ => Vec3::zero(),
         }
     }
 }
 
 /// Velocity of the tool's material at a place, and its spin, along an unknown.
-fn tool_motion(tool: &ToolInPlace, column: &Column, at: Vec3) -> (Vec3, Vec3) {
+fn tool_motion(tool: &ToolInPlace, column: &PointColumn, at: Vec3) -> (Vec3, Vec3) {
     match column {
-        Column::Tool(j) if *j < MOST => (tool.rates(at)[*j], tool.spins()[*j]),
+        PointColumn::Tool(j) if *j < MOST => (tool.rates(at)[*j], tool.spins()[*j]),
         _ => (Vec3::zero(), Vec3::zero()),
     }
 }

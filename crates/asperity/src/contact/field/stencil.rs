@@ -5,10 +5,10 @@
 //! is asked; the second adds what turning and moving the stresses does.
 
 use super::cover::{FaceInPlace, Patch};
-use super::face::{CORNERS, Face, Placed, ShapeFunctions};
-use super::point::{Column, PatchInPlace, Point, Rates, Sight, Touched};
-use super::space::Line;
-use super::surface::{NodalNormal, Surface};
+use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::point::{FieldPoint, PatchInPlace, PointColumn, PointRates, Sight, Touched};
+use super::space::MaterialLine;
+use super::surface::{FieldSurface, NodalNormal};
 use super::term::{FieldContact, FieldTarget};
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
@@ -60,12 +60,12 @@ pub struct NodeSums {
     pub forces: Vec<f64>,
     /// Mean position, weighted by area.
     pub place: Vec3,
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<FieldPoint>,
     /// Derivatives of the points along the unknowns on which they depend, with the numbers of these.
-    pub(super) rates: Vec<(usize, Rates)>,
+    pub(super) rates: Vec<(usize, PointRates)>,
     /// Where those of each point begin.
     pub(super) starts: Vec<usize>,
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Vec<PointColumn>,
 }
 
 /// A stencil at values of its unknowns.
@@ -96,8 +96,8 @@ impl<'a> StencilInPlace<'a> {
     }
 
     /// A face with its nodes in place.
-    pub(super) fn placed(&self, face: &Face) -> Placed {
-        Placed::new(face.nodes.iter().map(|&node| self.position(node)))
+    pub(super) fn placed(&self, face: &FieldFace) -> PlacedFace {
+        PlacedFace::new(face.nodes.iter().map(|&node| self.position(node)))
     }
 
     fn position(&self, node: usize) -> Vec3 {
@@ -138,12 +138,12 @@ impl<'a> StencilInPlace<'a> {
     }
 
     /// What the tangents of the node follow, in space.
-    fn line(&self) -> Option<Line> {
+    fn line(&self) -> Option<MaterialLine> {
         let surface = &self.contact.surface;
         let (patch, corner) = self.support.patches.first().filter(|_| !surface.plane)?;
         let nodes = surface.line(surface.field[patch.face][*corner]);
         let [from, to] = nodes.map(|node| self.position(node));
-        Some(Line { d: to - from, nodes })
+        Some(MaterialLine { d: to - from, nodes })
     }
 
     /// Nodes of a face of the target.
@@ -151,7 +151,7 @@ impl<'a> StencilInPlace<'a> {
         self.contact.target.as_faces().map_or(&[], |faces| &faces.surface.faces[face].nodes)
     }
 
-    pub(super) fn list_columns(&self, patch: &Patch, columns: &mut Vec<Column>) {
+    pub(super) fn list_columns(&self, patch: &Patch, columns: &mut Vec<PointColumn>) {
         columns.clear();
         let own = &self.contact.surface.faces[patch.face].nodes;
         let seen = match &self.contact.target {
@@ -161,9 +161,9 @@ impl<'a> StencilInPlace<'a> {
         let place = |nodes: &[usize], node: usize| nodes.iter().position(|&other| other == node);
         for &node in &self.support.nodes {
             let (own, seen) = (place(own, node), place(seen, node));
-            columns.extend((0..self.axes()).map(|axis| Column::Node { axis, own, seen, node }));
+            columns.extend((0..self.axes()).map(|axis| PointColumn::Node { axis, own, seen, node }));
         }
-        columns.extend((0..self.motion().len()).map(Column::Tool));
+        columns.extend((0..self.motion().len()).map(PointColumn::Tool));
     }
 
     /// Derivatives of the sums of area vectors at the corners of a face along each unknown.
@@ -243,7 +243,7 @@ impl<'a> StencilInPlace<'a> {
                 if matches!(&sight, Sight::Tool(foot) if foot.beyond.is_some() && !surface.plane) {
                     continue;
                 }
-                let density = if still { Surface::density_there } else { Surface::density };
+                let density = if still { FieldSurface::density_there } else { FieldSurface::density };
                 let density = density(surface, in_place.face.face, &rest, xi);
                 let function = (at.corners.n[*corner], at.corners.dn[*corner]);
                 let facing = in_place.facing(xi, n_out);
@@ -253,13 +253,13 @@ impl<'a> StencilInPlace<'a> {
                 let v = touched.map_or(Vec3::zero(), |touched| touched.now - at.x);
                 let slip = e.map(|e| e.dot(v));
                 let shape = at.shape;
-                let point = Point { patch: number, weight, shape, gap, n: n_out, e, slip, y, sight };
+                let point = FieldPoint { patch: number, weight, shape, gap, n: n_out, e, slip, y, sight };
                 if derivatives {
                     sums.starts.push(sums.rates.len());
                     let before = touched.and_then(|touched| touched.face).map(|(face, _)| self.seen_nodes(face));
                     for (j, (column, (ends, turning))) in sums.columns.iter().zip(ends.iter().zip(&turning)).enumerate()
                     {
-                        let node = if let Column::Node { node, .. } = column { Some(node) } else { None };
+                        let node = if let PointColumn::Node { node, .. } = column { Some(node) } else { None };
                         if active[j] || node.is_some_and(|node| before.is_some_and(|nodes| nodes.contains(node))) {
                             let shapes = (&density, &function, &touched);
                             let rates = in_place.rates(&point, column, (&spot, &at, facing), shapes, (ends, turning));
@@ -318,7 +318,7 @@ impl<'a> StencilInPlace<'a> {
     }
 
     /// Adds what a force on the surface at a point does to the unknowns: `-N_L f` and the opposite on the target.
-    fn load(&self, point: &Point, f: Vec3, rows: &mut [f64]) {
+    fn load(&self, point: &FieldPoint, f: Vec3, rows: &mut [f64]) {
         let (patch, axes) = (&self.support.patches[point.patch].0, self.axes());
         let mut push = |nodes: &[usize], shape: &[f64], sign: f64| {
             for (node, n) in nodes.iter().zip(shape) {

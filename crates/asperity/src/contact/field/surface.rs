@@ -4,7 +4,7 @@
 //! the corner belongs to several nodes, one for each smooth piece. Each node has the mean of the area vectors of its
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
-use super::face::{CORNERS, Face, MOST, Placed};
+use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
 use crate::mesh::{Mesh, Side, Space};
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -45,9 +45,9 @@ impl NodalNormal {
 
 /// Faces and nodes of the field.
 #[derive(Debug, Clone)]
-pub struct Surface {
+pub struct FieldSurface {
     /// The faces.
-    pub faces: Vec<Face>,
+    pub faces: Vec<FieldFace>,
     /// The nodes of the field.
     pub nodes: Vec<FieldNode>,
     /// For each face the nodes of the field at its corners.
@@ -62,9 +62,9 @@ pub struct Surface {
 }
 
 /// Sets of numbers that are joined pair by pair.
-struct Sets(Vec<usize>);
+struct DisjointSets(Vec<usize>);
 
-impl Sets {
+impl DisjointSets {
     fn new(count: usize) -> Self {
         Self((0..count).collect())
     }
@@ -80,19 +80,19 @@ impl Sets {
     }
 }
 
-impl Surface {
+impl FieldSurface {
     /// The faces `sides` of a mesh in a space; `thickness` counts in the plane cases.
     pub fn new(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
-        let faces = sides.iter().flat_map(|&side| Face::new(mesh, side).halves());
+        let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).halves());
         Self::of(mesh, faces.collect(), space, thickness)
     }
 
     /// The same with edges of second degree in one piece, as a target has them.
     pub fn whole(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
-        Self::of(mesh, sides.iter().map(|&side| Face::new(mesh, side)).collect(), space, thickness)
+        Self::of(mesh, sides.iter().map(|&side| FieldFace::new(mesh, side)).collect(), space, thickness)
     }
 
-    fn of(mesh: &Mesh, faces: Vec<Face>, space: Space, thickness: f64) -> Self {
+    fn of(mesh: &Mesh, faces: Vec<FieldFace>, space: Space, thickness: f64) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
         let mut surface = Self { faces, nodes: vec![], field: vec![], pieces: vec![], plane, revolves, thickness };
@@ -111,10 +111,11 @@ impl Surface {
             let cosine = normals[f].dot(normals[g]).clamp(-1.0, 1.0);
             cosine.acos() < CREASE && shared(&self.faces[f], &self.faces[g]) >= if self.plane { 1 } else { 2 }
         };
-        let (mut pieces, mut field) = (Sets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
+        let (mut pieces, mut field) =
+            (DisjointSets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
         let mut nodes = Vec::new();
         for (&node, corners) in &around {
-            let mut sets = Sets::new(corners.len());
+            let mut sets = DisjointSets::new(corners.len());
             for i in 0..corners.len() {
                 for j in 0..i {
                     if smooth(corners[i].0, corners[j].0) {
@@ -144,19 +145,19 @@ impl Surface {
         [face.nodes[corner], face.nodes[(corner + 1) % face.corners()]]
     }
 
-    fn middle_normal(&self, face: &Face, mesh: &Mesh) -> Vec3 {
+    fn middle_normal(&self, face: &FieldFace, mesh: &Mesh) -> Vec3 {
         let [a, b] = face.shape(face.middle()).tangents(face.at_rest(mesh).nodes(), self.plane);
         a.cross(b).unit()
     }
 
     /// The outward area vector at a corner of a face in place.
-    fn area_vector(&self, face: &Face, placed: &Placed, corner: usize) -> Vec3 {
+    fn area_vector(&self, face: &FieldFace, placed: &PlacedFace, corner: usize) -> Vec3 {
         let [a, b] = face.shape(face.corner_place(corner)).tangents(placed.nodes(), self.plane);
         a.cross(b)
     }
 
     /// The normal of a node of the field, with the faces placed by `placed`.
-    pub fn normal(&self, node: usize, placed: impl Fn(usize) -> Placed) -> NodalNormal {
+    pub fn normal(&self, node: usize, placed: impl Fn(usize) -> PlacedFace) -> NodalNormal {
         let FieldNode { support, on_axis, .. } = &self.nodes[node];
         let mut sum = Vec3::zero();
         for &(f, corner) in support {
@@ -169,7 +170,12 @@ impl Surface {
     }
 
     /// Calls `add` with a node of the mesh and the derivatives of that sum of area vectors along its three displacements.
-    pub fn normal_rates(&self, node: usize, placed: impl Fn(usize) -> Placed, mut add: impl FnMut(usize, [Vec3; 3])) {
+    pub fn normal_rates(
+        &self,
+        node: usize,
+        placed: impl Fn(usize) -> PlacedFace,
+        mut add: impl FnMut(usize, [Vec3; 3]),
+    ) {
         for &(f, corner) in &self.nodes[node].support {
             let (face, placed) = (&self.faces[f], placed(f));
             let shape = face.shape(face.corner_place(corner));
@@ -184,7 +190,7 @@ impl Surface {
 
     /// Undeformed area for a unit of the reference coordinates at a place of a face, the circumference and the thickness
     /// included, and its derivatives along them.
-    pub fn density(&self, face: &Face, rest: &Placed, xi: [f64; 2]) -> (f64, [f64; 2]) {
+    pub fn density(&self, face: &FieldFace, rest: &PlacedFace, xi: [f64; 2]) -> (f64, [f64; 2]) {
         let value = |xi: [f64; 2]| self.density_at(face, rest, xi);
         let slope = |axis: usize| {
             // The density of straight-sided faces is a polynomial, of which a central difference leaves rounding.
@@ -195,12 +201,12 @@ impl Surface {
     }
 
     /// The same for a place that stays where it is: the slopes do not matter.
-    pub fn density_there(&self, face: &Face, rest: &Placed, xi: [f64; 2]) -> (f64, [f64; 2]) {
+    pub fn density_there(&self, face: &FieldFace, rest: &PlacedFace, xi: [f64; 2]) -> (f64, [f64; 2]) {
         (self.density_at(face, rest, xi), [0.0; 2])
     }
 
     /// The same in any placement, value alone.
-    pub fn density_at(&self, face: &Face, placed: &Placed, xi: [f64; 2]) -> f64 {
+    pub fn density_at(&self, face: &FieldFace, placed: &PlacedFace, xi: [f64; 2]) -> f64 {
         let shape = face.shape(xi);
         let [a, b] = shape.tangents(placed.nodes(), self.plane);
         let around = if self.revolves { std::f64::consts::TAU * shape.value(placed.nodes())[0] } else { 1.0 };
@@ -245,7 +251,7 @@ impl Surface {
 
     /// The part of a face in place that belongs to one of its corners, `int M_c da`, and its derivatives along the
     /// displacements of its nodes.
-    pub fn corner_area(&self, face: &Face, placed: &Placed, corner: usize) -> (f64, [Vec3; MOST]) {
+    pub fn corner_area(&self, face: &FieldFace, placed: &PlacedFace, corner: usize) -> (f64, [Vec3; MOST]) {
         let (mut area, mut slopes) = (0.0, [Vec3::zero(); MOST]);
         let Some(rule) = face.kind.gauss[1] else { return (area, slopes) };
         for (point, weight) in rule.points.iter().zip(rule.weights) {
@@ -272,8 +278,8 @@ impl Surface {
 const STEP: f64 = 1e-3;
 
 /// Number of corners that two faces have in common.
-fn shared(one: &Face, other: &Face) -> usize {
-    let has = |face: &Face, node: usize| (0..face.corners()).any(|c| face.corner_node(c) == node);
+fn shared(one: &FieldFace, other: &FieldFace) -> usize {
+    let has = |face: &FieldFace, node: usize| (0..face.corners()).any(|c| face.corner_node(c) == node);
     (0..one.corners()).filter(|&c| has(other, one.corner_node(c))).count()
 }
 

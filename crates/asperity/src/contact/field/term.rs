@@ -3,19 +3,19 @@
 use super::attempt::FieldAttempt;
 use super::configuration::{Configuration, TargetInPlace};
 use super::cover::Patch;
-use super::faces::{Faces, Ray};
+use super::faces::{FaceRay, TargetFaces};
 use super::stencil::{NodeSums, StencilInPlace, Support};
-use super::surface::Surface;
+use super::surface::FieldSurface;
 use super::tool::RigidTool;
 use crate::Failure;
 use crate::contact::increment::{CLOSED, ahead, reach};
-use crate::contact::record::{PointRecord, entry, largest_penetration};
+use crate::contact::record::{ContactRecord, entry, largest_penetration};
 use crate::contact::{ContactOptions, Move, Overlap};
 use crate::interface::{Interface, Rule};
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::tensor::Vec3;
-use crate::tool::{self, Tip, Tool};
+use crate::tool::{self, ProfileTool, Tip};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, RwLock};
 
@@ -25,24 +25,24 @@ pub enum FieldTarget {
     /// A rigid tool.
     Tool(RigidTool),
     /// Faces of bodies.
-    Faces(Faces),
+    Faces(TargetFaces),
 }
 
 impl FieldTarget {
     /// A rigid tool, number `number` in the numbering of the unknowns.
-    pub fn tool(tool: Arc<Tool>, number: usize, dofs: &Dofs) -> Self {
+    pub fn tool(tool: Arc<ProfileTool>, number: usize, dofs: &Dofs) -> Self {
         Self::Tool(RigidTool::new(tool, number, dofs))
     }
     /// A rigid tool in space.
-    pub fn solid_tool(tool: Arc<tool::space::Tool>, number: usize, dofs: &Dofs) -> Self {
+    pub fn solid_tool(tool: Arc<tool::space::SpaceTool>, number: usize, dofs: &Dofs) -> Self {
         Self::Tool(RigidTool::in_space(tool, number, dofs))
     }
     /// Faces of bodies.
-    pub fn faces(surface: Surface, mesh: &Mesh) -> Self {
-        Self::Faces(Faces::new(surface, mesh))
+    pub fn faces(surface: FieldSurface, mesh: &Mesh) -> Self {
+        Self::Faces(TargetFaces::new(surface, mesh))
     }
     /// The faces, if it is made of faces.
-    pub fn as_faces(&self) -> Option<&Faces> {
+    pub fn as_faces(&self) -> Option<&TargetFaces> {
         match self {
             Self::Tool(_) => None,
             Self::Faces(faces) => Some(faces),
@@ -68,7 +68,7 @@ pub struct FieldParts {
     /// What the coordinates mean.
     pub space: Space,
     /// The faces that carry the field.
-    pub surface: Surface,
+    pub surface: FieldSurface,
     /// The whole outer boundary of the bodies behind the surface.
     pub boundary: Vec<Side>,
     /// What they may touch.
@@ -88,11 +88,11 @@ pub struct FieldContact {
     name: String,
     pub(super) mesh: Arc<Mesh>,
     pub(super) dofs: Dofs,
-    pub(super) surface: Surface,
+    pub(super) surface: FieldSurface,
     pub(super) target: FieldTarget,
     itself: bool,
     swapped: bool,
-    boundary: Faces,
+    boundary: TargetFaces,
     pub(super) law: Rule,
     pub(super) options: ContactOptions,
     /// Penetration from which a node counts as closed.
@@ -111,7 +111,7 @@ impl FieldContact {
     pub fn new(parts: FieldParts) -> Self {
         let FieldParts { name, mesh, dofs, space, surface, boundary, mut target, itself, swapped, law, options } =
             parts;
-        let boundary = Faces::new(Surface::whole(&mesh, &boundary, space, 1.0), &mesh);
+        let boundary = TargetFaces::new(FieldSurface::whole(&mesh, &boundary, space, 1.0), &mesh);
         let [mut shortest, mut longest] = surface.sizes(&mesh);
         let (labels, pieces) = match &mut target {
             FieldTarget::Tool(rigid) => {
@@ -155,7 +155,7 @@ impl FieldContact {
         &self.name
     }
     /// The surface.
-    pub fn surface(&self) -> &Surface {
+    pub fn surface(&self) -> &FieldSurface {
         &self.surface
     }
     /// What it may touch.
@@ -240,11 +240,11 @@ impl FieldContact {
     /// Half the distance from the middle of each face, along its inward normal, to where the ray leaves the body.
     fn depths(&self, u: &[f64]) -> Vec<f64> {
         let boundary = self.boundary.in_place((&*self.mesh, &self.dofs), u);
-        let depth = |face: &super::face::Face| {
+        let depth = |face: &super::face::FieldFace| {
             let placed = face.placed(&self.mesh, &self.dofs, u);
             let shape = face.shape(face.middle());
             let [a, b] = shape.tangents(placed.nodes(), self.surface.plane);
-            let ray = Ray { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
+            let ray = FaceRay { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
             let least = 1e-3 * a.norm();
             let own = |number: usize| self.boundary.surface.faces[number].side == face.side;
             let leaves = boundary.nearest(&ray, [least, f64::MAX], |number, hit| !own(number) && hit.gap > least);
@@ -338,7 +338,7 @@ impl FieldContact {
                         (foot.beyond.is_none() && foot.gap < -self.least).then(|| foot.normal * -foot.gap)
                     }
                     TargetInPlace::Faces(faces) => {
-                        let ray = Ray { x: at.x, n: at.normal.unit() };
+                        let ray = FaceRay { x: at.x, n: at.normal.unit() };
                         let hit = self.target.as_faces().and_then(|all| {
                             let hit = all.project(patch.target, faces.placed(patch.target), &ray)?;
                             all.surface.faces[patch.target].holds(hit.s, 1e-6).then_some(hit)
@@ -356,8 +356,8 @@ impl FieldContact {
     }
 
     /// All nodes in an accepted state, with this term's lane of its history: one record for each slot.
-    pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
-        let mut records: Vec<PointRecord> =
+    pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
+        let mut records: Vec<ContactRecord> =
             (0..self.slots()).map(|slot| self.unseen(slot, u, history.slot(slot))).collect();
         self.each_seen(u, (self.reach(&vec![0.0; u.len()]), true), |slot, stencil, sums| {
             let values = history.slot(slot);
@@ -384,7 +384,7 @@ impl FieldContact {
         let seen = |slot: usize| history.slot(slot)[entry::SEGMENT] >= 0.0;
         records.extend(tips.filter(|(_, slot)| seen(*slot)).map(|(tip, _)| tip));
         if self.swapped {
-            records.iter_mut().for_each(PointRecord::turn);
+            records.iter_mut().for_each(ContactRecord::turn);
         }
         records
     }
@@ -396,7 +396,7 @@ impl FieldContact {
     }
 
     /// The record of a node that sees nothing.
-    fn unseen(&self, slot: usize, u: &[f64], values: &[f64]) -> PointRecord {
+    fn unseen(&self, slot: usize, u: &[f64], values: &[f64]) -> ContactRecord {
         let (position, outward, edge) = match self.node_of(slot) {
             Some(node) => {
                 let super::surface::FieldNode { node: number, support, .. } = &self.surface.nodes[node];
@@ -412,7 +412,7 @@ impl FieldContact {
                 tool.map_or((tip.point, -tip.outward, 0), place)
             }
         };
-        PointRecord {
+        ContactRecord {
             position,
             inward: -outward,
             thrust: -outward,
@@ -423,7 +423,7 @@ impl FieldContact {
             },
             segment: (values[entry::SEGMENT] >= 0.0).then_some(slot % self.pieces),
             edge,
-            ..PointRecord::of(values, self.surface.plane)
+            ..ContactRecord::of(values, self.surface.plane)
         }
     }
 
@@ -442,7 +442,7 @@ impl FieldContact {
             (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
         let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
         // Of a parabola over a chord the mean height is two thirds of the largest.
-        let stands = |surface: &Surface| {
+        let stands = |surface: &FieldSurface| {
             let all = (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.mesh)).sum::<f64>();
             2.0 / 3.0 * all / surface.nodes.len().max(1) as f64
         };
@@ -460,7 +460,7 @@ impl FieldContact {
 
     /// How far the facets of both sides stand off a smooth surface at most, a length.
     fn sagitta(&self) -> f64 {
-        let most = |surface: &Surface| {
+        let most = |surface: &FieldSurface| {
             (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.mesh)).fold(0.0, f64::max)
         };
         most(&self.surface) + self.target.as_faces().map_or(0.0, |faces| most(&faces.surface))

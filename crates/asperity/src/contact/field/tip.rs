@@ -8,10 +8,10 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::cover::{Patch, root_near};
-use super::face::{Face, Placed, ShapeFunctions};
-use super::point::{Column, Point, Rates, Sight, Touched};
+use super::face::{FieldFace, PlacedFace, ShapeFunctions};
+use super::point::{FieldPoint, PointColumn, PointRates, Sight, Touched};
 use super::stencil::{NodeSums, Recall, StencilInPlace};
-use super::surface::{Surface, unit};
+use super::surface::{FieldSurface, unit};
 use super::tool::ToolInPlace;
 use crate::mesh::Side;
 use crate::tensor::Vec3;
@@ -32,7 +32,7 @@ pub struct Landing {
 
 /// What the search finds of a tip.
 #[derive(Debug, Clone, Copy)]
-pub struct Found {
+pub struct TipFoot {
     /// The face and the place on it.
     pub patch: Patch,
     /// The gap.
@@ -52,27 +52,27 @@ const AT_END: f64 = 1e-3;
 const STARTS: [f64; 3] = [-0.5, 0.0, 0.5];
 
 /// An edge with its position and tangents along it.
-struct Edge<'a> {
-    face: &'a Face,
-    placed: &'a Placed,
+struct PlacedEdge<'a> {
+    face: &'a FieldFace,
+    placed: &'a PlacedFace,
 }
 
 /// A place of an edge.
-struct Place {
+struct EdgePlace {
     shape: ShapeFunctions,
     x: Vec3,
     tangent: Vec3,
     bend: Vec3,
 }
 
-impl Edge<'_> {
+impl PlacedEdge<'_> {
     fn tangent(&self, xi: f64) -> Vec3 {
         self.face.shape([xi, 0.0]).tangents(self.placed.nodes(), true)[0]
     }
-    fn at(&self, xi: f64) -> Place {
+    fn at(&self, xi: f64) -> EdgePlace {
         let shape = self.face.shape([xi, 0.0]);
         // Shape functions of second degree have linear slopes, of which a central difference is exact.
-        Place {
+        EdgePlace {
             x: shape.value(self.placed.nodes()),
             tangent: self.tangent(xi),
             bend: self.tangent(xi + 0.5) - self.tangent(xi - 0.5),
@@ -87,7 +87,7 @@ impl Edge<'_> {
     }
     /// Derivative of half the square of the distance to `c`, with its slope.
     fn offset(&self, xi: f64, c: Vec3) -> [f64; 2] {
-        let Place { x, tangent, bend, .. } = self.at(xi);
+        let EdgePlace { x, tangent, bend, .. } = self.at(xi);
         let r = x - c;
         [r.dot(tangent), tangent.dot(tangent) + r.dot(bend)]
     }
@@ -108,7 +108,7 @@ fn outward(tangent: Vec3) -> Vec3 {
 impl Configuration<'_> {
     /// Where the tips of the tool lie, up to `reach` away from the surface: tip after tip. The part that a tip has in a face is the
     /// one it had `before`, at the accepted state, so that it stays over an increment; all of it where that is not given.
-    pub fn tips(&self, reach: f64, before: Option<&[Option<Found>]>) -> Vec<Option<Found>> {
+    pub fn tips(&self, reach: f64, before: Option<&[Option<TipFoot>]>) -> Vec<Option<TipFoot>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let land = |(number, tip): (usize, &Tip)| {
             let mut found = self.land((number, tip), tool)?;
@@ -121,17 +121,17 @@ impl Configuration<'_> {
         self.contact.tips().iter().enumerate().map(land).collect()
     }
 
-    fn land(&self, (number, tip): (usize, &Tip), tool: &ToolInPlace) -> Option<Found> {
+    fn land(&self, (number, tip): (usize, &Tip), tool: &ToolInPlace) -> Option<TipFoot> {
         let (vertex, points) = (tool.place(tip.point), tool.rotate(tip.outward));
         let flanks = tip.flanks.map(|flank| tool.rotate(flank));
-        let (mut best, mut valleys): (Option<Found>, Vec<(usize, Side)>) = (None, Vec::new());
-        let mut offer = |found: Found| {
+        let (mut best, mut valleys): (Option<TipFoot>, Vec<(usize, Side)>) = (None, Vec::new());
+        let mut offer = |found: TipFoot| {
             let nearer = best.is_none_or(|best| found.gap.abs() < best.gap.abs());
             best = if nearer { Some(found) } else { best };
         };
         let surface = &self.contact.surface;
         for (f, face) in surface.faces.iter().enumerate() {
-            let edge = Edge { face, placed: &self.placed[f] };
+            let edge = PlacedEdge { face, placed: &self.placed[f] };
             let is_end = |corner: usize| surface.nodes[surface.field[f][corner]].support.len() == 1;
             // Most edges do not see the end of a plate that lies along them.
             if edge.looks_away(points) && !(0..2).any(is_end) {
@@ -156,10 +156,10 @@ impl Configuration<'_> {
             };
             let patch = |corner: Option<usize>| landed(corner, None);
             match corner {
-                None => offer(Found { patch: patch(None), gap: to.dot(n) }),
+                None => offer(TipFoot { patch: patch(None), gap: to.dot(n) }),
                 Some(corner) if ends => {
                     if to.dot(at.tangent).abs() <= BESIDE * at.tangent.dot(at.tangent) {
-                        offer(Found { patch: landed(None, Some(corner)), gap: to.dot(n) });
+                        offer(TipFoot { patch: landed(None, Some(corner)), gap: to.dot(n) });
                     }
                 }
                 // Within both edges that meet there.
@@ -167,8 +167,8 @@ impl Configuration<'_> {
                     let (node, gap) = (face.corner_node(corner), -to.norm());
                     match valleys.iter().find(|(other, _)| *other == node) {
                         // Both halves of an edge of second degree meet without a crease.
-                        Some((_, side)) if *side == face.side => offer(Found { patch: patch(None), gap: to.dot(n) }),
-                        Some(_) => offer(Found { patch: patch(Some(corner)), gap }),
+                        Some((_, side)) if *side == face.side => offer(TipFoot { patch: patch(None), gap: to.dot(n) }),
+                        Some(_) => offer(TipFoot { patch: patch(Some(corner)), gap }),
                         None => valleys.push((node, face.side)),
                     }
                 }
@@ -178,7 +178,7 @@ impl Configuration<'_> {
         best
     }
 
-    fn undeformed_normal(&self, face: &Face) -> Vec3 {
+    fn undeformed_normal(&self, face: &FieldFace) -> Vec3 {
         let rest = face.at_rest(&self.contact.mesh);
         outward(face.shape(face.middle()).tangents(rest.nodes(), true)[0])
     }
@@ -213,7 +213,7 @@ impl StencilInPlace<'_> {
         let tip = &contact.tips()[patch.target];
         let face = &contact.surface.faces[patch.face];
         let placed = self.placed(face);
-        let edge = Edge { face, placed: &placed };
+        let edge = PlacedEdge { face, placed: &placed };
         let vertex = tool.place(tip.point);
         let xi = match landing.corner.or(landing.border) {
             Some(corner) => face.corner_place(corner)[0],
@@ -223,7 +223,7 @@ impl StencilInPlace<'_> {
         let to = vertex - at.x;
         let n = if landing.corner.is_some() { -to.unit() } else { outward(at.tangent) };
         let gap = to.dot(n);
-        let density = if derivatives { Surface::density } else { Surface::density_there };
+        let density = if derivatives { FieldSurface::density } else { FieldSurface::density_there };
         // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
         let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
         let (density, [slope, _]) = density(&contact.surface, face, &face.at_rest(&contact.mesh), [over, 0.0]);
@@ -237,11 +237,11 @@ impl StencilInPlace<'_> {
             sums.starts.push(sums.rates.len());
             for (j, column) in sums.columns.iter().enumerate() {
                 let (dx, dtangent, dvertex) = match column {
-                    Column::Node { axis, own: Some(k), .. } => {
+                    PointColumn::Node { axis, own: Some(k), .. } => {
                         (unit(*axis) * at.shape.n[*k], unit(*axis) * at.shape.dn[*k][0], Vec3::zero())
                     }
-                    Column::Node { .. } => (Vec3::zero(), Vec3::zero(), Vec3::zero()),
-                    Column::Tool(j) => (Vec3::zero(), Vec3::zero(), tool.rates(vertex)[*j]),
+                    PointColumn::Node { .. } => (Vec3::zero(), Vec3::zero(), Vec3::zero()),
+                    PointColumn::Tool(j) => (Vec3::zero(), Vec3::zero(), tool.rates(vertex)[*j]),
                 };
                 let apart = dvertex - dx;
                 let (dxi, dn) = if landing.corner.is_some() {
@@ -256,7 +256,7 @@ impl StencilInPlace<'_> {
                 let left = touched.map_or(Vec3::zero(), |touched| dvertex - left_behind(contact, column, &touched));
                 sums.rates.push((
                     j,
-                    Rates {
+                    PointRates {
                         weight: 2.0 * slope * dxi * landing.share,
                         xi: [dxi, 0.0],
                         gap: n.dot(apart) + if landing.border.is_some() { dn.dot(to) } else { 0.0 },
@@ -269,7 +269,7 @@ impl StencilInPlace<'_> {
                 ));
             }
         }
-        sums.points.push(Point {
+        sums.points.push(FieldPoint {
             patch: number,
             weight,
             shape: at.shape,
@@ -285,8 +285,10 @@ impl StencilInPlace<'_> {
 }
 
 /// Displacement along an unknown of the place of the surface over which a tip lay at the accepted state.
-fn left_behind(contact: &super::term::FieldContact, column: &Column, touched: &Touched) -> Vec3 {
-    let (Column::Node { axis, node, .. }, Some((face, shape))) = (column, &touched.face) else { return Vec3::zero() };
+fn left_behind(contact: &super::term::FieldContact, column: &PointColumn, touched: &Touched) -> Vec3 {
+    let (PointColumn::Node { axis, node, .. }, Some((face, shape))) = (column, &touched.face) else {
+        return Vec3::zero();
+    };
     let place = contact.surface.faces[*face].nodes.iter().position(|other| other == node);
     place.map_or(Vec3::zero(), |k| unit(*axis) * shape.n[k])
 }

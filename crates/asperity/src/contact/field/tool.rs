@@ -4,7 +4,7 @@ use super::surface::unit;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
-use crate::tool::{Hit, Pose, Ray, SmoothPiece, Tip, Tool};
+use crate::tool::{Hit, PlanePose, ProfileRay, ProfileTool, SmoothPiece, Tip};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -24,22 +24,22 @@ pub struct RigidTool {
 #[derive(Debug)]
 enum RigidShape {
     /// Profiles in the plane.
-    Plane(Arc<Tool>, Vec<SmoothPiece>),
+    Plane(Arc<ProfileTool>, Vec<SmoothPiece>),
     /// Facets in space.
-    Space(Arc<space::Tool>, SmoothPieces),
+    Space(Arc<space::SpaceTool>, SmoothPieces),
 }
 
 /// A tool in its place.
 #[derive(Debug, Clone, Copy)]
 pub struct ToolInPlace<'a> {
     rigid: &'a RigidTool,
-    stand: Stand,
+    stand: PlacedTool,
 }
 
 /// Where a tool stands.
 #[derive(Debug, Clone, Copy)]
-enum Stand {
-    Plane(Pose),
+enum PlacedTool {
+    Plane(PlanePose),
     /// With its spins.
     Space(space::Stance, [Vec3; 3]),
 }
@@ -72,12 +72,12 @@ impl Foot {
 
 impl RigidTool {
     /// Tool number `number` in the numbering of the unknowns.
-    pub fn new(tool: Arc<Tool>, number: usize, dofs: &Dofs) -> Self {
+    pub fn new(tool: Arc<ProfileTool>, number: usize, dofs: &Dofs) -> Self {
         let pieces = tool.smooth_pieces(0.0);
         Self::made(RigidShape::Plane(tool, pieces), number, dofs)
     }
     /// The same in space.
-    pub fn in_space(tool: Arc<space::Tool>, number: usize, dofs: &Dofs) -> Self {
+    pub fn in_space(tool: Arc<space::SpaceTool>, number: usize, dofs: &Dofs) -> Self {
         let pieces = tool.smooth_pieces();
         Self::made(RigidShape::Space(tool, pieces), number, dofs)
     }
@@ -126,10 +126,10 @@ impl RigidTool {
     /// The tool for values of its unknowns.
     pub fn in_place(&self, motion: &[f64]) -> ToolInPlace<'_> {
         let stand = match &self.shape {
-            RigidShape::Plane(..) => Stand::Plane(Pose::new(motion[0], motion[1], motion[2])),
+            RigidShape::Plane(..) => PlacedTool::Plane(PlanePose::new(motion[0], motion[1], motion[2])),
             RigidShape::Space(..) => {
-                let pose = space::Pose::new(std::array::from_fn(|i| motion[i]));
-                Stand::Space(pose.stance(), pose.spins())
+                let pose = space::SpacePose::new(std::array::from_fn(|i| motion[i]));
+                PlacedTool::Space(pose.stance(), pose.spins())
             }
         };
         ToolInPlace { rigid: self, stand }
@@ -154,29 +154,29 @@ impl ToolInPlace<'_> {
     /// Present place of the material point that stood at `point`.
     pub fn place(&self, point: Vec3) -> Vec3 {
         match &self.stand {
-            Stand::Plane(pose) => pose.place(self.rigid.rest(), point),
-            Stand::Space(pose, _) => pose.place(self.rigid.rest(), point),
+            PlacedTool::Plane(pose) => pose.place(self.rigid.rest(), point),
+            PlacedTool::Space(pose, _) => pose.place(self.rigid.rest(), point),
         }
     }
     /// Where the material point that is now at `placed` stood.
     pub fn withdraw(&self, placed: Vec3) -> Vec3 {
         match &self.stand {
-            Stand::Plane(pose) => pose.withdraw(self.rigid.rest(), placed),
-            Stand::Space(pose, _) => pose.withdraw(self.rigid.rest(), placed),
+            PlacedTool::Plane(pose) => pose.withdraw(self.rigid.rest(), placed),
+            PlacedTool::Space(pose, _) => pose.withdraw(self.rigid.rest(), placed),
         }
     }
     /// A vector turned with the tool.
     pub fn rotate(&self, v: Vec3) -> Vec3 {
         match &self.stand {
-            Stand::Plane(pose) => pose.rotate(v),
-            Stand::Space(pose, _) => pose.rotate(v),
+            PlacedTool::Plane(pose) => pose.rotate(v),
+            PlacedTool::Space(pose, _) => pose.rotate(v),
         }
     }
     /// A vector turned back into the tool's own frame.
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
         match &self.stand {
-            Stand::Plane(pose) => pose.rotate_back(v),
-            Stand::Space(pose, _) => pose.rotate_back(v),
+            PlacedTool::Plane(pose) => pose.rotate_back(v),
+            PlacedTool::Space(pose, _) => pose.rotate_back(v),
         }
     }
     /// The closest point of a smooth piece.
@@ -205,34 +205,34 @@ impl ToolInPlace<'_> {
     /// Derivatives along its unknowns of the place of a material point that is now at `at`.
     pub fn rates(&self, at: Vec3) -> [Vec3; MOST] {
         match &self.stand {
-            Stand::Plane(pose) => {
+            PlacedTool::Plane(pose) => {
                 let mut rates = [Vec3::zero(); MOST];
                 rates[..3].copy_from_slice(&pose.rates(self.rigid.rest(), at));
                 rates
             }
-            Stand::Space(stance, spins) => stance.pose.rates(spins, self.rigid.rest(), at),
+            PlacedTool::Space(stance, spins) => stance.pose.rates(spins, self.rigid.rest(), at),
         }
     }
     /// Derivatives along its unknowns of its rotation, as vectors.
     pub fn spins(&self) -> [Vec3; MOST] {
         let mut spins = [Vec3::zero(); MOST];
         match &self.stand {
-            Stand::Plane(_) => spins[2] = unit(2),
-            Stand::Space(_, own) => spins[3..].copy_from_slice(own),
+            PlacedTool::Plane(_) => spins[2] = unit(2),
+            PlacedTool::Space(_, own) => spins[3..].copy_from_slice(own),
         }
         spins
     }
     /// Derivatives of [`spins`](Self::spins) along the unknown `along`.
     pub fn spin_rates(&self, along: usize) -> [Vec3; MOST] {
         let mut rates = [Vec3::zero(); MOST];
-        if let (Stand::Space(stance, _), Some(axis)) = (&self.stand, along.checked_sub(3)) {
+        if let (PlacedTool::Space(stance, _), Some(axis)) = (&self.stand, along.checked_sub(3)) {
             rates[3..].copy_from_slice(&stance.pose.spin_rates(axis));
         }
         rates
     }
     /// Number of its translations.
     fn translations(&self) -> usize {
-        if let Stand::Plane(_) = self.stand { 2 } else { 3 }
+        if let PlacedTool::Plane(_) = self.stand { 2 } else { 3 }
     }
     /// Forces on its unknowns of a force `f` at `y`, for derivatives of both: `f . r_i(y)`.
     pub fn receive(&self, y: Vec3, f: Vec3) -> [f64; MOST] {
@@ -261,18 +261,20 @@ impl ToolInPlace<'_> {
 
 impl ToolInPlace<'_> {
     /// All places within a range where a ray meets the tool's segments; `hits` is cleared first.
-    pub fn cast(&self, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+    pub fn cast(&self, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
         match (&self.rigid.shape, &self.stand) {
-            (RigidShape::Plane(tool, _), Stand::Plane(pose)) => tool.cast(pose, ray, range, hits),
-            (RigidShape::Space(tool, _), Stand::Space(stance, _)) => tool.cast(&stance.pose, ray, range, hits),
+            (RigidShape::Plane(tool, _), PlacedTool::Plane(pose)) => tool.cast(pose, ray, range, hits),
+            (RigidShape::Space(tool, _), PlacedTool::Space(stance, _)) => tool.cast(&stance.pose, ray, range, hits),
             _ => hits.clear(),
         }
     }
     /// Where a ray meets one segment or what continues it, near a place on it.
-    pub fn meet(&self, segment: usize, ray: &Ray, near: [f64; 2]) -> Option<Hit> {
+    pub fn meet(&self, segment: usize, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
         match (&self.rigid.shape, &self.stand) {
-            (RigidShape::Plane(tool, _), Stand::Plane(pose)) => tool.cast_segment(pose, segment, ray, near[0]),
-            (RigidShape::Space(tool, _), Stand::Space(stance, _)) => tool.cast_facet(&stance.pose, segment, ray, near),
+            (RigidShape::Plane(tool, _), PlacedTool::Plane(pose)) => tool.cast_segment(pose, segment, ray, near[0]),
+            (RigidShape::Space(tool, _), PlacedTool::Space(stance, _)) => {
+                tool.cast_facet(&stance.pose, segment, ray, near)
+            }
             _ => None,
         }
     }

@@ -3,11 +3,11 @@
 use super::neighbours::Neighbours;
 use super::point::Triad;
 use super::surface::PointSurface;
-use crate::contact::field::faces::Faces;
-use crate::contact::field::{FieldTarget, Surface};
+use crate::contact::field::faces::TargetFaces;
+use crate::contact::field::{FieldSurface, FieldTarget};
 use crate::contact::increment::CLOSED;
 use crate::contact::record::largest_penetration;
-use crate::contact::{ContactOptions, Loads};
+use crate::contact::{ContactOptions, LoadedSides};
 use crate::interface::{Interface, Rule};
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::{Dofs, History};
@@ -40,7 +40,7 @@ pub struct PaperParts {
 /// Contact whose stress lives at Gauss points.
 pub struct PaperContact {
     pub(super) parts: PaperParts,
-    pub(super) boundary: Faces,
+    pub(super) boundary: TargetFaces,
     /// The connected whole of each cell.
     pub(super) wholes: Vec<usize>,
     /// Penetration from which a point counts as closed.
@@ -56,7 +56,8 @@ pub struct PaperContact {
 impl PaperContact {
     /// A contact of these parts.
     pub fn new(parts: PaperParts) -> Self {
-        let boundary = Faces::new(Surface::whole(&parts.mesh, &parts.boundary, parts.space, 1.0), &parts.mesh);
+        let boundary =
+            TargetFaces::new(FieldSurface::whole(&parts.mesh, &parts.boundary, parts.space, 1.0), &parts.mesh);
         let [mut shortest, mut longest] = parts.surface.faces.sizes(&parts.mesh);
         // Common to both sides: else one would be pressed a little harder than the other.
         if let Some(faces) = parts.target.as_faces() {
@@ -83,7 +84,7 @@ impl PaperContact {
         &self.parts.name
     }
     /// The faces that carry the points.
-    pub fn surface(&self) -> &Surface {
+    pub fn surface(&self) -> &FieldSurface {
         &self.parts.surface.faces
     }
     /// The points.
@@ -96,7 +97,7 @@ impl PaperContact {
     }
     /// Whether its points load their own side alone: one of two passes.
     pub fn loads_itself(&self) -> bool {
-        self.parts.options.loads == Loads::Own
+        self.parts.options.loads == LoadedSides::Own
     }
     /// The law of the interface.
     pub fn law(&self) -> &dyn Interface {
@@ -154,7 +155,7 @@ impl PaperContact {
 }
 
 /// For each face of the surface the segments of the target that share a node with it.
-fn relatives(surface: &Surface, target: Option<&Surface>) -> Vec<Vec<usize>> {
+fn relatives(surface: &FieldSurface, target: Option<&FieldSurface>) -> Vec<Vec<usize>> {
     let mut behind: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (segment, face) in target.into_iter().flat_map(|target| target.faces.iter().enumerate()) {
         face.nodes.iter().for_each(|&node| behind.entry(node).or_default().push(segment));

@@ -43,7 +43,7 @@ impl PaperContact {
             let (own, (origin, triad)) = (self.parts.surface.face(index).side, self.triad(index, u));
             let least = 1e-3 * if self.parts.surface.faces.plane { triad.area } else { triad.area.sqrt() };
             let mut crossings = Vec::new();
-            let ray = faces::Ray { x: origin, n: triad.inward };
+            let ray = faces::FaceRay { x: origin, n: triad.inward };
             boundary.nearest(&ray, [least, f64::MAX], |number, at| {
                 let side = sides[number].side;
                 if side != own && self.wholes[side.cell] == self.wholes[own.cell] {

@@ -61,7 +61,7 @@ impl PaperAttempt<'_> {
         })?;
         let Some(closed) = closed else {
             leave(law, old, new);
-            self.account(index, g, PointStress::default(), local);
+            self.account(index, g, CarriedStress::default(), local);
             return Ok(0);
         };
         self.refuse_leap(index, (g, &local.u))?;
@@ -71,7 +71,7 @@ impl PaperAttempt<'_> {
         if let Some(mean) = mean.filter(|_| local.wants_tangent) {
             self.add_neighbours((g, by_mean), &mean, local);
         }
-        self.account(index, g, PointStress::of(&closed.response), local);
+        self.account(index, g, CarriedStress::of(&closed.response), local);
         Ok(closed.response.status as Branch)
     }
 
@@ -107,7 +107,7 @@ impl PaperAttempt<'_> {
     /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
     /// A point that closes or opens takes part with half its stress, so that one which passes a peak of pressure within an
     /// increment does not lose its work.
-    fn account(&self, index: usize, g: &PointGeometry, now: PointStress, local: &mut Local) {
+    fn account(&self, index: usize, g: &PointGeometry, now: CarriedStress, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
         let area = self.present_area(g) * options.loads.share();
@@ -124,13 +124,13 @@ impl PaperAttempt<'_> {
 
 /// What a point carries, for its energy.
 #[derive(Debug, Clone, Copy, Default)]
-struct PointStress {
+struct CarriedStress {
     pressure: f64,
     shear: [f64; 2],
     closure: f64,
 }
 
-impl PointStress {
+impl CarriedStress {
     fn of(response: &Linearised) -> Self {
         Self { pressure: response.pressure(), shear: response.shear(), closure: response.closure }
     }

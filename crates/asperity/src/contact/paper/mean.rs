@@ -14,11 +14,11 @@ use crate::Failure;
 use crate::contact::field::configuration::TargetInPlace;
 use crate::interface::{Interface, Linearised, Past};
 use crate::system::Local;
-use crate::tool::{Ray, Rejected};
+use crate::tool::{ProfileRay, Rejected};
 use std::ops::Range;
 
 /// A mean pressure and its derivatives along all unknowns of a stencil.
-pub struct Mean {
+pub struct MeanPressure {
     /// The mean.
     pub pressure: f64,
     /// Its derivatives.
@@ -27,9 +27,9 @@ pub struct Mean {
 
 impl PaperAttempt<'_> {
     /// The mean pressure around a point for values `u` of its unknowns; none where friction is local.
-    pub(super) fn mean_pressure(&self, index: usize, g: &PointGeometry, u: &[f64]) -> Option<Mean> {
+    pub(super) fn mean_pressure(&self, index: usize, g: &PointGeometry, u: &[f64]) -> Option<MeanPressure> {
         let parts = self.contact.neighbours.of(index)?;
-        let mut mean = Mean { pressure: 0.0, slopes: vec![0.0; u.len()] };
+        let mut mean = MeanPressure { pressure: 0.0, slopes: vec![0.0; u.len()] };
         for &(point, part) in parts {
             self.add_pressure((point, part), (self.nodes_of(index, point, g), g), u, &mut mean);
         }
@@ -59,14 +59,14 @@ impl PaperAttempt<'_> {
         (index, part): (usize, f64),
         (own, g): (Range<usize>, &PointGeometry),
         u: &[f64],
-        mean: &mut Mean,
+        mean: &mut MeanPressure,
     ) {
         let (contact, parts) = (self.contact, &self.contact.parts);
         let (point, face) = (&parts.surface.points[index], parts.surface.face(index));
         let (placed, axes) = (placed(&face.nodes, &parts.mesh, &u[own.clone()]), parts.dofs.per_node());
         let plane = contact.surface().plane;
         let inward = Triad::new(point.shape.tangents(placed.nodes(), plane), plane).inward;
-        let ray = Ray { origin: point.shape.value(placed.nodes()), direction: inward };
+        let ray = ProfileRay { origin: point.shape.value(placed.nodes()), direction: inward };
         let cast = contact.cast(index, ray, (self.depths[index], self.reach));
         let Some(tool) = g.segment.tool() else { return };
         let Some(hit) = TargetInPlace::Tool(tool).see(&cast, &mut Rejected::default()) else { return };
@@ -87,7 +87,12 @@ impl PaperAttempt<'_> {
 
     /// Adds to the tangent what the mean pressure does to the friction of a point, by the derivatives of its shear
     /// stresses along the mean.
-    pub(super) fn add_neighbours(&self, (g, [s, t]): (&PointGeometry, [f64; 2]), mean: &Mean, local: &mut Local) {
+    pub(super) fn add_neighbours(
+        &self,
+        (g, [s, t]): (&PointGeometry, [f64; 2]),
+        mean: &MeanPressure,
+        local: &mut Local,
+    ) {
         let n = local.force.len();
         let triad = Triad::new(g.place.tangents, self.contact.surface().plane);
         let force = (triad.along[0] * s + triad.along[1] * t) * self.present_area(g);

@@ -5,10 +5,10 @@ use super::attempt::touched;
 use super::contact::PaperContact;
 use super::point::Triad;
 use crate::contact::Move;
-use crate::contact::record::{PointRecord, PointStatus, entry};
+use crate::contact::record::{ContactRecord, PointStatus, entry};
 use crate::system::History;
 use crate::tensor::Vec3;
-use crate::tool::{Ray, Rejected};
+use crate::tool::{ProfileRay, Rejected};
 use std::collections::BTreeMap;
 
 /// Penetration at a place of the surface.
@@ -40,21 +40,21 @@ fn is_closed(values: &[f64]) -> bool {
 
 impl PaperContact {
     /// All points in an accepted state, with this term's lane of its history.
-    pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
+    pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
         (0..self.parts.surface.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
     }
 
-    fn record(&self, index: usize, u: &[f64], values: &[f64]) -> PointRecord {
+    fn record(&self, index: usize, u: &[f64], values: &[f64]) -> ContactRecord {
         let (position, Triad { inward, along, .. }) = self.triad(index, u);
         let plane = self.surface().plane;
-        let record = PointRecord::of(values, plane);
+        let record = ContactRecord::of(values, plane);
         let [s, t] = [entry::SHEAR, entry::SHEAR2].map(|shear| values[shear]);
         let sheared = !plane && record.shear > 0.0;
-        PointRecord {
+        ContactRecord {
             position,
             inward,
             thrust: inward,
-            facing: self.facing(values, u, &Ray { origin: position, direction: inward }),
+            facing: self.facing(values, u, &ProfileRay { origin: position, direction: inward }),
             along: if sheared { (along[0] * s + along[1] * t) * record.shear.recip() } else { along[0] },
             area: self.area(index, u),
             segment: touched(values).map(|(segment, _)| segment),
@@ -64,7 +64,7 @@ impl PaperContact {
     }
 
     /// Outward normal of the target where the ray of a closed point meets it; the direction of the ray elsewhere.
-    fn facing(&self, values: &[f64], u: &[f64], ray: &Ray) -> Vec3 {
+    fn facing(&self, values: &[f64], u: &[f64], ray: &ProfileRay) -> Vec3 {
         let touched = touched(values).filter(|_| is_closed(values));
         let hit = touched.and_then(|(segment, s)| {
             let own: Vec<f64> =
@@ -84,7 +84,7 @@ impl PaperContact {
             let (shape, placed) =
                 (surface.faces[face].shape(xi), surface.faces[face].placed(&self.parts.mesh, &self.parts.dofs, u));
             let direction = Triad::new(shape.tangents(placed.nodes(), surface.plane), surface.plane).inward;
-            let ray = Ray { origin: shape.value(placed.nodes()), direction };
+            let ray = ProfileRay { origin: shape.value(placed.nodes()), direction };
             let hit = target.see(&self.cast(index, ray, (depths[index], f64::INFINITY)), &mut Rejected::default())?;
             let penetration = hit.u - (-history.slot(index)[entry::CLOSURE]).max(0.0);
             (penetration > 0.0).then_some(Sample { penetration, edge: face, position: ray.origin })
@@ -103,7 +103,7 @@ impl PaperContact {
     /// `K delta A / F`. Zero without pressure, and where the nodes of the two sides match. A tool has no facets.
     pub fn facet_ratio(&self, u: &[f64], history: &History) -> Option<f64> {
         let (faces, mesh, surface) = (self.parts.target.as_faces()?, &self.parts.mesh, self.surface());
-        let sagitta = |side: &crate::contact::field::Surface, face: usize| {
+        let sagitta = |side: &crate::contact::field::FieldSurface, face: usize| {
             let nodes = side.field[face].iter().filter(|node| **node < side.nodes.len());
             nodes.map(|&node| side.sagitta(node, mesh)).fold(0.0, f64::max)
         };
@@ -120,7 +120,7 @@ impl PaperContact {
     /// Whether the corners of a face and of the segment it faces coincide.
     fn matches(&self, face: usize, segment: usize, u: &[f64]) -> bool {
         let Some(target) = self.parts.target.as_faces() else { return false };
-        let corners = |face: &crate::contact::field::face::Face| {
+        let corners = |face: &crate::contact::field::face::FieldFace| {
             face.placed(&self.parts.mesh, &self.parts.dofs, u).nodes()[..face.corners()].to_vec()
         };
         let (own, other) = (corners(&self.surface().faces[face]), corners(&target.surface.faces[segment]));

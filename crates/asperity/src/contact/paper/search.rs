@@ -7,13 +7,13 @@ use crate::contact::field::configuration::TargetInPlace;
 use crate::contact::field::faces;
 use crate::contact::increment::reach;
 use crate::tensor::Vec3;
-use crate::tool::{Hit, Ray, Rejected, Rules, select};
+use crate::tool::{Hit, ProfileRay, Rejected, Rules, select};
 
 /// A ray to be cast, and what it may meet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cast<'a> {
     /// The ray, along the inward normal of the surface.
-    pub ray: Ray,
+    pub ray: ProfileRay,
     /// Largest gap at which the target is seen, a length.
     pub reach: f64,
     /// Largest admissible penetration, a length.
@@ -30,12 +30,12 @@ const FOLD: f64 = 0.5;
 
 impl TargetInPlace<'_> {
     /// All that a ray meets within a range.
-    pub(super) fn cast(&self, ray: &Ray, range: [f64; 2]) -> Vec<Hit> {
+    pub(super) fn cast(&self, ray: &ProfileRay, range: [f64; 2]) -> Vec<Hit> {
         let mut hits = Vec::new();
         match self {
             Self::Tool(tool) => tool.cast(ray, range, &mut hits),
             Self::Faces(faces) => {
-                let ray = faces::Ray { x: ray.origin, n: ray.direction };
+                let ray = faces::FaceRay { x: ray.origin, n: ray.direction };
                 faces.nearest(&ray, range, |segment, at| {
                     hits.extend(met(segment, &ray, at));
                     false
@@ -76,13 +76,13 @@ impl PaperContact {
     }
 
     /// The ray of a point at unknowns `u`.
-    pub(super) fn ray(&self, point: usize, u: &[f64]) -> Ray {
+    pub(super) fn ray(&self, point: usize, u: &[f64]) -> ProfileRay {
         let (origin, triad) = self.triad(point, u);
-        Ray { origin, direction: triad.inward }
+        ProfileRay { origin, direction: triad.inward }
     }
 
     /// A ray on behalf of a point, up to a depth and a reach.
-    pub(super) fn cast(&self, point: usize, ray: Ray, (depth, reach): (f64, f64)) -> Cast<'_> {
+    pub(super) fn cast(&self, point: usize, ray: ProfileRay, (depth, reach): (f64, f64)) -> Cast<'_> {
         let relatives = &self.relatives[self.parts.surface.points[point].face];
         Cast { ray, reach, depth, relatives, size: self.parts.target.size() }
     }
@@ -97,7 +97,7 @@ impl PaperContact {
         let still = vec![0.0; self.parts.dofs.count()];
         let (depths, target) = (self.depths(&still), self.target_at(&still));
         let deep = |(origin, direction, point): (Vec3, Vec3, usize)| {
-            let cast = self.cast(point, Ray { origin, direction }, (depths[point], f64::INFINITY));
+            let cast = self.cast(point, ProfileRay { origin, direction }, (depths[point], f64::INFINITY));
             target.see(&cast, &mut Rejected::default()).map(|hit| hit.u)
         };
         rays.map(deep).collect()

@@ -2,14 +2,14 @@
 //! or the displacements of a face's nodes.
 
 use crate::contact::field::FieldTarget;
-use crate::contact::field::face::Placed;
-use crate::contact::field::faces::{self, Faces, Projection};
+use crate::contact::field::face::PlacedFace;
+use crate::contact::field::faces::{self, FaceProjection, TargetFaces};
 use crate::contact::field::surface::unit;
 use crate::contact::field::tool::ToolInPlace;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
 use crate::tensor::{Scalar, Vec3};
-use crate::tool::{Hit, Ray};
+use crate::tool::{Hit, ProfileRay};
 
 /// A segment of a tool or a face of a body in its place.
 pub struct SegmentInPlace<'a> {
@@ -24,7 +24,7 @@ pub struct SegmentInPlace<'a> {
 /// Whose segment it is.
 enum SegmentOwner<'a> {
     Tool(ToolInPlace<'a>),
-    Body(&'a Faces, Placed),
+    Body(&'a TargetFaces, PlacedFace),
 }
 
 impl FieldTarget {
@@ -63,7 +63,7 @@ impl FieldTarget {
 const ON_RAY: f64 = 1e-7;
 
 /// Where a ray meets a face.
-pub fn met(segment: usize, ray: &faces::Ray, at: &Projection) -> Option<Hit> {
+pub fn met(segment: usize, ray: &faces::FaceRay, at: &FaceProjection) -> Option<Hit> {
     let off = (ray.x + ray.n * at.gap - at.y).norm();
     (off <= ON_RAY * at.tangents[0].norm()).then(|| Hit { segment, s: at.s, u: at.gap, normal: at.normal() })
 }
@@ -74,9 +74,9 @@ pub fn dofs_of<'a>(nodes: &'a [usize], dofs: &'a Dofs) -> impl Iterator<Item = u
 }
 
 /// Nodes in place for values `u` of their unknowns.
-pub fn placed(nodes: &[usize], mesh: &Mesh, u: &[f64]) -> Placed {
+pub fn placed(nodes: &[usize], mesh: &Mesh, u: &[f64]) -> PlacedFace {
     let axes = u.len() / nodes.len();
-    Placed::new(nodes.iter().zip(u.chunks_exact(axes)).map(|(&node, u)| {
+    PlacedFace::new(nodes.iter().zip(u.chunks_exact(axes)).map(|(&node, u)| {
         let mut x = mesh.points[node];
         u.iter().enumerate().for_each(|(axis, u)| x[axis] += u);
         x
@@ -85,11 +85,11 @@ pub fn placed(nodes: &[usize], mesh: &Mesh, u: &[f64]) -> Placed {
 
 impl SegmentInPlace<'_> {
     /// Where a ray meets it or what continues it, near `near`; None if the ray runs along it.
-    pub fn meet(&self, ray: &Ray, near: [f64; 2]) -> Option<Hit> {
+    pub fn meet(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
         match &self.of {
             SegmentOwner::Tool(tool) => tool.meet(self.number, ray, near),
             SegmentOwner::Body(faces, placed) => {
-                let ray = faces::Ray { x: ray.origin, n: ray.direction };
+                let ray = faces::FaceRay { x: ray.origin, n: ray.direction };
                 met(self.number, &ray, &faces.project(self.number, placed, &ray)?)
             }
         }

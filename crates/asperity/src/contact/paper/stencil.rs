@@ -8,12 +8,12 @@ use super::seed::Seed;
 use super::segment::{SegmentInPlace, dofs_of, placed};
 use super::surface::GaussPoint;
 use crate::Failure;
-use crate::contact::Loads;
-use crate::contact::field::face::Placed;
+use crate::contact::LoadedSides;
+use crate::contact::field::face::PlacedFace;
 use crate::contact::field::surface::unit;
 use crate::system::{Local, Stencil};
 use crate::tensor::{Dual, Scalar, Vec3};
-use crate::tool::{Hit, Ray};
+use crate::tool::{Hit, ProfileRay};
 use std::ops::Range;
 
 /// Directions in which a point is differentiated: five vectors.
@@ -40,7 +40,7 @@ pub struct PointGeometry<'a> {
     /// Number of the unknowns that move the point itself.
     pub count: usize,
     /// Its face.
-    pub placed: Placed,
+    pub placed: PlacedFace,
 }
 
 impl PointGeometry<'_> {
@@ -98,7 +98,7 @@ impl<'a> PaperAttempt<'a> {
         let tangents = point.shape.tangents(placed.nodes(), plane);
         let inward = Triad::new(tangents, plane).inward;
         let segment = parts.target.segment(number, site, &u[met.clone()]);
-        let hit = segment.meet(&Ray { origin: a, direction: inward }, stencil.near).ok_or_else(lost)?;
+        let hit = segment.meet(&ProfileRay { origin: a, direction: inward }, stencil.near).ok_or_else(lost)?;
         let mut count = met.end;
         let before = touched(self.history.slot(index)).map(|(other, s)| {
             let range = match self.touched_elsewhere(index, number) {
@@ -118,7 +118,7 @@ impl<'a> PaperAttempt<'a> {
     pub(super) fn rows<T: Scalar>(&self, g: &PointGeometry, place: (Vec3<T>, Vec3<T>), force: Vec3<T>) -> Vec<T> {
         let axes = self.contact.parts.dofs.per_node();
         let mut rows: Vec<T> = (0..g.own).map(|k| -force[k % axes] * g.point.shape.n[k / axes]).collect();
-        if self.contact.parts.options.loads == Loads::Both {
+        if self.contact.parts.options.loads == LoadedSides::Both {
             rows.extend(g.segment.receive(&g.hit, place, force));
         }
         rows.resize(g.count, T::zero());
@@ -141,7 +141,7 @@ impl<'a> PaperAttempt<'a> {
                 *entry += slopes.iter().zip(column).map(|(s, c)| s * c).sum::<f64>();
             }
         }
-        if self.contact.parts.options.loads == Loads::Both {
+        if self.contact.parts.options.loads == LoadedSides::Both {
             let first = g.met.start;
             g.segment.stiffen((closed.hit.re(), closed.linear.re()), &mut |row, column, value| {
                 local.tangent[(first + row) * n + first + column] += value;
@@ -171,7 +171,7 @@ impl<'a> PaperAttempt<'a> {
     pub(super) fn normal_rates(
         &self,
         shape: &crate::contact::field::face::ShapeFunctions,
-        placed: &Placed,
+        placed: &PlacedFace,
     ) -> Vec<Vec3> {
         let axes = self.contact.parts.dofs.per_node();
         let [g1, g2] = shape.tangents(placed.nodes(), axes == 2);

@@ -1,7 +1,7 @@
 //! The faces that carry the element, with their Gauss points.
 
-use crate::contact::field::Surface;
-use crate::contact::field::face::{Face, ShapeFunctions};
+use crate::contact::field::FieldSurface;
+use crate::contact::field::face::{FieldFace, ShapeFunctions};
 use crate::mesh::{Mesh, Side, Space};
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ pub struct GaussPoint {
 #[derive(Debug, Clone)]
 pub struct PointSurface {
     /// The faces.
-    pub faces: Surface,
+    pub faces: FieldSurface,
     /// The points, face by face.
     pub points: Vec<GaussPoint>,
 }
@@ -38,8 +38,8 @@ impl PointSurface {
     /// first degree over which the radius changes markedly. More points than the face adds nodes enforce more conditions than it can
     /// meet.
     pub fn new(mesh: &Mesh, sides: &[Side], (space, thickness): (Space, f64), gauss: Option<usize>) -> Self {
-        let faces = Surface::whole(mesh, sides, space, thickness);
-        let least = |face: &Face| if space == Space::Axisymmetric && is_marked(face, mesh) { 2 } else { 1 };
+        let faces = FieldSurface::whole(mesh, sides, space, thickness);
+        let least = |face: &FieldFace| if space == Space::Axisymmetric && is_marked(face, mesh) { 2 } else { 1 };
         let mut points = Vec::new();
         for (number, face) in faces.faces.iter().enumerate() {
             let order = gauss.unwrap_or_else(|| face.kind.degree.max(least(face))).clamp(1, 3);
@@ -58,13 +58,13 @@ impl PointSurface {
     }
 
     /// The face of a point.
-    pub fn face(&self, point: usize) -> &Face {
+    pub fn face(&self, point: usize) -> &FieldFace {
         &self.faces.faces[self.points[point].face]
     }
 }
 
 /// Whether the radius changes markedly over an edge.
-fn is_marked(edge: &Face, mesh: &Mesh) -> bool {
+fn is_marked(edge: &FieldFace, mesh: &Mesh) -> bool {
     let [from, to] = [0, 1].map(|end| mesh.points[edge.nodes[end]][0]);
     (to - from).abs() > MARKED * (from + to).abs()
 }

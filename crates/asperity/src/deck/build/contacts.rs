@@ -2,10 +2,10 @@
 
 use super::Builder;
 use super::friction::integrated;
-use crate::contact::field::{FieldTarget, Surface};
+use crate::contact::field::{FieldSurface, FieldTarget};
 use crate::contact::{
-    Backing, ContactForm, ContactOptions, Loads, PaperContact, PaperParts, PointSurface, TWO_PASSES, default_penalty,
-    plates, second_name,
+    Backing, ContactForm, ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface, TWO_PASSES,
+    default_penalty, plates, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
@@ -14,7 +14,7 @@ use crate::interface::Rule;
 use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
 use crate::system::Dofs;
-use crate::tool::{self, Tool};
+use crate::tool::{self, ProfileTool};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -31,8 +31,8 @@ pub(super) enum Opposite<'a> {
 /// The tools of a model, those of the plane or those of space.
 #[derive(Clone, Copy)]
 pub(super) struct Tools<'a> {
-    pub plane: &'a [Arc<Tool>],
-    pub solid: &'a [Arc<tool::space::Tool>],
+    pub plane: &'a [Arc<ProfileTool>],
+    pub solid: &'a [Arc<tool::space::SpaceTool>],
 }
 
 impl Tools<'_> {
@@ -129,7 +129,7 @@ impl Builder<'_> {
                 mesh: mesh.clone(),
             })
         };
-        let faces = |sides: &[Side]| FieldTarget::faces(Surface::whole(&mesh, sides, space, thickness), &mesh);
+        let faces = |sides: &[Side]| FieldTarget::faces(FieldSurface::whole(&mesh, sides, space, thickness), &mesh);
         Some(match opposite {
             Opposite::Tool(number) => vec![build(&name.text, surface, tools.target(number, &dofs)?)],
             Opposite::Sides(sides) => {
@@ -198,7 +198,7 @@ impl Builder<'_> {
             Opposite::Sides(others) => vec![surface, others],
             Opposite::Tool(_) => vec![surface],
         };
-        let part = if self.carried(keys, (surface, opposite)) == Loads::Own { TWO_PASSES } else { 1.0 };
+        let part = if self.carried(keys, (surface, opposite)) == LoadedSides::Own { TWO_PASSES } else { 1.0 };
         part * default_penalty((&*self.site.mesh, self.site.space), &surfaces, |cell| backings[cell])
     }
 
@@ -218,10 +218,10 @@ impl Builder<'_> {
 
     /// One pass or two: two between sides of second degree, one where a side is of first degree and would be felt as the
     /// facets into which contact bends it. A surface that touches itself carries the points of both sides anyhow.
-    fn carried(&self, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> Loads {
-        let Opposite::Sides(others) = opposite else { return Loads::Both };
+    fn carried(&self, keys: &keys::Contact, (surface, opposite): (&[Side], Opposite)) -> LoadedSides {
+        let Opposite::Sides(others) = opposite else { return LoadedSides::Both };
         if self.is_field(keys) {
-            return Loads::Both;
+            return LoadedSides::Both;
         }
         let passes = keys.passes.map_or(Passes::Auto, |passes| passes.value);
         let smooth = |sides: &[Side]| sides.iter().all(|side| self.site.mesh.side(*side).0.degree > 1);
@@ -231,7 +231,7 @@ impl Builder<'_> {
             Passes::Auto if same_sides(surface, others) => true,
             Passes::Auto => smooth(surface) && smooth(others),
         };
-        if two { Loads::Own } else { Loads::Both }
+        if two { LoadedSides::Own } else { LoadedSides::Both }
     }
 
     /// What is said of two bodies must be of use.
@@ -284,7 +284,7 @@ impl Builder<'_> {
 
 /// Whether the target of a contact carries points of its own, in a second pass.
 pub(super) fn is_double(options: &ContactOptions, surface: &[Side], target: &[Side]) -> bool {
-    options.loads == Loads::Own && !same_sides(surface, target)
+    options.loads == LoadedSides::Own && !same_sides(surface, target)
 }
 
 /// Whether two lists hold the same sides; those of a group are sorted.

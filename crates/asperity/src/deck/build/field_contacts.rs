@@ -2,7 +2,7 @@
 
 use super::Builder;
 use super::contacts::{Opposite, Tools, backings, boundary_behind};
-use crate::contact::field::{FieldContact, FieldParts, FieldTarget, Surface};
+use crate::contact::field::{FieldContact, FieldParts, FieldSurface, FieldTarget};
 use crate::contact::{Backing, ContactForm};
 use crate::deck::keys::{self, Roles};
 use crate::deck::reader::Name;
@@ -57,8 +57,8 @@ impl Builder<'_> {
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }
-        let whole = |sides: &[Side]| Surface::whole(&mesh, sides, space, self.site.thickness);
-        let carrier = |sides: &[Side]| Surface::new(&mesh, sides, space, self.site.thickness);
+        let whole = |sides: &[Side]| FieldSurface::whole(&mesh, sides, space, self.site.thickness);
+        let carrier = |sides: &[Side]| FieldSurface::new(&mesh, sides, space, self.site.thickness);
         let (mut sides, mut swapped, mut itself) = (surface, false, false);
         let target = match opposite {
             Opposite::Tool(number) => tools.target(number, &dofs)?,
@@ -127,7 +127,7 @@ const CURVED: f64 = 1e-3;
 /// Whether `other` is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
 /// facets the other side cannot all follow; else the finer, since a coarse field on a fine target misses what lies between its
 /// nodes.
-fn suits_better(other: &Surface, surface: &Surface, mesh: &Mesh) -> bool {
+fn suits_better(other: &FieldSurface, surface: &FieldSurface, mesh: &Mesh) -> bool {
     let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
     if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
 }

@@ -7,8 +7,8 @@ use crate::deck::reader::Name;
 use crate::deck::source::{Place, Spot};
 use crate::tensor::Vec3;
 use crate::tool::space::solids::{Facets, cone, extruded, plane, polygons, revolved, sphere, torus};
-use crate::tool::space::{Finding, Frame, Tool, stl};
-use crate::tool::{self, Severity};
+use crate::tool::space::{FacetFinding, ProfileFrame, SpaceTool, stl};
+use crate::tool::{self, FindingSeverity};
 use std::sync::Arc;
 
 fn vector(x: &[f64]) -> Vec3 {
@@ -17,14 +17,14 @@ fn vector(x: &[f64]) -> Vec3 {
 
 impl Builder<'_> {
     /// The tools of a model in space.
-    pub(super) fn solid_tools(&mut self) -> Option<Vec<Arc<Tool>>> {
+    pub(super) fn solid_tools(&mut self) -> Option<Vec<Arc<SpaceTool>>> {
         let tools: Vec<_> = self.deck.tool.iter().map(|(name, keys)| self.solid_tool(name, keys)).collect();
         tools.into_iter().collect()
     }
 
-    fn solid_tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<Tool>> {
+    fn solid_tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<SpaceTool>> {
         let (facets, reference) = (self.facets(name, keys), self.reference(name, keys, 3)?);
-        let tool = Tool::new(&name.text, facets?, reference);
+        let tool = SpaceTool::new(&name.text, facets?, reference);
         self.judge_facets(&tool, keys).then(|| Arc::new(tool))
     }
 
@@ -57,13 +57,13 @@ impl Builder<'_> {
     fn swept(&mut self, name: &Name, keys: &ToolKeys, profile: &Spot<Vec<Segment>>) -> Option<Facets> {
         let (segments, _) = self.segments(profile, keys)?;
         let (again, places) = self.segments(profile, keys)?;
-        let flat = tool::Tool::new(&name.text, vec![again], Vec3::zero());
+        let flat = tool::ProfileTool::new(&name.text, vec![again], Vec3::zero());
         if !self.judge(&flat, (&places, profile.place), keys.revolve.is_some()) {
             return None;
         }
         let told = |why| crate::Error::input(format!("tool `{name}`: {why}"));
         if let Some(it) = &keys.revolve {
-            let frame = Frame::about(vector(&it.origin), vector(&it.axis)).map_err(told);
+            let frame = ProfileFrame::about(vector(&it.origin), vector(&it.axis)).map_err(told);
             return self.keep(frame, it.place).map(|frame| revolved(segments, frame));
         }
         let Some(it) = &keys.extrude else {
@@ -73,7 +73,7 @@ impl Builder<'_> {
             return None;
         };
         let along = vector(&it.along);
-        let frame = Frame::across(vector(&it.origin), along, vector(&it.x)).map_err(told);
+        let frame = ProfileFrame::across(vector(&it.origin), along, vector(&it.x)).map_err(told);
         self.keep(frame, it.place).map(|frame| extruded(segments, frame, along.norm()))
     }
 
@@ -96,12 +96,13 @@ impl Builder<'_> {
     }
 
     /// Whether a tool can be used.
-    fn judge_facets(&mut self, tool: &Tool, keys: &ToolKeys) -> bool {
+    fn judge_facets(&mut self, tool: &SpaceTool, keys: &ToolKeys) -> bool {
         let mut sound = true;
         for finding in tool.check() {
             let facets = keys.facets.as_ref().map(|facets| facets.faces.value.as_slice());
             let place: Option<Place> = facets.zip(finding.facet()).and_then(|(all, i)| Some(all.get(i)?.place));
-            let (what, grave) = (format!("tool `{}`: {finding}", tool.name()), finding.severity() == Severity::Error);
+            let (what, grave) =
+                (format!("tool `{}`: {finding}", tool.name()), finding.severity() == FindingSeverity::Error);
             sound &= !grave;
             let diagnostic = if grave { Diagnostic::error(what) } else { Diagnostic::note(what) };
             let diagnostic = diagnostic.at(place.unwrap_or(keys.place));
@@ -121,11 +122,11 @@ fn of_nodes(keys: &FacetKeys) -> Result<Facets, String> {
 }
 
 /// What to do about a finding whose sentence does not say it.
-fn remedy(finding: &Finding) -> &'static str {
+fn remedy(finding: &FacetFinding) -> &'static str {
     match finding {
-        Finding::Degenerate(_) => "remove the facet, or move one of its corners",
-        Finding::Opposed(..) => "list the corners of each facet counter-clockwise as seen from outside",
-        Finding::InsideOut => "reverse the order of the corners of every facet",
+        FacetFinding::Degenerate(_) => "remove the facet, or move one of its corners",
+        FacetFinding::Opposed(..) => "list the corners of each facet counter-clockwise as seen from outside",
+        FacetFinding::InsideOut => "reverse the order of the corners of every facet",
         _ => "",
     }
 }

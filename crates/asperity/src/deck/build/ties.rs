@@ -1,7 +1,7 @@
 //! Surfaces that are glued: found before anything else, since their nodes may move.
 
 use super::Builder;
-use crate::contact::field::{Apart, Tie, TieParts};
+use crate::contact::field::{Apart, TieParts, TiedSurfaces};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, TieGap};
 use crate::deck::source::Place;
@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-12;
 /// A tie and where the deck says it.
 pub(super) struct Glued {
     /// What was found.
-    pub tie: Tie,
+    pub tie: TiedSurfaces,
     /// The groups of surface and target.
     pub names: [String; 2],
     /// Where.
@@ -40,7 +40,7 @@ impl Builder<'_> {
         }
         let tolerance = keys.tolerance.map(|tolerance| tolerance.value);
         let parts = TieParts { mesh: &mesh, space: self.site.space, surface, target, tolerance };
-        let tie = match Tie::new(&parts) {
+        let tie = match TiedSurfaces::new(&parts) {
             Ok(tie) => tie,
             Err(apart) => {
                 self.apart(keys, &apart);
@@ -93,7 +93,7 @@ impl Builder<'_> {
     }
 
     /// Moves the nodes of a tie together, within the planes that hold them.
-    fn close(&mut self, tie: &Tie) {
+    fn close(&mut self, tie: &TiedSurfaces) {
         let (mut mesh, least) = ((*self.site.mesh).clone(), ROUNDING * self.site.mesh.size());
         let planes = self.planes(&mesh);
         for (node, to) in tie.fitted(&mesh.points) {

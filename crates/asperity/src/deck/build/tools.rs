@@ -7,20 +7,20 @@ use crate::deck::reader::Name;
 use crate::deck::source::{Place, Spot};
 use crate::mesh::Space;
 use crate::tensor::Vec3;
-use crate::tool::{Draft, Finding, Severity, Shape, Tool, rounded};
+use crate::tool::{Draft, FindingSeverity, ProfileFinding, ProfileShape, ProfileTool, rounded};
 use std::sync::Arc;
 
 /// Segments, and where each is said.
-pub(super) type Segments = (Vec<Box<dyn Shape>>, Vec<Place>);
+pub(super) type Segments = (Vec<Box<dyn ProfileShape>>, Vec<Place>);
 
 impl Builder<'_> {
     /// The tools.
-    pub(super) fn tools(&mut self) -> Option<Vec<Arc<Tool>>> {
+    pub(super) fn tools(&mut self) -> Option<Vec<Arc<ProfileTool>>> {
         let tools: Vec<_> = self.deck.tool.iter().map(|(name, keys)| self.tool(name, keys)).collect();
         tools.into_iter().collect()
     }
 
-    fn tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<Tool>> {
+    fn tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<ProfileTool>> {
         let profile = keys.profile.as_ref().filter(|_| keys.revolve.is_none() && keys.extrude.is_none());
         let Some(profile) = profile else {
             let what = format!("the tool `{name}` is a body of space, but space = \"{}\"", self.site.space.name());
@@ -29,7 +29,7 @@ impl Builder<'_> {
             return None;
         };
         let ((segments, places), reference) = (self.segments(profile, keys)?, self.reference(name, keys, 2)?);
-        let tool = Tool::new(&name.text, vec![segments], reference);
+        let tool = ProfileTool::new(&name.text, vec![segments], reference);
         let axisymmetric = self.site.space == Space::Axisymmetric;
         self.judge(&tool, (&places, profile.place), axisymmetric).then(|| Arc::new(tool))
     }
@@ -64,13 +64,13 @@ impl Builder<'_> {
     }
 
     /// Whether a tool can be used; what is found is shown at its segments.
-    pub(super) fn judge(&mut self, tool: &Tool, (places, whole): (&[Place], Place), revolved: bool) -> bool {
+    pub(super) fn judge(&mut self, tool: &ProfileTool, (places, whole): (&[Place], Place), revolved: bool) -> bool {
         let mut sound = true;
         for finding in tool.check(revolved) {
             let first = finding.segments().first().and_then(|&i| places.get(i)).copied();
             let place = first.unwrap_or(whole);
             let what = format!("tool `{}`: {finding}", tool.name());
-            let grave = finding.severity() == Severity::Error;
+            let grave = finding.severity() == FindingSeverity::Error;
             sound &= !grave;
             let diagnostic = if grave { Diagnostic::error(what) } else { Diagnostic::note(what) }.at(place);
             self.found.push(match remedy(&finding) {
@@ -83,13 +83,15 @@ impl Builder<'_> {
 }
 
 /// What to do about a finding whose sentence does not say it.
-fn remedy(finding: &Finding) -> &'static str {
+fn remedy(finding: &ProfileFinding) -> &'static str {
     match finding {
-        Finding::Gap(..) => "begin each segment in the very point in which the one before ends",
-        Finding::NoLength(_) => "remove the segment, or move one of its ends",
-        Finding::NegativeRadius(..) => "x is the radius, y the axis: draw the tool where x is positive",
-        Finding::Crossing(..) => "a profile goes around the tool's material once and never meets itself",
-        Finding::Kink(..) if finding.severity() == Severity::Error => "the profile may not run back along itself",
+        ProfileFinding::Gap(..) => "begin each segment in the very point in which the one before ends",
+        ProfileFinding::NoLength(_) => "remove the segment, or move one of its ends",
+        ProfileFinding::NegativeRadius(..) => "x is the radius, y the axis: draw the tool where x is positive",
+        ProfileFinding::Crossing(..) => "a profile goes around the tool's material once and never meets itself",
+        ProfileFinding::Kink(..) if finding.severity() == FindingSeverity::Error => {
+            "the profile may not run back along itself"
+        }
         _ => "",
     }
 }

@@ -9,7 +9,7 @@ use crate::deck::source::{Place, Spot};
 use crate::deck::tree::Node;
 use crate::declare::{Range, unit};
 use crate::tensor::Vec3;
-use crate::tool::shapes::{self, Kind};
+use crate::tool::shapes::{self, ShapeKind};
 
 table! {
     /// A rigid tool: in the plane a profile; in space a profile that is revolved or extruded, facets, a file of
@@ -89,7 +89,7 @@ fn tool(keys: &ToolKeys, reader: &mut Reader) {
 #[derive(Debug, Clone)]
 pub struct Segment {
     /// Its registered shape.
-    pub kind: &'static Kind,
+    pub kind: &'static ShapeKind,
     /// Its nodes.
     pub nodes: Vec<Vec3>,
     /// Where it stands.
@@ -98,14 +98,14 @@ pub struct Segment {
 
 struct SegmentForm;
 
-fn nodes(kind: &Kind) -> impl Form<Value = Vec<Vec<f64>>> {
+fn nodes(kind: &ShapeKind) -> impl Form<Value = Vec<Vec<f64>>> {
     list(list(number(unit::LENGTH, Range::ANY), 2..=2), kind.nodes..=kind.nodes)
 }
 
 impl Form for SegmentForm {
     type Value = Segment;
     fn schema(&self) -> Schema {
-        let key = |kind: &&'static Kind| Key {
+        let key = |kind: &&'static ShapeKind| Key {
             name: kind.key,
             doc: kind.meaning,
             schema: nodes(kind).schema(),

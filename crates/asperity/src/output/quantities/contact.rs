@@ -4,7 +4,7 @@
 use super::energy::of_bodies;
 use super::{Source, Touching, surface};
 use crate::Error;
-use crate::contact::{PointRecord, PointStatus, second_name};
+use crate::contact::{ContactRecord, PointStatus, second_name};
 use crate::declare::Variable;
 use crate::mesh::Space;
 use crate::output::{Frame, Place, Quantity, Reading, Unit, Width};
@@ -16,7 +16,7 @@ struct Seen<'a> {
     contact: Touching<'a>,
     name: &'a str,
     reference: Vec<Vec3>,
-    records: Vec<PointRecord>,
+    records: Vec<ContactRecord>,
     history: &'a History,
 }
 
@@ -26,11 +26,11 @@ impl Seen<'_> {
         Reading::new(figure, format!("contact '{}'", self.name), value)
     }
     /// The points that are closed.
-    fn closed(&self) -> impl Iterator<Item = &PointRecord> {
+    fn closed(&self) -> impl Iterator<Item = &ContactRecord> {
         self.records.iter().filter(|record| record.status != PointStatus::Open)
     }
     /// Hands in the largest reading over the closed points, and where it is.
-    fn certify_largest(&self, frame: &mut Frame, figure: &'static str, of: impl Fn(&PointRecord) -> f64) {
+    fn certify_largest(&self, frame: &mut Frame, figure: &'static str, of: impl Fn(&ContactRecord) -> f64) {
         let largest =
             self.closed().map(|record| (of(record), record.position)).reduce(|a, b| if b.0 > a.0 { b } else { a });
         if let Some((value, position)) = largest {
@@ -110,10 +110,10 @@ fn couple(first: &Seen, second: Option<&Seen>) -> (f64, f64) {
     let (total, middle) = resultant(first);
     let extent = first.records.iter().map(|record| (record.position - middle).norm()).fold(0.0, f64::max);
     let about = |seen: &Seen| {
-        let moment = |record: &PointRecord| (record.position - middle).cross(record.force());
+        let moment = |record: &ContactRecord| (record.position - middle).cross(record.force());
         seen.closed().fold(Vec3::zero(), |sum, record| sum + moment(record))
     };
-    let across = |record: &PointRecord| (record.inward * -record.penetration).cross(record.force());
+    let across = |record: &ContactRecord| (record.inward * -record.penetration).cross(record.force());
     let left = match second {
         Some(second) => about(first) + about(second),
         None => first.closed().fold(Vec3::zero(), |sum, record| sum + across(record)),
@@ -146,11 +146,11 @@ fn friction(seen: &Seen, plane: bool) -> Option<(f64, f64)> {
 
 fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     let records = || all.iter().flat_map(|seen| &seen.records);
-    let vector = |name: &str, unit, of: &dyn Fn(&PointRecord) -> Vec3| {
+    let vector = |name: &str, unit, of: &dyn Fn(&ContactRecord) -> Vec3| {
         let values = records().flat_map(|record| of(record).0).collect();
         Quantity::new(name, unit, Place::Contact, Width::Vector, values)
     };
-    let scalar = |name: &str, unit, of: &dyn Fn(&PointRecord) -> f64| {
+    let scalar = |name: &str, unit, of: &dyn Fn(&ContactRecord) -> f64| {
         Quantity::new(name, unit, Place::Contact, Width::Scalar, records().map(of).collect())
     };
     let reference = || all.iter().flat_map(|seen| &seen.reference);
@@ -164,7 +164,7 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     let status = records().map(|record| f64::from(record.status as u8)).collect();
     frame.push(Quantity::byte("contact_status", Place::Contact, status))?;
     frame.push(scalar("contact_pressure", Unit::Stress, &|r| r.pressure))?;
-    frame.push(vector("contact_traction", Unit::Stress, &PointRecord::traction))?;
+    frame.push(vector("contact_traction", Unit::Stress, &ContactRecord::traction))?;
     frame.push(scalar("contact_gap", Unit::Length, &|r| -r.penetration))?;
     frame.push(scalar("contact_slip", Unit::Length, &|r| r.slip))?;
     frame.push(scalar("contact_slip_path", Unit::Length, &|r| r.slipped))?;
@@ -176,7 +176,7 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     variables(all).into_iter().try_for_each(|variable| frame.push(values_of(variable, all)))?;
     frame.push(scalar("contact_area", Unit::Area, &|r| r.area))?;
     frame.push(vector("contact_normal", Unit::One, &|r| r.inward))?;
-    frame.push(vector("contact_force", Unit::Force, &PointRecord::force))
+    frame.push(vector("contact_force", Unit::Force, &ContactRecord::force))
 }
 
 /// Depth of wear at all points; not a number in contacts that do not wear. None where none does.
@@ -215,16 +215,16 @@ fn values_of(variable: &Variable, all: &[Seen]) -> Quantity {
 fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(), Error> {
     certify(source, seen, frame);
     let closed = || seen.closed();
-    let sum = |of: &dyn Fn(&PointRecord) -> Vec3| closed().fold(Vec3::zero(), |sum, record| sum + of(record));
-    let total = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).sum::<f64>();
-    let most = |of: &dyn Fn(&PointRecord) -> f64| closed().map(of).fold(0.0, f64::max);
+    let sum = |of: &dyn Fn(&ContactRecord) -> Vec3| closed().fold(Vec3::zero(), |sum, record| sum + of(record));
+    let total = |of: &dyn Fn(&ContactRecord) -> f64| closed().map(of).sum::<f64>();
+    let most = |of: &dyn Fn(&ContactRecord) -> f64| closed().map(of).fold(0.0, f64::max);
     let count = |status| closed().filter(|record| record.status == status).count() as f64;
     let pole = seen.contact.pole(&source.state.u);
     let thrust = total(&|r| r.pressure * r.area);
     // The centre of a contact without pressure is nowhere.
     let center = sum(&|r| r.position * (r.pressure * r.area)) * thrust.recip();
     let vectors = [
-        ("force", Unit::Force, Width::Vector, sum(&PointRecord::force)),
+        ("force", Unit::Force, Width::Vector, sum(&ContactRecord::force)),
         ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.center() - pole).cross(r.force()))),
         ("center", Unit::Length, Width::Vector, center),
     ];
@@ -270,7 +270,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
 
 /// The readings at the points of a contact.
 fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
-    let length = |record: &PointRecord| edge_length(source, seen.contact, record.edge);
+    let length = |record: &ContactRecord| edge_length(source, seen.contact, record.edge);
     seen.certify_largest(frame, "max_penetration", |record| record.penetration);
     seen.certify_largest(frame, "max_penetration_relative", |record| record.penetration / length(record));
     if let Some(sample) = seen.contact.sampled(&source.state.u, seen.history) {
@@ -286,8 +286,8 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
         frame.certify(seen.reading("moment_imbalance", left).over(scale));
     }
     if seen.contact.law().sliding_stress(0.0).is_some() {
-        let pressed = |record: &PointRecord| (record.penetration + record.closure.min(0.0)).max(0.0);
-        let work = |record: &PointRecord| 0.5 * record.pressure * pressed(record) * record.area;
+        let pressed = |record: &ContactRecord| (record.penetration + record.closure.min(0.0)).max(0.0);
+        let work = |record: &ContactRecord| 0.5 * record.pressure * pressed(record) * record.area;
         let bodies = of_bodies(source);
         let work = seen.contact.share() * seen.closed().map(work).sum::<f64>();
         frame.certify(seen.reading("penalty_energy", work).over(bodies.stored + bodies.dissipated));

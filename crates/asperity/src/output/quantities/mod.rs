@@ -28,7 +28,7 @@ use crate::mesh::{Mesh, Space};
 use crate::model::Model;
 use crate::solid::Body;
 use crate::system::{Constraints, Dofs, History, State};
-use crate::tool::{self, Pose, Tool};
+use crate::tool::{self, PlanePose, ProfileTool};
 
 /// The parts of a model that outputs read. Numbers of terms are places in the list of terms and in the state.
 pub struct Parts<'a> {
@@ -51,9 +51,9 @@ pub struct Parts<'a> {
     /// Terms that store energy and are neither bodies nor contacts.
     pub springs: Vec<usize>,
     /// The rigid tools of a plane model.
-    pub tools: Vec<&'a Tool>,
+    pub tools: Vec<&'a ProfileTool>,
     /// The rigid tools of a model in space.
-    pub solid_tools: Vec<&'a tool::space::Tool>,
+    pub solid_tools: Vec<&'a tool::space::SpaceTool>,
     /// Names of the rigid groups, whose unknowns follow those of the tools.
     pub rigid: Vec<&'a str>,
     /// Names and nodes of the groups that anything holds or moves in any step.
@@ -127,14 +127,14 @@ impl Source<'_> {
         self.state.histories.get(term).ok_or_else(|| Error::Internal(format!("the state has no term {term}")))
     }
     /// Where a tool of a model in space stands.
-    pub fn solid_pose(&self, tool: usize) -> tool::space::Pose {
+    pub fn solid_pose(&self, tool: usize) -> tool::space::SpacePose {
         let first = self.parts.dofs.tool(tool);
-        tool::space::Pose::new(std::array::from_fn(|i| self.state.u[first + i]))
+        tool::space::SpacePose::new(std::array::from_fn(|i| self.state.u[first + i]))
     }
     /// Where a tool stands; none for tools in space, whose motion is of another kind.
-    pub fn pose(&self, tool: usize) -> Option<Pose> {
+    pub fn pose(&self, tool: usize) -> Option<PlanePose> {
         let (first, u) = (self.parts.dofs.tool(tool), &self.state.u);
-        (self.parts.dofs.per_node() == 2).then(|| Pose::new(u[first], u[first + 1], u[first + 2]))
+        (self.parts.dofs.per_node() == 2).then(|| PlanePose::new(u[first], u[first + 1], u[first + 2]))
     }
     /// Whether forces and moments out of the plane have no meaning.
     pub fn is_plane(&self) -> bool {

@@ -6,7 +6,7 @@
 use super::Touching;
 use super::touching::Stand;
 use crate::Error;
-use crate::contact::{PointRecord, PointStatus};
+use crate::contact::{ContactRecord, PointStatus};
 use crate::mesh::Mesh;
 use crate::mesh::cells::MAX_NODES;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
@@ -41,7 +41,7 @@ struct Mean {
 }
 
 impl Sum {
-    fn add(&mut self, record: &PointRecord, weight: f64) {
+    fn add(&mut self, record: &ContactRecord, weight: f64) {
         let shear = record.along * record.shear;
         let values = [record.pressure, shear[0], shear[1], shear[2], 0.0, record.slip];
         self.values.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
@@ -64,7 +64,7 @@ impl Sum {
 }
 
 /// Adds what a contact says to the sums at all nodes; the sums over its faces.
-fn of_contact(mesh: &Mesh, contact: Touching, records: &[PointRecord], nodes: &mut [Sum]) -> Vec<Sum> {
+fn of_contact(mesh: &Mesh, contact: Touching, records: &[ContactRecord], nodes: &mut [Sum]) -> Vec<Sum> {
     let sides = contact.sides();
     let (mut faces, mut own) = (vec![Sum::default(); sides.len()], vec![Sum::default(); mesh.points.len()]);
     for (slot, record) in records.iter().enumerate() {
@@ -112,7 +112,7 @@ impl Sum {
 }
 
 /// Reports faces and nodes of the contacts with their records.
-pub(super) fn report(mesh: &Mesh, all: &[(Touching, &[PointRecord])], frame: &mut Frame) -> Result<(), Error> {
+pub(super) fn report(mesh: &Mesh, all: &[(Touching, &[ContactRecord])], frame: &mut Frame) -> Result<(), Error> {
     let (mut faces, mut nodes) = (Vec::new(), vec![Sum::default(); mesh.points.len()]);
     let mut number = Vec::new();
     for (i, (contact, records)) in all.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Contacts of every kind under one roof, for reports.
 
 use crate::contact::field::FieldContact;
-use crate::contact::{ContactOptions, PaperContact, PointRecord, Sample};
+use crate::contact::{ContactOptions, ContactRecord, PaperContact, Sample};
 use crate::declare::Variable;
 use crate::interface::Interface;
 use crate::mesh::Side;
@@ -78,7 +78,7 @@ impl Touching<'_> {
         }
     }
     /// All points in an accepted state, with this term's lane of its history.
-    pub fn records(&self, u: &[f64], history: &History) -> Vec<PointRecord> {
+    pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
         match self {
             Self::Points(contact) => contact.records(u, history),
             Self::Field(contact) => contact.records(u, history),

@@ -7,11 +7,11 @@
 //! `phi = (s - 1/2) theta`. A point of the circle has `k |q|^2 / 2 = q . n`, `q = x - apex`. An arc of nearly straight
 //! nodes thus passes into the line without loss, and `theta = 0` is the line.
 
-use super::{Bounds, Conic, Crossing, Kind, Ray, Shape, quadratic, turn};
+use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, quadratic, turn};
 use crate::tensor::Vec3;
 use std::f64::consts::PI;
 
-pub(super) static KIND: Kind = Kind {
+pub(super) static KIND: ShapeKind = ShapeKind {
     key: "arc",
     meaning: "circle arc through three nodes: end, any point between, end",
     nodes: 3,
@@ -70,8 +70,8 @@ impl Arc {
     }
 }
 
-impl Shape for Arc {
-    fn kind(&self) -> &'static Kind {
+impl ProfileShape for Arc {
+    fn kind(&self) -> &'static ShapeKind {
         &KIND
     }
     fn nodes(&self) -> &[Vec3] {
@@ -87,23 +87,23 @@ impl Shape for Arc {
     fn tangent(&self, s: f64) -> Vec3 {
         self.direction((s - 0.5) * self.theta) * self.length()
     }
-    fn meet(&self, ray: &Ray) -> [Crossing; 2] {
+    fn meet(&self, ray: &ProfileRay) -> [RayCrossing; 2] {
         // From the ray's point nearest to the apex, so that a far origin costs no digits.
         let (e, n, k) = (ray.direction, self.t.left(), self.turning());
         let shift = (self.apex - ray.origin).dot(e);
         let q0 = ray.point(shift) - self.apex;
         let roots = quadratic(0.5 * k, k * q0.dot(e) - e.dot(n), 0.5 * k * q0.dot(q0) - q0.dot(n));
-        roots.map(|u| Crossing { u: shift + u, s: self.coordinate(q0 + e * u) })
+        roots.map(|u| RayCrossing { u: shift + u, s: self.coordinate(q0 + e * u) })
     }
     fn conic(&self) -> Conic {
         let (k, n) = (0.5 * self.turning(), self.t.left());
         Conic { origin: self.apex, c: [k, 0.0, k, -n[0], -n[1], 0.0] }
     }
-    fn bounds(&self) -> Bounds {
+    fn bounds(&self) -> BoundingBox {
         let axes = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
         let turned = axes.map(|axis| turn(self.t, axis).atan2(self.t.dot(axis)));
         let inside = turned.into_iter().filter(|phi| phi.abs() < 0.5 * self.theta.abs());
-        Bounds::of(inside.map(|phi| self.point(0.5 + phi / self.theta)).chain([self.nodes[0], self.nodes[2]]))
+        BoundingBox::of(inside.map(|phi| self.point(0.5 + phi / self.theta)).chain([self.nodes[0], self.nodes[2]]))
     }
     fn length(&self) -> f64 {
         let half = 0.5 * self.theta;

@@ -1,21 +1,21 @@
 //! The straight segment between two nodes.
 
-use super::{Bounds, Conic, Crossing, Kind, Ray, Shape};
+use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind};
 use crate::tensor::Vec3;
 
-pub(super) static KIND: Kind = Kind {
+pub(super) static KIND: ShapeKind = ShapeKind {
     key: "line",
     meaning: "straight segment from the first node to the second",
     nodes: 2,
-    build: |nodes| Box::new(Line([nodes[0], nodes[1]])),
+    build: |nodes| Box::new(LineSegment([nodes[0], nodes[1]])),
 };
 
 /// `x(s) = a + s (b - a)`.
 #[derive(Debug, Clone, Copy)]
-pub struct Line(pub [Vec3; 2]);
+pub struct LineSegment(pub [Vec3; 2]);
 
-impl Shape for Line {
-    fn kind(&self) -> &'static Kind {
+impl ProfileShape for LineSegment {
+    fn kind(&self) -> &'static ShapeKind {
         &KIND
     }
     fn nodes(&self) -> &[Vec3] {
@@ -27,14 +27,14 @@ impl Shape for Line {
     fn tangent(&self, _s: f64) -> Vec3 {
         self.0[1] - self.0[0]
     }
-    fn meet(&self, ray: &Ray) -> [Crossing; 2] {
-        [ray.meet_line(self.0[0], self.tangent(0.0)), Crossing { u: f64::NAN, s: f64::NAN }]
+    fn meet(&self, ray: &ProfileRay) -> [RayCrossing; 2] {
+        [ray.meet_line(self.0[0], self.tangent(0.0)), RayCrossing { u: f64::NAN, s: f64::NAN }]
     }
     fn conic(&self) -> Conic {
         Conic::straight(self.0[0], self.tangent(0.0))
     }
-    fn bounds(&self) -> Bounds {
-        Bounds::of(self.0)
+    fn bounds(&self) -> BoundingBox {
+        BoundingBox::of(self.0)
     }
     fn length(&self) -> f64 {
         self.tangent(0.0).norm()

@@ -11,7 +11,7 @@ mod arc;
 mod line;
 mod parabola;
 
-pub use line::Line;
+pub use line::LineSegment;
 pub use parabola::Parabola;
 
 use crate::declare::nearest;
@@ -19,7 +19,7 @@ use crate::tensor::Vec3;
 use std::fmt::Debug;
 
 /// Every shape of segment that a profile may be made of.
-pub static ALL: &[&Kind] = &[&line::KIND, &parabola::KIND, &arc::KIND];
+pub static ALL: &[&ShapeKind] = &[&line::KIND, &parabola::KIND, &arc::KIND];
 
 /// How far beyond its ends a segment still counts as hit, in units of `s`: a ray through a common node must not slip
 /// between two neighbours by rounding.
@@ -27,22 +27,22 @@ pub const END: f64 = 1e-10;
 
 /// A registered shape.
 #[derive(Debug)]
-pub struct Kind {
+pub struct ShapeKind {
     /// The word a deck uses: `arc`.
     pub key: &'static str,
     /// What it is, in one line.
     pub meaning: &'static str,
     /// Number of its nodes, written along the profile: first end, middle where there is one, last end.
     pub nodes: usize,
-    build: fn(&[Vec3]) -> Box<dyn Shape>,
+    build: fn(&[Vec3]) -> Box<dyn ProfileShape>,
 }
 
-impl Kind {
+impl ShapeKind {
     /// The segment through `nodes`. Degenerate nodes are accepted here and found by [`Tool::check`](super::Tool::check).
     ///
     /// # Errors
     /// In words, when the number of nodes is wrong.
-    pub fn build(&self, nodes: &[Vec3]) -> Result<Box<dyn Shape>, String> {
+    pub fn build(&self, nodes: &[Vec3]) -> Result<Box<dyn ProfileShape>, String> {
         if nodes.len() != self.nodes {
             return Err(format!("a segment `{}` has {} nodes, not {}", self.key, self.nodes, nodes.len()));
         }
@@ -54,7 +54,7 @@ impl Kind {
 ///
 /// # Errors
 /// In words, with the nearest known shape, when there is none of that name.
-pub fn find(key: &str) -> Result<&'static Kind, String> {
+pub fn find(key: &str) -> Result<&'static ShapeKind, String> {
     let keys = || ALL.iter().map(|kind| kind.key);
     ALL.iter().copied().find(|kind| kind.key == key).ok_or_else(|| match nearest(key, keys()) {
         Some(near) => format!("there is no segment `{key}`; did you mean `{near}`?"),
@@ -64,36 +64,36 @@ pub fn find(key: &str) -> Result<&'static Kind, String> {
 
 /// A straight line that is followed both ways from its origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ray {
+pub struct ProfileRay {
     /// Where `u = 0`.
     pub origin: Vec3,
     /// Its direction, of unit length.
     pub direction: Vec3,
 }
 
-impl Ray {
+impl ProfileRay {
     /// The point at signed distance `u`.
     pub fn point(&self, u: f64) -> Vec3 {
         self.origin + self.direction * u
     }
     /// Where it meets the straight line through `point` along `tangent`: the distance along the ray, and along the
     /// line in units of `tangent`. Not finite when the two are parallel.
-    pub fn meet_line(&self, point: Vec3, tangent: Vec3) -> Crossing {
+    pub fn meet_line(&self, point: Vec3, tangent: Vec3) -> RayCrossing {
         let (to, span) = (point - self.origin, turn(self.direction, tangent));
-        Crossing { u: turn(to, tangent) / span, s: turn(to, self.direction) / span }
+        RayCrossing { u: turn(to, tangent) / span, s: turn(to, self.direction) / span }
     }
 }
 
 /// Where a ray meets a segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing {
+pub struct RayCrossing {
     /// Signed distance from the ray's origin along its direction.
     pub u: f64,
     /// Coordinate along the segment.
     pub s: f64,
 }
 
-impl Crossing {
+impl RayCrossing {
     /// Whether it is a point at all (parallel and missing rays give infinite and undefined numbers) and lies within
     /// the segment lengthened at both ends by the part `beyond` of its `s`.
     pub fn lies_within(&self, beyond: f64) -> bool {
@@ -126,20 +126,20 @@ impl Conic {
 
 /// An axis-parallel box.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
+pub struct BoundingBox {
     /// Smallest coordinates.
     pub min: Vec3,
     /// Largest coordinates.
     pub max: Vec3,
 }
 
-impl Bounds {
+impl BoundingBox {
     /// The box that holds nothing.
-    pub const EMPTY: Bounds = Bounds { min: Vec3([f64::INFINITY; 3]), max: Vec3([f64::NEG_INFINITY; 3]) };
+    pub const EMPTY: BoundingBox = BoundingBox { min: Vec3([f64::INFINITY; 3]), max: Vec3([f64::NEG_INFINITY; 3]) };
 
     /// The smallest box around points; coordinates that are not numbers are passed over.
     pub fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |b, p| b.union(Bounds { min: p, max: p }))
+        points.into_iter().fold(Self::EMPTY, |b, p| b.union(BoundingBox { min: p, max: p }))
     }
     /// The smallest box around two.
     pub fn union(self, other: Self) -> Self {
@@ -156,13 +156,13 @@ impl Bounds {
     }
 }
 
-/// How far beyond its ends [`Shape::meet_near`] follows a segment's own curve, in units of `s`.
+/// How far beyond its ends [`ProfileShape::meet_near`] follows a segment's own curve, in units of `s`.
 const EXTENSION: f64 = 0.1;
 
 /// A smooth segment of a profile, in the tool's own frame.
-pub trait Shape: Debug + Send + Sync {
+pub trait ProfileShape: Debug + Send + Sync {
     /// What it is.
-    fn kind(&self) -> &'static Kind;
+    fn kind(&self) -> &'static ShapeKind;
     /// Its nodes, in the order in which they are written.
     fn nodes(&self) -> &[Vec3];
     /// The point at `s`; the end nodes themselves, bit for bit, at 0 and 1.
@@ -170,11 +170,11 @@ pub trait Shape: Debug + Send + Sync {
     /// `dx/ds`, a length.
     fn tangent(&self, s: f64) -> Vec3;
     /// Where a ray meets the carrier, whatever `s`; places that do not exist are not finite.
-    fn meet(&self, ray: &Ray) -> [Crossing; 2];
+    fn meet(&self, ray: &ProfileRay) -> [RayCrossing; 2];
     /// The carrier as the zero line of a polynomial of second degree.
     fn conic(&self) -> Conic;
     /// The smallest box around the segment, to rounding.
-    fn bounds(&self) -> Bounds;
+    fn bounds(&self) -> BoundingBox;
     /// Arc length.
     fn length(&self) -> f64;
     /// Signed curvature at `s`, positive where the segment turns to the left.
@@ -188,10 +188,10 @@ pub trait Shape: Debug + Send + Sync {
         None
     }
     /// The crossings of the segment itself: `s` in `[0, 1]`, ends included.
-    fn cast(&self, ray: &Ray, hits: &mut dyn FnMut(Crossing)) {
+    fn cast(&self, ray: &ProfileRay, hits: &mut dyn FnMut(RayCrossing)) {
         for crossing in self.meet(ray) {
             if crossing.lies_within(END) {
-                hits(Crossing { s: crossing.s.clamp(0.0, 1.0), ..crossing });
+                hits(RayCrossing { s: crossing.s.clamp(0.0, 1.0), ..crossing });
             }
         }
     }
@@ -199,7 +199,7 @@ pub trait Shape: Debug + Send + Sync {
     /// `s` nearest to `near` on the segment's curve, followed a little beyond its ends; where it does not meet that, the
     /// crossing with the tangent at `near`. Continuous in the ray, so that a point whose ray is perturbed keeps its
     /// segment. None if the ray runs along that tangent.
-    fn meet_near(&self, ray: &Ray, near: f64) -> Option<(Crossing, Vec3)> {
+    fn meet_near(&self, ray: &ProfileRay, near: f64) -> Option<(RayCrossing, Vec3)> {
         let near = near.clamp(0.0, 1.0);
         let on_curve = self.meet(ray).into_iter().filter(|place| place.lies_within(EXTENSION));
         if let Some(place) = on_curve.min_by(|a, b| (a.s - near).abs().total_cmp(&(b.s - near).abs())) {
@@ -207,7 +207,7 @@ pub trait Shape: Debug + Send + Sync {
         }
         let tangent = self.tangent(near);
         let place = ray.meet_line(self.point(near), tangent);
-        place.u.is_finite().then_some((Crossing { s: near + place.s, ..place }, tangent))
+        place.u.is_finite().then_some((RayCrossing { s: near + place.s, ..place }, tangent))
     }
     /// Points along the segment, both ends included, whose chords are nowhere farther than `sagitta` from it.
     fn flatten(&self, sagitta: f64) -> Vec<Vec3> {

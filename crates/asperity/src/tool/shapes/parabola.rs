@@ -3,10 +3,10 @@
 //! About the middle node, with `w = s - 1/2`: `x = m + b1 w + b2 w^2`, `b1 = c - a`, `b2 = 2 (a - m) + 2 (c - m)`.
 //! A ray meets it where `(e x b2) w^2 + (e x b1) w + e x (m - o) = 0`; `b2 = 0` leaves the straight line.
 
-use super::{Bounds, Conic, Crossing, Kind, Ray, Shape, quadratic, turn};
+use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, quadratic, turn};
 use crate::tensor::Vec3;
 
-pub(super) static KIND: Kind = Kind {
+pub(super) static KIND: ShapeKind = ShapeKind {
     key: "parabola",
     meaning: "parabola through three nodes: end, middle, end",
     nodes: 3,
@@ -35,8 +35,8 @@ impl Parabola {
     }
 }
 
-impl Shape for Parabola {
-    fn kind(&self) -> &'static Kind {
+impl ProfileShape for Parabola {
+    fn kind(&self) -> &'static ShapeKind {
         &KIND
     }
     fn nodes(&self) -> &[Vec3] {
@@ -53,12 +53,12 @@ impl Shape for Parabola {
     fn tangent(&self, s: f64) -> Vec3 {
         self.b1() + self.b2() * (2.0 * (s - 0.5))
     }
-    fn meet(&self, ray: &Ray) -> [Crossing; 2] {
+    fn meet(&self, ray: &ProfileRay) -> [RayCrossing; 2] {
         let e = ray.direction;
         let roots = quadratic(turn(e, self.b2()), turn(e, self.b1()), turn(e, self.nodes[1] - ray.origin));
         roots.map(|w| {
             let x = self.nodes[1] + (self.b1() + self.b2() * w) * w;
-            Crossing { u: (x - ray.origin).dot(e), s: 0.5 + w }
+            RayCrossing { u: (x - ray.origin).dot(e), s: 0.5 + w }
         })
     }
     fn conic(&self) -> Conic {
@@ -74,11 +74,11 @@ impl Shape for Parabola {
         let [x2, xy, y2] = squares;
         Conic { origin: self.nodes[1], c: [x2, xy, y2, span * b1[1], -span * b1[0], 0.0] }
     }
-    fn bounds(&self) -> Bounds {
+    fn bounds(&self) -> BoundingBox {
         let (b1, b2) = (self.b1(), self.b2());
         let turning = |axis: usize| Some(-0.5 * b1[axis] / b2[axis]).filter(|w| w.abs() < 0.5);
         let extremes = [0, 1].into_iter().filter_map(turning).map(|w| self.point(0.5 + w));
-        Bounds::of(extremes.chain([self.nodes[0], self.nodes[2]]))
+        BoundingBox::of(extremes.chain([self.nodes[0], self.nodes[2]]))
     }
     fn length(&self) -> f64 {
         let speed = |s: f64| self.tangent(s).norm();

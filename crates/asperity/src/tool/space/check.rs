@@ -3,10 +3,10 @@
 //! Facets with straight edges are compared edge by edge: each edge of a closed surface lies on two facets, which run
 //! along it in opposite directions if both look outward. Facets made of profiles are judged with their profile.
 
-use super::facet::Facet;
-use super::tool::Tool;
+use super::facet::ToolFacet;
+use super::tool::SpaceTool;
 use crate::tensor::Vec3;
-use crate::tool::Severity;
+use crate::tool::FindingSeverity;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -15,7 +15,7 @@ const THIN: f64 = 1e-9;
 
 /// One finding. Facets are counted from zero here and from one in the sentence that [`Display`](fmt::Display) gives.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Finding {
+pub enum FacetFinding {
     /// There is no facet.
     Empty,
     /// A coordinate is not a finite number.
@@ -32,12 +32,12 @@ pub enum Finding {
     InsideOut,
 }
 
-impl Finding {
+impl FacetFinding {
     /// How grave it is.
-    pub fn severity(&self) -> Severity {
+    pub fn severity(&self) -> FindingSeverity {
         match self {
-            Self::OpenEdges(..) | Self::Branching(..) => Severity::Note,
-            _ => Severity::Error,
+            Self::OpenEdges(..) | Self::Branching(..) => FindingSeverity::Note,
+            _ => FindingSeverity::Error,
         }
     }
     /// The first facet it is about, counted from zero; none if it is about the whole tool.
@@ -53,7 +53,7 @@ impl Finding {
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for FacetFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let at = |p: &Vec3| format!("({}, {}, {})", p[0], p[1], p[2]);
         match self {
@@ -76,7 +76,7 @@ impl fmt::Display for Finding {
 
 /// Facets on either side of an edge: those that run along it and those that run against it.
 #[derive(Default)]
-struct Edge {
+struct FacetEdge {
     along: Vec<usize>,
     against: Vec<usize>,
 }
@@ -89,11 +89,11 @@ fn key(p: Vec3) -> Key {
 }
 
 /// All findings.
-pub(super) fn findings(tool: &Tool) -> Vec<Finding> {
+pub(super) fn findings(tool: &SpaceTool) -> Vec<FacetFinding> {
     if tool.facets().is_empty() {
-        return vec![Finding::Empty];
+        return vec![FacetFinding::Empty];
     }
-    let mut found: Vec<Finding> =
+    let mut found: Vec<FacetFinding> =
         tool.facets().iter().enumerate().filter_map(|(i, facet)| single(facet.as_ref(), i)).collect();
     if found.is_empty() {
         edges(tool, &mut found);
@@ -101,23 +101,23 @@ pub(super) fn findings(tool: &Tool) -> Vec<Finding> {
     found
 }
 
-fn single(facet: &dyn Facet, i: usize) -> Option<Finding> {
+fn single(facet: &dyn ToolFacet, i: usize) -> Option<FacetFinding> {
     let corners = facet.corners();
     if corners.is_empty() {
         return None;
     }
     if corners.iter().any(|corner| !corner.is_finite()) {
-        return Some(Finding::NotFinite(i));
+        return Some(FacetFinding::NotFinite(i));
     }
     let n = corners.len();
     let longest = (0..n).map(|k| (corners[(k + 1) % n] - corners[k]).norm()).fold(0.0, f64::max);
     let area = |k: usize| (corners[(k + 1) % n] - corners[k]).cross(corners[(k + n - 1) % n] - corners[k]).norm();
     // A quadrilateral with a corner on the line of its neighbours has no normal there.
-    (0..n).any(|k| area(k) <= THIN * longest * longest).then_some(Finding::Degenerate(i))
+    (0..n).any(|k| area(k) <= THIN * longest * longest).then_some(FacetFinding::Degenerate(i))
 }
 
-fn edges(tool: &Tool, found: &mut Vec<Finding>) {
-    let mut edges: BTreeMap<(Key, Key), Edge> = BTreeMap::new();
+fn edges(tool: &SpaceTool, found: &mut Vec<FacetFinding>) {
+    let mut edges: BTreeMap<(Key, Key), FacetEdge> = BTreeMap::new();
     for (i, facet) in tool.facets().iter().enumerate() {
         let corners = facet.corners();
         for k in 0..corners.len() {
@@ -129,11 +129,11 @@ fn edges(tool: &Tool, found: &mut Vec<Finding>) {
     judge(&edges, found);
     let swept = tool.facets().iter().any(|facet| facet.corners().is_empty());
     if found.is_empty() && !swept && volume(tool) < 0.0 {
-        found.push(Finding::InsideOut);
+        found.push(FacetFinding::InsideOut);
     }
 }
 
-fn judge(edges: &BTreeMap<(Key, Key), Edge>, found: &mut Vec<Finding>) {
+fn judge(edges: &BTreeMap<(Key, Key), FacetEdge>, found: &mut Vec<FacetFinding>) {
     let (mut open, mut many) = (None, None);
     for (&(from, to), edge) in edges {
         match (edge.along.as_slice(), edge.against.as_slice()) {
@@ -142,19 +142,19 @@ fn judge(edges: &BTreeMap<(Key, Key), Edge>, found: &mut Vec<Finding>) {
                 let ends = [from, to].map(|key| Vec3(key.map(f64::from_bits)));
                 open.get_or_insert((0, *a, ends)).0 += 1;
             }
-            ([a, b], []) | ([], [a, b]) => found.push(Finding::Opposed(*a, *b)),
+            ([a, b], []) | ([], [a, b]) => found.push(FacetFinding::Opposed(*a, *b)),
             (along, against) => {
                 let first = along.iter().chain(against).copied().min().unwrap_or(0);
                 many.get_or_insert((0, first)).0 += 1;
             }
         }
     }
-    found.extend(open.map(|(n, facet, ends)| Finding::OpenEdges(n, facet, ends)));
-    found.extend(many.map(|(n, facet)| Finding::Branching(n, facet)));
+    found.extend(open.map(|(n, facet, ends)| FacetFinding::OpenEdges(n, facet, ends)));
+    found.extend(many.map(|(n, facet)| FacetFinding::Branching(n, facet)));
 }
 
 /// Six times the volume behind the facets of a closed surface, by tetrahedra from one of its corners.
-fn volume(tool: &Tool) -> f64 {
+fn volume(tool: &SpaceTool) -> f64 {
     let all = || tool.facets().iter().map(|facet| facet.corners());
     let Some(origin) = all().flatten().next().copied() else { return 0.0 };
     let of = |c: &[Vec3]| -> f64 {

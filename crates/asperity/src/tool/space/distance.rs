@@ -5,11 +5,11 @@
 //! seen, but at an inward crease, where two faces bound one corner of the material around it, each goes on straight.
 
 use super::nearest::{FacetBorder, FacetPoint};
-use super::tool::Tool;
+use super::tool::SpaceTool;
 use crate::tensor::Vec3;
-use crate::tool::Tree;
+use crate::tool::BoxTree;
 use crate::tool::distance::CREASE;
-use crate::tool::shapes::Bounds;
+use crate::tool::shapes::BoundingBox;
 
 /// Points of two facets are the same within this part of the tool's size.
 const TOGETHER: f64 = 1e-7;
@@ -22,7 +22,7 @@ pub struct SmoothPieces {
     /// The piece of each facet.
     labels: Vec<usize>,
     /// The facets of each piece, with a tree over them.
-    pieces: Vec<(Vec<usize>, Tree)>,
+    pieces: Vec<(Vec<usize>, BoxTree)>,
 }
 
 impl SmoothPieces {
@@ -53,7 +53,7 @@ impl NearestPoint {
     }
 }
 
-impl Tool {
+impl SpaceTool {
     /// Its smooth pieces.
     pub fn smooth_pieces(&self) -> SmoothPieces {
         let mut sets: Vec<usize> = (0..self.facets().len()).collect();
@@ -90,8 +90,8 @@ impl Tool {
             }
         }
         let tree = |facets: Vec<usize>| {
-            let boxes: Vec<Bounds> = facets.iter().map(|&facet| self.facets()[facet].bounds()).collect();
-            (facets, Tree::new(&boxes, TOGETHER * self.size()))
+            let boxes: Vec<BoundingBox> = facets.iter().map(|&facet| self.facets()[facet].bounds()).collect();
+            (facets, BoxTree::new(&boxes, TOGETHER * self.size()))
         };
         SmoothPieces { labels, pieces: pieces.into_iter().map(tree).collect() }
     }
@@ -99,7 +99,7 @@ impl Tool {
     /// Facets whose boxes come within `reach` of a point, ascending.
     fn around(&self, x: Vec3, reach: f64) -> Vec<usize> {
         let (wide, mut found) = (Vec3([reach; 3]), Vec::new());
-        self.tree().near(&Bounds { min: x - wide, max: x + wide }, &mut |facet| found.push(facet));
+        self.tree().near(&BoundingBox { min: x - wide, max: x + wide }, &mut |facet| found.push(facet));
         found.sort_unstable();
         found
     }

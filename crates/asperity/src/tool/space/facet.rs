@@ -5,7 +5,7 @@
 //! *carrier* of a facet (the whole plane, quadric or torus); the places whose `s` are in range are the facet's own.
 
 use crate::tensor::Vec3;
-use crate::tool::shapes::{Bounds, Ray};
+use crate::tool::shapes::{BoundingBox, ProfileRay};
 use std::fmt::Debug;
 
 /// How far beyond its edges a facet still counts as hit, in units of `s`: a ray through a common edge must not slip
@@ -25,19 +25,19 @@ pub struct Meeting {
 }
 
 /// A smooth piece of a tool's surface, in the tool's own frame.
-pub trait Facet: Debug + Send + Sync {
+pub trait ToolFacet: Debug + Send + Sync {
     /// The point at `s`.
     fn point(&self, s: [f64; 2]) -> Vec3;
     /// `dx/ds`, two lengths.
     fn tangents(&self, s: [f64; 2]) -> [Vec3; 2];
     /// Where a ray meets the carrier, in any order and whatever `s`.
-    fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting));
+    fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting));
     /// The same, where only those near `near` are wanted.
-    fn meet_near(&self, ray: &Ray, _near: [f64; 2], found: &mut dyn FnMut(Meeting)) {
+    fn meet_near(&self, ray: &ProfileRay, _near: [f64; 2], found: &mut dyn FnMut(Meeting)) {
         self.meet(ray, found);
     }
     /// A box around the facet.
-    fn bounds(&self) -> Bounds;
+    fn bounds(&self) -> BoundingBox;
     /// How many equal parts of each coordinate make tiles nowhere much farther than `sagitta` from the facet.
     fn parts(&self, sagitta: f64) -> [usize; 2];
     /// Its corners, if its edges are straight: three or four.
@@ -54,7 +54,7 @@ pub trait Facet: Debug + Send + Sync {
         s.iter().all(|s| (-beyond..=1.0 + beyond).contains(s))
     }
     /// The places of the facet itself, its edges included.
-    fn cast(&self, ray: &Ray, found: &mut dyn FnMut(Meeting)) {
+    fn cast(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting)) {
         self.meet(ray, &mut |place| {
             if place.u.is_finite() && self.holds(place.s, EDGE) {
                 found(Meeting { s: place.s.map(|s| s.clamp(0.0, 1.0)), ..place });
@@ -64,7 +64,7 @@ pub trait Facet: Debug + Send + Sync {
     /// Where a ray meets this facet or what continues it: the place on the carrier, followed a little beyond the edges,
     /// with `s` nearest to `near`; where there is none, that on the tangent plane at `near`. None if the ray runs along
     /// that plane.
-    fn follow(&self, ray: &Ray, near: [f64; 2]) -> Option<Meeting> {
+    fn follow(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<Meeting> {
         let (mut best, mut least) = (None, f64::INFINITY);
         self.meet_near(ray, near, &mut |place| {
             let off = (place.s[0] - near[0]).hypot(place.s[1] - near[1]);
@@ -77,7 +77,7 @@ pub trait Facet: Debug + Send + Sync {
 }
 
 /// Where a ray meets the plane through a point with two tangents, whose coordinates there are `near`.
-pub(super) fn flat(point: Vec3, [a, b]: [Vec3; 2], ray: &Ray, near: [f64; 2]) -> Option<Meeting> {
+pub(super) fn flat(point: Vec3, [a, b]: [Vec3; 2], ray: &ProfileRay, near: [f64; 2]) -> Option<Meeting> {
     let normal = a.cross(b);
     let u = normal.dot(point - ray.origin) / normal.dot(ray.direction);
     let off = ray.point(u) - point;

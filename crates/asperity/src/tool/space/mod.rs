@@ -18,11 +18,11 @@ mod swept;
 mod tests;
 mod tool;
 
-pub use check::Finding;
+pub use check::FacetFinding;
 pub use distance::{NearestPoint, SmoothPieces};
-pub use facet::{Facet, Meeting};
+pub use facet::{Meeting, ToolFacet};
 pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
 pub use polygons::{Quad, Triangle};
-pub use pose::{Pose, Stance};
-pub use swept::Frame;
-pub use tool::{Tiles, Tool};
+pub use pose::{SpacePose, Stance};
+pub use swept::ProfileFrame;
+pub use tool::{SpaceTool, Tiles};

@@ -3,11 +3,11 @@
 //! Profiles answer in their own plane: extruded ones at the same height, revolved ones on the same meridian. Polygons
 //! answer inside by projection, beyond by their straight edges.
 
-use super::facet::Facet;
+use super::facet::ToolFacet;
 use super::polygons::{Quad, Triangle};
 use super::swept::{Extruded, Revolved};
 use crate::tensor::Vec3;
-use crate::tool::shapes::Shape;
+use crate::tool::shapes::ProfileShape;
 
 /// The closest point of a facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ pub enum FacetBorder {
 }
 
 /// A facet that tells its closest point.
-pub trait RigidFacet: Facet {
+pub trait RigidFacet: ToolFacet {
     /// The point closest to `x`.
     fn nearest(&self, x: Vec3) -> FacetPoint;
 }
@@ -125,7 +125,7 @@ fn principal([a, b]: [Vec3; 2], [l, m, n]: [f64; 3], normal: Vec3) -> [(Vec3, f6
 
 /// The closest point of a segment to `p`: its coordinate, place, unit tangent, outward normal and whether the segment ends
 /// there before `p`.
-fn on_profile(shape: &dyn Shape, p: Vec3) -> (f64, Vec3, Vec3, Vec3, bool) {
+fn on_profile(shape: &dyn ProfileShape, p: Vec3) -> (f64, Vec3, Vec3, Vec3, bool) {
     let s = shape.closest(p);
     let (point, tangent) = (shape.point(s), shape.tangent(s).unit());
     let aside = tangent.dot(p - point);

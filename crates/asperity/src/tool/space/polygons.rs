@@ -4,15 +4,15 @@
 //! Quadrilateral `a b c d`: `x = a + s0 p + s1 q + s0 s1 r` with `p = b - a`, `q = d - a`, `r = a - b + c - d`. Crossed
 //! with the ray's direction `e`, `x = o + u e` loses `u`; eliminating `s0` leaves a quadratic in `s1`.
 
-use super::facet::{Facet, Meeting};
+use super::facet::{Meeting, ToolFacet};
 use crate::tensor::Vec3;
-use crate::tool::shapes::{Bounds, Ray, quadratic};
+use crate::tool::shapes::{BoundingBox, ProfileRay, quadratic};
 
 /// Three corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Triangle(pub [Vec3; 3]);
 
-impl Facet for Triangle {
+impl ToolFacet for Triangle {
     fn point(&self, [s, t]: [f64; 2]) -> Vec3 {
         let [a, b, c] = self.0;
         a + (b - a) * s + (c - a) * t
@@ -21,7 +21,7 @@ impl Facet for Triangle {
         let [a, b, c] = self.0;
         [b - a, c - a]
     }
-    fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting)) {
+    fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting)) {
         let ([p, q], to) = (self.tangents([0.0; 2]), ray.origin - self.0[0]);
         let h = ray.direction.cross(q);
         let k = to.cross(p);
@@ -29,8 +29,8 @@ impl Facet for Triangle {
         let s = [to.dot(h) / span, ray.direction.dot(k) / span];
         found(Meeting { u: q.dot(k) / span, s });
     }
-    fn bounds(&self) -> Bounds {
-        Bounds::of(self.0)
+    fn bounds(&self) -> BoundingBox {
+        BoundingBox::of(self.0)
     }
     fn parts(&self, _: f64) -> [usize; 2] {
         [1, 1]
@@ -54,7 +54,7 @@ impl Quad {
     }
 }
 
-impl Facet for Quad {
+impl ToolFacet for Quad {
     fn point(&self, [s, t]: [f64; 2]) -> Vec3 {
         let [a, b, _, d] = self.0;
         a + (b - a) * s + (d - a) * t + self.twist() * (s * t)
@@ -63,7 +63,7 @@ impl Facet for Quad {
         let ([a, b, _, d], r) = (self.0, self.twist());
         [b - a + r * t, d - a + r * s]
     }
-    fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting)) {
+    fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting)) {
         let ([a, b, _, d], e) = (self.0, ray.direction);
         // Two directions across the ray.
         let least = (0..3).fold(0, |i, j| if e[j].abs() < e[i].abs() { j } else { i });
@@ -80,8 +80,8 @@ impl Facet for Quad {
             found(Meeting { u: (self.point([s, t]) - ray.origin).dot(e), s: [s, t] });
         }
     }
-    fn bounds(&self) -> Bounds {
-        Bounds::of(self.0)
+    fn bounds(&self) -> BoundingBox {
+        BoundingBox::of(self.0)
     }
     fn parts(&self, sagitta: f64) -> [usize; 2] {
         // Half of the twist over a part of the whole square leaves it by a quarter of that part's twist.

@@ -12,14 +12,14 @@ use crate::tensor::{Dual, Scalar, Vec3};
 
 /// Translation and rotation, as the unknowns of the tool's reference node give them.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Pose<T = f64> {
+pub struct SpacePose<T = f64> {
     /// Displacement of the reference point, a length.
     pub translation: Vec3<T>,
     /// Rotation vector, in radians.
     pub rotation: Vec3<T>,
 }
 
-impl<T: Scalar> Pose<T> {
+impl<T: Scalar> SpacePose<T> {
     /// From the unknowns of a reference node: three translations and the rotation vector.
     pub fn new(unknowns: [T; 6]) -> Self {
         let [x, y, z, a, b, c] = unknowns;
@@ -53,7 +53,7 @@ impl<T: Scalar> Pose<T> {
     }
 }
 
-impl Pose {
+impl SpacePose {
     /// Where the point that is now at `placed` stood: the inverse of [`place`](Self::place).
     pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
         self.stance().withdraw(reference, placed)
@@ -71,7 +71,7 @@ impl Pose {
         let w = self.rotation;
         let rotation =
             Vec3(std::array::from_fn(|i| if i == along { Dual::<1>::variable(w[i], 0) } else { Dual::from(w[i]) }));
-        let turned = Pose { translation: Vec3::zero(), rotation };
+        let turned = SpacePose { translation: Vec3::zero(), rotation };
         [0, 1, 2].map(|i| Vec3(turned.spin(axis(i).lift()).0.map(|spin| spin.du[0])))
     }
     /// Derivatives of the position of a material point, now at `placed`, with respect to the six unknowns, with the
@@ -102,7 +102,7 @@ impl Pose {
 #[derive(Debug, Clone, Copy)]
 pub struct Stance<T = f64> {
     /// The pose.
-    pub pose: Pose<T>,
+    pub pose: SpacePose<T>,
     /// `sin t / t`.
     sine: T,
     /// `(1 - cos t) / t^2`.
@@ -110,11 +110,11 @@ pub struct Stance<T = f64> {
 }
 
 impl<T: Scalar> Stance<T> {
-    /// As [`Pose::place`].
+    /// As [`SpacePose::place`].
     pub fn place(&self, reference: Vec3, point: Vec3) -> Vec3<T> {
         point.lift() + self.pose.translation + self.change(self.pose.rotation, (point - reference).lift())
     }
-    /// As [`Pose::rotate`].
+    /// As [`SpacePose::rotate`].
     pub fn rotate(&self, v: Vec3) -> Vec3<T> {
         v.lift() + self.change(self.pose.rotation, v.lift())
     }
@@ -126,12 +126,12 @@ impl<T: Scalar> Stance<T> {
 }
 
 impl Stance {
-    /// As [`Pose::withdraw`].
+    /// As [`SpacePose::withdraw`].
     pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
         let back = placed - self.pose.translation;
         back + self.change(-self.pose.rotation, back - reference)
     }
-    /// As [`Pose::rotate_back`].
+    /// As [`SpacePose::rotate_back`].
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
         v + self.change(-self.pose.rotation, v)
     }
@@ -198,14 +198,14 @@ mod tests {
 
     #[test]
     fn a_tool_at_rest_is_in_its_place_bit_for_bit() {
-        assert_eq!(Pose::default().place(REFERENCE, POINT), POINT);
-        assert_eq!(Pose::default().withdraw(REFERENCE, POINT), POINT);
+        assert_eq!(SpacePose::default().place(REFERENCE, POINT), POINT);
+        assert_eq!(SpacePose::default().withdraw(REFERENCE, POINT), POINT);
     }
 
     #[test]
     fn withdraw_undoes_place_and_distances_stay() {
         for unknowns in poses() {
-            let pose = Pose::new(unknowns);
+            let pose = SpacePose::new(unknowns);
             let placed = pose.place(REFERENCE, POINT);
             assert!((pose.withdraw(REFERENCE, placed) - POINT).norm() < 1e-14, "{unknowns:?}");
             let now = (placed - REFERENCE - pose.translation).norm();
@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn a_rotation_about_an_axis_is_that_of_the_plane_through_many_turns() {
         for angle in [0.3, PI, 4.0, 2.0 * PI, 100.0] {
-            let turned = Pose::new([0.0, 0.0, 0.0, 0.0, 0.0, angle]).rotate(Vec3::new(1.0, 0.0, 5.0));
+            let turned = SpacePose::new([0.0, 0.0, 0.0, 0.0, 0.0, angle]).rotate(Vec3::new(1.0, 0.0, 5.0));
             assert!((turned - Vec3::new(angle.cos(), angle.sin(), 5.0)).norm() < 3e-14, "{angle} {turned:?}");
         }
     }
@@ -225,9 +225,9 @@ mod tests {
     #[test]
     fn rates_are_the_dual_derivatives_of_place() {
         for unknowns in poses() {
-            let dual = Pose::new(std::array::from_fn(|i| Dual::<6>::variable(unknowns[i], i)));
+            let dual = SpacePose::new(std::array::from_fn(|i| Dual::<6>::variable(unknowns[i], i)));
             let placed = dual.place(REFERENCE, POINT);
-            let rates = Pose::new(unknowns).rates(&Pose::new(unknowns).spins(), REFERENCE, placed.re());
+            let rates = SpacePose::new(unknowns).rates(&SpacePose::new(unknowns).spins(), REFERENCE, placed.re());
             for (j, rate) in rates.iter().enumerate() {
                 for i in 0..3 {
                     assert!((placed[i].du[j] - rate[i]).abs() < 2e-14, "{unknowns:?} {i} {j}");
@@ -252,7 +252,7 @@ mod tests {
     fn a_moment_does_the_work_of_its_conjugate() {
         let (m, rate) = (Vec3::new(2.0, -0.3, 0.7), Vec3::new(0.1, 0.5, -0.2));
         for unknowns in poses() {
-            let pose = Pose::new(unknowns);
+            let pose = SpacePose::new(unknowns);
             let q = pose.conjugate(m);
             assert!((q.dot(rate) - m.dot(pose.spin(rate))).abs() < 1e-14, "{unknowns:?}");
             assert!((pose.moment(q) - m).norm() < 1e-12 * (1.0 + pose.rotation.norm()), "{unknowns:?}");

@@ -2,29 +2,29 @@
 
 use super::nearest::RigidFacet;
 use super::polygons::{Quad, Triangle};
-use super::swept::{Extruded, Frame, Revolved};
+use super::swept::{Extruded, ProfileFrame, Revolved};
 use crate::tensor::Vec3;
 use crate::tool::fillet::fillet;
-use crate::tool::shapes::{Shape, find};
+use crate::tool::shapes::{ProfileShape, find};
 use std::sync::Arc;
 
 /// Facets of a tool.
 pub type Facets = Vec<Box<dyn RigidFacet>>;
 
 /// Segments of a profile, its material on the left.
-pub type Profile = Vec<Box<dyn Shape>>;
+pub type Profile = Vec<Box<dyn ProfileShape>>;
 
 /// A profile revolved once about the y axis of its frame; its x is the distance from the axis. Segments on the axis
 /// make no facet.
-pub fn revolved(profile: Profile, frame: Frame) -> Facets {
+pub fn revolved(profile: Profile, frame: ProfileFrame) -> Facets {
     let size = profile.iter().map(|shape| shape.bounds().size()).fold(0.0, f64::max);
     let off_axis = profile.into_iter().filter(|shape| shape.bounds().max[0] > 1e-12 * size);
     off_axis.map(|shape| Box::new(Revolved::new(Arc::from(shape), frame)) as _).collect()
 }
 
 /// A profile carried along the z axis of its frame; the ends stay open.
-pub fn extruded(profile: Profile, frame: Frame, length: f64) -> Facets {
-    let facet = |shape: Box<dyn Shape>| Box::new(Extruded { shape: Arc::from(shape), frame, length }) as _;
+pub fn extruded(profile: Profile, frame: ProfileFrame, length: f64) -> Facets {
+    let facet = |shape: Box<dyn ProfileShape>| Box::new(Extruded { shape: Arc::from(shape), frame, length }) as _;
     profile.into_iter().map(facet).collect()
 }
 
@@ -43,13 +43,13 @@ pub fn polygons(all: impl IntoIterator<Item = Vec<Vec3>>) -> Result<Facets, Stri
     all.into_iter().map(polygon).collect()
 }
 
-fn segment(key: &str, nodes: &[[f64; 2]]) -> Result<Box<dyn Shape>, String> {
+fn segment(key: &str, nodes: &[[f64; 2]]) -> Result<Box<dyn ProfileShape>, String> {
     let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
     find(key)?.build(&nodes)
 }
 
 /// The quarter of a circle or more about `(x, y)` from angle `from` to `to`, in degrees.
-fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Result<Box<dyn Shape>, String> {
+fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Result<Box<dyn ProfileShape>, String> {
     let at = |angle: f64| {
         // Exact at whole quarters, so that profiles end on the axis.
         let (sin, cos) = match angle.rem_euclid(360.0) {
@@ -69,7 +69,7 @@ fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Result<Box<dyn Sh
 /// # Errors
 /// In words, if `normal` has no direction.
 pub fn plane(at: Vec3, normal: Vec3, side: f64) -> Result<Facets, String> {
-    let frame = Frame::about(at, normal).map_err(|_| "the normal has no direction".to_owned())?;
+    let frame = ProfileFrame::about(at, normal).map_err(|_| "the normal has no direction".to_owned())?;
     let corner = |x: f64, z: f64| at + frame.x * (x * side * 0.5) + frame.z * (z * side * 0.5);
     // y looks out: x turns to -z seen from there.
     Ok(vec![Box::new(Quad([corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)]))])
@@ -80,7 +80,7 @@ pub fn plane(at: Vec3, normal: Vec3, side: f64) -> Result<Facets, String> {
 /// # Errors
 /// None that numbers within their ranges could cause.
 pub fn sphere(center: Vec3, radius: f64) -> Result<Facets, String> {
-    let frame = Frame::about(center, Vec3::new(0.0, 0.0, 1.0))?;
+    let frame = ProfileFrame::about(center, Vec3::new(0.0, 0.0, 1.0))?;
     let halves = [arc([0.0; 2], radius, [-90.0, 0.0])?, arc([0.0; 2], radius, [0.0, 90.0])?];
     Ok(revolved(halves.into(), frame))
 }
@@ -93,7 +93,7 @@ pub fn torus(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Result<Facets,
     if tube > radius {
         return Err("the tube of a torus is thinner than its radius".into());
     }
-    let frame = Frame::about(center, axis)?;
+    let frame = ProfileFrame::about(center, axis)?;
     let quarters = [-90.0, 0.0, 90.0, 180.0].map(|from| arc([radius, 0.0], tube, [from, from + 90.0]));
     Ok(revolved(quarters.into_iter().collect::<Result<_, _>>()?, frame))
 }
@@ -105,7 +105,7 @@ pub fn torus(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Result<Facets,
 /// In words, if the ends coincide, both radii are zero, or the fillet does not fit.
 pub fn cone(from: Vec3, to: Vec3, radii: [f64; 2], round: f64) -> Result<Facets, String> {
     let height = (to - from).norm();
-    let frame = Frame::about(from, to - from).map_err(|_| "its two ends are the same point".to_owned())?;
+    let frame = ProfileFrame::about(from, to - from).map_err(|_| "its two ends are the same point".to_owned())?;
     if radii == [0.0; 2] {
         return Err("one of its radii must be above zero".into());
     }

@@ -8,17 +8,17 @@
 //! spheres, tori and paraboloids in one. Each root is then carried to the zero of `P` itself by Newton's method, which
 //! restores the digits that squaring loses.
 
-use super::facet::{Facet, Meeting};
+use super::facet::{Meeting, ToolFacet};
 use super::roots::roots;
 use crate::tensor::Vec3;
-use crate::tool::shapes::{Bounds, Conic, Ray, Shape};
+use crate::tool::shapes::{BoundingBox, Conic, ProfileRay, ProfileShape};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Axes of the plane in which a profile is drawn: x, y, and the axis of revolution or extrusion. They are of unit
 /// length, at right angles and right-handed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
+pub struct ProfileFrame {
     /// The profile's origin.
     pub origin: Vec3,
     /// The profile's x axis.
@@ -29,7 +29,7 @@ pub struct Frame {
     pub z: Vec3,
 }
 
-impl Frame {
+impl ProfileFrame {
     /// With y along `y` and x anywhere across it: of a revolution the first meridian matters to nothing.
     ///
     /// # Errors
@@ -74,14 +74,14 @@ fn unit(v: Vec3) -> Option<Vec3> {
 #[derive(Debug)]
 pub struct Extruded {
     /// The segment.
-    pub shape: Arc<dyn Shape>,
+    pub shape: Arc<dyn ProfileShape>,
     /// Its plane.
-    pub frame: Frame,
+    pub frame: ProfileFrame,
     /// How far it is carried, a length.
     pub length: f64,
 }
 
-impl Facet for Extruded {
+impl ToolFacet for Extruded {
     fn point(&self, [s, t]: [f64; 2]) -> Vec3 {
         self.frame.place(self.shape.point(s) + Vec3::new(0.0, 0.0, t * self.length))
     }
@@ -89,7 +89,7 @@ impl Facet for Extruded {
         // Along a profile, with its material on the left, then along the axis: their product points to the right.
         [self.frame.turn(self.shape.tangent(s)), self.frame.z * self.length]
     }
-    fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting)) {
+    fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting)) {
         let (origin, along) =
             (self.frame.coordinates(ray.origin - self.frame.origin), self.frame.coordinates(ray.direction));
         let flat = Vec3::new(along[0], along[1], 0.0);
@@ -97,20 +97,20 @@ impl Facet for Extruded {
         if speed <= 1e-14 {
             return;
         }
-        let seen = Ray { origin: Vec3::new(origin[0], origin[1], 0.0), direction: flat * speed.recip() };
+        let seen = ProfileRay { origin: Vec3::new(origin[0], origin[1], 0.0), direction: flat * speed.recip() };
         for place in self.shape.meet(&seen) {
             let u = place.u / speed;
             found(Meeting { u, s: [place.s, (origin[2] + u * along[2]) / self.length] });
         }
     }
-    fn bounds(&self) -> Bounds {
-        let Bounds { min, max } = self.shape.bounds();
+    fn bounds(&self) -> BoundingBox {
+        let BoundingBox { min, max } = self.shape.bounds();
         let depth = [0.0, self.length];
         let corner = |i: usize| {
             let pick = |bit: usize, axis: usize| if i >> bit & 1 == 0 { min[axis] } else { max[axis] };
             self.frame.place(Vec3::new(pick(0, 0), pick(1, 1), depth[i >> 2 & 1]))
         };
-        Bounds::of((0..8).map(corner))
+        BoundingBox::of((0..8).map(corner))
     }
     fn parts(&self, sagitta: f64) -> [usize; 2] {
         [self.shape.pieces(sagitta).clamp(1, 1024), 1]
@@ -120,8 +120,8 @@ impl Facet for Extruded {
 /// A segment revolved once about the y axis of its plane.
 #[derive(Debug)]
 pub struct Revolved {
-    shape: Arc<dyn Shape>,
-    frame: Frame,
+    shape: Arc<dyn ProfileShape>,
+    frame: ProfileFrame,
     conic: Conic,
     /// Middle of the facet on the axis and a radius that holds all of it.
     middle: f64,
@@ -130,16 +130,16 @@ pub struct Revolved {
 
 impl Revolved {
     /// The segment's x is its distance from the axis.
-    pub fn new(shape: Arc<dyn Shape>, frame: Frame) -> Self {
+    pub fn new(shape: Arc<dyn ProfileShape>, frame: ProfileFrame) -> Self {
         let bounds = shape.bounds();
         let middle = 0.5 * (bounds.min[1] + bounds.max[1]);
         let radius = bounds.max[0].hypot(0.5 * (bounds.max[1] - bounds.min[1]));
         Self { conic: shape.conic(), shape, frame, middle, radius }
     }
-    pub(super) fn shape(&self) -> &dyn Shape {
+    pub(super) fn shape(&self) -> &dyn ProfileShape {
         &*self.shape
     }
-    pub(super) fn frame(&self) -> &Frame {
+    pub(super) fn frame(&self) -> &ProfileFrame {
         &self.frame
     }
     pub(super) fn radius(&self) -> f64 {
@@ -153,19 +153,19 @@ impl Revolved {
     }
     /// Coordinate along the segment of a point of the carrier.
     fn along(&self, p: Vec3, gradient: Vec3) -> f64 {
-        let places = self.shape.meet(&Ray { origin: p, direction: gradient.unit() });
+        let places = self.shape.meet(&ProfileRay { origin: p, direction: gradient.unit() });
         let nearer = |best: (f64, f64), u: f64, s: f64| if u.abs() < best.0 { (u.abs(), s) } else { best };
         places.iter().filter(|p| p.u.is_finite()).fold((f64::INFINITY, f64::NAN), |best, p| nearer(best, p.u, p.s)).1
     }
 }
 
 /// A ray seen in the half-plane of the profile: `z` is linear along it and `r^2` quadratic.
-struct Seen {
+struct MeridianRay {
     z: [f64; 2],
     r2: [f64; 3],
 }
 
-impl Seen {
+impl MeridianRay {
     fn at(&self, u: f64) -> Vec3 {
         let r2 = (self.r2[0] + u * (self.r2[1] + u * self.r2[2])).max(0.0);
         Vec3::new(r2.sqrt(), self.z[0] + u * self.z[1], 0.0)
@@ -211,7 +211,7 @@ const BEYOND: f64 = 1.5;
 /// A root of the quartic that is none of `P` stays farther from it than this part of the size.
 const OFF: f64 = 1e-7;
 
-impl Facet for Revolved {
+impl ToolFacet for Revolved {
     fn point(&self, [s, t]: [f64; 2]) -> Vec3 {
         let (p, (out, _)) = (self.shape.point(s), self.meridian(t));
         self.frame.origin + out * p[0] + self.frame.y * p[1]
@@ -224,7 +224,7 @@ impl Facet for Revolved {
         let (n, (out, _)) = (-self.shape.tangent(s).left().unit(), self.meridian(t));
         out * n[0] + self.frame.y * n[1]
     }
-    fn meet(&self, ray: &Ray, found: &mut dyn FnMut(Meeting)) {
+    fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting)) {
         let frame = &self.frame;
         let e = frame.coordinates(ray.direction);
         let to = frame.coordinates(ray.origin - frame.origin) - Vec3::new(0.0, self.middle, 0.0);
@@ -234,7 +234,7 @@ impl Facet for Revolved {
         if near.norm() > BEYOND * size {
             return;
         }
-        let seen = Seen {
+        let seen = MeridianRay {
             z: [near[1] + self.middle, size * e[1]],
             r2: [
                 near[0] * near[0] + near[2] * near[2],
@@ -251,12 +251,12 @@ impl Facet for Revolved {
             }
         }
     }
-    fn bounds(&self) -> Bounds {
-        let Bounds { min, max } = self.shape.bounds();
+    fn bounds(&self) -> BoundingBox {
+        let BoundingBox { min, max } = self.shape.bounds();
         // A circle about y reaches r sqrt(1 - y_i^2) along axis i.
         let reach = Vec3(self.frame.y.0.map(|y| max[0].max(0.0) * (1.0 - y * y).max(0.0).sqrt()));
         let ends = [min[1], max[1]].map(|z| self.frame.origin + self.frame.y * z);
-        Bounds::of(ends.into_iter().flat_map(|end| [end - reach, end + reach]))
+        BoundingBox::of(ends.into_iter().flat_map(|end| [end - reach, end + reach]))
     }
     fn parts(&self, sagitta: f64) -> [usize; 2] {
         let radius = self.shape.bounds().max[0];
@@ -267,7 +267,7 @@ impl Facet for Revolved {
     fn holds(&self, s: [f64; 2], beyond: f64) -> bool {
         (-beyond..=1.0 + beyond).contains(&s[0])
     }
-    fn follow(&self, ray: &Ray, near: [f64; 2]) -> Option<Meeting> {
+    fn follow(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<Meeting> {
         let (mut best, mut least) = (None, f64::INFINITY);
         let there = self.point([near[0].clamp(0.0, 1.0), near[1]]);
         self.meet(ray, &mut |place| {
@@ -287,7 +287,7 @@ impl Facet for Revolved {
 impl Revolved {
     /// From a root of the quartic to the zero of `P` beside it: there, the place in the half-plane, and the gradient.
     /// None for a root that only squaring made.
-    fn polish(&self, seen: &Seen, mut v: f64) -> Option<(f64, Vec3, Vec3)> {
+    fn polish(&self, seen: &MeridianRay, mut v: f64) -> Option<(f64, Vec3, Vec3)> {
         for _ in 0..4 {
             let p = seen.at(v);
             let (value, gradient) = self.conic.at(p);

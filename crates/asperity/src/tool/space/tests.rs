@@ -1,12 +1,12 @@
 //! Tools in space: facets against independent and slower answers, the tree against trying everything.
 
-use super::facet::{Facet, Meeting};
+use super::facet::{Meeting, ToolFacet};
 use super::polygons::{Quad, Triangle};
 use super::solids::{Facets, cone, extruded, filleted, plane, polygons, revolved, sphere, torus};
-use super::{Finding, Frame, Pose, Tool};
+use super::{FacetFinding, ProfileFrame, SpacePose, SpaceTool};
 use crate::tensor::Vec3;
 use crate::tool::Hit;
-use crate::tool::shapes::{ALL, Ray, find};
+use crate::tool::shapes::{ALL, ProfileRay, find};
 use crate::tool::{Rejected, Rules, select};
 use proptest::prelude::*;
 
@@ -29,8 +29,8 @@ fn wave() -> super::solids::Profile {
 
 /// One tool of every kind, each of about unit size.
 fn scenes() -> Vec<(&'static str, Facets)> {
-    let frame = Frame::about(at(0.1, 0.0, -0.1), at(0.3, 1.0, -0.5)).unwrap();
-    let across = Frame::across(at(-0.5, 0.1, -0.6), at(0.1, 0.2, 1.0), at(1.0, 0.3, 0.0)).unwrap();
+    let frame = ProfileFrame::about(at(0.1, 0.0, -0.1), at(0.3, 1.0, -0.5)).unwrap();
+    let across = ProfileFrame::across(at(-0.5, 0.1, -0.6), at(0.1, 0.2, 1.0), at(1.0, 0.3, 0.0)).unwrap();
     let quad = [at(-1.0, -0.8, 0.1), at(0.9, -0.7, -0.2), at(1.0, 0.9, 0.4), at(-0.8, 1.1, -0.3)];
     vec![
         ("plane", plane(at(0.1, 0.2, 0.0), at(0.2, 0.1, 1.0), 2.0).unwrap()),
@@ -47,19 +47,19 @@ fn scenes() -> Vec<(&'static str, Facets)> {
 }
 
 /// Rays around and through the unit ball, in all directions.
-fn rays() -> Vec<Ray> {
+fn rays() -> Vec<ProfileRay> {
     let turn = |i: usize, k: f64| (i as f64 * k).fract();
     let ray = |i: usize| {
         let (z, angle) = (2.0 * turn(i, 0.754_877_666_246_693) - 1.0, 6.3 * turn(i, 0.569_840_290_998_053));
         let flat = (1.0 - z * z).sqrt();
         let origin = at(turn(i, 0.819_172_513_4), turn(i, 0.671_043_606_7), turn(i, 0.549_700_477_9)) * 3.0;
-        Ray { origin: origin - at(1.5, 1.5, 1.5), direction: at(flat * angle.cos(), flat * angle.sin(), z) }
+        ProfileRay { origin: origin - at(1.5, 1.5, 1.5), direction: at(flat * angle.cos(), flat * angle.sin(), z) }
     };
     (1..400).map(ray).collect()
 }
 
 /// Crossings of a facet by a fine net of triangles and Newton's method from each that the ray meets.
-fn brute_force(facet: &dyn Facet, ray: &Ray) -> Vec<f64> {
+fn brute_force(facet: &dyn ToolFacet, ray: &ProfileRay) -> Vec<f64> {
     const N: usize = 60;
     let three = facet.corners().len() == 3;
     let at = |i: usize, j: usize| facet.point([i as f64 / N as f64, j as f64 / N as f64]);
@@ -88,7 +88,7 @@ fn brute_force(facet: &dyn Facet, ray: &Ray) -> Vec<f64> {
     found
 }
 
-fn newton(facet: &dyn Facet, ray: &Ray, mut s: [f64; 2]) -> Option<f64> {
+fn newton(facet: &dyn ToolFacet, ray: &ProfileRay, mut s: [f64; 2]) -> Option<f64> {
     for _ in 0..30 {
         let Meeting { u, s: next } = super::facet::flat(facet.point(s), facet.tangents(s), ray, s)?;
         let done = (s[0] - next[0]).abs() + (s[1] - next[1]).abs() < 1e-14;
@@ -102,7 +102,7 @@ fn newton(facet: &dyn Facet, ray: &Ray, mut s: [f64; 2]) -> Option<f64> {
 }
 
 /// Whether the ray runs near to a facet's edge or nearly along it: then it may be counted either way.
-fn is_delicate(facet: &dyn Facet, ray: &Ray) -> bool {
+fn is_delicate(facet: &dyn ToolFacet, ray: &ProfileRay) -> bool {
     let mut delicate = false;
     facet.meet(ray, &mut |place| {
         let edge = |s: f64| s.abs() < 1e-3 || (s - 1.0).abs() < 1e-3;
@@ -157,14 +157,14 @@ fn tangents_are_derivatives_and_normals_are_across_them() {
 #[test]
 fn normals_point_out_of_closed_solids() {
     for (name, facets) in scenes().into_iter().skip(1).take(6) {
-        let tool = Tool::new(name, facets, at(0.0, 0.0, 0.0));
+        let tool = SpaceTool::new(name, facets, at(0.0, 0.0, 0.0));
         let mut hits = Vec::new();
         for (facet, s) in (0..tool.facets().len()).flat_map(|f| [[0.3, 0.2], [0.6, 0.7]].map(move |s| (f, s))) {
-            let (x, n) = (tool.point(&Pose::default(), facet, s), tool.normal(&Pose::default(), facet, s));
+            let (x, n) = (tool.point(&SpacePose::default(), facet, s), tool.normal(&SpacePose::default(), facet, s));
             // An odd number of faces lies between the inside and far away.
             for (side, parity) in [(1e-6, 0), (-1e-6, 1)] {
-                let ray = Ray { origin: x + n * side, direction: (n + at(0.011, 0.023, -0.017)).unit() };
-                tool.cast(&Pose::default(), &ray, [0.0, f64::INFINITY], &mut hits);
+                let ray = ProfileRay { origin: x + n * side, direction: (n + at(0.011, 0.023, -0.017)).unit() };
+                tool.cast(&SpacePose::default(), &ray, [0.0, f64::INFINITY], &mut hits);
                 assert_eq!(hits.len() % 2, parity, "{name} {facet} {side}: {hits:?}");
             }
         }
@@ -212,13 +212,13 @@ proptest! {
             }
         };
         let facets: Facets = seeds.iter().enumerate().flat_map(facet).collect();
-        let tool = Tool::new("heap", facets, at(0.3, 0.2, -0.1));
-        let pose = Pose::new(motion);
+        let tool = SpaceTool::new("heap", facets, at(0.3, 0.2, -0.1));
+        let pose = SpacePose::new(motion);
         let to = Vec3(towards);
         prop_assume!(to.norm() > 0.1);
         let origin = pose.place(tool.reference(), Vec3(origin));
-        let ray = Ray { origin, direction: pose.rotate(to.unit()) };
-        let own = Ray { origin: pose.withdraw(tool.reference(), origin), direction: pose.rotate_back(ray.direction) };
+        let ray = ProfileRay { origin, direction: pose.rotate(to.unit()) };
+        let own = ProfileRay { origin: pose.withdraw(tool.reference(), origin), direction: pose.rotate_back(ray.direction) };
         let mut expected: Vec<Hit> = Vec::new();
         for (i, facet) in tool.facets().iter().enumerate() {
             facet.cast(&own, &mut |place| {
@@ -247,15 +247,15 @@ proptest! {
 /// A ray through a corner or an edge of a ball of triangles meets it, however the ball stands.
 #[test]
 fn no_ray_slips_between_neighbours() {
-    let tool = Tool::new("ball", polygons(ball(12)).unwrap(), at(0.1, 0.2, 0.3));
+    let tool = SpaceTool::new("ball", polygons(ball(12)).unwrap(), at(0.1, 0.2, 0.3));
     let mut hits = Vec::new();
     for (i, part) in (0..tool.facets().len()).flat_map(|i| [0.0, 0.37, 0.5].map(|part| (i, part))) {
-        let pose = Pose::new([0.1 * i as f64, -3.0, 0.0, 0.01 * i as f64, 0.7, -0.3]);
+        let pose = SpacePose::new([0.1 * i as f64, -3.0, 0.0, 0.01 * i as f64, 0.7, -0.3]);
         let place = tool.point(&pose, i, [part, 0.0]);
         let inward = (tool.point(&pose, 0, [0.0, 0.0]) - pose.place(tool.reference(), at(0.0, 0.0, 0.0))).unit();
         let centre = pose.place(tool.reference(), at(0.0, 0.0, 0.0));
         let direction = (centre - place + inward * 0.1).unit();
-        let ray = Ray { origin: place - direction * 3.0, direction };
+        let ray = ProfileRay { origin: place - direction * 3.0, direction };
         tool.cast(&pose, &ray, [2.0, 4.0], &mut hits);
         assert!(hits.iter().any(|hit| (hit.u - 3.0).abs() < 1e-9), "facet {i} part {part}: {hits:?}");
     }
@@ -263,27 +263,30 @@ fn no_ray_slips_between_neighbours() {
 
 #[test]
 fn faults_of_triangles_are_found() {
-    let check = |all: Vec<Vec<Vec3>>| Tool::new("t", polygons(all).unwrap(), at(0.0, 0.0, 0.0)).check();
+    let check = |all: Vec<Vec<Vec3>>| SpaceTool::new("t", polygons(all).unwrap(), at(0.0, 0.0, 0.0)).check();
     assert_eq!(check(ball(8)), []);
-    assert_eq!(check(vec![]), [Finding::Empty]);
+    assert_eq!(check(vec![]), [FacetFinding::Empty]);
     let mut open = ball(8);
     open.pop();
-    assert!(matches!(check(open)[..], [Finding::OpenEdges(3, _, _)]));
+    assert!(matches!(check(open)[..], [FacetFinding::OpenEdges(3, _, _)]));
     let mut opposed = ball(8);
     opposed[5].reverse();
-    assert!(matches!(check(opposed)[..], [Finding::Opposed(..), Finding::Opposed(..), Finding::Opposed(..)]));
+    assert!(matches!(
+        check(opposed)[..],
+        [FacetFinding::Opposed(..), FacetFinding::Opposed(..), FacetFinding::Opposed(..)]
+    ));
     let mut inward = ball(8);
     inward.iter_mut().for_each(|corners| corners.reverse());
-    assert_eq!(check(inward), [Finding::InsideOut]);
+    assert_eq!(check(inward), [FacetFinding::InsideOut]);
     let mut thin = ball(8);
     thin[3][1] = (thin[3][0] + thin[3][2]) * 0.5;
-    assert_eq!(check(thin), [Finding::Degenerate(3)]);
+    assert_eq!(check(thin), [FacetFinding::Degenerate(3)]);
     let mut wild = ball(8);
     wild[2][0] = at(f64::NAN, 0.0, 0.0);
-    assert_eq!(check(wild), [Finding::NotFinite(2)]);
+    assert_eq!(check(wild), [FacetFinding::NotFinite(2)]);
     let mut branching = ball(8);
     branching.push(vec![branching[0][0], branching[0][1], at(0.0, 0.0, 9.0)]);
-    assert!(check(branching).iter().any(|finding| matches!(finding, Finding::Branching(1, 0))));
+    assert!(check(branching).iter().any(|finding| matches!(finding, FacetFinding::Branching(1, 0))));
 }
 
 #[test]
@@ -318,18 +321,18 @@ fn conics_vanish_on_their_segments() {
 #[test]
 fn the_surface_for_drawing_lies_on_the_tool() {
     for (name, facets) in scenes() {
-        let tool = Tool::new(name, facets, at(0.0, 0.0, 0.0));
-        let tiles = tool.surface(&Pose::new([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]), 1e-3);
+        let tool = SpaceTool::new(name, facets, at(0.0, 0.0, 0.0));
+        let tiles = tool.surface(&SpacePose::new([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]), 1e-3);
         for (facet, corners) in &tiles.tiles {
             let [a, b, c] = [0, 1, corners.len() - 1].map(|k| tiles.points[corners[k]]);
-            let pose = Pose::new([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]);
+            let pose = SpacePose::new([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]);
             let middle =
                 corners.iter().fold(Vec3::zero(), |sum, &k| sum + tiles.points[k]) * (1.0 / corners.len() as f64);
             let direction = (b - a).cross(c - a);
             if direction.norm() < 1e-9 {
                 continue;
             }
-            let ray = Ray { origin: middle, direction: direction.unit() };
+            let ray = ProfileRay { origin: middle, direction: direction.unit() };
             let near = [0.5, 0.5];
             let mut off = f64::INFINITY;
             let mut hits = Vec::new();
@@ -354,7 +357,7 @@ fn closest_points_are_the_closest() {
         polygons([vec![at(0.0, -1.0, 0.3), at(1.0, -1.0, 0.1), at(1.0, 1.0, 0.1), at(0.0, 1.0, 0.3)]]).unwrap(),
     );
     for (name, facets) in scenes().into_iter().chain([("roof", bent)]) {
-        let tool = Tool::new("t", facets, Vec3::zero());
+        let tool = SpaceTool::new("t", facets, Vec3::zero());
         let pieces = tool.smooth_pieces();
         let expected = match name {
             "cylinder" => 3,

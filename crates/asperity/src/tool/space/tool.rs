@@ -1,21 +1,21 @@
 //! A rigid tool in space and what a ray meets on it.
 
-use super::facet::{Facet, Meeting};
+use super::facet::{Meeting, ToolFacet};
 use super::nearest::RigidFacet;
-use super::{Finding, Pose, check};
+use super::{FacetFinding, SpacePose, check};
 use crate::tensor::{Scalar, Vec3};
 use crate::tool::Hit;
-use crate::tool::search::Tree;
-use crate::tool::shapes::{Bounds, Ray};
+use crate::tool::search::BoxTree;
+use crate::tool::shapes::{BoundingBox, ProfileRay};
 
 /// A rigid tool in space: facets with the material behind them, and a reference point.
 #[derive(Debug)]
-pub struct Tool {
+pub struct SpaceTool {
     name: String,
     reference: Vec3,
     facets: Vec<Box<dyn RigidFacet>>,
-    bounds: Bounds,
-    tree: Tree,
+    bounds: BoundingBox,
+    tree: BoxTree,
 }
 
 /// The surface of a tool as triangles and quadrilaterals, for drawing.
@@ -27,13 +27,13 @@ pub struct Tiles {
     pub tiles: Vec<(usize, Vec<usize>)>,
 }
 
-impl Tool {
+impl SpaceTool {
     /// A tool of facets; `reference` is the point that its translation moves and about which it turns. Anything is
     /// accepted here; [`check`](Self::check) says what is wrong with it.
     pub fn new(name: impl Into<String>, facets: Vec<Box<dyn RigidFacet>>, reference: Vec3) -> Self {
-        let boxes: Vec<Bounds> = facets.iter().map(|facet| facet.bounds()).collect();
-        let bounds = boxes.iter().fold(Bounds::EMPTY, |all, &b| all.union(b));
-        let tree = Tree::new(&boxes, 1e-9 * bounds.size());
+        let boxes: Vec<BoundingBox> = facets.iter().map(|facet| facet.bounds()).collect();
+        let bounds = boxes.iter().fold(BoundingBox::EMPTY, |all, &b| all.union(b));
+        let tree = BoxTree::new(&boxes, 1e-9 * bounds.size());
         Self { name: name.into(), reference, facets, bounds, tree }
     }
 
@@ -50,33 +50,33 @@ impl Tool {
         &self.facets
     }
     /// The box around it in its own frame.
-    pub fn bounds(&self) -> Bounds {
+    pub fn bounds(&self) -> BoundingBox {
         self.bounds
     }
     /// The diagonal of that box, a length.
     pub fn size(&self) -> f64 {
         self.bounds.size()
     }
-    pub(super) fn tree(&self) -> &Tree {
+    pub(super) fn tree(&self) -> &BoxTree {
         &self.tree
     }
     /// What is wrong with its facets or worth knowing.
-    pub fn check(&self) -> Vec<Finding> {
+    pub fn check(&self) -> Vec<FacetFinding> {
         check::findings(self)
     }
 
     /// Present position of the material point at `s` on a facet.
-    pub fn point<T: Scalar>(&self, pose: &Pose<T>, facet: usize, s: [f64; 2]) -> Vec3<T> {
+    pub fn point<T: Scalar>(&self, pose: &SpacePose<T>, facet: usize, s: [f64; 2]) -> Vec3<T> {
         pose.place(self.reference, self.facets[facet].point(s))
     }
     /// Present outward unit normal there.
-    pub fn normal(&self, pose: &Pose, facet: usize, s: [f64; 2]) -> Vec3 {
+    pub fn normal(&self, pose: &SpacePose, facet: usize, s: [f64; 2]) -> Vec3 {
         pose.rotate(self.facets[facet].normal(s))
     }
 
     /// All places with `u` in `range` where the line through `ray` meets the tool, by facet and then by `u`; `hits` is
     /// cleared first and its memory reused.
-    pub fn cast(&self, pose: &Pose, ray: &Ray, range: [f64; 2], hits: &mut Vec<Hit>) {
+    pub fn cast(&self, pose: &SpacePose, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
         hits.clear();
         let own = self.own_frame(pose, ray);
         self.tree.along(&own, range, &mut |facet| {
@@ -90,14 +90,14 @@ impl Tool {
     }
 
     /// Where a ray meets one given facet or what continues it, whether or not others are nearer: see
-    /// [`Facet::follow`]. Continuous in the ray, so that a point whose ray is perturbed keeps its facet.
-    pub fn cast_facet(&self, pose: &Pose, facet: usize, ray: &Ray, near: [f64; 2]) -> Option<Hit> {
+    /// [`ToolFacet::follow`]. Continuous in the ray, so that a point whose ray is perturbed keeps its facet.
+    pub fn cast_facet(&self, pose: &SpacePose, facet: usize, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
         let own = self.own_frame(pose, ray);
         self.facets[facet].follow(&own, near).map(|place| self.hit(pose, facet, place))
     }
 
     /// Its surface in space, nowhere much farther than `sagitta` from it.
-    pub fn surface(&self, pose: &Pose, sagitta: f64) -> Tiles {
+    pub fn surface(&self, pose: &SpacePose, sagitta: f64) -> Tiles {
         let mut out = Tiles::default();
         for (i, facet) in self.facets.iter().enumerate() {
             tile(i, facet.as_ref(), sagitta, &mut out);
@@ -106,17 +106,17 @@ impl Tool {
         out
     }
 
-    fn own_frame(&self, pose: &Pose, ray: &Ray) -> Ray {
+    fn own_frame(&self, pose: &SpacePose, ray: &ProfileRay) -> ProfileRay {
         let origin = pose.withdraw(self.reference, ray.origin);
-        Ray { origin, direction: pose.rotate_back(ray.direction) }
+        ProfileRay { origin, direction: pose.rotate_back(ray.direction) }
     }
-    fn hit(&self, pose: &Pose, facet: usize, place: Meeting) -> Hit {
+    fn hit(&self, pose: &SpacePose, facet: usize, place: Meeting) -> Hit {
         Hit { segment: facet, s: place.s, u: place.u, normal: self.normal(pose, facet, place.s) }
     }
 }
 
 /// The tiles of one facet.
-fn tile(number: usize, facet: &dyn Facet, sagitta: f64, out: &mut Tiles) {
+fn tile(number: usize, facet: &dyn ToolFacet, sagitta: f64, out: &mut Tiles) {
     let first = out.points.len();
     if let corners @ [_, _, _] = facet.corners() {
         out.points.extend(corners);

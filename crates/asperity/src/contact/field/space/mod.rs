@@ -7,6 +7,6 @@ mod search;
 mod spot;
 mod triad;
 
-pub use overlap::{Part, Spread, spread};
-pub use spot::Spot;
-pub use triad::Line;
+pub use overlap::{FacePart, Spread, spread};
+pub use spot::FaceSpot;
+pub use triad::MaterialLine;

@@ -8,7 +8,7 @@
 //! (xi, eta) + h xi eta` with its twist `h`, solved for `(xi, eta)` at each point of the rule. All is a function of the
 //! corners of both, generic in the numbers. Faces of second degree are laid out between their corners.
 
-use super::polygon::{Laid, Polygon, left_of};
+use super::polygon::{PartMap, Polygon, left_of};
 use crate::mesh::cells::{QUAD4, TRI3};
 use crate::tensor::{Scalar, Vec3};
 
@@ -29,7 +29,7 @@ pub struct Spread<T> {
 }
 
 /// A face as it lies in its own plane.
-struct Flat<T> {
+struct FlatFace<T> {
     middle: Vec3<T>,
     /// Vectors whose products with `x - middle` are the coordinates in the plane.
     duals: [Vec3<T>; 2],
@@ -37,7 +37,7 @@ struct Flat<T> {
     twist: Option<[T; 2]>,
 }
 
-impl<T: Scalar> Flat<T> {
+impl<T: Scalar> FlatFace<T> {
     fn new(x: &[Vec3<T>]) -> Self {
         let (middle, a, b, h) = match *x {
             [p, q, r, s] => {
@@ -103,7 +103,7 @@ impl<T: Scalar> Flat<T> {
 const ITERATIONS: usize = 20;
 
 /// The polygon of face `own`, in its plane, that sees face `other`; none if that looks away or elsewhere.
-fn common<T: Scalar>(flat: &Flat<T>, other: &[Vec3<T>]) -> Option<Polygon<T>> {
+fn common<T: Scalar>(flat: &FlatFace<T>, other: &[Vec3<T>]) -> Option<Polygon<T>> {
     let mut seen = [[T::zero(); 2]; CORNERS];
     let count = other.len().min(CORNERS);
     // Faces that look at each other run around in opposite directions.
@@ -126,9 +126,9 @@ fn common<T: Scalar>(flat: &Flat<T>, other: &[Vec3<T>]) -> Option<Polygon<T>> {
 /// Calls `take` with the places of a rule on the part of face `own` that sees face `other`, given by their corners; the
 /// rule is that of an interval with one more point than the `degree` of both faces.
 pub fn spread<T: Scalar>(degree: usize, own: &[Vec3<T>], other: &[Vec3<T>], mut take: impl FnMut(Spread<T>)) {
-    let flat = Flat::new(own);
+    let flat = FlatFace::new(own);
     let Some(part) = common(&flat, other) else { return };
-    let laid = Laid::new(own.len(), &part);
+    let laid = PartMap::new(own.len(), &part);
     let share = laid.scale() * laid.scale();
     for place in rule(degree, own.len()) {
         let (xi, density) = flat.pull_back(laid.place(place.xi));
@@ -137,16 +137,16 @@ pub fn spread<T: Scalar>(degree: usize, own: &[Vec3<T>], other: &[Vec3<T>], mut 
 }
 
 /// A part of a face, in its plane: its vertices and its centroid in reference coordinates come first.
-pub struct Part {
-    flat: Flat<f64>,
+pub struct FacePart {
+    flat: FlatFace<f64>,
     polygon: Polygon<f64>,
     places: Vec<[f64; 2]>,
 }
 
-impl Part {
+impl FacePart {
     /// Of face `own` where it sees face `other`, given by their corners.
     pub fn new(own: &[Vec3], other: &[Vec3]) -> Option<Self> {
-        let flat = Flat::new(own);
+        let flat = FlatFace::new(own);
         let polygon = common(&flat, other)?;
         let places =
             polygon.vertices().iter().chain([&polygon.moments().centre]).map(|&p| flat.pull_back(p).0).collect();

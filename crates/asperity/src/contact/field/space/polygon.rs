@@ -128,13 +128,13 @@ impl<T: Scalar> Moments<T> {
 
 /// The map from a whole face to a part of it.
 #[derive(Debug, Clone, Copy)]
-pub struct Laid<T> {
+pub struct PartMap<T> {
     from: Moments<f64>,
     to: Moments<T>,
     map: [[T; 2]; 2],
 }
 
-impl<T: Scalar> Laid<T> {
+impl<T: Scalar> PartMap<T> {
     /// From the face with so many corners to a polygon on it.
     pub fn new(corners: usize, part: &Polygon<T>) -> Self {
         let (from, to) = (Polygon::<f64>::whole(corners).moments(), part.moments());
@@ -172,7 +172,7 @@ mod tests {
             let rule = cell.gauss[1].unwrap();
             for cuts in lines {
                 let part = cuts.iter().fold(Polygon::whole(corners), |part, &line| part.clip(line));
-                let laid = Laid::new(corners, &part);
+                let laid = PartMap::new(corners, &part);
                 assert!(part.moments().area > 1e-3);
                 for (i, j) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)] {
                     let f = |p: Point<f64>| p[0].powi(i) * p[1].powi(j);

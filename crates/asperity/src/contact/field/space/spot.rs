@@ -2,22 +2,22 @@
 
 use super::overlap::{DIRECTIONS, Spread, spread, whole};
 use crate::contact::field::face::CORNERS;
-use crate::contact::field::point::{Column, IntervalRates, PatchInPlace};
+use crate::contact::field::point::{IntervalRates, PatchInPlace, PointColumn};
 use crate::tensor::{Dual, Vec3};
 
 /// A place of a quadrature on a face.
 #[derive(Debug, Clone)]
-pub struct Spot {
+pub struct FaceSpot {
     /// Reference coordinates.
     pub xi: [f64; 2],
     /// Area in reference coordinates that it stands for.
     pub weight: f64,
-    laid: Laid,
+    laid: SpotMap,
 }
 
 /// How a place depends on unknowns.
 #[derive(Debug, Clone)]
-enum Laid {
+enum SpotMap {
     /// On an interval from -1 to 1: its place there and its weight.
     Interval([f64; 2]),
     /// On a whole face: not at all.
@@ -28,25 +28,27 @@ enum Laid {
 
 impl PatchInPlace<'_> {
     /// The places of its quadrature; `rule` is that of an interval.
-    pub fn spots(&self, rule: &[(f64, f64)], derivatives: bool) -> Vec<Spot> {
+    pub fn spots(&self, rule: &[(f64, f64)], derivatives: bool) -> Vec<FaceSpot> {
         if self.face.plane {
             let half = 0.5 * (self.interval[1] - self.interval[0]);
-            let place = |&(eta, weight): &(f64, f64)| Spot {
+            let place = |&(eta, weight): &(f64, f64)| FaceSpot {
                 xi: [self.place(eta), 0.0],
                 weight: weight * half,
-                laid: Laid::Interval([eta, weight]),
+                laid: SpotMap::Interval([eta, weight]),
             };
             return rule.iter().map(place).collect();
         }
         let own = &self.face.placed.nodes()[..self.face.face.corners()];
         let Some((faces, seen)) = &self.seen else {
-            let on = |Spread { xi, weight }| Spot { xi, weight, laid: Laid::Whole };
+            let on = |Spread { xi, weight }| FaceSpot { xi, weight, laid: SpotMap::Whole };
             return whole(own.len()).map(on).collect();
         };
         let other = &seen.nodes()[..faces.surface.faces[self.patch.target].corners()];
         let (mut spots, degree) = (Vec::new(), self.degree);
         if !derivatives {
-            spread(degree, own, other, |Spread { xi, weight }| spots.push(Spot { xi, weight, laid: Laid::Whole }));
+            spread(degree, own, other, |Spread { xi, weight }| {
+                spots.push(FaceSpot { xi, weight, laid: SpotMap::Whole })
+            });
             return spots;
         }
         type D = Dual<DIRECTIONS>;
@@ -59,22 +61,22 @@ impl PatchInPlace<'_> {
         };
         let (own_lifted, other_lifted) = (lift(own, 0), lift(other, DIRECTIONS / 2));
         spread(degree, &own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
-            let laid = Laid::Overlap(Box::new([a.du, b.du, weight.du]));
-            spots.push(Spot { xi: [a.re, b.re], weight: weight.re, laid });
+            let laid = SpotMap::Overlap(Box::new([a.du, b.du, weight.du]));
+            spots.push(FaceSpot { xi: [a.re, b.re], weight: weight.re, laid });
         });
         spots
     }
 
     /// Derivatives of a place's coordinates and of its area along an unknown; `ends` are those of the interval.
-    pub fn spot_rates(&self, spot: &Spot, column: &Column, ends: &IntervalRates) -> ([f64; 2], f64) {
+    pub fn spot_rates(&self, spot: &FaceSpot, column: &PointColumn, ends: &IntervalRates) -> ([f64; 2], f64) {
         match &spot.laid {
-            Laid::Interval([eta, weight]) => {
+            SpotMap::Interval([eta, weight]) => {
                 let along = 0.5 * (ends[0] * (1.0 - eta) + ends[1] * (1.0 + eta));
                 ([along, 0.0], weight * 0.5 * (ends[1] - ends[0]))
             }
-            Laid::Whole => ([0.0; 2], 0.0),
-            Laid::Overlap(rates) => {
-                let Column::Node { axis, own, seen, .. } = column else { return ([0.0; 2], 0.0) };
+            SpotMap::Whole => ([0.0; 2], 0.0),
+            SpotMap::Overlap(rates) => {
+                let PointColumn::Node { axis, own, seen, .. } = column else { return ([0.0; 2], 0.0) };
                 let corner = |k: Option<usize>, first: usize| k.filter(|&k| k < CORNERS).map(|k| first + 3 * k + axis);
                 let places = [corner(*own, 0), corner(*seen, DIRECTIONS / 2)];
                 let sum = |c: usize| places.iter().flatten().map(|&place| rates[c][place]).sum::<f64>();

@@ -5,20 +5,20 @@
 //! body, so that shears kept by their components are objective, and carry the shears of the node into the tangent plane of
 //! each of its points without changing their length.
 
-use crate::contact::field::point::Column;
+use crate::contact::field::point::PointColumn;
 use crate::contact::field::surface::unit;
 use crate::tensor::Vec3;
 
 /// The line of the surface's material, and the nodes of the mesh between which it runs.
 #[derive(Debug, Clone, Copy)]
-pub struct Line {
+pub struct MaterialLine {
     /// From the first node to the second.
     pub d: Vec3,
     /// The nodes.
     pub nodes: [usize; 2],
 }
 
-impl Line {
+impl MaterialLine {
     /// The two tangents across `n`.
     pub fn tangents(&self, n: Vec3) -> [Vec3; 2] {
         let e = (self.d - n * n.dot(self.d)).unit();
@@ -26,10 +26,10 @@ impl Line {
     }
 
     /// Their derivatives along an unknown along which `n` turns by `dn`.
-    pub fn rates(&self, column: &Column, (n, dn): (Vec3, Vec3), e: &[Vec3; 2]) -> [Vec3; 2] {
+    pub fn rates(&self, column: &PointColumn, (n, dn): (Vec3, Vec3), e: &[Vec3; 2]) -> [Vec3; 2] {
         let dd = match column {
-            Column::Node { axis, node, .. } if *node == self.nodes[0] => -unit(*axis),
-            Column::Node { axis, node, .. } if *node == self.nodes[1] => unit(*axis),
+            PointColumn::Node { axis, node, .. } if *node == self.nodes[0] => -unit(*axis),
+            PointColumn::Node { axis, node, .. } if *node == self.nodes[1] => unit(*axis),
             _ => Vec3::zero(),
         };
         let m = self.d - n * n.dot(self.d);

@@ -1,6 +1,6 @@
 //! Functions of a face that are biorthogonal to those of its nodes, on the part of it that has something opposite.
 
-use super::places::Place;
+use super::places::TiePlace;
 use crate::contact::field::face::MOST;
 use crate::mesh::cells::Cell;
 use crate::tensor::inverse;
@@ -12,7 +12,7 @@ const SINGULAR: f64 = 1e-12;
 
 /// The functions `N~` of a face, made of its shape functions.
 #[derive(Debug, Clone)]
-pub struct Basis {
+pub struct FaceBasis {
     /// Nodes in the middle of an edge, each with the corners at its ends.
     middles: Vec<(usize, [usize; 2])>,
     /// The part that corners take.
@@ -21,7 +21,7 @@ pub struct Basis {
 
 /// Those of a kind of face. Where all shape functions have positive means they stay what they are; the radius may spoil that on
 /// edges of second degree.
-pub fn basis(kind: &Cell) -> Basis {
+pub fn basis(kind: &Cell) -> FaceBasis {
     let changes = matches!(kind.nodes.len(), 3 | 6 | 8) && kind.degree > 1;
     let corners = kind.linear.nodes.len();
     let middle = |k: usize| {
@@ -31,10 +31,10 @@ pub fn basis(kind: &Cell) -> Basis {
         pairs.into_iter().find(halfway).map(|ends| (k, ends))
     };
     let middles = (corners..kind.nodes.len()).filter(|_| changes).filter_map(middle).collect();
-    Basis { middles, alpha: ALPHA }
+    FaceBasis { middles, alpha: ALPHA }
 }
 
-impl Basis {
+impl FaceBasis {
     /// The corners between which a node lies.
     pub fn between(&self, node: usize) -> Option<[usize; 2]> {
         self.middles.iter().find(|(middle, _)| *middle == node).map(|(_, ends)| *ends)
@@ -53,18 +53,18 @@ impl Basis {
 
 /// The functions of a face and their duals.
 #[derive(Debug, Clone)]
-pub struct Dual {
+pub struct DualBasis {
     /// The functions.
-    pub basis: Basis,
+    pub basis: FaceBasis,
     /// Their integrals; none where nothing lies opposite.
     pub weights: Vec<f64>,
     /// `psi_i = sum_k factors[i][k] N~_k`.
     factors: Vec<Vec<f64>>,
 }
 
-impl Dual {
+impl DualBasis {
     /// Over the places of a face: `D M^-1` with `M = int N~ N~^t dA` and `D` its sums.
-    pub fn new(kind: &Cell, places: &[Place]) -> Self {
+    pub fn new(kind: &Cell, places: &[TiePlace]) -> Self {
         let (basis, count) = (basis(kind), kind.nodes.len().min(MOST));
         let (mut mass, mut weights) = (vec![vec![0.0; count]; count], vec![0.0; count]);
         for place in places {

@@ -16,10 +16,10 @@
 mod dual;
 mod places;
 
-use self::dual::{Dual, basis};
-use self::places::{Cover, Places};
-use super::faces::Faces;
-use super::surface::Surface;
+use self::dual::{DualBasis, basis};
+use self::places::{TieCover, TiePlaces};
+use super::faces::TargetFaces;
+use super::surface::FieldSurface;
 use crate::mesh::{Mesh, Side, Space};
 use crate::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -48,7 +48,7 @@ pub struct TieParts<'m> {
 
 /// A weighted mean that is zero, the same for each component of the displacements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Condition {
+pub struct MeanCondition {
     /// The node that follows.
     pub node: usize,
     /// Nodes and factors, the node itself first. Their sum is zero.
@@ -63,9 +63,9 @@ pub struct Condition {
 
 /// Two surfaces glued.
 #[derive(Debug, Clone)]
-pub struct Tie {
+pub struct TiedSurfaces {
     /// One for each node of the surface that has something opposite.
-    pub conditions: Vec<Condition>,
+    pub conditions: Vec<MeanCondition>,
     /// Nodes of surface and target.
     pub nodes: [Vec<usize>; 2],
     /// The largest gap across which something follows, a length.
@@ -85,22 +85,22 @@ pub enum Apart {
     Nothing(f64, Vec3, f64),
 }
 
-impl Tie {
+impl TiedSurfaces {
     /// Glues a surface to a target.
     ///
     /// # Errors
     /// [`Apart`] where they are not together.
     pub fn new(parts: &TieParts) -> Result<Self, Apart> {
-        let (mesh, surface) = (parts.mesh, Surface::whole(parts.mesh, parts.surface, parts.space, 1.0));
-        let target = Faces::new(Surface::whole(mesh, parts.target, parts.space, 1.0), mesh);
+        let (mesh, surface) = (parts.mesh, FieldSurface::whole(parts.mesh, parts.surface, parts.space, 1.0));
+        let target = TargetFaces::new(FieldSurface::whole(mesh, parts.target, parts.space, 1.0), mesh);
         let sizes = [&surface, &target.surface].map(|surface| surface.coarseness(mesh));
         let facets = sizes.iter().map(|[size, part]| size * part).sum::<f64>();
         let tolerance = parts.tolerance.unwrap_or(TOLERANCE * sizes[0][0].max(sizes[1][0]) + facets);
-        let places = Places::new(mesh, &surface, &target, tolerance);
+        let places = TiePlaces::new(mesh, &surface, &target, tolerance);
         let [own, others] = [&surface, &target.surface].map(nodes);
-        let (mut rows, mut gap, mut far) = (Rows::default(), 0.0_f64, None);
+        let (mut rows, mut gap, mut far) = (TieRows::default(), 0.0_f64, None);
         for face in 0..surface.faces.len() {
-            let Cover { places, beyond } = places.of(face);
+            let TieCover { places, beyond } = places.of(face);
             if let Some((distance, at)) = beyond {
                 let (most, _) = far.get_or_insert((distance, at));
                 if distance > *most {
@@ -108,7 +108,7 @@ impl Tie {
                 }
             }
             gap = places.iter().map(|place| place.gap.abs()).fold(gap, f64::max);
-            let dual = Dual::new(surface.faces[face].kind, &places);
+            let dual = DualBasis::new(surface.faces[face].kind, &places);
             rows.add((&surface, face), &target.surface, &dual, &places);
         }
         rows.whole(mesh, &surface);
@@ -131,7 +131,7 @@ impl Tie {
         // Corners first, since what lies between them depends on them.
         for between in [false, true] {
             let all = self.conditions.iter().filter(|c| c.follows && c.between.is_some() == between);
-            for Condition { node, terms, .. } in all {
+            for MeanCondition { node, terms, .. } in all {
                 let place = |other: usize| fitted.get(&other).copied().unwrap_or(points[other]);
                 let Some(((_, own), rest)) = terms.split_first() else { continue };
                 let sum = rest.iter().fold(Vec3::zero(), |sum, &(other, c)| sum + place(other) * c);
@@ -143,7 +143,7 @@ impl Tie {
 }
 
 /// The nodes of a surface.
-fn nodes(surface: &Surface) -> Vec<usize> {
+fn nodes(surface: &FieldSurface) -> Vec<usize> {
     let all: BTreeSet<usize> = surface.faces.iter().flat_map(|face| face.nodes.iter().copied()).collect();
     all.into_iter().collect()
 }
@@ -157,7 +157,7 @@ fn nearest(mesh: &Mesh, own: &[usize], others: &[usize]) -> (f64, Vec3) {
 
 /// What is summed up for a node of the surface.
 #[derive(Debug, Default)]
-struct Row {
+struct TieRow {
     /// Integral of its function where something lies opposite, and everywhere.
     covered: f64,
     whole: f64,
@@ -170,11 +170,17 @@ struct Row {
 
 /// Sums by the nodes of the surface.
 #[derive(Debug, Default)]
-struct Rows(BTreeMap<usize, Row>);
+struct TieRows(BTreeMap<usize, TieRow>);
 
-impl Rows {
+impl TieRows {
     /// Adds what a face has opposite.
-    fn add(&mut self, (surface, f): (&Surface, usize), target: &Surface, dual: &Dual, places: &[places::Place]) {
+    fn add(
+        &mut self,
+        (surface, f): (&FieldSurface, usize),
+        target: &FieldSurface,
+        dual: &DualBasis,
+        places: &[places::TiePlace],
+    ) {
         let nodes = &surface.faces[f].nodes;
         for (k, &node) in nodes.iter().enumerate() {
             let row = self.0.entry(node).or_default();
@@ -195,7 +201,7 @@ impl Rows {
     }
 
     /// Adds up the functions of the nodes over all of the surface.
-    fn whole(&mut self, mesh: &Mesh, surface: &Surface) {
+    fn whole(&mut self, mesh: &Mesh, surface: &FieldSurface) {
         for face in &surface.faces {
             let basis = basis(face.kind);
             for (area, shape) in places::everywhere(mesh, surface, face) {
@@ -207,8 +213,8 @@ impl Rows {
         }
     }
 
-    fn conditions(self, target: &BTreeSet<usize>) -> Vec<Condition> {
-        let condition = |(node, row): (usize, Row)| {
+    fn conditions(self, target: &BTreeSet<usize>) -> Vec<MeanCondition> {
+        let condition = |(node, row): (usize, TieRow)| {
             let (own, mut terms) = (row.covered, Vec::new());
             match row.between {
                 Some(([a, b], alpha)) => {
@@ -221,7 +227,7 @@ impl Rows {
             terms.extend(row.others.into_iter().filter(counts).map(|(other, m)| (other, -m)));
             let follows = own > COVERED * row.whole && !target.contains(&node);
             let neighbours = row.neighbours.into_iter().collect();
-            Condition { node, terms, neighbours, follows, between: row.between.map(|(ends, _)| ends) }
+            MeanCondition { node, terms, neighbours, follows, between: row.between.map(|(ends, _)| ends) }
         };
         self.0.into_iter().filter(|(_, row)| row.covered != 0.0).map(condition).collect()
     }

@@ -1,14 +1,14 @@
 //! Where faces of the surface have the target opposite: points of a quadrature on the overlap of both meshes.
 
 use crate::contact::field::cover::{FaceInPlace, between_vertices};
-use crate::contact::field::face::{CORNERS, Face, Placed, ShapeFunctions};
-use crate::contact::field::faces::{Faces, FacesInPlace, LEAST_COSINE, Projection, Ray};
-use crate::contact::field::space::Part;
-use crate::contact::field::surface::Surface;
+use crate::contact::field::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use crate::contact::field::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE, TargetFaces};
+use crate::contact::field::space::FacePart;
+use crate::contact::field::surface::FieldSurface;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
-use crate::tool::Bounds;
+use crate::tool::BoundingBox;
 
 /// Points of a rule along each direction of a part of a face: all products of shape functions of faces with straight sides are
 /// integrated exactly, others to rounding.
@@ -18,7 +18,7 @@ const LOOKED: f64 = 4.0;
 
 /// A point of a quadrature.
 #[derive(Debug, Clone, Copy)]
-pub struct Place {
+pub struct TiePlace {
     /// Undeformed area that it stands for, the circumference included.
     pub area: f64,
     /// Shape functions of the face of the surface.
@@ -33,36 +33,36 @@ pub struct Place {
 
 /// What a face has opposite.
 #[derive(Debug, Default)]
-pub struct Cover {
+pub struct TieCover {
     /// Points within the tolerance.
-    pub places: Vec<Place>,
+    pub places: Vec<TiePlace>,
     /// The farthest that lies beyond it: distance and where.
     pub beyond: Option<(f64, Vec3)>,
 }
 
 /// A part of a face that sees a face of the target.
-enum Seen {
+enum TiePart {
     Interval([f64; 2]),
-    Polygon(Box<Part>),
+    Polygon(Box<FacePart>),
 }
 
 /// Finds places.
-pub struct Places<'a> {
-    surface: &'a Surface,
-    faces: &'a Faces,
+pub struct TiePlaces<'a> {
+    surface: &'a FieldSurface,
+    faces: &'a TargetFaces,
     target: FacesInPlace<'a>,
-    placed: Vec<Placed>,
+    placed: Vec<PlacedFace>,
     normals: Vec<Vec3>,
     tolerance: f64,
     rule: Vec<(f64, f64)>,
 }
 
-impl<'a> Places<'a> {
+impl<'a> TiePlaces<'a> {
     /// Before any motion.
-    pub fn new(mesh: &'a Mesh, surface: &'a Surface, faces: &'a Faces, tolerance: f64) -> Self {
+    pub fn new(mesh: &'a Mesh, surface: &'a FieldSurface, faces: &'a TargetFaces, tolerance: f64) -> Self {
         let dofs = Dofs::new(if surface.plane { 2 } else { 3 }, mesh.points.len(), 0);
         let target = faces.in_place((mesh, &dofs), &vec![0.0; dofs.count()]);
-        let placed: Vec<Placed> = surface.faces.iter().map(|face| face.at_rest(mesh)).collect();
+        let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.at_rest(mesh)).collect();
         let normals = (0..surface.nodes.len()).map(|node| surface.normal(node, |f| placed[f]).unit).collect();
         Self { surface, faces, target, placed, normals, tolerance, rule: legendre(POINTS) }
     }
@@ -77,13 +77,13 @@ impl<'a> Places<'a> {
     }
 
     /// What a face has opposite.
-    pub fn of(&self, number: usize) -> Cover {
+    pub fn of(&self, number: usize) -> TieCover {
         let (face, mut near, mut seen) = (self.face(number), Vec::new(), Vec::new());
-        let around = Bounds::of(face.placed.nodes().iter().copied());
+        let around = BoundingBox::of(face.placed.nodes().iter().copied());
         self.target.near(&around, LOOKED * self.tolerance, &mut near);
         for &target in &near {
             let part = self.part(&face, target);
-            let middle = |part: Seen| {
+            let middle = |part: TiePart| {
                 let xi = part.middle();
                 let hit = self.project(&face, xi, target)?;
                 let looks = -hit.normal().dot(face.own_normal(xi)) > LEAST_COSINE;
@@ -91,9 +91,9 @@ impl<'a> Places<'a> {
             };
             seen.extend(part.and_then(middle));
         }
-        let mut cover = Cover::default();
+        let mut cover = TieCover::default();
         for (i, (target, part, gap)) in seen.iter().enumerate() {
-            let nearer = |(j, (_, other, there)): (usize, &(usize, Seen, f64))| {
+            let nearer = |(j, (_, other, there)): (usize, &(usize, TiePart, f64))| {
                 (there.abs(), j) < (gap.abs(), i) && other.covers(part)
             };
             if seen.iter().enumerate().any(nearer) {
@@ -109,29 +109,29 @@ impl<'a> Places<'a> {
                 let Some(hit) = self.project(&face, xi, *target) else { continue };
                 let area = weight * self.surface.density_at(face.face, &face.placed, xi);
                 let shape = face.face.shape(xi);
-                cover.places.push(Place { area, shape, target: *target, seen: hit.shape, gap: hit.gap });
+                cover.places.push(TiePlace { area, shape, target: *target, seen: hit.shape, gap: hit.gap });
             }
         }
         cover
     }
 
     /// The part of a face that sees one of the target.
-    fn part(&self, face: &FaceInPlace, target: usize) -> Option<Seen> {
+    fn part(&self, face: &FaceInPlace, target: usize) -> Option<TiePart> {
         let other = self.target.placed(target).nodes();
         if self.surface.plane {
-            return between_vertices(face, [other[1], other[0]]).map(|(interval, _)| Seen::Interval(interval));
+            return between_vertices(face, [other[1], other[0]]).map(|(interval, _)| TiePart::Interval(interval));
         }
         let own = &face.placed.nodes()[..face.face.corners()];
-        Part::new(own, &other[..self.target.corners(target)]).map(|part| Seen::Polygon(Box::new(part)))
+        FacePart::new(own, &other[..self.target.corners(target)]).map(|part| TiePart::Polygon(Box::new(part)))
     }
 
-    fn project(&self, face: &FaceInPlace, xi: [f64; 2], target: usize) -> Option<Projection> {
+    fn project(&self, face: &FaceInPlace, xi: [f64; 2], target: usize) -> Option<FaceProjection> {
         let at = face.at(xi);
-        self.faces.project(target, self.target.placed(target), &Ray { x: at.x, n: at.normal.unit() })
+        self.faces.project(target, self.target.placed(target), &FaceRay { x: at.x, n: at.normal.unit() })
     }
 }
 
-impl Seen {
+impl TiePart {
     fn middle(&self) -> [f64; 2] {
         match self {
             Self::Interval([from, to]) => [0.5 * (from + to), 0.0],
@@ -160,7 +160,7 @@ impl Seen {
 }
 
 /// Areas and shape functions all over a face.
-pub fn everywhere(mesh: &Mesh, surface: &Surface, face: &Face) -> Vec<(f64, ShapeFunctions)> {
+pub fn everywhere(mesh: &Mesh, surface: &FieldSurface, face: &FieldFace) -> Vec<(f64, ShapeFunctions)> {
     let rest = face.at_rest(mesh);
     let rule = face.kind.gauss[2].into_iter().flat_map(|rule| rule.points.iter().zip(rule.weights));
     let place = |(&[a, b, _], weight): (&[f64; 3], &f64)| {

@@ -117,3 +117,81 @@ fn types_of_contact_and_tools_have_names_of_their_own() {
     let shared: Vec<_> = shared.map(|(name, paths)| format!("{name}: {paths:?}")).collect();
     assert!(shared.is_empty(), "{}", shared.join("\n"));
 }
+
+/// Paths that the `use` items of a text name, groups written out; what follows `#[cfg(test)]` is left out.
+fn imports(text: &str) -> Vec<String> {
+    fn spread(prefix: &str, tree: &str, out: &mut Vec<String>) {
+        let Some((head, rest)) = tree.split_once('{') else {
+            return out.push(format!("{prefix}{}", tree.split(" as ").next().unwrap().trim()));
+        };
+        let (inside, mut depth, mut from) = (rest.rsplit_once('}').unwrap().0, 0, 0);
+        let prefix = format!("{prefix}{}", head.trim());
+        for (at, c) in inside.char_indices().chain([(inside.len(), ',')]) {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            if c == ',' && depth == 0 {
+                spread(&prefix, &inside[from..at], out);
+                from = at + 1;
+            }
+        }
+    }
+    let code = text.split("#[cfg(test)]").next().unwrap();
+    let code: Vec<&str> = code.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
+    let mut paths = Vec::new();
+    for part in format!("\n{}", code.join("\n")).split("\nuse ").skip(1) {
+        spread("", &part.split(';').next().unwrap().replace('\n', " "), &mut paths);
+    }
+    paths
+}
+
+#[test]
+fn files_of_contact_import_one_another_in_no_circle() {
+    use std::collections::{BTreeMap, BTreeSet};
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut paths = Vec::new();
+    files(&source.join("contact"), &mut paths);
+    let module = |path: &PathBuf| -> Vec<String> {
+        let inside = path.strip_prefix(&source).unwrap().with_extension("");
+        let mut names: Vec<String> = inside.iter().map(|name| name.to_str().unwrap().to_owned()).collect();
+        names.pop_if(|last| last == "mod");
+        names
+    };
+    let all: BTreeMap<Vec<String>, &PathBuf> = paths.iter().map(|path| (module(path), path)).collect();
+    let mut uses = BTreeMap::<&Vec<String>, BTreeSet<&Vec<String>>>::new();
+    for (own, path) in &all {
+        let theirs = uses.entry(own).or_default();
+        for import in imports(&std::fs::read_to_string(path).unwrap()) {
+            let mut names: Vec<String> = import.split("::").map(str::to_owned).collect();
+            let mut from = own.clone();
+            let absolute = names[0] == "crate";
+            while names[0] == "super" || names[0] == "crate" || names[0] == "self" {
+                match &*names.remove(0) {
+                    "super" => drop(from.pop()),
+                    "crate" => from.clear(),
+                    _ => (),
+                }
+            }
+            if !absolute && from == *own && !import.starts_with("self") {
+                continue; // a crate
+            }
+            from.extend(names);
+            while !from.is_empty() && !all.contains_key(&from) {
+                from.pop();
+            }
+            // What a folder hands on from within is no use of it.
+            if let Some((other, _)) =
+                all.get_key_value(&from).filter(|(other, _)| *other != own && !other.starts_with(own))
+            {
+                theirs.insert(other);
+            }
+        }
+    }
+    assert!(uses.values().map(BTreeSet::len).sum::<usize>() > 100, "is the reading broken?");
+    // Files that use none that is left are taken away until none can be.
+    while let Some(leaf) = uses.iter().find(|(_, theirs)| theirs.is_empty()).map(|(leaf, _)| *leaf) {
+        uses.remove(leaf);
+        for theirs in uses.values_mut() {
+            theirs.remove(leaf);
+        }
+    }
+    assert!(uses.is_empty(), "these use one another, or what does: {uses:#?}");
+}

@@ -6,6 +6,7 @@
 mod dual;
 mod inverse;
 mod principal;
+mod quadrature;
 mod scalar;
 mod tensor2;
 mod vec3;
@@ -13,6 +14,7 @@ mod vec3;
 pub use dual::Dual;
 pub use inverse::inverse;
 pub use principal::{Isotropic, principal};
+pub use quadrature::legendre;
 pub use scalar::Scalar;
 pub use tensor2::Tensor2;
 pub use vec3::Vec3;

@@ -1,13 +1,13 @@
 //! The field during one attempt: who sees whom, the law at each node, forces and tangents.
 
 use super::configuration::{Configuration, TargetInPlace};
+use super::contact::{FieldContact, FieldTarget, RULE};
 use super::cover::Patch;
 use super::faces::{FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::point::Touched;
 use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
-use super::term::{FieldContact, FieldTarget};
 use super::tip::TipFoot;
 use crate::contact::augment;
 use crate::contact::increment::{in_contact, refuse_turn};
@@ -15,7 +15,7 @@ use crate::contact::kink::answer;
 use crate::contact::overlap::recession;
 use crate::contact::record::{entry, leave, stresses, write};
 use crate::interface::{Interface, Past};
-use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils};
+use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils, Term};
 use crate::tensor::Vec3;
 use crate::{Failure, Kind};
 use std::cell::RefCell;
@@ -63,83 +63,6 @@ pub struct FieldAttempt<'a> {
     pub far: f64,
 }
 
-impl FieldContact {
-    /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
-    pub(super) fn find(
-        &self,
-        (now, tips): (&Configuration, Vec<Option<TipFoot>>),
-        reach: f64,
-        depths: &[f64],
-        mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
-    ) -> Vec<Support> {
-        let mut near = Vec::new();
-        let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
-        let mut see = |slot: usize, (patch, corner): (Patch, usize), [middle, nearest]: [f64; 2]| {
-            let depth = depths[patch.face];
-            if -middle > depth {
-                // Deeper than the middle of the body, and not the body's own far side.
-                supports[slot].through |= -middle < THROUGH * depth;
-                return;
-            }
-            supports[slot].patches.push((patch, corner));
-            least[slot] = least[slot].min(nearest);
-        };
-        for number in 0..depths.len() {
-            for seen in now.patches(number, reach, &mut near) {
-                let piece = self.piece_of(seen.patch.target);
-                for corner in 0..self.surface.faces[number].corners() {
-                    let slot = self.slot(self.surface.field[number][corner], piece);
-                    see(slot, (seen.patch, corner), [seen.middle, seen.least]);
-                }
-            }
-        }
-        for (number, found) in tips.into_iter().enumerate() {
-            if let Some(found) = found {
-                see(self.nodal_slots() + number, (found.patch, 0), [found.gap; 2]);
-            }
-        }
-        for (support, least) in supports.iter_mut().zip(least) {
-            if least > reach {
-                support.patches.clear();
-            }
-            for (patch, _) in &support.patches {
-                self.list_nodes(patch, &mut support.nodes);
-                touched(now, patch, &mut support.nodes);
-            }
-            if let (Some((patch, corner)), false) = (support.patches.first(), self.surface.plane) {
-                support.nodes.extend(self.surface.line(self.surface.field[patch.face][*corner]));
-            }
-            support.nodes.sort_unstable();
-            support.nodes.dedup();
-            let mut areas = [0.0; 2];
-            for (number, corner) in support.faces() {
-                let face = &self.surface.faces[number];
-                areas[0] += self.surface.corner_area(face, &now.placed[number], corner).0;
-                areas[1] += self.surface.corner_area(face, &face.at_rest(&self.mesh), corner).0;
-            }
-            support.stretch = if areas[1] > 0.0 { areas[0] / areas[1] } else { 1.0 };
-        }
-        supports
-    }
-
-    /// Nodes on which a patch depends.
-    fn list_nodes(&self, patch: &Patch, nodes: &mut Vec<usize>) {
-        nodes.extend_from_slice(&self.surface.faces[patch.face].nodes);
-        if let Some(faces) = self.target.as_faces() {
-            nodes.extend_from_slice(&faces.surface.faces[patch.target].nodes);
-        }
-        if self.needs_normals() {
-            for corner in 0..self.surface.faces[patch.face].corners() {
-                let support = &self.surface.nodes[self.surface.field[patch.face][corner]].support;
-                support.iter().for_each(|&(f, _)| nodes.extend_from_slice(&self.surface.faces[f].nodes));
-            }
-        }
-    }
-}
-
-/// Depth, in units of the largest admissible one, up to which a face is surely not the body's own far side.
-const THROUGH: f64 = 1.8;
-
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> Vec<Support> {
         let now = Configuration::new(self.contact, u);
@@ -152,13 +75,13 @@ impl FieldAttempt<'_> {
     fn list_touched(&self, now: &Configuration, patch: &Patch, nodes: &mut Vec<usize>) {
         if patch.tip.is_some() {
             let seen = self.before_tip(patch).map(|(face, _)| face);
-            seen.into_iter().for_each(|face| nodes.extend_from_slice(&self.contact.surface.faces[face].nodes));
+            seen.into_iter().for_each(|face| nodes.extend_from_slice(&self.contact.parts.surface.faces[face].nodes));
             return;
         }
-        let Some(faces) = self.contact.target.as_faces() else { return };
+        let Some(faces) = self.contact.parts.target.as_faces() else { return };
         let mut places = Vec::new();
-        if let (TargetInPlace::Faces(target), false) = (&now.target, self.contact.surface.plane) {
-            let (own, other) = (&self.contact.surface.faces[patch.face], target.placed(patch.target));
+        if let (TargetInPlace::Faces(target), false) = (&now.target, self.contact.parts.surface.plane) {
+            let (own, other) = (&self.contact.parts.surface.faces[patch.face], target.placed(patch.target));
             let own = &now.placed[patch.face].nodes()[..own.corners()];
             let other = &other.nodes()[..target.corners(patch.target)];
             let degree = self.contact.overlap_degree(patch);
@@ -166,7 +89,7 @@ impl FieldAttempt<'_> {
         } else {
             let [from, to] = patch.near;
             let place = |&(eta, _): &(f64, f64)| [0.5 * (from + to) + 0.5 * (to - from) * eta, 0.0];
-            places.extend(self.contact.rule().iter().map(place));
+            places.extend(RULE.iter().map(place));
         }
         for xi in places {
             if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {
@@ -183,7 +106,8 @@ impl FieldAttempt<'_> {
         xi: [f64; 2],
         known: impl Fn(usize) -> bool,
     ) -> Option<(usize, super::faces::FaceProjection)> {
-        let (Some(faces), TargetInPlace::Faces(before)) = (self.contact.target.as_faces(), &self.before.target) else {
+        let (Some(faces), TargetInPlace::Faces(before)) = (self.contact.parts.target.as_faces(), &self.before.target)
+        else {
             return None;
         };
         let at = self.before.face(patch.face).at(xi);
@@ -198,7 +122,7 @@ impl FieldAttempt<'_> {
             within && admits(*face, hit)
         };
         // In space the search is dear, and most places see what they saw.
-        if let Some(present) = present.filter(|present| !self.contact.surface.plane && same(present)) {
+        if let Some(present) = present.filter(|present| !self.contact.parts.surface.plane && same(present)) {
             return Some(present);
         }
         before.nearest(&ray, range, admits).or(present)
@@ -213,14 +137,14 @@ impl FieldAttempt<'_> {
     fn recall(&self, stencil: &StencilInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
         if patch.tip.is_some() {
             let (number, xi) = self.before_tip(patch)?;
-            let face = &self.contact.surface.faces[number];
+            let face = &self.contact.parts.surface.faces[number];
             let shape = face.shape([xi, 0.0]);
             let now = shape.value(stencil.placed(face).nodes());
             return Some(Touched { now, slopes: [Vec3::zero(); 2], face: Some((number, shape)) });
         }
         let face = self.before.face(patch.face);
         let at = face.at(xi);
-        match (&self.before.target, &self.contact.target) {
+        match (&self.before.target, &self.contact.parts.target) {
             (TargetInPlace::Tool(before), FieldTarget::Tool(_)) => {
                 let (foot, now) = (before.closest(patch.target, at.x), stencil.tool.as_ref()?);
                 let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
@@ -235,7 +159,7 @@ impl FieldAttempt<'_> {
                 let m = at.normal;
                 let n = m.unit();
                 let placed = stencil.placed(&faces.surface.faces[number]);
-                let [a, b] = hit.shape.tangents(placed.nodes(), self.contact.surface.plane);
+                let [a, b] = hit.shape.tangents(placed.nodes(), self.contact.parts.surface.plane);
                 let slopes = [0, 1].map(|k| {
                     let turned = (at.normal_slopes[k] - n * n.dot(at.normal_slopes[k])) * m.norm().recip();
                     let (_, s) = hit.follow(n, at.tangents[k] + turned * hit.gap);
@@ -249,7 +173,7 @@ impl FieldAttempt<'_> {
 
     /// What is added to the penetration of a node before the law sees it.
     fn closure(&self, slot: usize) -> f64 {
-        self.shift(slot)[0] + recession(self.contact.options.wear, self.settled[1], self.history.slot(slot))
+        self.shift(slot)[0] + recession(self.contact.parts.options.wear, self.settled[1], self.history.slot(slot))
     }
 
     fn shift(&self, slot: usize) -> [f64; COUNT] {
@@ -258,7 +182,7 @@ impl FieldAttempt<'_> {
 
     /// What the law may know of a node. Penalties are for undeformed area, stresses for present.
     fn past(&self, slot: usize, stretch: f64) -> Past<'_> {
-        let (options, old) = (&self.contact.options, self.history.slot(slot));
+        let (options, old) = (&self.contact.parts.options, self.history.slot(slot));
         let (penalty, tangential_penalty) = (options.penalty / stretch, self.tangential[slot] / stretch);
         let [_, s, t] = self.shift(slot);
         let penetration = old[entry::PENETRATION] + old[entry::CLOSURE];
@@ -306,7 +230,7 @@ impl FieldAttempt<'_> {
         new[entry::SEGMENT] = -1.0;
         if self.sum(stencil, false, sums).is_none() {
             if stencil.support.through && old[entry::PRESSURE] != 0.0 {
-                let reason = format!("the target came through at {}", contact.describe(slot));
+                let reason = format!("the target came through at {}", contact.name_of(slot));
                 return Err(Failure::new(reason).of(Kind::Passage));
             }
             leave(&*self.law, old, new);
@@ -380,20 +304,20 @@ impl FieldAttempt<'_> {
         let faces = stencil.support.patches.iter().map(|(patch, _)| self.depths[patch.face]);
         let depth = faces.fold(f64::INFINITY, f64::min);
         if self.history.slot(slot)[entry::STATUS] == 0.0 && sums.y[0] > 0.25 * depth {
-            let (name, deep) = (contact.describe(slot), sums.y[0]);
+            let (name, deep) = (contact.name_of(slot), sums.y[0]);
             let reason = format!("{name} came to lie {deep:.3e} deep in one increment");
             return Err(Failure::new(reason).of(Kind::Passage));
         }
-        let FieldTarget::Tool(rigid) = &contact.target else { return Ok(()) };
+        let FieldTarget::Tool(rigid) = &contact.parts.target else { return Ok(()) };
         let turned = rigid.turned(stencil.motion(), &self.accepted[rigid.unknowns()]);
-        refuse_turn(turned, || contact.describe(slot))
+        refuse_turn(turned, || contact.name_of(slot))
     }
 
     /// Energy stored by the stresses of a node, and dissipated over the increment: the work of the mean friction stress on
     /// the slip less what of it is stored, and of the mean pressure on the closure that stays. A node that closes or opens takes
     /// part with half its stress. Where multipliers bear the stress nothing is stored by a slip.
     fn account(&self, slot: usize, (area, stretch): (f64, f64), now: Carried, local: &mut Local) {
-        let (options, old) = (&self.contact.options, self.history.slot(slot));
+        let (options, old) = (&self.contact.parts.options, self.history.slot(slot));
         let area = area * stretch;
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
         let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(slot)[0] };
@@ -523,14 +447,14 @@ impl FieldAttempt<'_> {
     /// Lists the stencils of all nodes at unknowns `u`.
     fn list(&self, u: &[f64], out: &mut Stencils) -> Vec<Support> {
         let supports = self.search(u);
-        let axes = self.contact.dofs.per_node();
+        let axes = self.contact.parts.dofs.per_node();
         for support in &supports {
             let start = out.dofs.len();
             let choice = support.patches.first().map_or(0, |(patch, _)| patch.target as u32 + 1);
             if choice > 0 {
-                let nodes = support.nodes.iter().map(|&node| self.contact.dofs.node(node));
+                let nodes = support.nodes.iter().map(|&node| self.contact.parts.dofs.node(node));
                 out.dofs.extend(nodes.flat_map(|first| first..first + axes));
-                if let FieldTarget::Tool(rigid) = &self.contact.target {
+                if let FieldTarget::Tool(rigid) = &self.contact.parts.target {
                     out.dofs.extend(rigid.unknowns());
                 }
             }
@@ -542,7 +466,7 @@ impl FieldAttempt<'_> {
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
     fn improve(&mut self, _u: &[f64], new: &mut History) -> Result<bool, Failure> {
-        let Some(augmentation) = self.contact.options.augmentation else { return Ok(false) };
+        let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(false) };
         let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());
         for (slot, shift) in better.iter_mut().enumerate() {
             let (new, size) = (new.slot(slot), self.contact.size_at(slot));
@@ -551,12 +475,12 @@ impl FieldAttempt<'_> {
                 continue;
             }
             let stretch = new[entry::HALF];
-            let borne = new[entry::PRESSURE] * stretch / self.contact.options.penalty;
+            let borne = new[entry::PRESSURE] * stretch / self.contact.parts.options.penalty;
             let closed = new[entry::STATUS] > 0.0;
             let raised = if closed { borne } else { (shift[0] + new[entry::PENETRATION]).max(0.0) };
             left.penetration = left.penetration.max((raised - shift[0]).abs() / size);
             shift[0] = raised;
-            if closed && self.contact.options.augmentation.is_some() {
+            if closed && self.contact.parts.options.augmentation.is_some() {
                 let old = self.history.slot(slot);
                 let elastic = [(entry::SHEAR, 1), (entry::SHEAR2, 2)]
                     .map(|(shear, c)| ((new[shear] - old[shear]) * stretch / self.tangential[slot], c));

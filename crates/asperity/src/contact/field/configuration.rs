@@ -1,9 +1,9 @@
 //! Both sides of a contact in place, and which part of a face sees which part of the target.
 
+use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, between_vertices, over_piece};
 use super::face::{CORNERS, PlacedFace};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
-use super::term::{FieldContact, FieldTarget};
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
 use crate::tool::BoundingBox;
@@ -31,11 +31,11 @@ pub enum TargetInPlace<'a> {
 impl<'a> Configuration<'a> {
     /// At unknowns `u`.
     pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
-        let (surface, site) = (&contact.surface, (&*contact.mesh, &contact.dofs));
+        let (surface, site) = (&contact.parts.surface, (&*contact.parts.mesh, &contact.parts.dofs));
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
-        let target = match &contact.target {
+        let target = match &contact.parts.target {
             FieldTarget::Tool(rigid) => TargetInPlace::Tool(rigid.at(u)),
             FieldTarget::Faces(faces) => TargetInPlace::Faces(faces.in_place(site, u)),
         };
@@ -44,7 +44,7 @@ impl<'a> Configuration<'a> {
 
     /// A face of the surface.
     pub fn face(&self, number: usize) -> FaceInPlace<'_> {
-        let surface = &self.contact.surface;
+        let surface = &self.contact.parts.surface;
         let mut normals = [Vec3::zero(); CORNERS];
         for (normal, node) in normals.iter_mut().zip(surface.field[number]) {
             *normal = self.normals.get(node).copied().unwrap_or(Vec3::zero());
@@ -67,7 +67,7 @@ pub struct SeenPart {
 impl Configuration<'_> {
     /// The patches of a face that look at it, within `reach` or nearly so.
     pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<SeenPart> {
-        if !self.contact.surface.plane {
+        if !self.contact.parts.surface.plane {
             return self.patches_in_space(number, reach, near);
         }
         let (face, mut found) = (self.face(number), Vec::new());
@@ -110,8 +110,11 @@ impl Configuration<'_> {
                 }
                 TargetInPlace::Faces(faces) => {
                     let ray = FaceRay { x: at.x, n: at.normal.unit() };
-                    let hit =
-                        self.contact.target.as_faces()?.project(patch.target, faces.placed(patch.target), &ray)?;
+                    let hit = self.contact.parts.target.as_faces()?.project(
+                        patch.target,
+                        faces.placed(patch.target),
+                        &ray,
+                    )?;
                     looks |= -hit.normal().dot(ray.n) > LEAST_COSINE;
                     Some(hit.gap)
                 }

@@ -6,7 +6,6 @@
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
-use super::tip::Landing;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
 
@@ -23,6 +22,19 @@ pub struct Patch {
     pub near: [f64; 2],
     /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.
     pub tip: Option<Landing>,
+}
+
+/// Where a tip lies over a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Landing {
+    /// The place of the face that is closest, roughly.
+    pub xi: f64,
+    /// The corner of the face that is closest, where the tip lies in a valley.
+    pub corner: Option<usize>,
+    /// The corner that it lies over where the surface ends, as on a plane or axis of symmetry.
+    pub border: Option<usize>,
+    /// Part of the face's area that it has.
+    pub share: f64,
 }
 
 /// A face of the surface in place, with the outward normals at its corners.

@@ -13,28 +13,37 @@
 //! Meng, IJNME 62, 2005; Popp, Gee & Wall, IJNME 79, 2009). Nothing is shared across a crease of the surface or between two
 //! smooth pieces of the target (Farah, Wall & Popp, IJNME 114, 2018).
 //!
-//! The way of a contact: [`surface`](Surface) and `target` are who may touch whom, `cover` and `configuration` find which part of a
-//! face sees which part of the target, `point` places a quadrature point with the derivatives of all that follows from it, `stencil` sums
-//! the points of a node, `tip` is the vertex of a wedge within a face, and `term` with `attempt` are the only ones that know the rest. The plane is space with the second
-//! tangent `e_z`; what differs is the cover of a face, which is in `space`, and the pose of a tool.
+//! The way of a contact: [`surface`](FieldSurface) and `faces` or `tool` are who may touch whom and [`contact`](FieldContact) the two
+//! with their law; `cover` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
+//! `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all that follows from it along a
+//! `column` of the tangent, `stencil` the sums of the points of a node, `tip` the vertex of a wedge within a face; `attempt` and
+//! `term` are the ones that equilibrium knows, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
+//! differs is the cover of a face, which is in `space`, and the pose of a tool.
 
 mod attempt;
+mod column;
 pub(super) mod configuration;
+mod contact;
 mod cover;
 pub(super) mod face;
 pub(super) mod faces;
 mod linear;
+mod patch;
 mod point;
+mod report;
+mod seen;
 mod space;
+mod spot;
 mod stencil;
 pub(super) mod surface;
 mod term;
 mod tie;
 mod tip;
 pub(super) mod tool;
+mod triad;
 
+pub use contact::{FieldContact, FieldParts, FieldTarget};
 pub use surface::FieldSurface;
-pub use term::{FieldContact, FieldParts, FieldTarget};
 pub use tie::{Apart, MeanCondition, TieParts, TiedSurfaces};
 
 #[cfg(test)]

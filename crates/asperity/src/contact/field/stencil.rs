@@ -4,13 +4,15 @@
 //! `H C G + sum_c t_c dH_c`, `G = dy/du`. Two sweeps over the points of the node: the first finds `y`, `G` and `H`; then the law
 //! is asked; the second adds what turning and moving the stresses does.
 
+use super::column::PointColumn;
+use super::contact::{FieldContact, FieldTarget, RULE};
 use super::cover::{FaceInPlace, Patch};
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
-use super::point::{FieldPoint, PatchInPlace, PointColumn, PointRates, Sight, Touched};
-use super::space::MaterialLine;
+use super::patch::PatchInPlace;
+use super::point::{FieldPoint, PointRates, Sight, Touched};
 use super::surface::{FieldSurface, NodalNormal};
-use super::term::{FieldContact, FieldTarget};
 use super::tool::ToolInPlace;
+use super::triad::MaterialLine;
 use crate::tensor::Vec3;
 use std::ops::Range;
 
@@ -86,13 +88,14 @@ pub type Recall<'a> = &'a dyn Fn(&Patch, [f64; 2]) -> Option<Touched>;
 impl<'a> StencilInPlace<'a> {
     /// Of a contact.
     pub fn new(contact: &'a FieldContact, support: &'a Support, u: &'a [f64]) -> Self {
-        let motion = support.nodes.len() * contact.dofs.per_node();
-        let tool = contact.target.as_tool().filter(|_| motion < u.len()).map(|rigid| rigid.in_place(&u[motion..]));
+        let motion = support.nodes.len() * contact.parts.dofs.per_node();
+        let tool =
+            contact.parts.target.as_tool().filter(|_| motion < u.len()).map(|rigid| rigid.in_place(&u[motion..]));
         Self { contact, support, u, tool }
     }
 
     fn axes(&self) -> usize {
-        self.contact.dofs.per_node()
+        self.contact.parts.dofs.per_node()
     }
 
     /// A face with its nodes in place.
@@ -101,7 +104,7 @@ impl<'a> StencilInPlace<'a> {
     }
 
     fn position(&self, node: usize) -> Vec3 {
-        let (mut x, axes) = (self.contact.mesh.points[node], self.axes());
+        let (mut x, axes) = (self.contact.parts.mesh.points[node], self.axes());
         if let Ok(place) = self.support.nodes.binary_search(&node) {
             (0..axes).for_each(|axis| x[axis] += self.u[place * axes + axis]);
         }
@@ -114,7 +117,7 @@ impl<'a> StencilInPlace<'a> {
     }
 
     fn patch(&self, patch: &Patch) -> PatchInPlace<'a> {
-        let surface = &self.contact.surface;
+        let surface = &self.contact.parts.surface;
         let face = &surface.faces[patch.face];
         let (mut normals, mut units) = ([None; CORNERS], [Vec3::zero(); CORNERS]);
         if self.contact.needs_normals() {
@@ -125,7 +128,7 @@ impl<'a> StencilInPlace<'a> {
             }
         }
         let face = FaceInPlace { face, placed: self.placed(face), normals: units, plane: surface.plane };
-        let (tool, seen) = match &self.contact.target {
+        let (tool, seen) = match &self.contact.parts.target {
             FieldTarget::Tool(_) => (self.tool, None),
             FieldTarget::Faces(faces) => (None, Some((faces, self.placed(&faces.surface.faces[patch.target])))),
         };
@@ -139,7 +142,7 @@ impl<'a> StencilInPlace<'a> {
 
     /// What the tangents of the node follow, in space.
     fn line(&self) -> Option<MaterialLine> {
-        let surface = &self.contact.surface;
+        let surface = &self.contact.parts.surface;
         let (patch, corner) = self.support.patches.first().filter(|_| !surface.plane)?;
         let nodes = surface.line(surface.field[patch.face][*corner]);
         let [from, to] = nodes.map(|node| self.position(node));
@@ -148,13 +151,13 @@ impl<'a> StencilInPlace<'a> {
 
     /// Nodes of a face of the target.
     fn seen_nodes(&self, face: usize) -> &'a [usize] {
-        self.contact.target.as_faces().map_or(&[], |faces| &faces.surface.faces[face].nodes)
+        self.contact.parts.target.as_faces().map_or(&[], |faces| &faces.surface.faces[face].nodes)
     }
 
     pub(super) fn list_columns(&self, patch: &Patch, columns: &mut Vec<PointColumn>) {
         columns.clear();
-        let own = &self.contact.surface.faces[patch.face].nodes;
-        let seen = match &self.contact.target {
+        let own = &self.contact.parts.surface.faces[patch.face].nodes;
+        let seen = match &self.contact.parts.target {
             FieldTarget::Tool(_) => &[][..],
             FieldTarget::Faces(faces) => &faces.surface.faces[patch.target].nodes,
         };
@@ -168,7 +171,7 @@ impl<'a> StencilInPlace<'a> {
 
     /// Derivatives of the sums of area vectors at the corners of a face along each unknown.
     fn turning(&self, patch: &Patch, out: &mut Vec<[Vec3; CORNERS]>) {
-        let (surface, axes) = (&self.contact.surface, self.axes());
+        let (surface, axes) = (&self.contact.parts.surface, self.axes());
         out.clear();
         out.resize(self.u.len(), [Vec3::zero(); CORNERS]);
         if !self.contact.needs_normals() {
@@ -190,11 +193,11 @@ impl<'a> StencilInPlace<'a> {
 
     /// Deformed over undeformed area of the faces of the patches, and its derivatives along each unknown; one for a tip.
     pub fn stretch(&self) -> (f64, Vec<f64>) {
-        let (surface, axes) = (&self.contact.surface, self.axes());
+        let (surface, axes) = (&self.contact.parts.surface, self.axes());
         let (mut areas, mut slopes) = ([0.0; 2], vec![0.0; self.u.len()]);
         for (number, corner) in self.support.faces() {
             let face = &surface.faces[number];
-            areas[1] += surface.corner_area(face, &face.at_rest(&self.contact.mesh), corner).0;
+            areas[1] += surface.corner_area(face, &face.at_rest(&self.contact.parts.mesh), corner).0;
             let (area, rates) = surface.corner_area(face, &self.placed(face), corner);
             areas[0] += area;
             for (node, rate) in face.nodes.iter().zip(rates) {
@@ -223,8 +226,8 @@ impl<'a> StencilInPlace<'a> {
                 continue;
             }
             let in_place = self.patch(patch);
-            let surface = &self.contact.surface;
-            let rest = in_place.face.face.at_rest(&self.contact.mesh);
+            let surface = &self.contact.parts.surface;
+            let rest = in_place.face.face.at_rest(&self.contact.parts.mesh);
             let mut ends = Vec::new();
             if derivatives {
                 self.list_columns(patch, &mut sums.columns);
@@ -236,7 +239,7 @@ impl<'a> StencilInPlace<'a> {
             let depends = |(column, turning)| in_place.depends(column, turning);
             let active: Vec<bool> = sums.columns.iter().zip(&turning).map(depends).collect();
             let still = !derivatives || (in_place.tool.is_some() && !surface.plane);
-            for spot in in_place.spots(self.contact.rule(), derivatives) {
+            for spot in in_place.spots(&RULE, derivatives) {
                 let xi = spot.xi;
                 let at = in_place.face.at(xi);
                 let (sight, n_out, gap, y) = in_place.look(&at)?;
@@ -326,7 +329,7 @@ impl<'a> StencilInPlace<'a> {
                 (0..axes).for_each(|axis| rows[place * axes + axis] += sign * n * f[axis]);
             }
         };
-        push(&self.contact.surface.faces[patch.face].nodes, &point.shape.n, -1.0);
+        push(&self.contact.parts.surface.faces[patch.face].nodes, &point.shape.n, -1.0);
         match (&point.sight, &self.tool) {
             (Sight::Face(hit), None) => push(self.seen_nodes(patch.target), &hit.shape.n, 1.0),
             (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
@@ -349,7 +352,8 @@ impl<'a> StencilInPlace<'a> {
             let patch = &self.support.patches[point.patch].0;
             let traction = (point.e[0] * t[1] + point.e[1] * t[2] - point.n * t[0]) * factor;
             let place = |&node: &usize| self.support.nodes.binary_search(&node).ok();
-            let own: Vec<Option<usize>> = self.contact.surface.faces[patch.face].nodes.iter().map(place).collect();
+            let own: Vec<Option<usize>> =
+                self.contact.parts.surface.faces[patch.face].nodes.iter().map(place).collect();
             let seen = if let Sight::Face(_) = &point.sight { self.seen_nodes(patch.target) } else { &[] };
             let seen: Vec<Option<usize>> = seen.iter().map(place).collect();
             for &(j, ref rate) in &rates[range] {

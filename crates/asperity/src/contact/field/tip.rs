@@ -6,29 +6,18 @@
 //! `v` its foremost point and `x(xi)` the place of the edge closest to it, the gap is `(v - x) . n`, `n` the edge's outward normal;
 //! where two edges meet that the tip has pushed into a valley, it is `-|v - x|` along `x - v`.
 
+use super::column::PointColumn;
 use super::configuration::{Configuration, TargetInPlace};
-use super::cover::{Patch, root_near};
+use super::contact::FieldContact;
+use super::cover::{Landing, Patch, root_near};
 use super::face::{FieldFace, PlacedFace, ShapeFunctions};
-use super::point::{FieldPoint, PointColumn, PointRates, Sight, Touched};
+use super::point::{FieldPoint, PointRates, Sight, Touched};
 use super::stencil::{NodeSums, Recall, StencilInPlace};
 use super::surface::{FieldSurface, unit};
 use super::tool::ToolInPlace;
 use crate::mesh::Side;
 use crate::tensor::Vec3;
 use crate::tool::Tip;
-
-/// Where a tip lies over a face.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Landing {
-    /// The place of the face that is closest, roughly.
-    pub xi: f64,
-    /// The corner of the face that is closest, where the tip lies in a valley.
-    pub corner: Option<usize>,
-    /// The corner that it lies over where the surface ends, as on a plane or axis of symmetry.
-    pub border: Option<usize>,
-    /// Part of the face's area that it has.
-    pub share: f64,
-}
 
 /// What the search finds of a tip.
 #[derive(Debug, Clone, Copy)]
@@ -129,7 +118,7 @@ impl Configuration<'_> {
             let nearer = best.is_none_or(|best| found.gap.abs() < best.gap.abs());
             best = if nearer { Some(found) } else { best };
         };
-        let surface = &self.contact.surface;
+        let surface = &self.contact.parts.surface;
         for (f, face) in surface.faces.iter().enumerate() {
             let edge = PlacedEdge { face, placed: &self.placed[f] };
             let is_end = |corner: usize| surface.nodes[surface.field[f][corner]].support.len() == 1;
@@ -179,14 +168,14 @@ impl Configuration<'_> {
     }
 
     fn undeformed_normal(&self, face: &FieldFace) -> Vec3 {
-        let rest = face.at_rest(&self.contact.mesh);
+        let rest = face.at_rest(&self.contact.parts.mesh);
         outward(face.shape(face.middle()).tangents(rest.nodes(), true)[0])
     }
 
     /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
     /// the end of the surface on the normal it had, which a plane of symmetry keeps.
     fn share(&self, (f, corner): (usize, usize), flanks: [Vec3; 2], rest: Option<Vec3>) -> f64 {
-        let surface = &self.contact.surface;
+        let surface = &self.contact.parts.surface;
         let area = |f: usize| {
             let face = &surface.faces[f];
             face.shape(face.middle()).tangents(self.placed[f].nodes(), true)[0].cross(unit(2))
@@ -211,7 +200,7 @@ impl StencilInPlace<'_> {
     ) -> Option<()> {
         let (tool, contact) = (self.tool.as_ref()?, self.contact);
         let tip = &contact.tips()[patch.target];
-        let face = &contact.surface.faces[patch.face];
+        let face = &contact.parts.surface.faces[patch.face];
         let placed = self.placed(face);
         let edge = PlacedEdge { face, placed: &placed };
         let vertex = tool.place(tip.point);
@@ -226,7 +215,8 @@ impl StencilInPlace<'_> {
         let density = if derivatives { FieldSurface::density } else { FieldSurface::density_there };
         // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
         let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
-        let (density, [slope, _]) = density(&contact.surface, face, &face.at_rest(&contact.mesh), [over, 0.0]);
+        let (density, [slope, _]) =
+            density(&contact.parts.surface, face, &face.at_rest(&contact.parts.mesh), [over, 0.0]);
         let weight = length * density * landing.share;
         let touched = recall(patch, [xi, 0.0]);
         let v = touched.map_or(Vec3::zero(), |touched| vertex - touched.now);
@@ -285,10 +275,10 @@ impl StencilInPlace<'_> {
 }
 
 /// Displacement along an unknown of the place of the surface over which a tip lay at the accepted state.
-fn left_behind(contact: &super::term::FieldContact, column: &PointColumn, touched: &Touched) -> Vec3 {
+fn left_behind(contact: &FieldContact, column: &PointColumn, touched: &Touched) -> Vec3 {
     let (PointColumn::Node { axis, node, .. }, Some((face, shape))) = (column, &touched.face) else {
         return Vec3::zero();
     };
-    let place = contact.surface.faces[*face].nodes.iter().position(|other| other == node);
+    let place = contact.parts.surface.faces[*face].nodes.iter().position(|other| other == node);
     place.map_or(Vec3::zero(), |k| unit(*axis) * shape.n[k])
 }

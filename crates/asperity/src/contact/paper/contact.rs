@@ -145,13 +145,6 @@ impl PaperContact {
         let placed = face.placed(&self.parts.mesh, &self.parts.dofs, u);
         self.surface().density_at(face, &placed, point.xi) * point.weight
     }
-
-    /// Words for a point.
-    pub(super) fn describe(&self, point: usize) -> String {
-        let face = self.parts.surface.face(point);
-        let kind = if self.surface().plane { "edge" } else { "face" };
-        format!("point {point} of contact '{}' ({kind} with nodes {:?})", self.parts.name, face.nodes)
-    }
 }
 
 /// For each face of the surface the segments of the target that share a node with it.

@@ -10,7 +10,7 @@ use crate::contact::increment::{refuse_jump, refuse_turn};
 use crate::contact::record::{entry, leave, write};
 use crate::interface::{Linearised, Past};
 use crate::mesh::Space;
-use crate::system::{Branch, Coordinates, Kinks, Local, Stencil};
+use crate::system::{Branch, Coordinates, Kinks, Local, Stencil, Term};
 
 impl PaperAttempt<'_> {
     /// Adds the coordinates over which a point's forces bend, penetration and slips, to the stencil begun last.
@@ -95,7 +95,7 @@ impl PaperAttempt<'_> {
 
     /// Refuses a point that closes too deep, and a touching tool that turned too far.
     fn refuse_leap(&self, index: usize, (g, u): (&PointGeometry, &[f64])) -> Result<(), Failure> {
-        let name = || self.contact.describe(index);
+        let name = || self.contact.name_of(index);
         if g.place.touched.is_none() {
             return refuse_jump(g.hit.u, self.depths[index], name);
         }

@@ -11,7 +11,7 @@ use crate::Failure;
 use crate::contact::LoadedSides;
 use crate::contact::field::face::PlacedFace;
 use crate::contact::field::surface::unit;
-use crate::system::{Local, Stencil};
+use crate::system::{Local, Stencil, Term};
 use crate::tensor::{Dual, Scalar, Vec3};
 use crate::tool::{Hit, ProfileRay};
 use std::ops::Range;
@@ -89,7 +89,7 @@ impl<'a> PaperAttempt<'a> {
     ) -> Result<Option<PointGeometry<'a>>, Failure> {
         let Some(number) = (stencil.choice as usize).checked_sub(1) else { return Ok(None) };
         let (contact, parts, site) = (self.contact, &self.contact.parts, self.contact.site());
-        let lost = || Failure::new(format!("{}: its ray runs along the target", contact.describe(index)));
+        let lost = || Failure::new(format!("{}: its ray runs along the target", contact.name_of(index)));
         let (point, face) = (&parts.surface.points[index], parts.surface.face(index));
         let own = parts.dofs.per_node() * face.nodes.len();
         let met = own..own + parts.target.unknowns(number, &parts.dofs).len();

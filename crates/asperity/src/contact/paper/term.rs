@@ -50,8 +50,10 @@ impl Term for PaperContact {
         }))
     }
 
-    fn name_of(&self, stencil: usize) -> String {
-        self.describe(stencil)
+    fn name_of(&self, point: usize) -> String {
+        let face = self.parts.surface.face(point);
+        let kind = if self.surface().plane { "edge" } else { "face" };
+        format!("point {point} of contact '{}' ({kind} with nodes {:?})", self.parts.name, face.nodes)
     }
 
     fn bends(&self) -> bool {

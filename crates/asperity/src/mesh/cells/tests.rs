@@ -1,7 +1,7 @@
 //! What every cell must satisfy: the registry is walked and no cell is named.
 
 use super::*;
-use crate::tensor::Vec3;
+use crate::tensor::{Vec3, legendre};
 
 type Shape = (Vec<f64>, Vec<[f64; 3]>);
 
@@ -16,26 +16,9 @@ fn interval(cell: &Cell, axis: usize) -> bool {
     cell.nodes.iter().any(|node| node[axis] == -1.0)
 }
 
-/// Gauss points and weights of the unit interval, by Newton on the Legendre polynomial of degree `n`.
-fn legendre(n: usize) -> Vec<[f64; 2]> {
-    let evaluate = |x: f64| {
-        let (mut before, mut p) = (1.0, x);
-        for k in 2..=n {
-            (before, p) = (p, ((2 * k - 1) as f64 * x * p - (k - 1) as f64 * before) / k as f64);
-        }
-        (p, n as f64 * (x * p - before) / (x * x - 1.0))
-    };
-    let point = |i: usize| {
-        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-        (0..50).for_each(|_| x -= evaluate(x).0 / evaluate(x).1);
-        [0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * evaluate(x).1.powi(2))]
-    };
-    (0..n).map(point).collect()
-}
-
 /// A rule of high degree on any reference cell: the unit cube, stretched along intervals and collapsed to simplices.
 fn oracle(cell: &Cell) -> Vec<([f64; 3], f64)> {
-    let one = legendre(7);
+    let one: Vec<[f64; 2]> = legendre(7).iter().map(|(x, weight)| [0.5 * (1.0 + x), 0.5 * weight]).collect();
     let mut points = vec![([0.0; 3], 1.0)];
     for axis in 0..cell.dimension {
         let extend = |&(xi, weight): &([f64; 3], f64)| {

@@ -4,7 +4,8 @@
 //! A ray meets it where `(e x b2) w^2 + (e x b1) w + e x (m - o) = 0`; `b2 = 0` leaves the straight line.
 
 use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, quadratic, turn};
-use crate::tensor::Vec3;
+use crate::tensor::{Vec3, legendre};
+use std::sync::LazyLock;
 
 pub(super) static KIND: ShapeKind = ShapeKind {
     key: "parabola",
@@ -118,13 +119,7 @@ impl ProfileShape for Parabola {
 
 /// Five Gauss points on `[a, b]`.
 fn gauss(f: &dyn Fn(f64) -> f64, a: f64, b: f64) -> f64 {
-    const POINTS: [(f64, f64); 5] = [
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-        (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    ];
+    static POINTS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(5));
     let (half, middle) = (0.5 * (b - a), 0.5 * (a + b));
     POINTS.iter().map(|&(x, w)| w * f(middle + half * x)).sum::<f64>() * half
 }

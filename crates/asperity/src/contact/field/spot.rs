@@ -1,8 +1,9 @@
 //! The places of a quadrature on a patch, and how they move with its unknowns.
 
-use super::overlap::{DIRECTIONS, Spread, spread, whole};
-use crate::contact::field::face::CORNERS;
-use crate::contact::field::point::{IntervalRates, PatchInPlace, PointColumn};
+use super::column::PointColumn;
+use super::face::CORNERS;
+use super::patch::{IntervalRates, PatchInPlace};
+use super::space::{DIRECTIONS, Spread, spread, whole};
 use crate::tensor::{Dual, Vec3};
 
 /// A place of a quadrature on a face.

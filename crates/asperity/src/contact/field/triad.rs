@@ -5,8 +5,8 @@
 //! body, so that shears kept by their components are objective, and carry the shears of the node into the tangent plane of
 //! each of its points without changing their length.
 
-use crate::contact::field::point::PointColumn;
-use crate::contact::field::surface::unit;
+use super::column::PointColumn;
+use super::surface::unit;
 use crate::tensor::Vec3;
 
 /// The line of the surface's material, and the nodes of the mesh between which it runs.

@@ -1,0 +1,105 @@
+//! A patch in place: where its interval lies, and how that moves with its unknowns.
+
+use super::column::{PointColumn, tool_motion};
+use super::cover::{FaceInPlace, Patch, root_near};
+use super::face::{CORNERS, PlacedFace, ShapeFunctions};
+use super::faces::TargetFaces;
+use super::surface::{NodalNormal, unit};
+use super::tool::ToolInPlace;
+use super::triad::MaterialLine;
+use crate::tensor::Vec3;
+
+/// A patch in place, with all that its points have in common.
+pub struct PatchInPlace<'a> {
+    /// Its face.
+    pub face: FaceInPlace<'a>,
+    /// The averaged normals at the corners.
+    pub normals: [Option<NodalNormal>; CORNERS],
+    /// The tool, if it sees one.
+    pub tool: Option<ToolInPlace<'a>>,
+    /// The face that is seen, as it lies in the target's list, if it sees a body.
+    pub seen: Option<(&'a TargetFaces, PlacedFace)>,
+    /// The patch itself.
+    pub patch: Patch,
+    /// Where its interval begins and ends, in the plane.
+    pub interval: [f64; 2],
+    /// What the tangents of its node follow, in space.
+    pub line: Option<MaterialLine>,
+    /// Degree of the rule on an overlap, in space.
+    pub degree: usize,
+}
+
+/// Ends of an interval and their derivatives along one unknown.
+pub type IntervalRates = [f64; 2];
+
+impl PatchInPlace<'_> {
+    /// Finds where the interval lies.
+    pub fn find_interval(&mut self) {
+        for k in 0..2 {
+            self.interval[k] = match self.patch.ends[k] {
+                None => [-1.0, 1.0][k],
+                Some(end) => root_near(self.patch.near[k], |xi| self.offset(xi, end)),
+            };
+        }
+    }
+
+    fn offset(&self, xi: f64, end: usize) -> [f64; 2] {
+        match (&self.tool, &self.seen) {
+            (Some(tool), _) => {
+                tool.ends(self.patch.target)[end].map_or([0.0, 1.0], |line| self.face.end_offset(xi, line))
+            }
+            (None, Some((_, seen))) => self.face.vertex_offset(xi, seen.nodes()[end]),
+            (None, None) => [0.0, 1.0],
+        }
+    }
+
+    /// Derivatives of the ends of the interval along an unknown. `turning` are those of the sums of area vectors at the
+    /// corners.
+    pub fn interval_rates(&self, column: &PointColumn, turning: &[Vec3; CORNERS]) -> IntervalRates {
+        let rate = |k: usize| {
+            let Some(end) = self.patch.ends[k] else { return 0.0 };
+            let xi = self.interval[k];
+            let at = self.face.at([xi, 0.0]);
+            let slope = self.offset(xi, end)[1];
+            let moved = self.moved(column, &self.face.face.shape([xi, 0.0]));
+            let change = match (&self.tool, &self.seen) {
+                (Some(tool), _) => {
+                    let Some((point, along)) = tool.ends(self.patch.target)[end] else { return 0.0 };
+                    let (rate, spin) = tool_motion(tool, column, point);
+                    (moved - rate).dot(along) + (at.x - point).dot(spin.cross(along))
+                }
+                (None, Some((_, seen))) => {
+                    let vertex = match column {
+                        PointColumn::Node { axis, seen: Some(k), .. } if *k == end => unit(*axis),
+                        _ => Vec3::zero(),
+                    };
+                    let turned = self.sum_turned(&at.corners, turning);
+                    (vertex - moved).dot(at.normal.left()) + (seen.nodes()[end] - at.x).dot(turned.left())
+                }
+                (None, None) => 0.0,
+            };
+            -change / slope
+        };
+        [rate(0), rate(1)]
+    }
+
+    /// Displacement of a place of the face along an unknown, at fixed reference coordinates.
+    pub(super) fn moved(&self, column: &PointColumn, shape: &ShapeFunctions) -> Vec3 {
+        match column {
+            PointColumn::Node { axis, own: Some(k), .. } => unit(*axis) * shape.n[*k],
+            _ => Vec3::zero(),
+        }
+    }
+
+    /// Derivative of the interpolated normal along an unknown, at fixed reference coordinates.
+    pub(super) fn sum_turned(&self, functions: &ShapeFunctions, turning: &[Vec3; CORNERS]) -> Vec3 {
+        let turned = self.normals.iter().zip(turning).zip(&functions.n);
+        turned.fold(Vec3::zero(), |sum, ((normal, dm), m)| sum + normal.map_or(Vec3::zero(), |n| n.turned(*dm)) * *m)
+    }
+
+    /// Where a point of the rule lies on the interval.
+    pub fn place(&self, eta: f64) -> f64 {
+        let [from, to] = self.interval;
+        0.5 * (from + to) + 0.5 * (to - from) * eta
+    }
+}

@@ -1,0 +1,179 @@
+//! What a field tells of a state: gaps before any motion, records of its nodes, penetration and facets.
+
+use super::configuration::{Configuration, TargetInPlace};
+use super::contact::FieldContact;
+use super::faces::FaceRay;
+use super::surface::{FieldNode, FieldSurface};
+use super::tool::ToolInPlace;
+use crate::contact::record::{ContactRecord, entry};
+use crate::contact::{Move, Overlap};
+use crate::system::History;
+use crate::tensor::Vec3;
+use std::collections::BTreeMap;
+
+impl FieldContact {
+    /// Penetration at each node that sees the target before any motion, negative for a gap, and the same over the size of
+    /// the faces there.
+    pub fn initial_gaps(&self) -> Vec<(f64, f64)> {
+        let (still, mut found) = (vec![0.0; self.parts.dofs.count()], Vec::new());
+        self.each_seen(&still, (self.reach(&still), false), |slot, _, sums| {
+            found.push((sums.y[0], sums.y[0] / self.size_at(slot)));
+        });
+        found
+    }
+
+    /// Of these the penetrations.
+    pub fn initial_penetrations(&self) -> Vec<(f64, f64)> {
+        self.initial_gaps().into_iter().filter(|(penetration, _)| *penetration > self.least).collect()
+    }
+
+    /// What takes the nodes of the undeformed surface out of the target.
+    pub fn moves(&self) -> Vec<Move> {
+        let still = vec![0.0; self.parts.dofs.count()];
+        let (now, mut moves) = (Configuration::new(self, &still), BTreeMap::new());
+        let supports = self.supports(&still, self.reach(&still), false);
+        for (patch, _) in supports.iter().flat_map(|support| &support.patches) {
+            let (face, own) = (now.face(patch.face), &self.parts.surface.faces[patch.face]);
+            for (k, &node) in own.nodes.iter().enumerate() {
+                let at = face.at(own.place(k));
+                let by = match &now.target {
+                    TargetInPlace::Tool(tool) => {
+                        let foot = tool.closest(patch.target, at.x);
+                        (foot.beyond.is_none() && foot.gap < -self.least).then(|| foot.normal * -foot.gap)
+                    }
+                    TargetInPlace::Faces(faces) => {
+                        let ray = FaceRay { x: at.x, n: at.normal.unit() };
+                        let hit = self.parts.target.as_faces().and_then(|all| {
+                            let hit = all.project(patch.target, faces.placed(patch.target), &ray)?;
+                            all.surface.faces[patch.target].holds(hit.s, 1e-6).then_some(hit)
+                        });
+                        hit.filter(|hit| hit.gap < -self.least).map(|hit| ray.n * hit.gap)
+                    }
+                };
+                let farther = |by: &Vec3, other: Option<&Move>| other.is_none_or(|other| by.norm() > other.by.norm());
+                if let Some(by) = by.filter(|by| farther(by, moves.get(&node))) {
+                    moves.insert(node, Move { node, by, cell: own.side.cell });
+                }
+            }
+        }
+        moves.into_values().collect()
+    }
+
+    /// All nodes in an accepted state, with this term's lane of its history: one record for each slot.
+    pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
+        let mut records: Vec<ContactRecord> =
+            (0..self.slots()).map(|slot| self.unseen(slot, u, history.slot(slot))).collect();
+        self.each_seen(u, (self.reach(&vec![0.0; u.len()]), true), |slot, stencil, sums| {
+            let values = history.slot(slot);
+            if values[entry::SEGMENT] < 0.0 {
+                return;
+            }
+            let [thrust, e1, e2] = stencil.directions(sums);
+            let record = &mut records[slot];
+            let sheared = e1 * values[entry::SHEAR] + e2 * values[entry::SHEAR2];
+            let stretch = values[entry::HALF];
+            // The part that a tip has in its face is that of the increment.
+            let area = if self.node_of(slot).is_some() { sums.area } else { values[entry::XI] };
+            record.area = area * stretch;
+            let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
+            record.resultant = Some([force, sums.place]);
+            (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), thrust.unit());
+            record.along = e1.unit();
+            if !self.parts.surface.plane && sheared.norm() > 0.0 {
+                record.along = sheared.unit();
+            }
+        });
+        // Ends of a plate that touch nothing are no points of the contact.
+        let tips = records.split_off(self.nodal_slots()).into_iter().zip(self.nodal_slots()..);
+        let seen = |slot: usize| history.slot(slot)[entry::SEGMENT] >= 0.0;
+        records.extend(tips.filter(|(_, slot)| seen(*slot)).map(|(tip, _)| tip));
+        if self.parts.swapped {
+            records.iter_mut().for_each(ContactRecord::turn);
+        }
+        records
+    }
+
+    /// The line that tangents at a node of the field follow in space, before any motion.
+    fn rest_line(&self, node: usize) -> Vec3 {
+        let [from, to] = self.parts.surface.line(node).map(|node| self.parts.mesh.points[node]);
+        (to - from).unit()
+    }
+
+    /// The record of a node that sees nothing.
+    fn unseen(&self, slot: usize, u: &[f64], values: &[f64]) -> ContactRecord {
+        let (position, outward, edge) = match self.node_of(slot) {
+            Some(node) => {
+                let FieldNode { node: number, support, .. } = &self.parts.surface.nodes[node];
+                let mut position = self.parts.mesh.points[*number];
+                (0..self.parts.dofs.per_node())
+                    .for_each(|axis| position[axis] += u[self.parts.dofs.node(*number) + axis]);
+                let normal = self
+                    .parts
+                    .surface
+                    .normal(node, |f| self.parts.surface.faces[f].placed(&self.parts.mesh, &self.parts.dofs, u));
+                (position, normal.unit, support.first().map_or(0, |(face, _)| *face))
+            }
+            None => {
+                let tip = &self.tips()[slot - self.nodal_slots()];
+                let tool = self.parts.target.as_tool().map(|rigid| rigid.at(u));
+                let place = |tool: ToolInPlace| (tool.place(tip.point), -tool.rotate(tip.outward), 0);
+                tool.map_or((tip.point, -tip.outward, 0), place)
+            }
+        };
+        ContactRecord {
+            position,
+            inward: -outward,
+            thrust: -outward,
+            facing: -outward,
+            along: match self.node_of(slot) {
+                Some(node) if !self.parts.surface.plane => self.rest_line(node),
+                _ => outward.left(),
+            },
+            segment: (values[entry::SEGMENT] >= 0.0).then_some(slot % self.pieces),
+            edge,
+            ..ContactRecord::of(values, self.parts.surface.plane)
+        }
+    }
+
+    /// The largest penetration that augmentation leaves at a node, over the size of its faces, where there is any.
+    pub fn nodal_penetration(&self, history: &History) -> Option<f64> {
+        self.parts.options.augmentation?;
+        let closed = (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0);
+        Some(closed.map(|slot| history.slot(slot)[entry::PENETRATION] / self.size_at(slot)).fold(0.0, f64::max))
+    }
+
+    /// Facets of first degree whose mean distance is not that of the curved surfaces they stand for: with an overlap that is to
+    /// be pressed apart, what they add to it or take from it is pressure.
+    pub fn facets(&self, history: &History) -> Option<String> {
+        let faces = self.parts.target.as_faces().filter(|_| self.parts.options.overlap != Overlap::Fit)?;
+        let overlaps =
+            (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
+        let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
+        // Of a parabola over a chord the mean height is two thirds of the largest.
+        let stands = |surface: &FieldSurface| {
+            let all = (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.parts.mesh)).sum::<f64>();
+            2.0 / 3.0 * all / surface.nodes.len().max(1) as f64
+        };
+        let [overlap, apart] = [sum / count, (stands(&self.parts.surface) - stands(&faces.surface)).abs()];
+        (count > 0.0 && apart > MISPLACED * overlap).then(|| {
+            format!(
+                "contact '{}': its facets stand {apart:.2e} farther apart, or less, than the curved surfaces that they are meant for, \
+                 {:.0} % of the overlap of {overlap:.2e}, and the pressure is off by about as much; cells of second degree, matching \
+                 or finer facets, or the clearance of a smooth fit by overlap = \"fit\"",
+                self.parts.name,
+                100.0 * apart / overlap
+            )
+        })
+    }
+
+    /// How far the facets of both sides stand off a smooth surface at most, a length.
+    pub(super) fn sagitta(&self) -> f64 {
+        let most = |surface: &FieldSurface| {
+            (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.parts.mesh)).fold(0.0, f64::max)
+        };
+        most(&self.parts.surface) + self.parts.target.as_faces().map_or(0.0, |faces| most(&faces.surface))
+    }
+}
+
+/// Mean distance of facets from curved surfaces over the overlap from which on it is told.
+const MISPLACED: f64 = 0.02;

@@ -1,0 +1,142 @@
+//! What the nodes of a field see of its target.
+
+use super::configuration::Configuration;
+use super::contact::FieldContact;
+use super::cover::Patch;
+use super::face::FieldFace;
+use super::faces::FaceRay;
+use super::stencil::{NodeSums, StencilInPlace, Support};
+use super::tip::TipFoot;
+use crate::contact::increment::reach;
+
+impl FieldContact {
+    /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
+    pub(super) fn find(
+        &self,
+        (now, tips): (&Configuration, Vec<Option<TipFoot>>),
+        reach: f64,
+        depths: &[f64],
+        mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
+    ) -> Vec<Support> {
+        let mut near = Vec::new();
+        let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
+        let mut see = |slot: usize, (patch, corner): (Patch, usize), [middle, nearest]: [f64; 2]| {
+            let depth = depths[patch.face];
+            if -middle > depth {
+                // Deeper than the middle of the body, and not the body's own far side.
+                supports[slot].through |= -middle < THROUGH * depth;
+                return;
+            }
+            supports[slot].patches.push((patch, corner));
+            least[slot] = least[slot].min(nearest);
+        };
+        for number in 0..depths.len() {
+            for seen in now.patches(number, reach, &mut near) {
+                let piece = self.piece_of(seen.patch.target);
+                for corner in 0..self.parts.surface.faces[number].corners() {
+                    let slot = self.slot(self.parts.surface.field[number][corner], piece);
+                    see(slot, (seen.patch, corner), [seen.middle, seen.least]);
+                }
+            }
+        }
+        for (number, found) in tips.into_iter().enumerate() {
+            if let Some(found) = found {
+                see(self.nodal_slots() + number, (found.patch, 0), [found.gap; 2]);
+            }
+        }
+        for (support, least) in supports.iter_mut().zip(least) {
+            if least > reach {
+                support.patches.clear();
+            }
+            for (patch, _) in &support.patches {
+                self.list_nodes(patch, &mut support.nodes);
+                touched(now, patch, &mut support.nodes);
+            }
+            if let (Some((patch, corner)), false) = (support.patches.first(), self.parts.surface.plane) {
+                support.nodes.extend(self.parts.surface.line(self.parts.surface.field[patch.face][*corner]));
+            }
+            support.nodes.sort_unstable();
+            support.nodes.dedup();
+            let mut areas = [0.0; 2];
+            for (number, corner) in support.faces() {
+                let face = &self.parts.surface.faces[number];
+                areas[0] += self.parts.surface.corner_area(face, &now.placed[number], corner).0;
+                areas[1] += self.parts.surface.corner_area(face, &face.at_rest(&self.parts.mesh), corner).0;
+            }
+            support.stretch = if areas[1] > 0.0 { areas[0] / areas[1] } else { 1.0 };
+        }
+        supports
+    }
+
+    /// Nodes on which a patch depends.
+    fn list_nodes(&self, patch: &Patch, nodes: &mut Vec<usize>) {
+        nodes.extend_from_slice(&self.parts.surface.faces[patch.face].nodes);
+        if let Some(faces) = self.parts.target.as_faces() {
+            nodes.extend_from_slice(&faces.surface.faces[patch.target].nodes);
+        }
+        if self.needs_normals() {
+            for corner in 0..self.parts.surface.faces[patch.face].corners() {
+                let support = &self.parts.surface.nodes[self.parts.surface.field[patch.face][corner]].support;
+                support.iter().for_each(|&(f, _)| nodes.extend_from_slice(&self.parts.surface.faces[f].nodes));
+            }
+        }
+    }
+
+    /// Half the distance from the middle of each face, along its inward normal, to where the ray leaves the body.
+    pub(super) fn depths(&self, u: &[f64]) -> Vec<f64> {
+        let boundary = self.boundary.in_place((&*self.parts.mesh, &self.parts.dofs), u);
+        let depth = |face: &FieldFace| {
+            let placed = face.placed(&self.parts.mesh, &self.parts.dofs, u);
+            let shape = face.shape(face.middle());
+            let [a, b] = shape.tangents(placed.nodes(), self.parts.surface.plane);
+            let ray = FaceRay { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
+            let least = 1e-3 * a.norm();
+            let own = |number: usize| self.boundary.surface.faces[number].side == face.side;
+            let leaves = boundary.nearest(&ray, [least, f64::MAX], |number, hit| !own(number) && hit.gap > least);
+            leaves.map_or(f64::INFINITY, |(_, hit)| 0.5 * hit.gap)
+        };
+        self.parts.surface.faces.iter().map(depth).collect()
+    }
+
+    /// What each node sees at displacements `u`, as far as the accepted state alone tells.
+    pub(super) fn supports(&self, u: &[f64], reach: f64, whole: bool) -> Vec<Support> {
+        let (now, depths) = (Configuration::new(self, u), self.depths(u));
+        let tips = now.tips(self.longest, if whole { None } else { Some(&[]) });
+        self.find((&now, tips), reach, &depths, |_, _, _| {})
+    }
+
+    /// Values of a stencil's unknowns.
+    fn values(&self, support: &Support, u: &[f64]) -> Vec<f64> {
+        let axes = self.parts.dofs.per_node();
+        let first = |&node: &usize| self.parts.dofs.node(node)..self.parts.dofs.node(node) + axes;
+        let mut values: Vec<f64> = support.nodes.iter().flat_map(first).map(|dof| u[dof]).collect();
+        values.extend(self.parts.target.as_tool().into_iter().flat_map(|rigid| rigid.unknowns()).map(|dof| u[dof]));
+        values
+    }
+
+    /// Calls `take` with the slots that see something at displacements `u`.
+    pub(super) fn each_seen(
+        &self,
+        u: &[f64],
+        (reach, whole): (f64, bool),
+        mut take: impl FnMut(usize, &StencilInPlace, &NodeSums),
+    ) {
+        let mut sums = NodeSums::default();
+        for (slot, support) in self.supports(u, reach, whole).iter().enumerate().filter(|(_, s)| !s.patches.is_empty())
+        {
+            let values = self.values(support, u);
+            let stencil = StencilInPlace::new(self, support, &values);
+            if stencil.sum(&|_, _| None, false, &mut sums).is_some() {
+                take(slot, &stencil, &sums);
+            }
+        }
+    }
+
+    /// Distance within which faces are sought.
+    pub(super) fn reach(&self, last_change: &[f64]) -> f64 {
+        if self.needs_normals() { reach(self.longest, last_change) } else { f64::INFINITY }
+    }
+}
+
+/// Depth, in units of the largest admissible one, up to which a face is surely not the body's own far side.
+const THROUGH: f64 = 1.8;

@@ -15,6 +15,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 /// let mut x = [4.0, 5.0];
 /// matrix.solve(&mut x);
 /// assert_eq!(x, [1.0, 2.0]);
+/// assert!(matrix.has_negative_determinant());
 /// assert!(frontal::Full::factorise(2, vec![1.0, 2.0, 2.0, 4.0]).is_none());
 /// ```
 #[derive(Debug, Clone)]
@@ -36,6 +37,12 @@ impl Full {
         panel.factorise(0..n, &mut pivots);
         let regular = pivots.iter().all(|pivot| !pivot.perturbed) && rows.iter().all(|x| x.is_finite());
         regular.then_some(Full { factors: rows, pivots })
+    }
+
+    /// Whether the determinant is negative.
+    pub fn has_negative_determinant(&self) -> bool {
+        let odd = |(k, pivot): &(usize, &Pivot)| (pivot.row as usize != *k) != pivot.negative;
+        self.pivots.iter().enumerate().filter(odd).count() % 2 == 1
     }
 
     /// `x <- A^-1 x`.

@@ -24,6 +24,10 @@ const DESCENT: f64 = 0.1;
 /// Part of a step below which the whole linear step does better: what bends has met its limit, and only another geometry
 /// may carry more.
 const ENOUGH: f64 = 0.25;
+/// Most pieces that a path is followed through, halvings of the way to the end of one, and how far back it may lead.
+const PIECES: usize = 100;
+const HALVINGS: usize = 50;
+const FARTHEST: f64 = 100.0;
 /// Most stresses that are put right: more cost as much as a new matrix.
 const MOST: usize = 512;
 
@@ -76,6 +80,10 @@ impl Problem {
     }
 }
 
+fn dot(a: &Coordinates, b: &Coordinates) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// Adds a multiple of a motion of all kinks.
 fn add(y: &mut [Coordinates], factor: f64, motion: &[Coordinates]) {
     y.as_flattened_mut().iter_mut().zip(motion.as_flattened()).for_each(|(y, motion)| *y += factor * motion);
@@ -116,7 +124,15 @@ impl<'a> Piecewise<'a> {
             }
         }
         self.y = self.coordinates(part);
-        Ok((part >= ENOUGH).then_some(part))
+        if part >= ENOUGH {
+            return Ok(Some(part));
+        }
+        for sense in [1.0, -1.0] {
+            if self.follow(sense, (influences, solver))? {
+                return Ok(Some(1.0));
+            }
+        }
+        Ok(None)
     }
 
     /// Puts the same part of the step right again, now that the step is known to be `du` where `before` were the stresses
@@ -198,12 +214,81 @@ impl<'a> Piecewise<'a> {
         Ok(false)
     }
 
+    /// Follows the path of solutions of `w = w(y)` for all parts of the step through the pieces of the laws, from the beginning of
+    /// the step in this sense to its end; false where it does not lead there. Where the determinant changes its sign from a piece
+    /// to the next the path turns back: the forces that are left grow until another stencil gives way (Allgower & Georg, Numerical
+    /// Continuation Methods, 1990, ch. 15; for friction Klarbring & Bjorkman, Comput. Struct. 30, 1988).
+    fn follow(&mut self, sense: f64, (influences, solver): Factored) -> Result<bool, Failure> {
+        self.left.fill(0.0);
+        let (mut part, mut ahead) = (0.0, self.problem(self.left.clone(), self.coordinates(0.0))?);
+        for _ in 0..PIECES {
+            let n = self.active.len();
+            let Some(slopes) = Full::factorise(n, self.slopes(&ahead)) else { return Ok(false) };
+            // What is left of the crossing into this piece.
+            let mut rest = ahead.error.clone();
+            slopes.solve(&mut rest);
+            self.left = ahead.left.iter().zip(&rest).map(|(w, rest)| w - rest).collect();
+            let driven = self.active.iter().zip(&ahead.slopes);
+            let mut rates: Vec<f64> = driven.map(|(&(kink, _), slopes)| dot(slopes, &self.along[kink])).collect();
+            slopes.solve(&mut rates);
+            let turned = if slopes.has_negative_determinant() { -sense } else { sense };
+            let at = |length: f64| -> (f64, Vec<f64>) {
+                (part + turned * length, self.left.iter().zip(&rates).map(|(w, rate)| w + turned * length * rate).collect())
+            };
+            let end = if turned > 0.0 { 1.0 - part } else { part + FARTHEST };
+            if !self.holds(at(0.0))? {
+                return Ok(false);
+            }
+            let [mut low, mut high] = [0.0, end];
+            if self.holds(at(end))? {
+                if turned < 0.0 {
+                    return Ok(false);
+                }
+                (_, self.left) = at(end);
+                self.y = self.coordinates(1.0);
+                return Ok(true);
+            }
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (low + high);
+                *(if self.holds(at(middle))? { &mut low } else { &mut high }) = middle;
+            }
+            (part, self.left) = at(high);
+            self.y = self.coordinates(part);
+            let woken = self.awake()?;
+            self.activate(&woken, (influences, solver))?;
+            ahead = self.problem(self.left.clone(), self.coordinates(part))?;
+        }
+        Ok(false)
+    }
+
+    /// Whether a solution of one piece is one of all.
+    fn holds(&self, (part, left): (f64, Vec<f64>)) -> Result<bool, Failure> {
+        let y = self.coordinates_with(&left, part);
+        let problem = self.problem(left, y)?;
+        if problem.norm() > NOTHING * problem.size {
+            return Ok(false);
+        }
+        for (number, y) in problem.y.iter().enumerate() {
+            let (bent, size) = self.bend(number, y)?;
+            let asleep = |c: usize| !self.active.contains(&(number, c));
+            if bent.stress.iter().enumerate().any(|(c, w)| w.abs() > NOTHING * size.max(problem.size) && asleep(c)) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// `y0 + part G d - S w` of all kinks.
     fn coordinates(&self, part: f64) -> Vec<Coordinates> {
+        self.coordinates_with(&self.left, part)
+    }
+
+    /// The same for other stresses.
+    fn coordinates_with(&self, left: &[f64], part: f64) -> Vec<Coordinates> {
         let mut y: Vec<Coordinates> = self.site.kinks.list().iter().map(|kink| kink.y).collect();
         add(&mut y, part, &self.along);
         add(&mut y, 1.0, &self.beyond);
-        self.left.iter().zip(&self.influence).for_each(|(w, influence)| add(&mut y, -w, influence));
+        left.iter().zip(&self.influence).for_each(|(w, influence)| add(&mut y, -w, influence));
         y
     }
 

@@ -42,10 +42,11 @@ fn rolled(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     for (picture, passes) in [("rolling-strips", &PASSES[..2]), ("rolling-slabs", &PASSES[2..])] {
         let mut chart = Chart::new(TITLE, "angle beyond the exit in degrees", "stress over 2k");
         for pass in &passes[..bench.pick(usize::from(picture == "rolling-strips"), 2)] {
-            let (mean, arc) = pass.roll(bench, form)?;
+            let (mean, arc, iterations) = pass.roll(bench, form)?;
             for (what, value) in ["force", "torque", "neutral", "pressure"].into_iter().zip(mean) {
                 measured.push((format!("{}_{what}", pass.name), value));
             }
+            measured.push((format!("{}_iterations", pass.name), iterations as f64));
             pass.draw(&mut chart, &arc);
         }
         if form.is_empty() {
@@ -87,11 +88,11 @@ impl Pass {
         ]
     }
 
-    /// Means over the steady part of force, torque, neutral angle less that of the theory, and pressure there; and the
-    /// points of the arc at the end.
-    fn roll(&self, bench: &Bench, form: &[String]) -> Result<([f64; 4], Vec<ContactRecord>), Error> {
+    /// Means over the steady part of force, torque, neutral angle less that of the theory, and pressure there; the
+    /// points of the arc at the end; and the iterations of the run.
+    fn roll(&self, bench: &Bench, form: &[String]) -> Result<([f64; 4], Vec<ContactRecord>, usize), Error> {
         let (mut sum, mut count, mut arc) = ([0.0; 4], 0.0, Vec::new());
-        bench.follow("strip.toml", &[&self.sets(bench), form].concat(), |model, state| {
+        let run = bench.follow("strip.toml", &[&self.sets(bench), form].concat(), |model, state| {
             if state.time < STEADY {
                 return;
             }
@@ -100,7 +101,8 @@ impl Pass {
             sum.iter_mut().zip(self.state(&arc)).for_each(|(sum, x)| *sum += x);
             count += 1.0;
         })?;
-        Ok((sum.map(|sum| sum / count), arc))
+        let iterations = run.attempts.iter().map(|attempt| attempt.solutions()).sum();
+        Ok((sum.map(|sum| sum / count), arc, iterations))
     }
 
     /// Degrees from the line through the axes of the rolls to the place of a point, against the way of the strip.

@@ -233,7 +233,10 @@ impl<'a> Piecewise<'a> {
             slopes.solve(&mut rates);
             let turned = if slopes.has_negative_determinant() { -sense } else { sense };
             let at = |length: f64| -> (f64, Vec<f64>) {
-                (part + turned * length, self.left.iter().zip(&rates).map(|(w, rate)| w + turned * length * rate).collect())
+                (
+                    part + turned * length,
+                    self.left.iter().zip(&rates).map(|(w, rate)| w + turned * length * rate).collect(),
+                )
             };
             let end = if turned > 0.0 { 1.0 - part } else { part + FARTHEST };
             if !self.holds(at(0.0))? {
@@ -255,7 +258,9 @@ impl<'a> Piecewise<'a> {
             (part, self.left) = at(high);
             self.y = self.coordinates(part);
             let woken = self.awake()?;
-            self.activate(&woken, (influences, solver))?;
+            if !woken.is_empty() {
+                self.activate(&woken, (influences, solver))?;
+            }
             ahead = self.problem(self.left.clone(), self.coordinates(part))?;
         }
         Ok(false)

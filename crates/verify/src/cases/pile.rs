@@ -1,7 +1,7 @@
 //! A cone-tipped pile pushed into clay: the pressure on its cone tends to a plateau, in Tresca's clay that of Teh and
 //! Houlsby.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, both_forms, points};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::contact::ContactRecord;
@@ -16,19 +16,29 @@ const PLATEAU: f64 = 2.0;
 /// Travel over diameter in a test.
 const QUICK: f64 = 0.5;
 
-/// What is pushed: key and title, deck, travel over diameter, pressure at rest and the unit in which pressures are told.
-type Pile = (&'static str, &'static str, &'static str, f64, [f64; 2]);
+/// What is pushed: key and title, deck, travel over diameter, pressure at rest and the unit in which pressures are told, and
+/// the penalty of the paper's form.
+type Pile = (&'static str, &'static str, &'static str, f64, [f64; 2], f64);
 
 const PILES: [Pile; 2] = [
-    ("clay", "Tresca, over su", "clay.toml", 10.9, [5.0, 1.0]),
-    ("cam_clay", "Cam-clay, over p0", "cam_clay.toml", 10.9, [100.0, 100.0]),
+    ("clay", "Tresca, over su", "clay.toml", 10.9, [5.0, 1.0], 1e3),
+    ("cam_clay", "Cam-clay, over p0", "cam_clay.toml", 10.9, [100.0, 100.0], 2e4),
 ];
 
+/// The paper's form as it runs here: with its own penalty and tolerance, one point after the other.
+const PAPER: [&str; 4] =
+    ["contact.skin.form=paper", "contact.skin.gauss=3", "solver.tolerance=1e-5", "solver.piecewise=false"];
+
 fn measure(bench: &Bench) -> Result<Measured, Error> {
+    both_forms(&PAPER, |form| pushed(bench, form))
+}
+
+fn pushed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     let mut measured = Measured::new();
     let mut chart = Chart::new("Pressure on the cone of a pile", "depth over diameter", "pressure over that at rest");
     for pile in &PILES[..bench.pick(1, 2)] {
-        let (curve, normal) = push(bench, pile)?;
+        let (curve, normal, iterations) = push(bench, pile, form)?;
+        measured.push((format!("{}_iterations", pile.0), iterations as f64));
         if pile.0 == "clay" {
             measured.push(("normal".into(), normal));
         }
@@ -39,28 +49,39 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
             measured.push((format!("{}_range", pile.0), range));
         }
     }
-    bench.draw("pile", &chart)?;
+    if form.is_empty() {
+        bench.draw("pile", &chart)?;
+    }
     Ok(measured)
 }
 
 /// Axial force on the cone over the section, less the pressure at rest, by depth over diameter; and at the end the mean
-/// normal pressure on the cone less that at rest. Both in the pile's unit.
-fn push(bench: &Bench, &(_, _, deck, whole, [at_rest, unit]): &Pile) -> Result<(Vec<(f64, f64)>, f64), Error> {
+/// normal pressure on the cone less that at rest, both in the pile's unit; and the iterations.
+fn push(
+    bench: &Bench,
+    &(_, _, deck, whole, [at_rest, unit], penalty): &Pile,
+    form: &[String],
+) -> Result<(Vec<(f64, f64)>, f64, usize), Error> {
     let way = bench.pick(QUICK, whole);
-    let sets = [
+    let mut sets = vec![
         format!("step.push.motion.pile.y={:?}", -DIAMETER * way),
         format!("step.push.increments.largest={:?}", 0.05 / way),
     ];
+    sets.extend_from_slice(form);
+    if !form.is_empty() {
+        sets.push(format!("contact.skin.penalty={penalty:?}"));
+    }
     let section = 0.25 * std::f64::consts::PI * DIAMETER * DIAMETER;
     let (mut curve, mut normal) = (vec![(0.0, 0.0)], 0.0);
-    bench.follow(deck, &sets, |model, state| {
+    let run = bench.follow(deck, &sets, |model, state| {
         let cone: Vec<ContactRecord> = points(model, state, 0).into_iter().filter(on_cone).collect();
         let force: f64 = cone.iter().map(|p| -p.force()[1]).sum();
         let area: f64 = cone.iter().map(|p| p.area).sum();
         normal = (cone.iter().map(|p| p.pressure * p.area).sum::<f64>() / area - at_rest) / unit;
         curve.push((way * state.time, (force / section - at_rest) / unit));
     })?;
-    Ok((curve, normal))
+    let iterations = run.attempts.iter().map(|attempt| attempt.solutions()).sum();
+    Ok((curve, normal, iterations))
 }
 
 /// Whether a closed point lies on the cone, whose normal dips by 30 degrees, or on the rounding of its ends.

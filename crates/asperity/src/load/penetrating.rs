@@ -7,7 +7,7 @@
 //! the part `w` of their area, contact and fluid bear `p_c + w p` together, and the fluid stays while that is no more than
 //! `p`, but for a small part by which a front would come and go.
 
-use super::Site;
+use super::{Site, now};
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
 use crate::amplitude::Timeline;
@@ -210,7 +210,7 @@ impl Term for PenetratingPressure {
         history: &'a History,
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let value = self.value.value(at.step, at.step_time);
+        let value = now(&self.value, accepted, at);
         Ok(Box::new(Open { load: self, value, wet: self.enter(accepted, history, value) }))
     }
     fn name_of(&self, stencil: usize) -> String {

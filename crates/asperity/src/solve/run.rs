@@ -3,10 +3,11 @@
 use super::linear::LinearSolver;
 use super::newton::{Converged, Memory, Newton, Trouble};
 use super::observer::{AttemptRecord, Observer};
+use super::path::Reached;
 use super::problem::Problem;
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
-use super::stability::Stability;
+use super::stability::{Look, Stability};
 use crate::system::{Caution, Energies, Interpenetration, State};
 use crate::{Error, Failure, Kind};
 use std::time::{Duration, Instant};
@@ -130,7 +131,9 @@ impl<'a> Run<'a> {
 
     /// Solves one increment, cutting it as often as needed, and accepts it.
     fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
-        let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, !self.problem.relaxes());
+        // What a path does past its limit points is no jump.
+        let still = step.arc_length.is_some() || !self.problem.relaxes();
+        let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, still);
         let smallest = step.increments.smallest.max(SMALLEST) * step.duration;
         let mut caution = self.state.caution;
         let usual = caution.usual(step);
@@ -151,8 +154,14 @@ impl<'a> Run<'a> {
             match result {
                 Ok((found, converged)) => {
                     if converged.held.is_empty() {
-                        let at = (self.problem, &mut self.state);
-                        record.turn = self.stability.look(at, &record, self.solver.as_ref());
+                        let look = Look {
+                            problem: self.problem,
+                            record: &record,
+                            values: &converged.evaluation.values,
+                            memory: &mut self.memory,
+                            solver: self.solver.as_mut(),
+                        };
+                        record.turn = self.stability.look(&mut self.state, look);
                     }
                     observer.attempt(&record);
                     self.state.caution = caution;
@@ -231,20 +240,28 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// How far the step has come, in words.
+    fn came_to(&self, step: &Step) -> String {
+        match step.arc_length {
+            Some(_) => format!("load factor {:.4}", self.state.factor),
+            None => format!("{:.4} of its duration", self.state.step_time / step.duration),
+        }
+    }
+
     fn too_many(&self, step: &Step) -> Error {
         Error::NotConverged(format!(
-            "step '{}' stops at {:.4} of its duration: it has used the most increments allowed, {}",
+            "step '{}' stops at {}: it has used the most increments allowed, {}",
             step.name,
-            self.state.step_time / step.duration,
+            self.came_to(step),
             step.increments.most
         ))
     }
 
     fn give_up(&self, step: &Step, dt: f64, reason: &str) -> Error {
         Error::NotConverged(format!(
-            "step '{}' stops at {:.4} of its duration: an increment of {:.1e} of it still fails: {reason}",
+            "step '{}' stops at {}: an increment of {:.1e} of it still fails: {reason}",
             step.name,
-            self.state.step_time / step.duration,
+            self.came_to(step),
             dt / step.duration
         ))
     }
@@ -270,7 +287,7 @@ impl<'a> Run<'a> {
     fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
         let before = balance(&self.state);
         let moved_before = self.moved();
-        let last_dt = self.state.last_dt;
+        let (last_dt, reached) = (self.state.last_dt, converged.reached);
         self.commit(converged);
         let moved = self.moved();
         let (state, dt) = (&mut self.state, record.dt);
@@ -294,7 +311,20 @@ impl<'a> Run<'a> {
         state.step_increment += 1;
         state.time += dt;
         state.step_time += dt;
-        if step.ends_at(state.step_time) {
+        let ends = match reached {
+            None => {
+                state.factor = (state.step_time / step.duration).min(1.0);
+                step.ends_at(state.step_time)
+            }
+            Some(Reached { factor, length, ends }) => {
+                (state.last_factor, state.factor) = (factor - state.factor, factor);
+                if state.arc == 0.0 {
+                    state.arc = length / dt;
+                }
+                ends
+            }
+        };
+        if ends {
             self.begin_next_step();
         }
     }
@@ -340,6 +370,9 @@ impl<'a> Run<'a> {
 
     fn begin_next_step(&mut self) {
         let state = &mut self.state;
+        if self.problem.steps[state.step].arc_length.is_some() && state.factor != 1.0 {
+            state.load_factors.push((state.step, state.factor));
+        }
         state.step += 1;
         state.entered = false;
         (state.step_increment, state.step_time) = (0, 0.0);

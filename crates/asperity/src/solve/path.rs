@@ -4,7 +4,8 @@
 //! equation that goes with it says how far an increment leads, `|du| = s` over all nodes (cylindrical arc length: Riks, Int. J.
 //! Solids Struct. 15, 1979; Crisfield, Comput. Struct. 13, 1981), linearised with everything else (Ramm 1981; Schweizerhof and
 //! Wriggers, Comput. Methods Appl. Mech. Engrg. 59, 1986), so that there are no roots to choose from. Both are solved for with
-//! the factor of the stiffness alone, once for the unbalanced forces and once for the load. The last increment carried on is
+//! the factor of the stiffness alone, once for the unbalanced forces and once for the load; a spring that is in the matrix, and not in the
+//! equations, keeps it regular at limit points. The last increment carried on is
 //! the first guess: it goes the same way along the path. The first increment of a step is one of the load factor and is the
 //! measure of those that follow; the one that would pass the end of the step ends there.
 
@@ -37,6 +38,17 @@ enum Bound {
     End,
 }
 
+/// A spring that makes the stiffness regular at a limit point. Its force is taken out again: to hold an unknown of a motion `du` by
+/// a stiffness `k` and to push it by `k du` is to do nothing.
+#[derive(Debug, Clone, Copy)]
+struct Spring {
+    dof: usize,
+    /// Its number among the free unknowns, and its place on the diagonal.
+    row: usize,
+    place: usize,
+    stiffness: f64,
+}
+
 /// An attempt on its path.
 #[derive(Debug)]
 pub(super) struct Path<'a> {
@@ -48,10 +60,11 @@ pub(super) struct Path<'a> {
     led: Option<Vec<f64>>,
     /// Room for the forces of loads.
     room: Evaluation,
+    sprung: Option<Sprung>,
 }
 
 /// Where a converged attempt came to on its path.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Reached {
     /// The load factor.
     pub factor: f64,
@@ -59,6 +72,30 @@ pub struct Reached {
     pub length: f64,
     /// Whether the step ends there.
     pub ends: bool,
+    /// What the matrix that was factorised last has besides the stiffness.
+    pub(super) sprung: Option<Sprung>,
+}
+
+/// A spring in a matrix that was factorised.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sprung {
+    /// The free unknown that it holds.
+    pub row: usize,
+    /// What the matrix answers to the force of the spring over the motion of that unknown.
+    pub answer: Vec<f64>,
+}
+
+impl Sprung {
+    /// Whether the stiffness without the spring has a negative eigenvalue more, by the inertia of
+    /// `[[K + k e e^T, e], [e^T, 1 / k]]`, and its determinant another sign.
+    pub fn more(&self) -> usize {
+        usize::from(self.answer[self.row] > 1.0)
+    }
+    /// Makes a solution with the matrix one without the spring (Sherman and Morrison).
+    pub fn without(&self, x: &mut [f64]) {
+        let pulled = x[self.row] / (1.0 - self.answer[self.row]);
+        x.iter_mut().zip(&self.answer).for_each(|(x, answer)| *x += pulled * answer);
+    }
 }
 
 impl Until {
@@ -81,7 +118,7 @@ impl<'a> Newton<'a> {
         }
         let bound = if carried { Bound::Length(state.arc * dt) } else { Bound::Factor(factor + dt / self.step.duration) };
         let room = self.memory.other.take().unwrap_or_else(|| Evaluation::new(&self.problem.terms, state));
-        self.path = Some(Path { arc, bound, factor, led: self.led(), room });
+        self.path = Some(Path { arc, bound, factor, led: self.led(), room, sprung: None });
         let aim = if let Bound::Factor(aim) = bound { aim } else { factor };
         if let Some(end) = self.end(&u, aim) {
             self.bind(end);
@@ -164,24 +201,36 @@ impl<'a> Newton<'a> {
         let mut push = self.push(u)?;
         let mut rhs: Vec<f64> = self.residual.iter().map(|r| -r).collect();
         self.memory.workspace.kinks(&self.assembly, u, &mut self.memory.kinks)?;
-        let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
-        let solved = if factorised || self.problem.newton.variant != Variant::Full {
-            self.solver.solve(&mut push).map(|()| true)
-        } else {
-            self.solver.iterate_again(&self.evaluation.values, &mut push, LOAD)
-        };
-        if !solved.map_err(|error: LinearError| self.explain(error, 1))? {
+        let spring = self.spring();
+        let place = spring.map(|spring| (spring.place, self.evaluation.values[spring.place]));
+        if let (Some(spring), Some((place, value))) = (&spring, place) {
+            self.evaluation.values[place] = value + spring.stiffness;
+        }
+        let solved = self.solve_all(iteration, [&mut rhs, &mut push], (spring.as_ref(), forcing));
+        if let Some((place, value)) = place {
+            self.evaluation.values[place] = value;
+        }
+        let Some((factorised, by_spring)) = solved? else {
             self.solver.refuse();
             return self.linearise_on_path((iteration, u), forcing);
-        }
-        let (mut du, mut with_load) = (vec![0.0; u.len()], vec![0.0; u.len()]);
+        };
+        let (mut du, mut with_load, mut with_spring) = (vec![0.0; u.len()], vec![0.0; u.len()], vec![0.0; u.len()]);
         if let Some(led) = self.path.as_ref().and_then(|path| path.led.as_ref()) {
             with_load.copy_from_slice(led);
         }
         self.step.constraints.expand(&rhs, &mut du);
         self.step.constraints.expand(&push, &mut with_load);
-        let load = self.load_change(u, &du, &with_load)?;
-        du.iter_mut().zip(&with_load).for_each(|(du, with)| *du += load * with);
+        if let (Some(spring), Some(answer)) = (&spring, by_spring) {
+            self.step.constraints.expand(&answer, &mut with_spring);
+            if factorised {
+                let sprung = Some(Sprung { row: spring.row, answer });
+                self.path.iter_mut().for_each(|path| path.sprung.clone_from(&sprung));
+            }
+        }
+        let [load, pulled] = self.changes(u, [&du, &with_load, &with_spring], spring.map(|spring| spring.dof))?;
+        for (du, (load_moves, spring_moves)) in du.iter_mut().zip(with_load.iter().zip(&with_spring)) {
+            *du += load * load_moves + pulled * spring_moves;
+        }
         let mut motion = Motion { du, part: 1.0, factorised, load };
         self.limit(u, None, &mut motion);
         motion.load *= motion.part;
@@ -189,21 +238,70 @@ impl<'a> Newton<'a> {
         Ok(motion)
     }
 
-    /// Change of the load factor that goes with displacements `du` and `with_load` times itself.
-    fn load_change(&self, u: &[f64], du: &[f64], with_load: &[f64]) -> Result<f64, Failure> {
-        let Some(path) = &self.path else { return Ok(0.0) };
-        let change = match (path.bound, &path.arc.until) {
-            (Bound::Factor(factor), _) => factor - path.factor,
-            (Bound::Length(length), _) => {
-                let moved = self.moved(u);
-                let missing = length * length - self.along(&moved, &moved) - 2.0 * self.along(&moved, du);
-                missing / (2.0 * self.along(&moved, with_load))
+    /// The spring that holds what moved most in the last increment.
+    fn spring(&self) -> Option<Spring> {
+        let (free, last) = (self.step.constraints.free(), &self.state.last_change);
+        let nodes = self.problem.dofs.node(self.problem.dofs.nodes());
+        let among = free.iter().enumerate().filter(|(_, dof)| **dof < nodes && self.state.last_dt > 0.0);
+        let (row, &dof) = among.max_by(|a, b| last[*a.1].abs().total_cmp(&last[*b.1].abs()))?;
+        let place = self.memory.workspace.pattern().diagonal[row];
+        Some(Spring { dof, row, place, stiffness: self.evaluation.values[place].abs() })
+    }
+
+    /// Solves for unbalanced forces, load, and the force of the spring over the motion of its unknown; whether a matrix was
+    /// factorised. None where an old factor does not serve.
+    fn solve_all(
+        &mut self,
+        iteration: usize,
+        [rhs, push]: [&mut Vec<f64>; 2],
+        (spring, forcing): (Option<&Spring>, f64),
+    ) -> Result<Option<(bool, Option<Vec<f64>>)>, Trouble> {
+        let factorised = self.solve_linear(iteration, rhs, forcing)?;
+        let direct = factorised || self.problem.newton.variant != Variant::Full;
+        let mut pulled = spring.map(|spring| {
+            let mut forces = vec![0.0; push.len()];
+            forces[spring.row] = spring.stiffness;
+            forces
+        });
+        for more in std::iter::once(push).chain(&mut pulled) {
+            let solved = match direct {
+                true => self.solver.solve(more).map(|()| true),
+                false => self.solver.iterate_again(&self.evaluation.values, more, LOAD),
+            };
+            if !solved.map_err(|error: LinearError| self.explain(error, 1))? {
+                return Ok(None);
             }
-            (Bound::End, Some(until)) => (until.value - until.mean(u) - until.mean(du)) / until.mean(with_load),
-            (Bound::End, None) => 1.0 - path.factor,
+        }
+        Ok(Some((factorised, pulled)))
+    }
+
+    /// Changes of the load factor and of the unknown that the spring holds, from the equation of the increment and from what
+    /// the spring is to be without force: the step is `du[0] + load du[1] + pulled du[2]`.
+    fn changes(&self, u: &[f64], du: [&[f64]; 3], sprung: Option<usize>) -> Result<[f64; 2], Failure> {
+        let Some(path) = &self.path else { return Ok([0.0; 2]) };
+        let moved = self.moved(u);
+        // The equation of the increment: a row over (load, pulled) and what it is to be.
+        let (first, wanted) = match (path.bound, &path.arc.until) {
+            (Bound::Factor(factor), _) => ([1.0, 0.0], factor - path.factor),
+            (Bound::End, None) => ([1.0, 0.0], 1.0 - path.factor),
+            (Bound::Length(length), _) => {
+                let [rest, load, pulled] = du.map(|du| 2.0 * self.along(&moved, du));
+                ([load, pulled], length * length - self.along(&moved, &moved) - rest)
+            }
+            (Bound::End, Some(until)) => {
+                let [rest, load, pulled] = du.map(|du| until.mean(du));
+                ([load, pulled], until.value - until.mean(u) - rest)
+            }
         };
-        match change.is_finite() {
-            true => Ok(change),
+        let (second, held) = match sprung {
+            Some(dof) => ([du[1][dof], du[2][dof] - 1.0], -du[0][dof]),
+            None => ([0.0, 1.0], 0.0),
+        };
+        let determinant = first[0] * second[1] - first[1] * second[0];
+        let load = (wanted * second[1] - first[1] * held) / determinant;
+        let pulled = (first[0] * held - wanted * second[0]) / determinant;
+        match load.is_finite() && pulled.is_finite() {
+            true => Ok([load, pulled]),
             false => Err(Failure::new("the load moves nothing along the path")),
         }
     }
@@ -284,6 +382,6 @@ impl<'a> Newton<'a> {
         let length = self.along(&moved, &moved).sqrt();
         let path = self.path.take()?;
         self.memory.other = Some(path.room);
-        Some(Reached { factor: path.factor, length, ends: path.bound == Bound::End })
+        Some(Reached { factor: path.factor, length, ends: path.bound == Bound::End, sprung: path.sprung })
     }
 }

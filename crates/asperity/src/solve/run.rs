@@ -160,6 +160,7 @@ impl<'a> Run<'a> {
                             values: &converged.evaluation.values,
                             memory: &mut self.memory,
                             solver: self.solver.as_mut(),
+                            sprung: converged.reached.as_ref().and_then(|reached| reached.sprung.clone()),
                         };
                         record.turn = self.stability.look(&mut self.state, look);
                     }
@@ -287,7 +288,7 @@ impl<'a> Run<'a> {
     fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
         let before = balance(&self.state);
         let moved_before = self.moved();
-        let (last_dt, reached) = (self.state.last_dt, converged.reached);
+        let (last_dt, reached) = (self.state.last_dt, converged.reached.clone());
         self.commit(converged);
         let moved = self.moved();
         let (state, dt) = (&mut self.state, record.dt);
@@ -316,7 +317,7 @@ impl<'a> Run<'a> {
                 state.factor = (state.step_time / step.duration).min(1.0);
                 step.ends_at(state.step_time)
             }
-            Some(Reached { factor, length, ends }) => {
+            Some(Reached { factor, length, ends, .. }) => {
                 (state.last_factor, state.factor) = (factor - state.factor, factor);
                 if state.arc == 0.0 {
                     state.arc = length / dt;

@@ -12,6 +12,7 @@
 use super::linear::LinearSolver;
 use super::newton::Memory;
 use super::observer::AttemptRecord;
+use super::path::Sprung;
 use super::problem::Problem;
 use super::step::norm;
 use crate::system::{Constraints, Signs, Softest, State};
@@ -83,6 +84,8 @@ pub(super) struct Look<'a> {
     pub values: &'a [f64],
     pub memory: &'a mut Memory,
     pub solver: &'a mut dyn LinearSolver,
+    /// What the factor has besides the stiffness.
+    pub sprung: Option<Sprung>,
 }
 
 impl Look<'_> {
@@ -166,6 +169,7 @@ impl Stability {
     fn factorise(&mut self, state: &mut State, look: &mut Look) -> Option<Turn> {
         self.counted += 1;
         let step = &look.problem.steps[look.record.step];
+        look.sprung = None;
         let factorised = look.memory.factorise((look.problem, &step.constraints), look.values, look.solver);
         let turn = factorised.ok().and_then(|()| self.count(state, look));
         look.solver.refuse();
@@ -175,7 +179,9 @@ impl Stability {
     /// Takes the signs of the factor there is.
     fn count(&mut self, state: &mut State, look: &Look) -> Option<Turn> {
         let (problem, record, solver) = (look.problem, look.record, &*look.solver);
-        let frontal::Signs { symmetric, negative } = solver.signs()?;
+        let frontal::Signs { symmetric, mut negative } = solver.signs()?;
+        let more = look.sprung.as_ref().map_or(0, Sprung::more);
+        negative = if symmetric { negative + more } else { (negative + more) % 2 };
         let constraints = look.constraints();
         let now = Signs { time: record.time, step: record.step, symmetric, negative };
         let last = state.signs.replace(now);
@@ -196,7 +202,7 @@ impl Stability {
             (None, None) => BEGUN,
         };
         let mode = before.as_ref().map_or_else(begin, |before| before.mode.clone());
-        let (mode, eigenvalue) = nearest(solver, mode, iterations)?;
+        let (mode, eigenvalue) = nearest((solver, look.sprung.as_ref()), mode, iterations)?;
         let turn = changed.map(|last| {
             let passed = before.as_ref().and_then(|before| {
                 let same = dot(&before.mode, &mode).abs() >= SAME && before.eigenvalue * eigenvalue < 0.0;
@@ -232,7 +238,11 @@ fn passes_over(softest: &Softest, time: f64) -> bool {
 }
 
 /// The eigenvector nearest to the null space by inverse iterations, and its eigenvalue; none where they lead nowhere.
-fn nearest(solver: &dyn LinearSolver, mut mode: Vec<f64>, most: usize) -> Option<(Vec<f64>, f64)> {
+fn nearest(
+    (solver, sprung): (&dyn LinearSolver, Option<&Sprung>),
+    mut mode: Vec<f64>,
+    most: usize,
+) -> Option<(Vec<f64>, f64)> {
     let mut eigenvalue = f64::INFINITY;
     for _ in 0..most {
         let length = norm(&mode);
@@ -241,6 +251,7 @@ fn nearest(solver: &dyn LinearSolver, mut mode: Vec<f64>, most: usize) -> Option
         if !solver.substitute(&mut image) {
             return None;
         }
+        sprung.iter().for_each(|sprung| sprung.without(&mut image));
         let inverse = dot(&mode, &image);
         let (before, length) = (std::mem::replace(&mut eigenvalue, 1.0 / inverse), norm(&image));
         if !(length > 0.0 && length.is_finite() && inverse != 0.0) {

@@ -7,6 +7,7 @@ use super::path::Reached;
 use super::problem::Problem;
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
+use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability};
 use crate::system::{Caution, Energies, Interpenetration, State};
 use crate::{Error, Failure, Kind};
@@ -286,11 +287,15 @@ impl<'a> Run<'a> {
     }
 
     fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
-        let before = balance(&self.state);
+        let (before, taken, forces) = (balance(&self.state), taken(&self.state), self.state.internal.clone());
         let moved_before = self.moved();
         let (last_dt, reached) = (self.state.last_dt, converged.reached.clone());
+        let converged_freely = converged.held.is_empty();
         self.commit(converged);
         let moved = self.moved();
+        if reached.is_none() && !record.relaxed && converged_freely {
+            self.look_for_snap(record, &forces, taken);
+        }
         let (state, dt) = (&mut self.state, record.dt);
         let expected = if last_dt > 0.0 { moved_before * dt / last_dt } else { 0.0 };
         let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
@@ -327,6 +332,16 @@ impl<'a> Run<'a> {
         };
         if ends {
             self.begin_next_step();
+        }
+    }
+
+    /// Notes an accepted increment that set energy free.
+    fn look_for_snap(&mut self, record: &AttemptRecord, forces: &[f64], before: f64) {
+        let energy = set_free(&self.state, forces, taken(&self.state) - before);
+        if energy > 0.0 {
+            let change = &self.state.last_change;
+            let most = (0..change.len()).max_by(|&a, &b| change[a].abs().total_cmp(&change[b].abs())).unwrap_or(0);
+            self.stability.snaps.push(Snap { time: record.time, energy, largest: self.problem.name_of(most) });
         }
     }
 
@@ -395,5 +410,10 @@ fn added(mut forces: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
 
 /// Energy that came from outside and that no term has taken up.
 fn balance(state: &State) -> f64 {
-    state.external_work - state.energies.iter().map(Energies::taken).sum::<f64>()
+    state.external_work - taken(state)
+}
+
+/// Energy that the terms have taken up.
+fn taken(state: &State) -> f64 {
+    state.energies.iter().map(Energies::taken).sum()
 }

@@ -14,6 +14,7 @@ use super::newton::Memory;
 use super::observer::AttemptRecord;
 use super::path::Sprung;
 use super::problem::Problem;
+use super::snap::Snap;
 use super::step::norm;
 use crate::system::{Constraints, Signs, Softest, State};
 use std::time::{Duration, Instant};
@@ -70,6 +71,8 @@ impl std::fmt::Display for Turn {
 pub struct Stability {
     /// Changes so far, without their modes.
     pub turns: Vec<Turn>,
+    /// Increments that jumped.
+    pub snaps: Vec<Snap>,
     /// Matrices that were factorised to count their signs.
     pub counted: usize,
     /// Time that it took.
@@ -185,9 +188,13 @@ impl Stability {
         let constraints = look.constraints();
         let now = Signs { time: record.time, step: record.step, symmetric, negative };
         let last = state.signs.replace(now);
-        let same = last.filter(|last| problem.steps[last.step].constraints.free() == constraints.free());
+        // An undeformed model is taken for stable; numbers can be compared whatever is free, determinants cannot.
+        let begun = Signs { time: record.time - record.dt, step: record.step, symmetric: true, negative: 0 };
+        let last = if record.increment == 1 { Some(begun) } else { last };
+        let alike = |step: usize| problem.steps[step].constraints.free() == constraints.free();
+        let same = last.filter(|last| symmetric && last.symmetric || alike(last.step) && record.increment > 1);
         let before = state.softest.take().filter(|softest| {
-            same.is_some_and(|last| last.time <= softest.time) && softest.mode.len() == constraints.free_count()
+            same.is_some_and(|last| last.time <= softest.time) && alike(softest.step) && record.increment > 1
         });
         // Of what is not symmetric at both no more is known than whether the number is odd.
         let counted = same.is_some_and(|last| last.symmetric && symmetric);

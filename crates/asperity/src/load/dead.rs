@@ -61,7 +61,12 @@ impl Term for DeadLoad {
     fn initial(&self) -> History {
         History::new(self.parts.iter().map(|_| 0))
     }
-    fn attempt<'a>(&'a self, accepted: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        _: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let values = self.values.iter().map(|value| now(value, accepted, at)).collect();
         Ok(Box::new(OpenDeadLoad { load: self, values }))
     }

@@ -169,7 +169,12 @@ impl Term for DistributedLoad {
     fn initial(&self) -> History {
         History::new([0])
     }
-    fn attempt<'a>(&'a self, accepted: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        _: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let value = |i: usize| self.components.get(i).map_or(0.0, |value| now(value, accepted, at));
         let (force, moment) = match self.plane() {
             true => (Vec3([value(0), value(1), 0.0]), Vec3([0.0, 0.0, value(2)])),

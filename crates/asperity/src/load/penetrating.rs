@@ -7,9 +7,9 @@
 //! the part `w` of their area, contact and fluid bear `p_c + w p` together, and the fluid stays while that is no more than
 //! `p`, but for a small part by which a front would come and go.
 
-use super::{Site, now};
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
+use super::{Site, now};
 use crate::amplitude::Timeline;
 use crate::mesh::Side;
 use crate::system::{Attempt, Branch, History, Instant, Local, Role, State, Stencil, Stencils, Term};

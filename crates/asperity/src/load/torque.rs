@@ -35,7 +35,12 @@ impl Term for TorqueOnTool {
     fn initial(&self) -> History {
         History::new([0])
     }
-    fn attempt<'a>(&'a self, accepted: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        _: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let value = |i: usize| self.components.get(i).map_or(0.0, |value| now(value, accepted, at));
         Ok(Box::new(OpenTorque { first: self.first, moment: Vec3([value(0), value(1), value(2)]) }))
     }

@@ -220,7 +220,8 @@ impl<'a> Newton<'a> {
         let attempts = problem.open(state, at)?;
         let (terms, dofs) = (&problem.terms, &problem.dofs);
         // The next step may do without any of the contacts.
-        let apart = if step.arc_length.is_some() || step.ends_at(at.step_time) { problem.contacts.clone() } else { 0..0 };
+        let apart =
+            if step.arc_length.is_some() || step.ends_at(at.step_time) { problem.contacts.clone() } else { 0..0 };
         let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, apart };
         memory.workspace.prepare(&assembly, state)?;
         memory.mixed.begin(&assembly, &memory.workspace);

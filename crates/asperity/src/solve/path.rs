@@ -116,7 +116,8 @@ impl<'a> Newton<'a> {
             u.iter_mut().zip(&state.last_change).for_each(|(u, change)| *u += part * change);
             factor += part * state.last_factor;
         }
-        let bound = if carried { Bound::Length(state.arc * dt) } else { Bound::Factor(factor + dt / self.step.duration) };
+        let bound =
+            if carried { Bound::Length(state.arc * dt) } else { Bound::Factor(factor + dt / self.step.duration) };
         let room = self.memory.other.take().unwrap_or_else(|| Evaluation::new(&self.problem.terms, state));
         self.path = Some(Path { arc, bound, factor, led: self.led(), room, sprung: None });
         let aim = if let Bound::Factor(aim) = bound { aim } else { factor };
@@ -194,7 +195,11 @@ impl<'a> Newton<'a> {
     }
 
     /// Newton's step of displacements and load factor from `u`.
-    pub(super) fn linearise_on_path(&mut self, (iteration, u): (usize, &[f64]), forcing: f64) -> Result<Motion, Trouble> {
+    pub(super) fn linearise_on_path(
+        &mut self,
+        (iteration, u): (usize, &[f64]),
+        forcing: f64,
+    ) -> Result<Motion, Trouble> {
         if !self.linearised {
             self.evaluate_on_path(u, self.tangent())?;
         }
@@ -317,14 +322,17 @@ impl<'a> Newton<'a> {
     }
 
     /// Goes along a step; the part of the whole that was taken.
-    pub(super) fn advance_on_path(&mut self, u: &mut Vec<f64>, (motion, tangent): (&Motion, Tangent)) -> Result<f64, Failure> {
+    pub(super) fn advance_on_path(
+        &mut self,
+        u: &mut Vec<f64>,
+        (motion, tangent): (&Motion, Tangent),
+    ) -> Result<f64, Failure> {
         let (begin, factor) = (u.clone(), self.path.as_ref().map_or(0.0, |path| path.factor));
         let mut part = 1.0;
         loop {
             self.memory.mixed.follow(part);
             u.iter_mut().zip(begin.iter().zip(&motion.du)).for_each(|(u, (begin, du))| *u = begin + part * du);
-            let evaluated =
-                self.load_to(factor + part * motion.load).and_then(|()| self.evaluate_on_path(u, tangent));
+            let evaluated = self.load_to(factor + part * motion.load).and_then(|()| self.evaluate_on_path(u, tangent));
             match evaluated {
                 Ok(()) => return Ok(part * motion.part),
                 Err(failure) if part <= SHORTEST => return Err(failure),

@@ -130,7 +130,8 @@ impl Stability {
             softest.passed += 1;
             return false;
         }
-        if !same || softest.mode.len() != look.constraints().free_count() || look.values.len() != pattern.columns.len() {
+        if !same || softest.mode.len() != look.constraints().free_count() || look.values.len() != pattern.columns.len()
+        {
             return false;
         }
         let x = &softest.mode;

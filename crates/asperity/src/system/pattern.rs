@@ -51,7 +51,8 @@ impl Csr {
     }
     /// A matrix of this pattern and these values times a vector.
     pub fn times(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
-        let row = |row: usize| (self.starts[row]..self.starts[row + 1]).map(|at| values[at] * x[self.columns[at]]).sum();
+        let row =
+            |row: usize| (self.starts[row]..self.starts[row + 1]).map(|at| values[at] * x[self.columns[at]]).sum();
         (0..x.len()).map(row).collect()
     }
     /// The pattern of `groups` after elimination of the constrained unknowns.

@@ -179,7 +179,6 @@ fn keys_of_solver_and_output_change_the_run() {
         "solver.piecewise=false",
         "output.every=3",
         "output.checkpoints=steps",
-        "output.checkpoint_every=4",
         "output.export=[\"frd\"]",
         "output.export=[\"deformed\"]",
         "output.print=[{of.nodes=\"block.top\",quantities=[\"reaction\"]}]",

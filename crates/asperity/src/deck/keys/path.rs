@@ -66,16 +66,16 @@ pub(super) fn follows(step: &Step, reader: &mut Reader) {
     }
     let place = step.control.place;
     let courses = [
-        courses(&step.displacement, |keys| &keys.amplitude),
-        courses(&step.force, |keys| &keys.amplitude),
-        courses(&step.pressure, |keys| &keys.amplitude),
-        courses(&step.traction, |keys| &keys.amplitude),
-        courses(&step.body_force, |keys| &keys.amplitude),
-        courses(&step.motion, |keys| &keys.amplitude),
-        courses(&step.load, |keys| &keys.amplitude),
+        courses("displacement", &step.displacement, |keys| &keys.amplitude),
+        courses("force", &step.force, |keys| &keys.amplitude),
+        courses("pressure", &step.pressure, |keys| &keys.amplitude),
+        courses("traction", &step.traction, |keys| &keys.amplitude),
+        courses("body_force", &step.body_force, |keys| &keys.amplitude),
+        courses("motion", &step.motion, |keys| &keys.amplitude),
+        courses("load", &step.load, |keys| &keys.amplitude),
     ];
-    for (name, _) in courses.into_iter().flatten().filter(|(_, amplitude)| **amplitude != Amplitude::ramp()) {
-        let what = format!("`{name}` has an amplitude in a step that follows a path");
+    for (kind, name, _) in courses.into_iter().flatten().filter(|(_, _, amplitude)| **amplitude != Amplitude::ramp()) {
+        let what = format!("`{kind}.{name}` has an amplitude in a step that follows a path");
         refuse(what, name.place, "loads and motions go with the load factor there: leave `amplitude` out");
     }
     let others = [
@@ -87,8 +87,12 @@ pub(super) fn follows(step: &Step, reader: &mut Reader) {
         step.release.iter().find(|name| !LOADS.iter().any(|kind| name.text.starts_with(kind))).map(|n| ("release", n)),
     ];
     for (kind, name) in others.into_iter().flatten() {
-        let what = format!("a step that follows a path cannot `{kind}` besides: `{name}`");
-        refuse(what, name.place, "it has no time of its own; say it in a step before or after");
+        let what = format!("a step that follows a path says `{kind}` of `{name}`");
+        refuse(
+            what,
+            name.place,
+            "such a step has loads and prescribed motion only, and no time of its own: say it in a step before or after",
+        );
     }
     let loads = step.gravity.is_some()
         || !(step.force.is_empty() && step.pressure.is_empty() && step.traction.is_empty())
@@ -100,6 +104,10 @@ pub(super) fn follows(step: &Step, reader: &mut Reader) {
     }
 }
 
-fn courses<T>(said: &[(Name, T)], of: fn(&T) -> &Amplitude) -> Vec<(&Name, &Amplitude)> {
-    said.iter().map(|(name, keys)| (name, of(keys))).collect()
+fn courses<'s, T>(
+    kind: &'static str,
+    said: &'s [(Name, T)],
+    of: fn(&T) -> &Amplitude,
+) -> Vec<(&'static str, &'s Name, &'s Amplitude)> {
+    said.iter().map(|(name, keys)| (kind, name, of(keys))).collect()
 }

@@ -70,6 +70,8 @@ struct Piece {
     from: f64,
     to: f64,
     amplitude: Amplitude,
+    /// Whether the step says nothing of it.
+    keeps: bool,
 }
 
 impl Piece {
@@ -86,12 +88,13 @@ impl Timeline {
     /// The same of a value that is not zero before the first step.
     pub fn from(mut from: f64, steps: impl IntoIterator<Item = (f64, Change)>) -> Self {
         let piece = |(duration, change)| {
+            let keeps = change == Change::Keep;
             let (to, amplitude) = match change {
                 Change::Keep => (from, Amplitude::ramp()),
                 Change::To(to, amplitude) => (to, amplitude),
                 Change::Release => (0.0, Amplitude::ramp()),
             };
-            let piece = Piece { duration, from, to, amplitude };
+            let piece = Piece { duration, from, to, amplitude, keeps };
             from = piece.value(duration);
             piece
         };
@@ -108,6 +111,22 @@ impl Timeline {
             (None, Some(last)) => last.value(last.duration),
             (None, None) => 0.0,
         }
+    }
+
+    /// The value at the load factor of a step that follows a path: from where it was to the value of the step, in proportion and
+    /// beyond. `ended` are the factors at which earlier steps did, by their numbers.
+    pub fn on_path(&self, ended: &[(usize, f64)], step: usize, (step_time, factor): (f64, Option<f64>)) -> f64 {
+        if ended.is_empty() && factor.is_none() {
+            return self.value(step, step_time);
+        }
+        let mut value = self.pieces.first().map_or(0.0, |first| first.from);
+        for (number, piece) in self.pieces.iter().enumerate().take(step + 1) {
+            let ended = ended.iter().find(|(step, _)| *step == number).map(|(_, factor)| *factor);
+            let (time, factor) = if number == step { (step_time, factor) } else { (piece.duration, ended) };
+            let part = factor.unwrap_or_else(|| piece.amplitude.value(time / piece.duration));
+            value += if piece.keeps { 0.0 } else { (piece.to - value) * part };
+        }
+        value
     }
 }
 
@@ -142,6 +161,15 @@ mod tests {
         ]);
         let at = [(0, 0.5), (0, 2.0), (1, 0.7), (2, 0.5), (2, 1.0), (3, 1.0), (3, 4.0), (4, 0.0)];
         assert_eq!(at.map(|(step, t)| line.value(step, t)), [2.5, 10.0, 10.0, 20.0, 15.0, 11.25, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_value_goes_with_the_load_factor_and_stays_where_that_ended() {
+        let to = |value| (1.0, Change::To(value, Amplitude::ramp()));
+        let line = Timeline::new([to(2.0), to(10.0), (1.0, Change::Keep), to(0.0)]);
+        let on = |ended: &[(usize, f64)], step, factor| line.on_path(ended, step, (0.5, factor));
+        assert_eq!([Some(0.25), Some(-0.5), Some(1.5), None].map(|f| on(&[], 1, f)), [4.0, -2.0, 14.0, 6.0]);
+        assert_eq!([2, 3].map(|step| on(&[(1, 0.25)], step, None)), [4.0, 2.0]);
     }
 
     #[test]

@@ -44,6 +44,7 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         name: "go".into(),
         duration: 1.0,
         increments: Increments { first: 1.0, largest: 1.0, ..Increments::default() },
+        arc_length: None,
         constraints: constraints.clone(),
         prescribed: boundary
             .iter()

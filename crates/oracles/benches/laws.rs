@@ -110,7 +110,7 @@ fn body(criterion: &mut Criterion) {
 fn evaluate(made: &deck::Made, state: &State, criterion: &mut Criterion) -> f64 {
     let problem = &made.model.problem;
     let step = &problem.steps[0];
-    let at = Instant { step: 0, step_time: state.step_time + 0.1, time: state.time + 0.1, dt: 0.1 };
+    let at = Instant { step: 0, step_time: state.step_time + 0.1, time: state.time + 0.1, dt: 0.1, factor: None };
     let terms = problem.terms.iter().zip(&state.histories);
     let attempts = terms.map(|(term, history)| term.attempt(state, history, at)).collect::<Result<Vec<_>, _>>();
     let attempts = attempts.expect("an attempt");

@@ -119,6 +119,8 @@ pub struct StepFacts {
     pub driven: f64,
     /// Loads that grow in it.
     pub loads: Vec<Load>,
+    /// Whether it follows a path by arc length.
+    pub follows: bool,
     /// First increment as a part of the step.
     pub first: f64,
     /// Largest and smallest increment as parts of the step.

@@ -1,5 +1,6 @@
 //! Loads whose forces do not depend on the displacements: `F_k = v_c(k)(t) share_k`.
 
+use super::now;
 use crate::Failure;
 use crate::amplitude::Timeline;
 use crate::mesh::Side;
@@ -60,8 +61,13 @@ impl Term for DeadLoad {
     fn initial(&self) -> History {
         History::new(self.parts.iter().map(|_| 0))
     }
-    fn attempt<'a>(&'a self, _: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let values = self.values.iter().map(|value| value.value(at.step, at.step_time)).collect();
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        _: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
+        let values = self.values.iter().map(|value| now(value, accepted, at)).collect();
         Ok(Box::new(OpenDeadLoad { load: self, values }))
     }
     fn name_of(&self, stencil: usize) -> String {

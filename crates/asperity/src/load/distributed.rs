@@ -8,7 +8,7 @@
 //! ones by least squares, the orthogonal factor of `K = sum w_i r_i R_i^t`. Force and moment keep their directions. In the plane all
 //! is about one axis. The tangent is exact: `q` depends on the motion through `K` and `S = sum w_i r_i r_i^t` only.
 
-use super::Site;
+use super::{Site, now};
 use crate::amplitude::Timeline;
 use crate::system::{Attempt, Branch, History, Instant, Local, Role, State, Stencil, Stencils, Term};
 use crate::tensor::{Dual, Scalar, Vec3};
@@ -169,8 +169,13 @@ impl Term for DistributedLoad {
     fn initial(&self) -> History {
         History::new([0])
     }
-    fn attempt<'a>(&'a self, _: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let value = |i: usize| self.components.get(i).map_or(0.0, |value| value.value(at.step, at.step_time));
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        _: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
+        let value = |i: usize| self.components.get(i).map_or(0.0, |value| now(value, accepted, at));
         let (force, moment) = match self.plane() {
             true => (Vec3([value(0), value(1), 0.0]), Vec3([0.0, 0.0, value(2)])),
             false => (Vec3(from_fn(value)), Vec3(from_fn(|i| value(3 + i)))),

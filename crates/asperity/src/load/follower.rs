@@ -3,8 +3,8 @@
 //! The tangent is the exact derivative of the density `q(x, g1, g2)` by dual numbers at the integration point, chained
 //! with the shape functions. It is unsymmetric unless the surface is closed or its rim held.
 
-use super::Site;
 use super::face::{Face, FacePoint, area};
+use super::{Site, now};
 use crate::amplitude::Timeline;
 use crate::mesh::Side;
 use crate::system::{Attempt, Branch, History, Instant, Local, Role, State, Stencil, Stencils, Term};
@@ -42,8 +42,13 @@ impl Term for FollowerPressure {
     fn initial(&self) -> History {
         History::new(self.faces.iter().map(|_| 0))
     }
-    fn attempt<'a>(&'a self, _: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        Ok(Box::new(OpenPressure { load: self, value: self.value.value(at.step, at.step_time) }))
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        _: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
+        Ok(Box::new(OpenPressure { load: self, value: now(&self.value, accepted, at) }))
     }
     fn name_of(&self, stencil: usize) -> String {
         let side = self.faces[stencil].side;

@@ -32,10 +32,16 @@ pub use spring::Springs;
 pub use torque::TorqueOnTool;
 pub use traction::traction;
 
+use crate::amplitude::Timeline;
 use crate::mesh::{Mesh, Space};
-use crate::system::Dofs;
+use crate::system::{Dofs, Instant, State};
 use crate::tensor::{Scalar, Vec3};
 use std::sync::Arc;
+
+/// The value of a load at an instant.
+fn now(value: &Timeline, accepted: &State, at: Instant) -> f64 {
+    value.on_path(&accepted.load_factors, at.step, (at.step_time, at.factor))
+}
 
 /// What a load acts in.
 #[derive(Debug, Clone)]

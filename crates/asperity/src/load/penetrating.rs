@@ -7,9 +7,9 @@
 //! the part `w` of their area, contact and fluid bear `p_c + w p` together, and the fluid stays while that is no more than
 //! `p`, but for a small part by which a front would come and go.
 
-use super::Site;
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
+use super::{Site, now};
 use crate::amplitude::Timeline;
 use crate::mesh::Side;
 use crate::system::{Attempt, Branch, History, Instant, Local, Role, State, Stencil, Stencils, Term};
@@ -210,7 +210,7 @@ impl Term for PenetratingPressure {
         history: &'a History,
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let value = self.value.value(at.step, at.step_time);
+        let value = now(&self.value, accepted, at);
         Ok(Box::new(Open { load: self, value, wet: self.enter(accepted, history, value) }))
     }
     fn name_of(&self, stencil: usize) -> String {

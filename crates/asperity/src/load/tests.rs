@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 fn forces(term: &dyn Term, dofs: &Dofs, u: &[f64]) -> Vec<f64> {
     let state = State { u: u.to_vec(), ..State::default() };
     let history = term.initial();
-    let at = Instant { step: 0, step_time: 1.0, time: 1.0, dt: 1.0 };
+    let at = Instant { step: 0, step_time: 1.0, time: 1.0, dt: 1.0, factor: None };
     let attempt = term.attempt(&state, &history, at).unwrap();
     let mut sum = vec![0.0; dofs.count()];
     each_stencil(attempt.as_ref(), u, &mut |dofs, local| {
@@ -215,7 +215,7 @@ fn follower_pressure_on_a_closed_surface_has_no_moment() {
 fn check(name: &str, term: &dyn Term, u: &[f64]) -> usize {
     let state = State { u: u.to_vec(), ..State::default() };
     let history = term.initial();
-    let at = Instant { step: 0, step_time: 1.0, time: 1.0, dt: 1.0 };
+    let at = Instant { step: 0, step_time: 1.0, time: 1.0, dt: 1.0, factor: None };
     let attempt = term.attempt(&state, &history, at).unwrap();
     let mut stencils = Stencils::default();
     attempt.stencils(u, &mut stencils).unwrap();

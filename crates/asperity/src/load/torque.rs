@@ -3,6 +3,7 @@
 //! The unknowns of the tool's rotation are a vector `w`, and a torque `m` does the work `m . T(w) dw`: the forces on the
 //! unknowns are `T^t m`. While the tool turns about one axis only they are the torque itself.
 
+use super::now;
 use crate::Failure;
 use crate::amplitude::Timeline;
 use crate::system::{Attempt, Branch, Dofs, History, Instant, Local, Role, State, Stencil, Stencils, Term};
@@ -34,8 +35,13 @@ impl Term for TorqueOnTool {
     fn initial(&self) -> History {
         History::new([0])
     }
-    fn attempt<'a>(&'a self, _: &'a State, _: &'a History, at: Instant) -> Result<Box<dyn Attempt + 'a>, Failure> {
-        let value = |i: usize| self.components.get(i).map_or(0.0, |value| value.value(at.step, at.step_time));
+    fn attempt<'a>(
+        &'a self,
+        accepted: &'a State,
+        _: &'a History,
+        at: Instant,
+    ) -> Result<Box<dyn Attempt + 'a>, Failure> {
+        let value = |i: usize| self.components.get(i).map_or(0.0, |value| now(value, accepted, at));
         Ok(Box::new(OpenTorque { first: self.first, moment: Vec3([value(0), value(1), value(2)]) }))
     }
     fn name_of(&self, _: usize) -> String {

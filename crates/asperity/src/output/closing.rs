@@ -7,7 +7,7 @@ use super::quantities::Parts;
 use super::summary::Summary;
 use crate::mesh::Space;
 use crate::model::Model;
-use crate::solve::{Run, Turn};
+use crate::solve::{Run, Snap, Turn};
 use crate::system::State;
 
 /// Puts notes and costs of a run of `seconds` into its summary.
@@ -105,6 +105,17 @@ fn turns(turns: &[Turn]) -> impl Iterator<Item = String> {
     told.chain(more)
 }
 
+/// Increments that jumped: the first, and how many.
+fn snaps(snaps: &[Snap]) -> Option<String> {
+    let first = snaps.first()?;
+    let more = if snaps.len() > 1 { format!(" (the first of {})", snaps.len()) } else { String::new() };
+    Some(format!(
+        "the increment to time {:.5}{more} jumped: its forces fell on the way, and an energy of {:.4e} at the least was set free; \
+         most moved {}. `control = \"arc-length\"` follows loads without a jump",
+        first.time, first.energy, first.largest
+    ))
+}
+
 /// What the run knows of its cost, and of promises that it bends.
 fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
@@ -113,6 +124,7 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     summary.timings.insert("factorisation".into(), run.memory.factorising.as_secs_f64());
     summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
     summary.notes.extend(turns(&run.stability.turns));
+    summary.notes.extend(snaps(&run.stability.snaps));
     summary.timings.insert("audit".into(), run.audited.as_secs_f64());
     summary.notes.extend(run.problem.newton.notes());
     let cut = summary.attempts.saturating_sub(summary.increments);

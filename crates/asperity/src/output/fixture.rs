@@ -53,6 +53,7 @@ impl Fixture {
             rigid: vec![],
             supports: vec![("all".into(), (0..self.mesh.points.len()).collect())],
             constraints: vec![&self.held],
+            follows: false,
         }
     }
     /// The state before any motion.

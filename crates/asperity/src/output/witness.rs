@@ -72,7 +72,11 @@ impl Witness {
             ended,
             reason,
             step,
-            part: if state.step > step { 1.0 } else { state.step_time / duration },
+            part: match problem.steps.get(step).is_some_and(|step| step.arc_length.is_some()) {
+                _ if state.step > step => 1.0,
+                true => state.factor,
+                false => state.step_time / duration,
+            },
             increments: state.increment,
             cuts: self.cuts,
             faults: self.faults.clone(),

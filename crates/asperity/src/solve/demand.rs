@@ -52,7 +52,7 @@ impl Problem {
     pub fn demand(&self, state: &State) -> Result<Demand, Error> {
         let Some(step) = self.steps.get(state.step) else { return Ok(Demand::default()) };
         let dt = step.next(state.next_dt, state.step_time);
-        let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
+        let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt, factor: None };
         let groups = self.groups(state, at).map_err(|failure| Error::NotConverged(failure.reason))?;
         let pairs = groups.iter().map(|group| (group.len() * group.len()) as f64).sum::<f64>();
         let graph = graph(self, &step.constraints, &groups);

@@ -13,6 +13,7 @@ impl Run<'_> {
         if std::mem::replace(&mut state.entered, true) {
             return;
         }
+        (state.factor, state.last_factor, state.arc) = (0.0, 0.0, 0.0);
         let leaving = std::mem::take(&mut state.leaving);
         state.handed.clear();
         let before = state.step.checked_sub(1).and_then(|before| steps.get(before));

@@ -5,6 +5,7 @@ use super::influences::Influences;
 use super::linear::{Factors, LinearSolver};
 use super::mixed::Mixed;
 use super::observer::{AttemptRecord, IterationRecord, Observer};
+use super::path::{Path, Reached};
 use super::problem::Problem;
 use super::progress::Progress;
 use super::relax::Drag;
@@ -156,6 +157,8 @@ pub struct Converged {
     pub in_play: [f64; 2],
     /// Motions that nothing held, and that were held still, in words.
     pub held: Vec<String>,
+    /// Where it came to on the path of a step that follows one.
+    pub reached: Option<Reached>,
 }
 
 /// One attempt.
@@ -182,6 +185,8 @@ pub struct Newton<'a> {
     pub(super) steady: i32,
     /// What the unknowns are dragged through.
     pub(super) medium: Option<Drag>,
+    /// The path that the step follows.
+    pub(super) path: Option<Path<'a>>,
 }
 
 /// The line search takes a step at whose end the slope is at most this multiple of the initial one: a point that
@@ -209,11 +214,14 @@ impl<'a> Newton<'a> {
         solver: &'a mut dyn LinearSolver,
     ) -> Result<Self, Failure> {
         let step = &problem.steps[state.step];
-        let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
+        let time = (state.step_time + dt, state.time + dt);
+        let factor = step.arc_length.as_ref().map(|_| state.factor);
+        let at = Instant { step: state.step, step_time: time.0, time: time.1, dt, factor };
         let attempts = problem.open(state, at)?;
         let (terms, dofs) = (&problem.terms, &problem.dofs);
         // The next step may do without any of the contacts.
-        let apart = if step.ends_at(at.step_time) { problem.contacts.clone() } else { 0..0 };
+        let apart =
+            if step.arc_length.is_some() || step.ends_at(at.step_time) { problem.contacts.clone() } else { 0..0 };
         let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, apart };
         memory.workspace.prepare(&assembly, state)?;
         memory.mixed.begin(&assembly, &memory.workspace);
@@ -236,13 +244,17 @@ impl<'a> Newton<'a> {
             propped: Vec::new(),
             steady: 0,
             medium: None,
+            path: None,
         })
     }
 
     /// Iterates to the solution.
     pub fn solve(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, Trouble> {
         let options = self.problem.newton;
-        let (mut u, mut missing) = self.predict()?;
+        let (mut u, mut missing) = match &self.step.arc_length {
+            Some(arc) => (self.begin_path(arc)?, None),
+            None => self.predict()?,
+        };
         let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.begin_sequence();
         let (mut trail, mut progress, mut still) = (Trail::default(), Progress::default(), false);
@@ -257,16 +269,17 @@ impl<'a> Newton<'a> {
             line.augmentation = augmentation;
             observer.iteration(record, &line);
             record.iterations.push(line);
-            if missing.is_none() && norms.converged_from(ratio) {
-                if !still && self.drifts(&u, record, norms.reference[0])? {
+            if missing.is_none() && norms.converged_from(ratio) && self.arrives(&u)? {
+                if !still && self.path.is_none() && self.drifts(&u, record, norms.reference[0])? {
                     (u, missing) = self.begin(self.state.u.clone())?;
                     still = true;
                     continue;
                 }
                 self.stands(&u, norms.reference[0])?;
                 if !self.augment(&u)? {
+                    let reached = self.reached(&u);
                     let Self { evaluation, propped, .. } = self;
-                    return Ok(Converged { u, evaluation, in_play: norms.in_play, held: propped });
+                    return Ok(Converged { u, evaluation, in_play: norms.in_play, held: propped, reached });
                 }
                 (augmentation, begun, self.bound) = (augmentation + 1, iteration + 1, SLOPE);
                 (correction, taken, factorised, ratio) = (0.0, 0.0, false, 0.0);
@@ -286,13 +299,20 @@ impl<'a> Newton<'a> {
             if stalls == STALLS {
                 (stalls, _) = (0, self.solver.refuse());
             }
-            self.complete(&u, missing.as_deref())?;
-            let motion =
-                self.linearise((iteration, &u), missing.as_deref(), forcing(norms.ratio, ratio, norms.allowed))?;
+            let loose = forcing(norms.ratio, ratio, norms.allowed);
+            let motion = if self.path.is_some() {
+                self.linearise_on_path((iteration, &u), loose)?
+            } else {
+                self.complete(&u, missing.as_deref())?;
+                self.linearise((iteration, &u), missing.as_deref(), loose)?
+            };
             let tangent = self.wanted(&norms, ratio);
             (factorised, ratio) = (motion.factorised, norms.ratio);
             let from = u.clone();
-            taken = self.advance(&mut u, (&motion, tangent), missing.as_deref())?;
+            taken = match self.path {
+                Some(_) => self.advance_on_path(&mut u, (&motion, tangent))?,
+                None => self.advance(&mut u, (&motion, tangent), missing.as_deref())?,
+            };
             if taken < motion.part && !factorised {
                 self.solver.refuse();
             }

@@ -4,15 +4,50 @@
 
 use super::linear::{LinearError, LinearSolver};
 use super::newton::{Memory, Newton, Variant};
+use super::problem::Problem;
 use super::step::owners;
-use crate::system::{Csr, Factorised, Preconditioner};
+use crate::system::{Constraints, Csr, Factorised, Preconditioner};
 use std::sync::Arc;
+use std::time::Instant;
 
 impl Memory {
     /// What the next increment begins with: the factor there is, if it is to serve on.
     pub(super) fn preconditioner(&self, solver: &dyn LinearSolver) -> Option<Preconditioner> {
         let (service, matrix) = (solver.service()?, self.factorised.clone()?);
         Some(Preconditioner { matrix, service, near: self.influences.near() })
+    }
+
+    /// Factorises a matrix of the pattern at hand, and analyses that before if it is new.
+    pub(super) fn factorise(
+        &mut self,
+        (problem, constraints): (&Problem, &Constraints),
+        values: &[f64],
+        solver: &mut dyn LinearSolver,
+    ) -> Result<(), LinearError> {
+        let analysis = self.workspace.analysis();
+        if self.analysed != analysis {
+            solver.analyse(self.workspace.pattern(), owners(&problem.dofs, constraints.free()))?;
+            self.analysed = analysis;
+            self.analyses += 1;
+        }
+        self.factorised = None;
+        self.factorisations += 1;
+        let begun = Instant::now();
+        let factorised = solver.factorise(values);
+        self.factorising += begun.elapsed();
+        factorised?;
+        self.symmetric += usize::from(solver.signs().is_some_and(|signs| signs.symmetric));
+        if problem.newton.variant == Variant::Full && solver.service().is_some() {
+            // Its factor may serve on.
+            let Csr { starts, columns, .. } = self.workspace.pattern();
+            self.factorised = Some(Arc::new(Factorised {
+                free: constraints.free().to_vec(),
+                starts: starts.clone(),
+                columns: columns.clone(),
+                values: values.to_vec(),
+            }));
+        }
+        Ok(())
     }
 
     fn holds(&self, matrix: &Arc<Factorised>) -> bool {
@@ -29,19 +64,6 @@ impl Newton<'_> {
             self.solver.refuse();
         }
         self.solver.begin();
-    }
-
-    /// Takes note of the matrix that was factorised, if its factor may serve on.
-    pub(super) fn hold_matrix(&mut self) {
-        if self.problem.newton.variant == Variant::Full && self.solver.service().is_some() {
-            let Csr { starts, columns, .. } = self.memory.workspace.pattern();
-            self.memory.factorised = Some(Arc::new(Factorised {
-                free: self.step.constraints.free().to_vec(),
-                starts: starts.clone(),
-                columns: columns.clone(),
-                values: self.evaluation.values.clone(),
-            }));
-        }
     }
 
     /// Sees to it that the solver is where it was when the state was accepted; false where the matrix has no factor, which

@@ -97,6 +97,9 @@ impl Problem {
         if !state.signs.iter().all(|signs| signs.step < self.steps.len() && signs.time <= state.time) {
             return Err("the signs of this state belong to another model".into());
         }
+        if !state.softest.iter().all(|softest| softest.step < self.steps.len()) {
+            return Err("the softest mode of this state belongs to another model".into());
+        }
         if !state.preconditioner.iter().all(|held| held.fits(&self.dofs)) {
             return Err("the matrix of this state belongs to another model".into());
         }

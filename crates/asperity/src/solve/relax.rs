@@ -97,7 +97,7 @@ impl Newton<'_> {
                 self.stands(&u, norms.reference[0])?;
                 if !self.augment(&u)? {
                     let Self { evaluation, propped, .. } = self;
-                    return Ok(Converged { u, evaluation, in_play: norms.in_play, held: propped });
+                    return Ok(Converged { u, evaluation, in_play: norms.in_play, held: propped, reached: None });
                 }
             }
         }

@@ -80,7 +80,7 @@ struct Resistance<'a> {
 
 impl<'a> Resistance<'a> {
     fn new(problem: &'a Problem, state: &'a State, step: &'a Step, dt: f64) -> Result<Self, Failure> {
-        let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt };
+        let at = Instant { step: state.step, step_time: state.step_time + dt, time: state.time + dt, dt, factor: None };
         let attempts = problem.open(state, at)?;
         let (terms, dofs) = (&problem.terms, &problem.dofs);
         let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, apart: 0..0 };

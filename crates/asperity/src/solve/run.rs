@@ -3,10 +3,12 @@
 use super::linear::LinearSolver;
 use super::newton::{Converged, Memory, Newton, Trouble};
 use super::observer::{AttemptRecord, Observer};
+use super::path::Reached;
 use super::problem::Problem;
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
-use super::stability::Stability;
+use super::snap::{Snap, set_free};
+use super::stability::{Look, Stability};
 use crate::system::{Caution, Energies, Interpenetration, State};
 use crate::{Error, Failure, Kind};
 use std::time::{Duration, Instant};
@@ -130,7 +132,9 @@ impl<'a> Run<'a> {
 
     /// Solves one increment, cutting it as often as needed, and accepts it.
     fn increment(&mut self, step: &Step, observer: &mut dyn Observer) -> Result<AttemptRecord, Error> {
-        let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, !self.problem.relaxes());
+        // What a path does past its limit points is no jump.
+        let still = step.arc_length.is_some() || !self.problem.relaxes();
+        let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, still);
         let smallest = step.increments.smallest.max(SMALLEST) * step.duration;
         let mut caution = self.state.caution;
         let usual = caution.usual(step);
@@ -151,8 +155,15 @@ impl<'a> Run<'a> {
             match result {
                 Ok((found, converged)) => {
                     if converged.held.is_empty() {
-                        let at = (self.problem, &mut self.state);
-                        record.turn = self.stability.look(at, &record, self.solver.as_ref());
+                        let look = Look {
+                            problem: self.problem,
+                            record: &record,
+                            values: &converged.evaluation.values,
+                            memory: &mut self.memory,
+                            solver: self.solver.as_mut(),
+                            sprung: converged.reached.as_ref().and_then(|reached| reached.sprung.clone()),
+                        };
+                        record.turn = self.stability.look(&mut self.state, look);
                     }
                     observer.attempt(&record);
                     self.state.caution = caution;
@@ -231,20 +242,28 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// How far the step has come, in words.
+    fn came_to(&self, step: &Step) -> String {
+        match step.arc_length {
+            Some(_) => format!("load factor {:.4}", self.state.factor),
+            None => format!("{:.4} of its duration", self.state.step_time / step.duration),
+        }
+    }
+
     fn too_many(&self, step: &Step) -> Error {
         Error::NotConverged(format!(
-            "step '{}' stops at {:.4} of its duration: it has used the most increments allowed, {}",
+            "step '{}' stops at {}: it has used the most increments allowed, {}",
             step.name,
-            self.state.step_time / step.duration,
+            self.came_to(step),
             step.increments.most
         ))
     }
 
     fn give_up(&self, step: &Step, dt: f64, reason: &str) -> Error {
         Error::NotConverged(format!(
-            "step '{}' stops at {:.4} of its duration: an increment of {:.1e} of it still fails: {reason}",
+            "step '{}' stops at {}: an increment of {:.1e} of it still fails: {reason}",
             step.name,
-            self.state.step_time / step.duration,
+            self.came_to(step),
             dt / step.duration
         ))
     }
@@ -268,11 +287,15 @@ impl<'a> Run<'a> {
     }
 
     fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
-        let before = balance(&self.state);
+        let (before, taken, forces) = (balance(&self.state), taken(&self.state), self.state.internal.clone());
         let moved_before = self.moved();
-        let last_dt = self.state.last_dt;
+        let (last_dt, reached) = (self.state.last_dt, converged.reached.clone());
+        let converged_freely = converged.held.is_empty();
         self.commit(converged);
         let moved = self.moved();
+        if reached.is_none() && !record.relaxed && converged_freely {
+            self.look_for_snap(record, &forces, taken);
+        }
         let (state, dt) = (&mut self.state, record.dt);
         let expected = if last_dt > 0.0 { moved_before * dt / last_dt } else { 0.0 };
         let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
@@ -294,8 +317,31 @@ impl<'a> Run<'a> {
         state.step_increment += 1;
         state.time += dt;
         state.step_time += dt;
-        if step.ends_at(state.step_time) {
+        let ends = match reached {
+            None => {
+                state.factor = (state.step_time / step.duration).min(1.0);
+                step.ends_at(state.step_time)
+            }
+            Some(Reached { factor, length, ends, .. }) => {
+                (state.last_factor, state.factor) = (factor - state.factor, factor);
+                if state.arc == 0.0 {
+                    state.arc = length / dt;
+                }
+                ends
+            }
+        };
+        if ends {
             self.begin_next_step();
+        }
+    }
+
+    /// Notes an accepted increment that set energy free.
+    fn look_for_snap(&mut self, record: &AttemptRecord, forces: &[f64], before: f64) {
+        let energy = set_free(&self.state, forces, taken(&self.state) - before);
+        if energy > 0.0 {
+            let change = &self.state.last_change;
+            let most = (0..change.len()).max_by(|&a, &b| change[a].abs().total_cmp(&change[b].abs())).unwrap_or(0);
+            self.stability.snaps.push(Snap { time: record.time, energy, largest: self.problem.name_of(most) });
         }
     }
 
@@ -340,6 +386,9 @@ impl<'a> Run<'a> {
 
     fn begin_next_step(&mut self) {
         let state = &mut self.state;
+        if self.problem.steps[state.step].arc_length.is_some() && state.factor != 1.0 {
+            state.load_factors.push((state.step, state.factor));
+        }
         state.step += 1;
         state.entered = false;
         (state.step_increment, state.step_time) = (0, 0.0);
@@ -361,5 +410,10 @@ fn added(mut forces: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
 
 /// Energy that came from outside and that no term has taken up.
 fn balance(state: &State) -> f64 {
-    state.external_work - state.energies.iter().map(Energies::taken).sum::<f64>()
+    state.external_work - taken(state)
+}
+
+/// Energy that the terms have taken up.
+fn taken(state: &State) -> f64 {
+    state.energies.iter().map(Energies::taken).sum()
 }

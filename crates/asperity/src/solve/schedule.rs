@@ -73,6 +73,22 @@ impl Default for Increments {
     }
 }
 
+/// How a step follows a path of equilibria: its load factor is an unknown, increments are lengths of the path.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ArcLength {
+    /// Where the step ends; where the load factor is one if nothing is said.
+    pub until: Option<Until>,
+}
+
+/// The displacement at which a step ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Until {
+    /// Unknowns of whose mean it is.
+    pub dofs: Vec<usize>,
+    /// That mean.
+    pub value: f64,
+}
+
 /// One step of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
@@ -82,6 +98,8 @@ pub struct Step {
     pub duration: f64,
     /// Sizes of its increments.
     pub increments: Increments,
+    /// How it follows a path; else loads and prescribed motion go with time.
+    pub arc_length: Option<ArcLength>,
     /// Which unknowns are constrained.
     pub constraints: Constraints,
     /// What they are constrained to.
@@ -107,6 +125,10 @@ impl Step {
     /// the step when that is near, and halves of the rest rather than a sliver at the end.
     pub fn next(&self, wanted: f64, done: f64) -> f64 {
         let (rest, wanted) = (self.duration - done, wanted.min(self.increments.largest * self.duration));
+        if self.arc_length.is_some() {
+            // How long the path is does not show before its end.
+            return wanted;
+        }
         if rest <= wanted * (1.0 + 1e-6) {
             rest
         } else if rest < 2.0 * wanted * (1.0 - 1e-6) {
@@ -196,6 +218,7 @@ mod tests {
             name: "s".into(),
             duration: 1.0,
             increments,
+            arc_length: None,
             constraints,
             prescribed: Vec::new(),
             idle: vec![],

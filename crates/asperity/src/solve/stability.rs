@@ -1,13 +1,22 @@
 //! Loss of stability, from the signs of the pivots: those of L D L^T have as many negative ones as the matrix has negative
 //! eigenvalues (Sylvester's law of inertia), those of L U the sign of the determinant. Where these change from one accepted
-//! increment to the next the path went through a bifurcation or a limit point. The eigenvalue nearest to zero is followed by one inverse iteration an increment, so
-//! that where it changes its sign the time between can be told.
+//! increment to the next the path went through a bifurcation or a limit point. The eigenvalue nearest to zero is followed by one
+//! inverse iteration an increment, so that where it changes its sign the time between can be told.
+//!
+//! An increment that was solved with an older factor has no signs of its own. The vector is then improved by one step of steepest
+//! descent of the Rayleigh quotient, with the old factor as preconditioner: two products with the matrix of the last iteration and
+//! a substitution. A negative quotient proves a negative eigenvalue of the symmetric part (Courant and Fischer); where its sign is
+//! not the one that the last pivots said, this matrix is factorised and counted. Increments are passed over in which the quotient,
+//! carried on in time, keeps more than half of itself.
 
 use super::linear::LinearSolver;
+use super::newton::Memory;
 use super::observer::AttemptRecord;
+use super::path::Sprung;
 use super::problem::Problem;
+use super::snap::Snap;
 use super::step::norm;
-use crate::system::{Signs, State};
+use crate::system::{Constraints, Signs, Softest, State};
 use std::time::{Duration, Instant};
 
 /// Inverse iterations on a mode that is followed, on one that is begun, and at most where the number of negative eigenvalues has
@@ -16,6 +25,10 @@ const FOLLOWED: usize = 1;
 const BEGUN: usize = 3;
 const CHANGED: usize = 12;
 const SETTLED: f64 = 1e-3;
+/// Part of itself that the quotient, carried on in time, keeps where an increment is passed over, and how many are in a row at
+/// most.
+const KEPT: f64 = 0.5;
+const PASSED: usize = 8;
 /// Cosine of the angle between two vectors of the same mode, at least.
 const SAME: f64 = 0.9;
 
@@ -53,102 +66,210 @@ impl std::fmt::Display for Turn {
     }
 }
 
-/// What is followed from one increment to the next.
+/// What a run knows of its stability, besides what its state holds.
 #[derive(Debug, Default)]
 pub struct Stability {
-    /// Eigenvector nearest to the null space, of length one, over the free unknowns; empty at first.
-    mode: Vec<f64>,
-    eigenvalue: f64,
-    /// Time of the state to which both belong.
-    time: f64,
     /// Changes so far, without their modes.
     pub turns: Vec<Turn>,
+    /// Increments that jumped.
+    pub snaps: Vec<Snap>,
+    /// Matrices that were factorised to count their signs.
+    pub counted: usize,
     /// Time that it took.
     pub spent: Duration,
 }
 
+/// An accepted increment whose matrix is looked at.
+pub(super) struct Look<'a> {
+    pub problem: &'a Problem,
+    pub record: &'a AttemptRecord,
+    /// The matrix of the last iteration, with its pattern in the memory.
+    pub values: &'a [f64],
+    pub memory: &'a mut Memory,
+    pub solver: &'a mut dyn LinearSolver,
+    /// What the factor has besides the stiffness.
+    pub sprung: Option<Sprung>,
+}
+
+impl Look<'_> {
+    fn constraints(&self) -> &Constraints {
+        &self.problem.steps[self.record.step].constraints
+    }
+}
+
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+fn scale(x: &mut [f64], factor: f64) {
+    x.iter_mut().for_each(|x| *x *= factor);
+}
+
 impl Stability {
-    /// Looks at the factor of an attempt that is about to be accepted, where it has one of its own, and says whether the
-    /// number of negative eigenvalues has changed since the last such.
-    pub(super) fn look(
-        &mut self,
-        (problem, state): (&Problem, &mut State),
-        record: &AttemptRecord,
-        solver: &dyn LinearSolver,
-    ) -> Option<Turn> {
-        let fresh = !record.relaxed && record.iterations.iter().any(|line| line.factorised);
-        let frontal::Signs { symmetric, negative } = solver.signs().filter(|_| fresh)?;
+    /// Looks at the matrix of an attempt that is about to be accepted and says whether the number of negative eigenvalues has
+    /// changed since it was known last.
+    pub(super) fn look(&mut self, state: &mut State, mut look: Look) -> Option<Turn> {
         let begun = Instant::now();
-        let constraints = &problem.steps[record.step].constraints;
-        let now = Signs { time: record.time, step: record.step, symmetric, negative };
-        let last = state.signs.replace(now);
-        let same = last.filter(|last| problem.steps[last.step].constraints.free() == constraints.free());
-        let known = same.is_some_and(|last| last.time == self.time) && self.mode.len() == constraints.free_count();
-        // Of what is not symmetric at both no more is known than whether the number is odd.
-        let counted = same.is_some_and(|last| last.symmetric && symmetric);
-        let changed =
-            same.filter(|last| if counted { last.negative != negative } else { last.negative % 2 != negative % 2 });
-        let before = (self.eigenvalue, self.mode.clone());
-        if !known {
-            // Something of every mode.
-            self.mode =
-                (0..constraints.free_count()).map(|k| ((k + 1) as f64 * 1.618_033_988_749_895).fract() - 0.5).collect();
-        }
-        let turned = self.iterate(
-            solver,
-            if changed.is_some() {
-                CHANGED
-            } else if known {
-                FOLLOWED
-            } else {
-                BEGUN
-            },
-        );
-        self.time = record.time;
-        let turn = changed.filter(|_| turned).map(|last| {
-            let cosine: f64 = before.1.iter().zip(&self.mode).map(|(a, b)| a * b).sum();
-            let passes = known && cosine.abs() >= SAME && before.0 * self.eigenvalue < 0.0;
-            let part = before.0 / (before.0 - self.eigenvalue);
-            let mut mode = vec![0.0; state.u.len()];
-            constraints.expand(&self.mode, &mut mode);
-            let most = (0..mode.len()).max_by(|&a, &b| mode[a].abs().total_cmp(&mode[b].abs())).unwrap_or(0);
-            let scale = mode[most];
-            mode.iter_mut().for_each(|x| *x /= scale);
-            Turn {
-                times: [last.time, record.time],
-                negative: [last.negative, negative],
-                counted,
-                critical: passes.then_some(last.time + part * (record.time - last.time)),
-                largest: problem.name_of(most),
-                mode,
-            }
-        });
+        let fresh = look.record.iterations.iter().any(|line| line.factorised);
+        let turn = match look.record.relaxed {
+            true => None,
+            false if fresh => self.count(state, &look),
+            false => self.suspects(state, &look).then(|| self.factorise(state, &mut look)).flatten(),
+        };
         self.turns.extend(turn.clone().map(|turn| Turn { mode: Vec::new(), ..turn }));
         self.spent += begun.elapsed();
         turn
     }
 
-    /// Inverse iterations; false where they lead nowhere.
-    fn iterate(&mut self, solver: &dyn LinearSolver, most: usize) -> bool {
-        for _ in 0..most {
-            let length = norm(&self.mode);
-            self.mode.iter_mut().for_each(|x| *x /= length);
-            let mut image = self.mode.clone();
-            if !solver.substitute(&mut image) {
-                return false;
-            }
-            let inverse: f64 = self.mode.iter().zip(&image).map(|(x, y)| x * y).sum();
-            let (before, length) = (std::mem::replace(&mut self.eigenvalue, 1.0 / inverse), norm(&image));
-            if !(length > 0.0 && length.is_finite() && inverse != 0.0) {
-                self.mode.clear();
-                return false;
-            }
-            self.mode = image;
-            self.mode.iter_mut().for_each(|x| *x /= length);
-            if (before - self.eigenvalue).abs() <= SETTLED * self.eigenvalue.abs() {
-                break;
-            }
+    /// Improves the softest mode by the old factor; whether its quotient has not the sign that the last pivots said.
+    fn suspects(&self, state: &mut State, look: &Look) -> bool {
+        let (pattern, record) = (look.memory.workspace.pattern(), look.record);
+        let (Some(softest), Some(signs)) = (&mut state.softest, state.signs) else { return false };
+        let same = look.problem.steps[softest.step].constraints.free() == look.constraints().free();
+        if softest.step == record.step && passes_over(softest, record.time) {
+            softest.passed += 1;
+            return false;
         }
-        true
+        if !same || softest.mode.len() != look.constraints().free_count() || look.values.len() != pattern.columns.len()
+        {
+            return false;
+        }
+        let x = &softest.mode;
+        let image = pattern.times(look.values, x);
+        let quotient = dot(x, &image);
+        let mut way: Vec<f64> = image.iter().zip(x).map(|(image, x)| image - quotient * x).collect();
+        if !look.solver.substitute(&mut way) {
+            return false;
+        }
+        let along = dot(x, &way);
+        way.iter_mut().zip(x).for_each(|(way, x)| *way -= along * x);
+        let length = norm(&way);
+        if !(length > 0.0 && length.is_finite()) {
+            return false;
+        }
+        scale(&mut way, 1.0 / length);
+        // The lesser eigenvector of the matrix on the plane of both.
+        let moved = pattern.times(look.values, &way);
+        let (mixed, other) = (0.5 * (dot(x, &moved) + dot(&way, &image)), dot(&way, &moved));
+        let (mean, half) = (0.5 * (quotient + other), 0.5 * (other - quotient));
+        let least = mean - half.hypot(mixed);
+        let (c, s) = if mixed == 0.0 && half >= 0.0 { (1.0, 0.0) } else { (half + half.hypot(mixed), -mixed) };
+        let size = c.hypot(s);
+        let (c, s) = if size > 0.0 { (c / size, s / size) } else { (0.0, 1.0) };
+        softest.mode.iter_mut().zip(&way).for_each(|(x, way)| *x = c * *x + s * way);
+        let suspected = (least < 0.0) != (signs.negative > 0) && least.abs() > 2.0 * softest.refuted.abs();
+        if suspected {
+            // What it was before tells when it passed zero.
+            softest.refuted = least;
+        } else {
+            let slope = softest.slope_to((record.step, record.time), least);
+            let (step, time) = (record.step, record.time);
+            *softest = Softest { eigenvalue: least, time, step, slope, passed: 0, ..std::mem::take(softest) };
+        }
+        suspected
     }
+
+    /// Counts the signs of a matrix that has no factor of its own. The factor is not to show in what follows.
+    fn factorise(&mut self, state: &mut State, look: &mut Look) -> Option<Turn> {
+        self.counted += 1;
+        let step = &look.problem.steps[look.record.step];
+        look.sprung = None;
+        let factorised = look.memory.factorise((look.problem, &step.constraints), look.values, look.solver);
+        let turn = factorised.ok().and_then(|()| self.count(state, look));
+        look.solver.refuse();
+        turn
+    }
+
+    /// Takes the signs of the factor there is.
+    fn count(&mut self, state: &mut State, look: &Look) -> Option<Turn> {
+        let (problem, record, solver) = (look.problem, look.record, &*look.solver);
+        let frontal::Signs { symmetric, mut negative } = solver.signs()?;
+        let more = look.sprung.as_ref().map_or(0, Sprung::more);
+        negative = if symmetric { negative + more } else { (negative + more) % 2 };
+        let constraints = look.constraints();
+        let now = Signs { time: record.time, step: record.step, symmetric, negative };
+        let last = state.signs.replace(now);
+        // An undeformed model is taken for stable; numbers can be compared whatever is free, determinants cannot.
+        let begun = Signs { time: record.time - record.dt, step: record.step, symmetric: true, negative: 0 };
+        let last = if record.increment == 1 { Some(begun) } else { last };
+        let alike = |step: usize| problem.steps[step].constraints.free() == constraints.free();
+        let same = last.filter(|last| symmetric && last.symmetric || alike(last.step) && record.increment > 1);
+        let before = state.softest.take().filter(|softest| {
+            same.is_some_and(|last| last.time <= softest.time) && alike(softest.step) && record.increment > 1
+        });
+        // Of what is not symmetric at both no more is known than whether the number is odd.
+        let counted = same.is_some_and(|last| last.symmetric && symmetric);
+        let changed =
+            same.filter(|last| if counted { last.negative != negative } else { last.negative % 2 != negative % 2 });
+        // Something of every mode.
+        let any = |k: usize| ((k + 1) as f64 * 1.618_033_988_749_895).fract() - 0.5;
+        let begin = || (0..constraints.free_count()).map(any).collect();
+        let iterations = match (changed, &before) {
+            (Some(_), _) => CHANGED,
+            (None, Some(_)) => FOLLOWED,
+            (None, None) => BEGUN,
+        };
+        let mode = before.as_ref().map_or_else(begin, |before| before.mode.clone());
+        let (mode, eigenvalue) = nearest((solver, look.sprung.as_ref()), mode, iterations)?;
+        let turn = changed.map(|last| {
+            let passed = before.as_ref().and_then(|before| {
+                let same = dot(&before.mode, &mode).abs() >= SAME && before.eigenvalue * eigenvalue < 0.0;
+                let part = before.eigenvalue / (before.eigenvalue - eigenvalue);
+                same.then_some((before.time, before.time + part * (record.time - before.time)))
+            });
+            let mut all = vec![0.0; state.u.len()];
+            constraints.expand(&mode, &mut all);
+            let most = (0..all.len()).max_by(|&a, &b| all[a].abs().total_cmp(&all[b].abs())).unwrap_or(0);
+            let largest = all[most];
+            all.iter_mut().for_each(|x| *x /= largest);
+            Turn {
+                times: [passed.map_or(last.time, |(from, _)| from), record.time],
+                negative: [last.negative, negative],
+                counted,
+                critical: passed.map(|(_, critical)| critical),
+                largest: problem.name_of(most),
+                mode: all,
+            }
+        });
+        let refuted = before.as_ref().filter(|_| changed.is_none()).map_or(0.0, |before| before.refuted);
+        let slope = before.and_then(|before| before.slope_to((record.step, record.time), eigenvalue));
+        let (step, time) = (record.step, record.time);
+        state.softest = Some(Softest { mode, eigenvalue, time, step, slope, passed: 0, refuted });
+        turn
+    }
+}
+
+/// Whether the quotient, carried on to a time, stays where it need not be looked at.
+fn passes_over(softest: &Softest, time: f64) -> bool {
+    let carried = softest.slope.map(|slope| softest.eigenvalue + slope * (time - softest.time));
+    softest.passed < PASSED && carried.is_some_and(|carried| carried / softest.eigenvalue > KEPT)
+}
+
+/// The eigenvector nearest to the null space by inverse iterations, and its eigenvalue; none where they lead nowhere.
+fn nearest(
+    (solver, sprung): (&dyn LinearSolver, Option<&Sprung>),
+    mut mode: Vec<f64>,
+    most: usize,
+) -> Option<(Vec<f64>, f64)> {
+    let mut eigenvalue = f64::INFINITY;
+    for _ in 0..most {
+        let length = norm(&mode);
+        scale(&mut mode, 1.0 / length);
+        let mut image = mode.clone();
+        if !solver.substitute(&mut image) {
+            return None;
+        }
+        sprung.iter().for_each(|sprung| sprung.without(&mut image));
+        let inverse = dot(&mode, &image);
+        let (before, length) = (std::mem::replace(&mut eigenvalue, 1.0 / inverse), norm(&image));
+        if !(length > 0.0 && length.is_finite() && inverse != 0.0) {
+            return None;
+        }
+        mode = image;
+        scale(&mut mode, 1.0 / length);
+        if (before - eigenvalue).abs() <= SETTLED * eigenvalue.abs() {
+            break;
+        }
+    }
+    Some((mode, eigenvalue))
 }

@@ -6,7 +6,6 @@ use super::linear::LinearError;
 use super::newton::{Newton, Trouble, Variant};
 use crate::Failure;
 use crate::system::{Dofs, Tangent};
-use std::time::Instant;
 
 /// Slope, as a part of the initial one, at which the search for a shorter step ends.
 const GOOD: f64 = 0.8;
@@ -32,6 +31,8 @@ pub(super) struct Motion {
     pub part: f64,
     /// Whether a matrix was factorised for it.
     pub factorised: bool,
+    /// Change of the load factor of a path.
+    pub load: f64,
 }
 
 impl Newton<'_> {
@@ -55,7 +56,7 @@ impl Newton<'_> {
         let size = norm(&rhs);
         let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
         constraints.expand(&rhs, &mut du);
-        let mut motion = Motion { du, part: 1.0, factorised };
+        let mut motion = Motion { du, part: 1.0, factorised, load: 0.0 };
         if self.problem.newton.piecewise && !self.bend(size, &mut motion, forcing)? {
             self.solver.refuse();
             return self.linearise((iteration, u), missing, forcing);
@@ -67,7 +68,7 @@ impl Newton<'_> {
 
     /// Shortens a step that leads far beyond what the increment moves: something is then free that a shorter step may
     /// find held.
-    fn limit(&self, u: &[f64], missing: Option<&[f64]>, motion: &mut Motion) {
+    pub(super) fn limit(&self, u: &[f64], missing: Option<&[f64]>, motion: &mut Motion) {
         let (mut longest, mut usual) = ([0.0_f64; 2], [self.problem.cell_size, TURN]);
         for (dof, du) in motion.du.iter().enumerate() {
             let kind = usize::from(self.problem.dofs.is_rotation(dof));
@@ -98,22 +99,8 @@ impl Newton<'_> {
 
     /// Factorises the matrix at hand, and analyses its pattern before if that is new.
     pub(super) fn factorise_matrix(&mut self) -> Result<(), LinearError> {
-        let analysis = self.memory.workspace.analysis();
-        if self.memory.analysed != analysis {
-            let nodes = owners(&self.problem.dofs, self.step.constraints.free());
-            self.solver.analyse(self.memory.workspace.pattern(), nodes)?;
-            self.memory.analysed = analysis;
-            self.memory.analyses += 1;
-        }
-        self.memory.factorised = None;
-        self.memory.factorisations += 1;
-        let begun = Instant::now();
-        let factorised = self.solver.factorise(&self.evaluation.values);
-        self.memory.factorising += begun.elapsed();
-        factorised?;
-        self.memory.symmetric += usize::from(self.solver.signs().is_some_and(|signs| signs.symmetric));
-        self.hold_matrix();
-        Ok(())
+        let of = (self.problem, &self.step.constraints);
+        self.memory.factorise(of, &self.evaluation.values, self.solver)
     }
 
     /// Factorises if this iteration asks for it, and says whether it did.
@@ -164,7 +151,7 @@ impl Newton<'_> {
     }
 
     /// Solves with the present matrix or that of the variant, and says whether a matrix was factorised.
-    fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, Trouble> {
+    pub(super) fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, Trouble> {
         self.follow();
         if self.problem.newton.variant == Variant::Full && self.solver.iterates() {
             self.put_right()?;

@@ -203,6 +203,21 @@ impl Workspace {
         }
     }
 
+    /// Adds up the forces of the loads alone at `u`, where the terms were evaluated last.
+    ///
+    /// # Errors
+    /// The first [`Failure`] in the order of terms and stencils.
+    pub fn evaluate_loads(&mut self, assembly: &Assembly, u: &[f64], out: &mut Evaluation) -> Result<(), Failure> {
+        out.clear(assembly.dofs.count(), 0, Tangent::None);
+        out.apart.clear();
+        let trial = Trial { u, missing: None, tangent: Tangent::None, acting: &[] };
+        for t in (0..assembly.terms.len()).filter(|&t| assembly.terms[t].role() == Role::Load) {
+            // Nothing can miss a matrix that is not found.
+            let _ = self.evaluate_term(assembly, t, &trial, out)?;
+        }
+        Ok(())
+    }
+
     fn evaluate_term(
         &mut self,
         assembly: &Assembly,

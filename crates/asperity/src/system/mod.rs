@@ -34,6 +34,6 @@ pub use kernel::kernel;
 pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};
 pub use pattern::{Couplings, Csr, Reduced};
 pub use preconditioner::{Factorised, Near, Preconditioner};
-pub use state::{Caution, Energies, History, Interpenetration, Signs, State};
+pub use state::{Caution, Energies, History, Interpenetration, Signs, Softest, State};
 pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};
 pub use whole::Whole;

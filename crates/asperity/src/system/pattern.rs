@@ -49,6 +49,12 @@ impl Csr {
         let diagonal = (0..starts.len() - 1).map(|row| starts[row] + before(row)).collect();
         Self { starts, columns, diagonal }
     }
+    /// A matrix of this pattern and these values times a vector.
+    pub fn times(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
+        let row =
+            |row: usize| (self.starts[row]..self.starts[row + 1]).map(|at| values[at] * x[self.columns[at]]).sum();
+        (0..x.len()).map(row).collect()
+    }
     /// The pattern of `groups` after elimination of the constrained unknowns.
     pub fn build(constraints: &Constraints, groups: &Couplings) -> Self {
         Self::of(constraints.free_count(), &Reduced::new(constraints, groups))

@@ -105,6 +105,33 @@ pub struct Signs {
     pub negative: usize,
 }
 
+/// The softest mode of the tangent as it is followed from one increment to the next: the eigenvector of its symmetric part that
+/// belongs to the smallest eigenvalue, so far as the iterations have brought it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Softest {
+    /// The vector over the free unknowns, of length one.
+    pub mode: Vec<f64>,
+    /// Its Rayleigh quotient.
+    pub eigenvalue: f64,
+    /// Time of the state to which both belong.
+    pub time: f64,
+    /// That step, from zero.
+    pub step: usize,
+    /// Change of the quotient over time since it was found before, if it was in the same step.
+    pub slope: Option<f64>,
+    /// Increments since.
+    pub passed: usize,
+    /// The quotient of another sign than the pivots say, that a factor has refuted last; zero if there is none.
+    pub refuted: f64,
+}
+
+impl Softest {
+    /// Change of the quotient over time to another at a later time of the same step.
+    pub fn slope_to(&self, (step, time): (usize, f64), eigenvalue: f64) -> Option<f64> {
+        (step == self.step && time > self.time).then(|| (eigenvalue - self.eigenvalue) / (time - self.time))
+    }
+}
+
 /// The accepted state. Serialised, it is the checkpoint; anything kept elsewhere can be rebuilt from it and the model.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -141,6 +168,14 @@ pub struct State {
     pub internal: Vec<f64>,
     /// Forces of all loads on all unknowns.
     pub load: Vec<f64>,
+    /// Load factor in a step that follows a path, else the part of the step's time that is over,
+    pub factor: f64,
+    /// its change over the last increment of a path,
+    pub last_factor: f64,
+    /// and the length of the path over time, zero before the first increment of the step.
+    pub arc: f64,
+    /// Load factors at which such steps ended other than one, by the numbers of the steps.
+    pub load_factors: Vec<(usize, f64)>,
     /// Whether what the step lets go has been noted.
     pub entered: bool,
     /// After the last increment of a step, of each contact its number among the terms and its forces, by unknown: the next
@@ -167,6 +202,8 @@ pub struct State {
     pub histories: Vec<History>,
     /// Signs of the pivots when they were last known.
     pub signs: Option<Signs>,
+    /// The softest mode, where it is followed.
+    pub softest: Option<Softest>,
     /// What the linear solver begins the next increment with, where that is not a matrix of its own.
     pub preconditioner: Option<Preconditioner>,
     /// Attempts and iterations spent so far.

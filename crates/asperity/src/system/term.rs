@@ -23,6 +23,8 @@ pub struct Instant {
     pub time: f64,
     /// Length of the increment.
     pub dt: f64,
+    /// In a step that follows a path, the load factor: the part of what it changes of loads and prescribed motion.
+    pub factor: Option<f64>,
 }
 
 /// Which smooth piece of its function a stencil was evaluated on (open, stick, slip); Newton's order is measured only

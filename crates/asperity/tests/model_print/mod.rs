@@ -72,7 +72,7 @@ fn forces(model: &Model, number: usize, term: &dyn Term, print: &mut Print) {
     for (step, keys) in model.problem.steps.iter().enumerate() {
         for part in [0.3, 1.0] {
             let step_time = part * keys.duration;
-            let at = Instant { step, step_time, time: time + step_time, dt: step_time };
+            let at = Instant { step, step_time, time: time + step_time, dt: step_time, factor: None };
             for size in [1e-3, 0.03, 0.1] {
                 let u = motion(model, size);
                 let history = evaluate((term, number), (&state, at), &u, print);

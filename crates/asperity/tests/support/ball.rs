@@ -161,6 +161,7 @@ fn step(name: &str, dofs: &Dofs, held: &[usize]) -> Step {
         name: name.into(),
         duration: 1.0,
         increments: Increments { first: 0.25, largest: 0.25, ..Increments::default() },
+        arc_length: None,
         constraints: Constraints::new(dofs.count(), held, &[]),
         prescribed: held.iter().map(hold).collect(),
         idle: vec![],

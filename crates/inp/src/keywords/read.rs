@@ -320,7 +320,7 @@ pub static READ: &[Keyword] = &[
         &[
             used("DIRECT"),
             left("SOLVER"),
-            refused("RIKS", "lead the loaded nodes by *BOUNDARY in place of a load"),
+            refused("RIKS", "translate without it and say `control = \"arc-length\"` in the step of the deck"),
             noted(
                 "STABILIZE",
                 "nothing is damped: what a step cannot reach by equilibrium alone is followed by relaxation",

@@ -3,6 +3,7 @@
 use crate::bench::Bench;
 use crate::{Case, Measured};
 use asperity::Error;
+use asperity::solve::AttemptRecord;
 use std::f64::consts::PI;
 
 /// The case.
@@ -25,6 +26,22 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
             measured.push((format!("{name}{law}"), load * found.critical / euler));
             measured.push((format!("{name}{law}_turns"), found.turns as f64));
         }
+    }
+    // Clamped and guided it is half a wave, and the motion is that of the straight column.
+    let strain = |wave: f64| (PI / (wave * LENGTH)).powi(2) * WIDTH * WIDTH / 12.0;
+    let led = find(bench, "led.toml", &[])?;
+    measured.push(("led".into(), 0.08 * led.critical / (strain(1.0) * LENGTH)));
+    for (name, top, part) in [("space", 2.0 / YOUNG, 2.0), ("space-led", 0.08 / LENGTH, 1.0)] {
+        let n = bench.pick(2, 3);
+        let cells = format!("mesh.part.column.box.cells=[{n}, {}, {n}]", 10 * n);
+        let run = bench.solve(&format!("{name}.toml"), &[cells])?;
+        let turn = run.attempts.iter().find_map(|attempt| attempt.turn.as_ref());
+        let critical = turn.and_then(|turn| turn.critical).unwrap_or(f64::NAN);
+        let name = name.replace('-', "_");
+        measured.push((name.clone(), top * critical / strain(part)));
+        // Increments that had a factor of their own.
+        let fresh = |attempt: &&AttemptRecord| attempt.iterations.iter().any(|line| line.factorised);
+        measured.push((format!("{name}_fresh"), run.attempts.iter().filter(fresh).count() as f64));
     }
     Ok(measured)
 }

@@ -1,5 +1,6 @@
 //! The cases, in the order of the report.
 
+mod arch;
 mod billet;
 mod capstan;
 mod claw;
@@ -63,6 +64,7 @@ pub const ALL: &[&Case] = &[
     &dragged_ball::CASE,
     &energy_balance::CASE,
     &euler_columns::CASE,
+    &arch::CASE,
     &flat_punch::CASE,
     &capstan::CASE,
     &o_ring::CASE,

@@ -10,6 +10,7 @@ mod field_contacts;
 mod friction;
 mod loads;
 mod overlaps;
+mod path;
 mod results;
 mod rigid;
 mod solid_tools;
@@ -195,7 +196,9 @@ impl Builder<'_> {
         let field_names = field_contacts.iter().flatten().map(|contact| contact.name().to_owned());
         let names: Vec<String> = paper_names.chain(field_names).collect();
         let absent = self.absent(&names, bodies.as_ref().map_or(0, Vec::len));
-        let steps = self.deck.step.iter().enumerate().zip(constrained);
+        let deck = self.deck;
+        let arc_lengths: Vec<_> = deck.step.iter().map(|step| self.path(step)).collect();
+        let steps = deck.step.iter().enumerate().zip(constrained);
         let leaving = |i: usize| {
             let next = absent.get(i + 1).into_iter().flatten().copied();
             next.filter(|term| !absent[i].contains(term)).collect()
@@ -221,6 +224,7 @@ impl Builder<'_> {
                     name: step.name.as_ref().map_or_else(|| format!("step {}", i + 1), |name| name.value.clone()),
                     duration: step.duration,
                     increments: increments(&step.increments),
+                    arc_length: arc_lengths[i].clone(),
                     constraints,
                     prescribed,
                     idle: absent[i].clone(),

@@ -21,6 +21,7 @@ pub(super) fn facts(made: &Made) -> Vec<StepFacts> {
     let fact = |(step, keys): (&crate::solve::Step, &Step)| {
         let mut facts = StepFacts {
             name: step.name.clone(),
+            follows: step.arc_length.is_some(),
             first: step.increments.first,
             largest: step.increments.largest,
             smallest: step.increments.smallest,

@@ -7,8 +7,9 @@ use super::condition::{
     BodyForce, Displacement, Force, Friction, Gravity, Motion, Pressure, Spring, Temperature, ToolCondition, ToolLoad,
     Traction,
 };
+use super::path::{Control, Until, follows};
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::form::{Form, list, map, number, refers, table, table_of, text, whole};
+use crate::deck::form::{Form, list, map, number, refers, table, table_of, text, whole, word};
 use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::{Names, Schema};
 use crate::deck::source::Spot;
@@ -26,6 +27,10 @@ table! {
         duration: f64 = number(unit::TIME, Range::POSITIVE).or("1.0"),
         /// How its time is cut into increments.
         increments: Increments = table_of().or("{}"),
+        /// What the increments are parts of: `"arc-length"` follows loads past limit points, as in snap-through.
+        control: Spot<Control> = word().spot().or("\"time\""),
+        /// Where a step of `control = "arc-length"` ends, whatever the load is there.
+        until: Option<Until> = table_of().unless_given("where the whole load is reached"),
         /// Prescribed displacements of groups, from their undeformed place.
         displacement: Vec<(Name, Displacement)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Flat groups of sides that may not move along their normal.
@@ -194,6 +199,7 @@ fn unknown_release(released: &Name, standing: &BTreeSet<String>, what: String) -
 
 /// A tool cannot be moved and loaded along the same direction.
 fn conflicts(step: &Step, reader: &mut Reader) {
+    follows(step, reader);
     let led = step.motion.iter().map(|(name, _)| name).chain(step.load.iter().map(|(name, _)| name));
     for name in led.filter(|name| step.holds(&name.text)) {
         let what = format!("`{}` both holds `{name}` and moves or loads it", reader.path());

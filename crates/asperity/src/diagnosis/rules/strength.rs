@@ -49,8 +49,14 @@ pub(super) fn limit_load(facts: &Facts, course: &Course) -> Option<Finding> {
         told =
             told.shown(format!("before the end everything moved {:.1} times as fast as at first", course.acceleration));
     }
+    told = told.try_to(&["is the load right, in size, sign and unit? A force acts on each node of its group"]);
+    if !step.follows {
+        told = told.try_to(&[
+            "where it snaps through or back, follow the path past its limit points: `control = \"arc-length\"` in the step, with \
+             `until` where it is to end",
+        ]);
+    }
     Some(told.try_to(&[
-        "is the load right, in size, sign and unit? A force acts on each node of its group",
         "prescribe the displacement of what is loaded in place of the force: its reaction then shows the limit",
         "more hardening, more support, or a smaller load",
     ]))

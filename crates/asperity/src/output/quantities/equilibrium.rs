@@ -29,6 +29,9 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         let outer = largest(&forces).max(ROUNDING * scale);
         frame.certify(Reading::new("reaction_balance", "", largest(&state.internal)).over(outer));
     }
+    if source.parts.follows {
+        frame.push(Quantity::scalar("load_factor", Unit::One, state.factor))?;
+    }
     frame.push(Quantity::scalar("equilibrium.leap", Unit::One, state.leap))?;
     frame.push(Quantity::scalar("equilibrium.error", Unit::One, part(left)))
 }

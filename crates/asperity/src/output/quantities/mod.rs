@@ -60,6 +60,8 @@ pub struct Parts<'a> {
     pub supports: Vec<(String, Vec<usize>)>,
     /// For each step what it does with each unknown.
     pub constraints: Vec<&'a Constraints>,
+    /// Whether any step follows a path, so that the load factor is worth a column.
+    pub follows: bool,
 }
 
 /// An accepted state of a model.
@@ -169,6 +171,7 @@ impl<'a> Parts<'a> {
             rigid: model.rigid.iter().map(|group| group.name.as_str()).collect(),
             supports: model.supports.clone(),
             constraints: model.problem.steps.iter().map(|step| &step.constraints).collect(),
+            follows: model.problem.steps.iter().any(|step| step.arc_length.is_some()),
         }
     }
 }

@@ -156,7 +156,8 @@ impl Type {
 }
 
 const NO_PRESSURE: &str = "the pressure is no unknown of its own: reduced integration stands for it";
-const MEAN: &str = "the pressure is no unknown of its own: one change of volume for a cell, or a patch of simplices, stands for it";
+const MEAN: &str =
+    "the pressure is no unknown of its own: one change of volume for a cell, or a patch of simplices, stands for it";
 
 fn modified(variant: &str) -> Option<&'static str> {
     variant.contains('M').then_some("modified second degree becomes plain second degree")

@@ -1,17 +1,19 @@
 //! A body during one attempt: its cells' gradients at the accepted state, and the forces of each cell.
 
-use super::body::Body;
+use super::body::{Bar, Body};
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
 use super::operator::{Nodal, Tangent, add_forces, add_shared, deformation};
-use super::plane_stress;
 use super::point::{PointLaw, PointStress};
-use super::volume::Shared;
+use super::volume::{Functions, Shared, TERMS};
+use super::{Strain, plane_stress};
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
 use crate::{Failure, Kind};
 use rayon::prelude::*;
 
+/// The functions of a change of volume that is constant.
+const CONSTANT: Functions = [1.0, 0.0, 0.0, 0.0];
 /// Cells whose gradients one thread finds together.
 const PART: usize = 1024;
 
@@ -135,10 +137,18 @@ impl OpenBody<'_> {
         let along = self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), Some(&mut tangent)))?;
         let length = local.u.len();
         tangent.write(length, &mut local.tangent);
-        if let Some(shared) = &shared {
-            add_shared(&along, &shared.gradient[..length], &mut local.tangent);
+        for (along, gradient) in along.iter().zip(shared.iter().flat_map(|shared| &shared.gradients[..shared.terms])) {
+            add_shared(along, &gradient[..length], &mut local.tangent);
         }
         Ok(())
+    }
+
+    /// The functions of a shared change of volume that is linear, at the points of a cell.
+    fn functions(&self, index: usize) -> Option<&[Functions]> {
+        match &self.body.shapes(self.body.mesh.cell(self.body.cells[index]).kind).bar {
+            Bar::Linear(functions) => Some(functions),
+            Bar::Own | Bar::Center(_) | Bar::Patch => None,
+        }
     }
 
     /// The gradients at the points of a cell, and behind them that at its centre where it has one.
@@ -146,20 +156,23 @@ impl OpenBody<'_> {
         self.gradients[index / PART].cell(index % PART)
     }
 
-    /// Adds up the points of a cell and returns the derivative of its forces along the shared change of volume.
+    /// Adds up the points of a cell and returns the derivatives of its forces along the terms of the shared change of volume.
     fn add_points<const DIM: usize, const D: usize, const N: usize>(
         &self,
         index: usize,
         new: &mut [f64],
         local: &mut Local,
         (shared, tangent): (Option<&Shared>, Option<&mut Tangent<DIM, N>>),
-    ) -> Result<Nodal<DIM, N>, Failure> {
+    ) -> Result<[Nodal<DIM, N>; TERMS], Failure> {
         let len = self.body.point_len();
-        let mut sums = self.sums::<DIM, D, N>(index, &local.u, shared, tangent);
+        let mut sums = self.sums::<DIM, D, N>(index, &local.u, tangent);
+        let functions = self.functions(index);
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in self.points(index).zip(lanes).enumerate() {
             let volume = point.volume * self.body.thickness(old);
-            let det = sums.add((point.rows(), volume), (old, new)).map_err(|f| at_point(f, number))?;
+            let functions = functions.map_or(&CONSTANT, |functions| &functions[number]);
+            sums.law.center = shared.map(|shared| shared.at(functions));
+            let det = sums.add((point.rows(), volume, functions), (old, new)).map_err(|f| at_point(f, number))?;
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
@@ -170,7 +183,7 @@ impl OpenBody<'_> {
         for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes(index).len()) {
             *out = std::array::from_fn(|i| sums.force[i][node]);
         }
-        Ok(sums.along_center)
+        Ok(sums.along_terms)
     }
 
     /// The sums of a cell before its points are added.
@@ -178,7 +191,6 @@ impl OpenBody<'_> {
         &'s self,
         index: usize,
         u: &[f64],
-        shared: Option<&Shared>,
         tangent: Option<&'s mut Tangent<DIM, N>>,
     ) -> Sums<'s, DIM, D, N> {
         let strain = self.body.options.strain;
@@ -186,10 +198,9 @@ impl OpenBody<'_> {
         let before = || self.history.slot(index)[self.body.point_len() - 1];
         let (free, cooling) = self.stretch.map_or((1.0, 0.0), |now| strain.of_heat(before(), now));
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
-        let center = shared.map(|shared| shared.ratio);
-        let law = PointLaw { material, space, strain, dt, center, free, cooling };
-        let (force, along_center, s) = ([[0.0; N]; DIM], [[0.0; N]; DIM], PointStress::default());
-        Sums { law, du: self.increment(index, u), force, along_center, tangent, s }
+        let law = PointLaw { material, space, strain, dt, center: None, free, cooling };
+        let (force, along_terms, s) = ([[0.0; N]; DIM], [[[0.0; N]; DIM]; TERMS], PointStress::default());
+        Sums { law, du: self.increment(index, u), force, along_terms, tangent, s }
     }
 
     /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
@@ -212,8 +223,8 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
     /// Displacements of the nodes over the increment.
     du: Nodal<DIM, N>,
     force: Nodal<DIM, N>,
-    /// Derivative of the forces along the shared change of volume.
-    along_center: Nodal<DIM, N>,
+    /// Derivatives of the forces along the terms of the shared change of volume.
+    along_terms: [Nodal<DIM, N>; TERMS],
     /// Where it is wanted.
     tangent: Option<&'a mut Tangent<DIM, N>>,
     /// Stress of the present point.
@@ -222,7 +233,11 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
 
 impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
     /// Adds a point of this volume and returns the determinant of its deformation.
-    fn add(&mut self, (rows, volume): (&Rows<N>, f64), (old, new): (&[f64], &mut [f64])) -> Result<f64, Failure> {
+    fn add(
+        &mut self,
+        (rows, volume, functions): (&Rows<N>, f64, &Functions),
+        (old, new): (&[f64], &mut [f64]),
+    ) -> Result<f64, Failure> {
         let (f, s, law) = (deformation(rows, &self.du), &mut self.s, &self.law);
         match (law.space, self.tangent.is_some()) {
             (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
@@ -233,8 +248,14 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
         add_forces(rows, &s.p, volume, &mut self.force);
         if let Some(tangent) = &mut self.tangent {
             tangent.add(rows, &s.tangent, volume);
-            if law.center.is_some() {
-                add_forces(rows, &s.along_center, volume, &mut self.along_center);
+            if let Some(center) = law.center {
+                // What is known is the derivative along the logarithm of the volume, in small strain along the trace.
+                let weight = if law.strain == Strain::Finite { volume / center } else { volume };
+                for (term, function) in
+                    self.along_terms.iter_mut().zip(functions).filter(|(_, function)| **function != 0.0)
+                {
+                    add_forces(rows, &s.along_center, weight * function, term);
+                }
             }
         }
         Ok(s.det)

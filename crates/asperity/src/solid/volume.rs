@@ -1,6 +1,12 @@
-//! The change of volume that the points of a cell share with F-bar: that of the cell's centre (de Souza Neto et al. 1996),
-//! or the mean of the points of its patch, `sum det(f) dv_n / sum dv_n` over their volumes at the beginning of the
-//! increment. Means of later increments multiply to that from the beginning.
+//! The change of volume that the points of a cell share with F-bar, `sum_a c_a phi_a`, a field of few terms:
+//!
+//! * that of the cell's centre, for quadrilaterals and bricks of first degree (de Souza Neto et al. 1996);
+//! * the mean of the points of its patch, `sum det(f) dv_n / sum dv_n` over their volumes at the beginning of the increment,
+//!   for simplices, and for wedges of first degree;
+//! * the linear field in the reference coordinates that is nearest to that of the points by least squares over the same
+//!   volumes, for the others of second degree: with one constant they are too soft.
+//!
+//! Those of later increments multiply to that from the beginning.
 
 use super::Strain;
 use super::attempt::OpenBody;
@@ -11,13 +17,31 @@ use crate::tensor::Tensor2;
 
 /// Most unknowns of a stencil.
 const MOST: usize = 3 * WIDEST;
+/// Most terms of the field.
+pub(super) const TERMS: usize = 4;
+
+/// The functions of the terms at a point.
+pub(super) type Functions = [f64; TERMS];
 
 /// A shared change of volume.
 pub(super) struct Shared {
-    /// Volume over that at the beginning of the increment; in small strain one and the trace of the strain.
-    pub ratio: f64,
-    /// Derivative of its logarithm along the unknowns of the stencil, in small strain of the trace; zero if not wanted.
-    pub gradient: [f64; MOST],
+    /// How many terms it has.
+    pub terms: usize,
+    /// Their factors: of volume over that at the beginning of the increment; in small strain of one and the trace.
+    factors: Functions,
+    /// Derivative of each along the unknowns of the stencil; zero if not wanted.
+    pub gradients: [[f64; MOST]; TERMS],
+}
+
+impl Shared {
+    fn new(terms: usize) -> Self {
+        Self { terms, factors: [0.0; TERMS], gradients: [[0.0; MOST]; TERMS] }
+    }
+
+    /// Its value at a point.
+    pub fn at(&self, functions: &Functions) -> f64 {
+        self.factors.iter().zip(functions).map(|(factor, function)| factor * function).sum()
+    }
 }
 
 impl OpenBody<'_> {
@@ -29,10 +53,11 @@ impl OpenBody<'_> {
         differentiated: bool,
     ) -> Option<Shared> {
         let body = self.body;
-        match body.shapes(body.mesh.cell(body.cells[index]).kind).bar {
+        match &body.shapes(body.mesh.cell(body.cells[index]).kind).bar {
             Bar::Own => None,
             Bar::Center(_) => self.of_center::<DIM, N>(index, u, differentiated),
             Bar::Patch => Some(self.of_patch::<DIM, N>(index, u, differentiated)),
+            Bar::Linear(functions) => self.of_line::<DIM, N>(index, u, functions, differentiated),
         }
     }
 
@@ -45,10 +70,12 @@ impl OpenBody<'_> {
         let rows = self.points(index).next_back()?.rows();
         let f0 = deformation(rows, &self.increment::<DIM, N>(index, u));
         let strain = self.body.options.strain;
-        let mut shared = Shared { ratio: strain.dilation(&f0), gradient: [0.0; MOST] };
+        let mut shared = Shared::new(1);
+        shared.factors[0] = strain.dilation(&f0);
         if differentiated {
             let along: Nodal<DIM, N> = volume_gradient(rows, &along_which(strain, &f0));
-            add(&along, 1.0, 0..self.nodes(index).len(), &mut shared.gradient);
+            let weight = if strain == Strain::Finite { shared.factors[0] } else { 1.0 };
+            add(&along, weight, 0..self.nodes(index).len(), &mut shared.gradients[0]);
         }
         Some(shared)
     }
@@ -56,7 +83,7 @@ impl OpenBody<'_> {
     fn of_patch<const DIM: usize, const N: usize>(&self, index: usize, u: &[f64], differentiated: bool) -> Shared {
         let (body, strain) = (self.body, self.body.options.strain);
         let (own, others) = (self.nodes(index), body.patches.others(index));
-        let (mut now, mut before, mut gradient) = (0.0, 0.0, [0.0; MOST]);
+        let (mut shared, mut now, mut before) = (Shared::new(1), 0.0, 0.0);
         for &member in body.patches.members(index) {
             // Where the nodes of the member stand in the stencil.
             let (mut du, mut places) = ([[0.0; N]; DIM], [0; N]);
@@ -75,14 +102,69 @@ impl OpenBody<'_> {
                 if differentiated {
                     let along: Nodal<DIM, N> = volume_gradient(rows, &along_which(strain, &f));
                     let weight = if strain == Strain::Finite { volume * ratio } else { volume };
-                    add(&along, weight, places[..nodes].iter().copied(), &mut gradient);
+                    add(&along, weight, places[..nodes].iter().copied(), &mut shared.gradients[0]);
                 }
             }
         }
-        let whole = if strain == Strain::Finite { now } else { before };
-        gradient.iter_mut().for_each(|along| *along /= whole);
-        Shared { ratio: now / before, gradient }
+        shared.gradients[0].iter_mut().for_each(|along| *along /= before);
+        shared.factors[0] = now / before;
+        shared
     }
+
+    fn of_line<const DIM: usize, const N: usize>(
+        &self,
+        index: usize,
+        u: &[f64],
+        functions: &[Functions],
+        differentiated: bool,
+    ) -> Option<Shared> {
+        let (strain, du) = (self.body.options.strain, self.increment::<DIM, N>(index, u));
+        let mut shared = Shared::new(DIM + 1);
+        let mut normal = [[0.0; TERMS]; TERMS];
+        for (point, functions) in self.points(index).zip(functions) {
+            for (row, f) in normal.iter_mut().zip(functions) {
+                row.iter_mut().zip(functions).for_each(|(entry, g)| *entry += point.volume * f * g);
+            }
+        }
+        let inverse = inverse(normal, DIM + 1)?;
+        for (point, functions) in self.points(index).zip(functions) {
+            let (rows, volume) = (point.rows(), point.volume);
+            let f = deformation(rows, &du);
+            let ratio = strain.dilation(&f);
+            let along: Option<Nodal<DIM, N>> = differentiated.then(|| volume_gradient(rows, &along_which(strain, &f)));
+            for (term, row) in inverse.iter().enumerate().take(DIM + 1) {
+                let weight = volume * row.iter().zip(functions).map(|(entry, f)| entry * f).sum::<f64>();
+                shared.factors[term] += weight * ratio;
+                if let Some(along) = &along {
+                    let weight = if strain == Strain::Finite { weight * ratio } else { weight };
+                    add(along, weight, 0..self.nodes(index).len(), &mut shared.gradients[term]);
+                }
+            }
+        }
+        Some(shared)
+    }
+}
+
+/// The inverse of the first rows and columns of a symmetric positive matrix, by Gauss and Jordan.
+fn inverse(mut a: [Functions; TERMS], size: usize) -> Option<[Functions; TERMS]> {
+    let mut inverse = [[0.0; TERMS]; TERMS];
+    (0..size).for_each(|i| inverse[i][i] = 1.0);
+    for pivot in 0..size {
+        let scale = a[pivot][pivot];
+        // A NaN is refused with the rest.
+        if !(scale > 0.0) {
+            return None;
+        }
+        a[pivot].iter_mut().chain(&mut inverse[pivot]).for_each(|entry| *entry /= scale);
+        for row in (0..size).filter(|&row| row != pivot) {
+            let factor = a[row][pivot];
+            for column in 0..size {
+                a[row][column] -= factor * a[pivot][column];
+                inverse[row][column] -= factor * inverse[pivot][column];
+            }
+        }
+    }
+    Some(inverse)
 }
 
 /// The deformation at which the derivative of the change of volume is taken.

@@ -1,6 +1,6 @@
 //! A body during one attempt: its cells' gradients at the accepted state, and the forces of each cell.
 
-use super::body::{Bar, Body};
+use super::body::Body;
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
 use super::operator::{Nodal, Tangent, add_forces, add_shared, deformation};
 use super::point::{PointLaw, PointStress};
@@ -12,8 +12,6 @@ use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, T
 use crate::{Failure, Kind};
 use rayon::prelude::*;
 
-/// The functions of a change of volume that is constant.
-const CONSTANT: Functions = [1.0, 0.0, 0.0, 0.0];
 /// Cells whose gradients one thread finds together.
 const PART: usize = 1024;
 
@@ -143,14 +141,6 @@ impl OpenBody<'_> {
         Ok(())
     }
 
-    /// The functions of a shared change of volume that is linear, at the points of a cell.
-    fn functions(&self, index: usize) -> Option<&[Functions]> {
-        match &self.body.shapes(self.body.mesh.cell(self.body.cells[index]).kind).bar {
-            Bar::Linear(functions) => Some(functions),
-            Bar::Own | Bar::Center(_) | Bar::Patch => None,
-        }
-    }
-
     /// The gradients at the points of a cell, and behind them that at its centre where it has one.
     pub(super) fn points(&self, index: usize) -> impl DoubleEndedIterator<Item = PointGradient<'_>> + Clone {
         self.gradients[index / PART].cell(index % PART)
@@ -166,13 +156,12 @@ impl OpenBody<'_> {
     ) -> Result<[Nodal<DIM, N>; TERMS], Failure> {
         let len = self.body.point_len();
         let mut sums = self.sums::<DIM, D, N>(index, &local.u, tangent);
-        let functions = self.functions(index);
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in self.points(index).zip(lanes).enumerate() {
             let volume = point.volume * self.body.thickness(old);
-            let functions = functions.map_or(&CONSTANT, |functions| &functions[number]);
-            sums.law.center = shared.map(|shared| shared.at(functions));
-            let det = sums.add((point.rows(), volume, functions), (old, new)).map_err(|f| at_point(f, number))?;
+            let functions = shared.map_or([0.0; TERMS], |shared| self.functions(index, number, shared));
+            sums.law.center = shared.map(|shared| shared.at(&functions));
+            let det = sums.add((point.rows(), volume, &functions), (old, new)).map_err(|f| at_point(f, number))?;
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;

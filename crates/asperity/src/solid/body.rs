@@ -4,7 +4,6 @@ use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
 use super::patches::Patches;
-use super::volume::Functions;
 use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
 use crate::material::Material;
 use crate::mesh::cells::{Cell, Rule};
@@ -47,22 +46,19 @@ pub(super) enum Bar {
     Center(Box<Shapes>),
     /// The mean of the cell's patch.
     Patch,
-    /// A linear field over the cell, by its functions at the points.
-    Linear(Vec<Functions>),
+    /// A field over the cell's patch that is linear.
+    Linear,
 }
 
 impl Bar {
-    fn of(choice: &Choice, rule: &Rule) -> Self {
+    fn of(choice: &Choice) -> Self {
         let kind = choice.kind;
         match choice.formulation {
             Formulation::FBar if kind.degree == 1 && matches!((kind.dimension, kind.nodes.len()), (2, 4) | (3, 8)) => {
                 Self::Center(Box::new(Shapes::new(kind, kind.center(), 1.0)))
             }
-            Formulation::FBar if kind.degree == 2 && kind.linear.nodes.len() > kind.dimension + 1 => {
-                let center = kind.center();
-                let functions = |xi: &[f64; 3]| [1.0, xi[0] - center[0], xi[1] - center[1], xi[2] - center[2]];
-                Self::Linear(rule.points.iter().map(functions).collect())
-            }
+            // Tetrahedra of second degree have fewer motions a cell than a linear field needs.
+            Formulation::FBar if kind.degree == 2 && kind.nodes.len() != 10 => Self::Linear,
             Formulation::FBar => Self::Patch,
             Formulation::Auto | Formulation::Standard => Self::Own,
         }
@@ -72,7 +68,7 @@ impl Bar {
     pub fn center(&self) -> Option<&Shapes> {
         match self {
             Self::Center(shapes) => Some(shapes),
-            Self::Own | Self::Patch | Self::Linear(_) => None,
+            Self::Own | Self::Patch | Self::Linear => None,
         }
     }
 }
@@ -113,7 +109,7 @@ impl Body {
     fn kind_shapes(&self, choice: &Choice) -> KindShapes {
         let (kind, rule) = (choice.kind, self.rule(choice.kind));
         let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| Shapes::new(kind, xi, weight));
-        KindShapes { kind, points: points.collect(), bar: Bar::of(choice, rule) }
+        KindShapes { kind, points: points.collect(), bar: Bar::of(choice) }
     }
 
     /// What its cells became, kind by kind.

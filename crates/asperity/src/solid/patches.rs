@@ -1,12 +1,13 @@
 //! Patches of neighbouring simplices and wedges of first degree that share one change of volume (de Souza Neto, Andrade
-//! Pires and Owen 2005): one alone has too few motions for a condition of its own.
+//! Pires and Owen 2005), since one alone has too few motions for a condition of its own; and pairs of triangles of second
+//! degree for a linear one.
 //!
 //! A mesh is cut into patches that do not overlap, from its rim inwards: a patch begins with the cell that has the fewest
 //! free neighbours and takes in the one that brings the fewest new nodes, of those the one with the largest common side.
 //! Halves of a quadrilateral and the tetrahedra of a brick so find together. Only the undeformed mesh enters.
 
 use crate::mesh::Mesh;
-use crate::mesh::cells::Cell;
+use crate::mesh::cells::{Cell, Face};
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
@@ -31,10 +32,10 @@ pub(super) struct Patches {
     others_starts: Vec<usize>,
 }
 
-/// Cells of a patch of a kind, so that there is about one patch for each node of the mesh.
+/// Cells of a patch of a kind, so that there is about one condition for each node of the mesh.
 fn size(kind: &Cell) -> usize {
     match (kind.degree, kind.dimension, kind.nodes.len()) {
-        (1, 2, 3) | (1, 3, 6) => 2,
+        (_, 2, 3 | 6) | (1, 3, 6) => 2,
         (1, 3, 4) => 6,
         _ => 1,
     }
@@ -77,9 +78,10 @@ fn neighbours(mesh: &Mesh, cells: &[usize], sizes: &[usize]) -> Vec<Vec<(usize, 
     for (slot, &cell) in cells.iter().enumerate().filter(|&(slot, _)| sizes[slot] > 1) {
         let view = mesh.cell(cell);
         // Wedges pair over their quadrilaterals: those above one another share no edge of the triangle.
-        let across = view.kind.faces.iter().map(|face| face.nodes.len()).max().unwrap_or(0);
-        for face in view.kind.faces.iter().filter(|face| face.nodes.len() == across) {
-            let mut nodes: Vec<usize> = face.nodes.iter().map(|&local| view.nodes[local]).collect();
+        let corners = |face: &Face| face.cell.linear.nodes.len();
+        let across = view.kind.faces.iter().map(corners).max().unwrap_or(0);
+        for face in view.kind.faces.iter().filter(|face| corners(face) == across) {
+            let mut nodes: Vec<usize> = face.nodes[..across].iter().map(|&local| view.nodes[local]).collect();
             let measure = measure(mesh, &nodes);
             nodes.sort_unstable();
             largest = largest.max(measure);

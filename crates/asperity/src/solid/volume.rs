@@ -2,9 +2,9 @@
 //!
 //! * that of the cell's centre, for quadrilaterals and bricks of first degree (de Souza Neto et al. 1996);
 //! * the mean of the points of its patch, `sum det(f) dv_n / sum dv_n` over their volumes at the beginning of the increment,
-//!   for simplices, and for wedges of first degree;
-//! * the linear field in the reference coordinates that is nearest to that of the points by least squares over the same
-//!   volumes, for the others of second degree: with one constant they are too soft.
+//!   for simplices and wedges of first degree, and for tetrahedra of second;
+//! * the field, linear in the undeformed coordinates, that is nearest to that of the points of the patch by least squares
+//!   over the same volumes, for the others of second degree: with one constant they are too soft.
 //!
 //! Those of later increments multiply to that from the beginning.
 
@@ -13,7 +13,7 @@ use super::attempt::OpenBody;
 use super::body::Bar;
 use super::operator::{Nodal, deformation, volume_gradient};
 use super::patches::WIDEST;
-use crate::tensor::Tensor2;
+use crate::tensor::{Tensor2, Vec3};
 
 /// Most unknowns of a stencil.
 const MOST: usize = 3 * WIDEST;
@@ -23,19 +23,24 @@ pub(super) const TERMS: usize = 4;
 /// The functions of the terms at a point.
 pub(super) type Functions = [f64; TERMS];
 
+/// Those of a constant.
+const CONSTANT: Functions = [1.0, 0.0, 0.0, 0.0];
+
 /// A shared change of volume.
 pub(super) struct Shared {
     /// How many terms it has.
     pub terms: usize,
     /// Their factors: of volume over that at the beginning of the increment; in small strain of one and the trace.
     factors: Functions,
+    /// Centre and scale of the coordinates in which it is linear.
+    frame: Option<(Vec3, f64)>,
     /// Derivative of each along the unknowns of the stencil; zero if not wanted.
     pub gradients: [[f64; MOST]; TERMS],
 }
 
 impl Shared {
     fn new(terms: usize) -> Self {
-        Self { terms, factors: [0.0; TERMS], gradients: [[0.0; MOST]; TERMS] }
+        Self { terms, frame: None, factors: [0.0; TERMS], gradients: [[0.0; MOST]; TERMS] }
     }
 
     /// Its value at a point.
@@ -56,8 +61,8 @@ impl OpenBody<'_> {
         match &body.shapes(body.mesh.cell(body.cells[index]).kind).bar {
             Bar::Own => None,
             Bar::Center(_) => self.of_center::<DIM, N>(index, u, differentiated),
-            Bar::Patch => Some(self.of_patch::<DIM, N>(index, u, differentiated)),
-            Bar::Linear(functions) => self.of_line::<DIM, N>(index, u, functions, differentiated),
+            Bar::Patch => self.of_patch::<DIM, N>(index, u, (1, differentiated)),
+            Bar::Linear => self.of_patch::<DIM, N>(index, u, (DIM + 1, differentiated)),
         }
     }
 
@@ -80,10 +85,19 @@ impl OpenBody<'_> {
         Some(shared)
     }
 
-    fn of_patch<const DIM: usize, const N: usize>(&self, index: usize, u: &[f64], differentiated: bool) -> Shared {
+    /// The field of a cell's patch: constant, or linear in the undeformed coordinates.
+    fn of_patch<const DIM: usize, const N: usize>(
+        &self,
+        index: usize,
+        u: &[f64],
+        (terms, differentiated): (usize, bool),
+    ) -> Option<Shared> {
         let (body, strain) = (self.body, self.body.options.strain);
         let (own, others) = (self.nodes(index), body.patches.others(index));
-        let (mut shared, mut now, mut before) = (Shared::new(1), 0.0, 0.0);
+        let (mut shared, mut normal) = (Shared::new(terms), [[0.0; TERMS]; TERMS]);
+        shared.frame = self.frame(index, terms);
+        // Sums of the volumes at the points with the functions there, and the derivatives of those sums.
+        let (mut sums, mut slopes) = ([0.0; TERMS], [[0.0; MOST]; TERMS]);
         for &member in body.patches.members(index) {
             // Where the nodes of the member stand in the stencil.
             let (mut du, mut places) = ([[0.0; N]; DIM], [0; N]);
@@ -94,54 +108,56 @@ impl OpenBody<'_> {
                 (0..DIM).for_each(|i| du[i][k] = u[DIM * places[k] + i] - accepted[i]);
             }
             let nodes = self.nodes(member).len();
-            for point in self.points(member) {
-                let (rows, volume) = (point.rows(), point.volume);
+            for (number, point) in self.points(member).enumerate() {
+                let (rows, volume, functions) = (point.rows(), point.volume, self.functions(member, number, &shared));
+                for (row, f) in normal.iter_mut().zip(functions) {
+                    row.iter_mut().zip(functions).for_each(|(entry, g)| *entry += volume * f * g);
+                }
                 let f = deformation(rows, &du);
                 let ratio = strain.dilation(&f);
-                (now, before) = (now + volume * ratio, before + volume);
+                sums.iter_mut().zip(functions).for_each(|(sum, function)| *sum += volume * ratio * function);
                 if differentiated {
                     let along: Nodal<DIM, N> = volume_gradient(rows, &along_which(strain, &f));
                     let weight = if strain == Strain::Finite { volume * ratio } else { volume };
-                    add(&along, weight, places[..nodes].iter().copied(), &mut shared.gradients[0]);
+                    for (slopes, function) in slopes[..terms].iter_mut().zip(functions) {
+                        add(&along, weight * function, places[..nodes].iter().copied(), slopes);
+                    }
                 }
             }
         }
-        shared.gradients[0].iter_mut().for_each(|along| *along /= before);
-        shared.factors[0] = now / before;
-        shared
-    }
-
-    fn of_line<const DIM: usize, const N: usize>(
-        &self,
-        index: usize,
-        u: &[f64],
-        functions: &[Functions],
-        differentiated: bool,
-    ) -> Option<Shared> {
-        let (strain, du) = (self.body.options.strain, self.increment::<DIM, N>(index, u));
-        let mut shared = Shared::new(DIM + 1);
-        let mut normal = [[0.0; TERMS]; TERMS];
-        for (point, functions) in self.points(index).zip(functions) {
-            for (row, f) in normal.iter_mut().zip(functions) {
-                row.iter_mut().zip(functions).for_each(|(entry, g)| *entry += point.volume * f * g);
-            }
-        }
-        let inverse = inverse(normal, DIM + 1)?;
-        for (point, functions) in self.points(index).zip(functions) {
-            let (rows, volume) = (point.rows(), point.volume);
-            let f = deformation(rows, &du);
-            let ratio = strain.dilation(&f);
-            let along: Option<Nodal<DIM, N>> = differentiated.then(|| volume_gradient(rows, &along_which(strain, &f)));
-            for (term, row) in inverse.iter().enumerate().take(DIM + 1) {
-                let weight = volume * row.iter().zip(functions).map(|(entry, f)| entry * f).sum::<f64>();
-                shared.factors[term] += weight * ratio;
-                if let Some(along) = &along {
-                    let weight = if strain == Strain::Finite { weight * ratio } else { weight };
-                    add(along, weight, 0..self.nodes(index).len(), &mut shared.gradients[term]);
-                }
+        for (term, row) in inverse(normal, terms)?.iter().enumerate().take(terms) {
+            for (entry, (sum, slopes)) in row.iter().zip(sums.iter().zip(&slopes)).take(terms) {
+                shared.factors[term] += entry * sum;
+                shared.gradients[term].iter_mut().zip(slopes).for_each(|(gradient, slope)| *gradient += entry * slope);
             }
         }
         Some(shared)
+    }
+
+    /// Centre and extent of the undeformed patch of a cell.
+    fn frame(&self, index: usize, terms: usize) -> Option<(Vec3, f64)> {
+        if terms == 1 {
+            return None;
+        }
+        let nodes = || self.nodes(index).iter().chain(self.body.patches.others(index)).copied();
+        // Members see the same patch from their own cell: the sum must not depend on whose nodes come first.
+        let (mut low, mut high) = (Vec3([f64::INFINITY; 3]), Vec3([f64::NEG_INFINITY; 3]));
+        for node in nodes() {
+            let x = self.body.mesh.points[node];
+            (0..3).for_each(|a| (low[a], high[a]) = (low[a].min(x[a]), high[a].max(x[a])));
+        }
+        Some(((low + high) * 0.5, 2.0 / (high - low).norm()))
+    }
+
+    /// The functions of a shared change of volume at a point of a cell: one, then the undeformed coordinates in the frame.
+    pub(super) fn functions(&self, index: usize, number: usize, shared: &Shared) -> Functions {
+        let Some((center, scale)) = shared.frame else { return CONSTANT };
+        let view = self.body.mesh.cell(self.body.cells[index]);
+        let shapes = &self.body.shapes(view.kind).points[number];
+        let place =
+            view.nodes.iter().zip(&shapes.n).fold(Vec3::zero(), |x, (&node, n)| x + self.body.mesh.points[node] * *n);
+        let [x, y, z] = ((place - center) * scale).0;
+        [1.0, x, y, z]
     }
 }
 

@@ -55,6 +55,8 @@ struct Problem {
     name: &'static str,
     /// From the unit square to the body.
     map: fn(f64, f64) -> [f64; 2],
+    /// Size of the body, by which the depth of a slab is multiplied.
+    size: f64,
     /// Cells along the sides of the square, in first degree.
     cells: [usize; 2],
     law: Arc<dyn Material>,
@@ -92,6 +94,7 @@ fn tube() -> Problem {
             let (sine, cosine) = (a * std::f64::consts::FRAC_PI_2).sin_cos();
             [(1.0 + r) * cosine, (1.0 + r) * sine]
         },
+        size: 1.0,
         cells: [16, 16],
         law: Arc::new(Rate(Elastic::new(1.0, nu))),
         strain: Strain::Small,
@@ -111,8 +114,9 @@ fn punch() -> Problem {
         map: |x, y| {
             let from_edge = 2.0 * x - 1.0;
             let reach = if from_edge < 0.0 { 1.0 } else { 2.0 };
-            [1.0 + reach * from_edge.signum() * from_edge.abs().powf(1.5), -1.5 * (1.0 - y).powf(1.5)]
+            [1.0 + reach * from_edge.signum() * from_edge.abs().powf(1.7), -1.5 * (1.0 - y).powf(1.7)]
         },
+        size: 1.0,
         cells: [16, 16],
         law: Arc::new(Rate(VonMises { elastic: Elastic::new(1e4, 0.3), hardening, kinematic: 0.0, recovery: 0.0 })),
         strain: Strain::Small,
@@ -134,6 +138,7 @@ fn cook() -> Problem {
     Problem {
         name: "cook",
         map: |x, y| [48.0 * x, 44.0 * x + y * (44.0 - 28.0 * x)],
+        size: 45.0,
         cells: [16, 16],
         law: Arc::new(Rate(Elastic::new(250.0, 0.4999))),
         strain: Strain::Small,
@@ -152,6 +157,7 @@ fn billet() -> Problem {
     Problem {
         name: "billet",
         map: |x, y| [x, y],
+        size: 1.0,
         cells: [16, 16],
         law: Arc::new(Rate(VonMises { elastic: Elastic::new(1e3, 0.3), hardening, kinematic: 0.0, recovery: 0.0 })),
         strain: Strain::Finite,
@@ -168,6 +174,7 @@ fn rubber() -> Problem {
     Problem {
         name: "rubber",
         map: |x, y| [x, y],
+        size: 1.0,
         cells: [16, 16],
         law: Arc::new(Hyper(NeoHookean { shear: 1.0, bulk: 1000.0 })),
         strain: Strain::Finite,
@@ -197,9 +204,9 @@ impl Problem {
         mesh.groups.insert("punch".into(), punch);
         for x in &mut mesh.points {
             let [a, b] = (self.map)(x[0], x[1]);
-            *x = Vec3::new(a, b, x[2]);
+            *x = Vec3::new(a, b, self.size * x[2]);
         }
-        let depth = if cell.dimension == 2 { 1.0 } else { depth };
+        let depth = if cell.dimension == 2 { 1.0 } else { self.size * depth };
         let model = self.model(Arc::new(mesh), cell.dimension)?;
         let mut run = model.run(model.problem.initial_state());
         run.run(&Default::default(), &mut Silent)?;

@@ -4,7 +4,7 @@
 //!
 //! A mesh is cut into patches that do not overlap, from its rim inwards: a patch begins with the cell that has the fewest
 //! free neighbours and takes in the one that brings the fewest new nodes, of those the one with the largest common side.
-//! Halves of a quadrilateral and the tetrahedra of a brick so find together. Only the undeformed mesh enters.
+//! Halves of a quadrilateral so find together. Only the undeformed mesh enters.
 
 use crate::mesh::Mesh;
 use crate::mesh::cells::{Cell, Face};
@@ -36,7 +36,7 @@ pub(super) struct Patches {
 fn size(kind: &Cell) -> usize {
     match (kind.degree, kind.dimension, kind.nodes.len()) {
         (_, 2, 3 | 6) | (1, 3, 6) => 2,
-        (1, 3, 4) => 6,
+        (1, 3, 4) => 8,
         _ => 1,
     }
 }
@@ -242,12 +242,12 @@ mod tests {
     }
 
     #[test]
-    fn the_pieces_of_a_brick_find_together() {
+    fn the_halves_of_a_brick_find_together() {
         let plane = |cell| Rectangle::new([0.0; 2], [4.0, 3.0], [4, 3], Cell::named(cell).unwrap()).mesh("b").unwrap();
         let solid =
             |cell| Block::new([0.0; 3], [3.0, 2.0, 2.0], [3, 2, 2], Cell::named(cell).unwrap()).mesh("b").unwrap();
         for (mesh, members, nodes) in
-            [(plane("tri3"), 2, 4), (solid("tet4"), 6, 8), (solid("wedge6"), 2, 8), (plane("quad8"), 1, 8)]
+            [(plane("tri3"), 2, 4), (plane("tri6"), 2, 9), (solid("wedge6"), 2, 8), (plane("quad8"), 1, 8)]
         {
             let (sizes, widths) = widths(&mesh);
             assert!(sizes.iter().all(|&size| size == members), "{}: {sizes:?}", mesh.kinds[0].name);
@@ -255,12 +255,21 @@ mod tests {
         }
     }
 
+    #[test]
+    fn patches_of_tetrahedra_are_neither_small_nor_wide() {
+        let mesh = Block::new([0.0; 3], [3.0, 2.0, 2.0], [3, 2, 2], Cell::named("tet4").unwrap()).mesh("b").unwrap();
+        let (sizes, widths) = widths(&mesh);
+        assert!(sizes.iter().all(|&size| size >= 6) && widths.iter().all(|&width| width <= WIDEST), "{sizes:?}");
+    }
+
     /// A fan of an odd number of triangles leaves none alone.
     #[test]
     fn no_triangle_stays_alone_beside_others() {
         let mut mesh = Mesh::new();
         mesh.points = (0..8).map(|i| crate::tensor::Vec3::new(f64::from(i), f64::from(i % 2), 0.0)).collect();
-        (0..5).for_each(|i| drop(mesh.push_cell(Cell::named("tri3").unwrap(), &[i, i + 1, i + 2])));
+        for i in 0..5 {
+            mesh.push_cell(Cell::named("tri3").unwrap(), &[i, i + 1, i + 2]);
+        }
         let (sizes, _) = widths(&mesh);
         assert!(sizes.iter().all(|size| [2, 3].contains(size)), "{sizes:?}");
     }

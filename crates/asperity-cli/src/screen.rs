@@ -176,6 +176,9 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &dyn Fn(Option<&str>
     if summary.factorisations > 0 {
         let _ = writeln!(text, "{}", factors(summary));
     }
+    for (body, lines) in &summary.formulations {
+        let _ = writeln!(text, "body {body}: {}", lines.join("; "));
+    }
     for note in &summary.notes {
         let _ = writeln!(text, "note: {note}");
     }

@@ -101,17 +101,17 @@ pub enum Dialect {
 pub enum Formulation {
     /// Full integration of what each point sees.
     Standard,
-    /// Full integration with the change of volume of the cell's centre.
+    /// Full integration with one change of volume for a cell or a patch of cells.
     FBar,
     /// Reduced integration.
     Reduced,
 }
 
 impl Formulation {
-    /// Its keys of a body, none for the default.
+    /// Its keys of a body: a type says how it is computed, so nothing is left to be chosen.
     pub fn keys(self) -> &'static str {
         match self {
-            Self::Standard => "",
+            Self::Standard => "formulation = \"standard\"\n",
             Self::FBar => "formulation = \"f-bar\"\n",
             Self::Reduced => "integration = \"reduced\"\n",
         }
@@ -128,9 +128,11 @@ impl Type {
     pub fn formulation(&self, variant: &str, dialect: Dialect) -> (Formulation, Option<&'static str>) {
         let brick = matches!(self.faces.len(), 4 | 6) && self.faces != TET;
         let (reduced, modes) = (variant.contains('R'), variant.contains('I'));
+        let hybrid = variant.contains('H') && self.family != Family::PlaneStress;
         match (self.degree, brick, self.family) {
-            (2, true, _) if reduced => (Formulation::Reduced, hybrid(variant)),
-            (2, ..) => (Formulation::Standard, modified(variant).or(hybrid(variant))),
+            (2, true, _) if reduced => (Formulation::Reduced, hybrid.then_some(NO_PRESSURE)),
+            (2, ..) if hybrid => (Formulation::FBar, Some(MEAN)),
+            (2, ..) => (Formulation::Standard, modified(variant)),
             (1, true, Family::PlaneStress) if reduced || modes => (
                 Formulation::Standard,
                 Some(
@@ -142,19 +144,20 @@ impl Type {
             (1, true, _) if reduced => {
                 (Formulation::FBar, Some("one point with hourglass control becomes F-bar: stiffer in bending"))
             }
-            (1, true, _) if dialect == Dialect::Abaqus => (Formulation::FBar, None),
+            (1, true, _) if dialect == Dialect::Abaqus || hybrid => (Formulation::FBar, None),
             (1, true, _) => (
                 Formulation::Standard,
                 Some("full integration as in CalculiX; `formulation = \"f-bar\"` does not lock"),
             ),
-            _ => (Formulation::Standard, hybrid(variant)),
+            _ if hybrid => (Formulation::FBar, Some(MEAN)),
+            _ => (Formulation::Standard, None),
         }
     }
 }
 
-fn hybrid(variant: &str) -> Option<&'static str> {
-    variant.contains('H').then_some("the pressure is no unknown of its own: nearly incompressible cells are stiffer")
-}
+const NO_PRESSURE: &str = "the pressure is no unknown of its own: reduced integration stands for it";
+const MEAN: &str =
+    "the pressure is no unknown of its own: one change of volume for a cell, or a patch of simplices, stands for it";
 
 fn modified(variant: &str) -> Option<&'static str> {
     variant.contains('M').then_some("modified second degree becomes plain second degree")
@@ -191,6 +194,9 @@ mod tests {
             }
             for name in ["C3D20R", "CPE8R", "CPS8R"] {
                 assert_eq!(of(name, dialect), Formulation::Reduced, "{name}");
+            }
+            for name in ["C3D4H", "C3D10H", "C3D20H", "C3D8H", "CPE3H", "C3D10MH"] {
+                assert_eq!(of(name, dialect), Formulation::FBar, "{name}");
             }
             for name in ["C3D20", "C3D4", "C3D10", "CPS4R", "CPE6", "C3D6", "C3D15"] {
                 assert_eq!(of(name, dialect), Formulation::Standard, "{name}");

@@ -107,6 +107,10 @@ impl Page {
             let law = &made.deck.material[*material].1;
             let cells = body.cells().len();
             self.line(format!("body {}: {cells} cells of {} ({law:?})", body.name(), made.model.materials[*material]));
+            for choice in body.choices() {
+                self.line(format!("  {}", choice.line()));
+                choice.advice().iter().for_each(|advice| self.line(format!("  note: {advice}")));
+            }
             if let Some(advice) = body.material().advice() {
                 self.line(format!("  note: {advice}"));
             }

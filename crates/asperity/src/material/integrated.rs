@@ -3,7 +3,7 @@
 //! The strain of the objective frame is cut into equal parts of constant rate; stress and variables carry their
 //! derivatives from one sub-step to the next, so the tangent is that of the whole.
 
-use super::{Material, RateLaw, Variable, Vars};
+use super::{Flow, Material, RateLaw, Variable, Vars};
 use crate::Failure;
 use crate::integrate::{Blend, Update};
 use crate::tensor::{Scalar, Tensor2};
@@ -67,6 +67,9 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     }
     fn dissipation(&self, old: (&Tensor2, &Self::Vars<f64>), new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         self.law.dissipation(old, new)
+    }
+    fn flow(&self) -> Flow {
+        self.law.flow()
     }
     fn has_back_stress(&self) -> bool {
         self.law.has_back_stress()

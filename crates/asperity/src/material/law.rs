@@ -74,6 +74,17 @@ pub(super) trait Differentiate {
     }
 }
 
+/// What a law asks of the change of volume where it flows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// It does not flow, or volume and shape flow freely.
+    None,
+    /// It flows without change of volume, or with hardly any.
+    Isochoric,
+    /// The change of volume follows from the shear, or comes to rest as it goes on.
+    Dilatant,
+}
+
 /// A law of a solid at one point, driven by the deformation `f` of the increment. Its state is the Cauchy stress (six
 /// values) followed by its variables.
 pub trait Material: Send + Sync {
@@ -102,6 +113,10 @@ pub trait Material: Send + Sync {
     /// # Errors
     /// In words, where the stress of a law follows from the deformation alone and there is no frame to choose.
     fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String>;
+    /// What it asks of the change of volume where it flows.
+    fn flow(&self) -> Flow {
+        Flow::None
+    }
     /// Whether the law has a back stress, which wants the logarithmic rate unless another is said.
     fn has_back_stress(&self) -> bool {
         false

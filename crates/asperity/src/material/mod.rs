@@ -21,7 +21,7 @@ mod vars;
 pub use crate::declare::{Variable, VariableKind};
 pub use frame::hughes_winget;
 pub use hyper::{Hyper, HyperLaw, Slopes};
-pub use law::{Directions, Gradient, Material};
+pub use law::{Directions, Flow, Gradient, Material};
 pub use rate::{Rate, RateLaw};
 pub use small::SmallStrain;
 pub use turned::{Spin, Turned};

@@ -9,7 +9,7 @@
 use super::frame::{Frame, InPlane, InSpace, Turning};
 use super::integrated::Integrated;
 use super::law::{self, Differentiate};
-use super::{Directions, Gradient, Material, SmallStrain, Spin, Turned, Variable, Vars};
+use super::{Directions, Flow, Gradient, Material, SmallStrain, Spin, Turned, Variable, Vars};
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
 use crate::{Failure, Kind};
@@ -48,6 +48,10 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     /// Energy dissipated per volume between two states.
     fn dissipation(&self, _old: (&Tensor2, &Self::Vars<f64>), _new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         0.0
+    }
+    /// As [`Material::flow`].
+    fn flow(&self) -> Flow {
+        Flow::None
     }
     /// As [`Material::has_back_stress`].
     fn has_back_stress(&self) -> bool {
@@ -187,6 +191,10 @@ impl<L: RateLaw> Material for Rate<L> {
         directions: Directions,
     ) -> Result<(), Failure> {
         self.advance_along(f, dt, old, out, directions)
+    }
+
+    fn flow(&self) -> Flow {
+        self.0.flow()
     }
 
     fn has_back_stress(&self) -> bool {

@@ -4,7 +4,7 @@
 use super::frame::{Still, Turning};
 use super::law::Differentiate;
 use super::rate::stress_of;
-use super::{Directions, Gradient, Material, Rate, RateLaw, Spin, Variable};
+use super::{Directions, Flow, Gradient, Material, Rate, RateLaw, Spin, Variable};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::Tensor2;
@@ -71,6 +71,10 @@ impl<L: RateLaw> Material for SmallStrain<L> {
         directions: Directions,
     ) -> Result<(), Failure> {
         self.advance_along(f, dt, old, out, directions)
+    }
+
+    fn flow(&self) -> Flow {
+        self.0.flow()
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

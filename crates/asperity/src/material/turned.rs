@@ -7,7 +7,9 @@
 use super::law::{self, Differentiate};
 use super::rate::{INSIDE_OUT, stress_of};
 use super::small::NO_RATE;
-use super::{Directions, Gradient, Material, Rate, RateLaw, Variable, VariableKind, Vars, green_naghdi, logarithmic};
+use super::{
+    Directions, Flow, Gradient, Material, Rate, RateLaw, Variable, VariableKind, Vars, green_naghdi, logarithmic,
+};
 use crate::integrate::Update;
 use crate::tensor::{Scalar, Tensor2};
 use crate::{Failure, Kind};
@@ -111,6 +113,10 @@ impl<L: RateLaw> Material for Turned<L> {
 
     fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String> {
         Ok(Box::new(Self::new(self.law.clone(), spin)))
+    }
+
+    fn flow(&self) -> Flow {
+        self.law.flow()
     }
 
     fn has_back_stress(&self) -> bool {

@@ -8,6 +8,7 @@ use super::summary::{Status, Summary};
 use super::witness::certified;
 use crate::Error;
 use crate::diagnosis::{Course, Doubted, End, Facts, diagnose, settings};
+use crate::solid::{Body, Choice};
 use crate::system::Term;
 
 /// Certificate and summary of a run.
@@ -29,6 +30,8 @@ impl Account {
         let mut summary = Summary::begin("", parts.space.name());
         summary.unknowns = parts.dofs.count();
         summary.bodies = parts.bodies.iter().map(|(_, body)| body.name().to_string()).collect();
+        let lines = |body: &Body| body.choices().iter().map(Choice::line).collect();
+        summary.formulations = parts.bodies.iter().map(|(_, body)| (body.name().to_string(), lines(body))).collect();
         summary.materials.clone_from(&parts.material_names);
         summary.contact_order = parts.contacts.iter().map(|(_, name, _)| name.clone()).collect();
         summary.tools = parts.tool_names().into_iter().map(str::to_owned).collect();

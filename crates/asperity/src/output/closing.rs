@@ -7,18 +7,26 @@ use super::quantities::Parts;
 use super::summary::Summary;
 use crate::mesh::Space;
 use crate::model::Model;
+use crate::solid::{Body, Choice};
 use crate::solve::{Run, Snap, Turn};
-use crate::system::State;
+use crate::system::{State, Term};
 
 /// Puts notes and costs of a run of `seconds` into its summary.
 pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     let Account { certificate, limits, summary, .. } = account;
     cost(summary, run, seconds);
     summary.notes.extend(facets(model, &run.state));
+    summary.notes.extend(model.bodies.iter().flat_map(|(body, _)| locking(body)));
     summary.notes.extend(leap(certificate));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
     summary.notes.extend(rests(certificate, model.space));
+}
+
+/// Which cells of a body stay too stiff, and what helps.
+fn locking(body: &Body) -> Vec<String> {
+    let advice = body.choices().iter().filter_map(Choice::advice);
+    advice.map(|advice| format!("body '{}': {advice}", body.name())).collect()
 }
 
 /// What an increment that leaps means.

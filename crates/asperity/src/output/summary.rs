@@ -83,6 +83,9 @@ pub struct Summary {
     pub peak_memory: Option<u64>,
     /// Names of the bodies, by the number in the result files.
     pub bodies: Vec<String>,
+    /// For each body what its cells became, and why.
+    #[serde(default)]
+    pub formulations: BTreeMap<String, Vec<String>>,
     /// Names of the materials, by the number in the result files.
     pub materials: Vec<String>,
     /// Names of the tools, by the number in the result files.
@@ -133,6 +136,7 @@ impl Summary {
             timings: BTreeMap::new(),
             peak_memory: None,
             bodies: Vec::new(),
+            formulations: BTreeMap::new(),
             materials: Vec::new(),
             tools: Vec::new(),
             contacts: BTreeMap::new(),

@@ -1,14 +1,14 @@
 //! A body during one attempt: its cells' gradients at the accepted state, and the forces of each cell.
 
-use super::body::{Body, Formulation};
+use super::body::Body;
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
-use super::operator::{Nodal, Tangent, add_forces, deformation, volume_gradient};
+use super::operator::{Nodal, Tangent, add_forces, add_shared, deformation};
 use super::point::{PointLaw, PointStress};
+use super::volume::{Functions, Shared, TERMS};
 use super::{Strain, plane_stress};
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
-use crate::tensor::Tensor2;
 use crate::{Failure, Kind};
 use rayon::prelude::*;
 
@@ -20,7 +20,8 @@ pub(super) struct OpenBody<'a> {
     pub body: &'a Body,
     pub accepted: &'a State,
     pub history: &'a History,
-    /// Gradients at the points of each cell and, with F-bar, at its centre behind them; [`PART`] cells in each part.
+    /// Gradients at the points of each cell and, where its change of volume is that of its centre, there behind them;
+    /// [`PART`] cells in each part.
     pub gradients: Vec<Gradients>,
     pub dt: f64,
     /// Thermal stretch at the end of the increment, where the body has a temperature.
@@ -34,9 +35,9 @@ impl Attempt for OpenBody<'_> {
 
     fn stencils(&self, _u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
         let dofs = &self.body.dofs;
-        for &cell in &self.body.cells {
-            let nodes = self.body.mesh.cell(cell).nodes;
-            out.push(nodes.iter().flat_map(|&n| dofs.node(n)..dofs.node(n) + dofs.per_node()), 0);
+        for index in 0..self.body.cells.len() {
+            let nodes = self.nodes(index).iter().chain(self.body.patches.others(index));
+            out.push(nodes.flat_map(|&n| dofs.node(n)..dofs.node(n) + dofs.per_node()), 0);
         }
         Ok(())
     }
@@ -76,7 +77,7 @@ impl Body {
         }
         let x = &x[..view.nodes.len()];
         let shapes = self.shapes(view.kind);
-        for shapes in shapes.points.iter().chain(&shapes.center) {
+        for shapes in shapes.points.iter().chain(shapes.bar.center()) {
             if !gradients.push(shapes, x, self.space) {
                 return Err(Failure::new(self.inverted(cell)).of(Kind::Inverted));
             }
@@ -105,12 +106,12 @@ impl OpenBody<'_> {
     }
 
     /// Nodes of a cell.
-    fn nodes(&self, index: usize) -> &[usize] {
+    pub(super) fn nodes(&self, index: usize) -> &[usize] {
         self.body.mesh.cell(self.body.cells[index]).nodes
     }
 
     /// Displacements of a cell's nodes over the increment.
-    fn increment<const DIM: usize, const N: usize>(&self, index: usize, u: &[f64]) -> Nodal<DIM, N> {
+    pub(super) fn increment<const DIM: usize, const N: usize>(&self, index: usize, u: &[f64]) -> Nodal<DIM, N> {
         let mut du = [[0.0; N]; DIM];
         for (k, (&node, u)) in self.nodes(index).iter().zip(u.as_chunks::<DIM>().0).enumerate().take(N) {
             let before = &self.accepted.u[self.body.dofs.node(node)..];
@@ -125,31 +126,42 @@ impl OpenBody<'_> {
         new: &mut [f64],
         local: &mut Local,
     ) -> Result<(), Failure> {
+        let shared = self.shared::<DIM, N>(index, &local.u, local.wants_tangent);
         if !local.wants_tangent {
-            return self.add_points::<DIM, D, N>(index, new, local, None);
+            return self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), None)).map(drop);
         }
-        let (nodes, standard) = (self.nodes(index).len(), self.body.options.formulation == Formulation::Standard);
-        let mut tangent = Tangent::<DIM, N>::zero(nodes, standard && self.body.material.is_conservative());
-        self.add_points::<DIM, D, N>(index, new, local, Some(&mut tangent))?;
-        tangent.write(&mut local.tangent);
+        let symmetric = shared.is_none() && self.body.material.is_conservative();
+        let mut tangent = Tangent::<DIM, N>::zero(self.nodes(index).len(), symmetric);
+        let along = self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), Some(&mut tangent)))?;
+        let length = local.u.len();
+        tangent.write(length, &mut local.tangent);
+        for (along, gradient) in along.iter().zip(shared.iter().flat_map(|shared| &shared.gradients[..shared.terms])) {
+            add_shared(along, &gradient[..length], &mut local.tangent);
+        }
         Ok(())
     }
 
+    /// The gradients at the points of a cell, and behind them that at its centre where it has one.
+    pub(super) fn points(&self, index: usize) -> impl DoubleEndedIterator<Item = PointGradient<'_>> + Clone {
+        self.gradients[index / PART].cell(index % PART)
+    }
+
+    /// Adds up the points of a cell and returns the derivatives of its forces along the terms of the shared change of volume.
     fn add_points<const DIM: usize, const D: usize, const N: usize>(
         &self,
         index: usize,
         new: &mut [f64],
         local: &mut Local,
-        tangent: Option<&mut Tangent<DIM, N>>,
-    ) -> Result<(), Failure> {
-        let (mut points, len) = (self.gradients[index / PART].cell(index % PART), self.body.point_len());
-        let barred = self.body.options.formulation == Formulation::FBar;
-        let center = if barred { points.next_back() } else { None };
-        let mut sums = self.sums::<DIM, D, N>(index, &local.u, center, tangent);
+        (shared, tangent): (Option<&Shared>, Option<&mut Tangent<DIM, N>>),
+    ) -> Result<[Nodal<DIM, N>; TERMS], Failure> {
+        let len = self.body.point_len();
+        let mut sums = self.sums::<DIM, D, N>(index, &local.u, tangent);
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
-        for (number, (point, (old, new))) in points.zip(lanes).enumerate() {
+        for (number, (point, (old, new))) in self.points(index).zip(lanes).enumerate() {
             let volume = point.volume * self.body.thickness(old);
-            let det = sums.add((point.rows(), volume), (old, new)).map_err(|f| at_point(f, number))?;
+            let functions = shared.map_or([0.0; TERMS], |shared| self.functions(index, number, shared));
+            sums.law.center = shared.map(|shared| shared.at(&functions));
+            let det = sums.add((point.rows(), volume, &functions), (old, new)).map_err(|f| at_point(f, number))?;
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
@@ -157,40 +169,27 @@ impl OpenBody<'_> {
                 local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * strain;
             }
         }
-        if let Some(tangent) = sums.tangent.filter(|_| barred) {
-            tangent.add_center(&sums.along_center, &sums.center_gradient);
-        }
-        for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(N) {
+        for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes(index).len()) {
             *out = std::array::from_fn(|i| sums.force[i][node]);
         }
-        Ok(())
+        Ok(sums.along_terms)
     }
 
-    /// The sums of a cell before its points are added, with the gradient at its centre where F-bar is used.
+    /// The sums of a cell before its points are added.
     fn sums<'s, const DIM: usize, const D: usize, const N: usize>(
         &'s self,
         index: usize,
         u: &[f64],
-        center: Option<PointGradient>,
         tangent: Option<&'s mut Tangent<DIM, N>>,
     ) -> Sums<'s, DIM, D, N> {
-        let (du, mut center_gradient) = (self.increment(index, u), [[0.0; N]; DIM]);
         let strain = self.body.options.strain;
-        let center = center.map(|center| {
-            let f0 = deformation(center.rows(), &du);
-            if tangent.is_some() {
-                let at = if strain == Strain::Finite { f0 } else { Tensor2::identity() };
-                center_gradient = volume_gradient(center.rows(), &at);
-            }
-            strain.dilation(&f0)
-        });
         // A body has one temperature, and with it one stretch.
         let before = || self.history.slot(index)[self.body.point_len() - 1];
         let (free, cooling) = self.stretch.map_or((1.0, 0.0), |now| strain.of_heat(before(), now));
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
-        let law = PointLaw { material, space, strain, dt, center, free, cooling };
-        let (force, along_center, s) = ([[0.0; N]; DIM], [[0.0; N]; DIM], PointStress::default());
-        Sums { law, du, center_gradient, force, along_center, tangent, s }
+        let law = PointLaw { material, space, strain, dt, center: None, free, cooling };
+        let (force, along_terms, s) = ([[0.0; N]; DIM], [[[0.0; N]; DIM]; TERMS], PointStress::default());
+        Sums { law, du: self.increment(index, u), force, along_terms, tangent, s }
     }
 
     /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
@@ -212,11 +211,9 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
     law: PointLaw<'a>,
     /// Displacements of the nodes over the increment.
     du: Nodal<DIM, N>,
-    /// Derivative of `ln det f0` along them, with F-bar; of the trace in small strain.
-    center_gradient: Nodal<DIM, N>,
     force: Nodal<DIM, N>,
-    /// Derivative of the forces along the same.
-    along_center: Nodal<DIM, N>,
+    /// Derivatives of the forces along the terms of the shared change of volume.
+    along_terms: [Nodal<DIM, N>; TERMS],
     /// Where it is wanted.
     tangent: Option<&'a mut Tangent<DIM, N>>,
     /// Stress of the present point.
@@ -225,7 +222,11 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
 
 impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
     /// Adds a point of this volume and returns the determinant of its deformation.
-    fn add(&mut self, (rows, volume): (&Rows<N>, f64), (old, new): (&[f64], &mut [f64])) -> Result<f64, Failure> {
+    fn add(
+        &mut self,
+        (rows, volume, functions): (&Rows<N>, f64, &Functions),
+        (old, new): (&[f64], &mut [f64]),
+    ) -> Result<f64, Failure> {
         let (f, s, law) = (deformation(rows, &self.du), &mut self.s, &self.law);
         match (law.space, self.tangent.is_some()) {
             (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
@@ -236,8 +237,14 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
         add_forces(rows, &s.p, volume, &mut self.force);
         if let Some(tangent) = &mut self.tangent {
             tangent.add(rows, &s.tangent, volume);
-            if law.center.is_some() {
-                add_forces(rows, &s.along_center, volume, &mut self.along_center);
+            if let Some(center) = law.center {
+                // What is known is the derivative along the logarithm of the volume, in small strain along the trace.
+                let weight = if law.strain == Strain::Finite { volume / center } else { volume };
+                for (term, function) in
+                    self.along_terms.iter_mut().zip(functions).filter(|(_, function)| **function != 0.0)
+                {
+                    add_forces(rows, &s.along_center, weight * function, term);
+                }
             }
         }
         Ok(s.det)

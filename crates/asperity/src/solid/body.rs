@@ -3,7 +3,8 @@
 use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
-use super::{Heat, InitialStress, Strain};
+use super::patches::Patches;
+use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
 use crate::material::Material;
 use crate::mesh::cells::{Cell, Rule};
 use crate::mesh::{Mesh, Space};
@@ -11,44 +12,6 @@ use crate::system::{Attempt, Dofs, History, Instant, Local, State, Stencils, Ter
 use crate::tensor::Vec3;
 use crate::{Error, Failure};
 use std::sync::Arc;
-
-/// How the deformation of a point is formed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Formulation {
-    /// The point's own deformation.
-    Standard,
-    /// The volume change of the cell's centre (F-bar): no volumetric locking of first-degree cells.
-    FBar,
-}
-
-/// Which quadrature is used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Integration {
-    /// Exact for the stiffness of an undistorted cell.
-    Full,
-    /// One order lower.
-    Reduced,
-}
-
-/// How a body is computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyOptions {
-    /// Formulation.
-    pub formulation: Formulation,
-    /// Quadrature.
-    pub integration: Integration,
-    /// Kinematics.
-    pub strain: Strain,
-    /// Thickness in the plane cases; ignored otherwise.
-    pub thickness: f64,
-}
-
-impl Default for BodyOptions {
-    fn default() -> Self {
-        let (formulation, integration) = (Formulation::Standard, Integration::Full);
-        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0 }
-    }
-}
 
 /// A set of cells made of one material.
 pub struct Body {
@@ -59,7 +22,9 @@ pub struct Body {
     pub(super) cells: Vec<usize>,
     pub(super) material: Arc<dyn Material>,
     pub(super) options: BodyOptions,
+    choices: Vec<Choice>,
     shapes: Vec<KindShapes>,
+    pub(super) patches: Patches,
     initial_stress: Option<InitialStress>,
     pub(super) heat: Option<Heat>,
 }
@@ -69,8 +34,43 @@ pub(super) struct KindShapes {
     kind: &'static Cell,
     /// At the points of its quadrature.
     pub points: Vec<Shapes>,
-    /// At the centre, with F-bar.
-    pub center: Option<Shapes>,
+    /// Whose change of volume its points have.
+    pub bar: Bar,
+}
+
+/// Whose change of volume the points of a cell have.
+pub(super) enum Bar {
+    /// Each its own.
+    Own,
+    /// That of the cell's centre: of quadrilaterals and bricks of first degree.
+    Center(Box<Shapes>),
+    /// The mean of the cell's patch.
+    Patch,
+    /// A field over the cell's patch that is linear.
+    Linear,
+}
+
+impl Bar {
+    fn of(choice: &Choice) -> Self {
+        let kind = choice.kind;
+        match choice.formulation {
+            Formulation::FBar if kind.degree == 1 && matches!((kind.dimension, kind.nodes.len()), (2, 4) | (3, 8)) => {
+                Self::Center(Box::new(Shapes::new(kind, kind.center(), 1.0)))
+            }
+            // Tetrahedra of second degree have fewer motions a cell than a linear field needs.
+            Formulation::FBar if kind.degree == 2 && kind.nodes.len() != 10 => Self::Linear,
+            Formulation::FBar => Self::Patch,
+            Formulation::Auto | Formulation::Standard => Self::Own,
+        }
+    }
+
+    /// The shape functions at the centre.
+    pub fn center(&self) -> Option<&Shapes> {
+        match self {
+            Self::Center(shapes) => Some(shapes),
+            Self::Own | Self::Patch | Self::Linear => None,
+        }
+    }
 }
 
 impl Body {
@@ -89,25 +89,32 @@ impl Body {
             refuse(name, mesh.cell(cell).kind, space, &options)?;
         }
         let material = options.strain.law(material).map_err(|why| Error::input(format!("body '{name}': {why}")))?;
+        let mut choices: Vec<Choice> = Vec::new();
+        for kind in cells.iter().map(|&cell| mesh.cell(cell).kind) {
+            if choices.iter().all(|known| known.kind != kind) {
+                choices.push(Choice::of(kind, space, material.as_ref(), &options));
+            }
+        }
+        let barred =
+            |kind: &Cell| choices.iter().any(|choice| choice.kind == kind && choice.formulation == Formulation::FBar);
+        let patches = Patches::new(&mesh, &cells, barred);
         let name = name.into();
         let (shapes, initial_stress, heat) = (Vec::new(), None, None);
-        let mut body = Self { name, mesh, dofs, space, cells, material, options, shapes, initial_stress, heat };
-        body.shapes = body.all_shapes();
+        let mut body =
+            Self { name, mesh, dofs, space, cells, material, options, choices, shapes, patches, initial_stress, heat };
+        body.shapes = body.choices.iter().map(|choice| body.kind_shapes(choice)).collect();
         Ok(body)
     }
 
-    fn all_shapes(&self) -> Vec<KindShapes> {
-        let mut all: Vec<KindShapes> = Vec::new();
-        for kind in self.cells.iter().map(|&cell| self.mesh.cell(cell).kind) {
-            if all.iter().all(|known| known.kind.name != kind.name) {
-                let rule = self.rule(kind);
-                let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| Shapes::new(kind, xi, weight));
-                let barred = self.options.formulation == Formulation::FBar;
-                let center = barred.then(|| Shapes::new(kind, kind.center(), 1.0));
-                all.push(KindShapes { kind, points: points.collect(), center });
-            }
-        }
-        all
+    fn kind_shapes(&self, choice: &Choice) -> KindShapes {
+        let (kind, rule) = (choice.kind, self.rule(choice.kind));
+        let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| Shapes::new(kind, xi, weight));
+        KindShapes { kind, points: points.collect(), bar: Bar::of(choice) }
+    }
+
+    /// What its cells became, kind by kind.
+    pub fn choices(&self) -> &[Choice] {
+        &self.choices
     }
 
     /// The shape functions of a kind of its cells.
@@ -119,7 +126,7 @@ impl Body {
 
     /// Most points of a cell, the centre among them.
     pub(super) fn most_points(&self) -> usize {
-        self.shapes.iter().map(|kind| kind.points.len() + usize::from(kind.center.is_some())).max().unwrap_or(0)
+        self.shapes.iter().map(|kind| kind.points.len() + usize::from(kind.bar.center().is_some())).max().unwrap_or(0)
     }
 
     /// Most nodes of a cell.
@@ -199,14 +206,8 @@ fn refuse(body: &str, kind: &Cell, space: Space, options: &BodyOptions) -> Resul
         (_, Integration::Reduced) if kind.reduced.is_none() => {
             format!("cells {} have no reduced integration; use integration = \"full\"", kind.name)
         }
-        (Formulation::FBar, _) if kind.degree > 1 => {
-            format!("f-bar is for cells of first degree, not {}; use integration = \"reduced\"", kind.name)
-        }
         (Formulation::FBar, Integration::Reduced) => {
-            "f-bar with reduced integration is plain reduced integration; choose one".to_string()
-        }
-        (Formulation::FBar, _) if kind.full.points.len() == 1 => {
-            format!("f-bar changes nothing on {}, which has a single point", kind.name)
+            "f-bar has no use with reduced integration, which does not lock; choose one".to_string()
         }
         (Formulation::FBar, _) if space == Space::PlaneStress => {
             "f-bar means nothing in plane stress, where nothing locks; use formulation = \"standard\"".to_string()

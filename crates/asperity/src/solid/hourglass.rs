@@ -5,8 +5,8 @@
 //! `h` such a product at the nodes, `g = h - (h . x_i) grad_i N` leaves linear fields out (Flanagan and Belytschko
 //! 1981), and `g . u` is what a cell moves by the product. They are not stabilised here but told.
 
-use super::body::{Body, Integration};
 use super::gradient::{self, Shapes, padded};
+use super::{Body, Integration};
 use crate::mesh::Space;
 use crate::mesh::cells::{Cell, MAX_NODES};
 

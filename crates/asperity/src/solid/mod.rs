@@ -7,6 +7,7 @@
 
 mod attempt;
 mod body;
+mod formulation;
 mod free;
 mod gradient;
 mod heat;
@@ -15,13 +16,16 @@ mod initial_stress;
 mod lanes;
 mod measure;
 mod operator;
+mod patches;
 mod piola;
 mod plane_stress;
 mod point;
 mod record;
 mod strain;
+mod volume;
 
-pub use body::{Body, BodyOptions, Formulation, Integration};
+pub use body::Body;
+pub use formulation::{BodyOptions, Choice, Formulation, Integration, NEARLY};
 pub use heat::Heat;
 pub use initial_stress::InitialStress;
 pub use record::PointRecord;

@@ -118,23 +118,12 @@ impl<const DIM: usize, const N: usize> Tangent<DIM, N> {
         Arch::new().dispatch(Product { g, a, volume, tangent: self });
     }
 
-    /// The rank-one part of F-bar: forces along `ln det f0`, times its gradient.
-    pub fn add_center(&mut self, force: &Nodal<DIM, N>, gradient: &Nodal<DIM, N>) {
-        for (blocks, force) in self.blocks.iter_mut().zip(force) {
-            for (block, gradient) in blocks.iter_mut().zip(gradient) {
-                for (row, f) in block.iter_mut().zip(force) {
-                    row.iter_mut().zip(gradient).for_each(|(k, g)| *k += f * g);
-                }
-            }
-        }
-    }
-
-    /// Writes it by rows, node by node.
-    pub fn write(&self, out: &mut [f64]) {
-        let mut rows = out.chunks_exact_mut(DIM * self.nodes);
+    /// Writes it by rows, node by node, into the first rows and columns of a matrix with rows of this length.
+    pub fn write(&self, length: usize, out: &mut [f64]) {
+        let mut rows = out.chunks_exact_mut(length);
         for node in 0..self.nodes {
             for (i, row) in rows.by_ref().take(DIM).enumerate() {
-                for (other, row) in row.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(N) {
+                for (other, row) in row.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes) {
                     for (m, entry) in row.iter_mut().enumerate() {
                         let below = self.symmetric && m < i;
                         *entry = if below { self.blocks[m][i][other][node] } else { self.blocks[i][m][node][other] };
@@ -142,6 +131,15 @@ impl<const DIM: usize, const N: usize> Tangent<DIM, N> {
                 }
             }
         }
+    }
+}
+
+/// The rank-one part of F-bar, by rows: forces on the nodes of a cell along the shared change of volume, times its
+/// derivative along all unknowns.
+pub fn add_shared<const DIM: usize, const N: usize>(force: &Nodal<DIM, N>, gradient: &[f64], out: &mut [f64]) {
+    let rows = out.chunks_exact_mut(gradient.len());
+    for (row, f) in rows.zip((0..N).flat_map(|node| force.iter().map(move |axis| axis[node]))) {
+        row.iter_mut().zip(gradient).for_each(|(k, g)| *k += f * g);
     }
 }
 

@@ -105,6 +105,9 @@ impl Until {
     }
 }
 
+/// Whether a matrix was factorised, and what the force of the spring does.
+type Solved = (bool, Option<Vec<f64>>);
+
 impl<'a> Newton<'a> {
     /// The first guess, evaluated.
     pub(super) fn begin_path(&mut self, arc: &'a ArcLength) -> Result<Vec<f64>, Failure> {
@@ -260,7 +263,7 @@ impl<'a> Newton<'a> {
         iteration: usize,
         [rhs, push]: [&mut Vec<f64>; 2],
         (spring, forcing): (Option<&Spring>, f64),
-    ) -> Result<Option<(bool, Option<Vec<f64>>)>, Trouble> {
+    ) -> Result<Option<Solved>, Trouble> {
         let factorised = self.solve_linear(iteration, rhs, forcing)?;
         let direct = factorised || self.problem.newton.variant != Variant::Full;
         let mut pulled = spring.map(|spring| {
@@ -324,10 +327,10 @@ impl<'a> Newton<'a> {
     /// Goes along a step; the part of the whole that was taken.
     pub(super) fn advance_on_path(
         &mut self,
-        u: &mut Vec<f64>,
+        u: &mut [f64],
         (motion, tangent): (&Motion, Tangent),
     ) -> Result<f64, Failure> {
-        let (begin, factor) = (u.clone(), self.path.as_ref().map_or(0.0, |path| path.factor));
+        let (begin, factor) = (u.to_vec(), self.path.as_ref().map_or(0.0, |path| path.factor));
         let mut part = 1.0;
         loop {
             self.memory.mixed.follow(part);

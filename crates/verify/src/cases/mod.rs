@@ -20,6 +20,7 @@ mod inclined_block;
 mod interface;
 mod interference_fit;
 mod ironing_3d;
+mod locking;
 mod o_ring;
 mod partial_slip;
 mod partial_slip_3d;
@@ -68,6 +69,7 @@ pub const ALL: &[&Case] = &[
     &flat_punch::CASE,
     &capstan::CASE,
     &o_ring::CASE,
+    &locking::CASE,
     &upsetting::CASE,
     &cup::CASE,
     &wedge::CASE,

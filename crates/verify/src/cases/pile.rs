@@ -37,7 +37,7 @@ fn pushed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     let mut measured = Measured::new();
     let mut chart = Chart::new("Pressure on the cone of a pile", "depth over diameter", "pressure over that at rest");
     for pile in &PILES[..bench.pick(1, 2)] {
-        let (curve, normal, iterations) = push(bench, pile, form)?;
+        let Pushed { curve, normal, iterations } = push(bench, pile, form)?;
         measured.push((format!("{}_iterations", pile.0), iterations as f64));
         if pile.0 == "clay" {
             measured.push(("normal".into(), normal));
@@ -55,13 +55,20 @@ fn pushed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     Ok(measured)
 }
 
-/// Axial force on the cone over the section, less the pressure at rest, by depth over diameter; and at the end the mean
-/// normal pressure on the cone less that at rest, both in the pile's unit; and the iterations.
+/// What a pile finds, pressures in its unit.
+struct Pushed {
+    /// Axial force on the cone over the section, less the pressure at rest, by depth over diameter.
+    curve: Vec<(f64, f64)>,
+    /// Mean normal pressure on the cone at the end, less that at rest.
+    normal: f64,
+    iterations: usize,
+}
+
 fn push(
     bench: &Bench,
     &(_, _, deck, whole, [at_rest, unit], penalty): &Pile,
     form: &[String],
-) -> Result<(Vec<(f64, f64)>, f64, usize), Error> {
+) -> Result<Pushed, Error> {
     let way = bench.pick(QUICK, whole);
     let mut sets = vec![
         format!("step.push.motion.pile.y={:?}", -DIAMETER * way),
@@ -81,7 +88,7 @@ fn push(
         curve.push((way * state.time, (force / section - at_rest) / unit));
     })?;
     let iterations = run.attempts.iter().map(|attempt| attempt.solutions()).sum();
-    Ok((curve, normal, iterations))
+    Ok(Pushed { curve, normal, iterations })
 }
 
 /// Whether a closed point lies on the cone, whose normal dips by 30 degrees, or on the rounding of its ends.

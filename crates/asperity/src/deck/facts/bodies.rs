@@ -5,9 +5,8 @@ use crate::deck::build::Made;
 use crate::diagnosis::BodyFacts;
 use crate::material::Material;
 use crate::mesh::Space;
-use crate::mesh::cells::Cell;
 use crate::model::Model;
-use crate::solid::{Body, Formulation, Integration, Strain};
+use crate::solid::{Body, Strain};
 use crate::solve::Course;
 use crate::system::{Row, Term};
 use crate::tensor::Tensor2;
@@ -23,9 +22,6 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
     let plastic = ["von_mises", "perzyna", "gurson"].iter().any(|known| law.starts_with(known));
     let nodes: BTreeSet<usize> = body.cells().iter().flat_map(|&cell| mesh.cell(cell).nodes).copied().collect();
     let [yield_stress, strength] = if plastic { yields(body.material().as_ref(), shear) } else { [None; 2] };
-    let standard = keys.is_some_and(|keys| *keys.formulation == Formulation::Standard);
-    let full = keys.is_some_and(|keys| *keys.integration == Integration::Full);
-    let locks = |kind: &'static Cell| kind.degree == 1 && standard && (full || kind.reduced.is_none());
     // What is glued to it is held with it.
     let wholes = model.problem.wholes.iter().filter(|whole| whole.nodes().any(|node| nodes.contains(&node)));
     let together: BTreeSet<usize> = wholes.flat_map(|whole| whole.nodes()).collect();
@@ -48,7 +44,7 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
         yield_stress,
         strength,
         density: keys.and_then(|keys| keys.density).map(|density| density.value),
-        locks: body.cells().iter().any(|&cell| locks(mesh.cell(cell).kind)),
+        locks: body.choices().iter().any(|choice| choice.kind.degree == 1 && choice.locks),
         hourglass: body.unseen() > 0,
         small_strain: keys.is_some_and(|keys| *keys.strain == Strain::Small),
         left: if fills(model, body, &nodes) { left(model, &nodes) } else { 1.0 },

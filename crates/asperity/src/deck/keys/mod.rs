@@ -115,7 +115,7 @@ table! {
         /// The material it is made of.
         material: Name = refers(Names::Material).required(),
         /// How the deformation of a cell enters the law.
-        formulation: Spot<Formulation> = word().spot().or("\"standard\""),
+        formulation: Spot<Formulation> = word().spot().or("\"auto\""),
         /// How many integration points a cell has.
         integration: Spot<Integration> = word().spot().or("\"full\""),
         /// How displacements make strain.
@@ -135,8 +135,12 @@ table! {
 
 impl Words for Formulation {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
-        let f_bar = "its change of volume is that of the cell's centre, against locking";
-        vec![(Self::Standard, "standard", "as it is at each point"), (Self::FBar, "f-bar", f_bar)]
+        let f_bar = "the change of volume is one for a cell, or for a patch of simplices, against locking";
+        vec![
+            (Self::Auto, "auto", "f-bar where the law hardly changes its volume and cells would lock, else standard"),
+            (Self::Standard, "standard", "as it is at each point"),
+            (Self::FBar, "f-bar", f_bar),
+        ]
     }
 }
 

@@ -130,7 +130,7 @@ pub(super) fn locking(facts: &Facts, course: &Course) -> Option<Finding> {
             body.bulk_ratio
         ))
         .shown(doubt.map_or(String::new(), |doubt| format!("{}: {:.2}{}", doubt.words, doubt.value, doubt.place)))
-        .try_to(&["`formulation = \"f-bar\"` of the body", "cells of second degree with `integration = \"reduced\"`"]),
+        .try_to(&["`formulation = \"auto\"` of the body", "cells of second degree with `integration = \"reduced\"`"]),
     )
 }
 

@@ -16,7 +16,7 @@ use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{Scheme, System, Update, solve};
 use crate::material::integrated::Integrated;
-use crate::material::{Material, Rate, RateLaw, Variable};
+use crate::material::{Flow, Material, Rate, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn positive(key: &'static str, meaning: &'static str, unit: &'static str) -> Parameter {
@@ -230,6 +230,10 @@ impl RateLaw for CamClay {
     }
 
     /// Of the volume: the energy of the pressure above that of the beginning; of the shape `q^2/(6 G)`.
+    fn flow(&self) -> Flow {
+        Flow::Dilatant
+    }
+
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {
         let (p, s) = (-stress.trace() / 3.0, stress.deviator());
         let shear = self.shear_ratio * p / self.elastic;

@@ -9,7 +9,7 @@ use super::elastic::{Elastic, POISSON, YOUNG};
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::material::{Material, RateLaw, Variable};
+use crate::material::{Flow, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 pub(super) const COHESION: Parameter =
@@ -155,6 +155,11 @@ impl RateLaw for DruckerPrager {
         let (p, s) = (trial.trace() * (1.0 / 3.0), trial.deviator());
         let f = (s.contract(s) * 0.5).sqrt() + p * self.eta - self.strength;
         (f <= 0.0).then_some([self.elastic.lambda, self.elastic.shear])
+    }
+
+    fn flow(&self) -> Flow {
+        // No dilatancy goes beyond the friction.
+        if self.eta == 0.0 { Flow::Isochoric } else { Flow::Dilatant }
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 2]) -> f64 {

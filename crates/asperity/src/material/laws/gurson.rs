@@ -17,7 +17,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root, solve};
-use crate::material::{Material, RateLaw, Variable};
+use crate::material::{self, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn number(key: &'static str, meaning: &'static str, range: Range, default: Option<f64>) -> Parameter {
@@ -286,6 +286,10 @@ impl RateLaw for Gurson {
         }
         let grown = if grown.re() < CLOSED { T::zero() } else { grown };
         Ok((at.with(at.p - ev * bulk, at.q - eq * (3.0 * shear)), [grown, em + dm, volume + ev]))
+    }
+
+    fn flow(&self) -> material::Flow {
+        material::Flow::Isochoric
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {

@@ -10,7 +10,7 @@ use super::elastic::{Elastic, POISSON, YOUNG};
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, VariableKind};
-use crate::material::{Material, RateLaw, Variable};
+use crate::material::{Flow, Material, RateLaw, Variable};
 use crate::tensor::{Isotropic, Scalar, Tensor2};
 
 pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
@@ -138,6 +138,11 @@ impl RateLaw for MohrCoulomb {
         let (stress, [more_shear, more_volume]) = self.returned(&trial)?;
         let done = self.plastic_work(&trial, &stress);
         Ok((stress, [shear + more_shear, volume + more_volume, work + done]))
+    }
+
+    fn flow(&self) -> Flow {
+        // No dilatancy goes beyond the friction.
+        if self.sin_friction == 0.0 { Flow::Isochoric } else { Flow::Dilatant }
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {

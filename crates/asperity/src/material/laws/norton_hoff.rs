@@ -8,7 +8,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root};
-use crate::material::{Material, RateLaw, Variable};
+use crate::material::{Flow, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const CONSISTENCY: Parameter = Parameter {
@@ -94,6 +94,10 @@ impl RateLaw for NortonHoff {
         let high = at.q.re().min(self.unit_stress * relaxed.powf(1.0 / self.exponent));
         let q = root(&equation, [0.0, high], &[at.q], "Norton-Hoff")?;
         Ok((at.with(at.p, q), [p + equation.flow(q)]))
+    }
+
+    fn flow(&self) -> Flow {
+        Flow::Isochoric
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 1]) -> f64 {

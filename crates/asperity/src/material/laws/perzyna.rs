@@ -10,7 +10,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root};
-use crate::material::{Material, RateLaw, Variable};
+use crate::material::{Flow, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const HARDENING: Parameter = Parameter {
@@ -111,6 +111,10 @@ impl RateLaw for Perzyna {
         let y = root(&equation, [0.0, high], &[at.q, yield_stress], "Perzyna")?;
         let dp = equation.flow(y);
         Ok((at.with(at.p, at.q - dp * (3.0 * self.elastic.shear)), [p + dp]))
+    }
+
+    fn flow(&self) -> Flow {
+        Flow::Isochoric
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 1]) -> f64 {

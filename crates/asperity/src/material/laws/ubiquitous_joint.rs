@@ -10,7 +10,7 @@ use super::mohr_coulomb::MohrCoulomb;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::material::{Material, RateLaw, ScalarsAndVector, Variable};
+use crate::material::{Flow, Material, RateLaw, ScalarsAndVector, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
 
 const fn component(key: &'static str, meaning: &'static str, default: Option<f64>) -> Parameter {
@@ -174,6 +174,10 @@ impl RateLaw for UbiquitousJoint {
             }
         }
         Err(Failure::new("ubiquitous joint: matrix and joint do not agree on a stress"))
+    }
+
+    fn flow(&self) -> Flow {
+        Flow::Dilatant
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &State<f64>) -> f64 {

@@ -11,7 +11,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root};
-use crate::material::{Material, RateLaw, ScalarsAndTensor, Variable};
+use crate::material::{Flow, Material, RateLaw, ScalarsAndTensor, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const KINEMATIC: Parameter = Parameter {
@@ -154,6 +154,10 @@ impl RateLaw for VonMises {
         let (s, x) = ((*stress + self.elastic.stress(de)).deviator(), vars.tensor);
         let bears = self.bears([s.contract(s), s.contract(x), x.contract(x), vars.scalars[0]]);
         bears.then_some([self.elastic.lambda, self.elastic.shear])
+    }
+
+    fn flow(&self) -> Flow {
+        Flow::Isochoric
     }
 
     fn stored_energy(&self, stress: &Tensor2, vars: &State<f64>) -> f64 {

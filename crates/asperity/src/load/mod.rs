@@ -1,6 +1,6 @@
 //! What acts on a model from outside: pressures, tractions, nodal forces, body forces, and springs to the ground.
 //!
-//! Each is a term of equilibrium whose values follow a [`Timeline`](crate::amplitude::Timeline). Loads whose forces do
+//! Each is a term of equilibrium whose values follow a [`Timeline`]. Loads whose forces do
 //! not depend on the displacements (all but the follower pressure) are one term, [`DeadLoad`], built from the integral
 //! `integral of N_L dA` or `dV` over the undeformed mesh; [`FollowerPressure`] acts along the present normal over the
 //! present area, with its exact tangent. Forces are those of the full circumference when axisymmetric, and include the

@@ -11,29 +11,35 @@ pub const CASE: Case = Case { name: "cup", measure };
 
 /// The punch is the first contact of the deck.
 const PUNCH: usize = 0;
-/// First and last travel over which forces are compared, and how often.
-const TRAVEL: [f64; 2] = [1.0, 20.0];
+/// Strokes, and the first travel over which forces are compared, and how often.
+const STROKES: [f64; 2] = [20.0, 40.0];
+const FIRST: f64 = 1.0;
 const SAMPLES: usize = 96;
 
 /// Travel of the punch and its force.
 type Curve = Vec<(f64, f64)>;
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let (quad8, mut measured) = draw(bench, "quad8", bench.pick(&["step.2.motion.punch.y=-1.0"][..], &[]))?;
-    if bench.pick(false, true) {
+    if bench.pick(true, false) {
+        return draw(bench, "quad8", &["step.2.motion.punch.y=-1.0".into()]).map(|(_, measured)| measured);
+    }
+    let mut measured = Measured::new();
+    for (stroke, suffix) in STROKES.into_iter().zip(["", "_40"]) {
+        let far = [format!("step.2.duration={stroke:?}"), format!("step.2.motion.punch.y={:?}", -stroke)];
         let linear = ["mesh.part.blank.rectangle.cells=[100, 3]", "mesh.part.blank.rectangle.cell=quad4"];
         let body = ["body.blank.formulation=f-bar", "body.blank.integration=full"];
-        let (quad4, more) = draw(bench, "quad4", &[linear, body].concat())?;
-        measured.extend(more);
-        measured.push(("apart".into(), apart(&quad8, &quad4)));
+        let other = [&far[..], &[linear, body].concat().iter().map(|&set| set.to_owned()).collect::<Vec<_>>()].concat();
+        let (quad8, one) = draw(bench, &format!("quad8{suffix}"), &far)?;
+        let (quad4, more) = draw(bench, &format!("quad4{suffix}"), &other)?;
+        measured.extend(one.into_iter().chain(more));
+        measured.push((format!("apart{suffix}"), apart(&quad8, &quad4, stroke)));
     }
     Ok(measured)
 }
 
-fn draw(bench: &Bench, name: &str, sets: &[&str]) -> Result<(Curve, Measured), Error> {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+fn draw(bench: &Bench, name: &str, sets: &[String]) -> Result<(Curve, Measured), Error> {
     let mut curve = Curve::new();
-    let run = bench.follow("cup.toml", &sets, |model, state| {
+    let run = bench.follow("cup.toml", sets, |model, state| {
         if state.step == 1 {
             curve.push((state.step_time, punch(model, state)));
         }
@@ -50,8 +56,8 @@ fn punch(model: &Model, state: &State) -> f64 {
 }
 
 /// Root mean square of the difference of two curves over the peak of the first.
-fn apart(one: &Curve, other: &Curve) -> f64 {
-    let places = (0..SAMPLES).map(|i| TRAVEL[0] + (TRAVEL[1] - TRAVEL[0]) * i as f64 / SAMPLES as f64);
+fn apart(one: &Curve, other: &Curve, stroke: f64) -> f64 {
+    let places = (0..SAMPLES).map(|i| FIRST + (stroke - FIRST) * i as f64 / SAMPLES as f64);
     let square: f64 = places.map(|x| (at(one, x) - at(other, x)).powi(2)).sum();
     let peak = one.iter().map(|(_, force)| *force).fold(0.0, f64::max);
     (square / SAMPLES as f64).sqrt() / peak

@@ -38,7 +38,7 @@ pub struct ShapeKind {
 }
 
 impl ShapeKind {
-    /// The segment through `nodes`. Degenerate nodes are accepted here and found by [`Tool::check`](super::Tool::check).
+    /// The segment through `nodes`. Degenerate nodes are accepted here and found by [`ProfileTool::check`](super::ProfileTool::check).
     ///
     /// # Errors
     /// In words, when the number of nodes is wrong.

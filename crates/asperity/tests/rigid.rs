@@ -53,7 +53,7 @@ version = 1
 space = "solid"
 mesh.part.bar.box = { from = [-1.0, -1.0, 0.0], to = [1.0, 1.0, 6.0], cells = [2, 2, 4], cell = "hex8" }
 material.rubber.neo_hookean = { shear = 4.0, bulk = 20.0 }
-body.bar.material = "rubber"
+body.bar = { material = "rubber", formulation = "standard" }
 rigid.plate = { group = "bar.front", reference = [0.0, 0.0, 6.0] }
 [[step]]
 increments = { count = 20 }

@@ -56,3 +56,31 @@ fn what_a_fluid_cannot_be_is_told() {
     let dead = told(", kind = \"dead\"");
     assert!(dead.contains("dead, and penetrates"), "{dead}");
 }
+
+/// A slice of one cell between planes of symmetry, where every node lies on the rim of the sole: a fluid of less than the contact
+/// pressure, 1, wets none of it, and one of more all.
+#[test]
+fn a_slice_whose_nodes_all_lie_on_the_rim_is_closed() {
+    let wet = |value: f64| {
+        let deck = format!(
+            r#"
+version = 1
+space = "solid"
+mesh.part.block.box = {{ from = [0.0, 0.0, 0.0], to = [6.0, 2.0, 0.5], cells = [8, 3, 1], cell = "hex8" }}
+material.foam.elastic = {{ young = 40.0, poisson = 0.0 }}
+body.block = {{ material = "foam" }}
+tool.plane.plane = {{ at = [3.0, 0.0, 0.3], normal = [0.0, 1.0, 0.0], side = 30.0 }}
+contact.sole = {{ surface = "block.bottom", target = "plane", law.frictionless = {{}} }}
+[[step]]
+symmetry = ["block.front", "block.back"]
+displacement."block.top" = {{ x = 0.0, y = -0.05 }}
+[[step]]
+increments = {{ count = 10 }}
+pressure."block.bottom" = {{ value = {value:?}, penetrates = true }}
+"#
+        );
+        let model = model(&deck, &[]);
+        *columns(&model, &run(&model))["pressure.block.bottom.wetted_part"].last().unwrap()
+    };
+    assert_eq!([wet(0.4), wet(2.0)], [0.0, 1.0]);
+}

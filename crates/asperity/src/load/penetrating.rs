@@ -78,7 +78,7 @@ impl PenetratingPressure {
     /// The present area that is wet, and the whole, with thickness and circumference.
     pub fn wetted(&self, state: &State, history: &History) -> [f64; 2] {
         let areas = self.areas(&state.u);
-        let wet = (0..self.faces.len()).filter(|&i| is_wet(history, i)).map(|i| areas[i]).sum();
+        let wet = (0..self.faces.len()).filter(|&i| is_wet(history, i)).fold(0.0, |sum, i| sum + areas[i]);
         [wet, areas.iter().sum()]
     }
 
@@ -114,6 +114,7 @@ impl PenetratingPressure {
                 !now[*i]
                     && face.iter().any(|node| nodes.contains(node))
                     && face.iter().all(|node| nodes.contains(node) || admits(node))
+                    && face.iter().any(admits)
             };
             let entered: Vec<usize> = (0..now.len()).filter(enters).collect();
             if entered.is_empty() {

@@ -153,7 +153,7 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     }
     if run.state.jumps > 0 {
         summary.notes.push(format!(
-            "{} increments ended beyond an instability; they set an energy of {:.4e} free",
+            "increments relaxed to an equilibrium beyond an instability: {}; energy set free: {:.4e}",
             run.state.jumps, run.state.released
         ));
     }

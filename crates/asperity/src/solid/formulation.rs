@@ -81,7 +81,7 @@ impl Choice {
             Formulation::Standard => standard("as said", !reduced && (stiff || flow != Flow::None)),
             Formulation::Auto if reduced => standard("reduced integration does not lock", false),
             Formulation::Auto if flow == Flow::Isochoric => {
-                (Formulation::FBar, "the law flows without change of volume".into(), false)
+                (Formulation::FBar, "the law flows with hardly a change of volume".into(), false)
             }
             Formulation::Auto if flow == Flow::Dilatant => {
                 standard("where the law flows its change of volume follows from the shear", true)
@@ -103,9 +103,9 @@ impl Choice {
     /// What is to be known where the cells lock.
     pub fn advice(&self) -> Option<String> {
         let help = match (self.reason.as_str(), self.kind.reduced) {
-            ("as said", _) => "formulation = \"auto\" chooses one that does not",
-            (_, Some(_)) if self.kind.degree > 1 => "integration = \"reduced\" does not",
-            _ => "cells of second degree with integration = \"reduced\" do not",
+            ("as said", _) => "formulation = \"auto\" chooses one that is not",
+            (_, Some(_)) if self.kind.degree > 1 => "integration = \"reduced\" is not",
+            _ => "formulation = \"f-bar\" and cells of second degree with integration = \"reduced\" are not",
         };
         let name = self.kind.name;
         self.locks

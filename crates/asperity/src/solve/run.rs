@@ -13,6 +13,9 @@ use crate::system::{Caution, Energies, Interpenetration, State};
 use crate::{Error, Failure, Kind};
 use std::time::{Duration, Instant};
 
+/// Energy below this part of that of the model and of its forces over a cell is rounding.
+const NOISE: f64 = 1e-9;
+
 /// Options of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RunOptions {
@@ -335,10 +338,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Notes an accepted increment that set energy free.
+    /// Notes an accepted increment that set energy free, more than rounding.
     fn look_for_snap(&mut self, record: &AttemptRecord, forces: &[f64], before: f64) {
         let energy = set_free(&self.state, forces, taken(&self.state) - before);
-        if energy > 0.0 {
+        let rounding = NOISE * (taken(&self.state).abs() + self.state.in_play[0] * self.problem.cell_size);
+        if energy > rounding {
             let change = &self.state.last_change;
             let most = (0..change.len()).max_by(|&a, &b| change[a].abs().total_cmp(&change[b].abs())).unwrap_or(0);
             self.stability.snaps.push(Snap { time: record.time, energy, largest: self.problem.name_of(most) });

@@ -8,6 +8,9 @@ use crate::system::State;
 
 /// Part of the work that is no error of the increment.
 const FREE: f64 = 0.1;
+/// Work of what is loaded or driven, over the energy set free, below which something else set that free: an overlap that is pressed
+/// apart, a change of temperature.
+const DRIVEN: f64 = 1e-3;
 
 /// An increment that jumped.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,7 +33,7 @@ pub(super) fn set_free(state: &State, before: &[f64], taken: f64) -> f64 {
         size += (f0 * change).abs().max((f1 * change).abs());
     }
     let free = works[0].min(works[1]) - taken;
-    if free > FREE * size { free } else { 0.0 }
+    if free > FREE * size && size > DRIVEN * free { free } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -47,6 +50,7 @@ mod tests {
         assert_eq!(free([1.0, 0.2], 2.0, 0.9), 0.0, "softens");
         assert_eq!(free([1.0, 0.5], -2.0, -1.4), 0.0, "unloads");
         assert_eq!(free([1.0, 1.01], 2.0, 1.2), 0.8, "snaps through");
-        assert_eq!(free([1.0, 0.1], 0.0, -0.5), 0.5, "snaps back");
+        assert_eq!(free([1.0, 0.0], 0.25, -0.5), 0.5, "snaps back");
+        assert_eq!(free([1.0, 0.1], 0.0, -0.5), 0.0, "nothing is driven");
     }
 }

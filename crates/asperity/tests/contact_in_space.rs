@@ -3,11 +3,11 @@
 
 mod cubes;
 mod perturbed;
+mod support;
 
 use asperity::contact::PaperContact;
 use asperity::deck::{build, read};
 use asperity::interface::laws::Coulomb;
-use asperity::output::{Job, Limits, Start, simulate};
 use asperity::solve::{RunOptions, Silent, Stop};
 use asperity::system::{Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
@@ -166,18 +166,7 @@ increments.count = 30
     // The radius at which it rolls lies between that of the ball and that to the sunken face.
     assert!((1.8 / 0.5..1.8 / 0.45).contains(&angle) && angle > 3.5, "{angle}");
     let directory = tempfile::tempdir().unwrap();
-    let job = Job {
-        directory: directory.path(),
-        options: made.results.clone(),
-        input: made.input,
-        parts: &made.parts,
-        asked: None,
-        start: Start::Beginning,
-        limits: &Limits::default(),
-        notes: &[],
-        facts: &Default::default(),
-    };
-    simulate(&made.model, &job, &mut Silent).unwrap().1.unwrap();
+    support::write_results(&made, directory.path());
     let text = |path: &str| String::from_utf8_lossy(&std::fs::read(directory.path().join(path)).unwrap()).into_owned();
     let header = text("history.csv").lines().next().unwrap().to_owned();
     for column in ["contact.track.force.z", "contact.track.moment.x", "tool.ball.rotation.y", "tool.ball.moment.z"] {

@@ -2,9 +2,12 @@
 //! other decks and of other formats. Each is refused in one sentence or read as what was written; nothing panics, and
 //! nothing that does not fit its model is run.
 
+mod support;
+
 use asperity::deck::{build, read};
+use asperity::diagnosis::Facts;
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
-use asperity::output::{Job, Kept, Limits, ResultOptions, Start, simulate};
+use asperity::output::{Job, Kept, Start, simulate};
 use asperity::solve::Silent;
 use asperity::system::{Energies, History, State};
 use sha2::{Digest, Sha256};
@@ -146,18 +149,8 @@ displacement."block.top" = { y = 0.01 }
 /// Restarts a deck in a directory; the words of the error.
 fn restart(deck: &str, directory: &Path) -> String {
     let made = read(deck, "deck.toml", Path::new(""), &[]).and_then(build).unwrap_or_else(|d| panic!("{d:?}"));
-    let options = ResultOptions::default();
-    let job = Job {
-        directory,
-        options,
-        input: made.input,
-        parts: &made.parts,
-        asked: None,
-        start: Start::Checkpoint,
-        limits: &Limits::default(),
-        notes: &[],
-        facts: &Default::default(),
-    };
+    let facts = Facts::default();
+    let job = Job { start: Start::Checkpoint, ..support::job(&made, directory, &facts) };
     simulate(&made.model, &job, &mut Silent).unwrap_err().to_string()
 }
 

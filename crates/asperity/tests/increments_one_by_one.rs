@@ -1,5 +1,7 @@
 //! A run whose increments are taken one by one is the run that is made at once, with files or without, and so is a branch of it.
 
+mod support;
+
 use asperity::Error;
 use asperity::deck::{self, Made};
 use asperity::output::{Begun, CHECKPOINT, Job, SUMMARY, Simulation, Start, Status, Summary, simulate};
@@ -17,9 +19,7 @@ fn tube() -> Made {
 }
 
 fn job<'a>(made: &'a Made, directory: &'a Path, start: Start<'a>, facts: &'a asperity::diagnosis::Facts) -> Job<'a> {
-    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
-    let (input, parts) = (made.input, &made.parts[..]);
-    Job { directory, options, input, parts, asked: None, start, limits, notes: &[], facts }
+    Job { start, ..support::job(made, directory, facts) }
 }
 
 fn begun<'m>(made: &'m Made, job: &Job) -> Box<Simulation<'m>> {

@@ -256,10 +256,13 @@ impl Solved {
     pub fn cuts(&self) -> usize {
         self.attempts.iter().filter(|attempt| attempt.failure.is_some()).count()
     }
-    /// Solved linear systems over accepted increments; those of increments that were cut count.
+    /// Solved linear systems; those of increments that were cut count.
+    pub fn solutions(&self) -> usize {
+        self.attempts.iter().map(AttemptRecord::solutions).sum()
+    }
+    /// The same over accepted increments.
     pub fn iterations(&self) -> f64 {
-        let solutions: usize = self.attempts.iter().map(|attempt| attempt.solutions()).sum();
-        solutions as f64 / (self.attempts.len() - self.cuts()) as f64
+        self.solutions() as f64 / (self.attempts.len() - self.cuts()) as f64
     }
     /// Median of the orders of convergence of all increments that show one.
     pub fn order(&self) -> f64 {

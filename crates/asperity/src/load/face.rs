@@ -42,6 +42,10 @@ impl Face {
         let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| FacePoint::new(kind, xi, weight));
         Ok(Self { side, points: points.collect(), nodes: nodes.collect() })
     }
+    /// Words for it under a pressure.
+    pub(super) fn under(&self, pressure: &str) -> String {
+        format!("face {} of cell {} under pressure '{pressure}'", self.side.face, self.side.cell)
+    }
     /// Undeformed positions of its nodes.
     pub(super) fn undeformed<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Vec3> + 'a {
         self.nodes.iter().map(|&node| mesh.points[node])

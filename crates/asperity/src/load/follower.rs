@@ -51,8 +51,7 @@ impl Term for FollowerPressure {
         Ok(Box::new(OpenPressure { load: self, value: now(&self.value, accepted, at) }))
     }
     fn name_of(&self, stencil: usize) -> String {
-        let side = self.faces[stencil].side;
-        format!("face {} of cell {} under pressure '{}'", side.face, side.cell, self.name)
+        self.faces[stencil].under(&self.name)
     }
 }
 

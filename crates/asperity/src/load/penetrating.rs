@@ -215,8 +215,7 @@ impl Term for PenetratingPressure {
         Ok(Box::new(Open { load: self, value, wet: self.enter(accepted, history, value) }))
     }
     fn name_of(&self, stencil: usize) -> String {
-        let side = self.faces[stencil].side;
-        format!("face {} of cell {} under pressure '{}'", side.face, side.cell, self.name)
+        self.faces[stencil].under(&self.name)
     }
 }
 

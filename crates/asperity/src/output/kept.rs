@@ -4,7 +4,7 @@
 use super::checkpoint::{self, Head};
 use super::file::{self, make_directory};
 use super::input::Kept;
-use super::results::CHECKPOINT;
+use super::results::{CHECKPOINT, series};
 use crate::Error;
 use std::path::{Path, PathBuf};
 
@@ -141,8 +141,7 @@ pub fn drop_after(directory: &Path, increment: Option<usize>) -> Result<(), Erro
     Ok(())
 }
 
-/// Folders of frames and single files that a branch takes over.
-const FOLDERS: [&str; 5] = ["bodies", "points", "contacts", "tools", "modes"];
+/// Single files that a branch takes over.
 const TABLES: [&str; 4] = ["history.csv", "certificate.csv", "increments.csv", "iterations.csv"];
 
 /// Makes `to` a copy of the results in `from`, for a branch: tables, frames, and `checkpoint` as its only one. Frames are never
@@ -160,7 +159,7 @@ pub fn branch(from: &Path, to: &Path, checkpoint: &Path) -> Result<(), Error> {
         }
         Ok::<_, Error>(())
     };
-    for folder in FOLDERS {
+    for folder in series() {
         copy(&format!("{folder}.pvd"))?;
         let source = from.join(folder);
         if !source.is_dir() {

@@ -79,6 +79,11 @@ pub const SUMMARY: &str = "summary.json";
 const MODES: &str = "modes";
 const MODES_LIST: &str = "modes.pvd";
 
+/// The series of frames that a result directory may have.
+pub(super) fn series() -> impl Iterator<Item = &'static str> {
+    Fields::ALL.into_iter().map(Fields::name).chain([MODES])
+}
+
 /// Name of the report in the result directory, which the command writes.
 pub const REPORT: &str = "report.html";
 /// Between two writings of the summary while a run goes, but for the ends of steps.

@@ -123,7 +123,7 @@ impl<'a> Piecewise<'a> {
                 stride *= 0.25;
             }
         }
-        self.y = self.coordinates(part);
+        self.y = self.coordinates(&self.left, part);
         if part >= ENOUGH {
             return Ok(Some(part));
         }
@@ -220,7 +220,7 @@ impl<'a> Piecewise<'a> {
     /// Continuation Methods, 1990, ch. 15; for friction Klarbring & Bjorkman, Comput. Struct. 30, 1988).
     fn follow(&mut self, sense: f64, (influences, solver): Factored) -> Result<bool, Failure> {
         self.left.fill(0.0);
-        let (mut part, mut ahead) = (0.0, self.problem(self.left.clone(), self.coordinates(0.0))?);
+        let (mut part, mut ahead) = (0.0, self.problem(self.left.clone(), self.coordinates(&self.left, 0.0))?);
         for _ in 0..PIECES {
             let n = self.active.len();
             let Some(slopes) = Full::factorise(n, self.slopes(&ahead)) else { return Ok(false) };
@@ -248,7 +248,7 @@ impl<'a> Piecewise<'a> {
                     return Ok(false);
                 }
                 (_, self.left) = at(end);
-                self.y = self.coordinates(1.0);
+                self.y = self.coordinates(&self.left, 1.0);
                 return Ok(true);
             }
             for _ in 0..HALVINGS {
@@ -256,19 +256,17 @@ impl<'a> Piecewise<'a> {
                 *(if self.holds(at(middle))? { &mut low } else { &mut high }) = middle;
             }
             (part, self.left) = at(high);
-            self.y = self.coordinates(part);
+            self.y = self.coordinates(&self.left, part);
             let woken = self.awake()?;
-            if !woken.is_empty() {
-                self.activate(&woken, (influences, solver))?;
-            }
-            ahead = self.problem(self.left.clone(), self.coordinates(part))?;
+            self.activate(&woken, (influences, solver))?;
+            ahead = self.problem(self.left.clone(), self.coordinates(&self.left, part))?;
         }
         Ok(false)
     }
 
     /// Whether a solution of one piece is one of all.
     fn holds(&self, (part, left): (f64, Vec<f64>)) -> Result<bool, Failure> {
-        let y = self.coordinates_with(&left, part);
+        let y = self.coordinates(&left, part);
         let problem = self.problem(left, y)?;
         if problem.norm() > NOTHING * problem.size {
             return Ok(false);
@@ -284,12 +282,7 @@ impl<'a> Piecewise<'a> {
     }
 
     /// `y0 + part G d - S w` of all kinks.
-    fn coordinates(&self, part: f64) -> Vec<Coordinates> {
-        self.coordinates_with(&self.left, part)
-    }
-
-    /// The same for other stresses.
-    fn coordinates_with(&self, left: &[f64], part: f64) -> Vec<Coordinates> {
+    fn coordinates(&self, left: &[f64], part: f64) -> Vec<Coordinates> {
         let mut y: Vec<Coordinates> = self.site.kinks.list().iter().map(|kink| kink.y).collect();
         add(&mut y, part, &self.along);
         add(&mut y, 1.0, &self.beyond);
@@ -327,6 +320,9 @@ impl<'a> Piecewise<'a> {
 
     /// Puts stresses right from now on.
     fn activate(&mut self, woken: &[Stress], (influences, solver): Factored) -> Result<(), Failure> {
+        if woken.is_empty() {
+            return Ok(());
+        }
         let (kinks, columns) = (self.site.kinks, &mut self.influence);
         let take = |motion: &[f64]| columns.push(kinks.list().iter().map(|kink| kinks.along(kink, motion)).collect());
         let responded = influences.respond(woken, (self.site, solver), take);
@@ -352,7 +348,7 @@ impl<'a> Piecewise<'a> {
 
     /// Solves the small problem for the active stresses by Newton's method.
     fn solve(&mut self, part: f64, steps: Steps) -> Result<bool, Failure> {
-        let mut at = self.problem(self.left.clone(), self.coordinates(part))?;
+        let mut at = self.problem(self.left.clone(), self.coordinates(&self.left, part))?;
         for _ in 0..ITERATIONS {
             if at.norm() <= NOTHING * at.size {
                 (self.left, self.y) = (at.left, at.y);
@@ -409,9 +405,8 @@ impl<'a> Piecewise<'a> {
     fn slopes(&self, at: &Problem) -> Vec<f64> {
         let mut entries = Vec::with_capacity(self.active.len() * self.active.len());
         for (row, (slopes, &(kink, _))) in at.slopes.iter().zip(&self.active).enumerate() {
-            let along = |change: &Coordinates| slopes.iter().zip(change).map(|(slope, c)| slope * c).sum::<f64>();
             let start = entries.len();
-            entries.extend(self.influence.iter().map(|influence| along(&influence[kink])));
+            entries.extend(self.influence.iter().map(|influence| dot(slopes, &influence[kink])));
             entries[start + row] += 1.0;
         }
         entries

@@ -151,6 +151,6 @@ impl Problem {
 }
 
 /// The unknown that moves most.
-fn largest(motion: &[f64]) -> Option<usize> {
+pub(super) fn largest(motion: &[f64]) -> Option<usize> {
     (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()))
 }

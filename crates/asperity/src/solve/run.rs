@@ -4,7 +4,7 @@ use super::linear::LinearSolver;
 use super::newton::{Converged, Memory, Newton, Trouble};
 use super::observer::{AttemptRecord, Observer};
 use super::path::Reached;
-use super::problem::Problem;
+use super::problem::{Problem, largest};
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
 use super::snap::{Snap, set_free};
@@ -156,7 +156,7 @@ impl<'a> Run<'a> {
                 Ok((self.audit(&converged, !relaxing)?, converged))
             });
             match result {
-                Ok((found, converged)) => {
+                Ok((found, mut converged)) => {
                     if converged.held.is_empty() {
                         let look = Look {
                             problem: self.problem,
@@ -164,7 +164,7 @@ impl<'a> Run<'a> {
                             values: &converged.evaluation.values,
                             memory: &mut self.memory,
                             solver: self.solver.as_mut(),
-                            sprung: converged.reached.as_ref().and_then(|reached| reached.sprung.clone()),
+                            sprung: converged.reached.as_mut().and_then(|reached| reached.sprung.take()),
                         };
                         record.turn = self.stability.look(&mut self.state, look);
                     }
@@ -289,10 +289,10 @@ impl<'a> Run<'a> {
         Ok(converged)
     }
 
-    fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), converged: Converged) {
+    fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), mut converged: Converged) {
         let (before, taken, forces) = (balance(&self.state), taken(&self.state), self.state.internal.clone());
         let moved_before = self.moved();
-        let (last_dt, reached) = (self.state.last_dt, converged.reached.clone());
+        let (last_dt, reached) = (self.state.last_dt, converged.reached.take());
         let converged_freely = converged.held.is_empty();
         self.commit(converged);
         let moved = self.moved();
@@ -343,8 +343,7 @@ impl<'a> Run<'a> {
         let energy = set_free(&self.state, forces, taken(&self.state) - before);
         let rounding = NOISE * (taken(&self.state).abs() + self.state.in_play[0] * self.problem.cell_size);
         if energy > rounding {
-            let change = &self.state.last_change;
-            let most = (0..change.len()).max_by(|&a, &b| change[a].abs().total_cmp(&change[b].abs())).unwrap_or(0);
+            let most = largest(&self.state.last_change).unwrap_or(0);
             self.stability.snaps.push(Snap { time: record.time, energy, largest: self.problem.name_of(most) });
         }
     }

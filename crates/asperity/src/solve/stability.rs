@@ -13,7 +13,7 @@ use super::linear::LinearSolver;
 use super::newton::Memory;
 use super::observer::AttemptRecord;
 use super::path::Sprung;
-use super::problem::Problem;
+use super::problem::{Problem, largest};
 use super::snap::Snap;
 use super::step::norm;
 use crate::system::{Constraints, Signs, Softest, State};
@@ -219,9 +219,9 @@ impl Stability {
             });
             let mut all = vec![0.0; state.u.len()];
             constraints.expand(&mode, &mut all);
-            let most = (0..all.len()).max_by(|&a, &b| all[a].abs().total_cmp(&all[b].abs())).unwrap_or(0);
-            let largest = all[most];
-            all.iter_mut().for_each(|x| *x /= largest);
+            let most = largest(&all).unwrap_or(0);
+            let size = all[most];
+            all.iter_mut().for_each(|x| *x /= size);
             Turn {
                 times: [passed.map_or(last.time, |(from, _)| from), record.time],
                 negative: [last.negative, negative],

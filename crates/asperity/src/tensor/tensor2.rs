@@ -58,17 +58,21 @@ impl<T: Scalar> Tensor2<T> {
             + m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2])
             + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
     }
+    /// Cofactors: the transpose of the inverse times the determinant.
+    #[inline]
+    pub fn cofactors(self) -> Self {
+        let m = self.0;
+        Self::from_fn(|i, j| {
+            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            m[a][c] * m[b][d] - m[a][d] * m[b][c]
+        })
+    }
     /// Inverse; not a number when the determinant is zero.
     #[inline]
     pub fn inverse(self) -> Self {
-        let m = self.0;
-        let cofactor = |i: usize, j: usize| {
-            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-            m[a][c] * m[b][d] - m[a][d] * m[b][c]
-        };
-        let first: [T; 3] = from_fn(|j| cofactor(0, j));
-        let scale = (m[0][0] * first[0] + m[0][1] * first[1] + m[0][2] * first[2]).recip();
-        Self::from_fn(|i, j| cofactor(j, i) * scale)
+        let (m, c) = (self.0, self.cofactors().0);
+        let scale = (m[0][0] * c[0][0] + m[0][1] * c[0][1] + m[0][2] * c[0][2]).recip();
+        Self::from_fn(|i, j| c[j][i] * scale)
     }
     /// Symmetric part.
     #[inline]

@@ -2,8 +2,9 @@
 #![allow(dead_code)] // each test binary uses a part of it
 
 use asperity::deck::{Made, build, read};
+use asperity::diagnosis::Facts;
 use asperity::model::Model;
-use asperity::output::{Certificate, Frame, Job, Limits, Parts, Source, Start, global_columns, simulate};
+use asperity::output::{Certificate, Frame, Job, Parts, Source, Start, global_columns, simulate};
 use asperity::solve::{AttemptRecord, Observer, RunOptions, Silent};
 use asperity::system::State;
 use std::collections::BTreeMap;
@@ -21,20 +22,16 @@ pub fn made(deck: &str, sets: &[&str]) -> Made {
     made.unwrap_or_else(|found| panic!("{}", found.render(false)))
 }
 
+/// The results of a deck from its beginning, in a directory.
+pub fn job<'a>(made: &'a Made, directory: &'a Path, facts: &'a Facts) -> Job<'a> {
+    let (options, limits) = (made.results.clone(), &made.deck.limits.limits);
+    let (input, parts, start) = (made.input, &made.parts[..], Start::Beginning);
+    Job { directory, options, input, parts, asked: None, start, limits, notes: &[], facts }
+}
+
 /// Runs a model to its end with all its files.
 pub fn write_results(made: &Made, directory: &Path) {
-    let job = Job {
-        directory,
-        options: made.results.clone(),
-        input: made.input,
-        parts: &made.parts,
-        asked: None,
-        start: Start::Beginning,
-        limits: &Limits::default(),
-        notes: &[],
-        facts: &Default::default(),
-    };
-    simulate(&made.model, &job, &mut Silent).unwrap().1.unwrap();
+    simulate(&made.model, &job(made, directory, &Facts::default()), &mut Silent).unwrap().1.unwrap();
 }
 
 /// Keeps every attempt and every accepted state.

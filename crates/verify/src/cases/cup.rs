@@ -45,8 +45,7 @@ fn draw(bench: &Bench, name: &str, sets: &[String]) -> Result<(Curve, Measured),
         }
     })?;
     let peak = curve.iter().map(|(_, force)| *force).fold(0.0, f64::max);
-    let iterations = run.attempts.iter().map(|attempt| attempt.solutions()).sum::<usize>();
-    let measured = [("peak", peak), ("iterations", iterations as f64), ("cuts", run.cuts() as f64)];
+    let measured = [("peak", peak), ("iterations", run.solutions() as f64), ("cuts", run.cuts() as f64)];
     Ok((curve, measured.map(|(key, value)| (format!("{name}_{key}"), value)).into()))
 }
 

@@ -87,8 +87,7 @@ fn push(
         normal = (cone.iter().map(|p| p.pressure * p.area).sum::<f64>() / area - at_rest) / unit;
         curve.push((way * state.time, (force / section - at_rest) / unit));
     })?;
-    let iterations = run.attempts.iter().map(|attempt| attempt.solutions()).sum();
-    Ok(Pushed { curve, normal, iterations })
+    Ok(Pushed { curve, normal, iterations: run.solutions() })
 }
 
 /// Whether a closed point lies on the cone, whose normal dips by 30 degrees, or on the rounding of its ends.

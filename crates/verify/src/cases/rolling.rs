@@ -101,8 +101,7 @@ impl Pass {
             sum.iter_mut().zip(self.state(&arc)).for_each(|(sum, x)| *sum += x);
             count += 1.0;
         })?;
-        let iterations = run.attempts.iter().map(|attempt| attempt.solutions()).sum();
-        Ok((sum.map(|sum| sum / count), arc, iterations))
+        Ok((sum.map(|sum| sum / count), arc, run.solutions()))
     }
 
     /// Degrees from the line through the axes of the rolls to the place of a point, against the way of the strip.

@@ -171,8 +171,7 @@ fn newton(bench: &Bench, measured: &mut Measured) -> Result<(), Error> {
     for (element, friction) in ELEMENTS.iter().flat_map(|element| [(element, 0.0), (element, 0.2)]) {
         let law = format!("contact.bore.law.coulomb.friction={friction}");
         let (solved, curve) = run(bench, element, Course::whole(n, 70), &[&law])?;
-        let solutions: usize = solved.attempts.iter().map(|attempt| attempt.solutions()).sum();
-        most = most.max(solutions as f64 / curve.len() as f64);
+        most = most.max(solved.solutions() as f64 / curve.len() as f64);
         cuts += solved.attempts.len() - curve.len();
     }
     measured.push(("iterations".into(), most));

@@ -2,10 +2,10 @@
 
 use super::body::Body;
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
-use super::operator::{Nodal, Tangent, add_forces, add_shared, deformation};
+use super::operator::{Nodal, Tangent, add_forces, deformation};
+use super::plane_stress;
 use super::point::{PointLaw, PointStress};
-use super::volume::{Functions, Shared, TERMS};
-use super::{Strain, plane_stress};
+use super::volume::{Means, Place, Shared};
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
@@ -126,17 +126,22 @@ impl OpenBody<'_> {
         new: &mut [f64],
         local: &mut Local,
     ) -> Result<(), Failure> {
-        let shared = self.shared::<DIM, N>(index, &local.u, local.wants_tangent);
-        if !local.wants_tangent {
-            return self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), None)).map(drop);
+        let (shared, length) = (self.shared::<DIM, N>(index, &local.u), local.u.len());
+        let mut tangent = local
+            .wants_tangent
+            .then(|| Tangent::<DIM, N>::zero(self.nodes(index).len(), self.body.material.is_conservative()));
+        let means = self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), tangent.as_mut()))?;
+        if let Some(shared) = &shared {
+            means.write_forces(shared, &mut local.force);
         }
-        let symmetric = shared.is_none() && self.body.material.is_conservative();
-        let mut tangent = Tangent::<DIM, N>::zero(self.nodes(index).len(), symmetric);
-        let along = self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), Some(&mut tangent)))?;
-        let length = local.u.len();
+        let Some(mut tangent) = tangent else { return Ok(()) };
+        if shared.is_some() {
+            let out = (&mut tangent, &mut local.tangent[..]);
+            self.add_curvature::<DIM, D, N>((index, &local.u), &means.work, out);
+        }
         tangent.write(length, &mut local.tangent);
-        for (along, gradient) in along.iter().zip(shared.iter().flat_map(|shared| &shared.gradients[..shared.terms])) {
-            add_shared(along, &gradient[..length], &mut local.tangent);
+        if let Some(shared) = &shared {
+            means.write_tangent(shared, length, &mut local.tangent);
         }
         Ok(())
     }
@@ -146,22 +151,29 @@ impl OpenBody<'_> {
         self.gradients[index / PART].cell(index % PART)
     }
 
-    /// Adds up the points of a cell and returns the derivatives of its forces along the terms of the shared change of volume.
+    /// Adds up the points of a cell and returns what their mean stress does on a shared change of volume.
     fn add_points<const DIM: usize, const D: usize, const N: usize>(
         &self,
         index: usize,
         new: &mut [f64],
         local: &mut Local,
         (shared, tangent): (Option<&Shared>, Option<&mut Tangent<DIM, N>>),
-    ) -> Result<[Nodal<DIM, N>; TERMS], Failure> {
+    ) -> Result<Means<DIM, N>, Failure> {
         let len = self.body.point_len();
         let mut sums = self.sums::<DIM, D, N>(index, &local.u, tangent);
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in self.points(index).zip(lanes).enumerate() {
-            let volume = point.volume * self.body.thickness(old);
-            let functions = shared.map_or([0.0; TERMS], |shared| self.functions(index, number, shared));
-            sums.law.center = shared.map(|shared| shared.at(&functions));
-            let det = sums.add((point.rows(), volume, &functions), (old, new)).map_err(|f| at_point(f, number))?;
+            let thickness = self.body.thickness(old);
+            let mut weight = Weight { volume: point.volume * thickness, shared: None };
+            if let Some(shared) = shared {
+                let mut place = self.body.places.cell(index)[number];
+                place.volume *= thickness;
+                let (theta, begun) = shared.at(&place.functions);
+                weight = Weight { volume: place.volume * begun, shared: Some((place, begun)) };
+                sums.law.shared = Some(theta);
+            }
+            let (volume, det) =
+                (weight.volume, sums.add(point.rows(), &weight, (old, new)).map_err(|f| at_point(f, number))?);
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
@@ -172,7 +184,7 @@ impl OpenBody<'_> {
         for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes(index).len()) {
             *out = std::array::from_fn(|i| sums.force[i][node]);
         }
-        Ok(sums.along_terms)
+        Ok(sums.means)
     }
 
     /// The sums of a cell before its points are added.
@@ -187,9 +199,9 @@ impl OpenBody<'_> {
         let before = || self.history.slot(index)[self.body.point_len() - 1];
         let (free, cooling) = self.stretch.map_or((1.0, 0.0), |now| strain.of_heat(before(), now));
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
-        let law = PointLaw { material, space, strain, dt, center: None, free, cooling };
-        let (force, along_terms, s) = ([[0.0; N]; DIM], [[[0.0; N]; DIM]; TERMS], PointStress::default());
-        Sums { law, du: self.increment(index, u), force, along_terms, tangent, s }
+        let law = PointLaw { material, space, strain, dt, shared: None, free, cooling };
+        let (force, means, s) = ([[0.0; N]; DIM], Means::default(), PointStress::default());
+        Sums { law, du: self.increment(index, u), force, means, tangent, s }
     }
 
     /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
@@ -206,14 +218,22 @@ impl OpenBody<'_> {
     }
 }
 
+/// What a point counts for.
+struct Weight {
+    /// Volume of its material at the beginning of the increment.
+    volume: f64,
+    /// With F-bar its place in the undeformed body, and the shared change of volume since then.
+    shared: Option<(Place, f64)>,
+}
+
 /// Forces and tangent of a cell while its points are added up.
 struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
     law: PointLaw<'a>,
     /// Displacements of the nodes over the increment.
     du: Nodal<DIM, N>,
     force: Nodal<DIM, N>,
-    /// Derivatives of the forces along the terms of the shared change of volume.
-    along_terms: [Nodal<DIM, N>; TERMS],
+    /// What the mean stress does on a shared change of volume.
+    means: Means<DIM, N>,
     /// Where it is wanted.
     tangent: Option<&'a mut Tangent<DIM, N>>,
     /// Stress of the present point.
@@ -221,12 +241,8 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
 }
 
 impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
-    /// Adds a point of this volume and returns the determinant of its deformation.
-    fn add(
-        &mut self,
-        (rows, volume, functions): (&Rows<N>, f64, &Functions),
-        (old, new): (&[f64], &mut [f64]),
-    ) -> Result<f64, Failure> {
+    /// Adds a point and returns the determinant of its deformation, with F-bar the shared change of volume.
+    fn add(&mut self, rows: &Rows<N>, weight: &Weight, (old, new): (&[f64], &mut [f64])) -> Result<f64, Failure> {
         let (f, s, law) = (deformation(rows, &self.du), &mut self.s, &self.law);
         match (law.space, self.tangent.is_some()) {
             (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
@@ -234,18 +250,12 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
             (_, true) => law.stress_with_tangent::<DIM, D>(&f, old, new, s)?,
             (_, false) => law.stress::<DIM, D>(&f, old, new, s)?,
         }
-        add_forces(rows, &s.p, volume, &mut self.force);
+        add_forces(rows, &s.p, weight.volume, &mut self.force);
         if let Some(tangent) = &mut self.tangent {
-            tangent.add(rows, &s.tangent, volume);
-            if let Some(center) = law.center {
-                // What is known is the derivative along the logarithm of the volume, in small strain along the trace.
-                let weight = if law.strain == Strain::Finite { volume / center } else { volume };
-                for (term, function) in
-                    self.along_terms.iter_mut().zip(functions).filter(|(_, function)| **function != 0.0)
-                {
-                    add_forces(rows, &s.along_center, weight * function, term);
-                }
-            }
+            tangent.add(rows, &s.tangent, weight.volume);
+        }
+        if let Some((place, begun)) = &weight.shared {
+            self.means.add((rows, place, *begun), s, self.tangent.is_some());
         }
         Ok(s.det)
     }

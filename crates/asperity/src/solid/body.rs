@@ -4,6 +4,7 @@ use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
 use super::patches::Patches;
+use super::volume::Places;
 use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
 use crate::material::Material;
 use crate::mesh::cells::{Cell, Rule};
@@ -25,6 +26,7 @@ pub struct Body {
     choices: Vec<Choice>,
     shapes: Vec<KindShapes>,
     pub(super) patches: Patches,
+    pub(super) places: Places,
     initial_stress: Option<InitialStress>,
     pub(super) heat: Option<Heat>,
 }
@@ -99,10 +101,24 @@ impl Body {
             |kind: &Cell| choices.iter().any(|choice| choice.kind == kind && choice.formulation == Formulation::FBar);
         let patches = Patches::new(&mesh, &cells, barred);
         let name = name.into();
-        let (shapes, initial_stress, heat) = (Vec::new(), None, None);
-        let mut body =
-            Self { name, mesh, dofs, space, cells, material, options, choices, shapes, patches, initial_stress, heat };
+        let (shapes, places, initial_stress, heat) = (Vec::new(), Places::default(), None, None);
+        let mut body = Self {
+            name,
+            mesh,
+            dofs,
+            space,
+            cells,
+            material,
+            options,
+            choices,
+            shapes,
+            patches,
+            places,
+            initial_stress,
+            heat,
+        };
         body.shapes = body.choices.iter().map(|choice| body.kind_shapes(choice)).collect();
+        body.places = Places::of(&body);
         Ok(body)
     }
 

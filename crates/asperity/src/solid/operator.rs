@@ -118,25 +118,39 @@ impl<const DIM: usize, const N: usize> Tangent<DIM, N> {
         Arch::new().dispatch(Product { g, a, volume, tangent: self });
     }
 
-    /// Writes it by rows, node by node, into the first rows and columns of a matrix with rows of this length.
+    /// Adds it by rows, node by node, to the first rows and columns of a matrix with rows of this length.
     pub fn write(&self, length: usize, out: &mut [f64]) {
         let mut rows = out.chunks_exact_mut(length);
         for node in 0..self.nodes {
             for (i, row) in rows.by_ref().take(DIM).enumerate() {
                 for (other, row) in row.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes) {
-                    for (m, entry) in row.iter_mut().enumerate() {
-                        let below = self.symmetric && m < i;
-                        *entry = if below { self.blocks[m][i][other][node] } else { self.blocks[i][m][node][other] };
-                    }
+                    row.iter_mut().enumerate().for_each(|(m, entry)| *entry += self.entry((i, node), (m, other)));
+                }
+            }
+        }
+    }
+
+    /// Derivative of the force along axis `i` on a node along the displacement along axis `m` of another.
+    fn entry(&self, (i, node): (usize, usize), (m, other): (usize, usize)) -> f64 {
+        let below = self.symmetric && m < i;
+        if below { self.blocks[m][i][other][node] } else { self.blocks[i][m][node][other] }
+    }
+
+    /// Adds it to a matrix with rows of this length, its nodes at these places there.
+    pub fn add_at(&self, places: &[usize], length: usize, out: &mut [f64]) {
+        for (node, place) in places.iter().enumerate() {
+            for i in 0..DIM {
+                let row = &mut out[(DIM * place + i) * length..][..length];
+                for (other, place) in places.iter().enumerate() {
+                    (0..DIM).for_each(|m| row[DIM * place + m] += self.entry((i, node), (m, other)));
                 }
             }
         }
     }
 }
 
-/// The rank-one part of F-bar, by rows: forces on the nodes of a cell along the shared change of volume, times its
-/// derivative along all unknowns.
-pub fn add_shared<const DIM: usize, const N: usize>(force: &Nodal<DIM, N>, gradient: &[f64], out: &mut [f64]) {
+/// Adds, by rows, what is nodal in a cell times a gradient along all unknowns of a stencil.
+pub fn add_outer<const DIM: usize, const N: usize>(force: &Nodal<DIM, N>, gradient: &[f64], out: &mut [f64]) {
     let rows = out.chunks_exact_mut(gradient.len());
     for (row, f) in rows.zip((0..N).flat_map(|node| force.iter().map(move |axis| axis[node]))) {
         row.iter_mut().zip(gradient).for_each(|(k, g)| *k += f * g);

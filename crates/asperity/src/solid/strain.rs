@@ -2,8 +2,8 @@
 //!
 //! With small strain gradients and volumes are those of the undeformed body throughout, `F_L = integral of sigma grad N_L
 //! dV`, and the strain of an increment is the symmetric part of the gradient of its displacements. What an elastic body
-//! answers is then linear in its displacements. F-bar replaces the trace of the strain by that at the cell's centre, in
-//! plane strain over the two axes of the plane; heat subtracts its strain `alpha T`.
+//! answers is then linear in its displacements. F-bar replaces the trace of the strain by the shared one, in plane strain over
+//! the two axes of the plane, on which the mean stress then works (B-bar, Hughes 1980); heat subtracts its strain `alpha T`.
 
 use super::Body;
 use super::gradient;
@@ -72,14 +72,14 @@ impl Strain {
 
 impl PointLaw<'_> {
     /// Axes over which F-bar spreads a change of volume.
-    fn axes(&self) -> usize {
+    pub(super) fn axes(&self) -> usize {
         if self.space == Space::PlaneStrain { 2 } else { 3 }
     }
 
     /// Deformation that the law sees in small strain.
     pub(super) fn small_seen(&self, f: &Tensor2) -> Tensor2 {
-        let spread = |center: f64| (center - self.strain.dilation(f)) / self.axes() as f64;
-        let (mean, mut seen) = (self.center.map_or(0.0, spread), *f);
+        let spread = |shared: f64| (shared - self.strain.dilation(f)) / self.axes() as f64;
+        let (mean, mut seen) = (self.shared.map_or(0.0, spread), *f);
         for i in 0..3 {
             seen[(i, i)] += if i < self.axes() { self.cooling + mean } else { self.cooling };
         }
@@ -109,17 +109,18 @@ impl PointLaw<'_> {
     ) -> Result<(), Failure> {
         let seen = self.small_seen(f);
         self.material.differentiate(&seen, self.dt, old, (&mut *new, &mut out.law), self.directions())?;
-        let mut center = [0.0; 6];
-        if self.center.is_some() {
+        let mut along = [0.0; 6];
+        if self.shared.is_some() {
             let traced = |d: &usize| matches!(place::<D>(*d), (i, j) if i == j && i < self.axes());
-            for (row, center) in out.law.iter_mut().zip(&mut center) {
-                *center = (0..D).filter(traced).map(|d| row[d]).sum::<f64>() / self.axes() as f64;
-                (0..D).filter(traced).for_each(|d| row[d] -= *center);
+            for (row, along) in out.law.iter_mut().zip(&mut along) {
+                *along = (0..D).filter(traced).map(|d| row[d]).sum::<f64>() / self.axes() as f64;
+                (0..D).filter(traced).for_each(|d| row[d] -= *along);
             }
+            self.split(&mut along, out);
         }
         for d in 0..D {
             let (i, j) = place::<D>(d);
-            out.along_center[d] = center[VOIGT[i][j]];
+            out.mean.stress_along[d] = along[VOIGT[i][j]];
             out.tangent[d].copy_from_slice(&out.law[VOIGT[i][j]][..D]);
         }
         self.small_values(new, out);
@@ -127,10 +128,11 @@ impl PointLaw<'_> {
     }
 
     fn small_values<const D: usize>(&self, new: &[f64], out: &mut PointStress<D>) {
+        let stress = self.working_on_f(new, out);
         out.det = 1.0;
         out.p = std::array::from_fn(|d| {
             let (i, j) = place::<D>(d);
-            new[VOIGT[i][j]]
+            stress[VOIGT[i][j]]
         });
     }
 }

@@ -1,200 +1,342 @@
-//! The change of volume that the points of a cell share with F-bar, `sum_a c_a phi_a`, a field of few terms:
+//! The change of volume that the points of a cell share with F-bar, `theta = sum_a c_a phi_a`, from that of the undeformed
+//! body, a field of few terms whose coefficients are sums over samples, `c_a = sum_s phi_a(s) v_s det f_s`:
 //!
 //! * that of the cell's centre, for quadrilaterals and bricks of first degree (de Souza Neto et al. 1996);
-//! * the mean of the points of its patch, `sum det(f) dv_n / sum dv_n` over their volumes at the beginning of the increment,
-//!   for simplices and wedges of first degree, and for tetrahedra of second;
-//! * the field, linear in the undeformed coordinates, that is nearest to that of the points of the patch by least squares
-//!   over the same volumes, for the others of second degree: with one constant they are too soft.
+//! * the mean of the points of its patch, for simplices and wedges of first degree, and for tetrahedra of second;
+//! * the field, linear in the undeformed coordinates, that is nearest to that of the points of the patch by least squares,
+//!   for the others of second degree: with one constant they are too soft.
 //!
-//! Those of later increments multiply to that from the beginning.
+//! Means and least squares are taken over undeformed volumes, with functions that are orthonormal there (Gram and Schmidt),
+//! so that nothing hangs on the length of increments (Elguedj, Bazilevs, Calo and Hughes 2008). In small strain the same holds
+//! for the trace of an increment's strain.
 
-use super::Strain;
 use super::attempt::OpenBody;
-use super::body::Bar;
-use super::operator::{Nodal, deformation, volume_gradient};
+use super::body::{Bar, Body};
+use super::operator::{Nodal, Tangent, add_forces, add_outer, deformation, volume_gradient};
 use super::patches::WIDEST;
+use super::piola::place;
+use super::point::PointStress;
+use super::{Strain, gradient};
 use crate::tensor::{Tensor2, Vec3};
 
 /// Most unknowns of a stencil.
 const MOST: usize = 3 * WIDEST;
 /// Most terms of the field.
 pub(super) const TERMS: usize = 4;
+/// Part of a function's square that those before it must leave of it.
+const INDEPENDENT: f64 = 1e-10;
 
 /// The functions of the terms at a point.
 pub(super) type Functions = [f64; TERMS];
 
-/// Those of a constant.
-const CONSTANT: Functions = [1.0, 0.0, 0.0, 0.0];
+/// A point of a cell with F-bar, in the undeformed body.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Place {
+    /// Volume it stands for.
+    pub volume: f64,
+    /// Functions of the shared change of volume.
+    pub functions: Functions,
+}
+
+/// Those of all cells with F-bar, with the centre where it is sampled behind the other points of a cell.
+#[derive(Debug, Default)]
+pub(super) struct Places {
+    all: Vec<Place>,
+    /// Where each cell begins; one more than cells.
+    starts: Vec<usize>,
+}
+
+impl Places {
+    /// Those of a body.
+    pub fn of(body: &Body) -> Self {
+        let mut places = Self { all: Vec::new(), starts: vec![0] };
+        let mut at = Vec::new();
+        for slot in 0..body.cells().len() {
+            body.place_cell(slot, (&mut places.all, &mut at));
+            places.starts.push(places.all.len());
+        }
+        for slot in 0..body.cells().len() {
+            let members = body.patches.members(slot);
+            if members[0] == slot {
+                let sampled = members.iter().flat_map(|&member| places.samples(body, member)).collect::<Vec<_>>();
+                let (terms, centred) = match body.bar(slot) {
+                    Bar::Own => continue,
+                    Bar::Center(_) => (1, true),
+                    Bar::Patch => (1, false),
+                    Bar::Linear => (1 + body.dofs.per_node(), false),
+                };
+                places.orthonormal(&sampled, &at, terms);
+                if centred {
+                    // The centre alone is the sample: its volume times its function there is one.
+                    for place in places.starts[slot]..places.starts[slot + 1] {
+                        places.all[place].functions = [1.0, 0.0, 0.0, 0.0];
+                    }
+                    let center = &mut places.all[sampled[0]];
+                    center.functions[0] = center.volume.recip();
+                }
+            }
+        }
+        places
+    }
+
+    /// A cell's.
+    pub fn cell(&self, slot: usize) -> &[Place] {
+        &self.all[self.starts[slot]..self.starts[slot + 1]]
+    }
+
+    fn samples(&self, body: &Body, slot: usize) -> std::ops::Range<usize> {
+        self.starts[slot] + body.first_sample(slot)..self.starts[slot + 1]
+    }
+
+    /// One and the coordinates about the middle, each made orthogonal to those before it over the samples and of unit length.
+    fn orthonormal(&mut self, samples: &[usize], at: &[Vec3], terms: usize) {
+        let volume: f64 = samples.iter().map(|&s| self.all[s].volume).sum();
+        let middle = samples.iter().fold(Vec3::zero(), |sum, &s| sum + at[s] * (self.all[s].volume / volume));
+        for term in 0..terms {
+            let raw = |s: usize| if term == 0 { 1.0 } else { at[s][term - 1] - middle[term - 1] };
+            samples.iter().for_each(|&s| self.all[s].functions[term] = raw(s));
+            let square = |places: &[Place], a: usize, b: usize| -> f64 {
+                let product = |&s: &usize| places[s].volume * places[s].functions[a] * places[s].functions[b];
+                samples.iter().map(product).sum()
+            };
+            let begun = square(&self.all, term, term);
+            for before in 0..term {
+                let part = square(&self.all, term, before);
+                samples.iter().for_each(|&s| self.all[s].functions[term] -= part * self.all[s].functions[before]);
+            }
+            let left = square(&self.all, term, term);
+            let scale = if left > INDEPENDENT * begun { left.sqrt().recip() } else { 0.0 };
+            samples.iter().for_each(|&s| self.all[s].functions[term] *= scale);
+        }
+    }
+}
+
+impl Body {
+    /// Whose change of volume the points of a cell have.
+    fn bar(&self, slot: usize) -> &Bar {
+        &self.shapes(self.mesh.cell(self.cells[slot]).kind).bar
+    }
+
+    /// The first of a cell's points at which its change of volume is sampled: the centre, or all.
+    fn first_sample(&self, slot: usize) -> usize {
+        let shapes = self.shapes(self.mesh.cell(self.cells[slot]).kind);
+        if shapes.bar.center().is_some() { shapes.points.len() } else { 0 }
+    }
+
+    /// Adds volumes and coordinates of a cell's points. Cells that are inside out have none, and are refused by the attempt.
+    fn place_cell(&self, slot: usize, (places, at): (&mut Vec<Place>, &mut Vec<Vec3>)) {
+        let view = self.mesh.cell(self.cells[slot]);
+        let shapes = self.shapes(view.kind);
+        if matches!(shapes.bar, Bar::Own) {
+            return;
+        }
+        let x: Vec<[f64; 3]> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
+        let mut rows = Vec::new();
+        for shapes in shapes.points.iter().chain(shapes.bar.center()) {
+            rows.clear();
+            let volume = gradient::at(shapes, &x, self.space, &mut rows).unwrap_or(f64::NAN);
+            places.push(Place { volume, ..Place::default() });
+            at.push(x.iter().zip(&shapes.n).fold(Vec3::zero(), |sum, (x, n)| sum + Vec3(*x) * *n));
+        }
+    }
+}
 
 /// A shared change of volume.
 pub(super) struct Shared {
     /// How many terms it has.
     pub terms: usize,
-    /// Their factors: of volume over that at the beginning of the increment; in small strain of one and the trace.
-    factors: Functions,
-    /// Centre and scale of the coordinates in which it is linear.
-    frame: Option<(Vec3, f64)>,
-    /// Derivative of each along the unknowns of the stencil; zero if not wanted.
+    /// Their coefficients, in small strain those of one and the trace of the increment,
+    now: Functions,
+    /// and at the beginning of the increment, in small strain those of one.
+    before: Functions,
+    /// Derivative of each along the unknowns of the stencil.
     pub gradients: [[f64; MOST]; TERMS],
 }
 
 impl Shared {
-    fn new(terms: usize) -> Self {
-        Self { terms, frame: None, factors: [0.0; TERMS], gradients: [[0.0; MOST]; TERMS] }
-    }
-
-    /// Its value at a point.
-    pub fn at(&self, functions: &Functions) -> f64 {
-        self.factors.iter().zip(functions).map(|(factor, function)| factor * function).sum()
+    /// Its values at a point: now over the beginning of the increment, and that.
+    pub fn at(&self, functions: &Functions) -> (f64, f64) {
+        let sum = |factors: &Functions| factors.iter().zip(functions).map(|(c, phi)| c * phi).sum::<f64>();
+        let before = sum(&self.before);
+        (sum(&self.now) / before, before)
     }
 }
 
+/// A sample of a shared change of volume.
+struct Sample<'a, const DIM: usize, const N: usize> {
+    rows: &'a gradient::Rows<N>,
+    /// Present volume it stands for.
+    volume: f64,
+    functions: Functions,
+    f: Tensor2,
+}
+
 impl OpenBody<'_> {
-    /// That of a cell at the trial unknowns of its stencil.
-    pub(super) fn shared<const DIM: usize, const N: usize>(
-        &self,
-        index: usize,
-        u: &[f64],
-        differentiated: bool,
-    ) -> Option<Shared> {
-        let body = self.body;
-        match &body.shapes(body.mesh.cell(body.cells[index]).kind).bar {
-            Bar::Own => None,
-            Bar::Center(_) => self.of_center::<DIM, N>(index, u, differentiated),
-            Bar::Patch => self.of_patch::<DIM, N>(index, u, (1, differentiated)),
-            Bar::Linear => self.of_patch::<DIM, N>(index, u, (DIM + 1, differentiated)),
-        }
+    /// The samples of a cell at displacements over the increment.
+    fn samples<'a, const DIM: usize, const N: usize>(
+        &'a self,
+        member: usize,
+        du: &'a Nodal<DIM, N>,
+    ) -> impl Iterator<Item = Sample<'a, DIM, N>> {
+        let places = self.body.places.cell(member);
+        self.points(member).zip(places).skip(self.body.first_sample(member)).map(|(point, place)| {
+            let (rows, volume, functions) = (point.rows(), point.volume, place.functions);
+            Sample { rows, volume, functions, f: deformation(rows, du) }
+        })
     }
 
-    fn of_center<const DIM: usize, const N: usize>(
+    /// Displacements of the nodes of a cell of the patch over the increment, and where they stand in the stencil.
+    fn member<const DIM: usize, const N: usize>(
         &self,
-        index: usize,
+        (index, member): (usize, usize),
         u: &[f64],
-        differentiated: bool,
-    ) -> Option<Shared> {
-        let rows = self.points(index).next_back()?.rows();
-        let f0 = deformation(rows, &self.increment::<DIM, N>(index, u));
-        let strain = self.body.options.strain;
-        let mut shared = Shared::new(1);
-        shared.factors[0] = strain.dilation(&f0);
-        if differentiated {
-            let along: Nodal<DIM, N> = volume_gradient(rows, &along_which(strain, &f0));
-            let weight = if strain == Strain::Finite { shared.factors[0] } else { 1.0 };
-            add(&along, weight, 0..self.nodes(index).len(), &mut shared.gradients[0]);
+    ) -> (Nodal<DIM, N>, [usize; N]) {
+        let (own, others) = (self.nodes(index), self.body.patches.others(index));
+        let (mut du, mut places) = ([[0.0; N]; DIM], [0; N]);
+        for (k, node) in self.nodes(member).iter().enumerate().take(N) {
+            let beside = || others.iter().position(|other| other == node).map(|place| own.len() + place);
+            places[k] = own.iter().position(|own| own == node).or_else(beside).unwrap_or(0);
+            let accepted = &self.accepted.u[self.body.dofs.node(*node)..];
+            (0..DIM).for_each(|i| du[i][k] = u[DIM * places[k] + i] - accepted[i]);
         }
-        Some(shared)
+        (du, places)
     }
 
-    /// The field of a cell's patch: constant, or linear in the undeformed coordinates.
-    fn of_patch<const DIM: usize, const N: usize>(
-        &self,
-        index: usize,
-        u: &[f64],
-        (terms, differentiated): (usize, bool),
-    ) -> Option<Shared> {
+    /// That of a cell at the trial unknowns of its stencil, with its first derivatives.
+    pub(super) fn shared<const DIM: usize, const N: usize>(&self, index: usize, u: &[f64]) -> Option<Shared> {
         let (body, strain) = (self.body, self.body.options.strain);
-        let (own, others) = (self.nodes(index), body.patches.others(index));
-        let (mut shared, mut normal) = (Shared::new(terms), [[0.0; TERMS]; TERMS]);
-        shared.frame = self.frame(index, terms);
-        // Sums of the volumes at the points with the functions there, and the derivatives of those sums.
-        let (mut sums, mut slopes) = ([0.0; TERMS], [[0.0; MOST]; TERMS]);
+        let terms = match body.bar(index) {
+            Bar::Own => return None,
+            Bar::Center(_) | Bar::Patch => 1,
+            Bar::Linear => DIM + 1,
+        };
+        let zero = [0.0; TERMS];
+        let mut shared = Shared { terms, now: zero, before: zero, gradients: [[0.0; MOST]; TERMS] };
         for &member in body.patches.members(index) {
-            // Where the nodes of the member stand in the stencil.
-            let (mut du, mut places) = ([[0.0; N]; DIM], [0; N]);
-            for (k, node) in self.nodes(member).iter().enumerate().take(N) {
-                let beside = || others.iter().position(|other| other == node).map(|place| own.len() + place);
-                places[k] = own.iter().position(|own| own == node).or_else(beside).unwrap_or(0);
-                let accepted = &self.accepted.u[body.dofs.node(*node)..];
-                (0..DIM).for_each(|i| du[i][k] = u[DIM * places[k] + i] - accepted[i]);
-            }
-            let nodes = self.nodes(member).len();
-            for (number, point) in self.points(member).enumerate() {
-                let (rows, volume, functions) = (point.rows(), point.volume, self.functions(member, number, &shared));
-                for (row, f) in normal.iter_mut().zip(functions) {
-                    row.iter_mut().zip(functions).for_each(|(entry, g)| *entry += volume * f * g);
-                }
-                let f = deformation(rows, &du);
+            let (du, places) = self.member::<DIM, N>((index, member), u);
+            let nodes = &places[..self.nodes(member).len()];
+            for Sample { rows, volume, functions, f } in self.samples(member, &du) {
                 let ratio = strain.dilation(&f);
-                sums.iter_mut().zip(functions).for_each(|(sum, function)| *sum += volume * ratio * function);
-                if differentiated {
-                    let along: Nodal<DIM, N> = volume_gradient(rows, &along_which(strain, &f));
-                    let weight = if strain == Strain::Finite { volume * ratio } else { volume };
-                    for (slopes, function) in slopes[..terms].iter_mut().zip(functions) {
-                        add(&along, weight * function, places[..nodes].iter().copied(), slopes);
+                let (along, slope) = match strain {
+                    Strain::Finite => (f, ratio),
+                    Strain::Small => (Tensor2::identity(), 1.0),
+                };
+                let along: Nodal<DIM, N> = volume_gradient(rows, &along);
+                for (a, function) in functions.iter().enumerate().take(terms) {
+                    let weight = volume * function;
+                    shared.before[a] += weight;
+                    shared.now[a] += weight * ratio;
+                    for (k, &place) in nodes.iter().enumerate() {
+                        for (i, along) in along.iter().enumerate() {
+                            shared.gradients[a][DIM * place + i] += weight * slope * along[k];
+                        }
                     }
                 }
             }
         }
-        for (term, row) in inverse(normal, terms)?.iter().enumerate().take(terms) {
-            for (entry, (sum, slopes)) in row.iter().zip(sums.iter().zip(&slopes)).take(terms) {
-                shared.factors[term] += entry * sum;
-                shared.gradients[term].iter_mut().zip(slopes).for_each(|(gradient, slope)| *gradient += entry * slope);
-            }
-        }
         Some(shared)
     }
 
-    /// Centre and extent of the undeformed patch of a cell.
-    fn frame(&self, index: usize, terms: usize) -> Option<(Vec3, f64)> {
-        if terms == 1 {
-            return None;
+    /// Adds the second derivatives of the shared change of volume, those of `det f` at its samples, times the work of the mean
+    /// stress on each term, to the tangent of a cell, and to that of its stencil where they touch the rest of its patch.
+    pub(super) fn add_curvature<const DIM: usize, const D: usize, const N: usize>(
+        &self,
+        (index, u): (usize, &[f64]),
+        work: &Functions,
+        (own, out): (&mut Tangent<DIM, N>, &mut [f64]),
+    ) {
+        if self.body.options.strain == Strain::Small {
+            return;
         }
-        let nodes = || self.nodes(index).iter().chain(self.body.patches.others(index)).copied();
-        // Members see the same patch from their own cell: the sum must not depend on whose nodes come first.
-        let (mut low, mut high) = (Vec3([f64::INFINITY; 3]), Vec3([f64::NEG_INFINITY; 3]));
-        for node in nodes() {
-            let x = self.body.mesh.points[node];
-            (0..3).for_each(|a| (low[a], high[a]) = (low[a].min(x[a]), high[a].max(x[a])));
-        }
-        Some(((low + high) * 0.5, 2.0 / (high - low).norm()))
-    }
-
-    /// The functions of a shared change of volume at a point of a cell: one, then the undeformed coordinates in the frame.
-    pub(super) fn functions(&self, index: usize, number: usize, shared: &Shared) -> Functions {
-        let Some((center, scale)) = shared.frame else { return CONSTANT };
-        let view = self.body.mesh.cell(self.body.cells[index]);
-        let shapes = &self.body.shapes(view.kind).points[number];
-        let place =
-            view.nodes.iter().zip(&shapes.n).fold(Vec3::zero(), |x, (&node, n)| x + self.body.mesh.points[node] * *n);
-        let [x, y, z] = ((place - center) * scale).0;
-        [1.0, x, y, z]
-    }
-}
-
-/// The inverse of the first rows and columns of a symmetric positive matrix, by Gauss and Jordan.
-fn inverse(mut a: [Functions; TERMS], size: usize) -> Option<[Functions; TERMS]> {
-    let mut inverse = [[0.0; TERMS]; TERMS];
-    (0..size).for_each(|i| inverse[i][i] = 1.0);
-    for pivot in 0..size {
-        let scale = a[pivot][pivot];
-        if scale.is_nan() || scale <= 0.0 {
-            return None;
-        }
-        a[pivot].iter_mut().chain(&mut inverse[pivot]).for_each(|entry| *entry /= scale);
-        for row in (0..size).filter(|&row| row != pivot) {
-            let factor = a[row][pivot];
-            for column in 0..size {
-                a[row][column] -= factor * a[pivot][column];
-                inverse[row][column] -= factor * inverse[pivot][column];
+        for &member in self.body.patches.members(index) {
+            let (du, places) = self.member::<DIM, N>((index, member), u);
+            let nodes = &places[..self.nodes(member).len()];
+            let mut tangent = Tangent::<DIM, N>::zero(nodes.len(), true);
+            let tangent = if member == index { &mut *own } else { &mut tangent };
+            for Sample { rows, volume, functions, f } in self.samples(member, &du) {
+                let weight = functions.iter().zip(work).map(|(phi, work)| phi * work).sum::<f64>() * volume;
+                tangent.add(rows, &second_of_volume::<D>(&f), weight);
+            }
+            if member != index {
+                tangent.add_at(nodes, u.len(), out);
             }
         }
     }
-    Some(inverse)
 }
 
-/// The deformation at which the derivative of the change of volume is taken.
-fn along_which(strain: Strain, f: &Tensor2) -> Tensor2 {
-    if strain == Strain::Finite { *f } else { Tensor2::identity() }
+/// Second derivative of `det f`.
+fn second_of_volume<const D: usize>(f: &Tensor2) -> [[f64; D]; D] {
+    let (inverse, det) = (f.inverse(), f.det());
+    std::array::from_fn(|d| {
+        let (i, j) = place::<D>(d);
+        std::array::from_fn(|e| {
+            let (m, n) = place::<D>(e);
+            det * (inverse[(j, i)] * inverse[(n, m)] - inverse[(j, m)] * inverse[(n, i)])
+        })
+    })
 }
 
-/// Adds a derivative along the displacements of nodes to that along the stencil's.
-fn add<const DIM: usize, const N: usize>(
-    along: &Nodal<DIM, N>,
-    weight: f64,
-    places: impl Iterator<Item = usize>,
-    out: &mut [f64; MOST],
-) {
-    for (k, place) in places.enumerate() {
-        (0..DIM).for_each(|i| out[DIM * place + i] += weight * along[i][k]);
+/// What the mean stress of a cell's points does on the terms of its shared change of volume.
+pub(super) struct Means<const DIM: usize, const N: usize> {
+    /// Its work on each term.
+    pub work: Functions,
+    /// Derivatives of that along the cell's nodes,
+    along_nodes: [Nodal<DIM, N>; TERMS],
+    /// and along the terms.
+    along_terms: [Functions; TERMS],
+    /// Derivatives of the cell's other forces along the terms.
+    forces: [Nodal<DIM, N>; TERMS],
+}
+
+impl<const DIM: usize, const N: usize> Default for Means<DIM, N> {
+    fn default() -> Self {
+        let (none, nodal) = ([0.0; TERMS], [[[0.0; N]; DIM]; TERMS]);
+        Self { work: none, along_nodes: nodal, along_terms: [none; TERMS], forces: nodal }
+    }
+}
+
+impl<const DIM: usize, const N: usize> Means<DIM, N> {
+    /// Adds a point with its stress: `begun` is `theta` before the increment.
+    #[inline]
+    pub fn add<const D: usize>(
+        &mut self,
+        (rows, place, begun): (&gradient::Rows<N>, &Place, f64),
+        s: &PointStress<D>,
+        differentiated: bool,
+    ) {
+        for (a, function) in place.functions.iter().enumerate().filter(|(_, function)| **function != 0.0) {
+            let weight = place.volume * function;
+            self.work[a] += weight * s.mean.value;
+            if differentiated {
+                add_forces(rows, &s.mean.tangent, weight, &mut self.along_nodes[a]);
+                add_forces(rows, &s.mean.stress_along, weight, &mut self.forces[a]);
+                let along = self.along_terms[a].iter_mut().zip(&place.functions);
+                along.for_each(|(along, other)| *along += weight * s.mean.along / begun * other);
+            }
+        }
+    }
+
+    /// Adds the forces of the mean stress to those of a stencil.
+    pub fn write_forces(&self, shared: &Shared, force: &mut [f64]) {
+        for (work, gradient) in self.work.iter().zip(&shared.gradients[..shared.terms]) {
+            force.iter_mut().zip(gradient).for_each(|(force, gradient)| *force += work * gradient);
+        }
+    }
+
+    /// Adds all derivatives that the shared change of volume brings but its own second ones.
+    pub fn write_tangent(&self, shared: &Shared, length: usize, out: &mut [f64]) {
+        let gradients = &shared.gradients[..shared.terms];
+        for (a, gradient) in gradients.iter().enumerate() {
+            add_outer(&self.forces[a], &gradient[..length], out);
+            let mut row = [0.0; MOST];
+            for (b, other) in gradients.iter().enumerate() {
+                row.iter_mut().zip(other).for_each(|(row, other)| *row += self.along_terms[a][b] * other);
+            }
+            let nodes = (0..N).flat_map(|node| self.along_nodes[a].iter().map(move |axis| axis[node]));
+            row[..length].iter_mut().zip(nodes).for_each(|(row, along)| *row += along);
+            for (out, weight) in out.chunks_exact_mut(length).zip(gradient) {
+                out.iter_mut().zip(&row).for_each(|(out, row)| *out += weight * row);
+            }
+        }
     }
 }

@@ -150,14 +150,23 @@ fn choose(name: &Name, selection: &Selection, mesh: &mut Mesh, reader: &mut Read
         return reader.report(Diagnostic::error(what).at(name.place).help("choose another name"));
     }
     // A name of no group is reported with all others.
-    let Some(of) = mesh.groups.get(&selection.of.text) else { return };
-    let group = within(of, selection, mesh);
+    let names = std::iter::once(&selection.of).chain(&selection.with);
+    let Some(parts) = names.map(|name| mesh.groups.get(&name.text)).collect::<Option<Vec<_>>>() else { return };
+    let of = union(&parts, mesh);
+    let group = within(&of, selection, mesh);
     if group.nodes.is_empty() {
         let what = format!("no node of `{}` lies within the ranges of `{name}`", selection.of);
-        let help = format!("widen the ranges; the nodes of `{}` lie {}", selection.of, extent(of, mesh));
+        let help = format!("widen the ranges; the nodes of `{}` lie {}", selection.of, extent(&of, mesh));
         return reader.report(Diagnostic::error(what).at(selection.place).help(help));
     }
     mesh.groups.insert(name.text.clone(), group);
+}
+
+/// What lies in any of some groups.
+fn union(parts: &[&Group], mesh: &Mesh) -> Group {
+    let cells = parts.iter().flat_map(|part| part.cells.iter().copied()).collect();
+    let sides = parts.iter().flat_map(|part| part.sides.iter().copied()).collect();
+    Group::new(mesh, cells, sides, parts.iter().flat_map(|part| part.nodes.iter().copied()).collect())
 }
 
 fn within(of: &Group, selection: &Selection, mesh: &Mesh) -> Group {

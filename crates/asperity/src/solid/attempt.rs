@@ -20,8 +20,7 @@ pub(super) struct OpenBody<'a> {
     pub body: &'a Body,
     pub accepted: &'a State,
     pub history: &'a History,
-    /// Gradients at the points of each cell and, where its change of volume is that of its centre, there behind them;
-    /// [`PART`] cells in each part.
+    /// Gradients at the points of each cell; [`PART`] cells in each part.
     pub gradients: Vec<Gradients>,
     pub dt: f64,
     /// Thermal stretch at the end of the increment, where the body has a temperature.
@@ -77,7 +76,7 @@ impl Body {
         }
         let x = &x[..view.nodes.len()];
         let shapes = self.shapes(view.kind);
-        for shapes in shapes.points.iter().chain(shapes.bar.center()) {
+        for shapes in &shapes.points {
             if !gradients.push(shapes, x, self.space) {
                 return Err(Failure::new(self.inverted(cell)).of(Kind::Inverted));
             }
@@ -146,8 +145,8 @@ impl OpenBody<'_> {
         Ok(())
     }
 
-    /// The gradients at the points of a cell, and behind them that at its centre where it has one.
-    pub(super) fn points(&self, index: usize) -> impl DoubleEndedIterator<Item = PointGradient<'_>> + Clone {
+    /// The gradients at the points of a cell.
+    pub(super) fn points(&self, index: usize) -> impl Iterator<Item = PointGradient<'_>> {
         self.gradients[index / PART].cell(index % PART)
     }
 

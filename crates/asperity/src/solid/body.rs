@@ -44,33 +44,19 @@ pub(super) struct KindShapes {
 pub(super) enum Bar {
     /// Each its own.
     Own,
-    /// That of the cell's centre: of quadrilaterals and bricks of first degree.
-    Center(Box<Shapes>),
     /// The mean of the cell's patch.
-    Patch,
+    Mean,
     /// A field over the cell's patch that is linear.
     Linear,
 }
 
 impl Bar {
     fn of(choice: &Choice) -> Self {
-        let kind = choice.kind;
         match choice.formulation {
-            Formulation::FBar if kind.degree == 1 && matches!((kind.dimension, kind.nodes.len()), (2, 4) | (3, 8)) => {
-                Self::Center(Box::new(Shapes::new(kind, kind.center(), 1.0)))
-            }
             // Tetrahedra of second degree have fewer motions a cell than a linear field needs.
-            Formulation::FBar if kind.degree == 2 && kind.nodes.len() != 10 => Self::Linear,
-            Formulation::FBar => Self::Patch,
+            Formulation::FBar if choice.kind.degree == 2 && choice.kind.nodes.len() != 10 => Self::Linear,
+            Formulation::FBar => Self::Mean,
             Formulation::Auto | Formulation::Standard => Self::Own,
-        }
-    }
-
-    /// The shape functions at the centre.
-    pub fn center(&self) -> Option<&Shapes> {
-        match self {
-            Self::Center(shapes) => Some(shapes),
-            Self::Own | Self::Patch | Self::Linear => None,
         }
     }
 }
@@ -140,9 +126,9 @@ impl Body {
         &self.shapes[place.unwrap_or(0)]
     }
 
-    /// Most points of a cell, the centre among them.
+    /// Most points of a cell.
     pub(super) fn most_points(&self) -> usize {
-        self.shapes.iter().map(|kind| kind.points.len() + usize::from(kind.bar.center().is_some())).max().unwrap_or(0)
+        self.shapes.iter().map(|kind| kind.points.len()).max().unwrap_or(0)
     }
 
     /// Most nodes of a cell.

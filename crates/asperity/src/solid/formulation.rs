@@ -2,7 +2,8 @@
 //!
 //! Cells whose points each demand their own change of volume lock where the law hardly gives one: they are too stiff, and
 //! limit loads are never reached. Where the ratio `K / G` of bulk to shear modulus is as small as that of metals the error
-//! is that of the mesh; from [`NEARLY`] on F-bar takes over, and always where a solid flows without a change of volume.
+//! is that of the mesh; from [`NEARLY`] on F-bar takes over, and always where a solid flows with no change of volume or with one that
+//! follows from its shear.
 
 use super::Strain;
 use crate::material::{Flow, Material};
@@ -53,6 +54,8 @@ impl Default for BodyOptions {
 /// edges a side are 5.0 % too stiff in Cook's membrane and 1.7 % with F-bar (3.7 and 1.8 % at 0.3, 21 and 1.7 % at 0.49).
 pub const NEARLY: f64 = 4.6;
 
+const HELP: &str = "formulation = \"auto\" chooses one that is not";
+
 /// What the cells of one kind in a body became, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
@@ -84,7 +87,7 @@ impl Choice {
                 (Formulation::FBar, "the law flows with hardly a change of volume".into(), false)
             }
             Formulation::Auto if flow == Flow::Dilatant => {
-                standard("where the law flows its change of volume follows from the shear", true)
+                (Formulation::FBar, "where the law flows its change of volume follows from the shear".into(), false)
             }
             Formulation::Auto if stiff => {
                 (Formulation::FBar, format!("bulk over shear modulus is {}", rounded(ratio)), false)
@@ -102,14 +105,9 @@ impl Choice {
 
     /// What is to be known where the cells lock.
     pub fn advice(&self) -> Option<String> {
-        let help = match (self.reason.as_str(), self.kind.reduced) {
-            ("as said", _) => "formulation = \"auto\" chooses one that is not",
-            (_, Some(_)) if self.kind.degree > 1 => "integration = \"reduced\" is not",
-            _ => "formulation = \"f-bar\" and cells of second degree with integration = \"reduced\" are not",
-        };
         let name = self.kind.name;
         self.locks
-            .then(|| format!("{name} cells with this law may be too stiff where it flows or keeps volume: {help}"))
+            .then(|| format!("{name} cells with this law may be too stiff where it flows or keeps volume: {HELP}"))
     }
 }
 

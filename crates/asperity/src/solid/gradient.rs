@@ -68,7 +68,7 @@ impl Gradients {
     }
 
     /// The points of a cell, in the order in which they were added.
-    pub fn cell(&self, index: usize) -> impl DoubleEndedIterator<Item = PointGradient<'_>> + ExactSizeIterator + Clone {
+    pub fn cell(&self, index: usize) -> impl Iterator<Item = PointGradient<'_>> {
         let [first, from] = index.checked_sub(1).map_or([0, 0], |before| self.ends[before]);
         let [last, to] = self.ends[index];
         let (rows, volumes) = (&self.rows[first..last], &self.volumes[from..to]);

@@ -17,8 +17,8 @@ pub struct PointRecord<'a> {
     pub reference: Vec3,
     /// Present position.
     pub position: Vec3,
-    /// Present volume it stands for, in small strain that before any motion: with the thickness in the plane, the full
-    /// circumference when axisymmetric.
+    /// Present volume it stands for, in small strain that before any motion, with F-bar that of its material: with the
+    /// thickness in the plane, the full circumference when axisymmetric.
     pub volume: f64,
     /// Cauchy stress XX YY ZZ XY YZ XZ, then the variables of the law.
     pub state: &'a [f64],
@@ -30,7 +30,14 @@ impl Body {
         let len = self.point_len();
         self.cells.iter().enumerate().flat_map(move |(slot, &cell)| {
             let points = history.slot(slot).chunks_exact(len).enumerate();
-            points.map(move |(point, state)| self.record(cell, point, u, state))
+            let shared = self.present_volume(slot, u);
+            points.map(move |(point, state)| {
+                let mut record = self.record(cell, point, u, state);
+                if let Some(shared) = &shared {
+                    record.volume = self.places.cell(slot)[point].under(shared) * self.thickness(state);
+                }
+                record
+            })
         })
     }
 

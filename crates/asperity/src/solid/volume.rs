@@ -1,8 +1,8 @@
 //! The change of volume that the points of a cell share with F-bar, `theta = sum_a c_a phi_a`, from that of the undeformed
 //! body, a field of few terms whose coefficients are sums over samples, `c_a = sum_s phi_a(s) v_s det f_s`:
 //!
-//! * that of the cell's centre, for quadrilaterals and bricks of first degree (de Souza Neto et al. 1996);
-//! * the mean of the points of its patch, for simplices and wedges of first degree, and for tetrahedra of second;
+//! * the mean of the points of its patch, for simplices and wedges of first degree, of the cell for quadrilaterals and bricks of
+//!   first degree and tetrahedra of second;
 //! * the field, linear in the undeformed coordinates, that is nearest to that of the points of the patch by least squares,
 //!   for the others of second degree: with one constant they are too soft.
 //!
@@ -38,7 +38,14 @@ pub(super) struct Place {
     pub functions: Functions,
 }
 
-/// Those of all cells with F-bar, with the centre where it is sampled behind the other points of a cell.
+impl Place {
+    /// Volume under a shared change with these coefficients.
+    pub fn under(&self, coefficients: &Functions) -> f64 {
+        self.volume * coefficients.iter().zip(&self.functions).map(|(c, phi)| c * phi).sum::<f64>()
+    }
+}
+
+/// Those of all cells with F-bar.
 #[derive(Debug, Default)]
 pub(super) struct Places {
     all: Vec<Place>,
@@ -57,23 +64,11 @@ impl Places {
         }
         for slot in 0..body.cells().len() {
             let members = body.patches.members(slot);
-            if members[0] == slot {
-                let sampled = members.iter().flat_map(|&member| places.samples(body, member)).collect::<Vec<_>>();
-                let (terms, centred) = match body.bar(slot) {
-                    Bar::Own => continue,
-                    Bar::Center(_) => (1, true),
-                    Bar::Patch => (1, false),
-                    Bar::Linear => (1 + body.dofs.per_node(), false),
-                };
+            let terms = body.terms(slot);
+            if members[0] == slot && terms > 0 {
+                let points = |&member: &usize| places.starts[member]..places.starts[member + 1];
+                let sampled: Vec<usize> = members.iter().flat_map(points).collect();
                 places.orthonormal(&sampled, &at, terms);
-                if centred {
-                    // The centre alone is the sample: its volume times its function there is one.
-                    for place in places.starts[slot]..places.starts[slot + 1] {
-                        places.all[place].functions = [1.0, 0.0, 0.0, 0.0];
-                    }
-                    let center = &mut places.all[sampled[0]];
-                    center.functions[0] = center.volume.recip();
-                }
             }
         }
         places
@@ -82,10 +77,6 @@ impl Places {
     /// A cell's.
     pub fn cell(&self, slot: usize) -> &[Place] {
         &self.all[self.starts[slot]..self.starts[slot + 1]]
-    }
-
-    fn samples(&self, body: &Body, slot: usize) -> std::ops::Range<usize> {
-        self.starts[slot] + body.first_sample(slot)..self.starts[slot + 1]
     }
 
     /// One and the coordinates about the middle, each made orthogonal to those before it over the samples and of unit length.
@@ -112,15 +103,36 @@ impl Places {
 }
 
 impl Body {
-    /// Whose change of volume the points of a cell have.
-    fn bar(&self, slot: usize) -> &Bar {
-        &self.shapes(self.mesh.cell(self.cells[slot]).kind).bar
+    /// How many terms the shared change of volume of a cell has; none where each point has its own.
+    fn terms(&self, slot: usize) -> usize {
+        match self.shapes(self.mesh.cell(self.cells[slot]).kind).bar {
+            Bar::Own => 0,
+            Bar::Mean => 1,
+            Bar::Linear => 1 + self.dofs.per_node(),
+        }
     }
 
-    /// The first of a cell's points at which its change of volume is sampled: the centre, or all.
-    fn first_sample(&self, slot: usize) -> usize {
-        let shapes = self.shapes(self.mesh.cell(self.cells[slot]).kind);
-        if shapes.bar.center().is_some() { shapes.points.len() } else { 0 }
+    /// Coefficients of a cell's shared change of volume at displacements `u`, in finite strain.
+    pub(super) fn present_volume(&self, slot: usize, u: &[f64]) -> Option<Functions> {
+        if self.terms(slot) == 0 || self.options.strain == Strain::Small {
+            return None;
+        }
+        let (mut coefficients, mut rows) = ([0.0; TERMS], Vec::new());
+        for &member in self.patches.members(slot) {
+            let view = self.mesh.cell(self.cells[member]);
+            let moved = |&node: &usize| {
+                let (mut x, first) = (self.mesh.points[node].0, self.dofs.node(node));
+                x.iter_mut().zip(&u[first..first + self.dofs.per_node()]).for_each(|(x, u)| *x += u);
+                x
+            };
+            let x: Vec<[f64; 3]> = view.nodes.iter().map(moved).collect();
+            for (shapes, place) in self.shapes(view.kind).points.iter().zip(self.places.cell(member)) {
+                rows.clear();
+                let volume = gradient::at(shapes, &x, self.space, &mut rows).unwrap_or(0.0);
+                coefficients.iter_mut().zip(place.functions).for_each(|(c, phi)| *c += volume * phi);
+            }
+        }
+        Some(coefficients)
     }
 
     /// Adds volumes and coordinates of a cell's points. Cells that are inside out have none, and are refused by the attempt.
@@ -132,7 +144,7 @@ impl Body {
         }
         let x: Vec<[f64; 3]> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
         let mut rows = Vec::new();
-        for shapes in shapes.points.iter().chain(shapes.bar.center()) {
+        for shapes in &shapes.points {
             rows.clear();
             let volume = gradient::at(shapes, &x, self.space, &mut rows).unwrap_or(f64::NAN);
             places.push(Place { volume, ..Place::default() });
@@ -163,7 +175,7 @@ impl Shared {
 }
 
 /// A sample of a shared change of volume.
-struct Sample<'a, const DIM: usize, const N: usize> {
+struct VolumeSample<'a, const DIM: usize, const N: usize> {
     rows: &'a gradient::Rows<N>,
     /// Present volume it stands for.
     volume: f64,
@@ -177,11 +189,11 @@ impl OpenBody<'_> {
         &'a self,
         member: usize,
         du: &'a Nodal<DIM, N>,
-    ) -> impl Iterator<Item = Sample<'a, DIM, N>> {
+    ) -> impl Iterator<Item = VolumeSample<'a, DIM, N>> {
         let places = self.body.places.cell(member);
-        self.points(member).zip(places).skip(self.body.first_sample(member)).map(|(point, place)| {
+        self.points(member).zip(places).map(|(point, place)| {
             let (rows, volume, functions) = (point.rows(), point.volume, place.functions);
-            Sample { rows, volume, functions, f: deformation(rows, du) }
+            VolumeSample { rows, volume, functions, f: deformation(rows, du) }
         })
     }
 
@@ -205,17 +217,16 @@ impl OpenBody<'_> {
     /// That of a cell at the trial unknowns of its stencil, with its first derivatives.
     pub(super) fn shared<const DIM: usize, const N: usize>(&self, index: usize, u: &[f64]) -> Option<Shared> {
         let (body, strain) = (self.body, self.body.options.strain);
-        let terms = match body.bar(index) {
-            Bar::Own => return None,
-            Bar::Center(_) | Bar::Patch => 1,
-            Bar::Linear => DIM + 1,
-        };
+        let terms = body.terms(index);
+        if terms == 0 {
+            return None;
+        }
         let zero = [0.0; TERMS];
         let mut shared = Shared { terms, now: zero, before: zero, gradients: [[0.0; MOST]; TERMS] };
         for &member in body.patches.members(index) {
             let (du, places) = self.member::<DIM, N>((index, member), u);
             let nodes = &places[..self.nodes(member).len()];
-            for Sample { rows, volume, functions, f } in self.samples(member, &du) {
+            for VolumeSample { rows, volume, functions, f } in self.samples(member, &du) {
                 let ratio = strain.dilation(&f);
                 let (along, slope) = match strain {
                     Strain::Finite => (f, ratio),
@@ -253,7 +264,7 @@ impl OpenBody<'_> {
             let nodes = &places[..self.nodes(member).len()];
             let mut tangent = Tangent::<DIM, N>::zero(nodes.len(), true);
             let tangent = if member == index { &mut *own } else { &mut tangent };
-            for Sample { rows, volume, functions, f } in self.samples(member, &du) {
+            for VolumeSample { rows, volume, functions, f } in self.samples(member, &du) {
                 let weight = functions.iter().zip(work).map(|(phi, work)| phi * work).sum::<f64>() * volume;
                 tangent.add(rows, &second_of_volume::<D>(&f), weight);
             }

@@ -292,7 +292,8 @@ impl<'a> Newton<'a> {
             if iteration - begun == options.iterations || progress.wanders() {
                 break;
             }
-            if iteration - begun >= PATIENCE {
+            // Where flow is not associated a step need not lower the slope: only contact is to be calmed.
+            if iteration - begun >= PATIENCE && !self.problem.contacts.is_empty() {
                 self.bound = STRICT;
             }
             stalls = if factorised || norms.ratio <= STALLED * ratio { 0 } else { stalls + 1 };

@@ -119,7 +119,7 @@ impl Problem {
 
     /// Whether increments that fail may be relaxed.
     pub(super) fn relaxes(&self) -> bool {
-        self.newton.relax && self.terms.iter().any(|term| term.bends())
+        self.newton.relax
     }
 
     /// How many contact points were open, stuck and slipping in an iteration, over all terms that know these words.

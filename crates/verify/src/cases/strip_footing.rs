@@ -21,7 +21,17 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
             measured.push((format!("nq_{friction}"), load(bench, "surcharge.toml", friction)?));
         }
     }
+    for &friction in bench.pick(&[20][..], &[0, 10, 20, 25, 30, 35]) {
+        for (cell, n) in [("quad4", bench.pick(2, 4)), ("quad8", bench.pick(1, 2))] {
+            measured.extend(by_default(bench, (cell, n), [friction; 2], settlement(friction))?);
+        }
+    }
     if bench.pick(false, true) {
+        for (friction, cell, n) in [(20, "quad4", 2), (20, "quad8", 1), (30, "quad4", 2), (30, "quad8", 1)] {
+            for dilatancy in [friction / 2, 0] {
+                measured.extend(by_default(bench, (cell, n), [friction, dilatancy], SETTLED)?);
+            }
+        }
         for friction in [20, 30] {
             let (even, bands) = (even(bench, friction)?, bands(bench, friction)?);
             let of_even = [("", even[0]), ("_davis", even[0]), ("_range", even[1])];
@@ -52,6 +62,28 @@ fn load(bench: &Bench, deck: &str, friction: usize) -> Result<f64, Error> {
     Ok(-bench.solve(deck, &sets)?.reaction("face")[1])
 }
 
+/// Settlement of runs whose flow is not associated.
+const SETTLED: f64 = 1e-3;
+
+/// With cells, formulation and solver as they come: the load over the cohesion, with other than associated flow its mean over the
+/// second half of the settlement; its range over the last third, and increments.
+fn by_default(
+    bench: &Bench,
+    (cell, n): (&str, usize),
+    [friction, dilatancy]: [usize; 2],
+    settlement: f64,
+) -> Result<Vec<(String, f64)>, Error> {
+    let mut sets = sets(n, [friction, dilatancy], settlement);
+    sets.push(format!("mesh.part.ground.rectangle.cell='{cell}'"));
+    let (name, mut curve) = (format!("{cell}_{friction}_psi_{dilatancy}"), Vec::new());
+    let name = if dilatancy == friction { format!("{cell}_{friction}") } else { name };
+    bench.follow("default.toml", &sets, |model, state| curve.push((state.time, -reaction(model, state, "face")[1])))?;
+    let load = if dilatancy == friction { curve.last().map_or(f64::NAN, |last| last.1) } else { late(&curve, 0.5)[0] };
+    let range = late(&curve, 2.0 / 3.0)[1] / load;
+    let found = [("", load), ("_range", range), ("_increments", curve.len() as f64 - 1.0)];
+    Ok(found.map(|(what, value)| (format!("{name}{what}"), value)).to_vec())
+}
+
 /// Without dilatancy, on the mesh of the deck.
 fn even(bench: &Bench, friction: usize) -> Result<[f64; 2], Error> {
     let mut sets = sets(1, [friction, 0], 5e-4);
@@ -71,8 +103,13 @@ fn bands(bench: &Bench, friction: usize) -> Result<[f64; 2], Error> {
 fn plateau(bench: &Bench, deck: &str, sets: &[String]) -> Result<[f64; 2], Error> {
     let mut curve = Vec::new();
     bench.follow(deck, sets, |model, state| curve.push((state.time, -reaction(model, state, "face")[1])))?;
-    let late: Vec<_> = curve.windows(2).filter(|two| two[1].0 > 0.5).collect();
+    Ok(late(&curve, 0.5))
+}
+
+/// Mean of a curve and its range from a time on.
+fn late(curve: &[(f64, f64)], from: f64) -> [f64; 2] {
+    let late: Vec<_> = curve.windows(2).filter(|two| two[1].0 > from).collect();
     let area: f64 = late.iter().map(|two| (two[1].0 - two[0].0) * two[1].1).sum();
     let (low, high) = late.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), two| (l.min(two[1].1), h.max(two[1].1)));
-    Ok([area / (1.0 - late.first().map_or(0.0, |two| two[0].0)), high - low])
+    [area / (1.0 - late.first().map_or(0.0, |two| two[0].0)), high - low]
 }

@@ -14,7 +14,7 @@ fn uniform() -> f64 {
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Measured::new();
-    for (formulation, name) in [("standard", ""), ("f-bar", "f_bar_")] {
+    for (formulation, name) in [("auto", ""), ("standard", "standard_")] {
         let n = bench.pick(6, 12);
         let sets =
             [format!("mesh.part.cube.box.cells=[{n}, {n}, {n}]"), format!("body.cube.formulation={formulation}")];

@@ -113,11 +113,13 @@ table! {
 }
 
 table! {
-    /// A part of a group: its nodes within the ranges, and its cells and sides whose nodes all are. Bounds are
-    /// included; a direction without a range is not looked at.
+    /// A part of a group, or of several together: their nodes within the ranges, and their cells and sides whose nodes all
+    /// are. Bounds are included; a direction without a range is not looked at.
     pub struct Selection check selection {
         /// The group to choose from.
         of: Name = refers(Names::Group).required(),
+        /// Further groups that belong to it.
+        with: Vec<Name> = list(refers(Names::Group), 0..=usize::MAX).or("[]"),
         /// Least and largest x.
         x: Option<Spot<Vec<f64>>> = point(2).spot().unless_given("any"),
         /// Least and largest y.

@@ -131,7 +131,7 @@ pub static READ: &[Keyword] = &[
             noted("POSITION", "the reference point stays where its node is"),
             refused("ISOTHERMAL", "leave it out"),
         ],
-        "`tool`; nodes of a body: `rigid`, `displacement` in axisymmetric models",
+        "`tool`; nodes of a body: `rigid`, `equation` in axisymmetric models",
     ),
     late(
         "COUPLING",
@@ -143,7 +143,7 @@ pub static READ: &[Keyword] = &[
             refused("ORIENTATION", "couple along the axes"),
             refused("INFLUENCE RADIUS", "name a surface of the nodes meant"),
         ],
-        "`rigid` with *KINEMATIC, `distributing` with *DISTRIBUTING",
+        "`rigid` with *KINEMATIC, or `equation` along some axes; `distributing` with *DISTRIBUTING",
     ),
     late("KINEMATIC", Reader::kinematic, &[], "the kind of a coupling"),
     late(
@@ -233,13 +233,13 @@ pub static READ: &[Keyword] = &[
         "SURFACE BEHAVIOR",
         Reader::surface_behavior,
         &[
-            one_of("PRESSURE-OVERCLOSURE", &["HARD", "LINEAR"]),
+            one_of("PRESSURE-OVERCLOSURE", &["HARD", "LINEAR", "EXPONENTIAL", "TABULAR", "TIED"]),
             used("PENALTY"),
             left("AUGMENTED LAGRANGE"),
             left("DIRECT"),
             refused("NO SEPARATION", "surfaces part where nothing presses them; leave it out"),
         ],
-        "`penalty`; hard contact has the computed one",
+        "`penalty`; hard contact has the computed one; `tie` where surfaces are TIED",
     ),
     Keyword {
         name: "FRICTION",
@@ -304,7 +304,7 @@ pub static READ: &[Keyword] = &[
             used("NAME"),
             used("NLGEOM"),
             one_of("AMPLITUDE", &["RAMP", "STEP"]),
-            left("INC"),
+            used("INC"),
             left("INCF"),
             left("UNSYMM"),
             left("EXTRAPOLATION"),
@@ -320,7 +320,7 @@ pub static READ: &[Keyword] = &[
         &[
             used("DIRECT"),
             left("SOLVER"),
-            refused("RIKS", "translate without it and say `control = \"arc-length\"` in the step of the deck"),
+            used("RIKS"),
             noted(
                 "STABILIZE",
                 "nothing is damped: what a step cannot reach by equilibrium alone is followed by relaxation",
@@ -332,7 +332,7 @@ pub static READ: &[Keyword] = &[
             refused("TOTAL TIME AT START", "the first step begins at time zero"),
             left("FULLY PLASTIC"),
         ],
-        "`duration`, `increments`",
+        "`duration`, `increments`; with RIKS `control = \"arc-length\"`, `until`",
     ),
     Keyword {
         name: "BOUNDARY",

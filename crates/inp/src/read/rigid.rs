@@ -142,7 +142,7 @@ impl Reader {
             None
         };
         if let Some(what) = what {
-            self.model.rigid.push(Rigid { place, node, rotation_node, what, distributing: false });
+            self.model.rigid.push(Rigid { rotation_node, ..Rigid::new(place, node, what) });
         }
     }
 
@@ -157,8 +157,7 @@ impl Reader {
             return;
         };
         self.coupling = Some(place);
-        let what = RigidPart::Sides(scope, name);
-        self.model.rigid.push(Rigid { place, node, rotation_node: None, what, distributing: false });
+        self.model.rigid.push(Rigid::new(place, node, RigidPart::Sides(scope, name)));
     }
 
     /// `*KINEMATIC`: along which axes.
@@ -168,21 +167,11 @@ impl Reader {
         }
         let mut held = [block.lines.is_empty(); 3];
         for line in &block.lines {
-            let Some(first) = self.axis(line, 0) else { return };
-            let last = match line.fields().get(1) {
-                Some(field) if !field.is_empty() => match self.axis(line, 1) {
-                    Some(last) => last,
-                    None => return,
-                },
-                _ => first,
-            };
-            held.iter_mut().take(last + 1).skip(first).for_each(|held| *held = true);
+            let Some(axes) = self.held_axes(line, 0) else { return };
+            held.iter_mut().zip(axes).for_each(|(held, axis)| *held |= axis);
         }
-        let plane = self.model.elements.iter().all(|element| element.kind.family != Family::Solid);
-        if !held.iter().take(if plane { 2 } else { 3 }).all(|&held| held) {
-            let what = "nodes that go with a node along some axes only cannot be translated; couple degrees of freedom 1 to 3, or say \
-                        by *EQUATION what goes together";
-            self.error(block.place, what);
+        if let Some(coupling) = self.model.rigid.last_mut() {
+            coupling.axes = held;
         }
     }
 

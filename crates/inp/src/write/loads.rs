@@ -4,6 +4,7 @@ use super::Writer;
 use super::conditions::Table;
 use super::courses::{Item, Record};
 use crate::model::{Action, ActionKind, Condition, Target};
+use crate::read::along;
 use std::collections::BTreeMap;
 
 /// Loads of each kind.
@@ -53,7 +54,7 @@ impl Writer<'_> {
                     _ => {}
                 }
             }
-            let mut pieces: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+            let mut pieces: BTreeMap<(usize, usize, u64), Vec<usize>> = BTreeMap::new();
             let mut tools = Row::new();
             for ((node, axis), owner) in &owners {
                 for &record in owner {
@@ -62,7 +63,10 @@ impl Writer<'_> {
                     if let Some(led) = self.led_tool(*node, *axis) {
                         add(&mut tools, led, Item { end, start: None, course, place });
                     } else if self.used[*node] && *axis < self.dimension() {
-                        pieces.entry((record, *axis)).or_default().push(*node);
+                        let parts = along(model.frames.get(node), *axis);
+                        for at in (0..self.dimension()).filter(|&at| parts[at] != 0.0) {
+                            pieces.entry((record, at, parts[at].to_bits())).or_default().push(*node);
+                        }
                     } else if !self.used[*node] && !model.rigid.iter().any(|rigid| rigid.node == *node) {
                         self.error(place, format!("'{}' loads nodes of no body", records[record].name));
                     } else if self.used[*node] && end != 0.0 {
@@ -71,10 +75,11 @@ impl Writer<'_> {
                 }
             }
             let mut row = Row::new();
-            for ((record, axis), nodes) in pieces {
+            for ((record, axis, factor), nodes) in pieces {
                 let (end, course) = self.followed(&records[record], number);
                 let group = self.groups.nodes(&records[record].name, nodes);
                 let item = Item { end, start: None, course, place: records[record].place };
+                let item = item.scaled(f64::from_bits(factor));
                 self.lay(&mut row, group, axis, item);
             }
             begin(&mut row, on_nodes.last());

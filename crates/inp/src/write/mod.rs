@@ -12,6 +12,7 @@ mod rubber;
 mod steps;
 mod supports;
 mod tools;
+mod turned;
 
 use crate::elements::Family;
 use crate::message::{Messages, Place};
@@ -38,6 +39,10 @@ struct Writer<'m> {
     /// Whether each node belongs to an element with a section or stands in an equation.
     used: Vec<bool>,
     tools: Vec<Tool>,
+    /// Directions along which nodes with axes of their own are led.
+    directions: Vec<[f64; 3]>,
+    /// Groups of axisymmetric models that are rigid, which hold their radius.
+    rings: Vec<(String, Place)>,
     text: String,
 }
 
@@ -51,6 +56,8 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
         section: vec![],
         used: vec![],
         tools: vec![],
+        directions: vec![],
+        rings: vec![],
         text: String::new(),
     };
     writer.sort_elements();

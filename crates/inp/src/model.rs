@@ -214,6 +214,15 @@ pub struct Interaction {
     pub tied: bool,
 }
 
+/// Nodes that are moved onto a surface before the first step.
+#[derive(Debug, Clone)]
+pub struct Adjust {
+    /// Those that stand off by no more than this.
+    pub distance: f64,
+    /// Of these only.
+    pub nodes: Option<Vec<usize>>,
+}
+
 /// Two surfaces that may touch.
 #[derive(Debug, Clone)]
 pub struct Pair {
@@ -225,8 +234,8 @@ pub struct Pair {
     pub master: (usize, String),
     /// The interaction's number.
     pub interaction: usize,
-    /// Whether nodes are moved onto the surface at the beginning.
-    pub adjust: bool,
+    /// Which nodes are moved onto the surface at the beginning, if any.
+    pub adjust: Option<Adjust>,
     /// Whether contact stress is a field on the surface (mortar), and not at points of it.
     pub field: bool,
 }

@@ -8,6 +8,7 @@ use crate::source::Block;
 
 const INSTANCES: &str = "list the members, or put the set into the part";
 const COURSE: [Parameter; 2] = [used("AMPLITUDE"), one_of("OP", &["MOD", "NEW"])];
+const DELAY: &str = "give the *AMPLITUDE later times";
 const COMPLEX: &str = "only real, static loads are read; leave it out";
 const TABLE_OF_TEMPERATURE: &str = "give one row of constants";
 const STATIC_ONLY: &str = "only *STATIC steps can be solved";
@@ -23,10 +24,12 @@ const FILED: &[Parameter] = &[
     noted("NSET", "all nodes are written"),
     noted("ELSET", "all elements are written"),
     left("GLOBAL"),
+    left("POSITION"),
     left("OUTPUT"),
     left("OUTPUT ALL"),
     noted("LAST ITERATIONS", "only accepted increments are written"),
     noted("CONTACT ELEMENTS", "contact is written at the nodes of its surfaces"),
+    noted("CONTACT ELEMENT", "contact is written at the nodes of its surfaces"),
     left("SECTION FORCES"),
 ];
 const PRINTED: &[Parameter] = &[
@@ -39,6 +42,7 @@ const PRINTED: &[Parameter] = &[
     one_of("TOTALS", &["YES", "ONLY", "NO"]),
     TIME_POINTS,
     left("GLOBAL"),
+    left("POSITION"),
 ];
 
 const fn output(
@@ -346,7 +350,7 @@ pub static READ: &[Keyword] = &[
             refused("USER", "give an *AMPLITUDE"),
             refused("SUBMODEL", "give the values"),
             left("LOAD CASE"),
-            left("TIME DELAY"),
+            refused("TIME DELAY", DELAY),
         ],
         becomes: "`displacement`; on reference nodes `motion` of a tool",
     },
@@ -361,6 +365,7 @@ pub static READ: &[Keyword] = &[
             refused("SECTOR", COMPLEX),
             refused("SUBMODEL", COMPLEX),
             refused("OMEGA0", COMPLEX),
+            refused("TIME DELAY", DELAY),
         ],
         "`force`; on reference nodes `load` of a tool",
     ),

@@ -1,9 +1,10 @@
 //! What happens where surfaces touch, and which may.
 
 use super::Reader;
+use super::names::Of;
 use crate::elements::Dialect;
 use crate::message::{Place, suggestion};
-use crate::model::{Interaction, Pair, Tie};
+use crate::model::{Adjust, Interaction, Pair, Tie};
 use crate::source::Block;
 
 impl Reader {
@@ -203,11 +204,24 @@ impl Reader {
         let Some(name) = self.required(block, "INTERACTION") else { return };
         let name = name.to_string();
         let Some(interaction) = self.interaction_named(block.place, &name) else { return };
-        let adjust = block.has("ADJUST");
+        let adjust = match block.value("ADJUST").map(str::to_string) {
+            _ if !block.has("ADJUST") => None,
+            None => Some(Adjust { distance: 0.0, nodes: None }),
+            Some(text) => match text.parse::<f64>() {
+                Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(Adjust { distance, nodes: None }),
+                Ok(_) => {
+                    return self.error(block.place, "ADJUST is a distance, which is not negative, or a set of nodes");
+                }
+                Err(_) => {
+                    let Some(target) = self.members(block.place, &text, Of::Nodes) else { return };
+                    Some(Adjust { distance: f64::INFINITY, nodes: Some(target.members) })
+                }
+            },
+        };
         let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
         let field = mortar || self.model.dialect == Dialect::Abaqus;
         for (place, [slave, master]) in self.surface_pairs(block) {
-            self.model.pairs.push(Pair { place, slave, master, interaction, adjust, field });
+            self.model.pairs.push(Pair { place, slave, master, interaction, adjust: adjust.clone(), field });
         }
     }
 

@@ -26,14 +26,9 @@ impl Writer<'_> {
                  `form = \"field\"` makes a field of it"
             };
             self.note(pair.place, what);
-            if pair.adjust {
-                self.note(
-                    pair.place,
-                    "ADJUST moves the nodes that lie inside the other surface out of it; gaps stay as wide as they are",
-                );
-            }
         }
         for (number, pair) in model.pairs.iter().enumerate().filter(|(_, pair)| !model.is_tied(pair)) {
+            self.adjust(pair);
             self.contact(number + 1, pair);
         }
     }
@@ -74,7 +69,7 @@ impl Writer<'_> {
         if let Some(slope) = interaction.stick_slope.filter(|_| interaction.friction.is_some_and(|f| f > 0.0)) {
             text += &format!("tangential_penalty = {slope:?}\n");
         }
-        text += &format!("overlap = \"{}\"\n", if pair.adjust { "adjust" } else { "keep" });
+        text += &format!("overlap = \"{}\"\n", if pair.adjust.is_some() { "adjust" } else { "keep" });
         self.text += &text;
         Some(())
     }
@@ -88,7 +83,7 @@ impl Writer<'_> {
         for pair in model.pairs.iter().filter(|pair| model.is_tied(pair)) {
             self.note(pair.place, "the surfaces are glued by constraint, without the elasticity that TIED has");
             let (slave, master) = (pair.slave.clone(), pair.master.clone());
-            self.tie(&Tie { place: pair.place, slave, master, tolerance: None, adjust: pair.adjust });
+            self.tie(&Tie { place: pair.place, slave, master, tolerance: None, adjust: pair.adjust.is_some() });
         }
     }
 
@@ -246,7 +241,7 @@ impl Writer<'_> {
     }
 
     /// The faces that only one element with a section has, by their numbers.
-    fn boundary(&self) -> BTreeSet<(usize, usize)> {
+    pub(super) fn boundary(&self) -> BTreeSet<(usize, usize)> {
         let mut faces = BTreeMap::<Vec<usize>, Option<(usize, usize)>>::new();
         for (at, element) in self.model.elements.iter().enumerate().filter(|(at, _)| self.section[*at].is_some()) {
             for (face, corners) in element.kind.faces.iter().enumerate() {

@@ -55,13 +55,15 @@ impl Writer<'_> {
                 }
             }
             let mut pieces: BTreeMap<(usize, usize, u64), Vec<usize>> = BTreeMap::new();
-            let mut tools = Row::new();
+            let (mut tools, mut idle) = (Row::new(), BTreeMap::<usize, usize>::new());
             for ((node, axis), owner) in &owners {
                 for &record in owner {
                     let (end, course) = self.followed(&records[record], number);
                     let place = records[record].place;
                     if let Some(led) = self.led_tool(*node, *axis) {
                         add(&mut tools, led, Item { end, start: None, course, place });
+                    } else if self.held.get(number).is_some_and(|held| held.contains(&(*node, *axis))) {
+                        *idle.entry(record).or_insert(0) += 1;
                     } else if self.used[*node] && *axis < self.dimension() {
                         let parts = along(model.frames.get(node), *axis);
                         for at in (0..self.dimension()).filter(|&at| parts[at] != 0.0) {
@@ -73,6 +75,12 @@ impl Writer<'_> {
                         self.error(place, "nodes of bodies bear no moments; lay a pressure or forces on several nodes");
                     }
                 }
+            }
+            for (record, count) in idle {
+                let what = format!(
+                    "forces on {count} nodes that are held along their direction are left out: they move nothing"
+                );
+                self.note(records[record].place, what);
             }
             let mut row = Row::new();
             for ((record, axis, factor), nodes) in pieces {

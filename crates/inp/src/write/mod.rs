@@ -1,5 +1,6 @@
 //! From the model to a deck of ours and its mesh.
 
+mod adjust;
 mod bodies;
 mod conditions;
 mod contacts;
@@ -18,6 +19,7 @@ use crate::elements::Family;
 use crate::message::{Messages, Place};
 use crate::model::Model;
 use groups::Groups;
+use std::collections::{BTreeMap, BTreeSet};
 use tools::Tool;
 
 /// A deck and its mesh.
@@ -43,6 +45,10 @@ struct Writer<'m> {
     directions: Vec<[f64; 3]>,
     /// Groups of axisymmetric models that are rigid, which hold their radius.
     rings: Vec<(String, Place)>,
+    /// New places of nodes that are moved onto a surface.
+    moved: BTreeMap<usize, [f64; 3]>,
+    /// Nodes and axes that are held or led in each step.
+    held: Vec<BTreeSet<(usize, usize)>>,
     text: String,
 }
 
@@ -58,6 +64,8 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
         tools: vec![],
         directions: vec![],
         rings: vec![],
+        moved: BTreeMap::new(),
+        held: vec![],
         text: String::new(),
     };
     writer.sort_elements();
@@ -70,7 +78,7 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
     writer.steps();
     writer.outputs();
     writer.named_sets();
-    let mesh = writer.groups.mesh(model, &writer.section, &writer.used);
+    let mesh = writer.groups.mesh(model, &writer.section, (&writer.used, &writer.moved));
     let title = if model.title.is_empty() { name } else { &model.title };
     let mut deck = format!("# Translated from {name}, read as a deck of {:?}.\n", model.dialect);
     let notes = writer.messages.notes();

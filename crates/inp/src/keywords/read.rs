@@ -43,6 +43,7 @@ const PRINTED: &[Parameter] = &[
     TIME_POINTS,
     left("GLOBAL"),
     left("POSITION"),
+    left("SET"),
 ];
 
 const fn output(
@@ -130,10 +131,10 @@ pub static READ: &[Keyword] = &[
             used("ELSET"),
             used("NSET"),
             used("ROT NODE"),
-            refused("PIN NSET", "give the rigid elements by ELSET"),
-            refused("TIE NSET", "give the rigid elements by ELSET"),
+            used("PIN NSET"),
+            used("TIE NSET"),
             noted("POSITION", "the reference point stays where its node is"),
-            refused("ISOTHERMAL", "leave it out"),
+            left("ISOTHERMAL"),
         ],
         "`tool`; nodes of a body: `rigid`, `equation` in axisymmetric models",
     ),
@@ -144,7 +145,7 @@ pub static READ: &[Keyword] = &[
             used("REF NODE"),
             used("SURFACE"),
             left("CONSTRAINT NAME"),
-            refused("ORIENTATION", "couple along the axes"),
+            used("ORIENTATION"),
             refused("INFLUENCE RADIUS", "name a surface of the nodes meant"),
         ],
         "`rigid` with *KINEMATIC, or `equation` along some axes; `distributing` with *DISTRIBUTING",
@@ -153,10 +154,7 @@ pub static READ: &[Keyword] = &[
     late(
         "DISTRIBUTING",
         Reader::distributing,
-        &[
-            one_of("WEIGHTING METHOD", &["UNIFORM"]),
-            refused("COUPLING", "leave it out: force and moment are carried by forces"),
-        ],
+        &[one_of("WEIGHTING METHOD", &["UNIFORM"]), one_of("COUPLING", &["CONTINUUM"])],
         "the kind of a coupling: weights are the areas around nodes",
     ),
     of_model("MATERIAL", Reader::material, &[used("NAME")], "`material`"),
@@ -213,7 +211,7 @@ pub static READ: &[Keyword] = &[
             used("ELSET"),
             used("MATERIAL"),
             left("CONTROLS"),
-            refused("ORIENTATION", "all laws are isotropic: leave it out where the material is, too"),
+            noted("ORIENTATION", "all laws are isotropic"),
             refused("COMPOSITE", "give each layer its own elements"),
             noted("NODAL THICKNESS", "the thickness of the data line holds"),
         ],

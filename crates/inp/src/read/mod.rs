@@ -35,6 +35,8 @@ pub struct Reader {
     step: Option<usize>,
     /// Where the `*COUPLING` stands whose kind is still to be said.
     coupling: Option<Place>,
+    /// Whether that has axes of its own.
+    oriented: bool,
 }
 
 /// The model that blocks say.
@@ -48,6 +50,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
         changing: None,
         step: None,
         coupling: None,
+        oriented: false,
     };
     reader.model.dialect = dialect(blocks);
     let laid_out = reader.lay_out(blocks);

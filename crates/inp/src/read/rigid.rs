@@ -124,6 +124,14 @@ impl Reader {
             },
             None => None,
         };
+        // Nodes of solids have no rotations of their own to be tied.
+        let pinned = block.value("PIN NSET").or_else(|| block.value("TIE NSET"));
+        let nodes = block.value("NSET").or(pinned);
+        if pinned.is_some() && ["ANALYTICAL SURFACE", "ELSET", "NSET"].iter().any(|other| block.has(other)) {
+            let what =
+                "*RIGID BODY: a set of nodes beside other rigid parts cannot be translated; give all nodes by NSET";
+            return self.error(place, what);
+        }
         let what = if let Some(name) = block.value("ANALYTICAL SURFACE") {
             self.named_surface(place, name).map(|(scope, name)| RigidPart::Surface(scope, name))
         } else if let Some(name) = block.value("ELSET") {
@@ -135,7 +143,7 @@ impl Reader {
                     false => RigidPart::Nodes(self.nodes_of(&target.members), target.name),
                 }
             })
-        } else if let Some(name) = block.value("NSET") {
+        } else if let Some(name) = nodes {
             self.members(place, name, Of::Nodes).map(|target| RigidPart::Nodes(target.members, target.name))
         } else {
             self.error(place, "*RIGID BODY says nothing that is rigid; give ANALYTICAL SURFACE, ELSET or NSET");
@@ -157,6 +165,7 @@ impl Reader {
             return;
         };
         self.coupling = Some(place);
+        self.oriented = block.has("ORIENTATION");
         self.model.rigid.push(Rigid::new(place, node, RigidPart::Sides(scope, name)));
     }
 
@@ -169,6 +178,12 @@ impl Reader {
         for line in &block.lines {
             let Some(axes) = self.held_axes(line, 0) else { return };
             held.iter_mut().zip(axes).for_each(|(held, axis)| *held |= axis);
+        }
+        let plane = self.model.elements.iter().all(|element| element.kind.family != Family::Solid);
+        if self.oriented && !held.iter().take(if plane { 2 } else { 3 }).all(|&held| held) {
+            let what = "*COUPLING, ORIENTATION: axes that are turned and some of which only are coupled cannot be translated; couple \
+                        degrees of freedom 1 to 3";
+            return self.error(block.place, what);
         }
         if let Some(coupling) = self.model.rigid.last_mut() {
             coupling.axes = held;

@@ -114,6 +114,8 @@ fn a_branch_is_the_whole_run_with_the_changed_step() {
             assert!(values.iter().zip(&branch[column]).all(same), "{name} {column}: {values:?} {:?}", branch[column]);
         }
     }
+    let told = refused(folder.path(), &["restart", "a.toml", "--from", "draw", "--out", "elsewhere"]);
+    assert!(told.contains("--of") && told.contains("a.results"), "{told}");
     // In the same directory, from a number.
     done(folder.path(), &["restart", "b.toml", "--from", "2", "--out", "a.results"]);
     assert!(state(&at("whole")) == state(&at("a.results")));

@@ -221,6 +221,8 @@ pub struct Adjust {
     pub distance: f64,
     /// Of these only.
     pub nodes: Option<Vec<usize>>,
+    /// How far they stand off afterwards, those too that lie inside; onto the surface where nothing is said.
+    pub clearance: Option<f64>,
 }
 
 /// Two surfaces that may touch.

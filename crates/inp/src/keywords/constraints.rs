@@ -1,6 +1,6 @@
-//! Keywords of nodes that have axes of their own, or go with others.
+//! Keywords of nodes that have axes of their own, go with others, or are moved before the first step.
 
-use super::{Keyword, late, left, of_model, one_of, used};
+use super::{Keyword, late, left, of_model, one_of, refused, used};
 use crate::read::Reader;
 
 /// In the order of the manual.
@@ -17,5 +17,18 @@ pub static CONSTRAINTS: &[Keyword] = &[
         Reader::kinematic_coupling,
         &[used("REF NODE")],
         "`rigid`, or `equation` along some axes",
+    ),
+    late(
+        "CLEARANCE",
+        Reader::clearance,
+        &[
+            used("SLAVE"),
+            used("MASTER"),
+            used("VALUE"),
+            refused("CPSET", "name the surfaces by SLAVE and MASTER"),
+            refused("TABULAR", "give one VALUE for all nodes"),
+            refused("BOLT", "give one VALUE for all nodes"),
+        ],
+        "nodes of the slave are moved to that distance, without strain",
     ),
 ];

@@ -46,7 +46,6 @@ pub static OTHER: &[Keyword] = &[
     no("PRE-TENSION SECTION", "shorten the bolt by a *TEMPERATURE of its body"),
     no("CHANGE SURFACE BEHAVIOR", "the penalty stays what it is over a run"),
     no("CHANGE MATERIAL", "materials stay what they are over a run"),
-    no("CLEARANCE", "move the nodes, or give ADJUST to the *CONTACT PAIR"),
     no("CONTACT INTERFERENCE", "model the overlap in the mesh: it presses from the first increment on"),
     no("CONTACT", PAIRS_ONLY),
     no("CONTACT INCLUSIONS", PAIRS_ONLY),

@@ -206,15 +206,17 @@ impl Reader {
         let Some(interaction) = self.interaction_named(block.place, &name) else { return };
         let adjust = match block.value("ADJUST").map(str::to_string) {
             _ if !block.has("ADJUST") => None,
-            None => Some(Adjust { distance: 0.0, nodes: None }),
+            None => Some(Adjust { distance: 0.0, nodes: None, clearance: None }),
             Some(text) => match text.parse::<f64>() {
-                Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(Adjust { distance, nodes: None }),
+                Ok(distance) if distance >= 0.0 && distance.is_finite() => {
+                    Some(Adjust { distance, nodes: None, clearance: None })
+                }
                 Ok(_) => {
                     return self.error(block.place, "ADJUST is a distance, which is not negative, or a set of nodes");
                 }
                 Err(_) => {
                     let Some(target) = self.members(block.place, &text, Of::Nodes) else { return };
-                    Some(Adjust { distance: f64::INFINITY, nodes: Some(target.members) })
+                    Some(Adjust { distance: f64::INFINITY, nodes: Some(target.members), clearance: None })
                 }
             },
         };
@@ -222,6 +224,27 @@ impl Reader {
         let field = mortar || self.model.dialect == Dialect::Abaqus;
         for (place, [slave, master]) in self.surface_pairs(block) {
             self.model.pairs.push(Pair { place, slave, master, interaction, adjust: adjust.clone(), field });
+        }
+    }
+
+    /// `*CLEARANCE`: how far the slave of a pair stands off from its master before the first step, whatever the mesh says.
+    pub(crate) fn clearance(&mut self, block: &Block) {
+        let named = ["SLAVE", "MASTER"].map(|side| self.required(block, side).map(str::to_string));
+        let [Some(slave), Some(master)] = named else { return };
+        let Some(value) = self.required(block, "VALUE").map(str::to_string) else { return };
+        let Some(value) = self.number(block.place, &value, "VALUE") else { return };
+        if value < 0.0 {
+            return self.error(block.place, "VALUE must not be negative; model an overlap in the mesh");
+        }
+        let (slave, master) = (self.named_surface(block.place, &slave), self.named_surface(block.place, &master));
+        let (Some(slave), Some(master)) = (slave, master) else { return };
+        let adjust = Adjust { distance: f64::INFINITY, nodes: None, clearance: Some(value) };
+        match self.model.pairs.iter_mut().find(|pair| (&pair.slave, &pair.master) == (&slave, &master)) {
+            Some(pair) => pair.adjust = Some(adjust),
+            None => self.error(
+                block.place,
+                format!("there is no *CONTACT PAIR of '{}' and '{}' above; put *CLEARANCE below it", slave.1, master.1),
+            ),
         }
     }
 

@@ -1,4 +1,5 @@
-//! Nodes that `ADJUST` moves onto the other surface of a contact pair before the first step, without strain.
+//! Nodes that `ADJUST` moves onto the other surface of a contact pair before the first step, or `CLEARANCE` to a distance from it,
+//! without strain.
 
 use super::Writer;
 use crate::elements::Family;
@@ -27,11 +28,17 @@ impl Writer<'_> {
             return;
         };
         let SurfaceKind::Faces(faces) = &master.kind else {
-            return self.note(pair.place, "ADJUST: gaps to a rigid surface stay as wide as they are");
+            return self.note(
+                pair.place,
+                "gaps to a rigid surface stay as wide as they are, whatever ADJUST or CLEARANCE say",
+            );
         };
         let rigid = |element: usize| self.model.elements[element].kind.family == Family::Rigid;
         if faces.iter().any(|&(element, ..)| rigid(element)) {
-            return self.note(pair.place, "ADJUST: gaps to a rigid surface stay as wide as they are");
+            return self.note(
+                pair.place,
+                "gaps to a rigid surface stay as wide as they are, whatever ADJUST or CLEARANCE say",
+            );
         }
         let boundary = self.boundary();
         let whole = |(element, face): (usize, Option<usize>)| match face {
@@ -57,15 +64,19 @@ impl Writer<'_> {
         let mut most = 0.0_f64;
         for node in nodes.into_iter().filter(chosen) {
             let x = self.model.nodes[node].x;
-            let nearest =
-                facets.iter().filter_map(|facet| facet.under(x)).min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-            if let Some((gap, foot)) = nearest.filter(|(gap, _)| *gap > 0.0 && *gap <= adjust.distance) {
-                moved.insert(node, foot);
-                most = most.max(gap);
+            let under = facets.iter().filter_map(|facet| Some((facet.under(x)?, facet.normal)));
+            let Some((gap, normal)) = under.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) else { continue };
+            let clearance = adjust.clearance.unwrap_or(0.0);
+            if adjust.clearance.is_some() || (gap > 0.0 && gap <= adjust.distance) {
+                moved.insert(node, std::array::from_fn(|i| x[i] + (clearance - gap) * normal[i]));
+                most = most.max((clearance - gap).abs());
             }
         }
         if !moved.is_empty() {
-            let what = format!("ADJUST: {} nodes are moved onto the other surface, by {most:.3e} at most", moved.len());
+            let (count, which) = (moved.len(), if adjust.clearance.is_some() { "CLEARANCE" } else { "ADJUST" });
+            let what = format!(
+                "{which}: {count} nodes are moved along the normals of the other surface, by {most:.3e} at most"
+            );
             self.note(pair.place, what);
         }
         self.moved.extend(moved);
@@ -101,8 +112,8 @@ impl Writer<'_> {
 }
 
 impl Facet {
-    /// How far a point stands off, and its foot, if that lies within the facet.
-    fn under(&self, x: [f64; 3]) -> Option<(f64, [f64; 3])> {
+    /// How far a point stands off, if its foot lies within the facet.
+    fn under(&self, x: [f64; 3]) -> Option<f64> {
         let gap = dot(self.normal, less(x, self.corners[0]));
         let foot: [f64; 3] = std::array::from_fn(|i| x[i] - gap * self.normal[i]);
         let count = self.corners.len();
@@ -118,7 +129,7 @@ impl Facet {
             };
             dot(inward, less(foot, a)) >= -1e-6 * dot(inward, inward).sqrt() * dot(less(b, a), less(b, a)).sqrt()
         });
-        within.then_some((gap, foot))
+        within.then_some(gap)
     }
 }
 

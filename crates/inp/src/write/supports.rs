@@ -10,6 +10,9 @@ use std::collections::BTreeMap;
 /// Who leads each node along each axis.
 type Owners = BTreeMap<(usize, usize), usize>;
 
+/// Nodes that are led alike, by record, component and the values of the item.
+type Alike = BTreeMap<(usize, usize, Vec<u64>), (Item, Vec<usize>)>;
+
 /// What leads nodes, and what leads tools.
 pub struct Supports {
     /// By groups.
@@ -115,7 +118,7 @@ impl Writer<'_> {
         records: &[Record],
         start: &dyn Fn(&(usize, usize)) -> Option<f64>,
     ) -> Vec<(usize, (Item, usize), Vec<usize>)> {
-        let mut alike: BTreeMap<(usize, usize, Vec<u64>), (Item, Vec<usize>)> = BTreeMap::new();
+        let mut alike = Alike::new();
         for (&node, led) in owned {
             let Some(frame) = self.model.frames.get(&node) else { continue };
             let items: Vec<(usize, Item)> = led

@@ -15,6 +15,9 @@ body.block = { material = "soft", formulation = "f-bar" }
 tool.plate.profile = [{ line = [[-20.0, 2.0], [20.0, 2.0]] }]
 contact.top = { surface = "block.top", target = "plate", law.coulomb = { friction = 0.2 } }
 output.checkpoints = "steps"
+output.export = ["frd", "xdmf"]
+output.print = [{ of.nodes = "block.top", quantities = ["displacement"] }]
+probe.corner = { at.point = [4.0, 2.0], quantities = ["displacement"] }
 [[step]]
 name = "clamp"
 increments = { count = 2 }
@@ -98,8 +101,10 @@ fn a_branch_is_the_whole_run_with_the_changed_step() {
     done(folder.path(), &["restart", "b.toml", "--from", "draw", "--of", "a.results", "--out", "branch"]);
     assert_eq!(summary, std::fs::read(at("a.results/summary.json")).unwrap(), "what is branched of stays");
     assert!(state(&at("whole")) == state(&at("branch")));
-    let frame = |run: &str| std::fs::read(at(run).join("bodies/bodies_000013.vtu")).unwrap();
-    assert!(frame("whole") == frame("branch"));
+    for file in ["bodies/bodies_000013.vtu", "results.frd", "results.xdmf", "results.dat", "probe.corner.csv"] {
+        let [whole, branch] = ["whole", "branch"].map(|run| std::fs::read(at(run).join(file)).unwrap());
+        assert!(whole == branch, "{file}");
+    }
     for name in ["history.csv", "certificate.csv", "increments.csv"] {
         let [whole, branch] = ["whole", "branch"].map(|run| table(&at(run), name));
         assert_eq!(whole.keys().collect::<Vec<_>>(), branch.keys().collect::<Vec<_>>());
@@ -109,6 +114,8 @@ fn a_branch_is_the_whole_run_with_the_changed_step() {
             assert!(values.iter().zip(&branch[column]).all(same), "{name} {column}: {values:?} {:?}", branch[column]);
         }
     }
+    let told = refused(folder.path(), &["restart", "a.toml", "--from", "draw", "--out", "elsewhere"]);
+    assert!(told.contains("--of") && told.contains("a.results"), "{told}");
     // In the same directory, from a number.
     done(folder.path(), &["restart", "b.toml", "--from", "2", "--out", "a.results"]);
     assert!(state(&at("whole")) == state(&at("a.results")));

@@ -81,6 +81,7 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
         bearing: Default::default(),
         steps: fields.iter().map(step).collect(),
         supports: vec![],
+        watched: vec![],
         ties: vec![],
         rigid: vec![],
         newton: NewtonOptions { tolerance: 1e-12, ..NewtonOptions::default() },

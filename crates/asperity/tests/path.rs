@@ -146,6 +146,29 @@ fn a_step_by_arc_length_ends_at_its_whole_load() {
     assert!(end.load_factors.is_empty() && path.len() > 5);
 }
 
+/// A path that no load leads, one that is to end where it begins, and one that goes the other way.
+#[test]
+fn a_path_to_nowhere_is_told() {
+    let told = |problem: &Problem| {
+        let mut run = Run::new(problem, problem.initial_state(), Box::new(Frontal::default()));
+        loop {
+            match run.advance(&mut Silent) {
+                Ok(Some(_)) => {}
+                Ok(None) => return String::new(),
+                Err(error) => return error.to_string(),
+            }
+        }
+    };
+    let idle = told(&truss(0.5, 0.0, Some(0.1), true));
+    assert!(idle.contains("no load on what is free changes"), "{idle}");
+    let over = told(&truss(0.5, 1.0, Some(0.0), true));
+    assert!(over.contains("over before it begins"), "{over}");
+    let mut wrong = truss(0.5, 0.1, Some(-0.5), true);
+    wrong.steps[0].increments.most = 10;
+    let wrong = told(&wrong);
+    assert!(wrong.contains("`until` is -") && wrong.contains("is to be 5.000000e-1"), "{wrong}");
+}
+
 #[test]
 fn a_run_on_a_path_goes_on_from_a_state_to_the_same_bits() {
     let problem = truss(0.1, 4.0 * limit(), Some(0.9 + limit() / 0.1), true);

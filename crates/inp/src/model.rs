@@ -210,6 +210,19 @@ pub struct Interaction {
     pub stick_slope: Option<f64>,
     /// Pressure for one unit of penetration; none for hard contact.
     pub slope: Option<f64>,
+    /// The surfaces stay together as they are.
+    pub tied: bool,
+}
+
+/// Nodes that are moved onto a surface before the first step.
+#[derive(Debug, Clone)]
+pub struct Adjust {
+    /// Those that stand off by no more than this.
+    pub distance: f64,
+    /// Of these only.
+    pub nodes: Option<Vec<usize>>,
+    /// How far they stand off afterwards, those too that lie inside; onto the surface where nothing is said.
+    pub clearance: Option<f64>,
 }
 
 /// Two surfaces that may touch.
@@ -223,8 +236,8 @@ pub struct Pair {
     pub master: (usize, String),
     /// The interaction's number.
     pub interaction: usize,
-    /// Whether nodes are moved onto the surface at the beginning.
-    pub adjust: bool,
+    /// Which nodes are moved onto the surface at the beginning, if any.
+    pub adjust: Option<Adjust>,
     /// Whether contact stress is a field on the surface (mortar), and not at points of it.
     pub field: bool,
 }
@@ -257,6 +270,20 @@ pub struct Rigid {
     pub what: RigidPart,
     /// Whether its nodes only carry what loads the reference node.
     pub distributing: bool,
+    /// Along which axes its nodes go with the reference node; all of them is rigid.
+    pub axes: [bool; 3],
+}
+
+impl Rigid {
+    /// What follows a node by translation and rotation.
+    pub fn new(place: Place, node: usize, what: RigidPart) -> Self {
+        Self { place, node, rotation_node: None, what, distributing: false, axes: [true; 3] }
+    }
+
+    /// Whether it goes with its node along some axes only.
+    pub fn is_partial(&self) -> bool {
+        self.axes != [true; 3]
+    }
 }
 
 /// What is rigid.
@@ -271,6 +298,9 @@ pub enum RigidPart {
     /// The nodes of a surface of bodies.
     Sides(usize, String),
 }
+
+/// Three axes of a node: unit vectors.
+pub type Frame = [[f64; 3]; 3];
 
 /// A sum of displacements with factors that is zero.
 #[derive(Debug, Clone)]
@@ -338,6 +368,13 @@ pub enum Condition {
     Temperature,
 }
 
+/// A path of equilibria that a step follows by its length.
+#[derive(Debug, Clone)]
+pub struct Path {
+    /// The node, the axis and the displacement at which it ends.
+    pub until: Option<(Target, usize, f64)>,
+}
+
 /// A step.
 #[derive(Debug, Clone, Default)]
 pub struct Step {
@@ -357,6 +394,10 @@ pub struct Step {
     pub increments: [Option<f64>; 3],
     /// Increments of one size.
     pub direct: bool,
+    /// The most increments.
+    pub most: Option<u64>,
+    /// How it follows a path, if it does.
+    pub path: Option<Path>,
     /// What it says, in order.
     pub actions: Vec<Action>,
 }
@@ -439,6 +480,8 @@ pub struct Model {
     pub rigid: Vec<Rigid>,
     /// Linear equations.
     pub equations: Vec<Equation>,
+    /// Axes of nodes that have their own.
+    pub frames: BTreeMap<usize, Frame>,
     /// Temperatures at the beginning, by nodes.
     pub initial_temperature: BTreeMap<usize, f64>,
     /// What holds before the first step.
@@ -454,6 +497,11 @@ impl Model {
     pub fn actions(&self, step: usize) -> impl Iterator<Item = &Action> {
         let initial = self.initial.iter().filter(move |_| step == 0);
         initial.chain(self.steps.get(step).into_iter().flat_map(|step| &step.actions))
+    }
+
+    /// Whether the surfaces of a pair stay together as they are.
+    pub fn is_tied(&self, pair: &Pair) -> bool {
+        self.interactions.get(pair.interaction).is_some_and(|interaction| interaction.tied)
     }
 
     /// A surface by its scope and name.

@@ -43,6 +43,22 @@ fn taken((source, path): (PathBuf, PathBuf), directory: &Path) -> Result<PathBuf
     Ok(directory.join(CHECKPOINT))
 }
 
+/// Whether there is a run to go on with. A new directory in `--out` needs `--of`, which says with which.
+fn there_is_a_checkpoint(restart: &arguments::Restart) -> Result<(), Error> {
+    let directory = restart.of.clone().unwrap_or_else(|| results_in(&restart.run));
+    let beside = results_of(&restart.run.deck.path);
+    let elsewhere = restart.of.is_none() && restart.run.out.is_some() && Job::checkpoint_in(&beside).is_ok();
+    Job::checkpoint_in(&directory).map(drop).map_err(|error| match elsewhere {
+        true => {
+            let (there, beside) = (directory.display(), beside.display());
+            Error::Input(format!(
+                "{there} holds no run to go on with: `--out` is where results go; say `--of {beside}` to branch of the run there"
+            ))
+        }
+        false => error,
+    })
+}
+
 /// The result directory of a run.
 fn results_in(arguments: &arguments::Run) -> PathBuf {
     arguments.out.clone().unwrap_or_else(|| results_of(&arguments.deck.path))
@@ -75,7 +91,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&a
         pool.map_err(|error| asperity::Error::Internal(error.to_string()))?;
     }
     if let Some(restart) = restart {
-        Job::checkpoint_in(&restart.of.clone().unwrap_or_else(|| results_in(arguments)))?;
+        there_is_a_checkpoint(restart)?;
     }
     let voice = if arguments.quiet {
         Voice::Quiet

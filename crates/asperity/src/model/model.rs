@@ -50,6 +50,8 @@ pub struct ModelParts {
     pub steps: Vec<Step>,
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
+    /// The same of other groups whose motion is reported.
+    pub watched: Vec<(String, Vec<usize>)>,
     /// What is glued, each with the names of surface and target.
     pub ties: Vec<([String; 2], TiedSurfaces)>,
     /// Groups of nodes that are rigid, in the order of their unknowns, which follow those of the tools.
@@ -97,6 +99,8 @@ pub struct Model {
     pub fluids: Vec<Arc<PenetratingPressure>>,
     /// Names and nodes of the groups that are held or moved in any step.
     pub supports: Vec<(String, Vec<usize>)>,
+    /// The same of other groups whose motion is reported.
+    pub watched: Vec<(String, Vec<usize>)>,
     /// What is glued, each with the names of surface and target.
     pub ties: Vec<([String; 2], TiedSurfaces)>,
     /// Groups of nodes that are rigid.
@@ -118,6 +122,7 @@ impl Model {
             tools,
             solid_tools,
             supports,
+            watched,
             ties,
             rigid,
             steps,
@@ -197,6 +202,7 @@ impl Model {
             springs,
             fluids,
             supports,
+            watched,
             ties,
             rigid,
             problem,

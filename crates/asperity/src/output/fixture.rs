@@ -52,6 +52,7 @@ impl Fixture {
             solid_tools: vec![],
             rigid: vec![],
             supports: vec![("all".into(), (0..self.mesh.points.len()).collect())],
+            watched: vec![],
             constraints: vec![&self.held],
             follows: false,
         }

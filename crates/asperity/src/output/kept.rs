@@ -2,9 +2,10 @@
 //! copy of another.
 
 use super::checkpoint::{self, Head};
+use super::export::{DAT, FRD, XDMF};
 use super::file::{self, make_directory};
 use super::input::Kept;
-use super::results::{CHECKPOINT, series};
+use super::results::{CHECKPOINT, probe_tables, series};
 use crate::Error;
 use std::path::{Path, PathBuf};
 
@@ -141,11 +142,11 @@ pub fn drop_after(directory: &Path, increment: Option<usize>) -> Result<(), Erro
     Ok(())
 }
 
-/// Single files that a branch takes over.
-const TABLES: [&str; 4] = ["history.csv", "certificate.csv", "increments.csv", "iterations.csv"];
+/// Single files that a branch takes over, besides what its probes have read.
+const TABLES: [&str; 7] = ["history.csv", "certificate.csv", "increments.csv", "iterations.csv", FRD, XDMF, DAT];
 
-/// Makes `to` a copy of the results in `from`, for a branch: tables, frames, and `checkpoint` as its only one. Frames are never
-/// written twice, so that they are linked where the file system can.
+/// Makes `to` a copy of the results in `from`, for a branch: tables, files for other programs, frames, and `checkpoint` as its
+/// only one. Frames are never written twice, so that they are linked where the file system can.
 ///
 /// # Errors
 /// [`Error::File`] or [`Error::Write`] when something cannot be read or written.
@@ -177,7 +178,9 @@ pub fn branch(from: &Path, to: &Path, checkpoint: &Path) -> Result<(), Error> {
             copied.map_err(|error| Error::write(&target, error))?;
         }
     }
+    file::remove(to, probe_tables(to))?;
     TABLES.iter().try_for_each(|name| copy(name))?;
+    probe_tables(from).iter().try_for_each(|name| copy(name))?;
     drop_after(to, None)?;
     let target = to.join(CHECKPOINT);
     std::fs::copy(checkpoint, &target).map_err(|error| Error::write(&target, error)).map(drop)

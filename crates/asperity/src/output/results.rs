@@ -330,7 +330,8 @@ fn write_checkpoint(path: &Path, Origin { input, parts, terms }: &Origin, state:
 type Tables = (HistoryTable, ReadingTable, Vec<ProbeTable>, Exports);
 
 /// The tables that probes of an earlier run left.
-fn probe_tables(directory: &Path) -> Vec<String> {
+/// The tables of probes in a result directory.
+pub(super) fn probe_tables(directory: &Path) -> Vec<String> {
     let names = std::fs::read_dir(directory).into_iter().flatten().flatten();
     let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
     names.filter(|name| name.starts_with("probe.") && name.ends_with(".csv")).collect()

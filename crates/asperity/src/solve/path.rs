@@ -99,6 +99,11 @@ impl Sprung {
 }
 
 impl Until {
+    /// Where it stands, and that it is there already where it is.
+    pub(super) fn stands(&self, u: &[f64]) -> (f64, bool) {
+        let mean = self.mean(u);
+        (mean, (mean - self.value).abs() <= REACHED * self.value.abs())
+    }
     /// The mean of its unknowns.
     fn mean(&self, u: &[f64]) -> f64 {
         self.dofs.iter().map(|&dof| u[dof]).sum::<f64>() / self.dofs.len().max(1) as f64
@@ -207,6 +212,14 @@ impl<'a> Newton<'a> {
             self.evaluate_on_path(u, self.tangent())?;
         }
         let mut push = self.push(u)?;
+        let led = self.path.as_ref().is_some_and(|path| path.led.is_some());
+        if !led && push.iter().all(|force| *force == 0.0) {
+            return Err(Trouble::End(Failure::new(format!(
+                "step '{}' follows a path, and no load on what is free changes in it: say the load whose factor is followed, or leave \
+                 `control` out",
+                self.step.name
+            ))));
+        }
         let mut rhs: Vec<f64> = self.residual.iter().map(|r| -r).collect();
         self.memory.workspace.kinks(&self.assembly, u, &mut self.memory.kinks)?;
         let spring = self.spring();

@@ -115,6 +115,15 @@ impl<'a> Run<'a> {
             self.ended = Kind::TooMany;
             return Err(self.too_many(step));
         }
+        if let Some(until) = step.arc_length.as_ref().and_then(|arc| arc.until.as_ref())
+            && self.state.step_increment == 0
+            && let (mean, true) = until.stands(&self.state.u)
+        {
+            return Err(Error::Input(format!(
+                "step '{}' is over before it begins: the mean displacement of its `until` is {mean} already; give another one",
+                step.name
+            )));
+        }
         self.enter();
         let record = self.increment(step, observer)?;
         observer.accepted(&self.state, &record)?;
@@ -254,8 +263,13 @@ impl<'a> Run<'a> {
     }
 
     fn too_many(&self, step: &Step) -> Error {
+        let until = step.arc_length.as_ref().and_then(|arc| arc.until.as_ref());
+        let far = until.map_or(String::new(), |until| {
+            let (mean, _) = until.stands(&self.state.u);
+            format!("; the mean displacement of its `until` is {mean:.6e} and is to be {:.6e}", until.value)
+        });
         Error::NotConverged(format!(
-            "step '{}' stops at {}: it has used the most increments allowed, {}",
+            "step '{}' stops at {}: it has used the most increments allowed, {}{far}",
             step.name,
             self.came_to(step),
             step.increments.most

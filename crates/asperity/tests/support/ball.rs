@@ -147,6 +147,7 @@ pub fn model(size: usize, factors: Factors) -> Model {
         bearing: Default::default(),
         steps: ["press", "slide"].map(|name| step(name, &dofs, &bottom)).into(),
         supports: vec![],
+        watched: vec![],
         ties: vec![],
         rigid: vec![],
         newton: NewtonOptions { factors, ..NewtonOptions::default() },

@@ -1,6 +1,7 @@
 //! Every keyword that is known: what it says, its parameters, and what is done with it. Reader, checks and the manual's
 //! table come from these declarations.
 
+mod constraints;
 mod other;
 mod read;
 
@@ -137,7 +138,7 @@ pub const FLAGS: [&str; 4] = ["GENERATE", "INTERNAL", "UNSORTED", "NLGEOM"];
 
 /// All keywords, in the order of the manual.
 pub fn all() -> impl Iterator<Item = &'static Keyword> {
-    read::READ.iter().chain(other::OTHER)
+    read::READ.iter().chain(constraints::CONSTRAINTS).chain(other::OTHER)
 }
 
 /// The keyword of a name in capitals; blanks do not count.

@@ -7,7 +7,7 @@ const STATIC_ONLY: &str = "only *STATIC steps can be solved";
 const SOLIDS_ONLY: &str = "bodies are made of solid, plane or axisymmetric cells with a *SOLID SECTION";
 const BY_HAND: &str = "the deck of Asperity has laws of this kind: write the material there by hand";
 const CONSTRAINTS: &str =
-    "of the constraints between nodes only *EQUATION, *TIE, *RIGID BODY and *COUPLING can be solved";
+    "of the constraints between nodes only *EQUATION, *TIE, *MPC, *RIGID BODY and *COUPLING can be solved";
 const PAIRS_ONLY: &str = "name the surfaces in a *CONTACT PAIR";
 const BEGINNING: &str = "only temperatures can be given at the beginning; stresses: `initial_stress` of a body";
 
@@ -40,16 +40,12 @@ pub static OTHER: &[Keyword] = &[
     without_effect("ORIENTATION", "all laws are isotropic"),
     without_effect("MASS", "nothing moves by inertia in a static step"),
     without_effect("ROTARY INERTIA", "nothing moves by inertia in a static step"),
-    no("MPC", CONSTRAINTS),
-    no("KINEMATIC COUPLING", CONSTRAINTS),
     no("DISTRIBUTING COUPLING", CONSTRAINTS),
     no("EMBEDDED ELEMENT", CONSTRAINTS),
     no("CYCLIC SYMMETRY MODEL", CONSTRAINTS),
     no("PRE-TENSION SECTION", "shorten the bolt by a *TEMPERATURE of its body"),
-    no("TRANSFORM", "lead the nodes along the axes, or write `along` into the deck of Asperity"),
     no("CHANGE SURFACE BEHAVIOR", "the penalty stays what it is over a run"),
     no("CHANGE MATERIAL", "materials stay what they are over a run"),
-    no("CLEARANCE", "move the nodes, or give ADJUST to the *CONTACT PAIR"),
     no("CONTACT INTERFERENCE", "model the overlap in the mesh: it presses from the first increment on"),
     no("CONTACT", PAIRS_ONLY),
     no("CONTACT INCLUSIONS", PAIRS_ONLY),

@@ -8,6 +8,7 @@ use crate::source::Block;
 
 const INSTANCES: &str = "list the members, or put the set into the part";
 const COURSE: [Parameter; 2] = [used("AMPLITUDE"), one_of("OP", &["MOD", "NEW"])];
+const DELAY: &str = "give the *AMPLITUDE later times";
 const COMPLEX: &str = "only real, static loads are read; leave it out";
 const TABLE_OF_TEMPERATURE: &str = "give one row of constants";
 const STATIC_ONLY: &str = "only *STATIC steps can be solved";
@@ -23,10 +24,12 @@ const FILED: &[Parameter] = &[
     noted("NSET", "all nodes are written"),
     noted("ELSET", "all elements are written"),
     left("GLOBAL"),
+    left("POSITION"),
     left("OUTPUT"),
     left("OUTPUT ALL"),
     noted("LAST ITERATIONS", "only accepted increments are written"),
     noted("CONTACT ELEMENTS", "contact is written at the nodes of its surfaces"),
+    noted("CONTACT ELEMENT", "contact is written at the nodes of its surfaces"),
     left("SECTION FORCES"),
 ];
 const PRINTED: &[Parameter] = &[
@@ -39,6 +42,8 @@ const PRINTED: &[Parameter] = &[
     one_of("TOTALS", &["YES", "ONLY", "NO"]),
     TIME_POINTS,
     left("GLOBAL"),
+    left("POSITION"),
+    left("SET"),
 ];
 
 const fn output(
@@ -126,12 +131,12 @@ pub static READ: &[Keyword] = &[
             used("ELSET"),
             used("NSET"),
             used("ROT NODE"),
-            refused("PIN NSET", "give the rigid elements by ELSET"),
-            refused("TIE NSET", "give the rigid elements by ELSET"),
+            used("PIN NSET"),
+            used("TIE NSET"),
             noted("POSITION", "the reference point stays where its node is"),
-            refused("ISOTHERMAL", "leave it out"),
+            left("ISOTHERMAL"),
         ],
-        "`tool`; nodes of a body: `rigid`, `displacement` in axisymmetric models",
+        "`tool`; nodes of a body: `rigid`, `equation` in axisymmetric models",
     ),
     late(
         "COUPLING",
@@ -140,19 +145,16 @@ pub static READ: &[Keyword] = &[
             used("REF NODE"),
             used("SURFACE"),
             left("CONSTRAINT NAME"),
-            refused("ORIENTATION", "couple along the axes"),
+            used("ORIENTATION"),
             refused("INFLUENCE RADIUS", "name a surface of the nodes meant"),
         ],
-        "`rigid` with *KINEMATIC, `distributing` with *DISTRIBUTING",
+        "`rigid` with *KINEMATIC, or `equation` along some axes; `distributing` with *DISTRIBUTING",
     ),
     late("KINEMATIC", Reader::kinematic, &[], "the kind of a coupling"),
     late(
         "DISTRIBUTING",
         Reader::distributing,
-        &[
-            one_of("WEIGHTING METHOD", &["UNIFORM"]),
-            refused("COUPLING", "leave it out: force and moment are carried by forces"),
-        ],
+        &[one_of("WEIGHTING METHOD", &["UNIFORM"]), one_of("COUPLING", &["CONTINUUM"])],
         "the kind of a coupling: weights are the areas around nodes",
     ),
     of_model("MATERIAL", Reader::material, &[used("NAME")], "`material`"),
@@ -209,7 +211,7 @@ pub static READ: &[Keyword] = &[
             used("ELSET"),
             used("MATERIAL"),
             left("CONTROLS"),
-            refused("ORIENTATION", "all laws are isotropic: leave it out where the material is, too"),
+            noted("ORIENTATION", "all laws are isotropic"),
             refused("COMPOSITE", "give each layer its own elements"),
             noted("NODAL THICKNESS", "the thickness of the data line holds"),
         ],
@@ -233,13 +235,13 @@ pub static READ: &[Keyword] = &[
         "SURFACE BEHAVIOR",
         Reader::surface_behavior,
         &[
-            one_of("PRESSURE-OVERCLOSURE", &["HARD", "LINEAR"]),
+            one_of("PRESSURE-OVERCLOSURE", &["HARD", "LINEAR", "EXPONENTIAL", "TABULAR", "TIED"]),
             used("PENALTY"),
             left("AUGMENTED LAGRANGE"),
             left("DIRECT"),
             refused("NO SEPARATION", "surfaces part where nothing presses them; leave it out"),
         ],
-        "`penalty`; hard contact has the computed one",
+        "`penalty`; hard contact has the computed one; `tie` where surfaces are TIED",
     ),
     Keyword {
         name: "FRICTION",
@@ -304,7 +306,7 @@ pub static READ: &[Keyword] = &[
             used("NAME"),
             used("NLGEOM"),
             one_of("AMPLITUDE", &["RAMP", "STEP"]),
-            left("INC"),
+            used("INC"),
             left("INCF"),
             left("UNSYMM"),
             left("EXTRAPOLATION"),
@@ -320,7 +322,7 @@ pub static READ: &[Keyword] = &[
         &[
             used("DIRECT"),
             left("SOLVER"),
-            refused("RIKS", "translate without it and say `control = \"arc-length\"` in the step of the deck"),
+            used("RIKS"),
             noted(
                 "STABILIZE",
                 "nothing is damped: what a step cannot reach by equilibrium alone is followed by relaxation",
@@ -332,7 +334,7 @@ pub static READ: &[Keyword] = &[
             refused("TOTAL TIME AT START", "the first step begins at time zero"),
             left("FULLY PLASTIC"),
         ],
-        "`duration`, `increments`",
+        "`duration`, `increments`; with RIKS `control = \"arc-length\"`, `until`",
     ),
     Keyword {
         name: "BOUNDARY",
@@ -346,7 +348,7 @@ pub static READ: &[Keyword] = &[
             refused("USER", "give an *AMPLITUDE"),
             refused("SUBMODEL", "give the values"),
             left("LOAD CASE"),
-            left("TIME DELAY"),
+            refused("TIME DELAY", DELAY),
         ],
         becomes: "`displacement`; on reference nodes `motion` of a tool",
     },
@@ -361,6 +363,7 @@ pub static READ: &[Keyword] = &[
             refused("SECTOR", COMPLEX),
             refused("SUBMODEL", COMPLEX),
             refused("OMEGA0", COMPLEX),
+            refused("TIME DELAY", DELAY),
         ],
         "`force`; on reference nodes `load` of a tool",
     ),

@@ -1,9 +1,10 @@
 //! What happens where surfaces touch, and which may.
 
 use super::Reader;
+use super::names::Of;
 use crate::elements::Dialect;
 use crate::message::{Place, suggestion};
-use crate::model::{Interaction, Pair, Tie};
+use crate::model::{Adjust, Interaction, Pair, Tie};
 use crate::source::Block;
 
 impl Reader {
@@ -25,11 +26,27 @@ impl Reader {
 
     /// `*SURFACE BEHAVIOR`.
     pub(crate) fn surface_behavior(&mut self, block: &Block) {
-        let linear = block.word("PRESSURE-OVERCLOSURE").as_deref() == Some("LINEAR")
-            || block.word("PENALTY").is_some_and(|kind| kind == "LINEAR") && !block.lines.is_empty();
-        if !linear {
-            return;
+        let kind = block.word("PRESSURE-OVERCLOSURE");
+        match kind.as_deref() {
+            Some("TIED") => {
+                if let Some(line) = block.lines.first()
+                    && self.positive(line, 0, "the slope of stress over the distance").is_none()
+                {
+                    return;
+                }
+                self.of_interaction(block.place, "SURFACE BEHAVIOR", |interaction| interaction.tied = true);
+            }
+            Some("EXPONENTIAL") => self.exponential(block),
+            Some("TABULAR") => self.tabular(block),
+            Some("LINEAR") => self.linear(block),
+            _ if block.word("PENALTY").is_some_and(|kind| kind == "LINEAR") && !block.lines.is_empty() => {
+                self.linear(block);
+            }
+            _ => {}
         }
+    }
+
+    fn linear(&mut self, block: &Block) {
         let Some(line) = self.first_line(block, "the slope of pressure over penetration") else { return };
         let Some(slope) = self.positive(line, 0, "the slope of pressure over penetration") else { return };
         let Some(tension) = self.real_or(line, 1, "the tension far away", 0.0) else { return };
@@ -37,7 +54,72 @@ impl Reader {
             let what = format!("surfaces that are apart pull each other by nothing here, in place of up to {tension}");
             self.note(line.place, what);
         }
-        self.of_interaction(block.place, "SURFACE BEHAVIOR", |interaction| interaction.slope = Some(slope));
+        self.slope(block.place, slope);
+    }
+
+    fn slope(&mut self, place: Place, slope: f64) {
+        self.of_interaction(place, "SURFACE BEHAVIOR", |interaction| interaction.slope = Some(slope));
+    }
+
+    /// A pressure that begins at a clearance `c0`, is `p0` at none and grows by a power of e: linear with the slope that it has
+    /// there. CalculiX' is a hundredth of `p0` at `c0`; Abaqus' is zero there.
+    fn exponential(&mut self, block: &Block) {
+        let Some(line) = self.first_line(block, "a clearance, and the pressure where there is none") else { return };
+        let (Some(clearance), Some(pressure)) = (
+            self.positive(line, 0, "the clearance at which surfaces begin to press"),
+            self.positive(line, 1, "the pressure where there is no clearance"),
+        ) else {
+            return;
+        };
+        let slope = match self.model.dialect {
+            Dialect::CalculiX => 100.0_f64.ln() * pressure / clearance,
+            // p = p0 / (e - 1) ((c/c0 + 1) (exp(c/c0 + 1) - 1)), whose slope at c = 0 is p0 / c0 (2 e - 1) / (e - 1).
+            Dialect::Abaqus => {
+                let e = std::f64::consts::E;
+                pressure / clearance * (2.0 * e - 1.0) / (e - 1.0)
+            }
+        };
+        let what = format!(
+            "EXPONENTIAL becomes linear, from touching on, with the slope {slope:.3e} that it has at no clearance: surfaces that begin to \
+             press at a distance of {clearance} come closer by about as much, and differ by less where the pressure is near {pressure}"
+        );
+        self.note(line.place, what);
+        self.slope(block.place, slope);
+    }
+
+    /// A table of pressure over overclosure that is a line from touching on.
+    fn tabular(&mut self, block: &Block) {
+        if self.first_line(block, "pressures and overclosures").is_none() {
+            return;
+        }
+        let mut rows: Vec<[f64; 2]> = Vec::new();
+        for line in &block.lines {
+            let (Some(pressure), Some(depth)) =
+                (self.real(line, 0, "a pressure"), self.real(line, 1, "an overclosure"))
+            else {
+                return;
+            };
+            let rises = rows.last().is_none_or(|last| pressure > last[0] && depth > last[1]);
+            if !rises || (rows.is_empty() && pressure != 0.0) {
+                let what = "a table of pressure over overclosure begins with a pressure of zero, and both rise from row to row";
+                return self.error(line.place, what);
+            }
+            rows.push([pressure, depth]);
+        }
+        let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return };
+        if rows.len() < 2 {
+            return self.error(block.place, "a table of pressure over overclosure has two rows at least");
+        }
+        let slope = last[0] / (last[1] - first[1]);
+        let straight = rows.iter().all(|[p, h]| (p - slope * (h - first[1])).abs() <= 1e-6 * last[0]);
+        if !straight || first[1].abs() > 1e-9 * last[1].abs() {
+            let what = format!(
+                "this table of pressure over overclosure is no straight line from zero, and the penalty is one; the slope that comes \
+                 nearest is that to its end: write PRESSURE-OVERCLOSURE=LINEAR with {slope:?}"
+            );
+            return self.error(block.place, what);
+        }
+        self.slope(block.place, slope);
     }
 
     /// `*FRICTION`.
@@ -75,7 +157,8 @@ impl Reader {
             changed.shear_limit = Some(limit).filter(|&limit| limit > 0.0);
         }
         self.of_interaction(block.place, "FRICTION", |interaction| {
-            *interaction = Interaction { name: interaction.name.clone(), slope: interaction.slope, ..changed };
+            let (name, slope, tied) = (interaction.name.clone(), interaction.slope, interaction.tied);
+            *interaction = Interaction { name, slope, tied, ..changed };
         });
     }
 
@@ -121,11 +204,47 @@ impl Reader {
         let Some(name) = self.required(block, "INTERACTION") else { return };
         let name = name.to_string();
         let Some(interaction) = self.interaction_named(block.place, &name) else { return };
-        let adjust = block.has("ADJUST");
+        let adjust = match block.value("ADJUST").map(str::to_string) {
+            _ if !block.has("ADJUST") => None,
+            None => Some(Adjust { distance: 0.0, nodes: None, clearance: None }),
+            Some(text) => match text.parse::<f64>() {
+                Ok(distance) if distance >= 0.0 && distance.is_finite() => {
+                    Some(Adjust { distance, nodes: None, clearance: None })
+                }
+                Ok(_) => {
+                    return self.error(block.place, "ADJUST is a distance, which is not negative, or a set of nodes");
+                }
+                Err(_) => {
+                    let Some(target) = self.members(block.place, &text, Of::Nodes) else { return };
+                    Some(Adjust { distance: f64::INFINITY, nodes: Some(target.members), clearance: None })
+                }
+            },
+        };
         let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
         let field = mortar || self.model.dialect == Dialect::Abaqus;
         for (place, [slave, master]) in self.surface_pairs(block) {
-            self.model.pairs.push(Pair { place, slave, master, interaction, adjust, field });
+            self.model.pairs.push(Pair { place, slave, master, interaction, adjust: adjust.clone(), field });
+        }
+    }
+
+    /// `*CLEARANCE`: how far the slave of a pair stands off from its master before the first step, whatever the mesh says.
+    pub(crate) fn clearance(&mut self, block: &Block) {
+        let named = ["SLAVE", "MASTER"].map(|side| self.required(block, side).map(str::to_string));
+        let [Some(slave), Some(master)] = named else { return };
+        let Some(value) = self.required(block, "VALUE").map(str::to_string) else { return };
+        let Some(value) = self.number(block.place, &value, "VALUE") else { return };
+        if value < 0.0 {
+            return self.error(block.place, "VALUE must not be negative; model an overlap in the mesh");
+        }
+        let (slave, master) = (self.named_surface(block.place, &slave), self.named_surface(block.place, &master));
+        let (Some(slave), Some(master)) = (slave, master) else { return };
+        let adjust = Adjust { distance: f64::INFINITY, nodes: None, clearance: Some(value) };
+        match self.model.pairs.iter_mut().find(|pair| (&pair.slave, &pair.master) == (&slave, &master)) {
+            Some(pair) => pair.adjust = Some(adjust),
+            None => self.error(
+                block.place,
+                format!("there is no *CONTACT PAIR of '{}' and '{}' above; put *CLEARANCE below it", slave.1, master.1),
+            ),
         }
     }
 

@@ -230,7 +230,14 @@ impl Reader {
         }
         let surface = Surface { name: self.full_name(name), place: block.place, kind };
         if let Some(scope) = self.model.scopes.get_mut(self.scope) {
-            scope.surfaces.insert(name.to_ascii_uppercase(), surface);
+            let key = name.to_ascii_uppercase();
+            // One name may be that of nodes and of the faces between them: the faces say more.
+            let of_nodes = matches!(surface.kind, SurfaceKind::Nodes(_));
+            let known = scope.surfaces.get(&key).is_some_and(|known| matches!(known.kind, SurfaceKind::Faces(_)));
+            if of_nodes && known {
+                return self.note(block.place, format!("'{name}' is a surface of faces too, which holds"));
+            }
+            scope.surfaces.insert(key, surface);
         }
     }
 

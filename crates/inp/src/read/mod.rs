@@ -2,6 +2,7 @@
 
 mod assembly;
 mod contacts;
+mod couplings;
 mod equations;
 mod materials;
 mod mesh;
@@ -9,6 +10,7 @@ mod names;
 mod outputs;
 mod rigid;
 mod steps;
+mod systems;
 
 use crate::elements::Dialect;
 use crate::keywords::{self, Treated, Value, Where};
@@ -17,6 +19,7 @@ use crate::model::{Model, Step};
 use crate::source::{Block, Line};
 
 pub use outputs::PLASTIC;
+pub use systems::along;
 
 /// What reads the blocks.
 pub struct Reader {
@@ -32,6 +35,8 @@ pub struct Reader {
     step: Option<usize>,
     /// Where the `*COUPLING` stands whose kind is still to be said.
     coupling: Option<Place>,
+    /// Whether that has axes of its own.
+    oriented: bool,
 }
 
 /// The model that blocks say.
@@ -45,6 +50,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
         changing: None,
         step: None,
         coupling: None,
+        oriented: false,
     };
     reader.model.dialect = dialect(blocks);
     let laid_out = reader.lay_out(blocks);
@@ -67,6 +73,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
         }
     }
     reader.end_coupling();
+    reader.end_couplings();
     reader.end_change();
     reader.finish(blocks);
     *messages = reader.messages;

@@ -188,15 +188,23 @@ impl Reader {
         for line in &block.lines {
             for field in line.fields() {
                 let label = field.to_ascii_uppercase();
+                // Of these the first four letters count.
+                let label =
+                    ["CDIS", "CSTR"].iter().find(|name| label.starts_with(**name)).map_or(label, |name| (*name).into());
                 match labels.iter().find(|(known, _)| *known == label) {
                     Some((_, Meant::Of(quantities))) => found.extend(*quantities),
                     Some((_, Meant::Filed)) if filed => {}
                     Some(_) => lost.push((line.place, label)),
                     None if field.is_empty() => {}
+                    // What is written changes no answer.
                     None => {
                         let near = suggestion(&label, labels.iter().map(|(known, _)| *known));
                         let what = format!("*{} has no output '{}'{near}", block.name, super::shorten(field));
-                        self.error(line.place, what);
+                        let a_name = label.chars().all(|c| c.is_ascii_alphanumeric()) && label.len() <= 8;
+                        match a_name {
+                            true => self.note(line.place, format!("{what}; left out")),
+                            false => self.error(line.place, what),
+                        }
                     }
                 }
             }

@@ -124,6 +124,14 @@ impl Reader {
             },
             None => None,
         };
+        // Nodes of solids have no rotations of their own to be tied.
+        let pinned = block.value("PIN NSET").or_else(|| block.value("TIE NSET"));
+        let nodes = block.value("NSET").or(pinned);
+        if pinned.is_some() && ["ANALYTICAL SURFACE", "ELSET", "NSET"].iter().any(|other| block.has(other)) {
+            let what =
+                "*RIGID BODY: a set of nodes beside other rigid parts cannot be translated; give all nodes by NSET";
+            return self.error(place, what);
+        }
         let what = if let Some(name) = block.value("ANALYTICAL SURFACE") {
             self.named_surface(place, name).map(|(scope, name)| RigidPart::Surface(scope, name))
         } else if let Some(name) = block.value("ELSET") {
@@ -135,14 +143,14 @@ impl Reader {
                     false => RigidPart::Nodes(self.nodes_of(&target.members), target.name),
                 }
             })
-        } else if let Some(name) = block.value("NSET") {
+        } else if let Some(name) = nodes {
             self.members(place, name, Of::Nodes).map(|target| RigidPart::Nodes(target.members, target.name))
         } else {
             self.error(place, "*RIGID BODY says nothing that is rigid; give ANALYTICAL SURFACE, ELSET or NSET");
             None
         };
         if let Some(what) = what {
-            self.model.rigid.push(Rigid { place, node, rotation_node, what, distributing: false });
+            self.model.rigid.push(Rigid { rotation_node, ..Rigid::new(place, node, what) });
         }
     }
 
@@ -157,8 +165,8 @@ impl Reader {
             return;
         };
         self.coupling = Some(place);
-        let what = RigidPart::Sides(scope, name);
-        self.model.rigid.push(Rigid { place, node, rotation_node: None, what, distributing: false });
+        self.oriented = block.has("ORIENTATION");
+        self.model.rigid.push(Rigid::new(place, node, RigidPart::Sides(scope, name)));
     }
 
     /// `*KINEMATIC`: along which axes.
@@ -168,21 +176,17 @@ impl Reader {
         }
         let mut held = [block.lines.is_empty(); 3];
         for line in &block.lines {
-            let Some(first) = self.axis(line, 0) else { return };
-            let last = match line.fields().get(1) {
-                Some(field) if !field.is_empty() => match self.axis(line, 1) {
-                    Some(last) => last,
-                    None => return,
-                },
-                _ => first,
-            };
-            held.iter_mut().take(last + 1).skip(first).for_each(|held| *held = true);
+            let Some(axes) = self.held_axes(line, 0) else { return };
+            held.iter_mut().zip(axes).for_each(|(held, axis)| *held |= axis);
         }
         let plane = self.model.elements.iter().all(|element| element.kind.family != Family::Solid);
-        if !held.iter().take(if plane { 2 } else { 3 }).all(|&held| held) {
-            let what = "nodes that go with a node along some axes only cannot be translated; couple degrees of freedom 1 to 3, or say \
-                        by *EQUATION what goes together";
-            self.error(block.place, what);
+        if self.oriented && !held.iter().take(if plane { 2 } else { 3 }).all(|&held| held) {
+            let what = "*COUPLING, ORIENTATION: axes that are turned and some of which only are coupled cannot be translated; couple \
+                        degrees of freedom 1 to 3";
+            return self.error(block.place, what);
+        }
+        if let Some(coupling) = self.model.rigid.last_mut() {
+            coupling.axes = held;
         }
     }
 

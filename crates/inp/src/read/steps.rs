@@ -3,7 +3,7 @@
 use super::Reader;
 use super::names::Of;
 use crate::message::{Place, suggestion};
-use crate::model::{Action, ActionKind, Condition, Course, Step, SurfaceKind, Target};
+use crate::model::{Action, ActionKind, Condition, Course, Path, Step, SurfaceKind, Target};
 use crate::source::{Block, Line};
 
 impl Reader {
@@ -15,7 +15,13 @@ impl Reader {
         // Once strains are large they stay so.
         let large = large || self.model.steps.last().is_some_and(|step| step.large);
         let at_once = block.word("AMPLITUDE").as_deref() == Some("STEP");
-        self.model.steps.push(Step { place: block.place, name, large, at_once, duration: 1.0, ..Step::default() });
+        let most = match block.value("INC").map(str::parse::<u64>) {
+            None => None,
+            Some(Ok(most @ 1..=100_000_000)) => Some(most),
+            Some(_) => return self.error(block.place, "INC is a whole number of increments, at least 1"),
+        };
+        let step = Step { place: block.place, name, large, at_once, most, duration: 1.0, ..Step::default() };
+        self.model.steps.push(step);
         self.step = Some(self.model.steps.len() - 1);
     }
 
@@ -36,11 +42,53 @@ impl Reader {
                 *value = Some(number).filter(|&number| number > 0.0);
             }
         }
+        let path = if block.has("RIKS") {
+            let Some(path) = self.path(block) else { return };
+            Some(path)
+        } else {
+            None
+        };
         let Some(step) = self.step.and_then(|at| self.model.steps.get_mut(at)) else { return };
         step.procedure = true;
+        step.path = path;
         step.direct = block.has("DIRECT");
         step.duration = given[1].unwrap_or(1.0);
         step.increments = [given[0], given[2], given[3]];
+    }
+
+    /// Where a step ends that follows a path: behind the times stand the load factor, and a node with its degree of freedom and
+    /// displacement.
+    fn path(&mut self, block: &Block) -> Option<Path> {
+        if block.has("DIRECT") {
+            self.error(block.place, "increments of a path adapt their length; leave DIRECT out");
+            return None;
+        }
+        let Some(line) = block.lines.first() else { return Some(Path { until: None }) };
+        let fields = line.fields();
+        let until = match fields.get(5).copied().unwrap_or("") {
+            "" => None,
+            name => {
+                let target = self.members(line.place, name, Of::Nodes)?;
+                Some((target, self.axis(line, 6)?, self.real(line, 7, "the displacement at which the path ends")?))
+            }
+        };
+        let factor = self.real_or(line, 4, "the load factor at which the path ends", 0.0)?;
+        if factor != 0.0 && factor != 1.0 {
+            let what = "the path ends where the load factor is 1: give the loads of the step times the factor meant, and 1 here";
+            self.error(line.place, what);
+            return None;
+        }
+        if let Some((_, 3.., _)) = until {
+            self.error(line.place, "a path ends at a displacement: degrees of freedom 1 to 3");
+            return None;
+        }
+        if until.is_none() && factor == 0.0 {
+            self.note(
+                line.place,
+                "the path ends where the whole load is reached; a node and a displacement end it elsewhere",
+            );
+        }
+        Some(Path { until })
     }
 
     /// Adds to the present step, or to what holds before the first.

@@ -2,7 +2,7 @@
 
 use super::{Writer, list, quoted, rubber};
 use crate::elements::{Family, Formulation};
-use crate::model::{ActionKind, Material};
+use crate::model::{ActionKind, Material, RigidPart};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A body: its group, material and formulation.
@@ -37,6 +37,12 @@ impl Writer<'_> {
         self.used = vec![false; model.nodes.len()];
         for (element, _) in model.elements.iter().zip(&self.section).filter(|(_, section)| section.is_some()) {
             element.nodes.iter().for_each(|&node| self.used[node] = true);
+        }
+        let plane = model.elements.iter().all(|element| element.kind.family != Family::Solid);
+        let ring = model.elements.iter().any(|element| element.kind.family == Family::Axisymmetric) && plane;
+        for rigid in &model.rigid {
+            let of_nodes = matches!(rigid.what, RigidPart::Nodes(..) | RigidPart::Sides(..)) && !rigid.distributing;
+            self.used[rigid.node] |= of_nodes && (ring || rigid.is_partial());
         }
         for equation in &model.equations {
             equation.terms.iter().for_each(|term| self.used[term.0] = true);

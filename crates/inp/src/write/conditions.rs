@@ -1,7 +1,7 @@
 //! Conditions as a deck says them: what a step changes, and what it releases.
 
 use super::courses::{Factors, Item};
-use super::{Writer, quoted};
+use super::{Writer, list, quoted};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The values of one kind of condition in each step, by group or tool and component.
@@ -39,7 +39,7 @@ impl Writer<'_> {
                 false => self.say(kind, key, &components, key, table, &mut said),
                 true if kind.of_group => {
                     for &component in &components {
-                        let group = self.groups.again(key, kind.components[component]);
+                        let group = self.groups.again(key, kind.components.get(component).unwrap_or(&"along"));
                         self.say(kind, &group, &[component], key, table, &mut said);
                     }
                 }
@@ -70,7 +70,7 @@ impl Writer<'_> {
             let new: Vec<(usize, &Item)> = held.into_iter().filter(|(c, item)| changes(item, before(*c))).collect();
             let Some((_, first)) = new.first() else { continue };
             let mut parts: Vec<String> =
-                new.iter().map(|(c, item)| format!("{} = {:?}", kind.components[*c], item.factors().0)).collect();
+                new.iter().map(|(c, item)| self.component_text(kind, *c, item.factors().0)).collect();
             if !kind.more.is_empty() {
                 parts.push(kind.more.to_string());
             }
@@ -80,6 +80,17 @@ impl Writer<'_> {
             }
             let from = self.from(first.place);
             said.lines.push(format!("{}.{} = {{ {} }}{from}\n", kind.key, quoted(name), parts.join(", ")));
+        }
+    }
+}
+
+impl Writer<'_> {
+    /// A component and its value; those beyond the axes are directions.
+    fn component_text(&self, kind: &Kind, component: usize, value: f64) -> String {
+        match (kind.components.get(component), component.checked_sub(3).and_then(|at| self.directions.get(at))) {
+            (Some(name), _) => format!("{name} = {value:?}"),
+            (None, Some(along)) => format!("along = {}, value = {value:?}", list(&along[..self.dimension()])),
+            (None, None) => String::new(),
         }
     }
 }
@@ -102,16 +113,19 @@ fn changes(item: &Item, before: Option<&Item>) -> bool {
 /// Whether the components of a key cannot be said together: their courses differ, or only some of them end.
 fn apart(kind: &Kind, key: &str, components: &[usize], table: &Table) -> bool {
     let at = |step: usize, c: usize| table[step].get(&(key.to_owned(), c));
-    (0..table.len()).any(|step| {
-        let before = |c: usize| step.checked_sub(1).and_then(|step| at(step, c));
-        let new: Vec<&Item> =
-            components.iter().filter_map(|&c| at(step, c).filter(|item| changes(item, before(c)))).collect();
-        let mut courses: Vec<Factors> = new.iter().filter(|item| moved(item)).map(|item| item.factors().1).collect();
-        courses.dedup();
-        let held = components.iter().any(|&c| at(step, c).is_some());
-        let ended = components.iter().any(|&c| before(c).is_some() && at(step, c).is_none());
-        courses.len() > 1 || (held && ended && kind.key != "motion")
-    })
+    let oblique = components.len() > 1 && components.iter().any(|&c| c >= kind.components.len());
+    oblique
+        || (0..table.len()).any(|step| {
+            let before = |c: usize| step.checked_sub(1).and_then(|step| at(step, c));
+            let new: Vec<&Item> =
+                components.iter().filter_map(|&c| at(step, c).filter(|item| changes(item, before(c)))).collect();
+            let mut courses: Vec<Factors> =
+                new.iter().filter(|item| moved(item)).map(|item| item.factors().1).collect();
+            courses.dedup();
+            let held = components.iter().any(|&c| at(step, c).is_some());
+            let ended = components.iter().any(|&c| before(c).is_some() && at(step, c).is_none());
+            courses.len() > 1 || (held && ended && kind.key != "motion")
+        })
 }
 
 /// Whether a value goes anywhere, so that its course matters.

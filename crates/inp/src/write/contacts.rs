@@ -3,7 +3,7 @@
 use super::{Writer, quoted};
 use crate::elements::{Dialect, Family};
 use crate::message::Place;
-use crate::model::{Action, ActionKind, Interaction, Pair, SurfaceKind};
+use crate::model::{Action, ActionKind, Interaction, Pair, SurfaceKind, Tie};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A side of a contact.
@@ -18,7 +18,7 @@ impl Writer<'_> {
     /// One contact for each pair.
     pub(super) fn contacts(&mut self) {
         let model = self.model;
-        for pair in &model.pairs {
+        for pair in model.pairs.iter().filter(|pair| !model.is_tied(pair)) {
             let what = if pair.field {
                 "contact stress is a field of nodal values: `form = \"field\"`"
             } else {
@@ -26,14 +26,9 @@ impl Writer<'_> {
                  `form = \"field\"` makes a field of it"
             };
             self.note(pair.place, what);
-            if pair.adjust {
-                self.note(
-                    pair.place,
-                    "ADJUST moves the nodes that lie inside the other surface out of it; gaps stay as wide as they are",
-                );
-            }
         }
-        for (number, pair) in model.pairs.iter().enumerate() {
+        for (number, pair) in model.pairs.iter().enumerate().filter(|(_, pair)| !model.is_tied(pair)) {
+            self.adjust(pair);
             self.contact(number + 1, pair);
         }
     }
@@ -74,36 +69,46 @@ impl Writer<'_> {
         if let Some(slope) = interaction.stick_slope.filter(|_| interaction.friction.is_some_and(|f| f > 0.0)) {
             text += &format!("tangential_penalty = {slope:?}\n");
         }
-        text += &format!("overlap = \"{}\"\n", if pair.adjust { "adjust" } else { "keep" });
+        text += &format!("overlap = \"{}\"\n", if pair.adjust.is_some() { "adjust" } else { "keep" });
         self.text += &text;
         Some(())
     }
 
-    /// One tie for each.
+    /// One tie for each, and for each contact pair that is tied.
     pub(super) fn ties(&mut self) {
         let model = self.model;
         for tie in &model.ties {
-            let (Some(slave), Some(master)) = (self.sided(tie.place, &tie.slave), self.sided(tie.place, &tie.master))
-            else {
-                continue;
-            };
-            let (Sided::Sides(surface), Sided::Sides(target)) = (slave, master) else {
-                self.error(tie.place, "a rigid surface cannot be tied; both sides must be those of bodies");
-                continue;
-            };
-            let from = self.from(tie.place);
-            self.text += &format!("\n[[tie]]{from}\nsurface = {}\ntarget = {}\n", quoted(&surface), quoted(&target));
-            if let Some(tolerance) = tie.tolerance {
-                self.text += &format!("tolerance = {tolerance:?}\n");
-            }
-            if !tie.adjust {
-                self.text += "gap = \"keep\"\n";
-            }
+            self.tie(tie);
+        }
+        for pair in model.pairs.iter().filter(|pair| model.is_tied(pair)) {
+            self.note(pair.place, "the surfaces are glued by constraint, without the elasticity that TIED has");
+            let (slave, master) = (pair.slave.clone(), pair.master.clone());
+            self.tie(&Tie { place: pair.place, slave, master, tolerance: None, adjust: pair.adjust.is_some() });
         }
     }
 
-    /// What the contact of a pair is called.
+    fn tie(&mut self, tie: &Tie) -> Option<()> {
+        let (slave, master) = (self.sided(tie.place, &tie.slave)?, self.sided(tie.place, &tie.master)?);
+        let (Sided::Sides(surface), Sided::Sides(target)) = (slave, master) else {
+            self.error(tie.place, "a rigid surface cannot be tied; both sides must be those of bodies");
+            return None;
+        };
+        let from = self.from(tie.place);
+        self.text += &format!("\n[[tie]]{from}\nsurface = {}\ntarget = {}\n", quoted(&surface), quoted(&target));
+        if let Some(tolerance) = tie.tolerance {
+            self.text += &format!("tolerance = {tolerance:?}\n");
+        }
+        if !tie.adjust {
+            self.text += "gap = \"keep\"\n";
+        }
+        Some(())
+    }
+
+    /// What the contact of a pair is called, unless it is glued.
     pub(super) fn contact_name(&self, number: usize, pair: &Pair) -> Option<String> {
+        if self.model.is_tied(pair) {
+            return None;
+        }
         let name = &self.model.interactions.get(pair.interaction)?.name;
         let alike = self.model.pairs.iter().filter(|other| other.interaction == pair.interaction);
         Some(if alike.count() == 1 { name.clone() } else { format!("{name} {number}") })
@@ -236,7 +241,7 @@ impl Writer<'_> {
     }
 
     /// The faces that only one element with a section has, by their numbers.
-    fn boundary(&self) -> BTreeSet<(usize, usize)> {
+    pub(super) fn boundary(&self) -> BTreeSet<(usize, usize)> {
         let mut faces = BTreeMap::<Vec<usize>, Option<(usize, usize)>>::new();
         for (at, element) in self.model.elements.iter().enumerate().filter(|(at, _)| self.section[*at].is_some()) {
             for (face, corners) in element.kind.faces.iter().enumerate() {

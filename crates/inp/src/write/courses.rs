@@ -38,6 +38,34 @@ pub struct Item {
 pub type Factors = Option<Vec<[f64; 2]>>;
 
 impl Item {
+    /// The same, times a factor.
+    pub fn scaled(&self, factor: f64) -> Self {
+        // Adding zero makes a negative one positive.
+        let times = |value: f64| value * factor + 0.0;
+        let course = self.course.as_ref().map(|points| points.iter().map(|[at, v]| [*at, times(*v)]).collect());
+        Self { end: times(self.end), start: self.start.map(times), course, place: self.place }
+    }
+
+    /// The sum of values; none where one follows a course and another comes from an unknown value.
+    pub fn sum(items: &[Self]) -> Option<Self> {
+        let place = items.first()?.place;
+        let end = items.iter().map(|item| item.end).sum();
+        let start = items.iter().map(|item| item.start).sum::<Option<f64>>();
+        if items.iter().all(|item| item.course.is_none()) {
+            return Some(Self { end, start, course: None, place });
+        }
+        let courses: Vec<Vec<[f64; 2]>> = items
+            .iter()
+            .map(|item| item.course.clone().or_else(|| Some(vec![[0.0, item.start?], [1.0, item.end]])))
+            .collect::<Option<_>>()?;
+        let mut fractions: Vec<f64> = courses.iter().flatten().map(|point| point[0]).collect();
+        fractions.sort_by(f64::total_cmp);
+        fractions.dedup();
+        let value = |points: &Vec<[f64; 2]>, at: f64| at_time(&Amplitude { points: points.clone(), total: false }, at);
+        let points = fractions.iter().map(|&at| [at, courses.iter().map(|points| value(points, at)).sum()]);
+        Some(Self { end, start, course: Some(points.collect()), place })
+    }
+
     /// The value that the deck gives and the factors that lead to it, `v0 + (v1 - v0) a`; none for the straight line.
     pub fn factors(&self) -> (f64, Factors) {
         let Some(points) = &self.course else { return (self.end, None) };

@@ -13,6 +13,9 @@ enum Content {
     Sides(Vec<(usize, Option<usize>)>),
 }
 
+/// Which nodes are used, and new places of some.
+pub type Nodes<'n> = (&'n [bool], &'n BTreeMap<usize, [f64; 3]>);
+
 /// All groups that the deck uses.
 #[derive(Debug, Default)]
 pub struct Groups {
@@ -76,14 +79,14 @@ impl Groups {
     }
 
     /// Nodes, elements and groups as an input deck; elements without a section and nodes that are not used are left out.
-    pub fn mesh(&self, model: &Model, section: &[Option<usize>], used: &[bool]) -> String {
+    pub fn mesh(&self, model: &Model, section: &[Option<usize>], (used, moved): Nodes) -> String {
         let kept = |element: usize| section.get(element).copied().flatten().is_some();
         let (nodes, elements) = (shifts(model, |scope| &scope.nodes), shifts(model, |scope| &scope.elements));
         let node = |at: usize| model.nodes[at].label + nodes[model.nodes[at].scope];
         let element = |at: usize| model.elements[at].label + elements[model.elements[at].scope];
         let mut text = String::from("*NODE\n");
         for (at, found) in model.nodes.iter().enumerate().filter(|(at, _)| used[*at]) {
-            let [x, y, z] = found.x;
+            let [x, y, z] = moved.get(&at).copied().unwrap_or(found.x);
             let _ = writeln!(text, "{}, {x:?}, {y:?}, {z:?}", node(at));
         }
         let mut kind = "";

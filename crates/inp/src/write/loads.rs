@@ -4,6 +4,7 @@ use super::Writer;
 use super::conditions::Table;
 use super::courses::{Item, Record};
 use crate::model::{Action, ActionKind, Condition, Target};
+use crate::read::along;
 use std::collections::BTreeMap;
 
 /// Loads of each kind.
@@ -53,16 +54,21 @@ impl Writer<'_> {
                     _ => {}
                 }
             }
-            let mut pieces: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
-            let mut tools = Row::new();
+            let mut pieces: BTreeMap<(usize, usize, u64), Vec<usize>> = BTreeMap::new();
+            let (mut tools, mut idle) = (Row::new(), BTreeMap::<usize, usize>::new());
             for ((node, axis), owner) in &owners {
                 for &record in owner {
                     let (end, course) = self.followed(&records[record], number);
                     let place = records[record].place;
                     if let Some(led) = self.led_tool(*node, *axis) {
                         add(&mut tools, led, Item { end, start: None, course, place });
+                    } else if self.held.get(number).is_some_and(|held| held.contains(&(*node, *axis))) {
+                        *idle.entry(record).or_insert(0) += 1;
                     } else if self.used[*node] && *axis < self.dimension() {
-                        pieces.entry((record, *axis)).or_default().push(*node);
+                        let parts = along(model.frames.get(node), *axis);
+                        for at in (0..self.dimension()).filter(|&at| parts[at] != 0.0) {
+                            pieces.entry((record, at, parts[at].to_bits())).or_default().push(*node);
+                        }
                     } else if !self.used[*node] && !model.rigid.iter().any(|rigid| rigid.node == *node) {
                         self.error(place, format!("'{}' loads nodes of no body", records[record].name));
                     } else if self.used[*node] && end != 0.0 {
@@ -70,11 +76,18 @@ impl Writer<'_> {
                     }
                 }
             }
+            for (record, count) in idle {
+                let what = format!(
+                    "forces on {count} nodes that are held along their direction are left out: they move nothing"
+                );
+                self.note(records[record].place, what);
+            }
             let mut row = Row::new();
-            for ((record, axis), nodes) in pieces {
+            for ((record, axis, factor), nodes) in pieces {
                 let (end, course) = self.followed(&records[record], number);
                 let group = self.groups.nodes(&records[record].name, nodes);
                 let item = Item { end, start: None, course, place: records[record].place };
+                let item = item.scaled(f64::from_bits(factor));
                 self.lay(&mut row, group, axis, item);
             }
             begin(&mut row, on_nodes.last());

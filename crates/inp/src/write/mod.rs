@@ -1,5 +1,6 @@
 //! From the model to a deck of ours and its mesh.
 
+mod adjust;
 mod bodies;
 mod conditions;
 mod contacts;
@@ -12,11 +13,13 @@ mod rubber;
 mod steps;
 mod supports;
 mod tools;
+mod turned;
 
 use crate::elements::Family;
 use crate::message::{Messages, Place};
 use crate::model::Model;
 use groups::Groups;
+use std::collections::{BTreeMap, BTreeSet};
 use tools::Tool;
 
 /// A deck and its mesh.
@@ -38,6 +41,14 @@ struct Writer<'m> {
     /// Whether each node belongs to an element with a section or stands in an equation.
     used: Vec<bool>,
     tools: Vec<Tool>,
+    /// Directions along which nodes with axes of their own are led.
+    directions: Vec<[f64; 3]>,
+    /// Groups of axisymmetric models that are rigid, which hold their radius.
+    rings: Vec<(String, Place)>,
+    /// New places of nodes that are moved onto a surface.
+    moved: BTreeMap<usize, [f64; 3]>,
+    /// Nodes and axes that are held or led in each step.
+    held: Vec<BTreeSet<(usize, usize)>>,
     text: String,
 }
 
@@ -51,6 +62,10 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
         section: vec![],
         used: vec![],
         tools: vec![],
+        directions: vec![],
+        rings: vec![],
+        moved: BTreeMap::new(),
+        held: vec![],
         text: String::new(),
     };
     writer.sort_elements();
@@ -63,7 +78,7 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
     writer.steps();
     writer.outputs();
     writer.named_sets();
-    let mesh = writer.groups.mesh(model, &writer.section, &writer.used);
+    let mesh = writer.groups.mesh(model, &writer.section, (&writer.used, &writer.moved));
     let title = if model.title.is_empty() { name } else { &model.title };
     let mut deck = format!("# Translated from {name}, read as a deck of {:?}.\n", model.dialect);
     let notes = writer.messages.notes();

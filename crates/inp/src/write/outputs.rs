@@ -1,7 +1,7 @@
 //! What is to be written.
 
 use super::{Writer, quoted};
-use crate::model::{OutputKind, Printed, Totals};
+use crate::model::{Output, OutputKind, Printed, Totals};
 use crate::read::PLASTIC;
 
 impl Writer<'_> {
@@ -10,6 +10,10 @@ impl Writer<'_> {
         let model = self.model;
         if model.outputs.is_empty() {
             return;
+        }
+        let own = |output: &&Output| matches!(output.kind, OutputKind::Print { whose: Printed::Nodes(_), .. });
+        if let Some(output) = model.outputs.iter().find(own).filter(|_| !model.frames.is_empty()) {
+            self.note(output.place, "printed along the axes of the model, of nodes with axes of their own, too");
         }
         let plastic = model.materials.iter().any(|material| !material.plastic.is_empty());
         let every = model.outputs.iter().map(|output| output.every).min().unwrap_or(1);

@@ -3,7 +3,7 @@
 use super::conditions::{Kind, Said, Table};
 use super::courses::Item;
 use super::{Writer, quoted};
-use crate::model::Step;
+use crate::model::{ActionKind, Step};
 use std::collections::BTreeMap;
 
 const AXES: &[&str] = &["x", "y", "z"];
@@ -45,6 +45,7 @@ impl Writer<'_> {
             let from = self.from(step.place);
             let mut text = format!("\n[[step]]{from}\nname = {}\nduration = {:?}\n", quoted(&name), step.duration);
             text += &increments(step);
+            text += &self.path(number, step);
             let released: Vec<String> =
                 said.iter().flat_map(|kind| &kind[number].released).map(|name| quoted(name)).collect();
             if !released.is_empty() {
@@ -69,6 +70,32 @@ impl Writer<'_> {
                 self.note(step.place, "strains are large from the first step on, since they are here");
             }
         }
+    }
+
+    /// The keys of a step that follows a path, in which everything goes with the load factor.
+    fn path(&mut self, number: usize, step: &Step) -> String {
+        let (Some(path), model) = (&step.path, self.model) else { return String::new() };
+        for action in model.actions(number) {
+            let what = match &action.kind {
+                _ if action.course.is_some() => "an AMPLITUDE",
+                ActionKind::Temperature(..) => "a *TEMPERATURE",
+                ActionKind::Friction(..) => "a *CHANGE FRICTION",
+                ActionKind::Contact(..) => "a *MODEL CHANGE",
+                _ => continue,
+            };
+            let text = format!(
+                "{what} in a step of *STATIC, RIKS, in which loads go with the load factor: put it into another step"
+            );
+            self.error(action.place, text);
+        }
+        let mut text = String::from("control = \"arc-length\"\n");
+        if let Some((target, axis, value)) = &path.until
+            && *axis < self.dimension()
+        {
+            let group = self.groups.nodes(&target.name, target.members.clone());
+            text += &format!("until = {{ group = {}, {} = {value:?} }}\n", quoted(&group), AXES[*axis]);
+        }
+        text
     }
 
     /// Motions in degrees, and loads along what is not led: a reference node is free where nothing holds it.
@@ -124,5 +151,7 @@ fn increments(step: &Step) -> String {
     }
     let largest = largest.unwrap_or(1.0).max(first);
     let smallest = least.unwrap_or(1e-5).min(1e-5).clamp(1e-12, first);
-    format!("increments = {{ first = {first:?}, largest = {largest:?}, smallest = {smallest:?} }}\n")
+    // A path is often left at its last increment.
+    let most = step.most.filter(|_| step.path.is_some()).map_or(String::new(), |most| format!(", most = {most}"));
+    format!("increments = {{ first = {first:?}, largest = {largest:?}, smallest = {smallest:?}{most} }}\n")
 }

@@ -3,13 +3,15 @@
 use super::Writer;
 use super::conditions::Table;
 use super::courses::{Item, Record};
-use crate::elements::Family;
-use crate::message::Place;
-use crate::model::{ActionKind, Condition, RigidPart};
+use super::turned::resolved;
+use crate::model::{ActionKind, Condition};
 use std::collections::BTreeMap;
 
 /// Who leads each node along each axis.
 type Owners = BTreeMap<(usize, usize), usize>;
+
+/// Nodes that are led alike, by record, component and the values of the item.
+type Alike = BTreeMap<(usize, usize, Vec<u64>), (Item, Vec<usize>)>;
 
 /// What leads nodes, and what leads tools.
 pub struct Supports {
@@ -45,6 +47,8 @@ impl Writer<'_> {
             let (displacement, motion) = self.led(number, &owners, &records, &start);
             supports.displacement.push(displacement);
             supports.motion.push(motion);
+            let own = |key: &&(usize, usize)| !model.frames.contains_key(&key.0);
+            self.held.push(owners.keys().filter(own).copied().collect());
             let reached: Vec<f64> = records.iter().map(|record| self.followed(record, number).0).collect();
             records.iter_mut().zip(reached).for_each(|(record, reached)| record.reached = reached);
         }
@@ -62,6 +66,7 @@ impl Writer<'_> {
     ) -> (BTreeMap<(String, usize), Item>, BTreeMap<(String, usize), Item>) {
         let mut pieces: BTreeMap<(usize, usize, Option<u64>), Vec<usize>> = BTreeMap::new();
         let mut motion = BTreeMap::new();
+        let mut owned: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (key @ (node, axis), &record) in owners {
             let (end, course) = self.followed(&records[record], step);
             let place = records[record].place;
@@ -70,6 +75,10 @@ impl Writer<'_> {
                 continue;
             }
             if self.used[*node] && *axis < self.dimension() {
+                if self.model.frames.contains_key(node) {
+                    owned.entry(*node).or_default().push((*axis, record));
+                    continue;
+                }
                 let from = course.as_ref().and_then(|_| start(key)).map(f64::to_bits);
                 pieces.entry((record, *axis, from)).or_default().push(*node);
             } else if !self.used[*node]
@@ -89,47 +98,52 @@ impl Writer<'_> {
             let group = self.groups.nodes(&records[record].name, nodes);
             displacement.insert((group, axis), Item { end, start: from.map(f64::from_bits), course, place });
         }
-        for (group, axis, record) in self.rigid_nodes(owners, records) {
-            let (end, course) = self.followed(&records[record], step);
-            let start = if step == 0 { Some(0.0) } else { Some(records[record].reached) };
-            displacement.insert((group, axis), Item { end, start, course, place: records[record].place });
+        for (axis, (item, record), nodes) in self.turned(step, &owned, records, start) {
+            let group = self.groups.nodes(&records[record].name, nodes);
+            displacement.insert((group, axis), item);
+        }
+        for (group, place) in &self.rings {
+            let item = Item { end: 0.0, start: Some(0.0), course: None, place: *place };
+            displacement.insert((group.clone(), 0), item);
         }
         (displacement, motion)
     }
 
-    /// Nodes of bodies that a reference node makes rigid: where it is led along all axes and does not turn, they go with it.
-    fn rigid_nodes(&mut self, owners: &Owners, records: &[Record]) -> Vec<(String, usize, usize)> {
-        let (model, dimension) = (self.model, self.dimension());
-        let mut led = Vec::new();
-        for rigid in &model.rigid {
-            let RigidPart::Nodes(nodes, name) = &rigid.what else { continue };
-            if self.family != Family::Axisymmetric {
-                continue;
-            }
-            let turns: Vec<usize> = if dimension == 3 { vec![3, 4, 5] } else { vec![5] };
-            let turn = |&axis: &usize| match rigid.rotation_node {
-                Some(node) => owners.get(&(node, axis - 3)),
-                None => owners.get(&(rigid.node, axis)),
+    /// What leads nodes with axes of their own: a component, its value with the record that it comes from, and the nodes of which
+    /// this holds.
+    fn turned(
+        &mut self,
+        step: usize,
+        owned: &BTreeMap<usize, Vec<(usize, usize)>>,
+        records: &[Record],
+        start: &dyn Fn(&(usize, usize)) -> Option<f64>,
+    ) -> Vec<(usize, (Item, usize), Vec<usize>)> {
+        let mut alike = Alike::new();
+        for (&node, led) in owned {
+            let Some(frame) = self.model.frames.get(&node) else { continue };
+            let items: Vec<(usize, Item)> = led
+                .iter()
+                .map(|&(axis, record)| {
+                    let ((end, course), place) = (self.followed(&records[record], step), records[record].place);
+                    (axis, Item { end, start: start(&(node, axis)), course, place })
+                })
+                .collect();
+            let Some((record, resolved)) = led.first().map(|led| led.1).zip(resolved(frame, self.dimension(), &items))
+            else {
+                let what = "nodes are led along two of three inclined axes, or onto them by an amplitude from where they are, which cannot \
+                            be translated; lead them along one or all of these axes";
+                let place = items.first().map(|(_, item)| item.place).unwrap_or_default();
+                self.error(place, what);
+                return vec![];
             };
-            let still = turns.iter().all(|axis| turn(axis).is_some_and(|&record| records[record].value == 0.0));
-            let axes: Vec<Option<&usize>> = (0..dimension).map(|axis| owners.get(&(rigid.node, axis))).collect();
-            if !still || axes.iter().any(Option::is_none) {
-                self.free_rigid(rigid.place, name);
-                continue;
+            for (led, item) in resolved {
+                let component = self.component(led);
+                let bits = [Some(item.end), item.start].into_iter().map(|value| value.map_or(u64::MAX, f64::to_bits));
+                let course = item.course.iter().flatten().flatten().map(|value| value.to_bits());
+                let key = (record, component, bits.chain(course).collect());
+                alike.entry(key).or_insert_with(|| (item, vec![])).1.push(node);
             }
-            let group = self.groups.nodes(name, nodes.clone());
-            led.extend(
-                axes.iter().enumerate().filter_map(|(axis, record)| Some((group.clone(), axis, **record.as_ref()?))),
-            );
         }
-        led
-    }
-
-    fn free_rigid(&mut self, place: Place, name: &str) {
-        let what = format!(
-            "'{name}' is rigid and free to move or turn, which cannot be translated; lead its reference node along all axes without a \
-             turn, or make it an analytical surface or rigid elements"
-        );
-        self.error(place, what);
+        alike.into_iter().map(|((record, component, _), (item, nodes))| (component, (item, record), nodes)).collect()
     }
 }

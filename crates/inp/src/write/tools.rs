@@ -41,7 +41,6 @@ impl Writer<'_> {
                     let name = self.name_of(elements).unwrap_or_else(|| format!("rigid {}", number + 1));
                     self.facets(elements, negative, rigid.place).map(|shape| (name, shape))
                 }
-                RigidPart::Nodes(..) if self.family == Family::Axisymmetric => None,
                 RigidPart::Nodes(nodes, name) => {
                     let group = self.groups.nodes(name, nodes.clone());
                     self.rigid_group(&group, number);
@@ -69,6 +68,13 @@ impl Writer<'_> {
     /// A group of nodes that goes with the node of a rigid body.
     fn rigid_group(&mut self, group: &str, number: usize) {
         let rigid = &self.model.rigid[number];
+        let ring = self.family == Family::Axisymmetric && !rigid.distributing;
+        if ring || (rigid.is_partial() && !rigid.distributing) {
+            return self.partial_group(group, number);
+        }
+        if self.model.frames.contains_key(&rigid.node) {
+            return self.error(rigid.place, "the reference node has axes of its own, which cannot be translated");
+        }
         let taken = |name: &str| self.tools.iter().any(|tool| tool.name == name);
         let name = if taken(group) { format!("{group} {}", number + 1) } else { group.to_owned() };
         let (from, reference) = (self.from(rigid.place), &self.model.nodes[rigid.node].x[..self.dimension()]);

@@ -285,6 +285,7 @@ impl Problem {
             bearing: Default::default(),
             steps: vec![step],
             supports: vec![],
+            watched: vec![],
             ties: vec![],
             rigid: vec![],
             newton: NewtonOptions::default(),

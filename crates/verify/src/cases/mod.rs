@@ -20,6 +20,7 @@ mod inclined_block;
 mod interface;
 mod interference_fit;
 mod ironing_3d;
+mod laminate;
 mod locking;
 mod o_ring;
 mod partial_slip;
@@ -84,6 +85,7 @@ pub const ALL: &[&Case] = &[
     &rolling::CASE,
     &pile::CASE,
     &tie_patch::CASE,
+    &laminate::CASE,
     &rigid_hub::CASE,
     &springback::CASE,
     &seal::CASE,

@@ -232,6 +232,7 @@ impl Builder<'_> {
                 })
                 .collect(),
             supports,
+            watched: self.watched(),
             ties: self.ties.iter().map(|glued| (glued.names.clone(), glued.tie.clone())).collect(),
             rigid,
             newton: self.deck.solver.newton_options(),

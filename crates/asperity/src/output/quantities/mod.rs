@@ -58,6 +58,8 @@ pub struct Parts<'a> {
     pub rigid: Vec<&'a str>,
     /// Names and nodes of the groups that anything holds or moves in any step.
     pub supports: Vec<(String, Vec<usize>)>,
+    /// The same of other groups, whose motion is reported.
+    pub watched: Vec<(String, Vec<usize>)>,
     /// For each step what it does with each unknown.
     pub constraints: Vec<&'a Constraints>,
     /// Whether any step follows a path, so that the load factor is worth a column.
@@ -170,6 +172,7 @@ impl<'a> Parts<'a> {
             solid_tools: model.solid_tools.iter().map(AsRef::as_ref).collect(),
             rigid: model.rigid.iter().map(|group| group.name.as_str()).collect(),
             supports: model.supports.clone(),
+            watched: model.watched.clone(),
             constraints: model.problem.steps.iter().map(|step| &step.constraints).collect(),
             follows: model.problem.steps.iter().any(|step| step.arc_length.is_some()),
         }

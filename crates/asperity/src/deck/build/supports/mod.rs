@@ -21,7 +21,7 @@ use crate::system::{Constraints, Row};
 use claim::{Claim, Claims, Known, What, hold};
 pub(super) use flat::flat_normal;
 use flat::{ROUNDING, unit};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Constraints and prescribed values of one step.
 pub(super) type Held = (Constraints, Vec<Prescribed>);
@@ -63,10 +63,14 @@ impl Builder<'_> {
         });
         let mut found = Vec::new();
         let led = |group: &Name, axis: usize| {
-            let row = |node: usize| constraints.row(self.site.dofs.node(node) + axis);
+            // What follows others carries its load over to them.
+            let held = |node: usize| match constraints.row(self.site.dofs.node(node) + axis) {
+                Row::Free(_) => false,
+                Row::Fixed => true,
+                Row::Combined(others) => others.is_empty(),
+            };
             let nodes = self.nodes(&group.text);
-            !nodes.is_empty()
-                && nodes.iter().all(|node| !matches!(row(*node), Row::Free(_)) && !rigid.contains_key(node))
+            !nodes.is_empty() && nodes.iter().all(|node| held(*node) && !rigid.contains_key(node))
         };
         let mut refuse = |kind: &str, name: &Name, along: String| {
             let what = format!("`{kind}.{name}` moves nothing{along}");
@@ -98,6 +102,19 @@ impl Builder<'_> {
         let steps = self.deck.step.iter();
         let names = steps.flat_map(|step| step.displacement.iter().map(|(name, _)| name).chain(&step.symmetry));
         let groups: BTreeMap<&str, &[usize]> = names.map(|name| (name.text.as_str(), self.nodes(&name.text))).collect();
+        groups.into_iter().map(|(name, nodes)| (name.to_owned(), nodes.to_vec())).collect()
+    }
+
+    /// Groups that are neither held nor led, and whose motion the deck asks for: where a step ends that follows a path, and those
+    /// of points that carry loads.
+    pub(super) fn watched(&self) -> Vec<Nodes> {
+        let until = self.deck.step.iter().filter_map(|step| step.until.as_ref()).map(|until| &until.group);
+        let names = until.chain(self.deck.distributing.iter().map(|(_, keys)| &keys.group));
+        let known: BTreeSet<String> = self.groups().into_iter().map(|(name, _)| name).collect();
+        let groups: BTreeMap<&str, &[usize]> = names
+            .filter(|name| !known.contains(&name.text))
+            .map(|name| (name.text.as_str(), self.nodes(&name.text)))
+            .collect();
         groups.into_iter().map(|(name, nodes)| (name.to_owned(), nodes.to_vec())).collect()
     }
 

@@ -11,13 +11,14 @@ use crate::Error;
 use crate::material::Material;
 use crate::point::{Curve, Probe, Record, Stage, columns};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A deck of a material point that was read, with its laws.
 pub struct LoadedPoint {
     /// The deck.
     pub deck: PointDeck,
     /// Each material's name and law.
-    pub materials: Vec<(String, Box<dyn Material>)>,
+    pub materials: Vec<(String, Arc<dyn Material>)>,
     /// The path.
     pub stages: Vec<Stage>,
     /// What is drawn.
@@ -54,7 +55,7 @@ pub fn read_point(text: &str, name: &str, sets: &[String]) -> Result<LoadedPoint
     Ok(LoadedPoint { deck, materials, stages, curves, diagnostics })
 }
 
-fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<dyn Material>)> {
+fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Arc<dyn Material>)> {
     let mut materials = Vec::new();
     for (name, law) in &deck.material {
         match integrated(deck, law) {
@@ -78,9 +79,9 @@ pub(super) fn refuse_name(name: &Name, found: &mut Vec<Diagnostic>) {
     }
 }
 
-fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Box<dyn Material>, String> {
-    let material = law.build()?;
-    Ok(keys::integrated(material.as_ref(), deck.rate, deck.update.as_ref())?.unwrap_or(material))
+fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Arc<dyn Material>, String> {
+    let material = deck.completed(law)?;
+    Ok(keys::integrated(material.as_ref(), deck.rate, deck.update.as_ref())?.map_or(material, Arc::from))
 }
 
 pub(super) fn curves(curves: &[PointCurve], names: &[String], found: &mut Vec<Diagnostic>) -> Vec<Curve> {

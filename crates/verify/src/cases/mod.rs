@@ -20,6 +20,7 @@ mod inclined_block;
 mod interface;
 mod interference_fit;
 mod ironing_3d;
+mod laws;
 mod locking;
 mod o_ring;
 mod partial_slip;
@@ -70,6 +71,7 @@ pub const ALL: &[&Case] = &[
     &capstan::CASE,
     &o_ring::CASE,
     &locking::CASE,
+    &laws::CASE,
     &upsetting::CASE,
     &cup::CASE,
     &wedge::CASE,

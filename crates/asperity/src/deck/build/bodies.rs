@@ -36,8 +36,10 @@ impl Builder<'_> {
                 let still = (*keys.strain == Strain::Small && keys.rate.is_none()).then_some(ObjectiveRate::Jaumann);
                 let rate = keys.rate.map(|rate| rate.value).or(still);
                 let material = materials[number].clone();
-                let material = completed(material, &keys.prony, keys.mullins.as_ref(), keys.pore_stiffness);
-                let material = self.keep(material.map_err(crate::Error::input), name.place)?;
+                let water = keys.pore_stiffness.map(|water| water.value);
+                let material = completed(material, &keys.prony, keys.mullins.as_ref(), water);
+                let said = keys.pore_stiffness.map(|water| water.place).or(keys.mullins.as_ref().map(|m| m.place));
+                let material = self.keep(material.map_err(crate::Error::input), said.unwrap_or(keys.prony.place))?;
                 let law = integrated(material.as_ref(), rate, keys.update.as_ref());
                 let said = keys.update.as_ref().map(|update| update.place).or(keys.rate.map(|rate| rate.place));
                 let place = said.unwrap_or(name.place);

@@ -127,11 +127,11 @@ table! {
         /// The objective rate of the stress, in whose frame the law is integrated.
         rate: Option<Spot<ObjectiveRate>> = word().spot().unless_given(DEFAULT_RATE),
         /// Relaxation of the shape of rubber: pairs of a share of the instantaneous stress and a relaxation time (Prony series).
-        prony: Vec<Vec<f64>> = memory::prony().or("[]"),
+        prony: Spot<Vec<Vec<f64>>> = memory::prony().spot().or("[]"),
         /// Softening of rubber by the largest deformation so far.
         mullins: Option<MullinsKeys> = table_of().unless_given("none"),
         /// Bulk modulus of the pore water over the porosity, of a soil that is not drained.
-        pore_stiffness: Option<f64> = number(unit::STRESS, Range::POSITIVE).unless_given("drained"),
+        pore_stiffness: Option<Spot<f64>> = number(unit::STRESS, Range::POSITIVE).spot().unless_given("drained"),
         /// Mass of an undeformed unit of volume, on which gravity acts.
         density: Option<Spot<f64>> = number(unit::DENSITY, Range::POSITIVE).spot().unless_given("no weight"),
         /// Linear thermal expansion.

@@ -9,7 +9,7 @@ use super::source::Spot;
 use super::{gathered, text_of, understood};
 use crate::Error;
 use crate::material::Material;
-use crate::point::{Curve, Probe, Record, Stage, columns};
+use crate::point::{Curve, Probe, Record, Stage, TangentCheck, columns};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -111,8 +111,24 @@ impl LoadedPoint {
 
     /// Drives every material along the path as far as it can be followed; with what stopped the first that was stopped.
     pub fn follow(&self) -> (Vec<Record>, Option<Error>) {
-        let stress = self.deck.initial_stress.as_ref().map(|s| s.all().map(|s| s.unwrap_or(0.0)));
+        let stress = self.initial_stress();
         all(self.materials.iter().map(|(name, material)| self.drive(name, material.as_ref(), stress)))
+    }
+
+    /// Drives every material along the path as far as it can be followed, and compares its tangents with differences.
+    pub fn tangents(&self) -> Vec<(String, TangentCheck)> {
+        let one = |(name, material): &(String, Arc<dyn Material>)| {
+            let mut probe = Probe::new(material.as_ref(), self.initial_stress());
+            probe.check = Some(TangentCheck::default());
+            // Why a path ends is told by `follow`.
+            let _ = self.stages.iter().try_for_each(|stage| probe.follow(stage, |_| {}));
+            (name.clone(), probe.check.unwrap_or_default())
+        };
+        self.materials.iter().map(one).collect()
+    }
+
+    fn initial_stress(&self) -> Option<[f64; 6]> {
+        self.deck.initial_stress.as_ref().map(|s| s.all().map(|s| s.unwrap_or(0.0)))
     }
 
     fn drive(&self, name: &str, material: &dyn Material, stress: Option<[f64; 6]>) -> (Record, Option<Error>) {

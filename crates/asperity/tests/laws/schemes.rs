@@ -53,6 +53,7 @@ fn claim(law: &str) -> Claim {
         | "yeoh"
         | "arruda_boyce" => Claim::Closed,
         "mohr_coulomb"
+        | "drucker_prager_cap"
         | "mohr_coulomb_hardening"
         | "ubiquitous_joint"
         | "von_mises_table"

@@ -73,3 +73,18 @@ fn clay_of_constant_shear_modulus() {
     near(at(&records, "clay", ("strain_yy", -0.002), "von_mises"), 3.0 * 5e3 * 0.002, 1e-4);
     near(last(&records, "clay", "von_mises"), 1.2 * 100.0 * 0.6_f64.powf(0.8), 1e-3);
 }
+
+/// Pressed alike in all directions the volume changes by `P/K + x ln(P/Pb)`, and sheared the sand fails on its cone, with a cap
+/// beyond it.
+#[test]
+fn a_cap_moves_with_compaction() {
+    let records = run("drucker_prager_cap", &[]);
+    let bulk = 2e4 / (3.0 * 0.4);
+    let exact = -(200.0 / bulk + 0.01 * 2.0_f64.ln());
+    near(at(&records, "sand", ("time", 1.0), "volume_strain"), exact, 1e-3);
+    near(at(&records, "sand", ("time", 1.0), "cap_pressure"), 200.0, 1e-9);
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    near(last(&records, "sand", "von_mises"), 2.0 * (200.0 * sin + cos) / (1.0 - sin), 1e-6);
+    let [p, q] = [-last(&records, "sand", "mean_stress"), last(&records, "sand", "von_mises")];
+    assert!(last(&records, "sand", "cap_pressure") >= (p * p + q * q).sqrt() * (1.0 - 1e-9));
+}

@@ -104,7 +104,7 @@ pub enum Cone {
 
 impl Cone {
     /// `eta` and `xi` for friction and dilatancy in radians, then `eta_b`.
-    fn match_angles(self, friction: f64, dilatancy: f64) -> [f64; 3] {
+    pub(super) fn match_angles(self, friction: f64, dilatancy: f64) -> [f64; 3] {
         let edge = |angle: f64, sign: f64| 3.0_f64.sqrt() * (3.0 - sign * angle.sin()) / 6.0;
         let sign = if self == Self::Outer { 1.0 } else { -1.0 };
         if self != Self::PlaneStrain {

@@ -310,7 +310,15 @@ impl RateLaw for Gurson {
             return Err(Failure::new("Gurson: the local iteration finds another branch"));
         }
         let grown = if grown.re() < CLOSED { T::zero() } else { grown };
-        Ok((at.with(at.p - ev * bulk, at.q - eq * (3.0 * shear)), [grown, em + dm, volume + ev]))
+        let (p, vars) = (at.p - ev * bulk, [grown, em + dm, volume + ev]);
+        if q == 0.0 {
+            // Without shear the part of it that the flow would leave follows from the flow rule, for the tangent.
+            let s = self.matrix.flow(em, dm, dt);
+            let [_, along_p, _] = self.surface(p / s, T::zero(), self.effective(grown));
+            let left = if along_p.re() == 0.0 { T::one() } else { (ev / (s * along_p) * (6.0 * shear) + 1.0).recip() };
+            return Ok((at.scaled(p, left), vars));
+        }
+        Ok((at.with(p, at.q - eq * (3.0 * shear)), vars))
     }
 
     fn serves(&self, update: Update) -> Result<(), String> {

@@ -3,6 +3,7 @@
 mod arruda_boyce;
 mod cam_clay;
 mod drucker_prager;
+mod drucker_prager_cap;
 mod elastic;
 mod gurson;
 mod hardening;
@@ -25,6 +26,7 @@ mod yeoh;
 pub use arruda_boyce::ArrudaBoyce;
 pub use cam_clay::{CamClay, Course, Stiffness};
 pub use drucker_prager::{Cone, DruckerPrager};
+pub use drucker_prager_cap::Capped;
 pub use elastic::Elastic;
 pub use gurson::{Gurson, Nucleation};
 pub use hardening::Hardening;
@@ -69,6 +71,7 @@ pub static ALL: &[Entry<Box<dyn Material>>] = &[
     drucker_prager::INNER,
     drucker_prager::PLANE_STRAIN,
     drucker_prager::HARDENING,
+    drucker_prager_cap::ENTRY,
     mohr_coulomb::ENTRY,
     mohr_coulomb::HARDENING,
     cam_clay::ENTRY,

@@ -185,9 +185,12 @@ impl RateLaw for Capped {
         let (p, s) = (trial.trace() * (-1.0 / 3.0), trial.deviator());
         let t = (s.contract(s) * 0.5).sqrt();
         let Some((end, more)) = self.returned([t, p, cap])? else { return Ok((trial, [cap, volume, shear])) };
-        // Without a deviator the cone takes none of it, or all at its apex.
-        let left = (end.l * (6.0 * self.elastic.shear / (self.ratio * self.ratio)) + 1.0).recip();
-        let scale = if t.re() > 0.0 { end.t / t } else { left };
+        // Without a deviator it is the cap that takes a part of it, or the apex that takes all.
+        let scale = match t.re() > 0.0 {
+            true => end.t / t,
+            false if end.p.re() <= 0.0 => T::zero(),
+            false => (end.l * (6.0 * self.elastic.shear / (self.ratio * self.ratio)) + 1.0).recip(),
+        };
         let stress = s * scale - Tensor2::identity() * end.p;
         let sheared = (t - end.t) * (1.0 / self.elastic.shear);
         Ok((stress, [end.cap, volume + more, shear + sheared]))

@@ -93,7 +93,7 @@ impl Capped {
     }
 
     /// Return to the cone, or to its apex.
-    fn to_cone<S: Scalar>(&self, start: [S; 3]) -> (End<S>, S) {
+    fn onto_cone<S: Scalar>(&self, start: [S; 3]) -> (End<S>, S) {
         let ([t, p, cap], [eta, eta_b, strength]) = (start, self.cone);
         let (g, k) = (self.elastic.shear, self.elastic.bulk());
         let y = self.beyond_cone(t, p) * (1.0 / (g + k * eta * eta_b));
@@ -137,7 +137,7 @@ impl Capped {
         }
         let size = t.max(p.abs()).max(cap);
         if passes_cone {
-            let (end, volume) = self.to_cone(start);
+            let (end, volume) = self.onto_cone(start);
             if end.p.re() <= 0.0 || self.beyond_cap(end.t, end.p, end.cap).re() <= NEAR * size * size {
                 return Ok(Some((end, volume)));
             }

@@ -158,9 +158,9 @@ impl<const K: usize> VonMises<K> {
     /// `q(s - sum_i w_i X_i)`.
     fn shifted<S: Scalar>(data: &Contractions<S>, w: &[S; K]) -> S {
         let mut square = data[1];
-        for i in 0..K {
-            square -= data[CROSS + i] * w[i] * 2.0;
-            (0..K).for_each(|j| square += data[PAIRS[i][j]] * w[i] * w[j]);
+        for (i, left) in w.iter().enumerate() {
+            square -= data[CROSS + i] * *left * 2.0;
+            (0..K).for_each(|j| square += data[PAIRS[i][j]] * *left * w[j]);
         }
         (square * 1.5).sqrt()
     }

@@ -177,6 +177,9 @@ pub struct Point {
     /// The deck.
     #[command(flatten)]
     pub deck: Deck,
+    /// Compare the tangents of laws of solids along the path with differences, and say how far they are off.
+    #[arg(long)]
+    pub tangent: bool,
     /// The result directory; by default NAME.results here for a deck NAME.toml.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

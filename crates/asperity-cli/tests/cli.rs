@@ -291,6 +291,23 @@ fn a_point_of_an_interface_leaves_a_table_and_its_curves() {
 }
 
 #[test]
+fn tangents_of_a_point_are_compared() {
+    let folder = folder("");
+    let steel = "young = 200e3, poisson = 0.3, yield_stress = 200.0, hardening = 1e3";
+    let deck = format!(
+        "version = 1\nmaterial.steel.von_mises = {{ {steel} }}\n[[step]]\nincrements = 5\nstrain = {{ xx = 0.01 }}\n"
+    );
+    std::fs::write(folder.path().join("steel.toml"), deck).unwrap();
+    let run = asperity(folder.path(), &["point", "steel.toml", "--tangent"]);
+    let text = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(code(&run) == 0 && text.starts_with("steel: tangent within ") && text.contains("45 columns"), "{text}");
+    let slide = "version = 1\ninterface.joint.coulomb = { friction = 0.6 }\npenalty = 1e6\n[[step]]\npressure = 1.0\n";
+    std::fs::write(folder.path().join("joint.toml"), slide).unwrap();
+    let run = asperity(folder.path(), &["point", "joint.toml", "--tangent"]);
+    assert!(code(&run) == 2 && error(&run).contains("laws of interfaces"), "{}", error(&run));
+}
+
+#[test]
 fn every_law_of_an_interface_is_listed_with_its_numbers() {
     let listed = asperity(Path::new("."), &["laws"]);
     let text = String::from_utf8_lossy(&listed.stdout).into_owned();

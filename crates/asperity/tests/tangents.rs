@@ -48,7 +48,7 @@ fn tangents_of_all_bodies_are_exact() {
 #[test]
 fn tangents_of_flowing_bodies_are_exact() {
     let von_mises = find(asperity::material::laws::ALL, "von_mises").unwrap();
-    let flowing = (von_mises.build)(&[2.0, 0.3, 0.005, 0.1, 0.01, 5.0, 0.05, 2.0]).unwrap();
+    let flowing = (von_mises.build)(&[2.0, 0.3, 0.005, 0.1, 0.01, 5.0, 0.0, 0.0, 0.05, 2.0]).unwrap();
     bodies_are_exact(&Arc::from(flowing));
 }
 

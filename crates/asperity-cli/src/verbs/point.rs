@@ -4,7 +4,7 @@ use super::{Outcome, claim, print};
 use crate::arguments::Point;
 use crate::exit::tell;
 use asperity::deck;
-use asperity::point::{draw, write};
+use asperity::point::{TangentCheck, draw, write};
 
 /// Runs the deck of a point, writes its tables and pictures, and says what it wrote.
 pub fn point(arguments: &Point) -> Outcome {
@@ -15,7 +15,17 @@ pub fn point(arguments: &Point) -> Outcome {
     let mut written = write(&records, &directory)?;
     let drawn = [&records[..], &loaded.surfaces(&records)].concat();
     written.extend(draw(&drawn, loaded.curves(), loaded.title(), &directory)?);
+    if arguments.tangent {
+        print(&loaded.tangents()?.iter().map(compared).collect::<String>())?;
+    }
     let done = print(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>())?;
     // What was reached is written; that it is not all, and why, is said at last.
     stopped.map_or(Ok(done), |error| Err(error.into()))
+}
+
+/// What differences say of a law's tangents, in a line.
+fn compared((name, check): &(String, TangentCheck)) -> String {
+    let TangentCheck { worst, time, columns, corners } = check;
+    let corners = if *corners > 0 { format!("; {corners} more at corners of the law") } else { String::new() };
+    format!("{name}: tangent within {worst:.1e} of differences, worst at the time {time}, {columns} columns{corners}\n")
 }

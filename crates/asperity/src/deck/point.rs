@@ -9,15 +9,16 @@ use super::source::Spot;
 use super::{gathered, text_of, understood};
 use crate::Error;
 use crate::material::Material;
-use crate::point::{Curve, Probe, Record, Stage, columns};
+use crate::point::{Curve, Probe, Record, Stage, TangentCheck, columns};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A deck of a material point that was read, with its laws.
 pub struct LoadedPoint {
     /// The deck.
     pub deck: PointDeck,
     /// Each material's name and law.
-    pub materials: Vec<(String, Box<dyn Material>)>,
+    pub materials: Vec<(String, Arc<dyn Material>)>,
     /// The path.
     pub stages: Vec<Stage>,
     /// What is drawn.
@@ -54,7 +55,7 @@ pub fn read_point(text: &str, name: &str, sets: &[String]) -> Result<LoadedPoint
     Ok(LoadedPoint { deck, materials, stages, curves, diagnostics })
 }
 
-fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Box<dyn Material>)> {
+fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Arc<dyn Material>)> {
     let mut materials = Vec::new();
     for (name, law) in &deck.material {
         match integrated(deck, law) {
@@ -78,9 +79,9 @@ pub(super) fn refuse_name(name: &Name, found: &mut Vec<Diagnostic>) {
     }
 }
 
-fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Box<dyn Material>, String> {
-    let material = law.build()?;
-    Ok(keys::integrated(material.as_ref(), deck.rate, deck.update.as_ref())?.unwrap_or(material))
+fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Arc<dyn Material>, String> {
+    let material = deck.completed(law)?;
+    Ok(keys::integrated(material.as_ref(), deck.rate, deck.update.as_ref())?.map_or(material, Arc::from))
 }
 
 pub(super) fn curves(curves: &[PointCurve], names: &[String], found: &mut Vec<Diagnostic>) -> Vec<Curve> {
@@ -110,8 +111,24 @@ impl LoadedPoint {
 
     /// Drives every material along the path as far as it can be followed; with what stopped the first that was stopped.
     pub fn follow(&self) -> (Vec<Record>, Option<Error>) {
-        let stress = self.deck.initial_stress.as_ref().map(|s| s.all().map(|s| s.unwrap_or(0.0)));
+        let stress = self.initial_stress();
         all(self.materials.iter().map(|(name, material)| self.drive(name, material.as_ref(), stress)))
+    }
+
+    /// Drives every material along the path as far as it can be followed, and compares its tangents with differences.
+    pub fn tangents(&self) -> Vec<(String, TangentCheck)> {
+        let one = |(name, material): &(String, Arc<dyn Material>)| {
+            let mut probe = Probe::new(material.as_ref(), self.initial_stress());
+            probe.check = Some(TangentCheck::default());
+            // Why a path ends is told by `follow`.
+            let _ = self.stages.iter().try_for_each(|stage| probe.follow(stage, |_| {}));
+            (name.clone(), probe.check.unwrap_or_default())
+        };
+        self.materials.iter().map(one).collect()
+    }
+
+    fn initial_stress(&self) -> Option<[f64; 6]> {
+        self.deck.initial_stress.as_ref().map(|s| s.all().map(|s| s.unwrap_or(0.0)))
     }
 
     fn drive(&self, name: &str, material: &dyn Material, stress: Option<[f64; 6]>) -> (Record, Option<Error>) {

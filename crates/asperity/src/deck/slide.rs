@@ -9,7 +9,7 @@ use super::tree::{self, Value};
 use super::{gathered, text_of, understood};
 use crate::Error;
 use crate::interface::Interface;
-use crate::point::{Curve, Record, Slide, drive, slider_columns, yield_surface};
+use crate::point::{Curve, Record, Slide, TangentCheck, drive, slider_columns, yield_surface};
 use std::path::Path;
 
 /// A deck of a point of an interface that was read, with its laws.
@@ -154,6 +154,18 @@ impl Driven {
         match self {
             Self::Solid(_) => Vec::new(),
             Self::Interface(loaded) => loaded.surfaces(records),
+        }
+    }
+    /// The tangents of the laws along the path against differences, by the names of their materials.
+    ///
+    /// # Errors
+    /// In words, for laws of interfaces.
+    pub fn tangents(&self) -> Result<Vec<(String, TangentCheck)>, Error> {
+        match self {
+            Self::Solid(loaded) => Ok(loaded.tangents()),
+            Self::Interface(_) => Err(Error::input(
+                "tangents are compared along paths of laws of solids, and these are laws of interfaces",
+            )),
         }
     }
     /// Drives every law along the path as far as it can be followed; with what stopped the first that was stopped.

@@ -1,6 +1,7 @@
 //! Hyperelastic laws: the Cauchy stress follows from the left Cauchy-Green tensor `b = F F^T`, which is the only
 //! history and is carried by `b = f b_n f^T`; nothing is integrated, and closed cycles give all energy back.
 
+use super::memory::{Memory, Remembering};
 use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Material, Spin, Variable, VariableKind};
 use crate::integrate::Update;
@@ -9,6 +10,9 @@ use crate::{Failure, Kind};
 
 /// An isotropic law between `b` and the Cauchy stress.
 pub trait HyperLaw: Clone + Send + Sync + 'static {
+    /// Whether the energy is a sum of one of the volume and one of the shape, `b` over the 2/3 power of the volume ratio.
+    const APART: bool = true;
+
     /// Cauchy stress at `b`.
     ///
     /// # Errors
@@ -44,7 +48,7 @@ pub struct Hyper<L>(pub L);
 
 static VARIABLES: &[Variable] = &[Variable { name: "left_cauchy_green", kind: VariableKind::Symmetric }];
 
-fn left_cauchy_green(state: &[f64]) -> Tensor2 {
+pub(super) fn left_cauchy_green(state: &[f64]) -> Tensor2 {
     Tensor2::from_voigt(std::array::from_fn(|i| state[6 + i]))
 }
 
@@ -89,6 +93,10 @@ impl<L: HyperLaw> Material for Hyper<L> {
         Err("the stress of a hyperelastic law follows from the whole deformation and has no small strain: use the law \
              `elastic`, or strain = \"finite\""
             .into())
+    }
+
+    fn with_memory(&self, memory: &Memory) -> Result<Box<dyn Material>, String> {
+        Ok(Box::new(Remembering::new(self.0.clone(), memory.clone())?))
     }
 
     fn update(&self, f: &Tensor2, _dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {

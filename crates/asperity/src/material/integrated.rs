@@ -3,7 +3,7 @@
 //! The strain of the objective frame is cut into equal parts of constant rate; stress and variables carry their
 //! derivatives from one sub-step to the next, so the tangent is that of the whole.
 
-use super::{Flow, Material, RateLaw, Variable, Vars};
+use super::{Flow, Material, RateLaw, Spin, Variable, Vars};
 use crate::Failure;
 use crate::integrate::{Blend, Update};
 use crate::tensor::{Scalar, Tensor2};
@@ -71,8 +71,11 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     fn flow(&self) -> Flow {
         self.law.flow()
     }
-    fn has_back_stress(&self) -> bool {
-        self.law.has_back_stress()
+    fn own_spin(&self) -> Option<Spin> {
+        self.law.own_spin()
+    }
+    fn serves(&self, update: Update) -> Result<(), String> {
+        self.law.serves(update)
     }
     /// Integrated once, not twice.
     fn updated(&self, update: Update) -> Box<dyn Material> {

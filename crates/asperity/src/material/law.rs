@@ -1,5 +1,6 @@
 //! What a body asks of a law.
 
+use super::memory::Memory;
 use super::turned::Spin;
 use crate::Failure;
 use crate::declare::Variable;
@@ -117,9 +118,16 @@ pub trait Material: Send + Sync {
     fn flow(&self) -> Flow {
         Flow::None
     }
-    /// Whether the law has a back stress, which wants the logarithmic rate unless another is said.
-    fn has_back_stress(&self) -> bool {
-        false
+    /// The spin with which the law turns unless another is said; none for that of Jaumann's rate.
+    fn own_spin(&self) -> Option<Spin> {
+        None
+    }
+    /// The same law with a memory of the deformations before.
+    ///
+    /// # Errors
+    /// In words, where the law takes none.
+    fn with_memory(&self, _memory: &Memory) -> Result<Box<dyn Material>, String> {
+        Err("only hyperelastic laws take `prony` and `mullins`".into())
     }
     /// The same law in small strain, where `f` is `I` and the displacement gradient of the increment.
     ///
@@ -170,6 +178,11 @@ pub trait Material: Send + Sync {
     /// a rate law belongs to no such energy.
     fn is_conservative(&self) -> bool {
         false
+    }
+    /// Whether the stored energy is that of an undeformed volume, so that its rate and the dissipation are the power of the
+    /// stress whatever the change of volume.
+    fn has_potential(&self) -> bool {
+        self.is_conservative()
     }
     /// What a user should know of the law in its frame before it is used, in words; none where there is nothing to know.
     fn advice(&self) -> Option<&'static str> {

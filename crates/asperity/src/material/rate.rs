@@ -49,13 +49,20 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     fn dissipation(&self, _old: (&Tensor2, &Self::Vars<f64>), _new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         0.0
     }
+    /// Whether the law can be integrated as said.
+    ///
+    /// # Errors
+    /// In words, why not.
+    fn serves(&self, _update: Update) -> Result<(), String> {
+        Ok(())
+    }
     /// As [`Material::flow`].
     fn flow(&self) -> Flow {
         Flow::None
     }
-    /// As [`Material::has_back_stress`].
-    fn has_back_stress(&self) -> bool {
-        false
+    /// As [`Material::own_spin`].
+    fn own_spin(&self) -> Option<Spin> {
+        None
     }
     /// The law as a material whose increments are integrated as said.
     fn updated(&self, update: Update) -> Box<dyn Material> {
@@ -73,6 +80,10 @@ const BORNE: f64 = 1e-9;
 /// What is said of a back stress in Jaumann's frame.
 const SWINGS: &str = "a back stress turns with the spin of the solid in Jaumann's frame: in shear beyond about one half the \
                       stress swings; without `rate` it turns with the logarithmic rate and does not";
+
+/// What is said of axes of a solid in Jaumann's frame.
+const TURNS: &str = "the axes of the solid turn with its spin in Jaumann's frame: in shear they go round and round; without \
+                     `rate` they turn with the polar rotation";
 
 /// Why a deformation is refused.
 pub(super) const INSIDE_OUT: &str = "a cell is turned inside out";
@@ -164,6 +175,7 @@ impl<L: RateLaw> Material for Rate<L> {
     }
 
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
+        self.0.serves(update)?;
         Ok(self.0.updated(update))
     }
 
@@ -197,12 +209,15 @@ impl<L: RateLaw> Material for Rate<L> {
         self.0.flow()
     }
 
-    fn has_back_stress(&self) -> bool {
-        self.0.has_back_stress()
+    fn own_spin(&self) -> Option<Spin> {
+        self.0.own_spin()
     }
 
     fn advice(&self) -> Option<&'static str> {
-        self.0.has_back_stress().then_some(SWINGS)
+        self.0.own_spin().map(|spin| match spin {
+            Spin::Logarithmic => SWINGS,
+            Spin::Polar => TURNS,
+        })
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

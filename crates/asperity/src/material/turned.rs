@@ -108,6 +108,7 @@ impl<L: RateLaw> Material for Turned<L> {
     }
 
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
+        self.law.serves(update)?;
         self.law.updated(update).with_spin(self.spin)
     }
 
@@ -119,8 +120,8 @@ impl<L: RateLaw> Material for Turned<L> {
         self.law.flow()
     }
 
-    fn has_back_stress(&self) -> bool {
-        self.law.has_back_stress()
+    fn own_spin(&self) -> Option<Spin> {
+        self.law.own_spin()
     }
 
     fn with_small_strain(&self) -> Result<Box<dyn Material>, String> {

@@ -34,56 +34,60 @@ impl<T: Scalar, const N: usize> Vars<T> for [T; N] {
     }
 }
 
-/// `N` scalars and a symmetric tensor, which turns with the frame.
+/// `N` scalars and `K` symmetric tensors, which turn with the frame.
 #[derive(Debug, Clone, Copy)]
-pub struct ScalarsAndTensor<T, const N: usize> {
+pub struct ScalarsAndTensors<T, const N: usize, const K: usize> {
     /// The scalars, stored first.
     pub scalars: [T; N],
-    /// The tensor.
-    pub tensor: Tensor2<T>,
+    /// The tensors.
+    pub tensors: [Tensor2<T>; K],
 }
 
-impl<T: Scalar, const N: usize> Vars<T> for ScalarsAndTensor<T, N> {
+impl<T: Scalar, const N: usize, const K: usize> Vars<T> for ScalarsAndTensors<T, N, K> {
     fn read(values: &[f64]) -> Self {
-        let tensor = Tensor2::from_voigt(std::array::from_fn(|i| T::from(values[N + i])));
-        Self { scalars: Vars::<T>::read(values), tensor }
+        let tensor = |k: usize| Tensor2::from_voigt(std::array::from_fn(|i| T::from(values[N + 6 * k + i])));
+        Self { scalars: Vars::<T>::read(values), tensors: std::array::from_fn(tensor) }
     }
     fn write(&self, values: &mut [f64]) {
         self.scalars.write(&mut values[..N]);
-        self.tensor.to_voigt().write(&mut values[N..]);
+        for (k, tensor) in self.tensors.iter().enumerate() {
+            tensor.to_voigt().write(&mut values[N + 6 * k..N + 6 * k + 6]);
+        }
     }
     fn rotate(self, q: &Tensor2<T>) -> Self {
-        Self { tensor: *q * self.tensor * q.transpose(), ..self }
+        Self { tensors: self.tensors.map(|tensor| *q * tensor * q.transpose()), ..self }
     }
     fn blend(&self, other: &Self, weight: f64) -> Self {
-        let tensor = self.tensor + (other.tensor - self.tensor) * T::from(weight);
-        Self { scalars: self.scalars.blend(&other.scalars, weight), tensor }
+        let tensor = |k: usize| self.tensors[k] + (other.tensors[k] - self.tensors[k]) * T::from(weight);
+        Self { scalars: self.scalars.blend(&other.scalars, weight), tensors: std::array::from_fn(tensor) }
     }
 }
 
-/// `N` scalars and a vector, which turns with the frame.
+/// `N` scalars and `K` vectors, which turn with the frame.
 #[derive(Debug, Clone, Copy)]
-pub struct ScalarsAndVector<T, const N: usize> {
+pub struct ScalarsAndVectors<T, const N: usize, const K: usize> {
     /// The scalars, stored first.
     pub scalars: [T; N],
-    /// The vector.
-    pub vector: Vec3<T>,
+    /// The vectors.
+    pub vectors: [Vec3<T>; K],
 }
 
-impl<T: Scalar, const N: usize> Vars<T> for ScalarsAndVector<T, N> {
+impl<T: Scalar, const N: usize, const K: usize> Vars<T> for ScalarsAndVectors<T, N, K> {
     fn read(values: &[f64]) -> Self {
-        let vector = Vec3(std::array::from_fn(|i| T::from(values[N + i])));
-        Self { scalars: Vars::<T>::read(values), vector }
+        let vector = |k: usize| Vec3(std::array::from_fn(|i| T::from(values[N + 3 * k + i])));
+        Self { scalars: Vars::<T>::read(values), vectors: std::array::from_fn(vector) }
     }
     fn write(&self, values: &mut [f64]) {
         self.scalars.write(&mut values[..N]);
-        self.vector.0.write(&mut values[N..]);
+        for (k, vector) in self.vectors.iter().enumerate() {
+            vector.0.write(&mut values[N + 3 * k..N + 3 * k + 3]);
+        }
     }
     fn rotate(self, q: &Tensor2<T>) -> Self {
-        Self { vector: *q * self.vector, ..self }
+        Self { vectors: self.vectors.map(|vector| *q * vector), ..self }
     }
     fn blend(&self, other: &Self, weight: f64) -> Self {
-        let vector = self.vector + (other.vector - self.vector) * T::from(weight);
-        Self { scalars: self.scalars.blend(&other.scalars, weight), vector }
+        let vector = |k: usize| self.vectors[k] + (other.vectors[k] - self.vectors[k]) * T::from(weight);
+        Self { scalars: self.scalars.blend(&other.scalars, weight), vectors: std::array::from_fn(vector) }
     }
 }

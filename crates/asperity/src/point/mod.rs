@@ -14,6 +14,7 @@ mod newton;
 mod probe;
 mod slider;
 mod table;
+mod tangent;
 
 pub use course::{COMPONENTS, Control, Stage};
 pub use curves::Curve;
@@ -21,3 +22,4 @@ pub use locus::yield_surface;
 pub use probe::Probe;
 pub use slider::{Normal, Slide, Slider, columns as slider_columns, drive};
 pub use table::{Record, columns, draw, write};
+pub use tangent::TangentCheck;

@@ -10,6 +10,8 @@ use frontal::Full;
 const TOLERANCE: f64 = 1e-11;
 /// Rounding of a stress, as a ratio to the stiffness of the undeformed solid.
 const ROUNDING: f64 = 1e-15;
+/// A stiffness that is none, as a ratio to that of the undeformed solid.
+const NOTHING: f64 = 1e-13;
 const LIMIT: usize = 50;
 
 /// One increment: where it begins, and what is prescribed at its end.
@@ -76,10 +78,15 @@ impl Increment<'_> {
 
     /// Change of the strains that removes the difference to first order.
     fn change(&self, trial: &Trial) -> Option<[f64; 6]> {
-        let free: Vec<usize> = (0..6).filter(|&i| self.stress[i].is_some()).collect();
-        let columns: Vec<[f64; 6]> = free.iter().map(|&j| self.along(trial, j)).collect();
+        let miss = |i: usize| self.stress[i].unwrap_or(0.0) - trial.new[i];
+        let free = (0..6).filter(|&i| self.stress[i].is_some()).map(|j| (j, self.along(trial, j)));
+        // What has no stiffness and bears what it should stays where it is, as a shear between equal principal stresses.
+        let soft = |i: usize, column: &[f64; 6]| {
+            miss(i).abs() <= ROUNDING * self.modulus && column.iter().all(|c| c.abs() <= NOTHING * self.modulus)
+        };
+        let (free, columns): (Vec<usize>, Vec<[f64; 6]>) = free.filter(|(i, column)| !soft(*i, column)).unzip();
         let rows = free.iter().flat_map(|&i| columns.iter().map(move |column| column[i])).collect();
-        let mut solved: Vec<f64> = free.iter().map(|&i| self.stress[i].unwrap_or(0.0) - trial.new[i]).collect();
+        let mut solved: Vec<f64> = free.iter().map(|&i| miss(i)).collect();
         Full::factorise(free.len(), rows)?.solve(&mut solved);
         let mut change = [0.0; 6];
         free.iter().zip(solved).for_each(|(&i, x)| change[i] = x.clamp(-0.5, 0.5));

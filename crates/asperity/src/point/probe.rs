@@ -2,6 +2,7 @@
 
 use super::course::{COMPONENTS, Control, Stage};
 use super::newton::Increment;
+use super::tangent::TangentCheck;
 use crate::material::Material;
 use crate::tensor::Tensor2;
 use crate::{Error, Failure};
@@ -21,6 +22,8 @@ pub struct Probe<'a> {
     pub time: f64,
     /// Energy dissipated so far per undeformed volume.
     pub dissipated: f64,
+    /// Compares the tangents of all increments with differences, where it is asked to.
+    pub check: Option<TangentCheck>,
     /// Strain rates of the last increment, for the first guess of the next.
     rate: [f64; 6],
     modulus: f64,
@@ -40,7 +43,7 @@ impl<'a> Probe<'a> {
             state[..6].copy_from_slice(&stress);
         }
         let [modulus, _] = material.moduli();
-        Self { material, strain: [0.0; 6], state, time: 0.0, dissipated: 0.0, rate: [0.0; 6], modulus }
+        Self { material, strain: [0.0; 6], state, time: 0.0, dissipated: 0.0, check: None, rate: [0.0; 6], modulus }
     }
 
     /// Goes along a stage and calls `seen` at the end of each of its increments. An increment that the law or the
@@ -89,6 +92,10 @@ impl<'a> Probe<'a> {
         };
         let solved = increment.solve(guess(&self.rate)).or_else(|_| increment.solve(guess(&[0.0; 6])));
         let (strain, new) = solved?;
+        if let Some(check) = &mut self.check {
+            let f = deformation(&strain) * deformation(&self.strain).inverse();
+            check.compare(self.material, (&self.state, &f, dt), ends.time + ends.duration * to);
+        }
         let volume = strain[0] + strain[1] + strain[2];
         self.dissipated += self.material.dissipation(&self.state, &new) * volume.exp();
         self.rate = std::array::from_fn(|i| (strain[i] - self.strain[i]) / dt);

@@ -211,7 +211,7 @@ impl OpenBody<'_> {
         let stored = material.stored_energy(new);
         local.stored += stored * det * volume;
         local.dissipated += material.dissipation(old, new) * det * volume;
-        if !material.is_conservative() {
+        if !material.has_potential() {
             local.residue += 0.5 * (material.stored_energy(old) + stored) * (1.0 - det) * volume;
         }
     }

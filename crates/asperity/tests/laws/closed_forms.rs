@@ -4,13 +4,13 @@ use super::samples::{decks, load};
 use asperity::point::Record;
 
 /// Runs a deck of `cases/point`.
-fn run(deck: &str, sets: &[&str]) -> Vec<Record> {
+pub fn run(deck: &str, sets: &[&str]) -> Vec<Record> {
     let path = decks().into_iter().find(|path| path.file_stem().is_some_and(|stem| stem == deck));
     load(&path.unwrap_or_else(|| panic!("no deck {deck}")), sets).run().unwrap()
 }
 
 /// A column of a material where another column first has (or crosses) a value, by straight lines.
-fn at(records: &[Record], material: &str, (x, value): (&str, f64), column: &str) -> f64 {
+pub fn at(records: &[Record], material: &str, (x, value): (&str, f64), column: &str) -> f64 {
     let record = records.iter().find(|record| record.name == material).unwrap();
     let (x, y) = (record.column(x).unwrap(), record.column(column).unwrap());
     let near = |i: &usize| (x[*i] - value).abs() <= 1e-9 * value.abs();
@@ -22,13 +22,13 @@ fn at(records: &[Record], material: &str, (x, value): (&str, f64), column: &str)
     y[i] + (y[i + 1] - y[i]) * (value - x[i]) / (x[i + 1] - x[i])
 }
 
-fn last(records: &[Record], material: &str, column: &str) -> f64 {
+pub fn last(records: &[Record], material: &str, column: &str) -> f64 {
     let record = records.iter().find(|record| record.name == material).unwrap();
     *record.column(column).unwrap().last().unwrap()
 }
 
 #[track_caller]
-fn near(found: f64, wanted: f64, ratio: f64) {
+pub fn near(found: f64, wanted: f64, ratio: f64) {
     assert!((found / wanted - 1.0).abs() < ratio, "{found} instead of {wanted}: off by {:.1e}", found / wanted - 1.0);
 }
 

@@ -223,3 +223,16 @@ fn the_plain_update_is_the_one_with_the_tangent() {
         }
     }
 }
+
+/// What `asperity point --tangent` says of the paths of all decks.
+#[test]
+fn tangents_along_the_paths_of_all_decks() {
+    for path in decks() {
+        let sets: Vec<String> = (1..=4).map(|i| format!("step.{i}.increments=20")).collect();
+        let steps = load(&path, &[]).stages.len().min(4);
+        let loaded = load(&path, &sets[..steps].iter().map(String::as_str).collect::<Vec<_>>());
+        for (name, check) in loaded.tangents() {
+            assert!(check.columns > 0 && check.worst < 2e-6, "{name} of {}: {check:?}", path.display());
+        }
+    }
+}

@@ -6,7 +6,10 @@
 
 mod closed_forms;
 mod conformance;
+mod plasticity;
 mod refusals;
+mod rubber;
 mod samples;
 mod schemes;
 mod single_steps;
+mod soils;

@@ -15,6 +15,8 @@ fn refused(material: &str) -> String {
 fn impossible_sets_are_refused_by_name() {
     let steel = "young = 1.0, poisson = 0.3, yield_stress = 1.0";
     let sand = "young = 1.0, poisson = 0.3, cohesion = 1.0";
+    let end = "end_cohesion = 1.0, end_friction = 25.0, change_strain = 0.1";
+    let sheet = |more: &str| format!("hill = {{ {steel}, r0 = 1.0, r45 = 1.0, r90 = 1.0, {more} }}");
     let clay = |more: &str| {
         let common = "critical_slope = 1.0, specific_volume = 2.0, initial_pressure = 1.0";
         format!("modified_cam_clay = {{ {common}, {more} }}")
@@ -37,6 +39,18 @@ fn impossible_sets_are_refused_by_name() {
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 1.0], [0.0, 2.0]] }".into(), "must rise"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 0.0]] }".into(), "positive, not 0"),
         ("von_mises_table = { young = 1.0, poisson = 0.3, curve = [[0.0, 9.0], [0.1, 1.0]] }".into(), "steeper"),
+        (
+            format!("chaboche = {{ {steel}, kinematic_1 = 1.0, recovery_3 = 1.0 }}"),
+            "`recovery_3` has nothing to recover",
+        ),
+        (sheet("normal_z = 0.0"), "the sheet has no normal"),
+        (sheet("rolling_x = 0.0, rolling_z = 2.0"), "does not lie in the sheet"),
+        (format!("hill_coefficients = {{ {steel}, f = -0.5, g = 1.0, h = 0.5 }}"), "no closed surface"),
+        (
+            format!("mohr_coulomb_hardening = {{ {sand}, friction = 30.0, {end}, end_dilatancy = 26.0 }}"),
+            "`end_dilatancy`, 26",
+        ),
+        (format!("drucker_prager_hardening = {{ {sand}, friction = 0.0, {end} }}"), "must both be zero or neither"),
         ("mooney_rivlin = { c10 = 0.0, c01 = 0.0, bulk = 1.0 }".into(), "both zero"),
         ("yeoh = { c10 = 1.0, c20 = -2.0, c30 = 1.0, bulk = 1.0 }".into(), "stiffness falls to nothing"),
         ("arruda_boyce = { modulus = 1.0, locking_stretch = 1.0, bulk = 1.0 }".into(), "locking_stretch"),
@@ -108,4 +122,22 @@ fn a_back_stress_in_the_frame_of_jaumann_has_a_note() {
     assert!(notes(", kinematic = 20e3", &sub_steps).contains("a back stress turns with the spin"));
     assert_eq!(notes(", kinematic = 20e3", ""), "");
     assert_eq!(notes("", jaumann), "");
+}
+
+#[test]
+fn what_rubber_and_soils_take_is_refused_of_others() {
+    let refused = |keys: &str, material: &str| {
+        let text = format!("version = 1\n{keys}\nmaterial.m = {{ {material} }}\n[[step]]\nstrain.xx = 0.1\n");
+        read_point(&text, "deck.toml", &[]).err().map(|d| d.render(false)).unwrap_or_default()
+    };
+    let (steel, rubber) = ("elastic = { young = 1.0, poisson = 0.3 }", "neo_hookean = { shear = 1.0, bulk = 1.0 }");
+    let plain = "saint_venant_kirchhoff = { young = 1.0, poisson = 0.3 }";
+    assert!(refused("prony = [[0.5, 1.0]]", steel).contains("only hyperelastic laws"));
+    assert!(refused("mullins = { r = 2.0, m = 1.0 }", plain).contains("does not keep volume and shape apart"));
+    assert!(refused("prony = [[0.5, 1.0], [0.5, 2.0]]", rubber).contains("less than 1 in all, not 1"));
+    assert!(refused("pore_stiffness = 1.0", rubber).contains("no pore water"));
+    assert_eq!(refused("prony = [[0.5, 1.0], [0.4, 2.0]]\nmullins = { r = 2.0, m = 1.0 }", rubber), "");
+    let fast = "von_mises_johnson_cook = { young = 9.0, poisson = 0.3, yield_stress = 1.0, strength = 1.0, exponent = 0.5, \
+                rate_sensitivity = 0.1 }";
+    assert!(refused("update.scheme = \"midpoint\"", fast).contains("does not serve a flow stress"));
 }

@@ -4,6 +4,7 @@ use asperity::deck::{LoadedPoint, load_point};
 use asperity::material::{Material, Spin, VariableKind};
 use asperity::tensor::Tensor2;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Decks of the material point.
 pub fn decks() -> Vec<PathBuf> {
@@ -24,18 +25,18 @@ pub struct Sample {
     /// Name of the registered law and of the deck that sets it.
     pub name: String,
     pub law: &'static str,
-    pub material: Box<dyn Material>,
+    pub material: Arc<dyn Material>,
 }
 
 pub fn samples() -> Vec<Sample> {
     let of = |path: &PathBuf| {
         let deck = load(path, &[]).deck;
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let sample = move |(_, law): &(_, asperity::deck::form::Law<Box<dyn Material>>)| {
-            let (name, material) = (format!("{} of {stem}", law.entry.name), law.build().unwrap());
+        let sample = |(_, law): &(_, asperity::deck::form::Law<Box<dyn Material>>)| {
+            let (name, material) = (format!("{} of {stem}", law.entry.name), deck.completed(law).unwrap());
             let spun = |spin: Spin| {
                 let material = material.with_spin(spin).ok()?;
-                Some(Sample { name: format!("{name}, {spin:?}"), law: law.entry.name, material })
+                Some(Sample { name: format!("{name}, {spin:?}"), law: law.entry.name, material: material.into() })
             };
             let spun = [Spin::Polar, Spin::Logarithmic].into_iter().filter_map(spun).collect::<Vec<_>>();
             [Sample { name, law: law.entry.name, material }].into_iter().chain(spun)
@@ -49,7 +50,7 @@ pub fn samples() -> Vec<Sample> {
 pub fn small_samples() -> Vec<Sample> {
     let small = |Sample { name, law, material }| {
         let material = material.with_small_strain().ok()?;
-        Some(Sample { name: format!("{name}, small strain"), law, material })
+        Some(Sample { name: format!("{name}, small strain"), law, material: material.into() })
     };
     samples().into_iter().filter_map(small).collect()
 }

@@ -87,7 +87,7 @@ fn returns_of_drucker_and_prager() {
 #[test]
 fn hydrostatic_strength_of_porous_metals() {
     let strength = |f: f64, [q1, q2, q3]: [f64; 3]| {
-        let metal = law("gurson", &[3e9, 0.3, 1.0, 0.0, 0.0, 0.0, f, q1, q2, q3, 0.0, 0.3, 0.1, 0.15, 0.25]);
+        let metal = law("gurson", &[3e9, 0.3, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, f, q1, q2, q3, 0.0, 0.3, 0.1, 0.15, 0.25]);
         let p = 1.2 * 2.0 / 3.0 * ((1.0 + q3 * f * f) / (2.0 * q1 * f)).acosh() / q2;
         invariants(&after(metal.as_ref(), [p, p, p, 0.0, 0.0, 0.0], 1.0))[0]
     };

@@ -9,7 +9,7 @@ use crate::{Case, Measured};
 use asperity::Error;
 use asperity::amplitude::{Amplitude, Change, Timeline};
 use asperity::load::{Site, dead_pressure, traction};
-use asperity::material::laws::{Elastic, Hardening, NeoHookean, VonMises};
+use asperity::material::laws::{BackStress, Elastic, Hardening, NeoHookean, VonMises};
 use asperity::material::{Hyper, Material, Rate};
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Space};
@@ -104,7 +104,7 @@ fn tube() -> Problem {
 /// A rigid smooth punch of half width 1 on perfectly plastic ground 3 by 1.5, E / k = 1e4, in cells that grow from its
 /// edge: its mean pressure over `(2 + pi) k`.
 fn punch() -> Problem {
-    let hardening = Hardening::Combined { first: 3.0_f64.sqrt(), linear: 0.0, saturation: 0.0, rate: 0.0 };
+    let hardening = Hardening::linear(3.0_f64.sqrt(), 0.0);
     Problem {
         name: "punch",
         map: |x, y| {
@@ -114,7 +114,7 @@ fn punch() -> Problem {
         },
         size: 1.0,
         cells: [16, 16],
-        law: Arc::new(Rate(VonMises { elastic: Elastic::new(1e4, 0.3), hardening, kinematic: 0.0, recovery: 0.0 })),
+        law: Arc::new(Rate(VonMises { elastic: Elastic::new(1e4, 0.3), hardening, back: [BackStress::default()] })),
         strain: Strain::Small,
         moves: vec![
             ("b.bottom", 0, 0.0),
@@ -148,13 +148,13 @@ fn cook() -> Problem {
 /// A quarter of a billet as high as wide between plates that stick, 8 % upset, with some hardening: its force over that
 /// of its width at yield.
 fn billet() -> Problem {
-    let hardening = Hardening::Combined { first: 3.0_f64.sqrt(), linear: 1.0, saturation: 0.0, rate: 0.0 };
+    let hardening = Hardening::linear(3.0_f64.sqrt(), 1.0);
     Problem {
         name: "billet",
         map: |x, y| [x, y],
         size: 1.0,
         cells: [16, 16],
-        law: Arc::new(Rate(VonMises { elastic: Elastic::new(1e3, 0.3), hardening, kinematic: 0.0, recovery: 0.0 })),
+        law: Arc::new(Rate(VonMises { elastic: Elastic::new(1e3, 0.3), hardening, back: [BackStress::default()] })),
         strain: Strain::Finite,
         moves: vec![("b.left", 0, 0.0), ("b.bottom", 1, 0.0), ("b.top", 0, 0.0), ("b.top", 1, -0.08)],
         load: None,

@@ -21,6 +21,7 @@ mod interface;
 mod interference_fit;
 mod ironing_3d;
 mod laminate;
+mod laws;
 mod locking;
 mod o_ring;
 mod partial_slip;
@@ -71,6 +72,7 @@ pub const ALL: &[&Case] = &[
     &capstan::CASE,
     &o_ring::CASE,
     &locking::CASE,
+    &laws::CASE,
     &upsetting::CASE,
     &cup::CASE,
     &wedge::CASE,

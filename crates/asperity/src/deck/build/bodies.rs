@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::keys::{Body as BodyKeys, ObjectiveRate, integrated};
+use crate::deck::keys::{Body as BodyKeys, ObjectiveRate, completed, integrated};
 use crate::deck::reader::Name;
 use crate::material::Material;
 use crate::solid::{Body, BodyOptions, Heat, Strain};
@@ -35,11 +35,16 @@ impl Builder<'_> {
                 // Nothing turns in small strain, and nothing is said against a rate that was not.
                 let still = (*keys.strain == Strain::Small && keys.rate.is_none()).then_some(ObjectiveRate::Jaumann);
                 let rate = keys.rate.map(|rate| rate.value).or(still);
-                let law = integrated(materials[number].as_ref(), rate, keys.update.as_ref());
+                let material = materials[number].clone();
+                let water = keys.pore_stiffness.map(|water| water.value);
+                let material = completed(material, &keys.prony, keys.mullins.as_ref(), water);
+                let said = keys.pore_stiffness.map(|water| water.place).or(keys.mullins.as_ref().map(|m| m.place));
+                let material = self.keep(material.map_err(crate::Error::input), said.unwrap_or(keys.prony.place))?;
+                let law = integrated(material.as_ref(), rate, keys.update.as_ref());
                 let said = keys.update.as_ref().map(|update| update.place).or(keys.rate.map(|rate| rate.place));
                 let place = said.unwrap_or(name.place);
                 let law = self.keep(law.map_err(crate::Error::input), place)?;
-                let material = law.map_or_else(|| materials[number].clone(), Arc::from);
+                let material = law.map_or(material, Arc::from);
                 let material = self.keep(keys.strain.law(material).map_err(crate::Error::input), keys.strain.place)?;
                 let body = Body::new(&name.text, site, cells, material, options);
                 let body = self.keep(body, name.place)?;

@@ -7,6 +7,7 @@ mod distributing;
 mod equation;
 mod initial_stress;
 mod limits;
+mod memory;
 mod mesh;
 mod output;
 mod path;
@@ -31,6 +32,7 @@ pub use distributing::{DistributingKeys, Weights};
 pub use equation::{Equation, EquationTerm};
 pub use initial_stress::InitialStressKeys;
 pub use limits::LimitKeys;
+pub use memory::{MullinsKeys, completed};
 pub use mesh::{Generator, MeshKeys, Run, Selection};
 pub use output::{Output, PrintKeys, PrintedOf};
 pub use path::{Control, Until};
@@ -124,6 +126,12 @@ table! {
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
         /// The objective rate of the stress, in whose frame the law is integrated.
         rate: Option<Spot<ObjectiveRate>> = word().spot().unless_given(DEFAULT_RATE),
+        /// Relaxation of the shape of rubber: pairs of a share of the instantaneous stress and a relaxation time (Prony series).
+        prony: Spot<Vec<Vec<f64>>> = memory::prony().spot().or("[]"),
+        /// Softening of rubber by the largest deformation so far.
+        mullins: Option<MullinsKeys> = table_of().unless_given("none"),
+        /// Bulk modulus of the pore water over the porosity, of a soil that is not drained.
+        pore_stiffness: Option<Spot<f64>> = number(unit::STRESS, Range::POSITIVE).spot().unless_given("drained"),
         /// Mass of an undeformed unit of volume, on which gravity acts.
         density: Option<Spot<f64>> = number(unit::DENSITY, Range::POSITIVE).spot().unless_given("no weight"),
         /// Linear thermal expansion.

@@ -1,5 +1,6 @@
 //! The deck of one material point: materials as in any deck, and the path along which they are driven.
 
+use super::memory::{self, MullinsKeys};
 use super::update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys};
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::form::{Form, Law, defines, law, list, map, number, table, table_of, text, whole, word};
@@ -9,6 +10,7 @@ use crate::deck::source::Spot;
 use crate::declare::{Range, unit};
 use crate::material::{self, Material};
 use crate::point::{Control, Stage};
+use std::sync::Arc;
 
 table! {
     /// Laws and the path along which they are driven.
@@ -24,6 +26,12 @@ table! {
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
         /// The objective rate of the stress, in whose frame the laws are integrated.
         rate: Option<ObjectiveRate> = word().unless_given(DEFAULT_RATE),
+        /// Relaxation of the shape of rubber: pairs of a share of the instantaneous stress and a relaxation time (Prony series).
+        prony: Vec<Vec<f64>> = memory::prony().or("[]"),
+        /// Softening of rubber by the largest deformation so far.
+        mullins: Option<MullinsKeys> = table_of().unless_given("none"),
+        /// Bulk modulus of the pore water over the porosity, of a soil that is not drained.
+        pore_stiffness: Option<f64> = number(unit::STRESS, Range::POSITIVE).unless_given("drained"),
         /// Stress at the beginning.
         initial_stress: Option<Stresses> = table_of().unless_given("that of the law"),
         /// The path, in order.
@@ -134,5 +142,15 @@ impl PointStep {
             increments: self.increments,
             controls: std::array::from_fn(control),
         }
+    }
+}
+
+impl PointDeck {
+    /// A law with the memory and the pore water of the deck, before it is integrated.
+    ///
+    /// # Errors
+    /// In words, where its numbers are none or it takes no memory.
+    pub fn completed(&self, law: &Law<Box<dyn Material>>) -> Result<Arc<dyn Material>, String> {
+        memory::completed(Arc::from(law.build()?), &self.prony, self.mullins.as_ref(), self.pore_stiffness)
     }
 }

@@ -70,7 +70,8 @@ impl UpdateKeys {
 }
 
 /// The rate where none is said.
-pub const DEFAULT_RATE: &str = "Jaumann's; the logarithmic one for a law with a back stress";
+pub const DEFAULT_RATE: &str =
+    "Jaumann's; the logarithmic one for a law with a back stress, Green and Naghdi's for Hill's";
 
 /// A law as a body or a point wants it integrated, turned with the rate that is said; nothing where that is the law as it
 /// is.
@@ -87,7 +88,7 @@ pub fn integrated(
         Some(ObjectiveRate::Jaumann) => None,
         Some(ObjectiveRate::GreenNaghdi) => Some(Spin::Polar),
         Some(ObjectiveRate::Logarithmic) => Some(Spin::Logarithmic),
-        None => law.has_back_stress().then_some(Spin::Logarithmic),
+        None => law.own_spin(),
     };
     let Some(spin) = spin else { return Ok(updated) };
     updated.as_deref().unwrap_or(law).with_spin(spin).map(Some)

@@ -3,7 +3,7 @@
 //!
 //! Pressure and preconsolidation are exact exponentials over a step, `p = p_n exp(v de_v^e/kappa)` and
 //! `pc = pc_n exp(v de_v^p/(lambda - kappa))`, with the specific volume `v` of the beginning; the shear modulus is the
-//! secant of the bulk modulus at constant Poisson's ratio, `G = r (p - p_n)/de_v^e`, `r = 3 (1 - 2 nu)/(2 (1 + nu))`.
+//! secant of the bulk modulus at constant Poisson's ratio, `G = r (p - p_n)/de_v^e`, `r = 3 (1 - 2 nu)/(2 (1 + nu))`, or constant.
 //! Two unknowns are left, the plastic compaction and the multiplier of the flow.
 //!
 //! Schemes of second order are made of steps of backward Euler, of which the exponentials are none: by `update` with such
@@ -23,47 +23,75 @@ const fn positive(key: &'static str, meaning: &'static str, unit: &'static str) 
     Parameter { key, meaning, unit, range: Range::POSITIVE, default: None }
 }
 
+const PARAMETERS: [Parameter; 7] = [
+    positive("critical_slope", "slope M of the critical state line, q over p", unit::NONE),
+    positive("lambda", "slope of the normal compression line, specific volume over ln p", unit::NONE),
+    positive("kappa", "slope of the swelling lines", unit::NONE),
+    Parameter {
+        key: "specific_volume",
+        meaning: "specific volume at the beginning, kept in the slopes",
+        unit: unit::NONE,
+        range: Range { least: Some((1.0, false)), most: None },
+        default: None,
+    },
+    POISSON,
+    positive("initial_pressure", "pressure at the beginning, equal in all directions", unit::STRESS),
+    positive("preconsolidation", "largest pressure ever borne", unit::STRESS),
+];
+
 pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
     name: "modified_cam_clay",
     meaning: "modified Cam-clay with exactly integrated, pressure-dependent elasticity",
-    parameters: &[
-        positive("critical_slope", "slope M of the critical state line, q over p", unit::NONE),
-        positive("lambda", "slope of the normal compression line, specific volume over ln p", unit::NONE),
-        positive("kappa", "slope of the swelling lines", unit::NONE),
-        Parameter {
-            key: "specific_volume",
-            meaning: "specific volume at the beginning, kept in the slopes",
-            unit: unit::NONE,
-            range: Range { least: Some((1.0, false)), most: None },
-            default: None,
-        },
-        POISSON,
-        positive("initial_pressure", "pressure at the beginning, equal in all directions", unit::STRESS),
-        positive("preconsolidation", "largest pressure ever borne", unit::STRESS),
-    ],
+    parameters: &PARAMETERS,
     pairs: None,
     build: |v| {
-        let [slope, lambda, kappa, volume, poisson, pressure, preconsolidation] = std::array::from_fn(|i| v[i]);
-        if kappa >= lambda {
-            return Err(format!("`kappa`, {kappa}, must be smaller than `lambda`, {lambda}"));
-        }
-        if pressure > preconsolidation {
-            return Err(format!("`preconsolidation`, {preconsolidation}, is below `initial_pressure`, {pressure}"));
-        }
+        let poisson = v[4];
         if poisson < 0.0 {
             return Err(format!("`poisson`, {poisson}, must not be negative in a soil"));
         }
-        Ok(rate(CamClay {
-            slope,
-            elastic: kappa / volume,
-            plastic: (lambda - kappa) / volume,
-            shear_ratio: 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson),
-            pressure,
-            preconsolidation,
-            course: Course::Exact,
-        }))
+        build(v, Stiffness::Ratio(1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson)))
     },
 };
+
+pub(super) const CONSTANT_SHEAR: Entry<Box<dyn Material>> = Entry {
+    name: "modified_cam_clay_constant_shear",
+    meaning: "modified Cam-clay whose shear modulus does not depend on the pressure",
+    parameters: &{
+        let mut parameters = PARAMETERS;
+        parameters[4] = positive("shear", "shear modulus", unit::STRESS);
+        parameters
+    },
+    pairs: None,
+    build: |v| build(v, Stiffness::Constant(v[4])),
+};
+
+fn build(v: &[f64], shear: Stiffness) -> Result<Box<dyn Material>, String> {
+    let [slope, lambda, kappa, volume, _, pressure, preconsolidation] = std::array::from_fn(|i| v[i]);
+    if kappa >= lambda {
+        return Err(format!("`kappa`, {kappa}, must be smaller than `lambda`, {lambda}"));
+    }
+    if pressure > preconsolidation {
+        return Err(format!("`preconsolidation`, {preconsolidation}, is below `initial_pressure`, {pressure}"));
+    }
+    Ok(rate(CamClay {
+        slope,
+        elastic: kappa / volume,
+        plastic: (lambda - kappa) / volume,
+        shear,
+        pressure,
+        preconsolidation,
+        course: Course::Exact,
+    }))
+}
+
+/// The shear modulus.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stiffness {
+    /// Over the bulk modulus, by Poisson's ratio.
+    Ratio(f64),
+    /// Itself.
+    Constant(f64),
+}
 
 /// How a step carries the pressures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,8 +111,8 @@ pub struct CamClay {
     pub elastic: f64,
     /// `(lambda - kappa)/v`.
     pub plastic: f64,
-    /// Shear modulus over bulk modulus.
-    pub shear_ratio: f64,
+    /// Shear modulus.
+    pub shear: Stiffness,
     /// Pressure at the beginning.
     pub pressure: f64,
     /// Preconsolidation at the beginning.
@@ -122,14 +150,14 @@ impl<S: Scalar> Step<S> {
 
     /// Pressure and twice the shear modulus after the elastic compaction `de`.
     fn elastic(&self, law: &CamClay, de: S) -> (S, S) {
-        let (x, ratio) = (de / law.elastic, 2.0 * law.shear_ratio / law.elastic);
-        match law.course {
-            Course::Exact => (self.p * x.exp(), self.p * growth(x) * ratio),
-            Course::Implicit => {
-                let p = self.p * law.grown(x);
-                (p, p * ratio)
-            }
-        }
+        let x = de / law.elastic;
+        let p = self.p * law.grown(x);
+        let double_shear = match (law.shear, law.course) {
+            (Stiffness::Constant(shear), _) => S::from(2.0 * shear),
+            (Stiffness::Ratio(ratio), Course::Exact) => self.p * growth(x) * (2.0 * ratio / law.elastic),
+            (Stiffness::Ratio(ratio), Course::Implicit) => p * (2.0 * ratio / law.elastic),
+        };
+        (p, double_shear)
     }
 
     /// Equivalent stress of the deviator `s + 2 G e`.
@@ -236,7 +264,10 @@ impl RateLaw for CamClay {
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {
         let (p, s) = (-stress.trace() / 3.0, stress.deviator());
-        let shear = self.shear_ratio * p / self.elastic;
+        let shear = match self.shear {
+            Stiffness::Ratio(ratio) => ratio * p / self.elastic,
+            Stiffness::Constant(shear) => shear,
+        };
         self.elastic * (p - self.pressure) + 0.25 * s.contract(s) / shear
     }
 

@@ -10,13 +10,13 @@
 //! Under pressure voids close, ever more slowly: a porosity below 1e-9, which bears more than thirteen times the flow stress,
 //! is taken for none, and the solid is its matrix from then on, of von Mises, until tension nucleates voids.
 
-use super::elastic::{Elastic, POISSON, YOUNG};
-use super::hardening::{CURVE, EXPONENT, Hardening, LINEAR, OFFSET, SATURATION, SATURATION_RATE, STRENGTH, YIELD};
+use super::elastic::Elastic;
+use super::hardening::{Hardening, Kind};
 use super::invariants::Invariants;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root, solve};
+use crate::integrate::{System, Update, root, solve};
 use crate::material::{self, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
@@ -37,51 +37,44 @@ const CRITICAL: Parameter =
     number("critical_porosity", "porosity at which voids begin to coalesce", FRACTION, Some(0.15));
 const FAILURE: Parameter = number("failure_porosity", "porosity at which nothing is left", FRACTION, Some(0.25));
 
+const VOIDS: &[Parameter] = &[POROSITY, Q1, Q2, Q3, NUCLEATED, MEAN, SPREAD, CRITICAL, FAILURE];
+
 pub(super) const COMBINED: Entry<Box<dyn Material>> = Entry {
     name: "gurson",
     meaning: "porous plasticity of Gurson, Tvergaard and Needleman",
-    parameters: &[
-        YOUNG,
-        POISSON,
-        YIELD,
-        LINEAR,
-        SATURATION,
-        SATURATION_RATE,
-        POROSITY,
-        Q1,
-        Q2,
-        Q3,
-        NUCLEATED,
-        MEAN,
-        SPREAD,
-        CRITICAL,
-        FAILURE,
-    ],
+    parameters: &Kind::Combined.between::<17>(VOIDS),
     pairs: None,
-    build: |v| build(v, Hardening::Combined { first: v[2], linear: v[3], saturation: v[4], rate: v[5] }, &v[6..15]),
+    build: |v| build(v, Kind::Combined),
 };
 
 pub(super) const SWIFT: Entry<Box<dyn Material>> = Entry {
     name: "gurson_swift",
     meaning: "the same with Swift's power law for the matrix",
-    parameters: &[
-        YOUNG, POISSON, STRENGTH, OFFSET, EXPONENT, POROSITY, Q1, Q2, Q3, NUCLEATED, MEAN, SPREAD, CRITICAL, FAILURE,
-    ],
+    parameters: &Kind::Swift.between::<14>(VOIDS),
     pairs: None,
-    build: |v| build(v, Hardening::Swift { strength: v[2], offset: v[3], exponent: v[4] }, &v[5..14]),
+    build: |v| build(v, Kind::Swift),
 };
 
 pub(super) const TABLE: Entry<Box<dyn Material>> = Entry {
     name: "gurson_table",
     meaning: "the same with a measured flow curve of the matrix",
-    parameters: &[YOUNG, POISSON, POROSITY, Q1, Q2, Q3, NUCLEATED, MEAN, SPREAD, CRITICAL, FAILURE],
-    pairs: Some(CURVE),
-    build: |v| build(v, Hardening::table(&v[11..])?, &v[2..11]),
+    parameters: &Kind::Table.between::<12>(VOIDS),
+    pairs: Kind::Table.pairs(),
+    build: |v| build(v, Kind::Table),
+};
+
+pub(super) const JOHNSON_COOK: Entry<Box<dyn Material>> = Entry {
+    name: "gurson_johnson_cook",
+    meaning: "the same with Ludwik's power law for the matrix, by rate and temperature (Johnson and Cook)",
+    parameters: &Kind::JohnsonCook.between::<18>(VOIDS),
+    pairs: None,
+    build: |v| build(v, Kind::JohnsonCook),
 };
 
 /// From the elastic constants, the flow curve of the matrix and the numbers of the voids.
-fn build(elastic: &[f64], matrix: Hardening, voids: &[f64]) -> Result<Box<dyn Material>, String> {
-    let elastic = Elastic::new(elastic[0], elastic[1]);
+fn build(v: &[f64], kind: Kind) -> Result<Box<dyn Material>, String> {
+    let elastic = Elastic::new(v[0], v[1]);
+    let (matrix, voids) = kind.take(v, VOIDS.len())?;
     matrix.check(3.0 * elastic.shear)?;
     let [porosity, q1, q2, q3, nucleated, strain, spread, critical, failure] = std::array::from_fn(|i| voids[i]);
     if critical >= failure {
@@ -160,6 +153,25 @@ impl Gurson {
         s * 2.0 / (3.0 * q2) * ((1.0 + q3 * star * star) / (2.0 * q1 * star)).max(1.0).acosh()
     }
 
+    /// The flow stress of the matrix in a state: that of the curve, and of the surface through the stress where it
+    /// depends on the rate and is higher.
+    fn matrix_stress(&self, stress: &Tensor2, &[f, em, _]: &[f64; 3]) -> f64 {
+        let (at, star, slow) = (Invariants::of(stress), self.effective(f), self.matrix.stress(em));
+        let beyond = |s: f64| self.surface(at.p / s, at.q / s, star)[0] > 0.0;
+        if !self.matrix.has_rate() || !beyond(slow) {
+            return slow;
+        }
+        let (mut low, mut high) = (slow, 2.0 * slow);
+        while beyond(high) && high < 1e6 * slow {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            *(if beyond(middle) { &mut low } else { &mut high }) = middle;
+        }
+        low
+    }
+
     /// The surface and its slopes along `p/s` and `q/s`.
     fn surface<S: Scalar>(&self, p: S, q: S, star: S) -> [S; 3] {
         let [q1, q2, q3] = self.q;
@@ -192,19 +204,29 @@ impl Gurson {
     }
 
     /// What is left of a trial stress when all voids have closed.
-    fn close<T: Scalar>(&self, at: &Invariants<T>, [f, em, volume]: [T; 3]) -> Result<(Tensor2<T>, [T; 3]), Failure> {
+    fn close<T: Scalar>(
+        &self,
+        at: &Invariants<T>,
+        [f, em, volume]: [T; 3],
+        dt: f64,
+    ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let p = at.p + f * self.elastic.bulk();
         let dm = -f * p / self.matrix.stress(em);
         let (stress, vars) = (at.with(p, at.q), [T::zero(), em + dm, volume - f]);
         let within = at.q.re() <= self.matrix.stress(vars[1]).re();
-        if within { Ok((stress, vars)) } else { self.dense(&Invariants { p, ..*at }, vars) }
+        if within { Ok((stress, vars)) } else { self.dense(&Invariants { p, ..*at }, vars, dt) }
     }
 
     /// The matrix without voids: the shear strain that returns to its flow stress.
-    fn dense<T: Scalar>(&self, at: &Invariants<T>, [f, em, volume]: [T; 3]) -> Result<(Tensor2<T>, [T; 3]), Failure> {
+    fn dense<T: Scalar>(
+        &self,
+        at: &Invariants<T>,
+        [f, em, volume]: [T; 3],
+        dt: f64,
+    ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let stiffness = 3.0 * self.elastic.shear;
         let most = at.q.re() / stiffness;
-        let equation = Dense { law: self, scale: at.q.re() };
+        let equation = Dense { law: self, dt, scale: at.q.re() };
         let eq = root(&equation, [0.0, most], &[at.q, em], "Gurson's matrix")?;
         Ok((at.with(at.p, at.q - eq * stiffness), [f, em + eq, volume]))
     }
@@ -213,12 +235,13 @@ impl Gurson {
 /// The shear strain of a solid without voids; data are `q` of the trial stress and the matrix strain at the beginning.
 struct Dense<'a> {
     law: &'a Gurson,
+    dt: f64,
     scale: f64,
 }
 
 impl System<1, 2> for Dense<'_> {
     fn residual<S: Scalar>(&self, &[eq]: &[S; 1], &[q, em]: &[S; 2]) -> [S; 1] {
-        [(q - eq * (3.0 * self.law.elastic.shear) - self.law.matrix.stress(em + eq)) / self.scale]
+        [(q - eq * (3.0 * self.law.elastic.shear) - self.law.matrix.flow(em, eq, self.dt)) / self.scale]
     }
 }
 
@@ -226,6 +249,7 @@ impl System<1, 2> for Dense<'_> {
 /// the porosity and the matrix strain at the beginning.
 struct Flow<'a> {
     law: &'a Gurson,
+    dt: f64,
     scale: f64,
     tension: bool,
 }
@@ -233,7 +257,7 @@ struct Flow<'a> {
 impl System<3, 4> for Flow<'_> {
     fn residual<S: Scalar>(&self, x: &[S; 3], &[p, q, f, em]: &[S; 4]) -> [S; 3] {
         let (law, [ev, eq, dm]) = (self.law, x.map(|x| x * self.scale));
-        let s = law.matrix.stress(em + dm);
+        let s = law.matrix.flow(em, dm, self.dt);
         let f = law.grown(f, ev, (em, dm), self.tension);
         let (p, q) = ((p - ev * law.elastic.bulk()) / s, (q - eq * (3.0 * law.elastic.shear)) / s);
         let [surface, along_p, along_q] = law.surface(p, q, law.effective(f));
@@ -259,23 +283,24 @@ impl RateLaw for Gurson {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[f, em, volume]: &[T; 3],
-        _dt: f64,
+        dt: f64,
     ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let trial = stress + self.elastic.stress(&de);
         let at = Invariants::of(&trial);
         let (p, q, s) = (at.p.re(), at.q.re(), self.matrix.stress(em.re()));
-        if self.surface(p / s, q / s, self.effective(f.re()))[0] <= 0.0 {
+        let within = self.surface(p / s, q / s, self.effective(f.re()))[0] <= 0.0;
+        if within || (dt == 0.0 && self.matrix.has_rate()) {
             return Ok((trial, [f, em, volume]));
         }
         if f.re() == 0.0 && !(p > 0.0 && self.nucleation.porosity > 0.0) {
-            return self.dense(&at, [f, em, volume]);
+            return self.dense(&at, [f, em, volume], dt);
         }
         let (shear, bulk) = (self.elastic.shear, self.elastic.bulk());
-        let flow = Flow { law: self, scale: s / shear, tension: p > 0.0 };
+        let flow = Flow { law: self, dt, scale: s / shear, tension: p > 0.0 };
         // From near the surface: far outside of it the hyperbolic cosine is beyond any number.
         let limit = self.hydrostatic_limit(s, f.re());
         let Some(ev) = (if p > 0.0 { Some((p - limit).max(0.0) / bulk) } else { self.closing([p, s], f.re()) }) else {
-            return self.close(&at, [f, em, volume]);
+            return self.close(&at, [f, em, volume], dt);
         };
         let eq = (q - s).max(0.0) / (3.0 * shear);
         let start = [ev, eq, eq].map(|x| x / flow.scale);
@@ -285,7 +310,19 @@ impl RateLaw for Gurson {
             return Err(Failure::new("Gurson: the local iteration finds another branch"));
         }
         let grown = if grown.re() < CLOSED { T::zero() } else { grown };
-        Ok((at.with(at.p - ev * bulk, at.q - eq * (3.0 * shear)), [grown, em + dm, volume + ev]))
+        let (p, vars) = (at.p - ev * bulk, [grown, em + dm, volume + ev]);
+        if q == 0.0 {
+            // Without shear the part of it that the flow would leave follows from the flow rule, for the tangent.
+            let s = self.matrix.flow(em, dm, dt);
+            let [_, along_p, _] = self.surface(p / s, T::zero(), self.effective(grown));
+            let left = if along_p.re() == 0.0 { T::one() } else { (ev / (s * along_p) * (6.0 * shear) + 1.0).recip() };
+            return Ok((at.scaled(p, left), vars));
+        }
+        Ok((at.with(p, at.q - eq * (3.0 * shear)), vars))
+    }
+
+    fn serves(&self, update: Update) -> Result<(), String> {
+        self.matrix.serves(update)
     }
 
     fn flow(&self) -> material::Flow {
@@ -298,7 +335,7 @@ impl RateLaw for Gurson {
 
     /// The work of the matrix.
     fn dissipation(&self, old: (&Tensor2, &[f64; 3]), new: (&Tensor2, &[f64; 3])) -> f64 {
-        (1.0 - new.1[0]) * self.matrix.stress(new.1[1]) * (new.1[1] - old.1[1])
+        (1.0 - new.1[0]) * self.matrix_stress(new.0, new.1) * (new.1[1] - old.1[1])
     }
 }
 
@@ -309,7 +346,7 @@ mod tests {
     fn law() -> Gurson {
         Gurson {
             elastic: Elastic::new(200e3, 0.3),
-            matrix: Hardening::Combined { first: 300.0, linear: 0.0, saturation: 0.0, rate: 0.0 },
+            matrix: Hardening::linear(300.0, 0.0),
             porosity: 0.01,
             q: [1.5, 1.0, 2.25],
             nucleation: Nucleation { porosity: 0.0, strain: 0.3, spread: 0.1 },

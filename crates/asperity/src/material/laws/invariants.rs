@@ -16,10 +16,15 @@ impl<T: Scalar> Invariants<T> {
         let s = stress.deviator();
         Self { p: stress.trace() * (1.0 / 3.0), s, q: (s.contract(s) * 1.5).sqrt() }
     }
+    /// The stress with this mean and so much of the deviator.
+    #[inline]
+    pub fn scaled(&self, p: T, scale: T) -> Tensor2<T> {
+        Tensor2::from_fn(|i, j| if i == j { self.s[(i, j)] * scale + p } else { self.s[(i, j)] * scale })
+    }
     /// The stress with this mean and this equivalent stress along the same deviator.
     #[inline]
     pub fn with(&self, p: T, q: T) -> Tensor2<T> {
         let scale = if self.q.re() > 0.0 { q / self.q } else { T::zero() };
-        Tensor2::from_fn(|i, j| if i == j { self.s[(i, j)] * scale + p } else { self.s[(i, j)] * scale })
+        self.scaled(p, scale)
     }
 }

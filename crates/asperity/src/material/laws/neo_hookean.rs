@@ -15,7 +15,7 @@ pub(super) const BULK: Parameter = Parameter {
     default: None,
 };
 
-const SHEAR: Parameter = Parameter {
+pub(super) const SHEAR: Parameter = Parameter {
     key: "shear",
     meaning: "shear modulus of the undeformed solid",
     unit: unit::STRESS,

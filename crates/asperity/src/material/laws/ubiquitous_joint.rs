@@ -10,7 +10,7 @@ use super::mohr_coulomb::MohrCoulomb;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::material::{Flow, Material, RateLaw, ScalarsAndVector, Variable};
+use crate::material::{Flow, Material, RateLaw, ScalarsAndVectors, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
 
 const fn component(key: &'static str, meaning: &'static str, default: Option<f64>) -> Parameter {
@@ -133,7 +133,7 @@ impl Joint {
 const PASSES: usize = 100;
 const STILL: f64 = 1e-13;
 
-type State<T> = ScalarsAndVector<T, 5>;
+type State<T> = ScalarsAndVectors<T, 5, 1>;
 
 impl RateLaw for UbiquitousJoint {
     type Vars<T: Scalar> = State<T>;
@@ -161,14 +161,14 @@ impl RateLaw for UbiquitousJoint {
         let size = stress.re().contract(stress.re()).sqrt();
         for _ in 0..PASSES {
             let trial = stress;
-            let (borne, [shear, volume]) = self.matrix.returned(&trial)?;
+            let (borne, [shear, volume]) = self.matrix.returned(&trial, vars.scalars[0])?;
             vars.scalars[0] += shear;
             vars.scalars[1] += volume;
             vars.scalars[4] += self.matrix.plastic_work(&trial, &borne);
-            let Some((joined, motion)) = self.joint.returned(&borne, vars.vector) else { return Ok((borne, vars)) };
+            let Some((joined, motion)) = self.joint.returned(&borne, vars.vectors[0]) else { return Ok((borne, vars)) };
             (0..3).for_each(|i| vars.scalars[2 + i] += motion[i]);
             stress = joined;
-            let beyond = joined.re() - self.matrix.returned(&joined.re())?.0;
+            let beyond = joined.re() - self.matrix.returned(&joined.re(), vars.scalars[0].re())?.0;
             if beyond.contract(beyond).sqrt() <= STILL * size {
                 return Ok((stress, vars));
             }

@@ -1,174 +1,249 @@
-//! Von Mises' plasticity with isotropic hardening (linear and Voce, Swift, a curve) and kinematic hardening (Prager,
-//! or Armstrong and Frederick): `f = q(s - X) - sy(p)`, flow along `N = 3/2 (s - X)/q`,
-//! `dX = (2/3 C N - gamma X) dp`.
+//! Von Mises' plasticity with any curve of isotropic hardening and with kinematic hardening by one back stress (Prager, or
+//! Armstrong and Frederick 1966) or by the sum of three (Chaboche 1986): `f = q(s - X) - sy(p)`, flow along
+//! `N = 3/2 (s - X)/q`, `X = sum_i X_i`, `dX_i = (2/3 C_i N - gamma_i X_i) dp`.
 //!
-//! Backward Euler leaves one equation in the increment `dp`: with `w = 1/(1 + gamma dp)` the direction of `s - X` is
-//! that of `s_trial - w X_n`, and `q(s_trial - w X_n) - (3 G + w C) dp = sy(p_n + dp)`.
+//! Backward Euler leaves one equation in the increment `dp`: with `w_i = 1/(1 + gamma_i dp)` the direction of `s - X` is
+//! that of `s_trial - sum_i w_i X_i,n`, and `q(s_trial - sum_i w_i X_i,n) - (3 G + sum_i w_i C_i) dp = sy(p_n + dp)`.
+//! Where the flow stress depends on the rate it is that of `dp/dt`, and without time nothing flows.
 
-use super::elastic::{Elastic, POISSON, YOUNG};
-use super::hardening::{CURVE, EXPONENT, Hardening, LINEAR, OFFSET, SATURATION, SATURATION_RATE, STRENGTH, YIELD};
+use super::elastic::Elastic;
+use super::hardening::{Hardening, Kind};
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root};
-use crate::material::{Flow, Material, RateLaw, ScalarsAndTensor, Variable};
+use crate::integrate::{System, Update, root};
+use crate::material::{Flow, Material, RateLaw, ScalarsAndTensors, Spin, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
-const KINEMATIC: Parameter = Parameter {
-    key: "kinematic",
-    meaning: "modulus C of the kinematic hardening (Prager): dX = 2/3 C dep",
-    unit: unit::STRESS,
-    range: Range::NOT_NEGATIVE,
-    default: Some(0.0),
-};
+const fn modulus(key: &'static str, meaning: &'static str, default: Option<f64>) -> Parameter {
+    Parameter { key, meaning, unit: unit::STRESS, range: Range::NOT_NEGATIVE, default }
+}
 
-const RECOVERY: Parameter = Parameter {
-    key: "recovery",
-    meaning: "dynamic recovery gamma of the back stress (Armstrong and Frederick), which saturates at C/gamma",
-    unit: unit::NONE,
-    range: Range::NOT_NEGATIVE,
-    default: Some(0.0),
-};
+const fn recovery(key: &'static str, meaning: &'static str) -> Parameter {
+    Parameter { key, meaning, unit: unit::NONE, range: Range::NOT_NEGATIVE, default: Some(0.0) }
+}
+
+const ONE_BACK: &[Parameter] = &[
+    modulus("kinematic", "modulus C of the kinematic hardening (Prager): dX = 2/3 C dep", Some(0.0)),
+    recovery(
+        "recovery",
+        "dynamic recovery gamma of the back stress (Armstrong and Frederick), which saturates at C/gamma",
+    ),
+];
+
+const THREE_BACKS: &[Parameter] = &[
+    modulus("kinematic_1", "modulus C of the first back stress: dX = 2/3 C dep - gamma X dp", None),
+    recovery("recovery_1", "dynamic recovery gamma of the first back stress, which saturates at C/gamma"),
+    modulus("kinematic_2", "modulus of the second back stress", Some(0.0)),
+    recovery("recovery_2", "dynamic recovery of the second back stress"),
+    modulus("kinematic_3", "modulus of the third back stress", Some(0.0)),
+    recovery("recovery_3", "dynamic recovery of the third back stress"),
+];
 
 pub(super) const COMBINED: Entry<Box<dyn Material>> = Entry {
     name: "von_mises",
     meaning: "von Mises plasticity with linear and saturating (Voce) hardening",
-    parameters: &[YOUNG, POISSON, YIELD, LINEAR, SATURATION, SATURATION_RATE, KINEMATIC, RECOVERY],
+    parameters: &Kind::Combined.between::<10>(ONE_BACK),
     pairs: None,
-    build: |v| {
-        let hardening = Hardening::Combined { first: v[2], linear: v[3], saturation: v[4], rate: v[5] };
-        if (v[4] == 0.0) != (v[5] == 0.0) {
-            return Err("`saturation` and `saturation_rate` need each other".into());
-        }
-        build(v, hardening, &v[6..8])
-    },
+    build: |v| build::<1>(v, Kind::Combined, &["kinematic"]),
 };
 
 pub(super) const SWIFT: Entry<Box<dyn Material>> = Entry {
     name: "von_mises_swift",
     meaning: "von Mises plasticity with Swift's power law",
-    parameters: &[YOUNG, POISSON, STRENGTH, OFFSET, EXPONENT, KINEMATIC, RECOVERY],
+    parameters: &Kind::Swift.between::<7>(ONE_BACK),
     pairs: None,
-    build: |v| build(v, Hardening::Swift { strength: v[2], offset: v[3], exponent: v[4] }, &v[5..7]),
+    build: |v| build::<1>(v, Kind::Swift, &["kinematic"]),
 };
 
 pub(super) const TABLE: Entry<Box<dyn Material>> = Entry {
     name: "von_mises_table",
     meaning: "von Mises plasticity with a measured flow curve",
-    parameters: &[YOUNG, POISSON, KINEMATIC, RECOVERY],
-    pairs: Some(CURVE),
-    build: |v| build(v, Hardening::table(&v[4..])?, &v[2..4]),
+    parameters: &Kind::Table.between::<5>(ONE_BACK),
+    pairs: Kind::Table.pairs(),
+    build: |v| build::<1>(v, Kind::Table, &["kinematic"]),
 };
 
-fn build(elastic: &[f64], hardening: Hardening, back: &[f64]) -> Result<Box<dyn Material>, String> {
-    let elastic = Elastic::new(elastic[0], elastic[1]);
-    let (kinematic, recovery) = (back[0], back[1]);
-    if recovery > 0.0 && kinematic == 0.0 {
-        return Err("`recovery` has nothing to recover without `kinematic`".into());
+pub(super) const JOHNSON_COOK: Entry<Box<dyn Material>> = Entry {
+    name: "von_mises_johnson_cook",
+    meaning: "von Mises plasticity with Ludwik's power law, by rate and temperature (Johnson and Cook)",
+    parameters: &Kind::JohnsonCook.between::<11>(ONE_BACK),
+    pairs: None,
+    build: |v| build::<1>(v, Kind::JohnsonCook, &["kinematic"]),
+};
+
+pub(super) const CHABOCHE: Entry<Box<dyn Material>> = Entry {
+    name: "chaboche",
+    meaning: "von Mises plasticity with up to three back stresses and saturating isotropic hardening (Chaboche)",
+    parameters: &Kind::Combined.between::<14>(THREE_BACKS),
+    pairs: None,
+    build: |v| build::<3>(v, Kind::Combined, &["kinematic_1", "kinematic_2", "kinematic_3"]),
+};
+
+fn build<const K: usize>(v: &[f64], kind: Kind, keys: &[&str; K]) -> Result<Box<dyn Material>, String> {
+    let elastic = Elastic::new(v[0], v[1]);
+    let (hardening, own) = kind.take(v, 2 * K)?;
+    let back = std::array::from_fn(|i| BackStress { modulus: own[2 * i], recovery: own[2 * i + 1] });
+    for (BackStress { modulus, recovery }, key) in back.iter().zip(keys) {
+        if *recovery > 0.0 && *modulus == 0.0 {
+            let recovery = key.replace("kinematic", "recovery");
+            return Err(format!("`{recovery}` has nothing to recover without `{key}`"));
+        }
     }
     hardening.check(3.0 * elastic.shear)?;
-    Ok(rate(VonMises { elastic, hardening, kinematic, recovery }))
+    Ok(rate(VonMises::<K> { elastic, hardening, back }))
 }
 
-/// The law.
+/// The hardening of one back stress.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BackStress {
+    /// Modulus C.
+    pub modulus: f64,
+    /// Dynamic recovery gamma.
+    pub recovery: f64,
+}
+
+/// The law with `K` back stresses, one or three.
 #[derive(Debug, Clone, PartialEq)]
-pub struct VonMises {
+pub struct VonMises<const K: usize = 1> {
     /// Elasticity.
     pub elastic: Elastic,
     /// Flow stress.
     pub hardening: Hardening,
-    /// Modulus C of the kinematic hardening.
-    pub kinematic: f64,
-    /// Recovery gamma of the back stress.
-    pub recovery: f64,
+    /// Kinematic hardening.
+    pub back: [BackStress; K],
 }
 
-/// The equation of a step; its data are `s:s`, `s:X`, `X:X` of the trial state and `p` at the beginning.
-struct Consistency<'a> {
-    law: &'a VonMises,
+/// Contractions of a trial state in an array: `p`, `s:s`, `s:X_i`, `X_i:X_j`.
+type Contractions<T> = [T; 11];
+/// Where `s:X_1` and `X_i:X_j` stand.
+const CROSS: usize = 2;
+const PAIRS: [[usize; 3]; 3] = [[5, 6, 7], [6, 8, 9], [7, 9, 10]];
+
+/// The equation of a step.
+struct Consistency<'a, const K: usize> {
+    law: &'a VonMises<K>,
+    dt: f64,
     /// Stress by which the residual is divided.
     scale: f64,
 }
 
-impl System<1, 4> for Consistency<'_> {
-    fn residual<S: Scalar>(&self, [dp]: &[S; 1], [ss, sx, xx, p]: &[S; 4]) -> [S; 1] {
+impl<const K: usize> System<1, 11> for Consistency<'_, K> {
+    fn residual<S: Scalar>(&self, &[dp]: &[S; 1], data: &Contractions<S>) -> [S; 1] {
         let law = self.law;
-        let w = (*dp * law.recovery + 1.0).recip();
-        let q = ((*ss - *sx * w * 2.0 + *xx * w * w) * 1.5).sqrt();
-        let flow = law.hardening.stress(*p + *dp);
-        [(q - *dp * (w * law.kinematic + 3.0 * law.elastic.shear) - flow) / self.scale]
+        let w = law.left(dp);
+        let mut stiffness = S::from(3.0 * law.elastic.shear);
+        (0..K).for_each(|i| stiffness += w[i] * law.back[i].modulus);
+        let flow = law.hardening.flow(data[0], dp, self.dt);
+        [(VonMises::shifted(data, &w) - dp * stiffness - flow) / self.scale]
     }
 }
 
-impl VonMises {
-    /// Whether a trial state with `s:s`, `s:X`, `X:X` lies within yield at the plastic strain `p`.
-    fn bears(&self, [ss, sx, xx, p]: [f64; 4]) -> bool {
-        (1.5 * (ss - 2.0 * sx + xx)).sqrt() <= self.hardening.stress(p)
+impl<const K: usize> VonMises<K> {
+    /// What recovery leaves of each back stress, `w`.
+    fn left<S: Scalar>(&self, dp: S) -> [S; K] {
+        std::array::from_fn(|i| (dp * self.back[i].recovery + 1.0).recip())
+    }
+
+    fn contractions<T: Scalar>(s: &Tensor2<T>, vars: &State<T, K>) -> Contractions<T> {
+        let mut data = [T::zero(); 11];
+        (data[0], data[1]) = (vars.scalars[0], s.contract(*s));
+        for (i, x) in vars.tensors.iter().enumerate() {
+            data[CROSS + i] = s.contract(*x);
+            (i..K).for_each(|j| data[PAIRS[i][j]] = x.contract(vars.tensors[j]));
+        }
+        data
+    }
+
+    /// `q(s - sum_i w_i X_i)`.
+    fn shifted<S: Scalar>(data: &Contractions<S>, w: &[S; K]) -> S {
+        let mut square = data[1];
+        for (i, left) in w.iter().enumerate() {
+            square -= data[CROSS + i] * *left * 2.0;
+            (0..K).for_each(|j| square += data[PAIRS[i][j]] * *left * w[j]);
+        }
+        (square * 1.5).sqrt()
+    }
+
+    fn bears(&self, data: &Contractions<f64>) -> bool {
+        Self::shifted(data, &[1.0; K]) <= self.hardening.stress(data[0])
     }
 
     /// Stress and variables with the plastic increment `dp`.
-    fn relax<T: Scalar>(&self, trial: &Tensor2<T>, vars: &State<T>, dp: T) -> (Tensor2<T>, State<T>) {
-        let w = (dp * self.recovery + 1.0).recip();
-        let shifted = trial.deviator() - vars.tensor * w;
+    fn relax<T: Scalar>(&self, trial: &Tensor2<T>, vars: &State<T, K>, dp: T) -> (Tensor2<T>, State<T, K>) {
+        let w = self.left(dp);
+        let shifted = (0..K).fold(trial.deviator(), |sum, i| sum - vars.tensors[i] * w[i]);
         let flow = shifted * (dp * 1.5 / (shifted.contract(shifted) * 1.5).sqrt());
-        let back = (vars.tensor + flow * T::from(2.0 / 3.0 * self.kinematic)) * w;
+        let back = |i: usize| (vars.tensors[i] + flow * T::from(2.0 / 3.0 * self.back[i].modulus)) * w[i];
         let stress = *trial - flow * T::from(2.0 * self.elastic.shear);
-        (stress, ScalarsAndTensor { scalars: [vars.scalars[0] + dp], tensor: back })
+        (stress, State { scalars: [vars.scalars[0] + dp], tensors: std::array::from_fn(back) })
     }
 }
 
-type State<T> = ScalarsAndTensor<T, 1>;
+type State<T, const K: usize> = ScalarsAndTensors<T, 1, K>;
 
-impl RateLaw for VonMises {
-    type Vars<T: Scalar> = State<T>;
-    const VARIABLES: &'static [Variable] = &[
-        Variable { name: "equivalent_plastic_strain", kind: VariableKind::Scalar },
-        Variable { name: "back_stress", kind: VariableKind::Symmetric },
-    ];
+const STRAIN: Variable = Variable { name: "equivalent_plastic_strain", kind: VariableKind::Scalar };
+
+const fn back_stress(name: &'static str) -> Variable {
+    Variable { name, kind: VariableKind::Symmetric }
+}
+
+impl<const K: usize> RateLaw for VonMises<K> {
+    type Vars<T: Scalar> = State<T, K>;
+    const VARIABLES: &'static [Variable] = if K == 1 {
+        &[STRAIN, back_stress("back_stress")]
+    } else {
+        &[STRAIN, back_stress("back_stress_1"), back_stress("back_stress_2"), back_stress("back_stress_3")]
+    };
 
     fn update<T: Scalar>(
         &self,
         de: Tensor2<T>,
         stress: Tensor2<T>,
-        vars: &State<T>,
-        _dt: f64,
-    ) -> Result<(Tensor2<T>, State<T>), Failure> {
+        vars: &State<T, K>,
+        dt: f64,
+    ) -> Result<(Tensor2<T>, State<T, K>), Failure> {
         let trial = stress + self.elastic.stress(&de);
-        let (s, x) = (trial.deviator(), vars.tensor);
-        let data = [s.contract(s), s.contract(x), x.contract(x), vars.scalars[0]];
-        let [ss, sx, xx, p] = data.map(T::re);
-        if self.bears([ss, sx, xx, p]) {
+        let data = Self::contractions(&trial.deviator(), vars);
+        let plain = data.map(T::re);
+        if self.bears(&plain) || (dt == 0.0 && self.hardening.has_rate()) {
             return Ok((trial, *vars));
         }
-        let reach = (1.5 * ss).sqrt() + (1.5 * xx).sqrt();
-        let equation = Consistency { law: self, scale: reach };
+        let size = |square: f64| (1.5 * square).sqrt();
+        let reach = size(plain[1]) + (0..K).map(|i| size(plain[PAIRS[i][i]])).sum::<f64>();
+        let equation = Consistency { law: self, dt, scale: reach };
         let dp = root(&equation, [0.0, reach / (3.0 * self.elastic.shear)], &data, "von Mises")?;
         Ok(self.relax(&trial, vars, dp))
     }
 
-    fn has_back_stress(&self) -> bool {
-        self.kinematic > 0.0
+    fn serves(&self, update: Update) -> Result<(), String> {
+        self.hardening.serves(update)
     }
 
-    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64>) -> Option<[f64; 2]> {
-        let (s, x) = ((*stress + self.elastic.stress(de)).deviator(), vars.tensor);
-        let bears = self.bears([s.contract(s), s.contract(x), x.contract(x), vars.scalars[0]]);
-        bears.then_some([self.elastic.lambda, self.elastic.shear])
+    fn own_spin(&self) -> Option<Spin> {
+        self.back.iter().any(|back| back.modulus > 0.0).then_some(Spin::Logarithmic)
+    }
+
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64, K>) -> Option<[f64; 2]> {
+        let s = (*stress + self.elastic.stress(de)).deviator();
+        self.bears(&Self::contractions(&s, vars)).then_some([self.elastic.lambda, self.elastic.shear])
     }
 
     fn flow(&self) -> Flow {
         Flow::Isochoric
     }
 
-    fn stored_energy(&self, stress: &Tensor2, vars: &State<f64>) -> f64 {
-        let back = vars.tensor.contract(vars.tensor);
-        let stored = if self.kinematic > 0.0 { 0.75 * back / self.kinematic } else { 0.0 };
-        self.elastic.energy(stress) + stored
+    fn stored_energy(&self, stress: &Tensor2, vars: &State<f64, K>) -> f64 {
+        let stored = self.back.iter().zip(&vars.tensors).filter(|(back, _)| back.modulus > 0.0);
+        let stored = stored.map(|(back, x)| 0.75 * x.contract(*x) / back.modulus);
+        self.elastic.energy(stress) + stored.sum::<f64>()
     }
 
-    fn dissipation(&self, old: (&Tensor2, &State<f64>), new: (&Tensor2, &State<f64>)) -> f64 {
-        let (p, back) = (new.1.scalars[0], new.1.tensor);
-        let recovered = if self.kinematic > 0.0 { 1.5 * self.recovery / self.kinematic } else { 0.0 };
-        (self.hardening.stress(p) + recovered * back.contract(back)) * (p - old.1.scalars[0])
+    /// Of the work of the flow what no back stress stores: `(q(s - X) + sum_i 3/2 gamma_i/C_i X_i:X_i) dp`.
+    fn dissipation(&self, old: (&Tensor2, &State<f64, K>), new: (&Tensor2, &State<f64, K>)) -> f64 {
+        let recovered = self.back.iter().zip(&new.1.tensors).filter(|(back, _)| back.modulus > 0.0);
+        let recovered = recovered.map(|(back, x)| 1.5 * back.recovery / back.modulus * x.contract(*x));
+        let effective = Self::shifted(&Self::contractions(&new.0.deviator(), new.1), &[1.0; K]);
+        (effective + recovered.sum::<f64>()) * (new.1.scalars[0] - old.1.scalars[0])
     }
 }

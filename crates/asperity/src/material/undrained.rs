@@ -1,0 +1,143 @@
+//! A soil whose pore water cannot leave: the stress is that of its skeleton less the excess pore pressure `u`, which the change
+//! of volume makes, `u = -K_w/n ln(V/V_0)` with the bulk modulus `K_w` of the water and the porosity `n`; in small strain
+//! `u = -K_w/n tr(e)`. The skeleton follows its own law, which sees the effective stress (Terzaghi 1923). The stress of the
+//! beginning is effective: the pressure that the water had then is none of the excess.
+
+use super::{Directions, Flow, Gradient, Material, Spin, Variable, VariableKind};
+use crate::Failure;
+use crate::integrate::Update;
+use crate::tensor::Tensor2;
+use std::sync::Arc;
+
+/// A law of a soil with pore water that stays.
+pub struct Undrained {
+    soil: Arc<dyn Material>,
+    /// Bulk modulus of the water over the porosity.
+    bulk: f64,
+    /// Whether strain is small.
+    small: bool,
+    variables: Vec<Variable>,
+}
+
+impl Undrained {
+    /// A soil in finite strain, and the bulk modulus of the water over the porosity.
+    ///
+    /// # Errors
+    /// In words, where the law is none of a soil.
+    pub fn new(soil: Arc<dyn Material>, bulk: f64) -> Result<Self, String> {
+        if soil.has_potential() {
+            return Err(
+                "the stress of a hyperelastic law follows from the deformation alone: it has no pore water".into()
+            );
+        }
+        Ok(Self::of(soil, bulk, false))
+    }
+
+    fn of(soil: Arc<dyn Material>, bulk: f64, small: bool) -> Self {
+        let pressure = Variable { name: "excess_pore_pressure", kind: VariableKind::Scalar };
+        let variables = soil.variables().iter().copied().chain([pressure]).collect();
+        Self { soil, bulk, small, variables }
+    }
+
+    /// The same water in another form of the law.
+    fn with(&self, soil: Box<dyn Material>, small: bool) -> Box<dyn Material> {
+        Box::new(Self::of(Arc::from(soil), self.bulk, small))
+    }
+
+    /// The state of the skeleton.
+    fn effective(state: &[f64]) -> Vec<f64> {
+        let (pressure, skeleton) = state.split_last().unwrap_or((&0.0, &[]));
+        let mut skeleton = skeleton.to_vec();
+        skeleton[..3].iter_mut().for_each(|normal| *normal += pressure);
+        skeleton
+    }
+
+    /// Change of the logarithm of the volume.
+    fn dilation(&self, f: &Tensor2) -> f64 {
+        if self.small { f.trace() - 3.0 } else { f.det().ln() }
+    }
+
+    /// The state with the water in it.
+    fn fill(&self, f: &Tensor2, old: &[f64], new: &mut [f64]) {
+        let last = old.len() - 1;
+        new[last] = old[last] - self.bulk * self.dilation(f);
+        let pressure = new[last];
+        new[..3].iter_mut().for_each(|normal| *normal -= pressure);
+    }
+}
+
+impl Material for Undrained {
+    fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    fn initialise(&self, state: &mut [f64]) {
+        let last = state.len() - 1;
+        self.soil.initialise(&mut state[..last]);
+        state[last] = 0.0;
+    }
+
+    fn bears(&self, state: &[f64]) -> Result<(), String> {
+        self.soil.bears(&Self::effective(state))
+    }
+
+    fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
+        Ok(self.with(self.soil.with_update(update)?, self.small))
+    }
+
+    fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String> {
+        Ok(self.with(self.soil.with_spin(spin)?, self.small))
+    }
+
+    fn with_small_strain(&self) -> Result<Box<dyn Material>, String> {
+        Ok(self.with(self.soil.with_small_strain()?, true))
+    }
+
+    /// The water lets the volume change hardly at all.
+    fn flow(&self) -> Flow {
+        if self.soil.flow() == Flow::None { Flow::None } else { Flow::Isochoric }
+    }
+
+    fn own_spin(&self) -> Option<Spin> {
+        self.soil.own_spin()
+    }
+
+    fn advice(&self) -> Option<&'static str> {
+        self.soil.advice()
+    }
+
+    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        let last = old.len() - 1;
+        self.soil.update(f, dt, &Self::effective(old), &mut new[..last])?;
+        self.fill(f, old, new);
+        Ok(())
+    }
+
+    /// With `d ln det(f) = f^-T : df`.
+    fn differentiate(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
+        directions: Directions,
+    ) -> Result<(), Failure> {
+        let last = old.len() - 1;
+        self.soil.differentiate(f, dt, &Self::effective(old), (&mut new[..last], gradient), directions)?;
+        self.fill(f, old, new);
+        let along = if self.small { Tensor2::identity() } else { f.inverse().transpose() };
+        for (d, &place) in directions.components().iter().enumerate() {
+            gradient[..3].iter_mut().for_each(|row| row[d] += self.bulk * along[place]);
+        }
+        Ok(())
+    }
+
+    fn stored_energy(&self, state: &[f64]) -> f64 {
+        let pressure = state.last().copied().unwrap_or(0.0);
+        self.soil.stored_energy(&Self::effective(state)) + 0.5 * pressure * pressure / self.bulk
+    }
+
+    fn dissipation(&self, old: &[f64], new: &[f64]) -> f64 {
+        self.soil.dissipation(&Self::effective(old), &Self::effective(new))
+    }
+}

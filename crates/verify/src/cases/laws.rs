@@ -1,0 +1,112 @@
+//! Laws of solids in structures: ears of a drawn ring, ratchetting, a jump of the rate, relaxation, loops of rubber.
+
+use crate::bench::{Bench, reaction};
+use crate::{Case, Measured};
+use asperity::Error;
+use std::f64::consts::PI;
+
+/// The case.
+pub const CASE: Case = Case { name: "laws", measure };
+
+fn measure(bench: &Bench) -> Result<Measured, Error> {
+    let mut measured = Measured::new();
+    for (name, r45) in [("ears_45", 2.0), ("ears_0", 0.5), ("round", 1.0)] {
+        let [ears, valleys] = rim(bench, r45)?;
+        match name {
+            "ears_45" => {
+                measured.push((name.into(), ears[1]));
+                measured.push(("height_45".into(), ears[0] / valleys[0] - 1.0));
+            }
+            "ears_0" => measured.push((name.into(), valleys[1])),
+            _ => measured.push((name.into(), ears[0] / valleys[0] - 1.0)),
+        }
+    }
+    measured.push(("ratchetting".into(), ratchetting(bench)?));
+    let [slow, fast] = rate_jump(bench)?;
+    measured.extend([("slow".into(), slow), ("fast".into(), fast), ("relaxed".into(), relaxation(bench)?)]);
+    let [softened, beyond] = loops(bench)?;
+    measured.extend([("softened".into(), softened), ("beyond".into(), beyond)]);
+    Ok(measured)
+}
+
+/// Largest and least radius of the rim of a drawn ring, each with its angle in degrees at the beginning.
+fn rim(bench: &Bench, r45: f64) -> Result<[[f64; 2]; 2], Error> {
+    let cells = bench.pick([6, 18], [12, 36]);
+    let sets = [format!("material.sheet.hill_swift.r45={r45:?}"), format!("mesh.part.ring.annulus.cells={cells:?}")];
+    let ring = bench.solve("earing.toml", &sets)?;
+    let mut places: Vec<[f64; 2]> = Vec::new();
+    for &node in &ring.model.mesh.groups["ring.outer"].nodes {
+        let ([x, y, _], dof) = (ring.model.mesh.points[node].0, ring.model.problem.dofs.node(node));
+        let radius = (x + ring.state.u[dof]).hypot(y + ring.state.u[dof + 1]);
+        places.push([radius, y.atan2(x).to_degrees()]);
+    }
+    places.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    Ok([places[places.len() - 1], places[0]])
+}
+
+/// Strain that the last cycle left over `1/g ln(((C/g)^2 - X1^2)/((C/g)^2 - X2^2))`.
+fn ratchetting(bench: &Bench) -> Result<f64, Error> {
+    let count = bench.pick(60, 240);
+    let sets: Vec<String> = (1..=6).map(|i| format!("step.{i}.increments.count={count}")).collect();
+    let mut ends = Vec::new();
+    bench.follow("ratchetting.toml", &sets, |model, state| {
+        let top = model.problem.dofs.node(model.mesh.groups["bar.top"].nodes[0]) + 1;
+        if (state.time - state.time.round()).abs() < 1e-9 {
+            ends.push(state.u[top].ln_1p());
+        }
+    })?;
+    let step = 0.01 * ((200.0_f64.powi(2) - 90.0_f64.powi(2)) / (200.0_f64.powi(2) - 150.0_f64.powi(2))).ln();
+    Ok((ends[4] - ends[2]) / step)
+}
+
+/// Force of the bar at the end of both steps over that of the flow stress on its present area.
+fn rate_jump(bench: &Bench) -> Result<[f64; 2], Error> {
+    let mut found = [f64::NAN; 2];
+    bench.follow("rate_jump.toml", &[], |model, state| {
+        let force = reaction(model, state, "bar.top")[1];
+        let step = usize::from(state.time > 0.0500001);
+        let (strain, speed) = [(0.1_f64, 0.105_170_918 / 0.05), (0.12, 0.022_325_933_5 / 1e-4)][step];
+        let stress = force * strain.exp() / PI;
+        let flow = 350.0 + 275.0 * (strain - stress / 200e3).powf(0.36);
+        found[step] = stress / (flow * (1.0 + 0.05 * (speed / strain.exp()).ln()));
+    })?;
+    Ok(found)
+}
+
+/// Force of the block after all time over that of the first moment, over what the series leaves.
+fn relaxation(bench: &Bench) -> Result<f64, Error> {
+    let cells = bench.pick([8, 8], [16, 16]);
+    let sets = [format!("mesh.part.block.rectangle.cells={cells:?}")];
+    let (mut first, mut last) = (f64::NAN, f64::NAN);
+    bench.follow("relaxation.toml", &sets, |model, state| {
+        let force = reaction(model, state, "block.top")[1];
+        *(if state.time < 2e-6 { &mut first } else { &mut last }) = force;
+    })?;
+    Ok(last / first / (0.5 + 0.3 * (-10.0_f64).exp() + 0.2 * (-1.0_f64).exp()))
+}
+
+/// Force of the block half of the way back, and pressed again beyond, over those of closed forms.
+fn loops(bench: &Bench) -> Result<[f64; 2], Error> {
+    let (energy, force) = (|l: f64| 0.5 * (l * l + 1.0 / (l * l) - 2.0), |l: f64| 10.0 * (l - 1.0 / (l * l * l)));
+    let mut found = [f64::NAN; 2];
+    bench.follow("loops.toml", &[], |model, state| {
+        let top = model.problem.dofs.node(model.mesh.groups["block.top"].nodes[0]) + 1;
+        let (l, borne) = (1.0 + 0.1 * state.u[top], reaction(model, state, "block.top")[1]);
+        if (state.time - 1.5).abs() < 1e-9 {
+            let most = energy(0.6);
+            let left = 1.0 - erf((most - energy(l)) / (0.05 + 0.15 * most)) / 1.6;
+            found[0] = borne / (force(l) * left);
+        }
+        found[1] = borne / force(l);
+    })?;
+    Ok(found)
+}
+
+/// The error function by Simpson's rule.
+fn erf(x: f64) -> f64 {
+    let n = 2000;
+    let h = x / f64::from(n);
+    let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+    let sum: f64 = (0..=n).map(|i| (-(f64::from(i) * h).powi(2)).exp() * weight(i)).sum();
+    2.0 / PI.sqrt() * h / 3.0 * sum
+}

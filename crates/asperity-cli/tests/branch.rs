@@ -166,7 +166,7 @@ space = "plane-strain"
 mesh.part.pad.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [4, 2], cell = "quad4" }
 material.rubber.neo_hookean = { shear = 1.0, bulk = 20.0 }
 body.pad = { material = "rubber", formulation = "f-bar" }
-solver.iterations = 4
+solver = { iterations = 4, relax = false }
 [[step]]
 increments = { count = 2 }
 displacement."pad.bottom" = { x = 0.0, y = 0.0 }

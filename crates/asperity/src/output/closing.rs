@@ -17,7 +17,6 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     cost(summary, run, seconds);
     summary.notes.extend(facets(model, &run.state));
     summary.notes.extend(model.bodies.iter().flat_map(|(body, _)| locking(body)));
-    summary.notes.extend(leap(certificate));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
     summary.notes.extend(rests(certificate, model.space));
@@ -27,15 +26,6 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
 fn locking(body: &Body) -> Vec<String> {
     let advice = body.choices().iter().filter_map(Choice::advice);
     advice.map(|advice| format!("body '{}': {advice}", body.name())).collect()
-}
-
-/// What an increment that leaps means.
-fn leap(certificate: &Certificate) -> Option<String> {
-    let far = certificate.figure("leap").filter(|far| *far > 0.0)?;
-    Some(format!(
-        "an increment moved the model by {far:.2} of its size, more than 20 times as fast as the increment before: past \
-         a limit load that may be a remote equilibrium; prescribed displacements, or smaller increments, can tell"
-    ))
 }
 
 /// Part of their force by which two sides of a contact may differ without a word.

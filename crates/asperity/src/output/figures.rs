@@ -130,7 +130,12 @@ pub static FIGURES: &[Figure] = &[
     ),
     largest("mismatch", "mean pressures of the sides differ by"),
     largest("rejected_false_contacts", "false contacts refused").folded(Fold::Sum),
-    largest("leap", "largest leap over the size"),
+    largest("leap", "largest leap over the size").limited(
+        "0.05",
+        "Motion of an increment that moved more than 20 times as fast as the one before and far more than what is prescribed, over the \
+         size of the model.",
+        "prescribed displacements, control = \"arc-length\" or smaller increments: past a limit load it may be a remote equilibrium",
+    ),
     largest("hourglass", "unresisted part of motion"),
     largest("small_strain", "gradient in small strain"),
 ];

@@ -5,7 +5,7 @@ use super::observer::IterationRecord;
 use super::schedule::Step;
 use crate::Failure;
 use crate::audit::Audit;
-use crate::system::{Attempt, Dofs, Energies, Following, History, Idle, Instant, State, Term, Unknown, Whole};
+use crate::system::{Attempt, Dofs, Energies, Following, History, Idle, Instant, Role, State, Term, Unknown, Whole};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -117,9 +117,11 @@ impl Problem {
         }
     }
 
-    /// Whether increments that fail may be relaxed.
+    /// Whether increments that fail may be relaxed. Without contact only what is moved: that a load has no equilibrium nearby
+    /// is its limit, which is to be told.
     pub(super) fn relaxes(&self) -> bool {
-        self.newton.relax
+        let loaded = self.terms.iter().any(|term| term.role() == Role::Load);
+        self.newton.relax && (!loaded || self.terms.iter().any(|term| term.bends()))
     }
 
     /// How many contact points were open, stuck and slipping in an iteration, over all terms that know these words.

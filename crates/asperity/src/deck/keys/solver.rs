@@ -23,7 +23,7 @@ table! {
         /// Whether a correction that does not lower the residual is shortened.
         line_search: bool = flag().or("true"),
         /// Whether an increment that cutting does not help, as where a contact lets go or slip jumps to another band, is relaxed
-        /// at fixed load to the equilibrium beyond.
+        /// at fixed load to the equilibrium beyond; without contact only where no load acts, whose limit is told.
         relax: bool = flag().or("true"),
         /// What becomes of what nothing holds any more, as of a body that has lost its contact.
         if_free: IfFree = word().or("\"auto\""),

@@ -103,6 +103,17 @@ fn a_run_says_what_looks_wrong() {
     assert!(notes[1].as_str().unwrap().starts_with("contact 'sole' never closed"), "{notes}");
 }
 
+/// What a frame keeps must not bear the name of another result.
+#[test]
+fn bodies_in_every_frame_are_written() {
+    for rate in ["jaumann", "green-naghdi", "logarithmic"] {
+        let steel = "material = \"steel\", formulation = \"f-bar\"";
+        let folder = folder(&DECK.replace(steel, &format!("material = \"steel\", rate = \"{rate}\"")));
+        let run = asperity(folder.path(), &["run", "block.toml", "--set", "step.push.increments={ count = 1 }"]);
+        assert!([0, 3, 6].contains(&code(&run)), "{rate}: {}", error(&run));
+    }
+}
+
 #[test]
 fn wrong_input_ends_with_2_and_a_caret() {
     let folder = folder(&DECK.replace("friction", "fricton"));

@@ -32,7 +32,12 @@ pub fn mesh(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader
     }
     lint(&mut mesh, keys.file.as_ref().map_or(keys.place, |file| file.place), reader)?;
     let chosen = map(refers(Names::Group), table_of::<Selection>());
-    for (name, selection) in entry(tree, "group").and_then(|node| chosen.read(node, &mut quiet)).unwrap_or_default() {
+    let mut waiting = entry(tree, "group").and_then(|node| chosen.read(node, &mut quiet)).unwrap_or_default();
+    // A group may be chosen from one that is written later.
+    let ready =
+        |selection: &Selection, mesh: &Mesh| selection.groups().all(|name| mesh.groups.contains_key(&name.text));
+    while let Some(next) = waiting.iter().position(|(_, selection)| ready(selection, &mesh)) {
+        let (name, selection) = waiting.remove(next);
         choose(&name, &selection, &mut mesh, reader);
     }
     Some(mesh)
@@ -149,9 +154,7 @@ fn choose(name: &Name, selection: &Selection, mesh: &mut Mesh, reader: &mut Read
         let what = format!("the mesh has a group `{name}` already");
         return reader.report(Diagnostic::error(what).at(name.place).help("choose another name"));
     }
-    // A name of no group is reported with all others.
-    let names = std::iter::once(&selection.of).chain(&selection.with);
-    let Some(parts) = names.map(|name| mesh.groups.get(&name.text)).collect::<Option<Vec<_>>>() else { return };
+    let parts: Vec<&Group> = selection.groups().filter_map(|name| mesh.groups.get(&name.text)).collect();
     let of = union(&parts, mesh);
     let group = within(&of, selection, mesh);
     if group.nodes.is_empty() {

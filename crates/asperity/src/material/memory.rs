@@ -283,6 +283,11 @@ impl<L: HyperLaw> Material for Remembering<L> {
         true
     }
 
+    /// Those before anything relaxes, whatever the unit of time.
+    fn moduli(&self) -> [f64; 2] {
+        Hyper(self.law.clone()).moduli()
+    }
+
     fn stored_energy(&self, state: &[f64]) -> f64 {
         let b = left_cauchy_green(state);
         let shape = self.energy(&b);

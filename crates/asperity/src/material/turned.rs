@@ -43,7 +43,7 @@ impl<L: RateLaw> Turned<L> {
     pub fn new(law: L, spin: Spin) -> Self {
         let name = match spin {
             Spin::Polar => "left_stretch",
-            Spin::Logarithmic => "logarithmic_strain",
+            Spin::Logarithmic => "frame_strain",
         };
         let memory = Variable { name, kind: VariableKind::Symmetric };
         Self { law, spin, variables: L::VARIABLES.iter().copied().chain([memory]).collect() }

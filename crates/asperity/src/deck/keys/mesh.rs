@@ -129,6 +129,13 @@ table! {
     }
 }
 
+impl Selection {
+    /// The groups to choose from.
+    pub fn groups(&self) -> impl Iterator<Item = &Name> {
+        std::iter::once(&self.of).chain(&self.with)
+    }
+}
+
 fn point(length: usize) -> impl Form<Value = Vec<f64>> {
     list(number(unit::LENGTH, Range::ANY), length..=length)
 }

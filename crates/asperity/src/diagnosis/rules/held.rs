@@ -112,7 +112,7 @@ pub(super) fn hourglass(facts: &Facts, course: &Course) -> Option<Finding> {
     let soft = facts.bodies.iter().filter(|body| body.hourglass).map(|body| body.name.as_str()).collect::<Vec<_>>();
     let of_kind = course.kind() == Some(Kind::Hourglass);
     let doubted = course.doubt(&["hourglass"]).is_some();
-    if !of_kind && !doubted && (soft.is_empty() || course.share(&[Kind::Hourglass, Kind::Singular]) < 0.3) {
+    if soft.is_empty() || !of_kind && !doubted && course.share(&[Kind::Hourglass, Kind::Singular]) < 0.3 {
         return None;
     }
     Some(

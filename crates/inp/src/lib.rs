@@ -13,6 +13,7 @@ pub mod message;
 pub mod model;
 mod read;
 pub mod source;
+mod vector;
 mod write;
 
 pub use keywords::manual;

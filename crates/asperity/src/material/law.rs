@@ -5,7 +5,7 @@ use super::turned::Spin;
 use crate::Failure;
 use crate::declare::Variable;
 use crate::integrate::Update;
-use crate::tensor::{Dual, Tensor2};
+use crate::tensor::{Dual, Scalar, Tensor2};
 
 /// The components of the deformation gradient along which a derivative is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,6 +72,27 @@ pub(super) trait Differentiate {
             Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, out, directions),
             Directions::Space => self.advance_dual::<9>(f, dt, old, out, directions),
         }
+    }
+}
+
+/// What finds the end of an increment in numbers of any kind.
+pub(super) trait Advance {
+    /// The stress at the end of an increment, whose state is written to `new`.
+    fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure>;
+}
+
+impl<L: Advance> Differentiate for L {
+    fn advance_dual<const N: usize>(
+        &self,
+        f: &Tensor2,
+        dt: f64,
+        old: &[f64],
+        (new, gradient): (&mut [f64], &mut Gradient),
+        directions: Directions,
+    ) -> Result<(), Failure> {
+        let stress = self.advance(&seeded::<N>(f, directions.components()), dt, old, new)?;
+        write_slopes(&stress.to_voigt(), gradient);
+        Ok(())
     }
 }
 

@@ -14,12 +14,13 @@
 //! for small strains, and what their dampers take is integrated alike.
 
 use super::hyper::{HyperLaw, left_cauchy_green};
-use super::law::{self, Differentiate};
+use super::law::{Advance, Differentiate};
 use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Hyper, Material, Spin, Variable, VariableKind};
 use crate::integrate::Update;
 use crate::tensor::{Scalar, Tensor2};
 use crate::{Failure, Kind};
+use libm::erf;
 
 /// Most terms of a Prony series.
 pub const TERMS: usize = 8;
@@ -69,20 +70,6 @@ impl Mullins {
     fn taken(&self, most: f64) -> f64 {
         most - self.returned(most, most)
     }
-}
-
-/// The error function of a number that is not negative, by its series of positive terms.
-fn erf(x: f64) -> f64 {
-    if x > 6.0 {
-        return 1.0;
-    }
-    let (mut term, mut sum, mut n) = (x, x, 0.0);
-    while term > 1e-17 * sum {
-        n += 1.0;
-        term *= 2.0 * x * x / (2.0 * n + 1.0);
-        sum += term;
-    }
-    std::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp() * sum
 }
 
 /// `x erf(x) + exp(-x^2)/sqrt(pi)`, whose slope is the error function.
@@ -165,7 +152,9 @@ impl<L: HyperLaw> Remembering<L> {
     fn overstress(state: &[f64], i: usize) -> Tensor2 {
         Tensor2::from_voigt(std::array::from_fn(|k| state[BACK + 6 * i + k]))
     }
+}
 
+impl<L: HyperLaw> Advance for Remembering<L> {
     fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
         let det = f.det();
         if det.re() <= 0.0 {
@@ -221,21 +210,6 @@ fn damped(start: &Tensor2, step: &Tensor2, x: f64) -> f64 {
     let square =
         steady.contract(steady) * x + 2.0 * steady.contract(falling) * once + falling.contract(falling) * twice;
     square.max(0.0)
-}
-
-impl<L: HyperLaw> Differentiate for Remembering<L> {
-    fn advance_dual<const N: usize>(
-        &self,
-        f: &Tensor2,
-        dt: f64,
-        old: &[f64],
-        (new, gradient): (&mut [f64], &mut Gradient),
-        directions: Directions,
-    ) -> Result<(), Failure> {
-        let stress = self.advance(&law::seeded::<N>(f, directions.components()), dt, old, new)?;
-        law::write_slopes(&stress.to_voigt(), gradient);
-        Ok(())
-    }
 }
 
 impl<L: HyperLaw> Material for Remembering<L> {

@@ -4,7 +4,7 @@
 //! the law: the left stretch `V` of [Green and Naghdi](super::green_naghdi), the logarithmic strain `ln V` of the
 //! [logarithmic rate](super::logarithmic).
 
-use super::law::{self, Differentiate};
+use super::law::{Advance, Differentiate};
 use super::rate::{INSIDE_OUT, stress_of};
 use super::small::NO_RATE;
 use super::{
@@ -53,7 +53,9 @@ impl<L: RateLaw> Turned<L> {
     fn memory_at(&self) -> usize {
         self.state_len() - 6
     }
+}
 
+impl<L: RateLaw> Advance for Turned<L> {
     fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
         if f.det().re() <= 0.0 {
             return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
@@ -71,21 +73,6 @@ impl<L: RateLaw> Turned<L> {
         vars.write(&mut new[6..at]);
         new[at..at + 6].copy_from_slice(&memory.to_voigt());
         Ok(stress)
-    }
-}
-
-impl<L: RateLaw> Differentiate for Turned<L> {
-    fn advance_dual<const N: usize>(
-        &self,
-        f: &Tensor2,
-        dt: f64,
-        old: &[f64],
-        (new, gradient): (&mut [f64], &mut Gradient),
-        directions: Directions,
-    ) -> Result<(), Failure> {
-        let stress = self.advance(&law::seeded::<N>(f, directions.components()), dt, old, new)?;
-        law::write_slopes(&stress.to_voigt(), gradient);
-        Ok(())
     }
 }
 

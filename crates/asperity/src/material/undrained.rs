@@ -19,6 +19,9 @@ pub struct Undrained {
     variables: Vec<Variable>,
 }
 
+/// Most values of the state of a skeleton, which is copied at each point.
+const MOST: usize = 64;
+
 impl Undrained {
     /// A soil in finite strain, and the bulk modulus of the water over the porosity.
     ///
@@ -30,26 +33,31 @@ impl Undrained {
                 "the stress of a hyperelastic law follows from the deformation alone: it has no pore water".into()
             );
         }
-        Ok(Self::of(soil, bulk, false))
+        Self::of(soil, bulk, false)
     }
 
-    fn of(soil: Arc<dyn Material>, bulk: f64, small: bool) -> Self {
+    fn of(soil: Arc<dyn Material>, bulk: f64, small: bool) -> Result<Self, String> {
+        if soil.state_len() > MOST {
+            return Err(format!("the law keeps {} values, and pore water goes with {MOST} at most", soil.state_len()));
+        }
         let pressure = Variable { name: "excess_pore_pressure", kind: VariableKind::Scalar };
         let variables = soil.variables().iter().copied().chain([pressure]).collect();
-        Self { soil, bulk, small, variables }
+        Ok(Self { soil, bulk, small, variables })
     }
 
     /// The same water in another form of the law.
-    fn with(&self, soil: Box<dyn Material>, small: bool) -> Box<dyn Material> {
-        Box::new(Self::of(Arc::from(soil), self.bulk, small))
+    fn with(&self, soil: Box<dyn Material>, small: bool) -> Result<Box<dyn Material>, String> {
+        Ok(Box::new(Self::of(Arc::from(soil), self.bulk, small)?))
     }
 
-    /// The state of the skeleton.
-    fn effective(state: &[f64]) -> Vec<f64> {
-        let (pressure, skeleton) = state.split_last().unwrap_or((&0.0, &[]));
-        let mut skeleton = skeleton.to_vec();
+    /// What a function makes of the state of the skeleton.
+    fn effective<R>(state: &[f64], of: impl FnOnce(&[f64]) -> R) -> R {
+        let (pressure, total) = state.split_last().unwrap_or((&0.0, &[]));
+        let mut skeleton = [0.0; MOST];
+        let skeleton = &mut skeleton[..total.len()];
+        skeleton.copy_from_slice(total);
         skeleton[..3].iter_mut().for_each(|normal| *normal += pressure);
-        skeleton
+        of(skeleton)
     }
 
     /// Change of the logarithm of the volume.
@@ -78,19 +86,19 @@ impl Material for Undrained {
     }
 
     fn bears(&self, state: &[f64]) -> Result<(), String> {
-        self.soil.bears(&Self::effective(state))
+        Self::effective(state, |skeleton| self.soil.bears(skeleton))
     }
 
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
-        Ok(self.with(self.soil.with_update(update)?, self.small))
+        self.with(self.soil.with_update(update)?, self.small)
     }
 
     fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String> {
-        Ok(self.with(self.soil.with_spin(spin)?, self.small))
+        self.with(self.soil.with_spin(spin)?, self.small)
     }
 
     fn with_small_strain(&self) -> Result<Box<dyn Material>, String> {
-        Ok(self.with(self.soil.with_small_strain()?, true))
+        self.with(self.soil.with_small_strain()?, true)
     }
 
     /// The water lets the volume change hardly at all.
@@ -108,7 +116,7 @@ impl Material for Undrained {
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         let last = old.len() - 1;
-        self.soil.update(f, dt, &Self::effective(old), &mut new[..last])?;
+        Self::effective(old, |old| self.soil.update(f, dt, old, &mut new[..last]))?;
         self.fill(f, old, new);
         Ok(())
     }
@@ -123,7 +131,8 @@ impl Material for Undrained {
         directions: Directions,
     ) -> Result<(), Failure> {
         let last = old.len() - 1;
-        self.soil.differentiate(f, dt, &Self::effective(old), (&mut new[..last], gradient), directions)?;
+        let out = (&mut new[..last], &mut *gradient);
+        Self::effective(old, |old| self.soil.differentiate(f, dt, old, out, directions))?;
         self.fill(f, old, new);
         let along = if self.small { Tensor2::identity() } else { f.inverse().transpose() };
         for (d, &place) in directions.components().iter().enumerate() {
@@ -134,10 +143,10 @@ impl Material for Undrained {
 
     fn stored_energy(&self, state: &[f64]) -> f64 {
         let pressure = state.last().copied().unwrap_or(0.0);
-        self.soil.stored_energy(&Self::effective(state)) + 0.5 * pressure * pressure / self.bulk
+        Self::effective(state, |skeleton| self.soil.stored_energy(skeleton)) + 0.5 * pressure * pressure / self.bulk
     }
 
     fn dissipation(&self, old: &[f64], new: &[f64]) -> f64 {
-        self.soil.dissipation(&Self::effective(old), &Self::effective(new))
+        Self::effective(old, |old| Self::effective(new, |new| self.soil.dissipation(old, new)))
     }
 }

@@ -68,21 +68,25 @@ impl Body {
 
     fn open(&self, cell: usize, u: &[f64], gradients: &mut Gradients) -> Result<(), Failure> {
         let view = self.mesh.cell(cell);
-        let mut x = [[0.0; 3]; MAX_NODES];
-        for (x, &node) in x.iter_mut().zip(view.nodes) {
-            *x = self.mesh.points[node].0;
-            let first = self.dofs.node(node);
-            x.iter_mut().zip(&u[first..first + self.dofs.per_node()]).for_each(|(x, u)| *x += u);
-        }
-        let x = &x[..view.nodes.len()];
-        let shapes = self.shapes(view.kind);
-        for shapes in &shapes.points {
-            if !gradients.push(shapes, x, self.space) {
+        let x = self.present(view.nodes, u);
+        for shapes in &self.shapes(view.kind).points {
+            if !gradients.push(shapes, &x[..view.nodes.len()], self.space) {
                 return Err(Failure::new(self.inverted(cell)).of(Kind::Inverted));
             }
         }
         gradients.close();
         Ok(())
+    }
+
+    /// Places of the nodes of a cell at displacements `u`.
+    pub(super) fn present(&self, nodes: &[usize], u: &[f64]) -> [[f64; 3]; MAX_NODES] {
+        let mut x = [[0.0; 3]; MAX_NODES];
+        for (x, &node) in x.iter_mut().zip(nodes) {
+            *x = self.mesh.points[node].0;
+            let first = self.dofs.node(node);
+            x.iter_mut().zip(&u[first..first + self.dofs.per_node()]).for_each(|(x, u)| *x += u);
+        }
+        x
     }
 }
 
@@ -130,16 +134,17 @@ impl OpenBody<'_> {
             .wants_tangent
             .then(|| Tangent::<DIM, N>::zero(self.nodes(index).len(), self.body.material.is_conservative()));
         let means = self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), tangent.as_mut()))?;
-        if let Some(shared) = &shared {
+        let both = shared.zip(means);
+        if let Some((shared, means)) = &both {
             means.write_forces(shared, &mut local.force);
         }
         let Some(mut tangent) = tangent else { return Ok(()) };
-        if shared.is_some() {
+        if let Some((_, means)) = &both {
             let out = (&mut tangent, &mut local.tangent[..]);
             self.add_curvature::<DIM, D, N>((index, &local.u), &means.work, out);
         }
         tangent.write(length, &mut local.tangent);
-        if let Some(shared) = &shared {
+        if let Some((shared, means)) = &both {
             means.write_tangent(shared, length, &mut local.tangent);
         }
         Ok(())
@@ -150,29 +155,30 @@ impl OpenBody<'_> {
         self.gradients[index / PART].cell(index % PART)
     }
 
-    /// Adds up the points of a cell and returns what their mean stress does on a shared change of volume.
+    /// Adds up the points of a cell and returns what their mean stress does on a shared change of volume, where there is one.
     fn add_points<const DIM: usize, const D: usize, const N: usize>(
         &self,
         index: usize,
         new: &mut [f64],
         local: &mut Local,
         (shared, tangent): (Option<&Shared>, Option<&mut Tangent<DIM, N>>),
-    ) -> Result<Means<DIM, N>, Failure> {
+    ) -> Result<Option<Means<DIM, N>>, Failure> {
         let len = self.body.point_len();
         let mut sums = self.sums::<DIM, D, N>(index, &local.u, tangent);
+        sums.means = shared.map(|_| Means::default());
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in self.points(index).zip(lanes).enumerate() {
             let thickness = self.body.thickness(old);
-            let mut weight = Weight { volume: point.volume * thickness, shared: None };
+            let (mut volume, mut place) = (point.volume * thickness, None);
             if let Some(shared) = shared {
-                let mut place = self.body.places.cell(index)[number];
-                place.volume *= thickness;
-                let (theta, begun) = shared.at(&place.functions);
-                weight = Weight { volume: place.volume * begun, shared: Some((place, begun)) };
+                let mut at = self.body.places.cell(index)[number];
+                at.volume *= thickness;
+                let (theta, begun) = shared.at(&at.functions);
                 sums.law.shared = Some(theta);
+                (volume, place) = (at.volume * begun, Some((at, begun)));
             }
-            let (volume, det) =
-                (weight.volume, sums.add(point.rows(), &weight, (old, new)).map_err(|f| at_point(f, number))?);
+            let added = sums.add((point.rows(), volume), place.as_ref(), (old, new));
+            let det = added.map_err(|f| at_point(f, number))?;
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
@@ -199,8 +205,8 @@ impl OpenBody<'_> {
         let (free, cooling) = self.stretch.map_or((1.0, 0.0), |now| strain.of_heat(before(), now));
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
         let law = PointLaw { material, space, strain, dt, shared: None, free, cooling };
-        let (force, means, s) = ([[0.0; N]; DIM], Means::default(), PointStress::default());
-        Sums { law, du: self.increment(index, u), force, means, tangent, s }
+        let (force, s) = ([[0.0; N]; DIM], PointStress::default());
+        Sums { law, du: self.increment(index, u), force, means: None, tangent, s }
     }
 
     /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
@@ -217,22 +223,14 @@ impl OpenBody<'_> {
     }
 }
 
-/// What a point counts for.
-struct Weight {
-    /// Volume of its material at the beginning of the increment.
-    volume: f64,
-    /// With F-bar its place in the undeformed body, and the shared change of volume since then.
-    shared: Option<(Place, f64)>,
-}
-
 /// Forces and tangent of a cell while its points are added up.
 struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
     law: PointLaw<'a>,
     /// Displacements of the nodes over the increment.
     du: Nodal<DIM, N>,
     force: Nodal<DIM, N>,
-    /// What the mean stress does on a shared change of volume.
-    means: Means<DIM, N>,
+    /// What the mean stress does on a shared change of volume, where there is one.
+    means: Option<Means<DIM, N>>,
     /// Where it is wanted.
     tangent: Option<&'a mut Tangent<DIM, N>>,
     /// Stress of the present point.
@@ -240,8 +238,15 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
 }
 
 impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
-    /// Adds a point and returns the determinant of its deformation, with F-bar the shared change of volume.
-    fn add(&mut self, rows: &Rows<N>, weight: &Weight, (old, new): (&[f64], &mut [f64])) -> Result<f64, Failure> {
+    /// Adds a point, whose material has this volume at the beginning of the increment, and returns the determinant of its
+    /// deformation. With F-bar it has a place in the undeformed body and a change of volume since then, and the shared one
+    /// is returned.
+    fn add(
+        &mut self,
+        (rows, volume): (&Rows<N>, f64),
+        place: Option<&(Place, f64)>,
+        (old, new): (&[f64], &mut [f64]),
+    ) -> Result<f64, Failure> {
         let (f, s, law) = (deformation(rows, &self.du), &mut self.s, &self.law);
         match (law.space, self.tangent.is_some()) {
             (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
@@ -249,12 +254,12 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
             (_, true) => law.stress_with_tangent::<DIM, D>(&f, old, new, s)?,
             (_, false) => law.stress::<DIM, D>(&f, old, new, s)?,
         }
-        add_forces(rows, &s.p, weight.volume, &mut self.force);
+        add_forces(rows, &s.p, volume, &mut self.force);
         if let Some(tangent) = &mut self.tangent {
-            tangent.add(rows, &s.tangent, weight.volume);
+            tangent.add(rows, &s.tangent, volume);
         }
-        if let Some((place, begun)) = &weight.shared {
-            self.means.add((rows, place, *begun), s, self.tangent.is_some());
+        if let (Some((place, begun)), Some(means)) = (place, &mut self.means) {
+            means.add((rows, place, *begun), s, self.tangent.is_some());
         }
         Ok(s.det)
     }

@@ -54,8 +54,6 @@ impl Default for BodyOptions {
 /// edges a side are 5.0 % too stiff in Cook's membrane and 1.7 % with F-bar (3.7 and 1.8 % at 0.3, 21 and 1.7 % at 0.49).
 pub const NEARLY: f64 = 4.6;
 
-const HELP: &str = "formulation = \"auto\" chooses one that is not";
-
 /// What the cells of one kind in a body became, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
@@ -105,9 +103,12 @@ impl Choice {
 
     /// What is to be known where the cells lock.
     pub fn advice(&self) -> Option<String> {
-        let name = self.kind.name;
-        self.locks
-            .then(|| format!("{name} cells with this law may be too stiff where it flows or keeps volume: {HELP}"))
+        self.locks.then(|| {
+            format!(
+                "{} cells with this law may be too stiff where it flows or keeps volume: formulation = \"auto\" chooses one that is not",
+                self.kind.name
+            )
+        })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The integration points of a body in an accepted state: what outputs may ask of them.
 
 use super::gradient::Shapes;
+use super::volume::value;
 use super::{Body, Strain};
 use crate::mesh::Space;
 use crate::system::History;
@@ -34,7 +35,8 @@ impl Body {
             points.map(move |(point, state)| {
                 let mut record = self.record(cell, point, u, state);
                 if let Some(shared) = &shared {
-                    record.volume = self.places.cell(slot)[point].under(shared) * self.thickness(state);
+                    let place = &self.places.cell(slot)[point];
+                    record.volume = place.volume * value(shared, &place.functions) * self.thickness(state);
                 }
                 record
             })

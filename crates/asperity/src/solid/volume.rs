@@ -38,11 +38,9 @@ pub(super) struct Place {
     pub functions: Functions,
 }
 
-impl Place {
-    /// Volume under a shared change with these coefficients.
-    pub fn under(&self, coefficients: &Functions) -> f64 {
-        self.volume * coefficients.iter().zip(&self.functions).map(|(c, phi)| c * phi).sum::<f64>()
-    }
+/// Value of a field by its coefficients and the functions at a point.
+pub(super) fn value(coefficients: &Functions, functions: &Functions) -> f64 {
+    coefficients.iter().zip(functions).map(|(c, phi)| c * phi).sum()
 }
 
 /// Those of all cells with F-bar.
@@ -120,15 +118,10 @@ impl Body {
         let (mut coefficients, mut rows) = ([0.0; TERMS], Vec::new());
         for &member in self.patches.members(slot) {
             let view = self.mesh.cell(self.cells[member]);
-            let moved = |&node: &usize| {
-                let (mut x, first) = (self.mesh.points[node].0, self.dofs.node(node));
-                x.iter_mut().zip(&u[first..first + self.dofs.per_node()]).for_each(|(x, u)| *x += u);
-                x
-            };
-            let x: Vec<[f64; 3]> = view.nodes.iter().map(moved).collect();
-            for (shapes, place) in self.shapes(view.kind).points.iter().zip(self.places.cell(member)) {
+            let (x, shapes) = (self.present(view.nodes, u), self.shapes(view.kind));
+            for (shapes, place) in shapes.points.iter().zip(self.places.cell(member)) {
                 rows.clear();
-                let volume = gradient::at(shapes, &x, self.space, &mut rows).unwrap_or(0.0);
+                let volume = gradient::at(shapes, &x[..view.nodes.len()], self.space, &mut rows).unwrap_or(0.0);
                 coefficients.iter_mut().zip(place.functions).for_each(|(c, phi)| *c += volume * phi);
             }
         }
@@ -168,9 +161,8 @@ pub(super) struct Shared {
 impl Shared {
     /// Its values at a point: now over the beginning of the increment, and that.
     pub fn at(&self, functions: &Functions) -> (f64, f64) {
-        let sum = |factors: &Functions| factors.iter().zip(functions).map(|(c, phi)| c * phi).sum::<f64>();
-        let before = sum(&self.before);
-        (sum(&self.now) / before, before)
+        let before = value(&self.before, functions);
+        (value(&self.now, functions) / before, before)
     }
 }
 
@@ -207,7 +199,8 @@ impl OpenBody<'_> {
         let (mut du, mut places) = ([[0.0; N]; DIM], [0; N]);
         for (k, node) in self.nodes(member).iter().enumerate().take(N) {
             let beside = || others.iter().position(|other| other == node).map(|place| own.len() + place);
-            places[k] = own.iter().position(|own| own == node).or_else(beside).unwrap_or(0);
+            let found = || own.iter().position(|own| own == node).or_else(beside).unwrap_or(0);
+            places[k] = if member == index { k } else { found() };
             let accepted = &self.accepted.u[self.body.dofs.node(*node)..];
             (0..DIM).for_each(|i| du[i][k] = u[DIM * places[k] + i] - accepted[i]);
         }
@@ -265,8 +258,7 @@ impl OpenBody<'_> {
             let mut tangent = Tangent::<DIM, N>::zero(nodes.len(), true);
             let tangent = if member == index { &mut *own } else { &mut tangent };
             for VolumeSample { rows, volume, functions, f } in self.samples(member, &du) {
-                let weight = functions.iter().zip(work).map(|(phi, work)| phi * work).sum::<f64>() * volume;
-                tangent.add(rows, &second_of_volume::<D>(&f), weight);
+                tangent.add(rows, &second_of_volume::<D>(&f), volume * value(work, &functions));
             }
             if member != index {
                 tangent.add_at(nodes, u.len(), out);

@@ -4,6 +4,7 @@ use super::Reader;
 use super::names::Of;
 use crate::model::Frame;
 use crate::source::Block;
+use crate::vector::{cross, dot, less, unit};
 
 impl Reader {
     /// `*TRANSFORM`.
@@ -61,21 +62,4 @@ pub fn along(frame: Option<&Frame>, axis: usize) -> [f64; 3] {
         Some(frame) => frame[axis],
         None => std::array::from_fn(|i| f64::from(u8::from(i == axis))),
     }
-}
-
-fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
-    let length = dot(v, v).sqrt();
-    (length > 0.0).then(|| v.map(|x| x / length))
 }

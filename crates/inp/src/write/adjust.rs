@@ -4,6 +4,7 @@
 use super::Writer;
 use crate::elements::Family;
 use crate::model::{Element, Pair, SurfaceKind};
+use crate::vector::{cross, dot, less, unit};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A facet: three corners, or two in the plane, and its outward normal.
@@ -27,19 +28,14 @@ impl Writer<'_> {
         let (Some(slave), Some(master)) = (self.model.surface(&pair.slave), self.model.surface(&pair.master)) else {
             return;
         };
-        let SurfaceKind::Faces(faces) = &master.kind else {
-            return self.note(
-                pair.place,
-                "gaps to a rigid surface stay as wide as they are, whatever ADJUST or CLEARANCE say",
-            );
-        };
         let rigid = |element: usize| self.model.elements[element].kind.family == Family::Rigid;
-        if faces.iter().any(|&(element, ..)| rigid(element)) {
-            return self.note(
-                pair.place,
-                "gaps to a rigid surface stay as wide as they are, whatever ADJUST or CLEARANCE say",
-            );
-        }
+        let faces = match &master.kind {
+            SurfaceKind::Faces(faces) if !faces.iter().any(|&(element, ..)| rigid(element)) => faces,
+            _ => {
+                let what = "gaps to a rigid surface stay as wide as they are, whatever ADJUST or CLEARANCE say";
+                return self.note(pair.place, what);
+            }
+        };
         let boundary = self.boundary();
         let whole = |(element, face): (usize, Option<usize>)| match face {
             Some(face) => vec![(element, face)],
@@ -103,9 +99,8 @@ impl Writer<'_> {
                 Some(third) => cross(first, less(*third, corners[0])),
                 None => [first[1], -first[0], 0.0],
             };
-            let length = dot(normal, normal).sqrt();
             let outward = dot(normal, less(corners[0], middle)).signum();
-            (length > 0.0).then(|| Facet { corners, normal: normal.map(|n| outward * n / length) })
+            unit(normal).map(|normal| Facet { corners, normal: normal.map(|n| outward * n) })
         };
         pieces.into_iter().filter_map(facet).collect()
     }
@@ -150,16 +145,4 @@ fn nodes_of(element: &Element, face: usize) -> Vec<usize> {
 
 fn mean(points: &[[f64; 3]]) -> [f64; 3] {
     std::array::from_fn(|i| points.iter().map(|x| x[i]).sum::<f64>() / points.len().max(1) as f64)
-}
-
-fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

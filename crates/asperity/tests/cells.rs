@@ -98,7 +98,7 @@ fn walk(check: &dyn Fn(&'static Cell, Space, BodyOptions, &str)) -> usize {
     let mut count = 0;
     for &cell in ALL.iter().filter(|c| c.dimension > 1) {
         for space in Space::ALL.into_iter().filter(|s| s.dimension() == cell.dimension) {
-            for formulation in [Formulation::Standard, Formulation::FBar] {
+            for formulation in [Formulation::Standard, Formulation::FBar, Formulation::Incompatible] {
                 for integration in [Integration::Full, Integration::Reduced] {
                     let options = BodyOptions { formulation, integration, ..BodyOptions::default() };
                     let shape = Arc::new(mesh(cell, 1, 0.0));

@@ -59,7 +59,7 @@ fn bodies_are_exact(material: &Arc<dyn Material>) {
         let spaces = [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric, Space::Solid];
         for space in spaces.into_iter().filter(|space| space.dimension() == cell.dimension) {
             for integration in [Integration::Full, Integration::Reduced] {
-                for formulation in [Formulation::Standard, Formulation::FBar] {
+                for formulation in [Formulation::Standard, Formulation::FBar, Formulation::Incompatible] {
                     for strain in [Strain::Finite, Strain::Small] {
                         let options = BodyOptions { formulation, integration, strain, ..BodyOptions::default() };
                         bodies += usize::from(body_is_exact(&mesh, space, (material, options), &mut random));

@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
+use super::incompatible::take_mean;
 use super::operator::{Nodal, Tangent, add_forces, deformation};
 use super::plane_stress;
 use super::point::{PointLaw, PointStress};
@@ -9,6 +10,7 @@ use super::volume::{Means, Place, Shared};
 use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
+use crate::tensor::Tensor2;
 use crate::{Failure, Kind};
 use rayon::prelude::*;
 
@@ -53,7 +55,7 @@ impl Attempt for OpenBody<'_> {
 }
 
 impl Body {
-    /// The gradients of all cells at displacements `u`, in parts of [`PART`] cells.
+    /// The gradients of all cells at displacements `u`, those with incompatible modes undeformed, in parts of [`PART`] cells.
     pub(super) fn gradients(&self, u: &[f64]) -> Result<Vec<Gradients>, Failure> {
         let parts: Vec<_> = self.cells.par_chunks(PART).map(|cells| self.gradients_of(cells, u)).collect();
         // Of several failures the first, whichever thread met its own first.
@@ -68,21 +70,29 @@ impl Body {
 
     fn open(&self, cell: usize, u: &[f64], gradients: &mut Gradients) -> Result<(), Failure> {
         let view = self.mesh.cell(cell);
-        let x = self.present(view.nodes, u);
-        for shapes in &self.shapes(view.kind).points {
-            if !gradients.push(shapes, &x[..view.nodes.len()], self.space) {
-                return Err(Failure::new(self.inverted(cell)).of(Kind::Inverted));
-            }
+        let shapes = self.shapes(view.kind);
+        let x = if shapes.modes > 0 { self.undeformed(view.nodes) } else { self.present(view.nodes, u) };
+        let nodes = view.nodes.len();
+        if !shapes.points.iter().all(|shapes| gradients.push(shapes, &x[..nodes], self.space)) {
+            return Err(Failure::new(self.inverted(cell)).of(Kind::Inverted));
         }
+        let (rows, volumes) = gradients.present();
+        take_mean(rows, volumes, (padded(nodes + shapes.modes), nodes..nodes + shapes.modes));
         gradients.close();
         Ok(())
     }
 
+    /// Places of the nodes of a cell before any motion.
+    pub(super) fn undeformed(&self, nodes: &[usize]) -> [[f64; 3]; MAX_NODES] {
+        let mut x = [[0.0; 3]; MAX_NODES];
+        x.iter_mut().zip(nodes).for_each(|(x, &node)| *x = self.mesh.points[node].0);
+        x
+    }
+
     /// Places of the nodes of a cell at displacements `u`.
     pub(super) fn present(&self, nodes: &[usize], u: &[f64]) -> [[f64; 3]; MAX_NODES] {
-        let mut x = [[0.0; 3]; MAX_NODES];
+        let mut x = self.undeformed(nodes);
         for (x, &node) in x.iter_mut().zip(nodes) {
-            *x = self.mesh.points[node].0;
             let first = self.dofs.node(node);
             x.iter_mut().zip(&u[first..first + self.dofs.per_node()]).for_each(|(x, u)| *x += u);
         }
@@ -98,7 +108,7 @@ impl OpenBody<'_> {
         new: &mut [f64],
         local: &mut Local,
     ) -> Result<(), Failure> {
-        match padded(self.nodes(index).len()) {
+        match padded(self.nodes(index).len() + self.modes(index)) {
             4 => self.evaluate_cell::<DIM, D, 4>(index, new, local),
             8 => self.evaluate_cell::<DIM, D, 8>(index, new, local),
             12 => self.evaluate_cell::<DIM, D, 12>(index, new, local),
@@ -111,6 +121,11 @@ impl OpenBody<'_> {
     /// Nodes of a cell.
     pub(super) fn nodes(&self, index: usize) -> &[usize] {
         self.body.mesh.cell(self.body.cells[index]).nodes
+    }
+
+    /// How many incompatible modes a cell has.
+    fn modes(&self, index: usize) -> usize {
+        self.body.shapes(self.body.mesh.cell(self.body.cells[index]).kind).modes
     }
 
     /// Displacements of a cell's nodes over the increment.
@@ -129,11 +144,21 @@ impl OpenBody<'_> {
         new: &mut [f64],
         local: &mut Local,
     ) -> Result<(), Failure> {
+        match self.modes(index) {
+            0 => {}
+            modes => return self.evaluate_with_modes::<DIM, D, N>(index, new, local, modes),
+        }
         let (shared, length) = (self.shared::<DIM, N>(index, &local.u), local.u.len());
+        let du = self.increment::<DIM, N>(index, &local.u);
+        let points = self.points(index).map(|point| (point.rows(), point.volume, deformation(point.rows(), &du)));
         let mut tangent = local
             .wants_tangent
             .then(|| Tangent::<DIM, N>::zero(self.nodes(index).len(), self.body.material.is_conservative()));
-        let means = self.add_points::<DIM, D, N>(index, new, local, (shared.as_ref(), tangent.as_mut()))?;
+        let terms = (shared.as_ref(), tangent.as_mut());
+        let (force, means) = self.add_points::<DIM, D, N>((index, points), new, local, terms, |_, _, _| ())?;
+        for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes(index).len()) {
+            *out = std::array::from_fn(|i| force[i][node]);
+        }
         let both = shared.zip(means);
         if let Some((shared, means)) = &both {
             means.write_forces(shared, &mut local.force);
@@ -155,21 +180,24 @@ impl OpenBody<'_> {
         self.gradients[index / PART].cell(index % PART)
     }
 
-    /// Adds up the points of a cell and returns what their mean stress does on a shared change of volume, where there is one.
-    fn add_points<const DIM: usize, const D: usize, const N: usize>(
+    /// Adds up the points of a cell and returns its forces, with what the mean stress does on a shared change of volume, where
+    /// there is one.
+    /// Each point comes with its rows, its volume at the beginning of the increment and its deformation; `each` is told its stress.
+    pub(super) fn add_points<'p, const DIM: usize, const D: usize, const N: usize>(
         &self,
-        index: usize,
+        (index, points): (usize, impl Iterator<Item = (&'p Rows<N>, f64, Tensor2)>),
         new: &mut [f64],
         local: &mut Local,
         (shared, tangent): (Option<&Shared>, Option<&mut Tangent<DIM, N>>),
-    ) -> Result<Option<Means<DIM, N>>, Failure> {
+        mut each: impl FnMut(usize, &PointStress<D>, f64),
+    ) -> Result<(Nodal<DIM, N>, Option<Means<DIM, N>>), Failure> {
         let len = self.body.point_len();
-        let mut sums = self.sums::<DIM, D, N>(index, &local.u, tangent);
+        let mut sums = self.sums::<DIM, D, N>(index, tangent);
         sums.means = shared.map(|_| Means::default());
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
-        for (number, (point, (old, new))) in self.points(index).zip(lanes).enumerate() {
+        for (number, ((rows, begun, f), (old, new))) in points.zip(lanes).enumerate() {
             let thickness = self.body.thickness(old);
-            let (mut volume, mut place) = (point.volume * thickness, None);
+            let (mut volume, mut place) = (begun * thickness, None);
             if let Some(shared) = shared {
                 let mut at = self.body.places.cell(index)[number];
                 at.volume *= thickness;
@@ -177,8 +205,9 @@ impl OpenBody<'_> {
                 sums.law.shared = Some(theta);
                 (volume, place) = (at.volume * begun, Some((at, begun)));
             }
-            let added = sums.add((point.rows(), volume), place.as_ref(), (old, new));
+            let added = sums.add((rows, volume, &f), place.as_ref(), (old, new));
             let det = added.map_err(|f| at_point(f, number))?;
+            each(number, &sums.s, volume);
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
@@ -186,17 +215,13 @@ impl OpenBody<'_> {
                 local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * strain;
             }
         }
-        for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes(index).len()) {
-            *out = std::array::from_fn(|i| sums.force[i][node]);
-        }
-        Ok(sums.means)
+        Ok((sums.force, sums.means))
     }
 
     /// The sums of a cell before its points are added.
     fn sums<'s, const DIM: usize, const D: usize, const N: usize>(
         &'s self,
         index: usize,
-        u: &[f64],
         tangent: Option<&'s mut Tangent<DIM, N>>,
     ) -> Sums<'s, DIM, D, N> {
         let strain = self.body.options.strain;
@@ -206,7 +231,7 @@ impl OpenBody<'_> {
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
         let law = PointLaw { material, space, strain, dt, shared: None, free, cooling };
         let (force, s) = ([[0.0; N]; DIM], PointStress::default());
-        Sums { law, du: self.increment(index, u), force, means: None, tangent, s }
+        Sums { law, force, means: None, tangent, s }
     }
 
     /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
@@ -226,8 +251,6 @@ impl OpenBody<'_> {
 /// Forces and tangent of a cell while its points are added up.
 struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
     law: PointLaw<'a>,
-    /// Displacements of the nodes over the increment.
-    du: Nodal<DIM, N>,
     force: Nodal<DIM, N>,
     /// What the mean stress does on a shared change of volume, where there is one.
     means: Option<Means<DIM, N>>,
@@ -243,16 +266,16 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
     /// is returned.
     fn add(
         &mut self,
-        (rows, volume): (&Rows<N>, f64),
+        (rows, volume, f): (&Rows<N>, f64, &Tensor2),
         place: Option<&(Place, f64)>,
         (old, new): (&[f64], &mut [f64]),
     ) -> Result<f64, Failure> {
-        let (f, s, law) = (deformation(rows, &self.du), &mut self.s, &self.law);
+        let (s, law) = (&mut self.s, &self.law);
         match (law.space, self.tangent.is_some()) {
-            (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, &f, old, new, s)?,
-            (Space::PlaneStress, false) => plane_stress::stress(law, &f, old, new, s)?,
-            (_, true) => law.stress_with_tangent::<DIM, D>(&f, old, new, s)?,
-            (_, false) => law.stress::<DIM, D>(&f, old, new, s)?,
+            (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, f, old, new, s)?,
+            (Space::PlaneStress, false) => plane_stress::stress(law, f, old, new, s)?,
+            (_, true) => law.stress_with_tangent::<DIM, D>(f, old, new, s)?,
+            (_, false) => law.stress::<DIM, D>(f, old, new, s)?,
         }
         add_forces(rows, &s.p, volume, &mut self.force);
         if let Some(tangent) = &mut self.tangent {

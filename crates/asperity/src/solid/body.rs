@@ -3,6 +3,7 @@
 use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
+use super::incompatible;
 use super::patches::Patches;
 use super::volume::Places;
 use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
@@ -24,7 +25,7 @@ pub struct Body {
     pub(super) material: Arc<dyn Material>,
     pub(super) options: BodyOptions,
     choices: Vec<Choice>,
-    shapes: Vec<KindShapes>,
+    pub(super) shapes: Vec<KindShapes>,
     pub(super) patches: Patches,
     pub(super) places: Places,
     initial_stress: Option<InitialStress>,
@@ -38,6 +39,8 @@ pub(super) struct KindShapes {
     pub points: Vec<Shapes>,
     /// Whose change of volume its points have.
     pub bar: Bar,
+    /// How many incompatible modes its cells have.
+    pub modes: usize,
 }
 
 /// Whose change of volume the points of a cell have.
@@ -56,7 +59,7 @@ impl Bar {
             // Tetrahedra of second degree have fewer motions a cell than a linear field needs.
             Formulation::FBar if choice.kind.degree == 2 && choice.kind.nodes.len() != 10 => Self::Linear,
             Formulation::FBar => Self::Mean,
-            Formulation::Auto | Formulation::Standard => Self::Own,
+            Formulation::Auto | Formulation::Standard | Formulation::Incompatible => Self::Own,
         }
     }
 }
@@ -110,8 +113,10 @@ impl Body {
 
     fn kind_shapes(&self, choice: &Choice) -> KindShapes {
         let (kind, rule) = (choice.kind, self.rule(choice.kind));
-        let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| Shapes::new(kind, xi, weight));
-        KindShapes { kind, points: points.collect(), bar: Bar::of(choice) }
+        let modes = if choice.formulation == Formulation::Incompatible { incompatible::modes(kind) } else { 0 };
+        let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
+        let points = rule.points.iter().zip(rule.weights).map(shapes);
+        KindShapes { kind, points: points.collect(), bar: Bar::of(choice), modes }
     }
 
     /// What its cells became, kind by kind.
@@ -131,9 +136,9 @@ impl Body {
         self.shapes.iter().map(|kind| kind.points.len()).max().unwrap_or(0)
     }
 
-    /// Most nodes of a cell.
+    /// Most nodes of a cell, incompatible modes among them.
     pub(super) fn most_nodes(&self) -> usize {
-        self.shapes.iter().map(|kind| kind.kind.nodes.len()).max().unwrap_or(0)
+        self.shapes.iter().map(|kind| kind.kind.nodes.len() + kind.modes).max().unwrap_or(0)
     }
 
     /// The body with stresses before the first increment.
@@ -179,11 +184,12 @@ impl Body {
     }
     /// Values of the state of one integration point.
     pub fn point_len(&self) -> usize {
-        self.material.state_len() + usize::from(self.space == Space::PlaneStress) + usize::from(self.heat.is_some())
+        let ratios = usize::from(self.space == Space::PlaneStress) + usize::from(self.heat.is_some());
+        self.material.state_len() + ratios + self.amplitudes_by_point()
     }
 
-    /// The state of a point at `x` before the first increment: that of the law, then thickness and thermal stretch as
-    /// ratios.
+    /// The state of a point at `x` before the first increment: that of the law, then thickness as a ratio, amplitudes of
+    /// incompatible modes and thermal stretch as a ratio.
     fn begin(&self, x: Vec3, state: &mut [f64]) {
         let (law, ratios) = state.split_at_mut(self.material.state_len());
         self.material.initialise(law);
@@ -191,6 +197,8 @@ impl Body {
             law[..6].copy_from_slice(&field.at(x));
         }
         ratios.fill(1.0);
+        let first = usize::from(self.space == Space::PlaneStress);
+        ratios[first..first + self.amplitudes_by_point()].fill(0.0);
     }
 
     pub(super) fn inverted(&self, cell: usize) -> String {
@@ -210,6 +218,15 @@ fn refuse(body: &str, kind: &Cell, space: Space, options: &BodyOptions) -> Resul
         }
         (Formulation::FBar, Integration::Reduced) => {
             "f-bar has no use with reduced integration, which does not lock; choose one".to_string()
+        }
+        (Formulation::Incompatible, Integration::Reduced) => {
+            "incompatible modes need full integration; with reduced integration nothing resists them".to_string()
+        }
+        (Formulation::Incompatible, _) if incompatible::modes(kind) == 0 => {
+            format!(
+                "cells {} have no incompatible modes, only quad4 and hex8 do; use formulation = \"auto\"",
+                kind.name
+            )
         }
         (Formulation::FBar, _) if space == Space::PlaneStress => {
             "f-bar means nothing in plane stress, where nothing locks; use formulation = \"standard\"".to_string()

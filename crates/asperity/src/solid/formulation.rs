@@ -1,11 +1,12 @@
-//! How the change of volume enters the law, and the choice of it by cell, law and space where a body does not say.
+//! How the deformation of a cell's points is formed, and the choice of it by cell, law and space where a body does not say.
 //!
 //! Cells whose points each demand their own change of volume lock where the law hardly gives one: they are too stiff, and
 //! limit loads are never reached. Where the ratio `K / G` of bulk to shear modulus is as small as that of metals the error
 //! is that of the mesh; from [`NEARLY`] on F-bar takes over, and always where a solid flows with no change of volume or with one that
-//! follows from its shear.
+//! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
+//! which they are too stiff in bending.
 
-use super::Strain;
+use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
 use crate::mesh::cells::Cell;
@@ -19,6 +20,8 @@ pub enum Formulation {
     Standard,
     /// One change of volume for all points of a cell, or of a patch of simplices (F-bar): no volumetric locking.
     FBar,
+    /// With incompatible modes of the cell's own: no stiffness in bending that its displacements cannot avoid.
+    Incompatible,
 }
 
 /// Which quadrature is used.
@@ -59,7 +62,7 @@ pub const NEARLY: f64 = 4.6;
 pub struct Choice {
     /// The kind.
     pub kind: &'static Cell,
-    /// Standard or F-bar.
+    /// Which of them.
     pub formulation: Formulation,
     /// Why, in words.
     pub reason: String,
@@ -76,9 +79,15 @@ impl Choice {
         let stiff = ratio >= NEARLY;
         let reduced = options.integration == Integration::Reduced && kind.reduced.is_some();
         let standard = |reason: &str, locks: bool| (Formulation::Standard, reason.to_string(), locks);
+        let bends = flow == Flow::None && incompatible::modes(kind) > 0 && !reduced;
+        let modes = |reason: &str| (Formulation::Incompatible, reason.to_string(), false);
         let (formulation, reason, locks) = match options.formulation {
-            _ if space == Space::PlaneStress => standard("nothing locks in plane stress", false),
+            Formulation::Auto if space == Space::PlaneStress && bends => modes("bending, in plane stress"),
+            Formulation::Auto | Formulation::Standard if space == Space::PlaneStress => {
+                standard("no change of volume locks in plane stress", false)
+            }
             Formulation::FBar => (Formulation::FBar, "as said".into(), false),
+            Formulation::Incompatible => (Formulation::Incompatible, "as said".into(), false),
             Formulation::Standard => standard("as said", !reduced && (stiff || flow != Flow::None)),
             Formulation::Auto if reduced => standard("reduced integration does not lock", false),
             Formulation::Auto if flow == Flow::Isochoric => {
@@ -90,6 +99,9 @@ impl Choice {
             Formulation::Auto if stiff => {
                 (Formulation::FBar, format!("bulk over shear modulus is {}", rounded(ratio)), false)
             }
+            Formulation::Auto if bends => {
+                modes(&format!("bending; bulk over shear modulus is only {}", rounded(ratio)))
+            }
             Formulation::Auto => standard(&format!("bulk over shear modulus is only {}", rounded(ratio)), false),
         };
         Self { kind, formulation, reason, locks }
@@ -97,7 +109,11 @@ impl Choice {
 
     /// One line: cells, formulation, reason.
     pub fn line(&self) -> String {
-        let word = if self.formulation == Formulation::FBar { "f-bar" } else { "standard" };
+        let word = match self.formulation {
+            Formulation::FBar => "f-bar",
+            Formulation::Incompatible => "incompatible",
+            Formulation::Auto | Formulation::Standard => "standard",
+        };
         format!("{} {word}: {}", self.kind.name, self.reason)
     }
 

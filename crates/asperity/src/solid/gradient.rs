@@ -62,6 +62,12 @@ impl Gradients {
         volume.is_some()
     }
 
+    /// Rows and volumes of the points added to the present cell.
+    pub fn present(&mut self) -> (&mut [f64], &mut [f64]) {
+        let [rows, volumes] = self.ends.last().copied().unwrap_or_default();
+        (&mut self.rows[rows..], &mut self.volumes[volumes..])
+    }
+
     /// Ends the present cell.
     pub fn close(&mut self) {
         self.ends.push([self.rows.len(), self.volumes.len()]);
@@ -77,14 +83,17 @@ impl Gradients {
     }
 }
 
-/// The shape functions at one reference point, with its weight: the same for all cells of a kind.
+/// The shape functions at one reference point, with its weight: the same for all cells of a kind. Behind those of the nodes may
+/// stand incompatible modes.
 pub struct Shapes {
-    /// Values.
+    /// Values; none of the modes.
     pub n: [f64; MAX_NODES],
     /// Derivatives along the reference coordinates.
     pub dn: [[f64; 3]; MAX_NODES],
     /// The weight.
     pub weight: f64,
+    /// How many modes there are.
+    pub modes: usize,
 }
 
 impl Shapes {
@@ -92,14 +101,22 @@ impl Shapes {
     pub fn new(kind: &Cell, xi: [f64; 3], weight: f64) -> Self {
         let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
         (kind.shape)(xi, &mut n, &mut dn);
-        Self { n, dn, weight }
+        Self { n, dn, weight, modes: 0 }
+    }
+
+    /// With so many incompatible modes `1 - xi_k^2` behind its nodes.
+    pub fn with_modes(mut self, kind: &Cell, xi: [f64; 3], modes: usize) -> Self {
+        self.modes = modes;
+        (0..modes).for_each(|k| self.dn[kind.nodes.len() + k][k] = -2.0 * xi[k]);
+        self
     }
 }
 
-/// Adds to `out` the gradients at one point of a cell with nodes at `x`, in the order of [`Rows`], and returns the
-/// point's volume; `None` if the cell is inside out there, or not to the right of the axis.
+/// Adds to `out` the gradients at one point of a cell with nodes at `x`, in the order of [`Rows`] with those of its modes behind
+/// the nodes, and returns the point's volume; `None` if the cell is inside out there, or not to the right of the axis.
 pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space, out: &mut Vec<f64>) -> Option<f64> {
-    let (n, dn) = (&shapes.n[..x.len()], &shapes.dn[..x.len()]);
+    let columns = x.len() + shapes.modes;
+    let (n, dn) = (&shapes.n[..columns], &shapes.dn[..columns]);
     let mut jacobian = Tensor2::zero();
     for (x, dn) in x.iter().zip(dn) {
         for i in 0..3 {
@@ -120,7 +137,7 @@ pub fn at(shapes: &Shapes, x: &[[f64; 3]], space: Space, out: &mut Vec<f64>) -> 
     }
     let inverse = jacobian.inverse();
     let (around, hoop) = if axisymmetric { (std::f64::consts::TAU * radius, radius.recip()) } else { (1.0, 0.0) };
-    let (begun, length) = (out.len(), padded(x.len()));
+    let (begun, length) = (out.len(), padded(columns));
     out.resize(begun + 3 * length, 0.0);
     for (i, row) in out[begun..].chunks_exact_mut(length).enumerate() {
         if i < 2 || space == Space::Solid {

@@ -1,4 +1,4 @@
-//! Total strain at the integration points of a body, from displacements alone.
+//! Total strain at the integration points of a body, from displacements and incompatible modes.
 
 use super::{Body, Strain};
 use crate::mesh::Space;
@@ -15,8 +15,12 @@ impl Body {
         states: &'a [f64],
     ) -> impl Iterator<Item = [f64; 6]> + 'a {
         let points = states.chunks_exact(self.point_len());
-        points.zip(self.displacement_gradients(self.cells[slot], u)).map(|(state, gradient)| {
-            let mut gradient = gradient.unwrap_or_else(|| Tensor2::from_fn(|_, _| f64::NAN));
+        let inside_out = || Tensor2::from_fn(|_, _| f64::NAN);
+        let mut gradients: Vec<_> =
+            self.displacement_gradients(slot, u).map(|gradient| gradient.unwrap_or_else(inside_out)).collect();
+        let enhancements = self.enhancements(slot, states, &gradients);
+        gradients.iter_mut().zip(enhancements).for_each(|(gradient, by)| *gradient = *gradient + by);
+        points.zip(gradients).map(|(state, mut gradient)| {
             if self.space == Space::PlaneStress {
                 gradient[(2, 2)] = state[self.material().state_len()] - 1.0;
             }

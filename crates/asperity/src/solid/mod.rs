@@ -12,6 +12,7 @@ mod free;
 mod gradient;
 mod heat;
 mod hourglass;
+mod incompatible;
 mod initial_stress;
 mod lanes;
 mod measure;

@@ -45,7 +45,7 @@ impl Body {
 
     fn record<'a>(&self, cell: usize, point: usize, u: &[f64], state: &'a [f64]) -> PointRecord<'a> {
         let view = self.mesh.cell(cell);
-        let Shapes { n, dn, weight } = &self.shapes(view.kind).points[point];
+        let Shapes { n, dn, weight, .. } = &self.shapes(view.kind).points[point];
         let (mut reference, mut position, mut jacobian) = (Vec3::zero(), Vec3::zero(), Tensor2::zero());
         let small = self.options.strain == Strain::Small;
         for (&node, (n, dn)) in view.nodes.iter().zip(n.iter().zip(dn)) {

@@ -151,18 +151,18 @@ impl Body {
     /// squares of its components, rotation among them. Strains are wrong by a part of that order.
     pub fn largest_gradient(&self, u: &[f64]) -> Option<f64> {
         let square = |g: Tensor2| -> f64 { (0..9).map(|k| g[(k / 3, k % 3)].powi(2)).sum() };
-        let all = || self.cells.iter().flat_map(|&cell| self.displacement_gradients(cell, u)).flatten();
+        let all = || (0..self.cells.len()).flat_map(|slot| self.displacement_gradients(slot, u)).flatten();
         (self.options.strain == Strain::Small).then(|| all().map(square).fold(0.0, f64::max).sqrt())
     }
 
-    /// Displacement gradients at the integration points of a cell, on the undeformed places; the strain around the axis of axial
+    /// Gradients of the nodes' displacements at the integration points of a cell, on the undeformed places; the strain around the axis of axial
     /// symmetry is the last on the diagonal. None where the cell is inside out.
     pub(super) fn displacement_gradients<'a>(
         &'a self,
-        cell: usize,
+        slot: usize,
         u: &'a [f64],
     ) -> impl Iterator<Item = Option<Tensor2>> + 'a {
-        let (view, axes) = (self.mesh.cell(cell), self.dofs.per_node());
+        let (view, axes) = (self.mesh.cell(self.cells[slot]), self.dofs.per_node());
         let x: Vec<_> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
         let mut rows = Vec::new();
         self.shapes(view.kind).points.iter().map(move |shapes| {

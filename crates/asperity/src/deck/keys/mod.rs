@@ -144,10 +144,14 @@ table! {
 impl Words for Formulation {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         let f_bar = "the change of volume is one for a cell, or for a patch of simplices, against locking";
+        let auto = "f-bar where the law hardly changes its volume and cells would lock, else incompatible modes in quad4 and hex8, \
+                    else standard";
+        let modes = "quad4 and hex8 with incompatible modes, which are not too stiff in bending";
         vec![
-            (Self::Auto, "auto", "f-bar where the law hardly changes its volume and cells would lock, else standard"),
+            (Self::Auto, "auto", auto),
             (Self::Standard, "standard", "as it is at each point"),
             (Self::FBar, "f-bar", f_bar),
+            (Self::Incompatible, "incompatible", modes),
         ]
     }
 }

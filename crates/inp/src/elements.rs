@@ -103,6 +103,8 @@ pub enum Formulation {
     Standard,
     /// Full integration with one change of volume for a cell or a patch of cells.
     FBar,
+    /// Full integration with incompatible modes.
+    Incompatible,
     /// Reduced integration.
     Reduced,
 }
@@ -113,6 +115,7 @@ impl Formulation {
         match self {
             Self::Standard => "formulation = \"standard\"\n",
             Self::FBar => "formulation = \"f-bar\"\n",
+            Self::Incompatible => "formulation = \"incompatible\"\n",
             Self::Reduced => "integration = \"reduced\"\n",
         }
     }
@@ -133,14 +136,11 @@ impl Type {
             (2, true, _) if reduced => (Formulation::Reduced, hybrid.then_some(NO_PRESSURE)),
             (2, ..) if hybrid => (Formulation::FBar, Some(MEAN)),
             (2, ..) => (Formulation::Standard, modified(variant)),
-            (1, true, Family::PlaneStress) if reduced || modes => (
-                Formulation::Standard,
-                Some(
-                    "one point with hourglass control, or incompatible modes, become full integration: stiffer in bending",
-                ),
-            ),
+            (1, true, _) if modes => (Formulation::Incompatible, None),
+            (1, true, Family::PlaneStress) if reduced => {
+                (Formulation::Incompatible, Some("one point with hourglass control becomes incompatible modes"))
+            }
             (1, true, Family::PlaneStress) => (Formulation::Standard, None),
-            (1, true, _) if modes => (Formulation::FBar, Some("incompatible modes become F-bar: stiffer in bending")),
             (1, true, _) if reduced => {
                 (Formulation::FBar, Some("one point with hourglass control becomes F-bar: stiffer in bending"))
             }
@@ -189,8 +189,11 @@ mod tests {
             assert_eq!(of(name, Dialect::CalculiX), Formulation::Standard, "{name}");
         }
         for dialect in [Dialect::Abaqus, Dialect::CalculiX] {
-            for name in ["C3D8R", "C3D8I", "CAX4R"] {
+            for name in ["C3D8R", "CAX4R"] {
                 assert_eq!(of(name, dialect), Formulation::FBar, "{name}");
+            }
+            for name in ["C3D8I", "CPE4I", "CPS4I", "CPS4R"] {
+                assert_eq!(of(name, dialect), Formulation::Incompatible, "{name}");
             }
             for name in ["C3D20R", "CPE8R", "CPS8R"] {
                 assert_eq!(of(name, dialect), Formulation::Reduced, "{name}");
@@ -198,7 +201,7 @@ mod tests {
             for name in ["C3D4H", "C3D10H", "C3D20H", "C3D8H", "CPE3H", "C3D10MH"] {
                 assert_eq!(of(name, dialect), Formulation::FBar, "{name}");
             }
-            for name in ["C3D20", "C3D4", "C3D10", "CPS4R", "CPE6", "C3D6", "C3D15"] {
+            for name in ["C3D20", "C3D4", "C3D10", "CPS4", "CPE6", "C3D6", "C3D15"] {
                 assert_eq!(of(name, dialect), Formulation::Standard, "{name}");
             }
         }

@@ -109,7 +109,7 @@ impl Page {
             self.line(format!("body {}: {cells} cells of {} ({law:?})", body.name(), made.model.materials[*material]));
             for choice in body.choices() {
                 self.line(format!("  {}", choice.line()));
-                choice.advice().iter().for_each(|advice| self.line(format!("  note: {advice}")));
+                choice.advice().for_each(|advice| self.line(format!("  note: {advice}")));
             }
             if let Some(advice) = body.material().advice() {
                 self.line(format!("  note: {advice}"));

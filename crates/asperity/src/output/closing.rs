@@ -24,7 +24,7 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
 
 /// Which cells of a body stay too stiff, and what helps.
 fn locking(body: &Body) -> Vec<String> {
-    let advice = body.choices().iter().filter_map(Choice::advice);
+    let advice = body.choices().iter().flat_map(Choice::advice);
     advice.map(|advice| format!("body '{}': {advice}", body.name())).collect()
 }
 

@@ -155,7 +155,8 @@ impl OpenBody<'_> {
             .wants_tangent
             .then(|| Tangent::<DIM, N>::zero(self.nodes(index).len(), self.body.material.is_conservative()));
         let terms = (shared.as_ref(), tangent.as_mut());
-        let (force, means) = self.add_points::<DIM, D, N>((index, points), new, local, terms, |_, _, _| ())?;
+        let (force, means) =
+            self.add_points::<DIM, D, N>((index, points), new, local, terms, None::<fn(usize, &PointStress<D>, f64)>)?;
         for (node, out) in local.force.as_chunks_mut::<DIM>().0.iter_mut().enumerate().take(self.nodes(index).len()) {
             *out = std::array::from_fn(|i| force[i][node]);
         }
@@ -182,18 +183,20 @@ impl OpenBody<'_> {
 
     /// Adds up the points of a cell and returns its forces, with what the mean stress does on a shared change of volume, where
     /// there is one.
-    /// Each point comes with its rows, its volume at the beginning of the increment and its deformation; `each` is told its stress.
+    /// Each point comes with its rows, its volume at the beginning of the increment and its deformation; `keep` is told its stress
+    /// with derivatives.
     pub(super) fn add_points<'p, const DIM: usize, const D: usize, const N: usize>(
         &self,
         (index, points): (usize, impl Iterator<Item = (&'p Rows<N>, f64, Tensor2)>),
         new: &mut [f64],
         local: &mut Local,
         (shared, tangent): (Option<&Shared>, Option<&mut Tangent<DIM, N>>),
-        mut each: impl FnMut(usize, &PointStress<D>, f64),
+        mut keep: Option<impl FnMut(usize, &PointStress<D>, f64)>,
     ) -> Result<(Nodal<DIM, N>, Option<Means<DIM, N>>), Failure> {
         let len = self.body.point_len();
         let mut sums = self.sums::<DIM, D, N>(index, tangent);
         sums.means = shared.map(|_| Means::default());
+        sums.differentiated |= keep.is_some();
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, ((rows, begun, f), (old, new))) in points.zip(lanes).enumerate() {
             let thickness = self.body.thickness(old);
@@ -207,7 +210,9 @@ impl OpenBody<'_> {
             }
             let added = sums.add((rows, volume, &f), place.as_ref(), (old, new));
             let det = added.map_err(|f| at_point(f, number))?;
-            each(number, &sums.s, volume);
+            if let Some(keep) = &mut keep {
+                keep(number, &sums.s, volume);
+            }
             self.account((old, new), (volume, det), local);
             if let Some(stretch) = self.stretch {
                 new[len - 1] = stretch;
@@ -231,7 +236,8 @@ impl OpenBody<'_> {
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
         let law = PointLaw { material, space, strain, dt, shared: None, free, cooling };
         let (force, s) = ([[0.0; N]; DIM], PointStress::default());
-        Sums { law, force, means: None, tangent, s }
+        let differentiated = tangent.is_some();
+        Sums { law, force, means: None, tangent, differentiated, s }
     }
 
     /// Energy of a point. Where the rate of the energy `e` per present volume is `sigma:D - d`, as of rate laws, that of
@@ -256,6 +262,8 @@ struct Sums<'a, const DIM: usize, const D: usize, const N: usize> {
     means: Option<Means<DIM, N>>,
     /// Where it is wanted.
     tangent: Option<&'a mut Tangent<DIM, N>>,
+    /// Whether the derivatives of the stress are.
+    differentiated: bool,
     /// Stress of the present point.
     s: PointStress<D>,
 }
@@ -271,7 +279,7 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
         (old, new): (&[f64], &mut [f64]),
     ) -> Result<f64, Failure> {
         let (s, law) = (&mut self.s, &self.law);
-        match (law.space, self.tangent.is_some()) {
+        match (law.space, self.differentiated) {
             (Space::PlaneStress, true) => plane_stress::stress_with_tangent(law, f, old, new, s)?,
             (Space::PlaneStress, false) => plane_stress::stress(law, f, old, new, s)?,
             (_, true) => law.stress_with_tangent::<DIM, D>(f, old, new, s)?,
@@ -282,7 +290,7 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
             tangent.add(rows, &s.tangent, volume);
         }
         if let (Some((place, begun)), Some(means)) = (place, &mut self.means) {
-            means.add((rows, place, *begun), s, self.tangent.is_some());
+            means.add((rows, place, *begun), s, self.differentiated);
         }
         Ok(s.det)
     }

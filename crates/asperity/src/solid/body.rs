@@ -3,10 +3,10 @@
 use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
-use super::incompatible;
 use super::patches::Patches;
 use super::volume::Places;
 use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
+use super::{incompatible, layers};
 use crate::material::Material;
 use crate::mesh::cells::{Cell, Rule};
 use crate::mesh::{Mesh, Space};
@@ -83,7 +83,8 @@ impl Body {
         let mut choices: Vec<Choice> = Vec::new();
         for kind in cells.iter().map(|&cell| mesh.cell(cell).kind) {
             if choices.iter().all(|known| known.kind != kind) {
-                choices.push(Choice::of(kind, space, material.as_ref(), &options));
+                let choice = Choice::of(kind, space, material.as_ref(), &options);
+                choices.push(choice.in_depth(|| layers::depth(&mesh, &cells), &options));
             }
         }
         let barred =

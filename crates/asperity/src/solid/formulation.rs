@@ -6,6 +6,7 @@
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
 //! which they are too stiff in bending.
 
+use super::layers::stiff_in_bending;
 use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
@@ -68,6 +69,8 @@ pub struct Choice {
     pub reason: String,
     /// Whether the cells remain too stiff all the same.
     pub locks: bool,
+    /// Whether so few of them lie behind one another through the body that they are too stiff in bending.
+    pub bends: bool,
 }
 
 impl Choice {
@@ -104,7 +107,7 @@ impl Choice {
             }
             Formulation::Auto => standard(&format!("bulk over shear modulus is only {}", rounded(ratio)), false),
         };
-        Self { kind, formulation, reason, locks }
+        Self { kind, formulation, reason, locks, bends: false }
     }
 
     /// One line: cells, formulation, reason.
@@ -117,14 +120,28 @@ impl Choice {
         format!("{} {word}: {}", self.kind.name, self.reason)
     }
 
+    /// The same in a body of this [`depth`](super::layers::depth).
+    pub(super) fn in_depth(mut self, depth: impl Fn() -> usize, options: &BodyOptions) -> Self {
+        let reduced = options.integration == Integration::Reduced && self.kind.reduced.is_some();
+        let stiff = stiff_in_bending(self.kind).filter(|_| self.formulation != Formulation::Incompatible && !reduced);
+        self.bends = stiff.is_some_and(|stiff| depth() <= stiff);
+        self
+    }
+
     /// What is to be known where the cells lock.
-    pub fn advice(&self) -> Option<String> {
-        self.locks.then(|| {
+    pub fn advice(&self) -> impl Iterator<Item = String> {
+        let name = self.kind.name;
+        let locks = self.locks.then(|| {
             format!(
-                "{} cells with this law may be too stiff where it flows or keeps volume: formulation = \"auto\" chooses one that is not",
-                self.kind.name
+                "{name} cells with this law may be too stiff where it flows or keeps volume: formulation = \"auto\" chooses one that is not"
             )
-        })
+        });
+        let bends = self.bends.then(|| {
+            format!(
+                "few {name} cells lie through it: where it bends they are more than a tenth too stiff (`cell`: those of second degree are not)"
+            )
+        });
+        locks.into_iter().chain(bends)
     }
 }
 

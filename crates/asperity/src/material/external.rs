@@ -134,7 +134,6 @@ pub struct External {
     tells_energy: bool,
     /// Calls whose tangent is still to be compared.
     comparisons: Arc<AtomicUsize>,
-    advice: Option<&'static str>,
 }
 
 /// What is known of a point besides stress and states, in the order in which it is kept.
@@ -172,9 +171,6 @@ const LEAST_STEP: f64 = 1e-9;
 /// By what a tangent may differ from differences, and those of the two sides at a corner, as parts of its largest entry.
 const EXACT: f64 = 1e-4;
 const CORNER: f64 = 1e-2;
-
-/// What is said of a law that is called by one thread at a time.
-const SERIAL: &str = "the calls of the library are made one at a time; say `thread_safe = true` if it keeps nothing between them";
 
 /// A stress, or a strain with shears of engineers for `shear = 2`, in the customary order.
 fn customary(t: &Tensor2, shear: f64) -> [f64; 6] {
@@ -221,17 +217,10 @@ impl External {
             elastic: None,
             tells_energy: true,
             comparisons: Arc::new(AtomicUsize::new(0)),
-            advice: None,
         };
         external.probe().map_err(|failure| format!("{}: {failure}", external.law.name()))?;
         external.comparisons = Arc::new(AtomicUsize::new(comparisons));
         Ok(external)
-    }
-
-    /// Whether a thread waits for another is said to the user.
-    pub fn one_at_a_time(mut self) -> Self {
-        self.advice = Some(SERIAL);
-        self
     }
 
     /// Asks for the moduli, and whether the law tells its elastic energy.
@@ -477,10 +466,6 @@ impl Material for External {
         directions: Directions,
     ) -> Result<(), Failure> {
         self.advance_along(f, dt, old, out, directions)
-    }
-
-    fn advice(&self) -> Option<&'static str> {
-        self.advice
     }
 
     fn moduli(&self) -> [f64; 2] {

@@ -79,6 +79,14 @@ impl SolidLaw {
         }
     }
 
+    /// What a user should know of its calls, in words.
+    pub fn advice(&self) -> Option<&'static str> {
+        match self {
+            Self::Umat(UmatKeys { thread_safe: false, .. }) => Some(SERIAL),
+            _ => None,
+        }
+    }
+
     /// Where its fault is shown.
     pub fn place(&self) -> Place {
         match self {
@@ -107,12 +115,15 @@ impl SolidLaw {
         };
         let states = keys.initial_states.as_ref().map_or_else(|| vec![0.0; keys.states], |states| states.value.clone());
         let law = External::new(load(&library)?, states, plane, keys.check_tangent)?;
-        let law = if keys.thread_safe { law } else { law.one_at_a_time() };
         Ok((Arc::new(law), Some(bytes)))
     }
 }
 
 const UMAT: &str = "umat";
+
+/// What is said of a law that is called by one thread at a time.
+const SERIAL: &str =
+    "the calls of the library are made one at a time; say `thread_safe = true` if it keeps nothing between them";
 
 /// A law of a solid under its name.
 pub fn solid_law() -> impl Form<Value = SolidLaw> {

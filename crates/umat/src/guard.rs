@@ -61,14 +61,24 @@ type Entry = unsafe extern "C-unwind" fn(*mut c_void);
 #[unsafe(naked)]
 unsafe extern "C-unwind" fn guarded(stack: *mut usize, call: Entry, data: *mut c_void) -> u32 {
     std::arch::naked_asm!(
-        "push rbp", "push rbx", "push r12", "push r13", "push r14", "push r15",
+        "push rbp",
+        "push rbx",
+        "push r12",
+        "push r13",
+        "push r14",
+        "push r15",
         "sub rsp, 8",
         "mov [rdi], rsp",
         "mov rdi, rdx",
         "call rsi",
         "xor eax, eax",
         "add rsp, 8",
-        "pop r15", "pop r14", "pop r13", "pop r12", "pop rbx", "pop rbp",
+        "pop r15",
+        "pop r14",
+        "pop r13",
+        "pop r12",
+        "pop rbx",
+        "pop rbp",
         "ret",
     )
 }
@@ -81,7 +91,12 @@ unsafe extern "C-unwind" fn escape(stack: usize) -> ! {
         "mov rsp, rdi",
         "mov eax, 1",
         "add rsp, 8",
-        "pop r15", "pop r14", "pop r13", "pop r12", "pop rbx", "pop rbp",
+        "pop r15",
+        "pop r14",
+        "pop r13",
+        "pop r12",
+        "pop rbx",
+        "pop rbp",
         "ret",
     )
 }
@@ -98,7 +113,8 @@ unsafe fn guarded(_: *mut usize, call: Entry, data: *mut c_void) -> u32 {
 #[cfg(not(all(target_arch = "x86_64", unix)))]
 unsafe fn escape(_: usize) -> ! {
     tell(&[b": ", REASON.take().as_bytes()]);
-    std::process::exit(1)
+    // SAFETY: it ends the process.
+    unsafe { libc::_exit(1) }
 }
 
 /// Writes the name of the call that the thread is in and what happened; whether it is in one.

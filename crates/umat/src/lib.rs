@@ -17,6 +17,7 @@ pub use utilities::SYMBOLS;
 use arguments::{Arguments, Function};
 use asperity::Failure;
 use asperity::material::external::{self, Call, Library, UserLaw};
+use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Names under which a library may have the law: as Fortran writes it and as C does.
@@ -46,7 +47,10 @@ fn load(library: &Library) -> Result<Arc<dyn UserLaw>, String> {
     let shown = library.path.display();
     // A name without a folder would be looked for where the system keeps its libraries.
     let path = std::path::absolute(&library.path).map_err(|error| format!("{shown}: {error}"))?;
-    let refused = |error: libloading::Error| format!("{shown} cannot be loaded as a shared library: {error}");
+    let refused = |error: libloading::Error| {
+        let why = error.source().map_or_else(|| error.to_string(), ToString::to_string);
+        format!("{shown} cannot be loaded as a shared library: {why}")
+    };
     guard::listen();
     // SAFETY: what a library does when it is loaded is its author's business, and the user named it.
     let loaded = unsafe { open(&path) }.map_err(refused)?;
@@ -87,8 +91,7 @@ impl UserLaw for Umat {
         drop(one);
         called.map_err(|why| Failure::new(format!("it gives up: {why}")))?;
         let part = arguments.new_time;
-        // Not `<`, so that what is not a number is told.
-        if !(part >= 1.0) {
+        if part < 1.0 || part.is_nan() {
             return Err(Failure::new(format!("it asks for a smaller increment (PNEWDT = {part})")));
         }
         (call.stress, call.tangent, call.energies) = arguments.answers();

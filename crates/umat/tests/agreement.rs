@@ -107,7 +107,10 @@ fn solved(deck: &str, sets: &[String]) -> (State, Account) {
 /// rounding alone, and the tolerance leaves no trace of them.
 fn agree(deck: &str, own: &str, other: &str, more: &[&str]) {
     let sets = |law: &str| -> Vec<String> {
-        [format!("material.steel={law}"), "solver.tolerance=1e-13".into()].into_iter().chain(more.iter().map(ToString::to_string)).collect()
+        [format!("material.steel={law}"), "solver.tolerance=1e-13".into()]
+            .into_iter()
+            .chain(more.iter().map(ToString::to_string))
+            .collect()
     };
     let ((a, counted), (b, other)) = (solved(deck, &sets(own)), solved(deck, &sets(other)));
     let size = a.u.iter().fold(0.0, |m: f64, u| m.max(u.abs()));

@@ -3,7 +3,14 @@
 use umat::provide;
 
 unsafe extern "C" {
-    fn rotsig_(s: *const f64, r: *const f64, turned: *mut f64, kind: *const i32, direct: *const i32, shears: *const i32);
+    fn rotsig_(
+        s: *const f64,
+        r: *const f64,
+        turned: *mut f64,
+        kind: *const i32,
+        direct: *const i32,
+        shears: *const i32,
+    );
     fn sinv_(s: *const f64, mean: *mut f64, mises: *mut f64, direct: *const i32, shears: *const i32);
     fn sprinc_(s: *const f64, values: *mut f64, kind: *const i32, direct: *const i32, shears: *const i32);
     fn sprind_(

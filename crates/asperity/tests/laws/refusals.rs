@@ -115,7 +115,10 @@ fn a_back_stress_in_the_frame_of_jaumann_has_a_note() {
     let notes = |more: &str, rate: &str| {
         let steel = format!("young = 200e3, poisson = 0.3, yield_stress = 200.0{more}");
         let text = format!("version = 1\n{rate}material.m.von_mises = {{ {steel} }}\n[[step]]\nstrain.xx = 0.1\n");
-        read_point(&text, "deck.toml", Path::new(""), &[]).unwrap_or_else(|e| panic!("{}", e.render(false))).diagnostics.render(false)
+        read_point(&text, "deck.toml", Path::new(""), &[])
+            .unwrap_or_else(|e| panic!("{}", e.render(false)))
+            .diagnostics
+            .render(false)
     };
     let jaumann = "rate = \"jaumann\"\n";
     assert!(notes(", kinematic = 20e3", jaumann).contains("a back stress turns with the spin"));

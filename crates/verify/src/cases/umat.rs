@@ -9,7 +9,8 @@ use std::process::Command;
 /// The case.
 pub const CASE: Case = Case { name: "umat", measure };
 
-const OWN: &str = "material.steel={ von_mises = { young = 200e3, poisson = 0.3, yield_stress = 300.0, hardening = 2e3 } }";
+const OWN: &str =
+    "material.steel={ von_mises = { young = 200e3, poisson = 0.3, yield_stress = 300.0, hardening = 2e3 } }";
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     umat::provide();

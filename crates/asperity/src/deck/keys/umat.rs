@@ -30,7 +30,7 @@ table! {
             list(number(unit::NONE, Range::ANY), 0..=usize::MAX).spot().unless_given("zeros"),
         /// Whether it keeps nothing between calls, so that several threads may call it at once.
         thread_safe: bool = flag().or("false"),
-        /// Number of calls whose DDSDDE is compared with differences; one that differs is a failure of the increment.
+        /// Number of calls whose DDSDDE is compared with differences; one that differs ends the run.
         check_tangent: usize = whole(0..=1_000_000_000).or("0"),
     }
 }
@@ -40,7 +40,8 @@ const NAME: usize = 80;
 
 fn lengths(keys: &UmatKeys, reader: &mut Reader) {
     if let Some(initial) = keys.initial_states.as_ref().filter(|initial| initial.len() != keys.states) {
-        let what = format!("`{}.initial_states` has {} values for {} states", reader.path(), initial.len(), keys.states);
+        let what =
+            format!("`{}.initial_states` has {} values for {} states", reader.path(), initial.len(), keys.states);
         reader.report(Diagnostic::error(what).at(initial.place));
     }
     if let Some(name) = keys.name.as_ref().filter(|name| name.len() > NAME || !name.is_ascii()) {

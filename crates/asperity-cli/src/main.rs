@@ -19,6 +19,7 @@ use verbs::Outcome;
 
 fn main() -> ExitCode {
     let line = Line::parse();
+    umat::provide();
     Interrupts::listen()
         .map_err(Trouble::from)
         .and_then(|interrupts| obey(line, &interrupts))

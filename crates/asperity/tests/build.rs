@@ -298,3 +298,13 @@ fn increments_are_fractions_of_their_step() {
     let step = &made(&deck.replace("count = 8", "first = 0.2")).problem.steps[0];
     assert_eq!((step.increments.first, step.increments.largest, step.increments.smallest), (0.2, 0.2, 1e-6));
 }
+
+/// A program that does not provide a loader says so, as the package for Python does.
+#[test]
+fn a_law_of_a_library_needs_a_program_that_loads_it() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml").display().to_string();
+    let deck =
+        HEAD.replace("steel.elastic = { young = 210e3, poisson = 0.3 }", &format!("steel.umat.library = {file:?}"));
+    let told = refused(&format!("{deck}[[step]]\ndisplacement.\"block.left\" = {{ x = 0.0, y = 0.0 }}\n"));
+    assert!(told.contains("this program loads no laws of shared libraries; the command `asperity` does"), "{told}");
+}

@@ -9,19 +9,20 @@ use asperity::system::{Assembly, Evaluation, Instant, State, Tangent, Trial, Wor
 use asperity::tensor::Tensor2;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant as Clock};
 
 /// The laws of all decks with the decks' names.
-fn laws() -> Vec<(String, Box<dyn Material>)> {
+fn laws() -> Vec<(String, Arc<dyn Material>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/point");
     let mut decks: Vec<_> = std::fs::read_dir(folder).expect("the cases").map(|e| e.expect("a file").path()).collect();
     decks.sort();
-    let mut laws: Vec<(String, Box<dyn Material>)> = Vec::new();
+    let mut laws: Vec<(String, Arc<dyn Material>)> = Vec::new();
     for deck in decks {
         let Ok(loaded) = load_point(&deck, &[]) else { panic!("{}", deck.display()) };
-        for (_, law) in &loaded.deck.material {
-            if laws.iter().all(|(name, _)| name != law.entry.name) {
-                laws.push((law.entry.name.into(), law.build().expect("a law")));
+        for (name, law) in &loaded.deck.material {
+            if laws.iter().all(|(known, _)| known != law.name()) {
+                laws.push((law.name().into(), law.build(&name.text, Path::new(""), false).expect("a law").0));
             }
         }
     }

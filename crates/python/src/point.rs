@@ -24,7 +24,7 @@ pub fn point<'py>(
     let none = PyList::empty(py).into_any();
     let given = given(py, deck, set.unwrap_or(&none), folder)?;
     let read = || match &given.text {
-        Some(text) => deck::read_driven(text, &given.path.display().to_string(), &given.sets),
+        Some(text) => deck::read_driven(text, &given.path.display().to_string(), &given.folder, &given.sets),
         None => deck::load_driven(&given.path, &given.sets),
     };
     let driven = guarded(read).map_err(|error| raised(py, &error))?.map_err(|found| refused(py, &found))?;

@@ -8,7 +8,8 @@ use std::fmt::Write;
 /// Prints the laws.
 pub fn laws() -> Outcome {
     let solids = listed("Laws of solids ([material.NAME.LAW])", material::laws::ALL);
-    print(&(solids + "\n" + &listed("Laws of interfaces ([contact.NAME.law.LAW])", interface::laws::ALL)))
+    let others = "\n  umat: a law in a shared library, called as a UMAT is; its keys are on the page of all keys\n";
+    print(&(solids + others + "\n" + &listed("Laws of interfaces ([contact.NAME.law.LAW])", interface::laws::ALL)))
 }
 
 fn listed<T>(title: &str, entries: &[Entry<T>]) -> String {

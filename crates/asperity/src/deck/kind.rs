@@ -62,13 +62,13 @@ mod tests {
             assert_eq!(messages[0].help, ["it is for `asperity point`"]);
         }
         let model = format!("{POINT}[body.block]\nmaterial = \"m\"\n");
-        let messages = read_point(&model, "deck", &[]).err().unwrap().list;
+        let messages = read_point(&model, "deck", Path::new(""), &[]).err().unwrap().list;
         assert_eq!((messages.len(), messages[0].help[0].as_str()), (1, "it is for `asperity run`"));
     }
 
     #[test]
     fn a_deck_of_the_right_kind_is_read() {
-        assert!(read_point(POINT, "deck", &[]).is_ok() && read_interface(JOINT, "deck", &[]).is_ok());
+        assert!(read_point(POINT, "deck", Path::new(""), &[]).is_ok() && read_interface(JOINT, "deck", &[]).is_ok());
         let lost = read("version = 1\n", "deck", Path::new(""), &[]).unwrap_err().list;
         assert!(lost[0].what.contains("the deck does not say"), "{lost:?}");
     }

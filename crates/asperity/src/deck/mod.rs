@@ -67,7 +67,12 @@ pub struct Loaded {
 /// [`Diagnostics`] with everything that is wrong in it. A file that cannot be read is one of them.
 pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Diagnostics> {
     let (name, text) = text_of(path)?;
-    read(&text, &name, path.parent().unwrap_or(Path::new("")), sets)
+    read(&text, &name, folder_of(path), sets)
+}
+
+/// Where the files that a deck names are looked for.
+fn folder_of(deck: &Path) -> &Path {
+    deck.parent().unwrap_or(Path::new(""))
 }
 
 /// The name and the text of a file.

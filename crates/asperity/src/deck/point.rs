@@ -1,12 +1,12 @@
 //! Reads the deck of a material point, and runs it.
 
 use super::diagnose::{Diagnostic, Diagnostics};
-use super::form::{Law, Table};
+use super::form::Table;
 use super::keys::{self, PointCurve, PointDeck};
 use super::kind::Kind;
 use super::reader::Name;
 use super::source::Spot;
-use super::{gathered, text_of, understood};
+use super::{folder_of, gathered, text_of, understood};
 use crate::Error;
 use crate::material::Material;
 use crate::point::{Curve, Probe, Record, Stage, TangentCheck, columns};
@@ -33,17 +33,17 @@ pub struct LoadedPoint {
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn load_point(path: &Path, sets: &[String]) -> Result<LoadedPoint, Diagnostics> {
     let (name, text) = text_of(path)?;
-    read_point(&text, &name, sets)
+    read_point(&text, &name, folder_of(path), sets)
 }
 
-/// Reads the deck of a material point from text that messages call `name`.
+/// Reads the deck of a material point from text that messages call `name`; files are looked for in `folder`.
 ///
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
-pub fn read_point(text: &str, name: &str, sets: &[String]) -> Result<LoadedPoint, Diagnostics> {
+pub fn read_point(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<LoadedPoint, Diagnostics> {
     let (deck, mut reader) = understood(text, name, sets, Kind::Point, PointDeck::read);
     let made = deck.filter(|_| reader.errors() == 0).and_then(|deck| {
-        let materials = materials(&deck, &mut reader.diagnostics);
+        let materials = materials(&deck, folder, &mut reader.diagnostics);
         let names: Vec<String> = materials.iter().flat_map(|(_, law)| columns(law.as_ref())).collect();
         let curves = curves(&deck.curve, &names, &mut reader.diagnostics);
         (reader.errors() == 0).then_some((deck, materials, curves))
@@ -55,16 +55,16 @@ pub fn read_point(text: &str, name: &str, sets: &[String]) -> Result<LoadedPoint
     Ok(LoadedPoint { deck, materials, stages, curves, diagnostics })
 }
 
-fn materials(deck: &PointDeck, found: &mut Vec<Diagnostic>) -> Vec<(String, Arc<dyn Material>)> {
+fn materials(deck: &PointDeck, folder: &Path, found: &mut Vec<Diagnostic>) -> Vec<(String, Arc<dyn Material>)> {
     let mut materials = Vec::new();
     for (name, law) in &deck.material {
-        match integrated(deck, law) {
+        match law.build(&name.text, folder, false).and_then(|(law, _)| integrated(deck, law)) {
             Ok(material) => {
                 let note = material.advice().map(|advice| Diagnostic::note(format!("`material.{name}`: {advice}")));
-                found.extend(note.map(|note| note.at(law.place)));
+                found.extend(note.map(|note| note.at(law.place())));
                 materials.push((name.text.clone(), material));
             }
-            Err(why) => found.push(Diagnostic::error(why).at(law.place)),
+            Err(why) => found.push(Diagnostic::error(why).at(law.place())),
         }
         refuse_name(name, found);
     }
@@ -79,7 +79,7 @@ pub(super) fn refuse_name(name: &Name, found: &mut Vec<Diagnostic>) {
     }
 }
 
-fn integrated(deck: &PointDeck, law: &Law<Box<dyn Material>>) -> Result<Arc<dyn Material>, String> {
+fn integrated(deck: &PointDeck, law: Arc<dyn Material>) -> Result<Arc<dyn Material>, String> {
     let material = deck.completed(law)?;
     Ok(keys::integrated(material.as_ref(), deck.rate, deck.update.as_ref())?.map_or(material, Arc::from))
 }

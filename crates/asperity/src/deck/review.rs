@@ -111,7 +111,7 @@ impl Page {
                 self.line(format!("  {}", choice.line()));
                 choice.advice().for_each(|advice| self.line(format!("  note: {advice}")));
             }
-            if let Some(advice) = body.material().advice() {
+            for advice in body.material().advice().into_iter().chain(law.advice()) {
                 self.line(format!("  note: {advice}"));
             }
             if body.unseen() > 0 {

@@ -6,7 +6,7 @@ use super::keys::InterfaceDeck;
 use super::kind::Kind;
 use super::point::{LoadedPoint, all, curves, refuse_name, whole};
 use super::tree::{self, Value};
-use super::{gathered, text_of, understood};
+use super::{folder_of, gathered, text_of, understood};
 use crate::Error;
 use crate::interface::Interface;
 use crate::point::{Curve, Record, Slide, TangentCheck, drive, slider_columns, yield_surface};
@@ -40,18 +40,18 @@ pub enum Driven {
 /// [`Diagnostics`] with everything that is wrong in it.
 pub fn load_driven(path: &Path, sets: &[String]) -> Result<Driven, Diagnostics> {
     let (name, text) = text_of(path)?;
-    read_driven(&text, &name, sets)
+    read_driven(&text, &name, folder_of(path), sets)
 }
 
-/// Reads the deck of a point from text that messages call `name`.
+/// Reads the deck of a point from text that messages call `name`; files are looked for in `folder`.
 ///
 /// # Errors
 /// [`Diagnostics`] with everything that is wrong in it.
-pub fn read_driven(text: &str, name: &str, sets: &[String]) -> Result<Driven, Diagnostics> {
+pub fn read_driven(text: &str, name: &str, folder: &Path, sets: &[String]) -> Result<Driven, Diagnostics> {
     if has_interface(text) {
         return read_interface(text, name, sets).map(|loaded| Driven::Interface(Box::new(loaded)));
     }
-    super::read_point(text, name, sets).map(|loaded| Driven::Solid(Box::new(loaded)))
+    super::read_point(text, name, folder, sets).map(|loaded| Driven::Solid(Box::new(loaded)))
 }
 
 fn has_interface(text: &str) -> bool {

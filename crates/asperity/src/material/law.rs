@@ -1,5 +1,6 @@
 //! What a body asks of a law.
 
+use super::Placement;
 use super::memory::Memory;
 use super::turned::Spin;
 use crate::Failure;
@@ -119,6 +120,10 @@ pub trait Material: Send + Sync {
     /// The state of the undeformed, unstressed solid.
     fn initialise(&self, state: &mut [f64]) {
         state.fill(0.0);
+    }
+    /// The same at a known place.
+    fn initialise_at(&self, state: &mut [f64], _at: &Placement) {
+        self.initialise(state);
     }
     /// Whether the stress of a state may stand at the beginning, given from outside.
     ///

@@ -6,6 +6,7 @@
 //!
 //! To add a law: its file in `laws/`, its `mod` line and its line in [`laws::ALL`].
 
+pub mod external;
 mod frame;
 mod green_naghdi;
 mod hyper;
@@ -21,6 +22,7 @@ mod undrained;
 mod vars;
 
 pub use crate::declare::{Variable, VariableKind};
+pub use external::{External, Placement};
 pub use frame::hughes_winget;
 pub use hyper::{Hyper, HyperLaw, Slopes};
 pub use law::{Directions, Flow, Gradient, Material};

@@ -3,7 +3,7 @@
 //! `u = -K_w/n tr(e)`. The skeleton follows its own law, which sees the effective stress (Terzaghi 1923). The stress of the
 //! beginning is effective: the pressure that the water had then is none of the excess.
 
-use super::{Directions, Flow, Gradient, Material, Spin, Variable, VariableKind};
+use super::{Directions, Flow, Gradient, Material, Placement, Spin, Variable, VariableKind};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::Tensor2;
@@ -82,6 +82,12 @@ impl Material for Undrained {
     fn initialise(&self, state: &mut [f64]) {
         let last = state.len() - 1;
         self.soil.initialise(&mut state[..last]);
+        state[last] = 0.0;
+    }
+
+    fn initialise_at(&self, state: &mut [f64], at: &Placement) {
+        let last = state.len() - 1;
+        self.soil.initialise_at(&mut state[..last], at);
         state[last] = 0.0;
     }
 

@@ -7,11 +7,10 @@ use super::patches::Patches;
 use super::volume::Places;
 use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
 use super::{incompatible, layers};
-use crate::material::Material;
+use crate::material::{Material, Placement};
 use crate::mesh::cells::{Cell, Rule};
 use crate::mesh::{Mesh, Space};
 use crate::system::{Attempt, Dofs, History, Instant, Local, State, Stencils, Term};
-use crate::tensor::Vec3;
 use crate::{Error, Failure};
 use std::sync::Arc;
 
@@ -189,13 +188,13 @@ impl Body {
         self.material.state_len() + ratios + self.amplitudes_by_point()
     }
 
-    /// The state of a point at `x` before the first increment: that of the law, then thickness as a ratio, amplitudes of
+    /// The state of a point before the first increment: that of the law, then thickness as a ratio, amplitudes of
     /// incompatible modes and thermal stretch as a ratio.
-    fn begin(&self, x: Vec3, state: &mut [f64]) {
+    fn begin(&self, at: &Placement, state: &mut [f64]) {
         let (law, ratios) = state.split_at_mut(self.material.state_len());
-        self.material.initialise(law);
+        self.material.initialise_at(law, at);
         if let Some(field) = &self.initial_stress {
-            law[..6].copy_from_slice(&field.at(x));
+            law[..6].copy_from_slice(&field.at(at.place));
         }
         ratios.fill(1.0);
         let first = usize::from(self.space == Space::PlaneStress);
@@ -248,8 +247,11 @@ impl Term for Body {
         for (slot, &cell) in self.cells.iter().enumerate() {
             let view = self.mesh.cell(cell);
             let states = history.slot_mut(slot).chunks_exact_mut(self.point_len());
-            for (state, &xi) in states.zip(self.rule(view.kind).points) {
-                self.begin(view.map(&self.mesh.points, xi).0, state);
+            let length = self.mesh.measure(cell).powf(1.0 / self.space.dimension() as f64);
+            for (point, (state, &xi)) in states.zip(self.rule(view.kind).points).enumerate() {
+                let place = view.map(&self.mesh.points, xi).0;
+                let at = Placement { cell: self.mesh.cell_number(cell), point: point + 1, place, length };
+                self.begin(&at, state);
             }
         }
         history

@@ -1,11 +1,12 @@
 //! Sets of numbers that make no solid are refused by name, at their line.
 
 use asperity::deck::read_point;
+use std::path::Path;
 
 /// What is said against a material.
 fn refused(material: &str) -> String {
     let text = format!("version = 1\nmaterial.m = {{ {material} }}\n[[step]]\nstrain.xx = 0.1\n");
-    match read_point(&text, "deck.toml", &[]) {
+    match read_point(&text, "deck.toml", Path::new(""), &[]) {
         Ok(_) => panic!("accepted: {material}"),
         Err(diagnostics) => diagnostics.render(false),
     }
@@ -87,7 +88,7 @@ fn a_path_says_each_component_once_and_curves_name_columns() {
         let text = format!(
             "version = 1\nmaterial.m.elastic = {{ young = 1.0, poisson = 0.3 }}\n[[step]]\nstrain.xx = 0.1\n{more}"
         );
-        read_point(&text, "deck.toml", &[]).err().map(|d| d.render(false)).unwrap_or_default()
+        read_point(&text, "deck.toml", Path::new(""), &[]).err().map(|d| d.render(false)).unwrap_or_default()
     };
     assert_eq!(deck(""), "");
     assert!(deck("stress.xx = 1.0").contains("both strain and stress of `xx`"));
@@ -98,14 +99,14 @@ fn a_path_says_each_component_once_and_curves_name_columns() {
 #[test]
 fn hyperelastic_laws_have_nothing_to_sub_step() {
     let text = "version = 1\nupdate.substeps = 2\nmaterial.m.neo_hookean = { shear = 1.0, bulk = 1.0 }\n[[step]]\n";
-    let Err(found) = read_point(text, "deck.toml", &[]) else { panic!("accepted") };
+    let Err(found) = read_point(text, "deck.toml", Path::new(""), &[]) else { panic!("accepted") };
     assert!(found.render(false).contains("nothing to sub-step"));
 }
 
 #[test]
 fn hyperelastic_laws_have_no_rate() {
     let text = "version = 1\nrate = \"green-naghdi\"\nmaterial.m.neo_hookean = { shear = 1.0, bulk = 1.0 }\n[[step]]\n";
-    let Err(found) = read_point(text, "deck.toml", &[]) else { panic!("accepted") };
+    let Err(found) = read_point(text, "deck.toml", Path::new(""), &[]) else { panic!("accepted") };
     assert!(found.render(false).contains("no objective rate enters it"));
 }
 
@@ -114,7 +115,10 @@ fn a_back_stress_in_the_frame_of_jaumann_has_a_note() {
     let notes = |more: &str, rate: &str| {
         let steel = format!("young = 200e3, poisson = 0.3, yield_stress = 200.0{more}");
         let text = format!("version = 1\n{rate}material.m.von_mises = {{ {steel} }}\n[[step]]\nstrain.xx = 0.1\n");
-        read_point(&text, "deck.toml", &[]).unwrap_or_else(|e| panic!("{}", e.render(false))).diagnostics.render(false)
+        read_point(&text, "deck.toml", Path::new(""), &[])
+            .unwrap_or_else(|e| panic!("{}", e.render(false)))
+            .diagnostics
+            .render(false)
     };
     let jaumann = "rate = \"jaumann\"\n";
     assert!(notes(", kinematic = 20e3", jaumann).contains("a back stress turns with the spin"));
@@ -128,7 +132,7 @@ fn a_back_stress_in_the_frame_of_jaumann_has_a_note() {
 fn what_rubber_and_soils_take_is_refused_of_others() {
     let refused = |keys: &str, material: &str| {
         let text = format!("version = 1\n{keys}\nmaterial.m = {{ {material} }}\n[[step]]\nstrain.xx = 0.1\n");
-        read_point(&text, "deck.toml", &[]).err().map(|d| d.render(false)).unwrap_or_default()
+        read_point(&text, "deck.toml", Path::new(""), &[]).err().map(|d| d.render(false)).unwrap_or_default()
     };
     let (steel, rubber) = ("elastic = { young = 1.0, poisson = 0.3 }", "neo_hookean = { shear = 1.0, bulk = 1.0 }");
     let plain = "saint_venant_kirchhoff = { young = 1.0, poisson = 0.3 }";

@@ -1,6 +1,7 @@
 //! The laws as their example decks set them, and random paths.
 
-use asperity::deck::{LoadedPoint, load_point};
+use asperity::deck::keys::SolidLaw;
+use asperity::deck::{LoadedPoint, Name, load_point};
 use asperity::material::{Material, Spin, VariableKind};
 use asperity::tensor::Tensor2;
 use std::path::{Path, PathBuf};
@@ -32,14 +33,15 @@ pub fn samples() -> Vec<Sample> {
     let of = |path: &PathBuf| {
         let deck = load(path, &[]).deck;
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let sample = |(_, law): &(_, asperity::deck::form::Law<Box<dyn Material>>)| {
-            let (name, material) = (format!("{} of {stem}", law.entry.name), deck.completed(law).unwrap());
+        let sample = |(name, law): &(Name, SolidLaw)| {
+            let (material, _) = law.build(&name.text, Path::new(""), false).unwrap();
+            let (name, material) = (format!("{} of {stem}", law.name()), deck.completed(material).unwrap());
             let spun = |spin: Spin| {
                 let material = material.with_spin(spin).ok()?;
-                Some(Sample { name: format!("{name}, {spin:?}"), law: law.entry.name, material: material.into() })
+                Some(Sample { name: format!("{name}, {spin:?}"), law: law.name(), material: material.into() })
             };
             let spun = [Spin::Polar, Spin::Logarithmic].into_iter().filter_map(spun).collect::<Vec<_>>();
-            [Sample { name, law: law.entry.name, material }].into_iter().chain(spun)
+            [Sample { name, law: law.name(), material }].into_iter().chain(spun)
         };
         deck.material.iter().flat_map(sample).collect::<Vec<_>>()
     };

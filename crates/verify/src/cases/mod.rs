@@ -41,6 +41,7 @@ mod thick_shells;
 mod tie_patch;
 mod tube;
 mod two_body_patch;
+mod umat;
 mod upsetting;
 mod wedge;
 
@@ -73,6 +74,7 @@ pub const ALL: &[&Case] = &[
     &o_ring::CASE,
     &locking::CASE,
     &laws::CASE,
+    &umat::CASE,
     &upsetting::CASE,
     &cup::CASE,
     &wedge::CASE,

@@ -103,10 +103,15 @@ impl Builder<'_> {
     }
 
     fn materials(&mut self) -> Option<Vec<Arc<dyn Material>>> {
-        let built = self.deck.material.iter().map(|(_, law)| (law.build(), law.place));
+        let (deck, plane) = (self.deck, self.plane());
         let mut materials = Vec::new();
-        for (law, place) in built {
-            materials.push(self.keep(law.map_err(crate::Error::input), place).map(Arc::from));
+        for (name, law) in &deck.material {
+            let built = law.build(&name.text, self.folder, plane).map_err(crate::Error::input);
+            let built = self.keep(built, law.place());
+            materials.push(built.map(|(material, library)| {
+                self.files.extend(library);
+                material
+            }));
         }
         materials.into_iter().collect()
     }

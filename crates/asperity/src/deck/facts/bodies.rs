@@ -18,7 +18,7 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
     let [confined, shear] = body.material().moduli();
     let bulk = confined - 4.0 / 3.0 * shear;
     let keys = made.deck.body.iter().find(|(name, _)| name.text == body.name()).map(|(_, keys)| keys);
-    let law = made.deck.material.get(material).map_or("", |(_, law)| law.entry.name);
+    let law = made.deck.material.get(material).map_or("", |(_, law)| law.name());
     let plastic = ["von_mises", "perzyna", "gurson"].iter().any(|known| law.starts_with(known));
     let nodes: BTreeSet<usize> = body.cells().iter().flat_map(|&cell| mesh.cell(cell).nodes).copied().collect();
     let [yield_stress, strength] = if plastic { yields(body.material().as_ref(), shear) } else { [None; 2] };

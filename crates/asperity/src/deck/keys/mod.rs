@@ -21,6 +21,7 @@ mod solver;
 mod step;
 mod tie;
 mod tool;
+mod umat;
 mod update;
 
 pub use condition::{
@@ -46,15 +47,15 @@ pub use solver::{Solver, Tangent};
 pub use step::{Increments, Step};
 pub use tie::{Tie, TieGap};
 pub use tool::{Segment, ToolKeys};
+pub use umat::{SolidLaw, UmatKeys, solid_law};
 pub use update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys, integrated};
 
 use super::diagnose::Diagnostic;
-use super::form::{Form, Law, Words, defines, law, list, map, number, refers, table, table_of, text, whole, word};
+use super::form::{Form, Words, defines, list, map, number, refers, table, table_of, text, whole, word};
 use super::reader::{Name, Reader};
 use super::schema::Names;
 use super::source::Spot;
 use crate::declare::{Range, unit};
-use crate::material::{self, Material};
 use crate::mesh::Space;
 use crate::output::Units;
 use crate::solid::{Formulation, Integration, Strain};
@@ -80,8 +81,7 @@ table! {
         /// Parts of groups, chosen by where they lie.
         group: Vec<(Name, Selection)> = map(defines(Names::Group), table_of()).or("{}"),
         /// Materials: a name, then a law and its numbers.
-        material: Vec<(Name, Law<Box<dyn Material>>)> =
-            map(defines(Names::Material), law(material::laws::ALL)).required(),
+        material: Vec<(Name, SolidLaw)> = map(defines(Names::Material), solid_law()).required(),
         /// Bodies: a group of cells and what it is made of.
         body: Vec<(Name, Body)> = map(refers(Names::Cells), table_of()).required(),
         /// Rigid tools.

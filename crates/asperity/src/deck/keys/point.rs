@@ -1,14 +1,15 @@
 //! The deck of one material point: materials as in any deck, and the path along which they are driven.
 
 use super::memory::{self, MullinsKeys};
+use super::umat::{SolidLaw, solid_law};
 use super::update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys};
 use crate::deck::diagnose::Diagnostic;
-use crate::deck::form::{Form, Law, defines, law, list, map, number, table, table_of, text, whole, word};
+use crate::deck::form::{Form, defines, list, map, number, table, table_of, text, whole, word};
 use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::Names;
 use crate::deck::source::Spot;
 use crate::declare::{Range, unit};
-use crate::material::{self, Material};
+use crate::material::Material;
 use crate::point::{Control, Stage};
 use std::sync::Arc;
 
@@ -20,8 +21,7 @@ table! {
         /// What pictures call it.
         title: String = text("a title").or("\"\""),
         /// Materials: a name, then a law and its numbers. Each is driven along the same path.
-        material: Vec<(Name, Law<Box<dyn Material>>)> =
-            map(defines(Names::Material), law(material::laws::ALL)).required(),
+        material: Vec<(Name, SolidLaw)> = map(defines(Names::Material), solid_law()).required(),
         /// How the laws are integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
         /// The objective rate of the stress, in whose frame the laws are integrated.
@@ -149,8 +149,8 @@ impl PointDeck {
     /// A law with the memory and the pore water of the deck, before it is integrated.
     ///
     /// # Errors
-    /// In words, where its numbers are none or it takes no memory.
-    pub fn completed(&self, law: &Law<Box<dyn Material>>) -> Result<Arc<dyn Material>, String> {
-        memory::completed(Arc::from(law.build()?), &self.prony, self.mullins.as_ref(), self.pore_stiffness)
+    /// In words, where it takes no memory.
+    pub fn completed(&self, law: Arc<dyn Material>) -> Result<Arc<dyn Material>, String> {
+        memory::completed(law, &self.prony, self.mullins.as_ref(), self.pore_stiffness)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
+use super::heat::Stretch;
 use super::operator::{Nodal, Tangent, add_forces, deformation};
 use super::plane_stress;
 use super::point::{PointLaw, PointStress};
@@ -23,8 +24,8 @@ pub(super) struct OpenBody<'a> {
     /// Gradients at the points of each cell; [`PART`] cells in each part.
     pub gradients: Vec<Gradients>,
     pub dt: f64,
-    /// Thermal stretch at the end of the increment, where the body has a temperature.
-    pub stretch: Option<f64>,
+    /// Thermal stretches at the end of the increment, where the body has a temperature.
+    pub stretch: Option<Stretch<'a>>,
 }
 
 impl Attempt for OpenBody<'_> {
@@ -166,6 +167,7 @@ impl OpenBody<'_> {
         let len = self.body.point_len();
         let mut sums = self.sums::<DIM, D, N>(index, &local.u, tangent);
         sums.means = shared.map(|_| Means::default());
+        let heat = shared.and_then(|_| self.shared_stretch(index));
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, (point, (old, new))) in self.points(index).zip(lanes).enumerate() {
             let thickness = self.body.thickness(old);
@@ -177,10 +179,14 @@ impl OpenBody<'_> {
                 sums.law.shared = Some(theta);
                 (volume, place) = (at.volume * begun, Some((at, begun)));
             }
+            let stretch = self.stretch_at((index, number), heat.as_ref());
+            if let Some(now) = stretch {
+                (sums.law.free, sums.law.cooling) = self.body.options.strain.of_heat(old[len - 1], now);
+            }
             let added = sums.add((point.rows(), volume), place.as_ref(), (old, new));
             let det = added.map_err(|f| at_point(f, number))?;
             self.account((old, new), (volume, det), local);
-            if let Some(stretch) = self.stretch {
+            if let Some(stretch) = stretch {
                 new[len - 1] = stretch;
                 let strain = sums.law.free.ln() + sums.law.cooling;
                 local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * strain;
@@ -200,11 +206,8 @@ impl OpenBody<'_> {
         tangent: Option<&'s mut Tangent<DIM, N>>,
     ) -> Sums<'s, DIM, D, N> {
         let strain = self.body.options.strain;
-        // A body has one temperature, and with it one stretch.
-        let before = || self.history.slot(index)[self.body.point_len() - 1];
-        let (free, cooling) = self.stretch.map_or((1.0, 0.0), |now| strain.of_heat(before(), now));
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
-        let law = PointLaw { material, space, strain, dt, shared: None, free, cooling };
+        let law = PointLaw { material, space, strain, dt, shared: None, free: 1.0, cooling: 0.0 };
         let (force, s) = ([[0.0; N]; DIM], PointStress::default());
         Sums { law, du: self.increment(index, u), force, means: None, tangent, s }
     }

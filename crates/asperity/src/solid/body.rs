@@ -36,6 +36,8 @@ pub(super) struct KindShapes {
     kind: &'static Cell,
     /// At the points of its quadrature.
     pub points: Vec<Shapes>,
+    /// Weights of the corners there, for what has the degree of strain.
+    pub corners: Vec<Vec<f64>>,
     /// Whose change of volume its points have.
     pub bar: Bar,
 }
@@ -111,12 +113,18 @@ impl Body {
     fn kind_shapes(&self, choice: &Choice) -> KindShapes {
         let (kind, rule) = (choice.kind, self.rule(choice.kind));
         let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| Shapes::new(kind, xi, weight));
-        KindShapes { kind, points: points.collect(), bar: Bar::of(choice) }
+        let corners = rule.points.iter().map(|&xi| super::heat::weights(kind, xi)).collect();
+        KindShapes { kind, points: points.collect(), corners, bar: Bar::of(choice) }
     }
 
     /// What its cells became, kind by kind.
     pub fn choices(&self) -> &[Choice] {
         &self.choices
+    }
+
+    /// The kind of one of its cells.
+    pub(super) fn kind(&self, slot: usize) -> &'static Cell {
+        self.mesh.cell(self.cells[slot]).kind
     }
 
     /// The shape functions of a kind of its cells.

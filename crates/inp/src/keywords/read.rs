@@ -410,7 +410,7 @@ pub static READ: &[Keyword] = &[
             refused("BSTEP", "give the values"),
             refused("USER", "give the values"),
         ],
-        "`temperature`, one for each body",
+        "`temperature` of bodies, or of nodes where they differ",
     ),
     output("NODE FILE", Reader::node_file, FILED, FILES),
     output("EL FILE", Reader::element_file, FILED, FILES),

@@ -146,12 +146,11 @@ impl Writer<'_> {
 
     /// The bodies: the elements of a section that are integrated alike.
     pub(super) fn bodies(&mut self) {
-        let heated = self
-            .model
-            .steps
-            .iter()
-            .flat_map(|step| &step.actions)
-            .any(|a| matches!(a.kind, ActionKind::Temperature(..)));
+        let warmed = self.model.steps.iter().flat_map(|step| &step.actions).filter_map(|action| match &action.kind {
+            ActionKind::Temperature(target, _) => Some(&target.members),
+            _ => None,
+        });
+        let warmed: BTreeSet<usize> = warmed.flatten().copied().collect();
         for (body, formulation) in self.sorted_bodies() {
             let material = &self.model.materials[body.material];
             let mut text = format!("\n[body.{}]\nmaterial = {}\n", quoted(&body.group), quoted(&material.name));
@@ -159,7 +158,8 @@ impl Writer<'_> {
             if self.small(material) {
                 text += "strain = \"small\"\n";
             }
-            if let Some(expansion) = material.expansion.filter(|_| heated) {
+            let mut nodes = body.elements.iter().flat_map(|&element| &self.model.elements[element].nodes);
+            if let Some(expansion) = material.expansion.filter(|_| nodes.any(|node| warmed.contains(node))) {
                 text += &format!("expansion = {expansion:?}\n");
             }
             self.text += &text;

@@ -30,7 +30,7 @@ impl Writer<'_> {
             (tool("load", if plane { PLANE_LOAD } else { SPACE_LOAD }), &tool_loads),
             (group("pressure", &["value"], pressure), &loads.pressure),
             (group("body_force", AXES, ""), &loads.body_force),
-            (group("temperature", &["value"], ""), &loads.temperature),
+            (group("temperature", &["value"], ""), &loads.temperature.bodies),
         ]
         .into_iter()
         .map(|(kind, table)| self.said(&kind, table))
@@ -59,6 +59,7 @@ impl Writer<'_> {
             }
             text.extend(self.changed_frictions(number));
             text.extend(said.iter().flat_map(|kind| kind[number].lines.clone()));
+            text.extend(loads.temperature.nodes[number].iter().map(String::as_str));
             self.text += &text;
             if released.iter().any(|name| name.starts_with("\"displacement.")) {
                 self.note(

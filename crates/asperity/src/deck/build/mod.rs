@@ -15,6 +15,7 @@ mod results;
 mod rigid;
 mod solid_tools;
 mod supports;
+mod temperatures;
 mod ties;
 mod tools;
 

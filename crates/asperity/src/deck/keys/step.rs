@@ -46,8 +46,8 @@ table! {
         /// Gravity, which acts on all bodies with a `density`, from the beginning of the step unless an amplitude says
         /// otherwise, until a later step says another; zero ends it.
         gravity: Option<Gravity> = table_of().unless_given("none, or that of the step before"),
-        /// Temperatures of bodies with an `expansion`.
-        temperature: Vec<(Name, Temperature)> = map(refers(Names::Cells), table_of()).or("{}"),
+        /// Temperatures of bodies with an `expansion`, and of nodes of such; of those that name a node the last of a step holds.
+        temperature: Vec<(Name, Temperature)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Springs to the ground at each node of groups.
         spring: Vec<(Name, Spring)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Motions of tools, from their first place.

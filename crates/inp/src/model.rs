@@ -210,6 +210,8 @@ pub struct Interaction {
     pub stick_slope: Option<f64>,
     /// Pressure for one unit of penetration; none for hard contact.
     pub slope: Option<f64>,
+    /// Rows of penetration and pressure, where no slope says it all.
+    pub closure: Vec<[f64; 2]>,
     /// The surfaces stay together as they are.
     pub tied: bool,
 }
@@ -351,6 +353,8 @@ pub enum ActionKind {
     Temperature(Target, f64),
     /// An interaction has another coefficient of friction.
     Friction(usize, f64),
+    /// Elements are taken away, or are there again where this is true.
+    Elements(Target, bool),
     /// The contact of two surfaces ends, or is there again where this is true.
     Contact((usize, String), (usize, String), bool),
 }

@@ -36,8 +36,8 @@ pub(super) struct KindShapes {
     kind: &'static Cell,
     /// At the points of its quadrature.
     pub points: Vec<Shapes>,
-    /// Weights of the corners there, for what has the degree of strain.
-    pub corners: Vec<Vec<f64>>,
+    /// Weights of its first nodes there, for temperatures.
+    pub warmth: Vec<Vec<f64>>,
     /// Whose change of volume its points have.
     pub bar: Bar,
 }
@@ -113,8 +113,8 @@ impl Body {
     fn kind_shapes(&self, choice: &Choice) -> KindShapes {
         let (kind, rule) = (choice.kind, self.rule(choice.kind));
         let points = rule.points.iter().zip(rule.weights).map(|(&xi, &weight)| Shapes::new(kind, xi, weight));
-        let corners = rule.points.iter().map(|&xi| super::heat::weights(kind, xi)).collect();
-        KindShapes { kind, points: points.collect(), corners, bar: Bar::of(choice) }
+        let warmth = rule.points.iter().map(|&xi| super::heat::weights(kind, xi, self.options.integration)).collect();
+        KindShapes { kind, points: points.collect(), warmth, bar: Bar::of(choice) }
     }
 
     /// What its cells became, kind by kind.

@@ -2,9 +2,11 @@
 //! at the reference temperature. The law sees the rest of the deformation, `f (1 + alpha T_n)/(1 + alpha T_n+1)`.
 //!
 //! Where nodes have temperatures of their own, that of a point has the degree of the strain that its cell can have: the mean of
-//! its corners in cells of first degree, linear between the corners in those of second. With F-bar it has the terms of the
+//! its corners in cells of first degree, linear between the corners in those of second; with reduced integration all nodes count, since
+//! its points are where a quadratic field has the values of the nearest linear one. With F-bar it has the terms of the
 //! shared change of volume. Strain that follows from it alone is then without stress in regular cells.
 
+use super::Integration;
 use super::attempt::OpenBody;
 use super::volume::{Functions, value};
 use crate::Failure;
@@ -64,20 +66,21 @@ pub(super) struct Stretch<'a> {
 }
 
 impl Stretch<'_> {
-    /// At a point, by the corners of its cell and their weights there.
-    fn at(&self, corners: &[usize], weights: &[f64]) -> f64 {
-        corners.iter().zip(weights).map(|(&node, weight)| self.courses[self.of[node]] * weight).sum()
+    /// At a point, by the nodes of its cell and their weights there.
+    fn at(&self, nodes: &[usize], weights: &[f64]) -> f64 {
+        nodes.iter().zip(weights).map(|(&node, weight)| self.courses[self.of[node]] * weight).sum()
     }
 }
 
-/// Weights of the corners of a cell at a place.
-pub(super) fn weights(kind: &Cell, xi: [f64; 3]) -> Vec<f64> {
-    let count = kind.linear.nodes.len();
+/// Weights of the first nodes of a cell at a place.
+pub(super) fn weights(kind: &Cell, xi: [f64; 3], integration: Integration) -> Vec<f64> {
+    let (count, reduced) = (kind.linear.nodes.len(), integration == Integration::Reduced);
     if kind.degree == 1 {
         return vec![(count as f64).recip(); count];
     }
-    let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
-    (kind.linear.shape)(xi, &mut n[..count], &mut dn[..count]);
+    let kind = if reduced { kind } else { kind.linear };
+    let (mut n, mut dn, count) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES], kind.nodes.len());
+    (kind.shape)(xi, &mut n[..count], &mut dn[..count]);
     n[..count].to_vec()
 }
 
@@ -88,7 +91,7 @@ impl OpenBody<'_> {
         let mut terms = Functions::default();
         for &member in self.body.patches.members(index) {
             let nodes = self.nodes(member);
-            let points = &self.body.shapes(self.body.kind(member)).corners;
+            let points = &self.body.shapes(self.body.kind(member)).warmth;
             for (weights, place) in points.iter().zip(self.body.places.cell(member)) {
                 let weight = place.volume * stretch.at(nodes, weights);
                 terms.iter_mut().zip(place.functions).for_each(|(term, phi)| *term += weight * phi);
@@ -105,9 +108,7 @@ impl OpenBody<'_> {
         }
         Some(match shared {
             Some(terms) => value(terms, &self.body.places.cell(index)[point].functions),
-            None => {
-                stretch.at(self.nodes(index), &self.body.shapes(self.body.kind(index)).corners[point])
-            }
+            None => stretch.at(self.nodes(index), &self.body.shapes(self.body.kind(index)).warmth[point]),
         })
     }
 }

@@ -4,7 +4,7 @@
 //! moves, and fall to zero over it.
 
 use super::run::Run;
-use crate::system::Row;
+use crate::system::{Role, Row};
 
 impl Run<'_> {
     /// Before the first increment of a step: notes the forces that it lets go, and forgets what its idle terms remember.
@@ -33,9 +33,17 @@ impl Run<'_> {
             }
         }
         let gone = leaving.iter().filter(|(term, _)| before.leaving.contains(term));
-        for &(dof, force) in gone.flat_map(|(_, forces)| forces) {
-            handed[dof] -= force;
-            state.internal[dof] -= force;
+        for (term, forces) in gone {
+            let is_load = self.problem.terms[*term].role() == Role::Load;
+            for &(dof, force) in forces {
+                if is_load {
+                    handed[dof] += force;
+                    state.load[dof] -= force;
+                } else {
+                    handed[dof] -= force;
+                    state.internal[dof] -= force;
+                }
+            }
         }
         for (dof, handed) in handed.iter_mut().enumerate() {
             if *after.row(dof) == Row::Fixed {

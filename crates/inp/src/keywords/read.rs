@@ -398,7 +398,7 @@ pub static READ: &[Keyword] = &[
         "MODEL CHANGE",
         Reader::model_change,
         &[used("TYPE"), used("REMOVE"), used("ADD")],
-        "`remove` and `add` of contact pairs",
+        "`remove` and `add` of contact pairs and bodies",
     ),
     of_step(
         "TEMPERATURE",

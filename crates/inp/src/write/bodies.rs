@@ -2,7 +2,8 @@
 
 use super::{Writer, list, quoted, rubber};
 use crate::elements::{Family, Formulation};
-use crate::model::{ActionKind, Material, RigidPart};
+use crate::message::Place;
+use crate::model::{ActionKind, Material, Model, RigidPart, Target};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A body: its group, material and formulation.
@@ -169,7 +170,8 @@ impl Writer<'_> {
     /// All bodies with their formulations; remarks on those that change.
     pub(super) fn sorted_bodies(&mut self) -> Vec<(Body, Formulation)> {
         let model = self.model;
-        let mut sorted: BTreeMap<(usize, Formulation), Vec<usize>> = BTreeMap::new();
+        let mut sorted: BTreeMap<(usize, Formulation, Vec<usize>), Vec<usize>> = BTreeMap::new();
+        let changes: Vec<&Target> = changes(model).map(|(target, ..)| target).collect();
         for (at, element) in model.elements.iter().enumerate() {
             let Some(section) = self.section[at] else { continue };
             let (formulation, remark) = element.kind.formulation(&element.variant, model.dialect);
@@ -177,17 +179,50 @@ impl Writer<'_> {
                 let (name, variant) = (element.kind.name, &element.variant);
                 self.note(model.sections[section].place, format!("{name}{variant}: {remark}"));
             }
-            sorted.entry((section, formulation)).or_default().push(at);
+            // What comes and goes with steps is a body of its own.
+            let change = |target: &&Target| target.members.binary_search(&at).is_ok();
+            let changed = (0..changes.len()).filter(|&number| change(&changes[number])).collect();
+            sorted.entry((section, formulation, changed)).or_default().push(at);
         }
-        let body = |((number, formulation), elements): ((usize, Formulation), Vec<usize>)| {
+        let body = |((number, formulation, changed), elements): ((usize, Formulation, Vec<usize>), Vec<usize>)| {
             let section = &model.sections[number];
-            let name = match elements.len() == section.elements.len() {
-                true => section.set.clone(),
-                false => format!("{}.{}", section.set, model.elements[elements[0]].kind.name),
+            let name = match (elements.len() == section.elements.len(), changed.first()) {
+                (true, _) => section.set.clone(),
+                (false, Some(&change)) => changes[change].name.clone(),
+                (false, None) => format!("{}.{}", section.set, model.elements[elements[0]].kind.name),
             };
             let group = self.groups.cells(&name, elements.clone());
             (Body { group, elements, material: section.material }, formulation)
         };
         sorted.into_iter().map(body).collect()
     }
+
+    /// The bodies that a step ends, and those that are there again.
+    pub(super) fn changed_bodies(&mut self, step: usize) -> [Vec<String>; 2] {
+        let (model, mut changed) = (self.model, [vec![], vec![]]);
+        if changes(model).next().is_none() {
+            return changed;
+        }
+        let bodies = self.sorted_bodies();
+        for (target, add, _, place) in changes(model).filter(|(_, _, number, _)| *number == step) {
+            let within = |body: &Body| target.members.binary_search(&body.elements[0]).is_ok();
+            let names: Vec<String> =
+                bodies.iter().filter(|(body, _)| within(body)).map(|(body, _)| quoted(&body.group)).collect();
+            if names.is_empty() {
+                self.error(place, format!("'{}' has no element of a body", target.name));
+            }
+            changed[usize::from(add)].extend(names);
+        }
+        changed
+    }
+}
+
+/// The elements that steps take away and bring back, whether they come back, the number of the step and the place.
+fn changes(model: &Model) -> impl Iterator<Item = (&Target, bool, usize, Place)> {
+    let steps = model.steps.iter().enumerate();
+    let all = steps.flat_map(|(number, step)| step.actions.iter().map(move |action| (number, action)));
+    all.filter_map(|(number, action)| match &action.kind {
+        ActionKind::Elements(target, add) => Some((target, *add, number, action.place)),
+        _ => None,
+    })
 }

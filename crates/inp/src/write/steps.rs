@@ -51,8 +51,10 @@ impl Writer<'_> {
             if !released.is_empty() {
                 text += &format!("release = [{}]\n", released.join(", "));
             }
-            let changed = self.changed_contacts(number);
-            for (key, names) in ["remove", "add"].iter().zip(&changed) {
+            let (contacts, bodies) = (self.changed_contacts(number), self.changed_bodies(number));
+            for (key, names) in
+                ["remove", "add"].iter().zip(contacts.iter().zip(&bodies).map(|(a, b)| [&a[..], b].concat()))
+            {
                 if !names.is_empty() {
                     text += &format!("{key} = [{}]\n", names.join(", "));
                 }
@@ -81,7 +83,7 @@ impl Writer<'_> {
                 _ if action.course.is_some() => "an AMPLITUDE",
                 ActionKind::Temperature(..) => "a *TEMPERATURE",
                 ActionKind::Friction(..) => "a *CHANGE FRICTION",
-                ActionKind::Contact(..) => "a *MODEL CHANGE",
+                ActionKind::Contact(..) | ActionKind::Elements(..) => "a *MODEL CHANGE",
                 _ => continue,
             };
             let text = format!(

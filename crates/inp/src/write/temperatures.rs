@@ -37,8 +37,7 @@ impl Writer<'_> {
             nodes.sort_unstable();
             nodes.dedup();
             let of = |step: &BTreeMap<usize, Item>, node: usize| step.get(&node).map(bits);
-            let alike =
-                |step: &BTreeMap<usize, Item>| nodes.iter().all(|&node| of(step, node) == of(step, nodes[0]));
+            let alike = |step: &BTreeMap<usize, Item>| nodes.iter().all(|&node| of(step, node) == of(step, nodes[0]));
             let uniform = steps.iter().all(alike);
             for (number, step) in steps.iter().enumerate() {
                 if uniform {
@@ -70,9 +69,7 @@ impl Writer<'_> {
         let shift = shifts(model, |scope| &scope.nodes);
         let group = match nodes.len() == count {
             true => body.to_string(),
-            false => {
-                self.groups.nodes(&format!("{body}.temperature"), nodes.iter().map(|(node, _)| *node).collect())
-            }
+            false => self.groups.nodes(&format!("{body}.temperature"), nodes.iter().map(|(node, _)| *node).collect()),
         };
         let pair = |(node, item): &(usize, Item)| {
             let found = &model.nodes[*node];

@@ -9,7 +9,7 @@ use crate::solid::{Body, BodyOptions, Heat, Strain};
 use std::sync::Arc;
 
 /// No body yet.
-const NONE: usize = usize::MAX;
+pub(super) const NONE: usize = usize::MAX;
 
 impl Builder<'_> {
     /// The bodies, each with the number of its material.
@@ -78,7 +78,9 @@ impl Builder<'_> {
             }
             (Some(expansion), None, _) => {
                 self.refuse(
-                    format!("`body.{name}.expansion` has no use: no step says `temperature.{name}` or that of its nodes"),
+                    format!(
+                        "`body.{name}.expansion` has no use: no step says `temperature.{name}` or that of its nodes"
+                    ),
                     expansion.place,
                 );
                 None

@@ -76,7 +76,9 @@ impl Builder<'_> {
             }
             let mut expanding = deck.body.iter().filter(|(_, keys)| keys.expansion.is_some());
             let of_body = deck.body.iter().any(|(body, _)| body.text == name.text);
-            if !of_body && !known.is_empty() && !expanding.any(|(body, _)| !self.warmed(&body.text, name, keys).is_empty())
+            if !of_body
+                && !known.is_empty()
+                && !expanding.any(|(body, _)| !self.warmed(&body.text, name, keys).is_empty())
             {
                 let what = format!("`temperature.{name}` has no use: no body of its nodes has an `expansion`");
                 self.refuse(what, name.place);
@@ -110,9 +112,7 @@ fn timeline(steps: &[Step], said: &[Said]) -> Timeline {
         let change = match *said {
             Said::Nothing => Change::Keep,
             Said::Release => Change::Release,
-            Said::Value(number, bits) => {
-                Change::To(f64::from_bits(bits), step.temperature[number].1.amplitude.clone())
-            }
+            Said::Value(number, bits) => Change::To(f64::from_bits(bits), step.temperature[number].1.amplitude.clone()),
         };
         (step.duration, change)
     };

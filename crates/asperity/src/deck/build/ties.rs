@@ -66,7 +66,9 @@ impl Builder<'_> {
         let (area, at) = (tie.bare, self.words(&self.site.mesh.points[node]));
         let all = tie.nodes[0].len();
         let free = all - tie.conditions.iter().filter(|condition| condition.follows).count();
-        let mut what = format!("{area:.3} of the area of `{surface}` has no face of `{target}` opposite and is not glued, most of it around {at}");
+        let mut what = format!(
+            "{area:.3} of the area of `{surface}` has no face of `{target}` opposite and is not glued, most of it around {at}"
+        );
         if free > 0 {
             what += &format!("; {free} of the {all} nodes follow nothing");
         }

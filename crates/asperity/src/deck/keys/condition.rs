@@ -247,7 +247,11 @@ fn some_component<T: Components>(load: &T, reader: &mut Reader) {
 fn temperature(temperature: &Temperature, reader: &mut Reader) {
     if temperature.value.is_some() != temperature.nodes.is_empty() {
         let what = format!("`{}` needs either `value` or `nodes`", reader.path());
-        reader.report(Diagnostic::error(what).at(temperature.place).help("say one temperature for all, or pairs of node and temperature"));
+        reader.report(
+            Diagnostic::error(what)
+                .at(temperature.place)
+                .help("say one temperature for all, or pairs of node and temperature"),
+        );
     }
 }
 

@@ -58,9 +58,11 @@ table! {
         hold: Vec<Name> = list(refers(Names::Movable), 0..=usize::MAX).or("[]"),
         /// Coefficients of friction of contacts from here on, of laws that have a `friction`.
         friction: Vec<(Name, Friction)> = map(refers(Names::Contact), table_of()).or("{}"),
-        /// Contacts that end here, or tools with all of their contacts; their forces fade over the step.
+        /// Contacts that end here, or tools with all of their contacts, or bodies with contacts and loads on them; their forces fade over
+        /// the step. Of the names of a contact, a tool and a body the first is meant.
         remove: Vec<Name> = list(refers(Names::Removable), 0..=usize::MAX).or("[]"),
-        /// Contacts that were removed and are there again, or tools with all of theirs.
+        /// Contacts that were removed and are there again, or tools with all of theirs; bodies begin anew, without stress in the shape that
+        /// their nodes have.
         add: Vec<Name> = list(refers(Names::Removable), 0..=usize::MAX).or("[]"),
         /// Conditions of earlier steps that end here; what they held is let go over the step: `["pressure.bore", "displacement.far_end"]`.
         release: Vec<Name> = list(refers(Names::Condition), 0..=usize::MAX).or("[]"),

@@ -116,8 +116,8 @@ def main():
         if arguments.suite:
             text = printing(text, [line.split(",")[0] for line in mesh_nodes(folder / f"{deck.stem}.mesh.inp")])
         theirs, own = calculix(text, deck.stem, folder, arguments.seconds), ours(deck, folder, program, arguments.seconds)
-        if theirs is None or own is None:
-            print(f"| {deck.stem} | {'CalculiX stopped' if theirs is None else ''} {'ours stopped' if own is None else ''} | | |", flush=True)
+        if not theirs or not own:
+            print(f"| {deck.stem} | {'' if theirs else 'CalculiX stopped'} {'' if own else 'ours stopped'} | | |", flush=True)
             far += 1
             continue
         common = sorted(set(theirs) & set(own))

@@ -55,10 +55,11 @@ fn a_layer_is_dug_away_and_filled_in() {
         increments.count = 2
         remove = [\"high\"]
         [[step]]
-        increments.count = 1
+        increments.count = 2
         add = [\"high\"]",
     );
-    let expected = [[-0.0075, -0.01], [-0.015, -0.02], [-0.01, -0.02], [-0.005, -0.02], [-0.015, -0.035]];
+    let expected =
+        [[-0.0075, -0.01], [-0.015, -0.02], [-0.01, -0.02], [-0.005, -0.02], [-0.01, -0.0275], [-0.015, -0.035]];
     assert_near(&sunk(&deck), &expected);
 }
 

@@ -73,7 +73,7 @@ impl Builder<'_> {
             what += &format!("; {free} of the {all} nodes follow nothing");
         }
         let label = format!("this surface reaches beyond `{target}`");
-        self.found.push(Diagnostic::note(what).at(keys.surface.place).label(label));
+        self.found.push(Diagnostic::warning(what).at(keys.surface.place).label(label));
     }
 
     /// A place of the mesh.

@@ -133,6 +133,8 @@ pub struct Material {
     pub plastic: Vec<[f64; 2]>,
     /// Whether its hardening is kinematic.
     pub kinematic: bool,
+    /// Yield stresses along the material's axes over that of the flow curve: 11, 22, 33, 12, 13, 23 (Hill).
+    pub potential: Option<[f64; 6]>,
     /// Rubber.
     pub hyperelastic: Option<Rubber>,
     /// Mass of a unit of volume.
@@ -180,6 +182,8 @@ pub struct Section {
     pub material: usize,
     /// Thickness of plane elements.
     pub thickness: Option<f64>,
+    /// The name of the material's axes.
+    pub orientation: Option<String>,
     /// Where it stands.
     pub place: Place,
 }
@@ -484,6 +488,8 @@ pub struct Model {
     pub rigid: Vec<Rigid>,
     /// Linear equations.
     pub equations: Vec<Equation>,
+    /// Axes of materials by their names; none for those that differ from place to place.
+    pub orientations: BTreeMap<String, Option<Frame>>,
     /// Axes of nodes that have their own.
     pub frames: BTreeMap<usize, Frame>,
     /// Temperatures at the beginning, by nodes.

@@ -178,6 +178,18 @@ pub static READ: &[Keyword] = &[
         ],
         "`von_mises_table`, `von_mises`",
     ),
+    of_model("POTENTIAL", Reader::potential, &[], "`hill_coefficients`"),
+    of_model(
+        "ORIENTATION",
+        Reader::orientation,
+        &[
+            used("NAME"),
+            one_of("SYSTEM", &["RECTANGULAR", "CYLINDRICAL"]),
+            one_of("DEFINITION", &["COORDINATES"]),
+            refused("LOCAL DIRECTIONS", "give two points"),
+        ],
+        "`rolling_x` to `normal_z` of Hill's law; other laws are isotropic",
+    ),
     of_model(
         "HYPERELASTIC",
         Reader::hyperelastic,
@@ -211,7 +223,7 @@ pub static READ: &[Keyword] = &[
             used("ELSET"),
             used("MATERIAL"),
             left("CONTROLS"),
-            noted("ORIENTATION", "all laws are isotropic"),
+            used("ORIENTATION"),
             refused("COMPOSITE", "give each layer its own elements"),
             noted("NODAL THICKNESS", "the thickness of the data line holds"),
         ],

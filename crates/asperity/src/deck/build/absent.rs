@@ -108,6 +108,9 @@ impl Builder<'_> {
 
     /// Whether a contact has a side on one of these bodies.
     fn contact_is_on(&self, term: &str, bodies: &BTreeSet<usize>) -> bool {
+        if bodies.is_empty() {
+            return false;
+        }
         let owner = self.owners();
         let on = |group: &Name| {
             let sides = self.site.mesh.groups.get(&group.text).map_or(&[][..], |group| &group.sides);
@@ -123,16 +126,16 @@ impl Builder<'_> {
 
     /// Whether a load acts on these bodies alone; one that acts on others too is refused.
     fn load_is_on(&mut self, term: &str, bodies: &BTreeSet<usize>, step: &Step) -> bool {
-        let (Some((kind, name)), mesh, owner) = (term.split_once('.'), self.site.mesh.clone(), self.owners()) else {
-            return false;
-        };
-        let Some(group) = mesh.groups.get(name).filter(|_| !bodies.is_empty()) else { return false };
+        let mesh = self.site.mesh.clone();
+        let Some((kind, name)) = term.split_once('.').filter(|_| !bodies.is_empty()) else { return false };
+        let Some(group) = mesh.groups.get(name) else { return false };
         let of_sides = |group: &Group| group.sides.iter().map(|side| side.cell).collect::<Vec<_>>();
         let cells = match kind {
             "pressure" | "traction" => of_sides(group),
             "gravity" | "body_force" => group.cells.clone(),
             _ => return false,
         };
+        let owner = self.owners();
         let on = cells.iter().filter(|&&cell| bodies.contains(&owner[cell])).count();
         if on > 0 && on < cells.len() {
             let what = format!("`{term}` acts on a body that is removed and on others: lay it on groups of their own");

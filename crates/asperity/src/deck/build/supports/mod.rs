@@ -145,10 +145,10 @@ impl Builder<'_> {
 
     /// Nodes that only bodies have which a step does without stay where they are.
     fn left_alone(&self, absent: &BTreeSet<usize>) -> Vec<Claim> {
-        let (mesh, dofs, owner) = (&self.site.mesh, &self.site.dofs, self.owners());
         if absent.is_empty() {
             return vec![];
         }
+        let (mesh, dofs, owner) = (&self.site.mesh, &self.site.dofs, self.owners());
         let mut alone = vec![false; mesh.points.len()];
         for there in [false, true] {
             for cell in (0..mesh.cell_count()).filter(|&cell| absent.contains(&owner[cell]) != there) {

@@ -82,6 +82,7 @@ fn truss(spring: f64, load: f64, until: Option<f64>, arc: bool) -> Problem {
     Problem {
         terms: vec![Arc::new(Truss { spring }), Arc::new(loaded)],
         contacts: 0..0,
+        removable: 0..0,
         steps: vec![Step {
             name: "load".into(),
             duration: 1.0,

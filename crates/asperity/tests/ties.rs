@@ -6,7 +6,7 @@ mod support;
 use asperity::contact::field::MeanCondition;
 use asperity::model::Model;
 use asperity::tensor::Vec3;
-use support::{model, run};
+use support::{made, model, run};
 
 /// Two blocks in the plane, `CELLS` of `low` and `up`.
 fn blocks(space: &str, [low, up]: [&str; 2]) -> String {
@@ -109,6 +109,30 @@ pressure."d.top" = {{ value = 3.0 }}
         );
         let scatter = scatter(&deck);
         assert!(scatter < 1e-12, "{cell}: {scatter:e}");
+    }
+}
+
+/// A bar glued to a shorter one, both stretched alike along the interface; faces and a part of a face reach beyond.
+#[test]
+fn what_reaches_beyond_the_target_is_told_and_free() {
+    for (space, cells) in
+        [("plane-strain", ["quad4", "quad8"]), ("plane-stress", ["quad8", "quad4"]), ("solid", ["hex8", "hex20"])]
+    {
+        let deck = if space == "solid" { boxes(cells) } else { blocks(space, cells) };
+        let deck = deck.replace("to = [3.0, 1.0", "to = [2.1, 1.0").replace("count = 2", "count = 1").replace(
+            "pressure.\"up.top\" = { value = 3.0 }",
+            "displacement.\"low.right\" = { x = 0.021 }\ndisplacement.\"up.right\" = { x = 0.03 }",
+        );
+        let made = made(&deck, &[]);
+        let notes: Vec<&str> = made.diagnostics.list.iter().map(|note| note.what.as_str()).collect();
+        let told = "0.300 of the area of `up.bottom` has no face of `low.top` opposite and is not glued";
+        assert!(notes.iter().any(|note| note.contains(told) && note.contains("follow nothing")), "{notes:?}");
+        let states = run(&made.model).states;
+        let (mesh, u) = (&made.model.mesh, &states[0].u);
+        let per = if space == "solid" { 3 } else { 2 };
+        for (node, x) in mesh.points.iter().enumerate() {
+            assert!((u[per * node] - 0.01 * x[0]).abs() < 1e-11, "{space} {cells:?}: {} at {x:?}", u[per * node]);
+        }
     }
 }
 

@@ -133,6 +133,8 @@ pub struct Material {
     pub plastic: Vec<[f64; 2]>,
     /// Whether its hardening is kinematic.
     pub kinematic: bool,
+    /// Yield stresses along the material's axes over that of the flow curve: 11, 22, 33, 12, 13, 23 (Hill).
+    pub potential: Option<[f64; 6]>,
     /// Rubber.
     pub hyperelastic: Option<Rubber>,
     /// Mass of a unit of volume.
@@ -180,6 +182,8 @@ pub struct Section {
     pub material: usize,
     /// Thickness of plane elements.
     pub thickness: Option<f64>,
+    /// The name of the material's axes.
+    pub orientation: Option<String>,
     /// Where it stands.
     pub place: Place,
 }
@@ -210,6 +214,8 @@ pub struct Interaction {
     pub stick_slope: Option<f64>,
     /// Pressure for one unit of penetration; none for hard contact.
     pub slope: Option<f64>,
+    /// Rows of penetration and pressure, where no slope says it all.
+    pub closure: Vec<[f64; 2]>,
     /// The surfaces stay together as they are.
     pub tied: bool,
 }
@@ -351,6 +357,8 @@ pub enum ActionKind {
     Temperature(Target, f64),
     /// An interaction has another coefficient of friction.
     Friction(usize, f64),
+    /// Elements are taken away, or are there again where this is true.
+    Elements(Target, bool),
     /// The contact of two surfaces ends, or is there again where this is true.
     Contact((usize, String), (usize, String), bool),
 }
@@ -480,6 +488,8 @@ pub struct Model {
     pub rigid: Vec<Rigid>,
     /// Linear equations.
     pub equations: Vec<Equation>,
+    /// Axes of materials by their names; none for those that differ from place to place.
+    pub orientations: BTreeMap<String, Option<Frame>>,
     /// Axes of nodes that have their own.
     pub frames: BTreeMap<usize, Frame>,
     /// Temperatures at the beginning, by nodes.

@@ -58,6 +58,8 @@ pub struct Audit {
 /// What follows from the undeformed model, found at the first check.
 pub(super) struct Prepared {
     surfaces: Vec<Surface>,
+    /// The bodies of each, by their terms.
+    bodies: Vec<BTreeSet<usize>>,
     tools: Vec<Rigid>,
     /// For each contact the pairs that it is about.
     claimed: Vec<Vec<usize>>,
@@ -150,6 +152,11 @@ impl Audit {
             let most = histories.get(claim.term).map_or(0.0, |history| (claim.penetration)(history));
             pairs.iter().for_each(|&pair| reported[pair] = reported[pair].max(most));
         }
+        // A body that is not there has no inside.
+        let is_idle = |bodies: &BTreeSet<usize>| bodies.iter().all(|body| idle.contains(body));
+        for own in (0..prepared.bodies.len()).filter(|&own| is_idle(&prepared.bodies[own])) {
+            prepared.pairs_with(own).for_each(|pair| reported[pair] = f64::INFINITY);
+        }
         let look = self.look(prepared, accepted, u, reported);
         let found = look.verdict()?;
         let halts = if straight { look.halts() } else { 0 };
@@ -196,6 +203,11 @@ impl Prepared {
         for (i, surface) in surfaces.iter().enumerate() {
             surface.nodes.iter().for_each(|&node| whole[node] = i);
         }
+        let mut bodies = vec![BTreeSet::new(); surfaces.len()];
+        for (body, (_, cells)) in subject.bodies.iter().enumerate() {
+            let nodes = cells.iter().flat_map(|&cell| mesh.cell(cell).nodes);
+            nodes.filter(|node| whole[**node] != usize::MAX).for_each(|&node| _ = bodies[whole[node]].insert(body));
+        }
         let pairs = surfaces.len() * (surfaces.len() + tools.len() + 1);
         let mut borne = vec![BTreeSet::new(); tools.len()];
         for claim in &subject.claims {
@@ -204,7 +216,7 @@ impl Prepared {
             }
         }
         let (initial, known) = (vec![0.0; pairs], vec![false; pairs]);
-        let mut prepared = Self { surfaces, tools, claimed: Vec::new(), initial, known, borne };
+        let mut prepared = Self { surfaces, bodies, tools, claimed: Vec::new(), initial, known, borne };
         prepared.claimed = subject.claims.iter().map(|claim| prepared.pairs_of(claim, &whole)).collect();
         let known: Vec<usize> = prepared.claimed.iter().flatten().copied().collect();
         known.into_iter().for_each(|pair| prepared.known[pair] = true);
@@ -220,6 +232,13 @@ impl Prepared {
             Other::Axis => (own, wholes + self.tools.len()),
         };
         own * (wholes + self.tools.len() + 1) + other
+    }
+
+    /// All pairs of a whole.
+    fn pairs_with(&self, own: usize) -> impl Iterator<Item = usize> + '_ {
+        let wholes = (0..self.surfaces.len()).map(Other::Whole);
+        let others = wholes.chain((0..self.tools.len()).map(Other::Tool)).chain([Other::Axis]);
+        others.map(move |other| self.pair(own, other))
     }
 
     fn pairs_of(&self, claim: &Claim, whole: &[usize]) -> Vec<usize> {

@@ -30,6 +30,8 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
         Names::Condition => None,
         Names::Target => target(mention, mentions, mesh),
         Names::Movable => movable(mention, mentions, mesh),
+        // Whether a group of cells is a body is seen when contacts are looked for.
+        Names::Removable if mesh.is_some_and(|mesh| has_cells(mesh, name)) => None,
         Names::Removable | Names::Loadable => {
             let first = if *names == Names::Loadable { Names::Distributing } else { Names::Contact };
             let valid = [defined(mentions, first), defined(mentions, Names::Tool)].concat();
@@ -45,6 +47,10 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
                 .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
     }
+}
+
+fn has_cells(mesh: &Mesh, name: &Name) -> bool {
+    mesh.groups.get(&name.text).is_some_and(|group| !group.cells.is_empty())
 }
 
 /// A tool or a group with nodes.

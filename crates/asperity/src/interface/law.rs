@@ -179,6 +179,10 @@ pub trait Interface: Send + Sync {
     /// # Errors
     /// As [`InterfaceLaw::respond`].
     fn respond(&self, motion: [f64; 3], past: &Past, vars: &mut [f64]) -> Result<Linearised, Failure>;
+    /// Energy that an undeformed area stores under a pressure on it.
+    fn stored(&self, pressure: f64, penalty: f64) -> f64 {
+        0.5 * pressure * pressure / penalty
+    }
     /// As [`InterfaceLaw::radius`].
     fn radius(&self) -> f64;
     /// As [`InterfaceLaw::sliding_stress`].

@@ -54,11 +54,13 @@
 //! assert!((response.slopes[1][0] - 2.0 * 0.5 * 100.0 / 25.0_f64.sqrt()).abs() < 1e-12);
 //! ```
 
+mod closure;
 mod integrated;
 mod law;
 pub mod laws;
 mod rule;
 
+pub use closure::{Closing, Closure};
 pub use rule::Rule;
 
 pub use law::{Interface, InterfaceLaw, Law, Linearised, MOST_VARIABLES, Motion, Past, Response, Status};

@@ -168,9 +168,12 @@ impl Model {
         });
         let glued: Vec<Vec<usize>> = ties.iter().map(|(_, tie)| tie.nodes.concat()).collect();
         let glued = glued.iter().map(Vec::as_slice);
+        let count = terms.len();
         let problem = Problem {
             terms,
             contacts: bodies.len()..contacts_end,
+            // Nothing would be left without the only body.
+            removable: if bodies.len() > 1 { 0..count } else { bodies.len()..contacts_end },
             audit: Some(audit),
             dofs,
             steps,

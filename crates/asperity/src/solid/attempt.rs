@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
+use super::heat::Stretch;
 use super::incompatible::take_mean;
 use super::operator::{Nodal, Tangent, add_forces, deformation};
 use super::plane_stress;
@@ -25,8 +26,8 @@ pub(super) struct OpenBody<'a> {
     /// Gradients at the points of each cell; [`PART`] cells in each part.
     pub gradients: Vec<Gradients>,
     pub dt: f64,
-    /// Thermal stretch at the end of the increment, where the body has a temperature.
-    pub stretch: Option<f64>,
+    /// Thermal stretches at the end of the increment, where the body has a temperature.
+    pub stretch: Option<Stretch<'a>>,
 }
 
 impl Attempt for OpenBody<'_> {
@@ -194,9 +195,10 @@ impl OpenBody<'_> {
         mut keep: Option<impl FnMut(usize, &PointStress<D>, f64)>,
     ) -> Result<(Nodal<DIM, N>, Option<Means<DIM, N>>), Failure> {
         let len = self.body.point_len();
-        let mut sums = self.sums::<DIM, D, N>(index, tangent);
+        let mut sums = self.sums::<DIM, D, N>(tangent);
         sums.means = shared.map(|_| Means::default());
         sums.differentiated |= keep.is_some();
+        let heat = shared.and_then(|_| self.shared_stretch(index));
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, ((rows, begun, f), (old, new))) in points.zip(lanes).enumerate() {
             let thickness = self.body.thickness(old);
@@ -208,13 +210,17 @@ impl OpenBody<'_> {
                 sums.law.shared = Some(theta);
                 (volume, place) = (at.volume * begun, Some((at, begun)));
             }
+            let stretch = self.stretch_at((index, number), heat.as_ref());
+            if let Some(now) = stretch {
+                (sums.law.free, sums.law.cooling) = self.body.options.strain.of_heat(old[len - 1], now);
+            }
             let added = sums.add((rows, volume, &f), place.as_ref(), (old, new));
             let det = added.map_err(|f| at_point(f, number))?;
             if let Some(keep) = &mut keep {
                 keep(number, &sums.s, volume);
             }
             self.account((old, new), (volume, det), local);
-            if let Some(stretch) = self.stretch {
+            if let Some(stretch) = stretch {
                 new[len - 1] = stretch;
                 let strain = sums.law.free.ln() + sums.law.cooling;
                 local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * strain;
@@ -226,15 +232,11 @@ impl OpenBody<'_> {
     /// The sums of a cell before its points are added.
     fn sums<'s, const DIM: usize, const D: usize, const N: usize>(
         &'s self,
-        index: usize,
         tangent: Option<&'s mut Tangent<DIM, N>>,
     ) -> Sums<'s, DIM, D, N> {
         let strain = self.body.options.strain;
-        // A body has one temperature, and with it one stretch.
-        let before = || self.history.slot(index)[self.body.point_len() - 1];
-        let (free, cooling) = self.stretch.map_or((1.0, 0.0), |now| strain.of_heat(before(), now));
         let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
-        let law = PointLaw { material, space, strain, dt, shared: None, free, cooling };
+        let law = PointLaw { material, space, strain, dt, shared: None, free: 1.0, cooling: 0.0 };
         let (force, s) = ([[0.0; N]; DIM], PointStress::default());
         let differentiated = tangent.is_some();
         Sums { law, force, means: None, tangent, differentiated, s }

@@ -36,6 +36,8 @@ pub(super) struct KindShapes {
     kind: &'static Cell,
     /// At the points of its quadrature.
     pub points: Vec<Shapes>,
+    /// Weights of its first nodes there, for temperatures.
+    pub warmth: Vec<Vec<f64>>,
     /// Whose change of volume its points have.
     pub bar: Bar,
     /// How many incompatible modes its cells have.
@@ -116,12 +118,18 @@ impl Body {
         let modes = if choice.formulation == Formulation::Incompatible { incompatible::modes(kind) } else { 0 };
         let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
         let points = rule.points.iter().zip(rule.weights).map(shapes);
-        KindShapes { kind, points: points.collect(), bar: Bar::of(choice), modes }
+        let warmth = rule.points.iter().map(|&xi| super::heat::weights(kind, xi, self.options.integration)).collect();
+        KindShapes { kind, points: points.collect(), warmth, bar: Bar::of(choice), modes }
     }
 
     /// What its cells became, kind by kind.
     pub fn choices(&self) -> &[Choice] {
         &self.choices
+    }
+
+    /// The kind of one of its cells.
+    pub(super) fn kind(&self, slot: usize) -> &'static Cell {
+        self.mesh.cell(self.cells[slot]).kind
     }
 
     /// The shape functions of a kind of its cells.

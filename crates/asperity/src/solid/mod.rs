@@ -29,7 +29,7 @@ mod volume;
 
 pub use body::Body;
 pub use formulation::{BodyOptions, Choice, Formulation, Integration, NEARLY};
-pub use heat::Heat;
+pub use heat::{Heat, Temperature};
 pub use initial_stress::InitialStress;
 pub use record::PointRecord;
 pub use strain::Strain;

@@ -1,10 +1,11 @@
 //! From one step to the next: what held and no longer does is let go little by little.
 //!
 //! The forces of supports that are released and of terms that the step does without act on as loads when it begins, so that nothing
-//! moves, and fall to zero over it.
+//! moves, and fall to zero over it. So does what keeps loads from acting that are there again.
 
 use super::run::Run;
-use crate::system::Row;
+use crate::Failure;
+use crate::system::{History, Instant, Local, Role, Row, State, Stencils, Term};
 
 impl Run<'_> {
     /// Before the first increment of a step: notes the forces that it lets go, and forgets what its idle terms remember.
@@ -33,15 +34,33 @@ impl Run<'_> {
             }
         }
         let gone = leaving.iter().filter(|(term, _)| before.leaving.contains(term));
-        for &(dof, force) in gone.flat_map(|(_, forces)| forces) {
-            handed[dof] -= force;
-            state.internal[dof] -= force;
+        for (term, forces) in gone {
+            let is_load = self.problem.terms[*term].role() == Role::Load;
+            for &(dof, force) in forces {
+                if is_load {
+                    handed[dof] += force;
+                    state.load[dof] -= force;
+                } else {
+                    handed[dof] -= force;
+                    state.internal[dof] -= force;
+                }
+            }
         }
         for (dof, handed) in handed.iter_mut().enumerate() {
             if *after.row(dof) == Row::Fixed {
                 *handed = 0.0;
             }
             state.load[dof] += *handed;
+        }
+        let is_back = |term: &&usize| !now.idle.contains(term) && self.problem.terms[**term].role() == Role::Load;
+        for &term in before.idle.iter().filter(is_back) {
+            // One that cannot be evaluated yet is there at once.
+            let forces =
+                beginning(self.problem.terms[term].as_ref(), &state.histories[term], state).unwrap_or_default();
+            forces
+                .iter()
+                .filter(|(dof, _)| *after.row(*dof) != Row::Fixed)
+                .for_each(|(dof, force)| handed[*dof] -= force);
         }
         if handed.iter().any(|&force| force != 0.0) {
             state.handed = handed;
@@ -53,4 +72,20 @@ impl Run<'_> {
             energies.dissipated += std::mem::take(&mut energies.stored);
         }
     }
+}
+
+/// Forces of a load when a step begins, by unknown.
+fn beginning(load: &dyn Term, history: &History, state: &State) -> Result<Vec<(usize, f64)>, Failure> {
+    let at = Instant { step: state.step, time: state.time, ..Instant::default() };
+    let attempt = load.attempt(state, history, at)?;
+    let (mut stencils, mut local, mut forces) = (Stencils::default(), Local::default(), Vec::new());
+    attempt.stencils(&state.u, &mut stencils)?;
+    for (i, stencil) in stencils.list.iter().enumerate() {
+        let dofs = stencils.dofs(stencil);
+        local.u = dofs.iter().map(|&dof| state.u[dof]).collect();
+        local.reset(dofs.len());
+        attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local)?;
+        forces.extend(dofs.iter().copied().zip(local.force.iter().copied()));
+    }
+    Ok(forces)
 }

@@ -219,9 +219,9 @@ impl<'a> Newton<'a> {
         let at = Instant { step: state.step, step_time: time.0, time: time.1, dt, factor };
         let attempts = problem.open(state, at)?;
         let (terms, dofs) = (&problem.terms, &problem.dofs);
-        // The next step may do without any of the contacts.
+        // The next step may do without any of them.
         let apart =
-            if step.arc_length.is_some() || step.ends_at(at.step_time) { problem.contacts.clone() } else { 0..0 };
+            if step.arc_length.is_some() || step.ends_at(at.step_time) { problem.removable.clone() } else { 0..0 };
         let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, apart };
         memory.workspace.prepare(&assembly, state)?;
         memory.mixed.begin(&assembly, &memory.workspace);

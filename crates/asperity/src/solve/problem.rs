@@ -13,8 +13,10 @@ use std::sync::Arc;
 pub struct Problem {
     /// The terms of equilibrium.
     pub terms: Vec<Arc<dyn Term>>,
-    /// Those of them that are contacts, which steps may do without.
+    /// Those of them that are contacts.
     pub contacts: Range<usize>,
+    /// Those of them that steps may do without.
+    pub removable: Range<usize>,
     /// The numbering of the unknowns.
     pub dofs: Dofs,
     /// The steps.
@@ -85,11 +87,11 @@ impl Problem {
         if lengths(&own) != lengths(state) || !same_histories || own.energies.len() != state.energies.len() {
             return Err("this state belongs to another model".into());
         }
-        let of_contacts = |(term, forces): &(usize, Vec<(usize, f64)>)| {
-            self.contacts.contains(term) && forces.iter().all(|(dof, _)| *dof < state.u.len())
+        let of_terms = |(term, forces): &(usize, Vec<(usize, f64)>)| {
+            self.removable.contains(term) && forces.iter().all(|(dof, _)| *dof < state.u.len())
         };
-        if !state.leaving.iter().all(of_contacts) || !(state.handed.is_empty() || state.handed.len() == state.u.len()) {
-            return Err("the forces of the contacts of this state belong to another model".into());
+        if !state.leaving.iter().all(of_terms) || !(state.handed.is_empty() || state.handed.len() == state.u.len()) {
+            return Err("the forces that leave with terms of this state belong to another model".into());
         }
         if state.step > self.steps.len() || !state.next_dt.is_finite() {
             return Err("this state stands outside the steps of the model".into());

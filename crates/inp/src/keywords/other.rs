@@ -37,7 +37,6 @@ pub static OTHER: &[Keyword] = &[
     without_effect("SPECIFIC HEAT", "no heat is stored in a static step"),
     without_effect("GAP CONDUCTANCE", "no heat is conducted in a static step"),
     without_effect("PHYSICAL CONSTANTS", "no law reads them"),
-    without_effect("ORIENTATION", "all laws are isotropic"),
     without_effect("MASS", "nothing moves by inertia in a static step"),
     without_effect("ROTARY INERTIA", "nothing moves by inertia in a static step"),
     no("DISTRIBUTING COUPLING", CONSTRAINTS),

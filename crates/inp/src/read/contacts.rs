@@ -110,16 +110,23 @@ impl Reader {
         if rows.len() < 2 {
             return self.error(block.place, "a table of pressure over overclosure has two rows at least");
         }
-        let slope = last[0] / (last[1] - first[1]);
-        let straight = rows.iter().all(|[p, h]| (p - slope * (h - first[1])).abs() <= 1e-6 * last[0]);
-        if !straight || first[1].abs() > 1e-9 * last[1].abs() {
+        if first[1].abs() > 1e-9 * last[1].abs() {
             let what = format!(
-                "this table of pressure over overclosure is no straight line from zero, and the penalty is one; the slope that comes \
-                 nearest is that to its end: write PRESSURE-OVERCLOSURE=LINEAR with {slope:?}"
+                "surfaces press from touching on, and this table begins at an overclosure of {}; begin it at zero",
+                first[1]
             );
             return self.error(block.place, what);
         }
-        self.slope(block.place, slope);
+        let slope = last[0] / (last[1] - first[1]);
+        if rows.iter().all(|[p, h]| (p - slope * (h - first[1])).abs() <= 1e-6 * last[0]) {
+            return self.slope(block.place, slope);
+        }
+        self.note(
+            block.place,
+            "beyond its last row the table of pressure over overclosure goes on with the slope before it",
+        );
+        let rows: Vec<[f64; 2]> = rows.iter().map(|&[pressure, depth]| [depth - first[1], pressure]).collect();
+        self.of_interaction(block.place, "SURFACE BEHAVIOR", |interaction| interaction.closure = rows);
     }
 
     /// `*FRICTION`.

@@ -83,6 +83,18 @@ impl Reader {
         });
     }
 
+    /// `*POTENTIAL`: Hill's ratios of yield stresses.
+    pub(crate) fn potential(&mut self, block: &Block) {
+        const NAMES: [&str; 6] = ["R11", "R22", "R33", "R12", "R13", "R23"];
+        let Some(line) = self.first_line(block, &NAMES.join(", ")) else { return };
+        let mut ratios = [1.0; 6];
+        for (at, name) in NAMES.iter().enumerate() {
+            let Some(ratio) = self.positive(line, at, name) else { return };
+            ratios[at] = ratio;
+        }
+        self.of_material(block.place, "POTENTIAL", |material| material.potential = Some(ratios));
+    }
+
     /// `*HYPERELASTIC`.
     pub(crate) fn hyperelastic(&mut self, block: &Block) {
         let place = block.place;
@@ -170,8 +182,9 @@ impl Reader {
             }
             _ => None,
         };
-        let section =
-            Section { set: self.full_name(set), elements: target.members, material, thickness, place: block.place };
+        let orientation = block.value("ORIENTATION").map(|name| self.full_name(name).to_ascii_uppercase());
+        let (set, elements, place) = (self.full_name(set), target.members, block.place);
+        let section = Section { set, elements, material, thickness, orientation, place };
         self.model.sections.push(section);
     }
 

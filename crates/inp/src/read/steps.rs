@@ -319,18 +319,41 @@ impl Reader {
         }
     }
 
-    /// `*MODEL CHANGE` of contact pairs.
+    /// `*MODEL CHANGE` of contact pairs and elements.
     pub(crate) fn model_change(&mut self, block: &Block) {
-        if block.word("TYPE").is_none_or(|kind| kind != "CONTACTPAIR") {
-            let what = "only contact pairs can be removed and added; write TYPE=CONTACT PAIR";
-            return self.error(block.place, what);
-        }
+        let kind = block.word("TYPE");
         let (add, remove) = (block.has("ADD"), block.has("REMOVE"));
         if add == remove {
             return self.error(block.place, "*MODEL CHANGE needs either ADD or REMOVE");
         }
-        for (place, [slave, master]) in self.surface_pairs(block) {
-            self.act(place, None, ActionKind::Contact(slave, master, add));
+        match kind.as_deref() {
+            Some("CONTACTPAIR") => {
+                for (place, [slave, master]) in self.surface_pairs(block) {
+                    self.act(place, None, ActionKind::Contact(slave, master, add));
+                }
+            }
+            Some("ELEMENT") => self.change_elements(block, add),
+            _ => {
+                let what =
+                    "contact pairs and elements can be removed and added; write TYPE=CONTACT PAIR or TYPE=ELEMENT";
+                self.error(block.place, what);
+            }
+        }
+    }
+
+    /// `*MODEL CHANGE, TYPE=ELEMENT`.
+    fn change_elements(&mut self, block: &Block, add: bool) {
+        if block.word("ADD").is_some_and(|how| how == "WITHSTRAIN") {
+            let what =
+                "elements come back without stress in the shape that their nodes have; write ADD, or ADD=STRAIN FREE";
+            return self.error(block.place, what);
+        }
+        for line in &block.lines {
+            for name in line.fields().into_iter().filter(|name| !name.is_empty()) {
+                if let Some(target) = self.members(line.place, name, Of::Elements) {
+                    self.act(line.place, None, ActionKind::Elements(target, add));
+                }
+            }
         }
     }
 

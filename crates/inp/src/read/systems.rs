@@ -1,4 +1,5 @@
-//! `*TRANSFORM`: nodes with axes of their own, along which conditions, forces and equations are meant.
+//! `*TRANSFORM`: nodes with axes of their own, along which conditions, forces and equations are meant; `*ORIENTATION`: the axes of
+//! materials.
 
 use super::Reader;
 use super::names::Of;
@@ -7,6 +8,33 @@ use crate::source::Block;
 use crate::vector::{cross, dot, less, unit};
 
 impl Reader {
+    /// `*ORIENTATION`.
+    pub(crate) fn orientation(&mut self, block: &Block) {
+        let Some(name) = self.required(block, "NAME").map(|name| self.full_name(name).to_ascii_uppercase()) else {
+            return;
+        };
+        let Some(line) = self.first_line(block, "two points") else { return };
+        let turned =
+            block.lines.get(1).is_some_and(|line| line.fields().get(1).is_some_and(|angle| angle.parse() != Ok(0.0)));
+        if turned || block.word("SYSTEM").is_some_and(|system| system != "RECTANGULAR") {
+            self.model.orientations.insert(name, None);
+            return;
+        }
+        let mut given = [0.0; 6];
+        for (at, value) in given.iter_mut().enumerate() {
+            let Some(number) = self.real(line, at, "a coordinate of the axes") else { return };
+            *value = number;
+        }
+        let zero = self.placed([0.0; 3]);
+        let (a, b) = (self.placed([given[0], given[1], given[2]]), self.placed([given[3], given[4], given[5]]));
+        let Some(frame) = rectangular(less(a, zero), less(b, zero)) else {
+            let what =
+                "the two points of *ORIENTATION span no plane; the first lies on the x axis, the second beside it";
+            return self.error(line.place, what);
+        };
+        self.model.orientations.insert(name, Some(frame));
+    }
+
     /// `*TRANSFORM`.
     pub(crate) fn transform(&mut self, block: &Block) {
         let Some(name) = self.required(block, "NSET").map(str::to_string) else { return };
@@ -20,8 +48,7 @@ impl Reader {
         let (zero, point) = (self.placed([0.0; 3]), |at: usize| [given[at], given[at + 1], given[at + 2]]);
         let (a, b) = (self.placed(point(0)), self.placed(point(3)));
         if block.word("TYPE").as_deref() != Some("C") {
-            let (x, y) = (less(a, zero), less(b, zero));
-            let Some(frame) = unit(x).zip(unit(cross(x, y))).map(|(x, z)| [x, cross(z, x), z]) else {
+            let Some(frame) = rectangular(less(a, zero), less(b, zero)) else {
                 let what =
                     "the two points of *TRANSFORM span no plane; the first lies on the x axis, the second beside it";
                 return self.error(line.place, what);
@@ -54,6 +81,11 @@ impl Reader {
             self.note(line.place, what);
         }
     }
+}
+
+/// Axes whose first is along a vector and whose second lies in the plane of another.
+fn rectangular(x: [f64; 3], y: [f64; 3]) -> Option<Frame> {
+    unit(x).zip(unit(cross(x, y))).map(|(x, z)| [x, cross(z, x), z])
 }
 
 /// A component of a vector of the model along an axis of a frame: factors along x, y, z.

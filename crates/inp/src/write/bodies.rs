@@ -2,7 +2,8 @@
 
 use super::{Writer, list, quoted, rubber};
 use crate::elements::{Family, Formulation};
-use crate::model::{ActionKind, Material, RigidPart};
+use crate::message::Place;
+use crate::model::{ActionKind, Material, Model, RigidPart, Section, Target};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A body: its group, material and formulation.
@@ -13,6 +14,8 @@ pub struct Body {
     pub elements: Vec<usize>,
     /// The material's number.
     pub material: usize,
+    /// The name of its law.
+    pub law: String,
 }
 
 impl Writer<'_> {
@@ -100,17 +103,19 @@ impl Writer<'_> {
     /// The materials that sections name.
     pub(super) fn materials(&mut self) {
         let model = self.model;
-        let used: BTreeSet<usize> = model.sections.iter().map(|section| section.material).collect();
-        for number in used {
+        let used: BTreeSet<(usize, Option<&String>)> =
+            model.sections.iter().map(|section| (section.material, axes(model, section))).collect();
+        for (number, axes) in used {
             let Some(material) = model.materials.get(number) else { continue };
-            let Some(law) = self.law(material) else { continue };
+            let Some(law) = self.law(material, axes) else { continue };
             let from = self.from(material.place);
-            self.text += &format!("\n[material.{}.{}]{from}\n{}", quoted(&material.name), law.0, law.1);
+            let name = named(material, axes);
+            self.text += &format!("\n[material.{}.{}]{from}\n{}", quoted(&name), law.0, law.1);
         }
     }
 
     /// The law of a material with its constants.
-    fn law(&mut self, material: &Material) -> Option<(&'static str, String)> {
+    fn law(&mut self, material: &Material, axes: Option<&String>) -> Option<(&'static str, String)> {
         let place = material.place;
         if let Some(given) = &material.hyperelastic {
             if !material.plastic.is_empty() {
@@ -130,6 +135,9 @@ impl Writer<'_> {
             self.note(place, what);
         }
         let elastic = format!("young = {young:?}\npoisson = {poisson:?}\n");
+        if let Some(ratios) = &material.potential {
+            return self.hill(material, (elastic, ratios), axes);
+        }
         Some(match material.plastic.as_slice() {
             [] => ("elastic", elastic),
             [[stress, _]] => ("von_mises", format!("{elastic}yield_stress = {stress:?}\n")),
@@ -144,22 +152,63 @@ impl Writer<'_> {
         })
     }
 
+    /// Hill's law by the yield stresses along the axes of the material, over that of the flow curve.
+    fn hill(
+        &mut self,
+        material: &Material,
+        (elastic, ratios): (String, &[f64; 6]),
+        axes: Option<&String>,
+    ) -> Option<(&'static str, String)> {
+        let hardening = match material.plastic.as_slice() {
+            [[stress, _]] => format!("yield_stress = {stress:?}\n"),
+            [[stress, _], [later, strain]] if !material.kinematic => {
+                format!("yield_stress = {stress:?}\nhardening = {:?}\n", (later - stress) / strain)
+            }
+            _ => {
+                let what =
+                    "*POTENTIAL goes with a *PLASTIC of one or two rows, which harden isotropically and linearly";
+                self.error(material.place, what);
+                return None;
+            }
+        };
+        let [a, b, c, l, m, n] = ratios.map(|ratio| (ratio * ratio).recip());
+        let sides = [("f", b + c - a), ("g", c + a - b), ("h", a + b - c)].map(|(key, sum)| (key, 0.5 * sum));
+        let shears = [("l", n), ("m", m), ("n", l)].map(|(key, square)| (key, 1.5 * square));
+        let mut text = elastic + &hardening;
+        text.extend(sides.into_iter().chain(shears).map(|(key, value)| format!("{key} = {value:?}\n")));
+        let Some(name) = axes else { return Some(("hill_coefficients", text)) };
+        let Some(Some([rolling, _, normal])) = self.model.orientations.get(name) else {
+            let what = match self.model.orientations.contains_key(name) {
+                true => format!(
+                    "the axes of *ORIENTATION '{name}' are turned or cylindrical; give straight ones by two points"
+                ),
+                false => format!("there is no *ORIENTATION '{name}'"),
+            };
+            self.error(material.place, what);
+            return None;
+        };
+        for (key, axis) in [("rolling", rolling), ("normal", normal)] {
+            text.extend(["x", "y", "z"].iter().zip(axis).map(|(name, x)| format!("{key}_{name} = {x:?}\n")));
+        }
+        Some(("hill_coefficients", text))
+    }
+
     /// The bodies: the elements of a section that are integrated alike.
     pub(super) fn bodies(&mut self) {
-        let heated = self
-            .model
-            .steps
-            .iter()
-            .flat_map(|step| &step.actions)
-            .any(|a| matches!(a.kind, ActionKind::Temperature(..)));
+        let warmed = self.model.steps.iter().flat_map(|step| &step.actions).filter_map(|action| match &action.kind {
+            ActionKind::Temperature(target, _) => Some(&target.members),
+            _ => None,
+        });
+        let warmed: BTreeSet<usize> = warmed.flatten().copied().collect();
         for (body, formulation) in self.sorted_bodies() {
             let material = &self.model.materials[body.material];
-            let mut text = format!("\n[body.{}]\nmaterial = {}\n", quoted(&body.group), quoted(&material.name));
+            let mut text = format!("\n[body.{}]\nmaterial = {}\n", quoted(&body.group), quoted(&body.law));
             text += formulation.keys();
             if self.small(material) {
                 text += "strain = \"small\"\n";
             }
-            if let Some(expansion) = material.expansion.filter(|_| heated) {
+            let mut nodes = body.elements.iter().flat_map(|&element| &self.model.elements[element].nodes);
+            if let Some(expansion) = material.expansion.filter(|_| nodes.any(|node| warmed.contains(node))) {
                 text += &format!("expansion = {expansion:?}\n");
             }
             self.text += &text;
@@ -169,7 +218,8 @@ impl Writer<'_> {
     /// All bodies with their formulations; remarks on those that change.
     pub(super) fn sorted_bodies(&mut self) -> Vec<(Body, Formulation)> {
         let model = self.model;
-        let mut sorted: BTreeMap<(usize, Formulation), Vec<usize>> = BTreeMap::new();
+        let mut sorted: BTreeMap<(usize, Formulation, Vec<usize>), Vec<usize>> = BTreeMap::new();
+        let changes: Vec<&Target> = changes(model).map(|(target, ..)| target).collect();
         for (at, element) in model.elements.iter().enumerate() {
             let Some(section) = self.section[at] else { continue };
             let (formulation, remark) = element.kind.formulation(&element.variant, model.dialect);
@@ -177,17 +227,61 @@ impl Writer<'_> {
                 let (name, variant) = (element.kind.name, &element.variant);
                 self.note(model.sections[section].place, format!("{name}{variant}: {remark}"));
             }
-            sorted.entry((section, formulation)).or_default().push(at);
+            // What comes and goes with steps is a body of its own.
+            let change = |target: &&Target| target.members.binary_search(&at).is_ok();
+            let changed = (0..changes.len()).filter(|&number| change(&changes[number])).collect();
+            sorted.entry((section, formulation, changed)).or_default().push(at);
         }
-        let body = |((number, formulation), elements): ((usize, Formulation), Vec<usize>)| {
+        let body = |((number, formulation, changed), elements): ((usize, Formulation, Vec<usize>), Vec<usize>)| {
             let section = &model.sections[number];
-            let name = match elements.len() == section.elements.len() {
-                true => section.set.clone(),
-                false => format!("{}.{}", section.set, model.elements[elements[0]].kind.name),
+            let name = match (elements.len() == section.elements.len(), changed.first()) {
+                (true, _) => section.set.clone(),
+                (false, Some(&change)) => changes[change].name.clone(),
+                (false, None) => format!("{}.{}", section.set, model.elements[elements[0]].kind.name),
             };
             let group = self.groups.cells(&name, elements.clone());
-            (Body { group, elements, material: section.material }, formulation)
+            let law = named(&model.materials[section.material], axes(model, section));
+            (Body { group, elements, material: section.material, law }, formulation)
         };
         sorted.into_iter().map(body).collect()
     }
+
+    /// The bodies that a step ends, and those that are there again.
+    pub(super) fn changed_bodies(&mut self, step: usize) -> [Vec<String>; 2] {
+        let (model, mut changed) = (self.model, [vec![], vec![]]);
+        if changes(model).next().is_none() {
+            return changed;
+        }
+        let bodies = self.sorted_bodies();
+        for (target, add, _, place) in changes(model).filter(|(_, _, number, _)| *number == step) {
+            let within = |body: &Body| target.members.binary_search(&body.elements[0]).is_ok();
+            let names: Vec<String> =
+                bodies.iter().filter(|(body, _)| within(body)).map(|(body, _)| quoted(&body.group)).collect();
+            if names.is_empty() {
+                self.error(place, format!("'{}' has no element of a body", target.name));
+            }
+            changed[usize::from(add)].extend(names);
+        }
+        changed
+    }
+}
+
+/// The elements that steps take away and bring back, whether they come back, the number of the step and the place.
+fn changes(model: &Model) -> impl Iterator<Item = (&Target, bool, usize, Place)> {
+    let steps = model.steps.iter().enumerate();
+    let all = steps.flat_map(|(number, step)| step.actions.iter().map(move |action| (number, action)));
+    all.filter_map(|(number, action)| match &action.kind {
+        ActionKind::Elements(target, add) => Some((target, *add, number, action.place)),
+        _ => None,
+    })
+}
+
+/// The axes of a section whose material has some.
+fn axes<'m>(model: &'m Model, section: &'m Section) -> Option<&'m String> {
+    section.orientation.as_ref().filter(|_| model.materials[section.material].potential.is_some())
+}
+
+/// The name of a material along axes.
+fn named(material: &Material, axes: Option<&String>) -> String {
+    axes.map_or_else(|| material.name.clone(), |axes| format!("{}.{axes}", material.name))
 }

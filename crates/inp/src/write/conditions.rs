@@ -101,7 +101,7 @@ fn components_of(key: &str, table: &Table) -> Vec<usize> {
 }
 
 /// Whether a step says something new of a value.
-fn changes(item: &Item, before: Option<&Item>) -> bool {
+pub(super) fn changes(item: &Item, before: Option<&Item>) -> bool {
     let moves =
         |item: &Item| item.course.as_ref().is_some_and(|points| points.iter().any(|point| point[1] != item.end));
     match before {

@@ -66,6 +66,10 @@ impl Writer<'_> {
         if let Some(slope) = interaction.slope {
             text += &format!("penalty = {slope:?}\n");
         }
+        if !interaction.closure.is_empty() {
+            let rows: Vec<String> = interaction.closure.iter().map(|row| super::list(row)).collect();
+            text += &format!("closure = [{}]\n", rows.join(", "));
+        }
         if let Some(slope) = interaction.stick_slope.filter(|_| interaction.friction.is_some_and(|f| f > 0.0)) {
             text += &format!("tangential_penalty = {slope:?}\n");
         }

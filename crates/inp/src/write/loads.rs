@@ -3,12 +3,12 @@
 use super::Writer;
 use super::conditions::Table;
 use super::courses::{Item, Record};
+use super::temperatures::Temperatures;
 use crate::model::{Action, ActionKind, Condition, Target};
 use crate::read::along;
 use std::collections::BTreeMap;
 
 /// Loads of each kind.
-#[derive(Default)]
 pub struct Loads {
     /// On nodes.
     pub force: Table,
@@ -18,8 +18,8 @@ pub struct Loads {
     pub pressure: Table,
     /// On cells.
     pub body_force: Table,
-    /// Of bodies.
-    pub temperature: Table,
+    /// Of bodies and nodes.
+    pub temperature: Temperatures,
 }
 
 /// A step's values by name and component.
@@ -111,7 +111,7 @@ impl Writer<'_> {
         }
     }
 
-    fn reach(&self, records: &mut [Record], step: usize) {
+    pub(super) fn reach(&self, records: &mut [Record], step: usize) {
         let reached: Vec<f64> = records.iter().map(|record| self.followed(record, step).0).collect();
         records.iter_mut().zip(reached).for_each(|(record, reached)| record.reached = reached);
     }
@@ -194,71 +194,6 @@ impl Writer<'_> {
                 self.lay(row, group.clone(), axis, part);
             }
         }
-    }
-
-    /// Temperatures above that free of stress, one for each body that expands.
-    fn temperatures(&mut self) -> Table {
-        let model = self.model;
-        let heated =
-            model.steps.iter().flat_map(|step| &step.actions).any(|a| matches!(a.kind, ActionKind::Temperature(..)));
-        if !heated {
-            return vec![Row::new(); model.steps.len()];
-        }
-        let bodies: Vec<_> = self.sorted_bodies().into_iter().map(|(body, _)| body).collect();
-        let bodies: Vec<_> =
-            bodies.into_iter().filter(|body| model.materials[body.material].expansion.is_some()).collect();
-        let mut owners: BTreeMap<usize, usize> = BTreeMap::new();
-        let (mut records, mut table) = (Vec::<Record>::new(), Table::new());
-        for (number, step) in model.steps.iter().enumerate() {
-            for action in &step.actions {
-                match &action.kind {
-                    ActionKind::Fresh(Condition::Temperature) => owners.clear(),
-                    ActionKind::Temperature(target, value) => {
-                        records.push(record(target, *value, action, number));
-                        owners.extend(target.members.iter().map(|&node| (node, records.len() - 1)));
-                    }
-                    _ => {}
-                }
-            }
-            let mut row = Row::new();
-            for body in &bodies {
-                let nodes = body.elements.iter().flat_map(|&element| &model.elements[element].nodes);
-                let given: Vec<_> = nodes
-                    .map(|node| {
-                        (owners.get(node).copied(), model.initial_temperature.get(node).copied().unwrap_or(0.0))
-                    })
-                    .collect();
-                let Some(&(first, free)) = given.first() else { continue };
-                let of = |record: Option<usize>| {
-                    record.map(|record| (records[record].value, records[record].course, records[record].step))
-                };
-                let alike = given.iter().all(|(record, start)| of(*record) == of(first) && *start == free);
-                match (alike, first) {
-                    (true, Some(first)) => {
-                        let (end, course) = self.followed(&records[first], number);
-                        let course = course.map(|points| points.iter().map(|[t, v]| [*t, v - free]).collect());
-                        let item = Item { end: end - free, start: None, course, place: records[first].place };
-                        row.insert((body.group.clone(), 0), item);
-                    }
-                    (true, None) => {}
-                    (false, _) => {
-                        let place =
-                            given.iter().find_map(|(record, _)| Some(records[(*record)?].place)).unwrap_or(step.place);
-                        self.error(
-                            place,
-                            format!(
-                                "body '{}' has several temperatures; one for all its nodes can be translated",
-                                body.group
-                            ),
-                        );
-                    }
-                }
-            }
-            begin(&mut row, table.last());
-            table.push(row);
-            self.reach(&mut records, number);
-        }
-        table
     }
 }
 

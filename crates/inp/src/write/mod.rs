@@ -12,6 +12,7 @@ mod outputs;
 mod rubber;
 mod steps;
 mod supports;
+mod temperatures;
 mod tools;
 mod turned;
 

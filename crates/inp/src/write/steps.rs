@@ -30,7 +30,7 @@ impl Writer<'_> {
             (tool("load", if plane { PLANE_LOAD } else { SPACE_LOAD }), &tool_loads),
             (group("pressure", &["value"], pressure), &loads.pressure),
             (group("body_force", AXES, ""), &loads.body_force),
-            (group("temperature", &["value"], ""), &loads.temperature),
+            (group("temperature", &["value"], ""), &loads.temperature.bodies),
         ]
         .into_iter()
         .map(|(kind, table)| self.said(&kind, table))
@@ -51,14 +51,17 @@ impl Writer<'_> {
             if !released.is_empty() {
                 text += &format!("release = [{}]\n", released.join(", "));
             }
-            let changed = self.changed_contacts(number);
-            for (key, names) in ["remove", "add"].iter().zip(&changed) {
+            let (contacts, bodies) = (self.changed_contacts(number), self.changed_bodies(number));
+            for (key, names) in
+                ["remove", "add"].iter().zip(contacts.iter().zip(&bodies).map(|(a, b)| [&a[..], b].concat()))
+            {
                 if !names.is_empty() {
                     text += &format!("{key} = [{}]\n", names.join(", "));
                 }
             }
             text.extend(self.changed_frictions(number));
             text.extend(said.iter().flat_map(|kind| kind[number].lines.clone()));
+            text.extend(loads.temperature.nodes[number].iter().map(String::as_str));
             self.text += &text;
             if released.iter().any(|name| name.starts_with("\"displacement.")) {
                 self.note(
@@ -80,7 +83,7 @@ impl Writer<'_> {
                 _ if action.course.is_some() => "an AMPLITUDE",
                 ActionKind::Temperature(..) => "a *TEMPERATURE",
                 ActionKind::Friction(..) => "a *CHANGE FRICTION",
-                ActionKind::Contact(..) => "a *MODEL CHANGE",
+                ActionKind::Contact(..) | ActionKind::Elements(..) => "a *MODEL CHANGE",
                 _ => continue,
             };
             let text = format!(

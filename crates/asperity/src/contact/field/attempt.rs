@@ -318,10 +318,10 @@ impl FieldAttempt<'_> {
     /// part with half its stress. Where multipliers bear the stress nothing is stored by a slip.
     fn account(&self, slot: usize, (area, stretch): (f64, f64), now: Carried, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(slot));
-        let area = area * stretch;
+        let (nominal, undeformed, area) = (now.pressure * stretch, area, area * stretch);
         let before = [old[entry::SHEAR], old[entry::SHEAR2]];
         let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(slot)[0] };
-        local.stored = 0.5 * now.pressure * (now.pressure * stretch / options.penalty - multiplied) * area;
+        local.stored = (self.law.stored(nominal, options.penalty) - 0.5 * nominal * multiplied) * undeformed;
         let mean = [0, 1].map(|a| 0.5 * (before[a] + now.shear[a]));
         let friction = if options.augmentation.is_some() {
             let shear = now.shear[0].hypot(now.shear[1]);

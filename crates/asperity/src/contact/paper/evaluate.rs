@@ -113,7 +113,7 @@ impl PaperAttempt<'_> {
         let area = self.present_area(g) * options.loads.share();
         let slip = g.place.slip(&Triad::new(g.place.tangents, self.contact.surface().plane));
         let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
-        local.stored = area * (0.5 * now.pressure * now.pressure / options.penalty + stored(now.shear));
+        local.stored = area * (self.law.stored(now.pressure, options.penalty) + stored(now.shear));
         let work: f64 = (0..2).map(|i| 0.5 * (before[i] + now.shear[i]) * slip[i]).sum();
         let friction = work - (stored(now.shear) - stored(before));
         let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);

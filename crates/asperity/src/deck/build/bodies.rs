@@ -9,7 +9,7 @@ use crate::solid::{Body, BodyOptions, Heat, Strain};
 use std::sync::Arc;
 
 /// No body yet.
-const NONE: usize = usize::MAX;
+pub(super) const NONE: usize = usize::MAX;
 
 impl Builder<'_> {
     /// The bodies, each with the number of its material.
@@ -69,35 +69,25 @@ impl Builder<'_> {
 
     /// The body with its temperature, which needs an expansion and a step that says it.
     fn heated(&mut self, body: Body, name: &Name, keys: &BodyKeys) -> Option<Body> {
+        let temperature = self.temperature(&name.text);
         let said = self.deck.step.iter().flat_map(|step| &step.temperature).find(|(other, _)| other.text == name.text);
-        match (&keys.expansion, said) {
-            (None, None) => Some(body),
-            (Some(expansion), Some(_)) => {
-                let temperature = self.temperature(&name.text);
+        match (&keys.expansion, temperature, said) {
+            (None, _, None) => Some(body),
+            (Some(expansion), Some(temperature), _) => {
                 Some(body.heated(Heat { expansion: expansion.value, temperature }))
             }
-            (Some(expansion), None) => {
+            (Some(expansion), None, _) => {
                 self.refuse(
-                    format!("`body.{name}.expansion` has no use: no step says `temperature.{name}`"),
+                    format!(
+                        "`body.{name}.expansion` has no use: no step says `temperature.{name}` or that of its nodes"
+                    ),
                     expansion.place,
                 );
                 None
             }
-            (None, Some((at, _))) => {
+            (None, _, Some((at, _))) => {
                 self.refuse(format!("`temperature.{name}` has no use: the body `{name}` has no `expansion`"), at.place);
                 None
-            }
-        }
-    }
-
-    /// A temperature must be that of a body.
-    fn check_temperatures(&mut self) {
-        let deck = self.deck;
-        for (name, _) in deck.step.iter().flat_map(|step| &step.temperature) {
-            let bodies = || deck.body.iter().map(|(body, _)| body.text.as_str());
-            if !bodies().any(|body| body == name.text) && self.site.mesh.groups.contains_key(&name.text) {
-                let what = format!("`{name}` is no body, and only bodies have a temperature");
-                self.found.push(Diagnostic::error(what).at(name.place).suggest(&name.text, bodies()));
             }
         }
     }

@@ -10,7 +10,7 @@ use crate::contact::{
 use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys::{self, Passes};
 use crate::deck::reader::Name;
-use crate::interface::Rule;
+use crate::interface::{Closure, Rule};
 use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
 use crate::system::Dofs;
@@ -67,8 +67,11 @@ impl Builder<'_> {
         let law = self.keep(law, keys.law.place)?;
         let update = keys.update.as_ref().map(|update| update.update());
         let place = keys.update.as_ref().map_or(keys.law.place, |update| update.place);
-        let first = self.keep(integrated(law, update).map_err(crate::Error::input), place)?;
-        self.running(name, keys, first)
+        let place = keys.closure.as_ref().map_or(place, |closure| closure.place);
+        let closure = keys.closure.as_ref().map(|rows| Closure::new(pairs(&rows.value)));
+        let closure = self.keep(closure.transpose().map_err(crate::Error::input), place)?.map(Arc::new);
+        let first = self.keep(integrated(law, update, closure.as_ref()).map_err(crate::Error::input), place)?;
+        self.running(name, keys, (first, closure))
     }
 
     pub(super) fn opposite<'m>(&self, keys: &keys::Contact, mesh: &'m Mesh) -> Option<Opposite<'m>> {
@@ -156,7 +159,13 @@ impl Builder<'_> {
         backings: &[Backing],
     ) -> ContactOptions {
         let loads = self.carried(keys, (surface, opposite));
-        let penalty = keys.penalty.unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), backings));
+        let steepest = keys
+            .closure
+            .as_ref()
+            .and_then(|rows| Closure::new(pairs(&rows.value)).ok())
+            .map(|closure| closure.steepest());
+        let penalty =
+            keys.penalty.or(steepest).unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), backings));
         ContactOptions {
             penalty,
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
@@ -288,6 +297,11 @@ pub(super) fn is_double(options: &ContactOptions, surface: &[Side], target: &[Si
 }
 
 /// Whether two lists hold the same sides; those of a group are sorted.
+/// Rows of two numbers.
+fn pairs(rows: &[Vec<f64>]) -> Vec<[f64; 2]> {
+    rows.iter().map(|row| [row[0], row[1]]).collect()
+}
+
 fn same_sides(one: &[Side], other: &[Side]) -> bool {
     one == other
 }

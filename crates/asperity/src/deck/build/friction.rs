@@ -6,23 +6,36 @@ use crate::deck::diagnose::Diagnostic;
 use crate::deck::keys;
 use crate::deck::reader::Name;
 use crate::integrate::Update;
-use crate::interface::{Interface, Rule};
+use crate::interface::{Closing, Closure, Interface, Rule};
 use std::sync::Arc;
 
 /// The key of laws that steps may change.
 const KEY: &str = "friction";
 
-/// A law, its increments integrated as said.
-pub(super) fn integrated(law: Box<dyn Interface>, update: Option<Update>) -> Result<Arc<dyn Interface>, String> {
-    match update {
-        Some(update) => law.with_update(update).map(Arc::from),
-        None => Ok(Arc::from(law)),
-    }
+/// A law, its increments integrated as said, under the table of pressure over penetration that is said.
+pub(super) fn integrated(
+    law: Box<dyn Interface>,
+    update: Option<Update>,
+    closure: Option<&Arc<Closure>>,
+) -> Result<Arc<dyn Interface>, String> {
+    let law: Arc<dyn Interface> = match update {
+        Some(update) => Arc::from(law.with_update(update)?),
+        None => Arc::from(law),
+    };
+    Ok(match closure {
+        Some(closure) => Arc::new(Closing::new(law, closure.clone())?),
+        None => law,
+    })
 }
 
 impl Builder<'_> {
     /// The law of a contact whose `first` is that of the deck, with the coefficients that steps say.
-    pub(super) fn running(&mut self, name: &Name, keys: &keys::Contact, first: Arc<dyn Interface>) -> Option<Rule> {
+    pub(super) fn running(
+        &mut self,
+        name: &Name,
+        keys: &keys::Contact,
+        (first, closure): (Arc<dyn Interface>, Option<Arc<Closure>>),
+    ) -> Option<Rule> {
         let steps = &self.deck.step;
         let said = |step: &'_ keys::Step| step.friction.iter().find(|(other, _)| other.text == name.text).cloned();
         let Some((place, _)) = steps.iter().find_map(said).map(|(name, keys)| (name.place, keys)) else {
@@ -48,7 +61,7 @@ impl Builder<'_> {
             let allowed = entry.parameters[at].range.contains(values[at]);
             let built =
                 if allowed { (entry.build)(&values) } else { Err(format!("friction cannot be {}", values[at])) };
-            built.and_then(|law| integrated(law, update))
+            built.and_then(|law| integrated(law, update, closure.as_ref()))
         }))
     }
 }

@@ -143,12 +143,6 @@ impl<'d> Builder<'d> {
         Some(heavy.into_iter().map(term).collect())
     }
 
-    /// The temperature of a body over all steps.
-    pub(super) fn temperature(&self, body: &str) -> Timeline {
-        let said: Said<_> = |step| &step.temperature;
-        timeline(&self.deck.step, ("temperature", body), said, |t| Some((t.value, t.amplitude.clone())))
-    }
-
     fn pressures(&mut self) -> Option<Terms> {
         let said: Said<_> = |step| &step.pressure;
         let mut terms = Terms::new();

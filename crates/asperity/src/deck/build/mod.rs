@@ -15,6 +15,7 @@ mod results;
 mod rigid;
 mod solid_tools;
 mod supports;
+mod temperatures;
 mod ties;
 mod tools;
 
@@ -192,10 +193,13 @@ impl Builder<'_> {
         let field_contacts = self.field_contacts(all, bodies.as_deref());
         let (springs, loads, fluids, rigid) = (self.springs(), self.loads(), self.fluids(), self.rigid());
         let (constrained, supports) = self.supports();
-        let paper_names = contacts.iter().flatten().map(|contact| contact.name().to_owned());
-        let field_names = field_contacts.iter().flatten().map(|contact| contact.name().to_owned());
-        let names: Vec<String> = paper_names.chain(field_names).collect();
-        let absent = self.absent(&names, bodies.as_ref().map_or(0, Vec::len));
+        let mut names: Vec<String> = self.deck.body.iter().map(|(name, _)| name.text.clone()).collect();
+        names.extend(contacts.iter().flatten().map(|contact| contact.name().to_owned()));
+        names.extend(field_contacts.iter().flatten().map(|contact| contact.name().to_owned()));
+        let contacts_end = names.len();
+        names.extend(springs.iter().flatten().chain(loads.iter().flatten()).map(|term| term.name().to_owned()));
+        names.extend(fluids.iter().flatten().map(|fluid| fluid.name().to_owned()));
+        let absent = self.absent(&names, contacts_end);
         let deck = self.deck;
         let arc_lengths: Vec<_> = deck.step.iter().map(|step| self.path(step)).collect();
         let steps = deck.step.iter().enumerate().zip(constrained);

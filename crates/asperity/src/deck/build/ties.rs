@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 /// Motions below this part of the size of the mesh are rounding.
 const ROUNDING: f64 = 1e-12;
+/// A note says where more than this part of the function of a node has nothing opposite: about a twentieth of a face.
+const BARE: f64 = 0.1;
 
 /// A tie and where the deck says it.
 pub(super) struct Glued {
@@ -47,15 +49,7 @@ impl Builder<'_> {
                 return None;
             }
         };
-        if tie.open > 0 {
-            let (count, all) = (tie.open, tie.nodes[0].len());
-            let what = format!("{count} of the {all} nodes of `{}` follow nothing", keys.surface);
-            let label = format!("no face of `{}` lies opposite", keys.target);
-            let shared = tie.nodes[0].iter().filter(|node| tie.nodes[1].binary_search(node).is_ok()).count();
-            if shared < count {
-                self.found.push(Diagnostic::note(what).at(keys.surface.place).label(label));
-            }
-        }
+        self.bare(keys, &tie);
         if keys.gap == TieGap::Close {
             self.close(&tie);
         }
@@ -63,12 +57,35 @@ impl Builder<'_> {
         Some(Glued { tie, names, place: keys.place })
     }
 
-    fn apart(&mut self, keys: &keys::Tie, apart: &Apart) {
-        let (keys::Tie { surface, target, .. }, plane) = (keys, self.plane());
-        let at = |x: &Vec3| match plane {
+    /// Says what of the surface reaches beyond the target.
+    fn bare(&mut self, keys: &keys::Tie, tie: &TiedSurfaces) {
+        let (keys::Tie { surface, target, .. }, (node, part)) = (keys, tie.barest);
+        if part < BARE {
+            return;
+        }
+        let (area, at) = (tie.bare, self.words(&self.site.mesh.points[node]));
+        let all = tie.nodes[0].len();
+        let free = all - tie.conditions.iter().filter(|condition| condition.follows).count();
+        let mut what = format!(
+            "{area:.3} of the area of `{surface}` has no face of `{target}` opposite and is not glued, most of it around {at}"
+        );
+        if free > 0 {
+            what += &format!("; {free} of the {all} nodes follow nothing");
+        }
+        let label = format!("this surface reaches beyond `{target}`");
+        self.found.push(Diagnostic::warning(what).at(keys.surface.place).label(label));
+    }
+
+    /// A place of the mesh.
+    fn words(&self, x: &Vec3) -> String {
+        match self.plane() {
             true => format!("({:.4}, {:.4})", x[0], x[1]),
             false => format!("({:.4}, {:.4}, {:.4})", x[0], x[1], x[2]),
-        };
+        }
+    }
+
+    fn apart(&mut self, keys: &keys::Tie, apart: &Apart) {
+        let (keys::Tie { surface, target, .. }, at) = (keys, |x: &Vec3| self.words(x));
         let (what, help) = match apart {
             Apart::Far(distance, x, tolerance) => (
                 format!(

@@ -142,10 +142,13 @@ words! {
 }
 
 table! {
-    /// The temperature of a body.
-    pub struct Temperature {
+    /// The temperature of a body or of nodes.
+    pub struct Temperature check temperature {
         /// Temperature above that at which the undeformed body is free of stress.
-        value: f64 = number(unit::TEMPERATURE, Range::ANY).required(),
+        value: Option<f64> = number(unit::TEMPERATURE, Range::ANY).unless_given("see nodes"),
+        /// That of some nodes, each with its own: pairs of the node's number in the mesh's file (in generated meshes counted from 1) and
+        /// the temperature.
+        nodes: Vec<Vec<f64>> = list(list(number(unit::NONE, Range::ANY), 2..=2), 0..=usize::MAX).or("[]"),
         /// Course within the step.
         amplitude: Amplitude = amplitude().or(RAMP),
     }
@@ -239,6 +242,17 @@ fn says_something(says: bool, place: Place, keys: &str, reader: &mut Reader) {
 
 fn some_component<T: Components>(load: &T, reader: &mut Reader) {
     says_something(load.components().iter().any(Option::is_some), load.place(), "`x`, `y`, `z`", reader);
+}
+
+fn temperature(temperature: &Temperature, reader: &mut Reader) {
+    if temperature.value.is_some() != temperature.nodes.is_empty() {
+        let what = format!("`{}` needs either `value` or `nodes`", reader.path());
+        reader.report(
+            Diagnostic::error(what)
+                .at(temperature.place)
+                .help("say one temperature for all, or pairs of node and temperature"),
+        );
+    }
 }
 
 fn motion(motion: &Motion, reader: &mut Reader) {

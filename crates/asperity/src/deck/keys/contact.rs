@@ -2,8 +2,9 @@
 
 use super::UpdateKeys;
 use crate::contact::{Augmentation, ContactForm, Overlap, Wear};
-use crate::deck::form::{Form, Law, Words, flag, law, number, refers, table, table_of, whole, word, words};
-use crate::deck::reader::Name;
+use crate::deck::diagnose::Diagnostic;
+use crate::deck::form::{Form, Law, Words, flag, law, list, number, refers, table, table_of, whole, word, words};
+use crate::deck::reader::{Name, Reader};
 use crate::deck::schema::Names;
 use crate::deck::source::Spot;
 use crate::declare::{Range, unit};
@@ -11,7 +12,7 @@ use crate::interface::{self, Interface};
 
 table! {
     /// A surface and what it may touch.
-    pub struct Contact {
+    pub struct Contact check stiffness {
         /// The group of sides that carries the contact points.
         surface: Name = refers(Names::Sides).required(),
         /// What it may touch: a rigid tool, or a group of sides of this or another body.
@@ -28,6 +29,9 @@ table! {
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
             .computed("50 times the modulus over the depth of the cells behind the faces, or what bending of a thin body makes of it, the \
              least of both sides, 10 times with two passes; the modulus is the confined one, at most four shear moduli"),
+        /// Rows of penetration and pressure in place of a penalty, from [0.0, 0.0] on: straight between them and beyond the last.
+        closure: Option<Spot<Vec<Vec<f64>>>> =
+            list(list(number(unit::NONE, Range::NOT_NEGATIVE), 2..=2), 2..=usize::MAX).spot().unless_given("the penalty"),
         /// Friction stress for one unit of elastic slip.
         tangential_penalty: Option<f64> =
             number(unit::PENALTY, Range::POSITIVE)
@@ -101,6 +105,16 @@ table! {
         slip: f64 = number(unit::NONE, Range::above_to(0.0, 1.0)).or("1e-6"),
         /// Most augmentations; an increment that needs more is cut.
         loops: usize = whole(1..=1000).or("10"),
+    }
+}
+
+/// A table stands in place of the penalty, and multipliers would take out what it leaves.
+fn stiffness(contact: &Contact, reader: &mut Reader) {
+    let Some(closure) = &contact.closure else { return };
+    let other = contact.penalty.map(|_| "penalty").or(contact.augmentation.as_ref().map(|_| "augmentation"));
+    if let Some(other) = other {
+        let what = format!("`{}` has `closure` and `{other}`", reader.path());
+        reader.report(Diagnostic::error(what).at(closure.place).help("keep one of the two"));
     }
 }
 

@@ -46,8 +46,8 @@ table! {
         /// Gravity, which acts on all bodies with a `density`, from the beginning of the step unless an amplitude says
         /// otherwise, until a later step says another; zero ends it.
         gravity: Option<Gravity> = table_of().unless_given("none, or that of the step before"),
-        /// Temperatures of bodies with an `expansion`.
-        temperature: Vec<(Name, Temperature)> = map(refers(Names::Cells), table_of()).or("{}"),
+        /// Temperatures of bodies with an `expansion`, and of nodes of such; of those that name a node the last of a step holds.
+        temperature: Vec<(Name, Temperature)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Springs to the ground at each node of groups.
         spring: Vec<(Name, Spring)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Motions of tools, from their first place.
@@ -58,9 +58,11 @@ table! {
         hold: Vec<Name> = list(refers(Names::Movable), 0..=usize::MAX).or("[]"),
         /// Coefficients of friction of contacts from here on, of laws that have a `friction`.
         friction: Vec<(Name, Friction)> = map(refers(Names::Contact), table_of()).or("{}"),
-        /// Contacts that end here, or tools with all of their contacts; their forces fade over the step.
+        /// Contacts that end here, or tools with all of their contacts, or bodies with contacts and loads on them; their forces fade over
+        /// the step. Of the names of a contact, a tool and a body the first is meant.
         remove: Vec<Name> = list(refers(Names::Removable), 0..=usize::MAX).or("[]"),
-        /// Contacts that were removed and are there again, or tools with all of theirs.
+        /// Contacts that were removed and are there again, or tools with all of theirs; bodies begin anew, without stress in the shape that
+        /// their nodes have.
         add: Vec<Name> = list(refers(Names::Removable), 0..=usize::MAX).or("[]"),
         /// Conditions of earlier steps that end here; what they held is let go over the step: `["pressure.bore", "displacement.far_end"]`.
         release: Vec<Name> = list(refers(Names::Condition), 0..=usize::MAX).or("[]"),

@@ -138,7 +138,7 @@ impl Names {
             Self::Target => "tool or group of sides",
             Self::Condition => "condition of an earlier step",
             Self::Movable => "tool or group",
-            Self::Removable => "contact or tool",
+            Self::Removable => "contact, tool or body",
             Self::Distributing => "point of loads",
             Self::Loadable => "tool or point of loads",
         }

@@ -72,8 +72,10 @@ pub struct TiedSurfaces {
     pub tolerance: f64,
     /// The largest gap that there is within it.
     pub gap: f64,
-    /// Nodes of the surface that follow nothing.
-    pub open: usize,
+    /// The part of the surface's area that has nothing opposite,
+    pub bare: f64,
+    /// the node around which that is most, and the part of the node's function.
+    pub barest: (usize, f64),
 }
 
 /// Why surfaces cannot be glued.
@@ -98,30 +100,25 @@ impl TiedSurfaces {
         let tolerance = parts.tolerance.unwrap_or(TOLERANCE * sizes[0][0].max(sizes[1][0]) + facets);
         let places = TiePlaces::new(mesh, &surface, &target, tolerance);
         let [own, others] = [&surface, &target.surface].map(nodes);
-        let (mut rows, mut gap, mut far) = (TieRows::default(), 0.0_f64, None);
+        let (mut rows, mut gap, mut far) = (TieRows::default(), 0.0_f64, Vec::new());
         for face in 0..surface.faces.len() {
             let TieCover { places, beyond } = places.of(face);
-            if let Some((distance, at)) = beyond {
-                let (most, _) = far.get_or_insert((distance, at));
-                if distance > *most {
-                    far = Some((distance, at));
-                }
-            }
+            far.extend(beyond);
             gap = places.iter().map(|place| place.gap.abs()).fold(gap, f64::max);
             let dual = DualBasis::new(surface.faces[face].kind, &places);
             rows.add((&surface, face), &target.surface, &dual, &places);
         }
         rows.whole(mesh, &surface);
-        if let Some((distance, at)) = far {
+        if let Some((distance, at)) = far.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
             return Err(Apart::Far(distance, at, tolerance));
         }
+        let (bare, barest) = rows.bare();
         let conditions = rows.conditions(&others.iter().copied().collect());
         if !conditions.iter().any(|condition| condition.follows) {
             let (distance, at) = nearest(mesh, &own, &others);
             return Err(Apart::Nothing(distance, at, tolerance));
         }
-        let open = own.len() - conditions.iter().filter(|condition| condition.follows).count();
-        Ok(Self { conditions, nodes: [own, others], tolerance, gap, open })
+        Ok(Self { conditions, nodes: [own, others], tolerance, gap, bare, barest })
     }
 
     /// Where the nodes that follow must lie so that turning both surfaces as one keeps them together: where the target's
@@ -211,6 +208,14 @@ impl TieRows {
                 }
             }
         }
+    }
+
+    /// The part of the area that has nothing opposite, and the node around which that is most with the part of its function.
+    fn bare(&self) -> (f64, (usize, f64)) {
+        let sum = |of: fn(&TieRow) -> f64| self.0.values().map(of).sum::<f64>();
+        let parts = self.0.iter().map(|(&node, row)| (node, 1.0 - row.covered / row.whole));
+        let barest = parts.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+        (1.0 - sum(|row| row.covered) / sum(|row| row.whole), barest)
     }
 
     fn conditions(self, target: &BTreeSet<usize>) -> Vec<MeanCondition> {

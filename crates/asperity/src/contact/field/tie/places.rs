@@ -36,8 +36,8 @@ pub struct TiePlace {
 pub struct TieCover {
     /// Points within the tolerance.
     pub places: Vec<TiePlace>,
-    /// The farthest that lies beyond it: distance and where.
-    pub beyond: Option<(f64, Vec3)>,
+    /// Distance and place of the parts that lie beyond it.
+    pub beyond: Vec<(f64, Vec3)>,
 }
 
 /// A part of a face that sees a face of the target.
@@ -100,9 +100,7 @@ impl<'a> TiePlaces<'a> {
                 continue;
             }
             if gap.abs() > self.tolerance {
-                if cover.beyond.is_none_or(|(most, _)| gap.abs() > most) {
-                    cover.beyond = Some((gap.abs(), face.at(part.middle()).x));
-                }
+                cover.beyond.push((gap.abs(), face.at(part.middle()).x));
                 continue;
             }
             for (xi, weight) in part.rule(&self.rule) {

@@ -34,9 +34,10 @@ impl Builder<'_> {
         let mut claims = self.standing();
         let (deck, mut known) = (self.deck, Known::new(self.site.dofs.count()));
         let equations: Vec<_> = self.equations().into_iter().chain(self.periodic()).collect();
-        let steps = deck.step.iter().map(|step| {
+        let steps = deck.step.iter().zip(self.absent_bodies()).map(|(step, absent)| {
             self.release(step, &mut claims);
             hold(&mut claims);
+            claims.insert((String::new(), 2), self.left_alone(&absent));
             self.claim(step, &mut claims);
             claims.values_mut().flatten().for_each(|claim| known.settle(claim));
             known.pass(claims.values().flatten());
@@ -140,6 +141,28 @@ impl Builder<'_> {
         let axis = on_axis(&self.site.mesh, self.site.space).into_iter().map(|node| dofs.node(node));
         claims.insert((String::new(), 1), axis.map(|dof| claim("the axis", dof)).collect());
         claims
+    }
+
+    /// Nodes that only bodies have which a step does without stay where they are.
+    fn left_alone(&self, absent: &BTreeSet<usize>) -> Vec<Claim> {
+        if absent.is_empty() {
+            return vec![];
+        }
+        let (mesh, dofs, owner) = (&self.site.mesh, &self.site.dofs, self.owners());
+        let mut alone = vec![false; mesh.points.len()];
+        for there in [false, true] {
+            for cell in (0..mesh.cell_count()).filter(|&cell| absent.contains(&owner[cell]) != there) {
+                mesh.cell(cell).nodes.iter().for_each(|&node| alone[node] = !there);
+            }
+        }
+        let nodes = (0..alone.len()).filter(|&node| alone[node]);
+        let claim = |dof| Claim {
+            by: String::new(),
+            place: self.deck.space.place,
+            what: What::Unknown(dof),
+            course: Course::Hold,
+        };
+        nodes.flat_map(|node| dofs.node(node)..dofs.node(node) + dofs.per_node()).map(claim).collect()
     }
 
     /// Holds all nodes of a group where they are.

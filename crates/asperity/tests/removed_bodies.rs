@@ -1,0 +1,105 @@
+//! Bodies that steps take away and bring back, against closed forms of a column in layers.
+
+mod support;
+
+use asperity::deck::{build, read};
+use std::path::Path;
+use support::{columns, model, run};
+
+/// Two layers of height 1 and width 2 that share the nodes between them, without contraction, in small strain.
+fn layers(body: &str, more: &str, steps: &str) -> String {
+    format!(
+        "version = 1
+        space = \"plane-strain\"
+        mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [2.0, 2.0], cells = [2, 4], cell = \"quad4\" }}
+        group.low = {{ of = \"block\", y = [-0.1, 1.1] }}
+        group.high = {{ of = \"block\", y = [0.9, 2.1] }}
+        material.m.elastic = {{ young = 1e3, poisson = 0.0 }}
+        body.low = {{ material = \"m\", strain = \"small\", formulation = \"standard\" {body} }}
+        body.high = {{ material = \"m\", strain = \"small\", formulation = \"standard\" {body} }}
+        solver.tolerance = 1e-11
+        {more}
+        [[step]]
+        increments.count = 2
+        symmetry = [\"block.left\", \"block.right\"]
+        displacement.\"block.bottom\".y = 0.0
+        {steps}"
+    )
+}
+
+/// Displacements along y at each state of the nodes between the layers and at the top.
+fn sunk(deck: &str) -> Vec<[f64; 2]> {
+    let model = model(deck, &[]);
+    let at = |y: f64| 2 * model.mesh.points.iter().position(|x| (x[1] - y).abs() < 1e-9).unwrap() + 1;
+    let [middle, top] = [at(1.0), at(2.0)];
+    run(&model).states.iter().map(|state| [state.u[middle], state.u[top]]).collect()
+}
+
+fn assert_near(found: &[[f64; 2]], expected: &[[f64; 2]]) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        let near = |i: usize| (found[i] - expected[i]).abs() < 1e-11;
+        assert!(near(0) && near(1), "{found:?} {expected:?}");
+    }
+}
+
+/// A layer is dug away and filled in again: what it bore and weighed fades over the step, and it comes back without stress, under its
+/// weight. Under 10 a unit of volume `u(1) = -(10 + 5)/E`, `u(2) = -20/E`.
+#[test]
+fn a_layer_is_dug_away_and_filled_in() {
+    let deck = layers(
+        ", density = 1.0",
+        "",
+        "gravity = { y = -10.0, amplitude = [[0.0, 0.0], [1.0, 1.0]] }
+        [[step]]
+        increments.count = 2
+        remove = [\"high\"]
+        [[step]]
+        increments.count = 2
+        add = [\"high\"]",
+    );
+    let expected =
+        [[-0.0075, -0.01], [-0.015, -0.02], [-0.01, -0.02], [-0.005, -0.02], [-0.01, -0.0275], [-0.015, -0.035]];
+    assert_near(&sunk(&deck), &expected);
+}
+
+/// Under a pressure the layers are shortened by `p/E` each; the pressure goes with the layer that it acts on.
+#[test]
+fn a_load_goes_with_its_body() {
+    let deck =
+        layers("", "", "pressure.\"block.top\".value = 20.0\n[[step]]\nincrements.count = 1\nremove = [\"high\"]");
+    assert_near(&sunk(&deck), &[[-0.01, -0.02], [-0.02, -0.04], [0.0, -0.04]]);
+}
+
+/// So does a contact, whose force fades.
+#[test]
+fn a_contact_goes_with_its_body() {
+    let more = "tool.plate.profile = [{ line = [[-9.0, 2.0], [9.0, 2.0]] }]
+        contact.plate = { surface = \"block.top\", target = \"plate\", law.frictionless = {} }";
+    let steps = "motion.plate.y = -0.02
+        [[step]]
+        increments.count = 2
+        remove = [\"high\"]";
+    let model = model(&layers("", more, steps), &[]);
+    let keep = run(&model);
+    let force: Vec<f64> = columns(&model, &keep)["contact.plate.force.y"].iter().map(|force| force.abs()).collect();
+    assert!(force[1] > 15.0 && force[2].abs() + force[3].abs() < 1e-9, "{force:?}");
+    let middle = 2 * model.mesh.points.iter().position(|x| (x[1] - 1.0).abs() < 1e-9).unwrap() + 1;
+    let sunk: Vec<f64> = keep.states.iter().map(|state| state.u[middle]).collect();
+    assert!((sunk[2] / sunk[1] - 0.5).abs() < 1e-9 && sunk[3].abs() < 1e-12, "{sunk:?}");
+}
+
+#[test]
+fn what_cannot_be_removed_is_refused() {
+    let refused = |body: &str, more: &str, steps: &str| {
+        let text = layers(body, more, steps);
+        read(&text, "test.toml", Path::new(""), &[]).and_then(build).err().unwrap().render(false)
+    };
+    let heated = "temperature.high.value = 1.0\ntemperature.low.value = 1.0\n[[step]]\nremove = [\"high\"]\n[[step]]\nadd = [\"high\"]";
+    assert!(refused(", expansion = 1e-5", "", heated).contains("has `expansion` and cannot come back without stress"));
+    let both = "body_force.block.y = -1.0\n[[step]]\nremove = [\"high\"]";
+    assert!(refused("", "", both).contains("acts on a body that is removed and on others"));
+    let twice = "[[step]]\nremove = [\"high\"]\n[[step]]\nremove = [\"high\"]";
+    assert!(refused("", "", twice).contains("`high` is removed already"));
+    assert!(refused("", "", "[[step]]\nremove = [\"block\"]").contains("it is no body"));
+}

@@ -12,6 +12,8 @@ const TOLERANCE: f64 = 1e-11;
 const ROUNDING: f64 = 1e-15;
 /// A stiffness that is none, as a ratio to that of the undeformed solid.
 const NOTHING: f64 = 1e-13;
+/// Difference of two stresses or strains that are the same, as a ratio to the largest.
+const ALIKE: f64 = 1e-9;
 const LIMIT: usize = 50;
 
 /// One increment: where it begins, and what is prescribed at its end.
@@ -76,7 +78,8 @@ impl Increment<'_> {
         Ok(Trial { strain, new, gradient, error: miss / scale })
     }
 
-    /// Change of the strains that removes the difference to first order.
+    /// Change of the strains that removes the difference to first order. Axes that bear alike, strained alike, go on alike: where
+    /// principal stresses are equal a yield surface has an edge, and the tangent of one of its sides leads away from there.
     fn change(&self, trial: &Trial) -> Option<[f64; 6]> {
         let miss = |i: usize| self.stress[i].unwrap_or(0.0) - trial.new[i];
         let free = (0..6).filter(|&i| self.stress[i].is_some()).map(|j| (j, self.along(trial, j)));
@@ -84,13 +87,42 @@ impl Increment<'_> {
         let soft = |i: usize, column: &[f64; 6]| {
             miss(i).abs() <= ROUNDING * self.modulus && column.iter().all(|c| c.abs() <= NOTHING * self.modulus)
         };
-        let (free, columns): (Vec<usize>, Vec<[f64; 6]>) = free.filter(|(i, column)| !soft(*i, column)).unzip();
-        let rows = free.iter().flat_map(|&i| columns.iter().map(move |column| column[i])).collect();
-        let mut solved: Vec<f64> = free.iter().map(|&i| miss(i)).collect();
-        Full::factorise(free.len(), rows)?.solve(&mut solved);
+        let mut groups: Vec<(Vec<usize>, [f64; 6])> = Vec::new();
+        for (i, column) in free.filter(|(i, column)| !soft(*i, column)) {
+            match groups.iter_mut().find(|(axes, _)| self.alike(trial, axes[0], i)) {
+                Some((axes, sum)) => {
+                    axes.push(i);
+                    sum.iter_mut().zip(column).for_each(|(sum, c)| *sum += c);
+                }
+                None => groups.push((vec![i], column)),
+            }
+        }
+        let mean = |axes: &[usize], of: &dyn Fn(usize) -> f64| -> f64 {
+            axes.iter().map(|&i| of(i)).sum::<f64>() / axes.len() as f64
+        };
+        let row = |(axes, _): &(Vec<usize>, _)| -> Vec<f64> {
+            groups.iter().map(|(_, column)| mean(axes, &|i| column[i])).collect()
+        };
+        let rows = groups.iter().flat_map(row).collect();
+        let mut solved: Vec<f64> = groups.iter().map(|(axes, _)| mean(axes, &miss)).collect();
+        Full::factorise(groups.len(), rows)?.solve(&mut solved);
         let mut change = [0.0; 6];
-        free.iter().zip(solved).for_each(|(&i, x)| change[i] = x.clamp(-0.5, 0.5));
+        for ((axes, _), x) in groups.iter().zip(solved) {
+            axes.iter().for_each(|&i| change[i] = x.clamp(-0.5, 0.5));
+        }
         Some(change)
+    }
+
+    /// Whether two axes should bear the same stress, and bear and are strained alike.
+    fn alike(&self, trial: &Trial, i: usize, j: usize) -> bool {
+        let near = |a: f64, b: f64, size: f64| (a - b).abs() <= ALIKE * size;
+        let stress = trial.new[..6].iter().fold(ROUNDING * self.modulus, |m: f64, s| m.max(s.abs()));
+        let strain = trial.strain.iter().fold(f64::MIN_POSITIVE, |m: f64, e| m.max(e.abs()));
+        i.max(j) < 3
+            && self.stress[i] == self.stress[j]
+            && near(trial.new[i], trial.new[j], stress)
+            && near(trial.strain[i], trial.strain[j], strain)
+            && near(self.strain[i], self.strain[j], strain)
     }
 
     /// Derivative of the stress along one strain.

@@ -88,3 +88,21 @@ fn a_cap_moves_with_compaction() {
     let [p, q] = [-last(&records, "sand", "mean_stress"), last(&records, "sand", "von_mises")];
     assert!(last(&records, "sand", "cap_pressure") >= (p * p + q * q).sqrt() * (1.0 - 1e-9));
 }
+
+#[test]
+fn uniaxial_strength_of_mohr_and_coulomb_is_found_at_the_edge() {
+    let text = "version = 1\n\
+        material.m.mohr_coulomb = { young = 2e4, poisson = 0.3, cohesion = 10.0, friction = 40.0, dilatancy = 15.0 }\n\
+        [[step]]\nincrements = 50\nstrain.yy = ";
+    let (s, c) = 40.0_f64.to_radians().sin_cos();
+    for (strain, strength) in [(0.01, 20.0 * c / (1.0 + s)), (-0.05, -20.0 * c / (1.0 - s))] {
+        let deck = asperity::deck::read_point(&format!("{text}{strain}"), "deck.toml", std::path::Path::new(""), &[]);
+        let records = deck.unwrap_or_else(|e| panic!("{}", e.render(false))).run().unwrap();
+        let of = |name: &str| {
+            let column = records[0].columns.iter().position(|column| column == name).unwrap();
+            records[0].rows.last().unwrap()[column]
+        };
+        assert!((of("stress_yy") / strength - 1.0).abs() < 1e-9, "{}", of("stress_yy"));
+        assert!((of("strain_xx") - of("strain_zz")).abs() < 1e-12);
+    }
+}

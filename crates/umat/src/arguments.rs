@@ -45,6 +45,9 @@ pub type Function = unsafe extern "C-unwind" fn(
     length: usize,
 );
 
+/// What stands behind the states and the tangent, which no law computes.
+pub const UNTOUCHED: f64 = -9.870_654_321e299;
+
 /// What a law finds in PNEWDT: more than anybody asks for.
 const LARGE: f64 = 1e36;
 
@@ -87,8 +90,8 @@ fn columns(t: &Tensor2) -> [f64; 9] {
 }
 
 impl<'a> Arguments<'a> {
-    /// Those of a call.
-    pub fn of(call: &'a mut Call, name: &'a [u8; 80], properties: &'a [f64]) -> Self {
+    /// Those of a call, with `states` in the place of its own and room behind them.
+    pub fn of(call: &Call, states: &'a mut [f64], name: &'a [u8; 80], properties: &'a [f64]) -> Self {
         let at = &call.at;
         let (cell, point) = (usize::try_from(at.cell).unwrap_or(usize::MAX), at.point);
         let counts = [3, call.components - 3, call.components, call.states.len(), properties.len(), cell, point];
@@ -97,7 +100,7 @@ impl<'a> Arguments<'a> {
         all[9] = whole(call.number);
         Self {
             stress: call.stress,
-            tangent: [0.0; 36],
+            tangent: std::array::from_fn(|k| if k < call.components.pow(2) { 0.0 } else { UNTOUCHED }),
             energies: call.energies,
             heat: [0.0; 14],
             strain: call.strain,
@@ -113,8 +116,19 @@ impl<'a> Arguments<'a> {
             deformation: [columns(&call.deformation[0]), columns(&call.deformation[1])],
             whole: all,
             step: [1, 1, i32::from(!call.small), 0],
-            states: call.states,
+            states,
         }
+    }
+
+    /// What the law wrote beyond its states and its tangent, in words.
+    pub fn overrun(&self) -> Option<String> {
+        let [components, states] = [self.whole[2], self.whole[3]].map(|count| usize::try_from(count).unwrap_or(0));
+        let touched = |rest: &[f64]| rest.iter().any(|value| value.to_bits() != UNTOUCHED.to_bits());
+        if touched(&self.states[states..]) {
+            return Some(format!("it writes more than {states} states; say in `states` how many it has"));
+        }
+        let wrong = touched(&self.tangent[components * components..]);
+        wrong.then(|| format!("it writes DDSDDE beyond its {components} rows and columns (NTENS)"))
     }
 
     /// Stress, tangent and energies.

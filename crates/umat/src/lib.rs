@@ -14,9 +14,10 @@ mod utilities;
 
 pub use utilities::SYMBOLS;
 
-use arguments::{Arguments, Function};
+use arguments::{Arguments, Function, UNTOUCHED};
 use asperity::Failure;
 use asperity::material::external::{self, Call, Library, UserLaw};
+use std::cell::RefCell;
 use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -25,6 +26,14 @@ const NAMES: [&str; 2] = ["umat_", "umat"];
 
 /// Held while a law is called that is not safe in threads: libraries share the runtime of their language.
 static SERIAL: Mutex<()> = Mutex::new(());
+
+/// Values behind the states of a call, so that a law that has more of them than its deck says is told.
+const ROOM: usize = 1024;
+
+thread_local! {
+    /// States of a call, with room behind them.
+    static STATES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+}
 
 /// Lets decks name laws of shared libraries.
 pub fn provide() {
@@ -85,16 +94,25 @@ impl UserLaw for Umat {
     }
 
     fn call(&self, call: &mut Call) -> Result<(), Failure> {
-        let mut arguments = Arguments::of(call, &self.name, &self.properties);
-        let one = (!self.thread_safe).then(|| SERIAL.lock().unwrap_or_else(PoisonError::into_inner));
-        let called = guard::call(&self.called, || arguments.call(self.function));
-        drop(one);
-        called.map_err(|why| Failure::new(format!("it gives up: {why}")))?;
-        let part = arguments.new_time;
-        if part < 1.0 || part.is_nan() {
-            return Err(Failure::new(format!("it asks for a smaller increment (PNEWDT = {part})")));
-        }
-        (call.stress, call.tangent, call.energies) = arguments.answers();
-        Ok(())
+        STATES.with_borrow_mut(|states| {
+            states.clear();
+            states.extend_from_slice(call.states);
+            states.resize(call.states.len() + ROOM, UNTOUCHED);
+            let mut arguments = Arguments::of(call, states, &self.name, &self.properties);
+            let one = (!self.thread_safe).then(|| SERIAL.lock().unwrap_or_else(PoisonError::into_inner));
+            let called = guard::call(&self.called, || arguments.call(self.function));
+            drop(one);
+            called.map_err(|why| Failure::new(format!("it gives up: {why}")))?;
+            if let Some(why) = arguments.overrun() {
+                return Err(Failure::new(why));
+            }
+            let part = arguments.new_time;
+            if part < 1.0 || part.is_nan() {
+                return Err(Failure::new(format!("it asks for a smaller increment (PNEWDT = {part})")));
+            }
+            (call.stress, call.tangent, call.energies) = arguments.answers();
+            call.states.copy_from_slice(&states[..call.states.len()]);
+            Ok(())
+        })
     }
 }

@@ -3,7 +3,7 @@
 //! size of the cell (its volume over the area of the face); that of a thin body by bending, which is softer.
 
 use super::thin::{Plate, area, curvature, stiffness};
-use crate::mesh::{CellView, Mesh, Side, Space};
+use crate::mesh::{Mesh, Side, Space};
 
 /// Ratio of the penalty to the stiffness behind a face.
 const RATIO: f64 = 50.0;
@@ -42,7 +42,5 @@ pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behi
 
 /// Volume of the cell behind a side over the area of the side.
 pub fn depth(mesh: &Mesh, side: Side) -> f64 {
-    let (kind, nodes) = mesh.side(side);
-    let nodes: Vec<usize> = nodes.collect();
-    mesh.measure(side.cell) / CellView { kind, nodes: &nodes }.extent(&mesh.points)
+    mesh.measure(side.cell) / mesh.extent(side)
 }

@@ -46,7 +46,7 @@ fn plate(mesh: &Mesh, cells: &[usize]) -> Option<Plate> {
 
 /// Area of sides, in the plane their length.
 pub fn area(mesh: &Mesh, sides: &[Side]) -> f64 {
-    sides.iter().map(|&side| extent(mesh, side)).sum()
+    sides.iter().map(|&side| mesh.extent(side)).sum()
 }
 
 /// The cells that hang together by nodes, from the lowest on.
@@ -102,12 +102,6 @@ pub fn curvature(mesh: &Mesh, sides: &[Side], space: Space) -> f64 {
 
 fn pairs(faces: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
     faces.iter().enumerate().flat_map(move |(i, &a)| faces[i + 1..].iter().map(move |&b| (a, b)))
-}
-
-fn extent(mesh: &Mesh, side: Side) -> f64 {
-    let (kind, nodes) = mesh.side(side);
-    let nodes: Vec<usize> = nodes.collect();
-    CellView { kind, nodes: &nodes }.extent(&mesh.points)
 }
 
 /// Middle and unit normal of a side.

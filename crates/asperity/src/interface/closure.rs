@@ -78,12 +78,14 @@ impl Closing {
     pub fn new(law: Arc<dyn Interface>, closure: Arc<Closure>) -> Result<Self, String> {
         let (steepest, mut old) = (closure.steepest(), vec![0.0; law.variables().iter().map(|v| v.len()).sum()]);
         law.initial(&mut old);
-        let (mut new, depth) = (old.clone(), closure.rows[1][0]);
+        let (mut new, depth, mut straight) = (old.clone(), closure.rows[1][0], true);
         let (penalty, shear) = (steepest, [0.0; 2]);
         let past =
             Past { penalty, tangential_penalty: penalty, penetration: 0.0, pressure: 0.0, shear, vars: &old, dt: 1.0 };
-        let answer = law.respond([depth, 0.0, 0.0], &past, &mut new).map_err(|failure| failure.to_string())?;
-        let straight = (answer.pressure() / (penalty * depth) - 1.0).abs() < 1e-9;
+        for [into, slip] in [[depth, 0.0], [depth, depth], [2.0 * depth, 10.0 * depth]] {
+            let answer = law.respond([into, slip, 0.0], &past, &mut new).map_err(|failure| failure.to_string())?;
+            straight &= (answer.pressure() / (penalty * into) - 1.0).abs() < 1e-9;
+        }
         if straight && law.radius() == 0.0 && law.touch(&past) == 0.0 {
             Ok(Self { law, closure, steepest })
         } else {

@@ -15,7 +15,7 @@ use super::rate::{INSIDE_OUT, stress_of};
 use super::small::NO_RATE;
 use super::turned::Turn;
 use super::{
-    Directions, Gradient, Material, Spin, Variable, VariableKind, green_naghdi, hughes_winget, laws::Elastic,
+    Directions, Flow, Gradient, Material, Spin, Variable, VariableKind, green_naghdi, hughes_winget, laws::Elastic,
     logarithmic,
 };
 use crate::integrate::Update;
@@ -439,6 +439,10 @@ impl Material for External {
     /// Only the law knows; it is left to the first increment.
     fn bears(&self, _: &[f64]) -> Result<(), String> {
         Ok(())
+    }
+
+    fn flow(&self) -> Flow {
+        Flow::Unknown
     }
 
     fn with_update(&self, _: Update) -> Result<Box<dyn Material>, String> {

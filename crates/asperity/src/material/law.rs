@@ -104,6 +104,8 @@ pub enum Flow {
     None,
     /// It flows without change of volume, or with hardly any.
     Isochoric,
+    /// Only the law knows.
+    Unknown,
     /// The change of volume follows from the shear, or comes to rest as it goes on.
     Dilatant,
 }

@@ -4,7 +4,7 @@
 //! run counter-clockwise), of a line its length ratio.
 
 use super::cells::MAX_NODES;
-use super::{CellView, Mesh};
+use super::{CellView, Mesh, Side};
 use crate::tensor::Vec3;
 
 impl CellView<'_> {
@@ -52,6 +52,12 @@ impl Mesh {
     /// space is the caller's.
     pub fn measure(&self, cell: usize) -> f64 {
         self.cell(cell).measure(&self.points)
+    }
+
+    /// Length of an edge or area of a face of a cell, however it stands in space.
+    pub fn extent(&self, side: Side) -> f64 {
+        let (kind, nodes) = self.side(side);
+        CellView { kind, nodes: &nodes.collect::<Vec<_>>() }.extent(&self.points)
     }
 
     /// The longest straight distance between two corners that an edge of a cell joins.

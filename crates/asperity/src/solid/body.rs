@@ -3,10 +3,11 @@
 use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
+use super::incompatible;
 use super::patches::Patches;
+use super::slenderness::Slenderness;
 use super::volume::Places;
 use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
-use super::{incompatible, layers};
 use crate::material::{Material, Placement};
 use crate::mesh::cells::{Cell, Rule};
 use crate::mesh::{Mesh, Space};
@@ -27,7 +28,7 @@ pub struct Body {
     pub(super) shapes: Vec<KindShapes>,
     pub(super) patches: Patches,
     pub(super) places: Places,
-    initial_stress: Option<InitialStress>,
+    pub(super) initial_stress: Option<InitialStress>,
     pub(super) heat: Option<Heat>,
 }
 
@@ -81,11 +82,11 @@ impl Body {
             refuse(name, mesh.cell(cell).kind, space, &options)?;
         }
         let material = options.strain.law(material).map_err(|why| Error::input(format!("body '{name}': {why}")))?;
-        let mut choices: Vec<Choice> = Vec::new();
+        let (mut choices, slenderness) = (Vec::<Choice>::new(), Slenderness::of(&mesh, &cells));
         for kind in cells.iter().map(|&cell| mesh.cell(cell).kind) {
             if choices.iter().all(|known| known.kind != kind) {
                 let choice = Choice::of(kind, space, material.as_ref(), &options);
-                choices.push(choice.in_depth(|| layers::depth(&mesh, &cells), &options));
+                choices.push(choice.in_body(slenderness, &options));
             }
         }
         let barred =
@@ -118,7 +119,8 @@ impl Body {
         let modes = if choice.formulation == Formulation::Incompatible { incompatible::modes(kind) } else { 0 };
         let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
         let points = rule.points.iter().zip(rule.weights).map(shapes);
-        let warmth = rule.points.iter().map(|&xi| super::heat::weights(kind, xi, self.options.integration)).collect();
+        let warmth =
+            rule.points.iter().map(|&xi| super::heat::weights(kind, xi, self.options.integration, modes)).collect();
         KindShapes { kind, points: points.collect(), warmth, bar: Bar::of(choice), modes }
     }
 

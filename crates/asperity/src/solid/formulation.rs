@@ -6,7 +6,7 @@
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
 //! which they are too stiff in bending.
 
-use super::layers::stiff_in_bending;
+use super::slenderness::Slenderness;
 use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
@@ -58,6 +58,9 @@ impl Default for BodyOptions {
 /// edges a side are 5.0 % too stiff in Cook's membrane and 1.7 % with F-bar (3.7 and 1.8 % at 0.3, 21 and 1.7 % at 0.49).
 pub const NEARLY: f64 = 4.6;
 
+/// Part by which a body may be too stiff in bending without a word.
+const STIFF: f64 = 0.1;
+
 /// What the cells of one kind in a body became, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
@@ -69,8 +72,10 @@ pub struct Choice {
     pub reason: String,
     /// Whether the cells remain too stiff all the same.
     pub locks: bool,
-    /// Whether so few of them lie behind one another through the body that they are too stiff in bending.
-    pub bends: bool,
+    /// By what part they are too stiff in bending, where that is much.
+    pub stiff: Option<f64>,
+    /// Whether they are too soft in bending.
+    pub soft: bool,
 }
 
 impl Choice {
@@ -82,7 +87,8 @@ impl Choice {
         let stiff = ratio >= NEARLY;
         let reduced = options.integration == Integration::Reduced && kind.reduced.is_some();
         let standard = |reason: &str, locks: bool| (Formulation::Standard, reason.to_string(), locks);
-        let bends = flow == Flow::None && incompatible::modes(kind) > 0 && !reduced;
+        let stiff = stiff && flow != Flow::Unknown;
+        let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::modes(kind) > 0 && !reduced;
         let modes = |reason: &str| (Formulation::Incompatible, reason.to_string(), false);
         let (formulation, reason, locks) = match options.formulation {
             Formulation::Auto if space == Space::PlaneStress && bends => modes("bending, in plane stress"),
@@ -99,6 +105,8 @@ impl Choice {
             Formulation::Auto if flow == Flow::Dilatant => {
                 (Formulation::FBar, "where the law flows its change of volume follows from the shear".into(), false)
             }
+            Formulation::Auto if flow == Flow::Unknown && bends => modes("the law does not say how it flows"),
+            Formulation::Auto if flow == Flow::Unknown => standard("the law does not say how it flows", false),
             Formulation::Auto if stiff => {
                 (Formulation::FBar, format!("bulk over shear modulus is {}", rounded(ratio)), false)
             }
@@ -107,7 +115,7 @@ impl Choice {
             }
             Formulation::Auto => standard(&format!("bulk over shear modulus is only {}", rounded(ratio)), false),
         };
-        Self { kind, formulation, reason, locks, bends: false }
+        Self { kind, formulation, reason, locks, stiff: None, soft: false }
     }
 
     /// One line: cells, formulation, reason.
@@ -120,11 +128,13 @@ impl Choice {
         format!("{} {word}: {}", self.kind.name, self.reason)
     }
 
-    /// The same in a body of this [`depth`](super::layers::depth).
-    pub(super) fn in_depth(mut self, depth: impl Fn() -> usize, options: &BodyOptions) -> Self {
+    /// The same with what follows from the body's thickness.
+    pub(super) fn in_body(mut self, body: Slenderness, options: &BodyOptions) -> Self {
         let reduced = options.integration == Integration::Reduced && self.kind.reduced.is_some();
-        let stiff = stiff_in_bending(self.kind).filter(|_| self.formulation != Formulation::Incompatible && !reduced);
-        self.bends = stiff.is_some_and(|stiff| depth() <= stiff);
+        if !reduced {
+            self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
+            self.soft = body.soft(self.kind, self.formulation);
+        }
         self
     }
 
@@ -136,12 +146,19 @@ impl Choice {
                 "{name} cells with this law may be too stiff where it flows or keeps volume: formulation = \"auto\" chooses one that is not"
             )
         });
-        let bends = self.bends.then(|| {
+        let soft = self.soft.then(|| {
             format!(
-                "few {name} cells lie through it: where it bends they are more than a tenth too stiff (`cell`: those of second degree are not)"
+                "one or two {name} cells with F-bar lie through it: where it bends it is too soft, by a quarter with two and several \
+                 times with one; three or more, cells of second degree or formulation = \"incompatible\" are not"
             )
         });
-        locks.into_iter().chain(bends)
+        let stiff = self.stiff.filter(|_| !self.soft).map(|part| {
+            format!(
+                "where it bends, {name} cells so long and so few through it are too stiff, by some {:.0} %: those of second degree are not",
+                100.0 * part
+            )
+        });
+        locks.into_iter().chain(soft).chain(stiff)
     }
 }
 

@@ -72,10 +72,11 @@ impl Stretch<'_> {
     }
 }
 
-/// Weights of the first nodes of a cell at a place.
-pub(super) fn weights(kind: &Cell, xi: [f64; 3], integration: Integration) -> Vec<f64> {
+/// Weights of the first nodes of a cell at a place, so that the temperature has the degree of the strain that the cell can have: the
+/// mean in first degree without incompatible modes.
+pub(super) fn weights(kind: &Cell, xi: [f64; 3], integration: Integration, modes: usize) -> Vec<f64> {
     let (count, reduced) = (kind.linear.nodes.len(), integration == Integration::Reduced);
-    if kind.degree == 1 {
+    if kind.degree == 1 && modes == 0 {
         return vec![(count as f64).recip(); count];
     }
     let kind = if reduced { kind } else { kind.linear };

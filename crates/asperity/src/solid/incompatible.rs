@@ -245,13 +245,37 @@ impl OpenBody<'_> {
             let by = enhancement(&point.modes, &cell.begun);
             let f = total(&carried_rows(&point.undeformed, &cell.mean, &by), &accepted, &by);
             let det = f.det();
-            if !(det > 0.0) {
+            if det.is_nan() || det <= 0.0 {
                 return Err(Failure::new("a cell is turned inside out").of(Kind::Inverted));
             }
             point.inverse = f.inverse();
             point.volume *= det;
         }
         Ok(cell)
+    }
+
+    /// Forces of stresses before the first increment on the amplitudes, by which these are not moved.
+    fn borne_by_modes<const DIM: usize, const N: usize>(
+        &self,
+        index: usize,
+        cell: &ModeCell<DIM, N>,
+    ) -> [f64; AMPLITUDES] {
+        let mut out = [0.0; AMPLITUDES];
+        let Some(field) = &self.body.initial_stress else { return out };
+        let (nodes, shapes) = (self.nodes(index), self.body.shapes(self.body.kind(index)));
+        for ((point, open), shapes) in cell.points.iter().zip(self.points(index)).zip(&shapes.points) {
+            let at =
+                nodes.iter().zip(shapes.n).fold(Vec3::zero(), |sum, (&node, n)| sum + self.body.mesh.points[node] * n);
+            let stress = Tensor2::from_voigt(field.at(at));
+            let thickness = match self.body.space {
+                Space::PlaneStrain | Space::PlaneStress => self.body.options.thickness,
+                Space::Axisymmetric | Space::Solid => 1.0,
+            };
+            for (k, out) in out.iter_mut().enumerate().take(DIM * MOST) {
+                *out += open.volume * thickness * (stress * point.modes[k / DIM])[k % DIM];
+            }
+        }
+        out
     }
 
     /// Forces of a cell with modes, these in equilibrium, and its tangent with them condensed.
@@ -267,6 +291,7 @@ impl OpenBody<'_> {
         let (mut amplitudes, length) = (cell.begun, local.u.len());
         let gradients = cell.points[..cell.count].iter().flat_map(|point| point.modes);
         let steepest = gradients.fold(0.0, |most: f64, g| most.max(g.norm()));
+        let borne = self.borne_by_modes::<DIM, N>(index, &cell);
         let mut stresses = [Stress { p: [0.0; D], tangent: [[0.0; D]; D], volume: 0.0 }; POINTS];
         for _ in 0..LIMIT {
             local.reset(length);
@@ -277,6 +302,7 @@ impl OpenBody<'_> {
             };
             let (force, _) = self.add_points::<DIM, D, N>((index, points), new, local, (None, None), Some(keep))?;
             let mut own = Own::of(&cell, &stresses, DIM * modes);
+            own.force.iter_mut().zip(&borne).for_each(|(force, borne)| *force -= borne);
             if !own.solve() {
                 break;
             }
@@ -290,7 +316,10 @@ impl OpenBody<'_> {
             }
             (0..DIM * modes).for_each(|n| amplitudes[n / DIM][n % DIM] -= step[n]);
         }
-        Err(Failure::new("the incompatible modes find no equilibrium").of(Kind::Material))
+        Err(Failure::new(
+            "the incompatible modes find no equilibrium: the law has no stiffness there, or not that of its stress",
+        )
+        .of(Kind::Material))
     }
 }
 

@@ -16,7 +16,6 @@ mod hourglass;
 mod incompatible;
 mod initial_stress;
 mod lanes;
-mod layers;
 mod measure;
 mod operator;
 mod patches;
@@ -24,6 +23,7 @@ mod piola;
 mod plane_stress;
 mod point;
 mod record;
+mod slenderness;
 mod strain;
 mod volume;
 

@@ -66,7 +66,8 @@ impl Take {
             Self::Sum => values().sum(),
             Self::Mean => {
                 let [sum, whole] = known().fold([0.0; 2], |[sum, whole], (part, x)| [sum + part * x, whole + part]);
-                sum / whole
+                // Sides on the axis have no area.
+                if whole > 0.0 { sum / whole } else { values().sum::<f64>() / values().count() as f64 }
             }
         }
     }

@@ -1,0 +1,103 @@
+//! How long and how thick the cells of a body are, against its own thickness: what cells of first degree without incompatible
+//! modes get wrong in bending.
+
+use super::{Formulation, incompatible};
+use crate::mesh::Mesh;
+use crate::mesh::cells::Cell;
+
+/// Of a body's cells of first degree, simplices taken together to quadrilaterals and bricks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slenderness {
+    /// Length along the body over its thickness.
+    pub along: f64,
+    /// How many of them lie through it.
+    pub through: f64,
+}
+
+impl Slenderness {
+    /// That of some cells, as if they were those of a plate or strip: its thickness is twice the volume over the surface, and theirs
+    /// the median, over the surface, of the volume of the cell behind a side over its area.
+    pub fn of(mesh: &Mesh, cells: &[usize]) -> Self {
+        let sides = mesh.boundary(cells).into_iter().map(|side| {
+            let (area, kind) = (mesh.extent(side), mesh.cell(side.cell).kind);
+            // Of a simplex over its base.
+            let part = if kind.linear.nodes.len() == kind.dimension + 1 { kind.dimension as f64 } else { 1.0 };
+            (part * mesh.measure(side.cell) / area, area)
+        });
+        let mut sides: Vec<(f64, f64)> = sides.collect();
+        sides.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let surface: f64 = sides.iter().map(|side| side.1).sum();
+        let mut passed = 0.0;
+        let median = sides.iter().find(|side| {
+            passed += side.1;
+            passed >= 0.5 * surface
+        });
+        let volume: f64 = cells.iter().map(|&cell| mesh.measure(cell)).sum();
+        let bricks: f64 = cells.iter().map(|&cell| 1.0 / together(mesh.cell(cell).kind)).sum();
+        let (thickness, deep) = (2.0 * volume / surface, median.map_or(1.0, |side| side.0));
+        let dimension = cells.first().map_or(2, |&cell| mesh.cell(cell).kind.dimension);
+        let area = volume / bricks / deep;
+        let along = if dimension == 3 { area.sqrt() } else { area };
+        Self { along: along / thickness, through: thickness / deep }
+    }
+
+    /// By what part of its deflection a body of such cells is too stiff in bending, roughly: the shear that comes along goes with the
+    /// square of their length, the stretch across that is not free with that of their thickness. The factors are those of cantilevers
+    /// with one to eight cells through them, Poisson's ratio 0.3.
+    pub fn stiff(&self, kind: &Cell, formulation: Formulation) -> f64 {
+        let (long, thick) = (self.along.powi(2), self.through.powi(-2));
+        match (kind.degree, formulation) {
+            (1, Formulation::Incompatible) => 0.0,
+            (1, Formulation::FBar) if incompatible::modes(kind) > 0 => 0.35 * long,
+            (1, _) if incompatible::modes(kind) > 0 => 0.35 * long + 0.3 * thick,
+            (1, _) => long + 2.7 * thick,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether one or two cells through a body share their change of volume, so that much of its stiffness in bending is lost.
+    pub fn soft(&self, kind: &Cell, formulation: Formulation) -> bool {
+        let barred = kind.degree == 1 && formulation == Formulation::FBar && incompatible::modes(kind) > 0;
+        barred && self.through < 2.5
+    }
+}
+
+/// Cells of a kind that fill a quadrilateral or a brick.
+fn together(kind: &Cell) -> f64 {
+    match (kind.dimension, kind.linear.nodes.len()) {
+        (2, 3) | (3, 6) => 2.0,
+        (3, 4) => 6.0,
+        _ => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::generate::{Block, Rectangle};
+
+    /// Deflections of cantilevers of `verify locking` and of ones 100 long and 2 high.
+    #[test]
+    fn stiffness_is_that_of_cantilevers() {
+        for (name, size, cells, found) in [
+            ("tri3", [20.0, 1.0], [40, 2], 0.517),
+            ("tri3", [20.0, 1.0], [40, 1], 0.255),
+            ("tri3", [100.0, 2.0], [10, 8], 0.037),
+            ("quad4", [100.0, 2.0], [10, 4], 0.103),
+            ("quad4", [100.0, 2.0], [20, 4], 0.317),
+            ("quad4", [100.0, 2.0], [50, 4], 0.763),
+        ] {
+            let kind = Cell::named(name).unwrap();
+            let mesh = Rectangle::new([0.0; 2], size, cells, kind).mesh("b").unwrap();
+            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>());
+            let (told, found) = (of.stiff(kind, Formulation::Standard), 1.0 / found - 1.0);
+            assert!((0.7..1.4).contains(&(told / found)), "{name} {cells:?}: {told}, {found}");
+        }
+        for (through, soft) in [(1, true), (2, true), (3, false)] {
+            let kind = Cell::named("hex8").unwrap();
+            let mesh = Block::new([0.0; 3], [50.0, 50.0, 2.0], [20, 20, through], kind).mesh("b").unwrap();
+            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>());
+            assert_eq!(of.soft(kind, Formulation::FBar), soft, "{through}: {of:?}");
+        }
+    }
+}

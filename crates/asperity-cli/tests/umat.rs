@@ -35,6 +35,7 @@ void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *
     if (mood == 8) abort();
     if (mood == 9) ddsdde[1 + n] *= 0.5;
     if (mood == 10) pnewdt[0] = 3.0;
+    if (mood == 11) statev[5] = 1.0;
 }
 "#;
 
@@ -124,6 +125,15 @@ fn a_crash_names_the_library() {
             assert_eq!(run.status.signal(), signal, "{told}");
             assert!(signal.is_some() || run.status.code() == Some(1), "{told}");
         }
+    }
+}
+
+#[test]
+fn a_law_with_more_states_than_are_said_is_told() {
+    let Some(folder) = folder() else { return };
+    for verb in [["point", "point.toml"], ["run", "block.toml"]] {
+        let run = mood(folder.path(), &verb, 11);
+        assert!(!run.status.success() && error(&run).contains("it writes more than 1 states"), "{}", error(&run));
     }
 }
 

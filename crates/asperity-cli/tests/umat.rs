@@ -35,7 +35,7 @@ void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *
     if (mood == 8) abort();
     if (mood == 9) ddsdde[1 + n] *= 0.5;
     if (mood == 10) pnewdt[0] = 3.0;
-    if (mood == 11) statev[5] = 1.0;
+    if (props[1] == 11.0) statev[5] = 1.0;
 }
 "#;
 
@@ -131,10 +131,8 @@ fn a_crash_names_the_library() {
 #[test]
 fn a_law_with_more_states_than_are_said_is_told() {
     let Some(folder) = folder() else { return };
-    for verb in [["point", "point.toml"], ["run", "block.toml"]] {
-        let run = mood(folder.path(), &verb, 11);
-        assert!(!run.status.success() && error(&run).contains("it writes more than 1 states"), "{}", error(&run));
-    }
+    let run = mood(folder.path(), &["point", "point.toml"], 11);
+    assert!(!run.status.success() && error(&run).contains("it writes more than 1 states"), "{}", error(&run));
 }
 
 #[test]

@@ -72,15 +72,16 @@ unsafe extern "C-unwind" fn guarded(stack: *mut usize, call: Entry, data: *mut c
         "mov rdi, rdx",
         "call rsi",
         "xor eax, eax",
-        "add rsp, 8",
-        "pop r15",
-        "pop r14",
-        "pop r13",
-        "pop r12",
-        "pop rbx",
-        "pop rbp",
-        "ret",
+        "jmp {leave}",
+        leave = sym leave,
     )
+}
+
+/// The end of `guarded`: what was kept goes back to its caller.
+#[cfg(all(target_arch = "x86_64", unix))]
+#[unsafe(naked)]
+unsafe extern "C-unwind" fn leave() -> ! {
+    std::arch::naked_asm!("add rsp, 8", "pop r15", "pop r14", "pop r13", "pop r12", "pop rbx", "pop rbp", "ret",)
 }
 
 /// Returns from `guarded` with one, wherever the thread is within its call.
@@ -90,14 +91,8 @@ unsafe extern "C-unwind" fn escape(stack: usize) -> ! {
     std::arch::naked_asm!(
         "mov rsp, rdi",
         "mov eax, 1",
-        "add rsp, 8",
-        "pop r15",
-        "pop r14",
-        "pop r13",
-        "pop r12",
-        "pop rbx",
-        "pop rbp",
-        "ret",
+        "jmp {leave}",
+        leave = sym leave,
     )
 }
 

@@ -30,7 +30,7 @@ pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behi
         let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
         let followed = |side: &Side| {
             let Backing { modulus, plate } = behind(side.cell);
-            let squeezed = 1.0 / depth(mesh, *side);
+            let squeezed = 1.0 / mesh.depth(*side);
             let bent =
                 plate.filter(|plate| area > FACE * plate.area).map(|plate| stiffness(plate.thickness, curvature));
             modulus * bent.map_or(squeezed, |bent| bent.min(squeezed))
@@ -38,9 +38,4 @@ pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behi
         sides.iter().map(followed).fold(f64::INFINITY, f64::min)
     };
     RATIO * surfaces.iter().map(least).fold(f64::INFINITY, f64::min)
-}
-
-/// Volume of the cell behind a side over the area of the side.
-pub fn depth(mesh: &Mesh, side: Side) -> f64 {
-    mesh.measure(side.cell) / mesh.extent(side)
 }

@@ -60,6 +60,11 @@ impl Mesh {
         CellView { kind, nodes: &nodes.collect::<Vec<_>>() }.extent(&self.points)
     }
 
+    /// Volume of the cell behind a side over the area of the side.
+    pub fn depth(&self, side: Side) -> f64 {
+        self.measure(side.cell) / self.extent(side)
+    }
+
     /// The longest straight distance between two corners that an edge of a cell joins.
     pub fn longest_edge(&self, cell: usize) -> f64 {
         let cell = self.cell(cell);

@@ -11,8 +11,9 @@ use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
 use crate::material::{Material, Placement};
 use crate::mesh::cells::{Cell, Rule};
 use crate::mesh::{Mesh, Space};
-use crate::system::{Attempt, Dofs, History, Instant, Local, State, Stencils, Term};
+use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::{Error, Failure};
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// A set of cells made of one material.
@@ -82,11 +83,11 @@ impl Body {
             refuse(name, mesh.cell(cell).kind, space, &options)?;
         }
         let material = options.strain.law(material).map_err(|why| Error::input(format!("body '{name}': {why}")))?;
-        let (mut choices, slenderness) = (Vec::<Choice>::new(), Slenderness::of(&mesh, &cells));
+        let (mut choices, slenderness) = (Vec::<Choice>::new(), OnceCell::new());
         for kind in cells.iter().map(|&cell| mesh.cell(cell).kind) {
             if choices.iter().all(|known| known.kind != kind) {
                 let choice = Choice::of(kind, space, material.as_ref(), &options);
-                choices.push(choice.in_body(slenderness, &options));
+                choices.push(choice.in_body(|| *slenderness.get_or_init(|| Slenderness::of(&mesh, &cells)), &options));
             }
         }
         let barred =
@@ -274,16 +275,11 @@ impl Term for Body {
         let history = self.initial();
         let start = State { u: vec![0.0; forces.len()], ..State::default() };
         let attempt = self.attempt(&start, &history, Instant::default())?;
-        let (mut stencils, mut local, mut stored) = (Stencils::default(), Local::default(), 0.0);
-        attempt.stencils(&start.u, &mut stencils)?;
-        for (i, stencil) in stencils.list.iter().enumerate() {
-            let dofs = stencils.dofs(stencil);
-            local.u = vec![0.0; dofs.len()];
-            local.reset(dofs.len());
-            attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local)?;
+        let mut stored = 0.0;
+        attempt.each(&start.u, &mut |dofs, local| {
             dofs.iter().zip(&local.force).for_each(|(&dof, force)| forces[dof] += force);
             stored += local.stored;
-        }
+        })?;
         Ok(stored)
     }
 

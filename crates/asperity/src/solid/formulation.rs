@@ -128,10 +128,11 @@ impl Choice {
         format!("{} {word}: {}", self.kind.name, self.reason)
     }
 
-    /// The same with what follows from the body's thickness.
-    pub(super) fn in_body(mut self, body: Slenderness, options: &BodyOptions) -> Self {
+    /// The same with what follows from the body's thickness, which is asked for where it matters.
+    pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
         let reduced = options.integration == Integration::Reduced && self.kind.reduced.is_some();
-        if !reduced {
+        if !reduced && self.kind.degree == 1 && self.formulation != Formulation::Incompatible {
+            let body = body();
             self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
             self.soft = body.soft(self.kind, self.formulation);
         }
@@ -154,7 +155,8 @@ impl Choice {
         });
         let stiff = self.stiff.filter(|_| !self.soft).map(|part| {
             format!(
-                "where it bends, {name} cells so long and so few through it are too stiff, by some {:.0} %: those of second degree are not",
+                "where it bends it is too stiff, by some {:.0} %: its {name} cells are too long, or too few through it, for first degree; \
+                 those of second are right",
                 100.0 * part
             )
         });

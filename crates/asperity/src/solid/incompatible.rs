@@ -20,7 +20,7 @@ use super::{Body, Strain};
 use crate::mesh::Space;
 use crate::mesh::cells::Cell;
 use crate::system::Local;
-use crate::tensor::{Tensor2, Vec3};
+use crate::tensor::{Tensor2, Vec3, invert};
 use crate::{Failure, Kind};
 
 /// Most modes of a cell.
@@ -168,11 +168,6 @@ fn carried_rows<const N: usize>(rows: &Rows<N>, mean: &Rows<N>, enhancement: &Te
     out
 }
 
-/// `I + sum_L u_L (x) row_L` and the enhancement of the undeformed places, which is `H` itself.
-fn total<const DIM: usize, const N: usize>(rows: &Rows<N>, u: &Nodal<DIM, N>, enhancement: &Tensor2) -> Tensor2 {
-    deformation(rows, u) + *enhancement
-}
-
 impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
     /// Rows and deformation of all points at trial amplitudes.
     fn move_to(&mut self, amplitudes: &Amplitudes) {
@@ -180,11 +175,12 @@ impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
             let by = enhancement(&point.modes, amplitudes);
             if self.strain == Strain::Small {
                 let begun = enhancement(&point.modes, &self.begun);
-                point.f = total(&point.rows, &self.du, &by) + begun * -1.0;
+                point.f = deformation(&point.rows, &self.du) + by + begun * -1.0;
                 continue;
             }
             let rows = carried_rows(&point.undeformed, &self.mean, &by);
-            point.f = total(&rows, &self.u, &by) * point.inverse;
+            // The places of the undeformed nodes with these rows make I + H.
+            point.f = (deformation(&rows, &self.u) + by) * point.inverse;
             for (j, out) in point.rows.iter_mut().enumerate() {
                 out.fill(0.0);
                 for (k, row) in rows.iter().enumerate() {
@@ -243,7 +239,7 @@ impl OpenBody<'_> {
         for point in points {
             point.carried = point.modes.map(|g| mean * g);
             let by = enhancement(&point.modes, &cell.begun);
-            let f = total(&carried_rows(&point.undeformed, &cell.mean, &by), &accepted, &by);
+            let f = deformation(&carried_rows(&point.undeformed, &cell.mean, &by), &accepted) + by;
             let det = f.det();
             if det.is_nan() || det <= 0.0 {
                 return Err(Failure::new("a cell is turned inside out").of(Kind::Inverted));
@@ -267,10 +263,7 @@ impl OpenBody<'_> {
             let at =
                 nodes.iter().zip(shapes.n).fold(Vec3::zero(), |sum, (&node, n)| sum + self.body.mesh.points[node] * n);
             let stress = Tensor2::from_voigt(field.at(at));
-            let thickness = match self.body.space {
-                Space::PlaneStrain | Space::PlaneStress => self.body.options.thickness,
-                Space::Axisymmetric | Space::Solid => 1.0,
-            };
+            let thickness = self.body.nominal_thickness();
             for (k, out) in out.iter_mut().enumerate().take(DIM * MOST) {
                 *out += open.volume * thickness * (stress * point.modes[k / DIM])[k % DIM];
             }
@@ -480,27 +473,10 @@ impl Own {
         own
     }
 
-    /// Inverts the stiffness by Gauss and Jordan's elimination with row exchanges; says no where there is none.
+    /// Inverts the stiffness; says no where there is none.
     fn solve(&mut self) -> bool {
-        let (a, b) = (&mut self.stiffness, &mut self.inverse);
-        (0..self.count).for_each(|k| b[k][k] = 1.0);
-        for k in 0..self.count {
-            let pivot = (k..self.count).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs())).unwrap_or(k);
-            a.swap(k, pivot);
-            b.swap(k, pivot);
-            let by = a[k][k].recip();
-            if !by.is_finite() {
-                return false;
-            }
-            a[k].iter_mut().chain(&mut b[k]).for_each(|entry| *entry *= by);
-            let (row, right) = (a[k], b[k]);
-            for i in (0..self.count).filter(|i| *i != k) {
-                let factor = a[i][k];
-                a[i].iter_mut().zip(&row).for_each(|(a, row)| *a -= factor * row);
-                b[i].iter_mut().zip(&right).for_each(|(b, right)| *b -= factor * right);
-            }
-        }
-        true
+        invert(&mut self.stiffness[..self.count], &mut self.inverse[..self.count], 0.0)
+            && self.step().iter().all(|step| step.is_finite())
     }
 
     /// The inverse times the forces.

@@ -16,8 +16,10 @@ impl Body {
     ) -> impl Iterator<Item = [f64; 6]> + 'a {
         let points = states.chunks_exact(self.point_len());
         let inside_out = || Tensor2::from_fn(|_, _| f64::NAN);
-        let mut gradients: Vec<_> =
-            self.displacement_gradients(slot, u).map(|gradient| gradient.unwrap_or_else(inside_out)).collect();
+        let mut gradients: Vec<_> = self
+            .displacement_gradients(self.cells[slot], u)
+            .map(|gradient| gradient.unwrap_or_else(inside_out))
+            .collect();
         let enhancements = self.enhancements(slot, states, &gradients);
         gradients.iter_mut().zip(enhancements).for_each(|(gradient, by)| *gradient = *gradient + by);
         points.zip(gradients).map(|(state, mut gradient)| {

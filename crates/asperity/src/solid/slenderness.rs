@@ -19,10 +19,10 @@ impl Slenderness {
     /// the median, over the surface, of the volume of the cell behind a side over its area.
     pub fn of(mesh: &Mesh, cells: &[usize]) -> Self {
         let sides = mesh.boundary(cells).into_iter().map(|side| {
-            let (area, kind) = (mesh.extent(side), mesh.cell(side.cell).kind);
+            let kind = mesh.cell(side.cell).kind;
             // Of a simplex over its base.
             let part = if kind.linear.nodes.len() == kind.dimension + 1 { kind.dimension as f64 } else { 1.0 };
-            (part * mesh.measure(side.cell) / area, area)
+            (part * mesh.depth(side), mesh.extent(side))
         });
         let mut sides: Vec<(f64, f64)> = sides.collect();
         sides.sort_by(|one, other| one.0.total_cmp(&other.0));

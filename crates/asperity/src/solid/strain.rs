@@ -142,8 +142,15 @@ impl Body {
     pub(super) fn thickness(&self, state: &[f64]) -> f64 {
         match (self.space, self.options.strain) {
             (Space::PlaneStress, Strain::Finite) => self.options.thickness * state[self.material.state_len()],
-            (Space::PlaneStrain | Space::PlaneStress, _) => self.options.thickness,
-            (Space::Axisymmetric | Space::Solid, _) => 1.0,
+            _ => self.nominal_thickness(),
+        }
+    }
+
+    /// That before any motion.
+    pub(super) fn nominal_thickness(&self) -> f64 {
+        match self.space {
+            Space::PlaneStrain | Space::PlaneStress => self.options.thickness,
+            Space::Axisymmetric | Space::Solid => 1.0,
         }
     }
 
@@ -151,18 +158,18 @@ impl Body {
     /// squares of its components, rotation among them. Strains are wrong by a part of that order.
     pub fn largest_gradient(&self, u: &[f64]) -> Option<f64> {
         let square = |g: Tensor2| -> f64 { (0..9).map(|k| g[(k / 3, k % 3)].powi(2)).sum() };
-        let all = || (0..self.cells.len()).flat_map(|slot| self.displacement_gradients(slot, u)).flatten();
+        let all = || self.cells.iter().flat_map(|&cell| self.displacement_gradients(cell, u)).flatten();
         (self.options.strain == Strain::Small).then(|| all().map(square).fold(0.0, f64::max).sqrt())
     }
 
-    /// Gradients of the nodes' displacements at the integration points of a cell, on the undeformed places; the strain around the axis of axial
-    /// symmetry is the last on the diagonal. None where the cell is inside out.
+    /// Gradients of the nodes' displacements at the integration points of a cell, on the undeformed places; the strain around the
+    /// axis of axial symmetry is the last on the diagonal. None where the cell is inside out.
     pub(super) fn displacement_gradients<'a>(
         &'a self,
-        slot: usize,
+        cell: usize,
         u: &'a [f64],
     ) -> impl Iterator<Item = Option<Tensor2>> + 'a {
-        let (view, axes) = (self.mesh.cell(self.cells[slot]), self.dofs.per_node());
+        let (view, axes) = (self.mesh.cell(cell), self.dofs.per_node());
         let x: Vec<_> = view.nodes.iter().map(|&node| self.mesh.points[node].0).collect();
         let mut rows = Vec::new();
         self.shapes(view.kind).points.iter().map(move |shapes| {

@@ -5,7 +5,7 @@
 
 use super::run::Run;
 use crate::Failure;
-use crate::system::{History, Instant, Local, Role, Row, State, Stencils, Term};
+use crate::system::{History, Instant, Role, Row, State, Term};
 
 impl Run<'_> {
     /// Before the first increment of a step: notes the forces that it lets go, and forgets what its idle terms remember.
@@ -78,14 +78,7 @@ impl Run<'_> {
 fn beginning(load: &dyn Term, history: &History, state: &State) -> Result<Vec<(usize, f64)>, Failure> {
     let at = Instant { step: state.step, time: state.time, ..Instant::default() };
     let attempt = load.attempt(state, history, at)?;
-    let (mut stencils, mut local, mut forces) = (Stencils::default(), Local::default(), Vec::new());
-    attempt.stencils(&state.u, &mut stencils)?;
-    for (i, stencil) in stencils.list.iter().enumerate() {
-        let dofs = stencils.dofs(stencil);
-        local.u = dofs.iter().map(|&dof| state.u[dof]).collect();
-        local.reset(dofs.len());
-        attempt.evaluate(i, stencil, &mut attempt.scratch(i), &mut local)?;
-        forces.extend(dofs.iter().copied().zip(local.force.iter().copied()));
-    }
+    let mut forces = Vec::new();
+    attempt.each(&state.u, &mut |dofs, local| forces.extend(dofs.iter().copied().zip(local.force.iter().copied())))?;
     Ok(forces)
 }

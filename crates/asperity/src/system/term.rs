@@ -196,6 +196,22 @@ pub trait Attempt: Send + Sync {
     /// # Errors
     /// A [`Failure`] when the law or the geometry cannot be evaluated there.
     fn evaluate(&self, index: usize, stencil: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure>;
+    /// Evaluates all stencils at trial unknowns `u` and tells of each its unknowns and what came out; new history is thrown away.
+    ///
+    /// # Errors
+    /// As [`stencils`](Self::stencils) and [`evaluate`](Self::evaluate).
+    fn each(&self, u: &[f64], tell: &mut dyn FnMut(&[usize], &Local)) -> Result<(), Failure> {
+        let (mut stencils, mut local) = (Stencils::default(), Local::default());
+        self.stencils(u, &mut stencils)?;
+        for (i, stencil) in stencils.list.iter().enumerate() {
+            let dofs = stencils.dofs(stencil);
+            local.u = dofs.iter().map(|&dof| u[dof]).collect();
+            local.reset(dofs.len());
+            self.evaluate(i, stencil, &mut self.scratch(i), &mut local)?;
+            tell(dofs, &local);
+        }
+        Ok(())
+    }
     /// Adds to `out` the coordinates over which stencil number `index` bends at `u`, the trial values of its unknowns.
     ///
     /// # Errors

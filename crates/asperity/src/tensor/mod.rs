@@ -12,7 +12,7 @@ mod tensor2;
 mod vec3;
 
 pub use dual::Dual;
-pub use inverse::inverse;
+pub use inverse::{inverse, invert};
 pub use principal::{Isotropic, principal};
 pub use quadrature::legendre;
 pub use scalar::Scalar;

@@ -14,7 +14,7 @@ impl Builder<'_> {
     /// `contacts_end`, then springs and loads.
     pub(super) fn absent(&mut self, terms: &[String], contacts_end: usize) -> Vec<Vec<usize>> {
         let (deck, mut gone) = (self.deck, BTreeSet::<usize>::new());
-        let (bodies, mut all) = (deck.body.len(), Vec::new());
+        let (bodies, owner, mut all) = (deck.body.len(), self.owners(), Vec::new());
         for (step, absent) in deck.step.iter().zip(self.absent_bodies()) {
             for name in &step.remove {
                 let meant = self.terms_of(name, &terms[..contacts_end]);
@@ -35,8 +35,10 @@ impl Builder<'_> {
                 meant.iter().for_each(|term| _ = gone.remove(term));
             }
             let mut without = gone.clone();
-            without.extend((bodies..contacts_end).filter(|&term| self.contact_is_on(&terms[term], &absent)));
-            without.extend((contacts_end..terms.len()).filter(|&term| self.load_is_on(&terms[term], &absent, step)));
+            without.extend((bodies..contacts_end).filter(|&term| self.contact_is_on(&terms[term], (&owner, &absent))));
+            without.extend(
+                (contacts_end..terms.len()).filter(|&term| self.load_is_on(&terms[term], (&owner, &absent), step)),
+            );
             all.push(without.into_iter().collect());
         }
         all
@@ -107,11 +109,10 @@ impl Builder<'_> {
     }
 
     /// Whether a contact has a side on one of these bodies.
-    fn contact_is_on(&self, term: &str, bodies: &BTreeSet<usize>) -> bool {
+    fn contact_is_on(&self, term: &str, (owner, bodies): (&[usize], &BTreeSet<usize>)) -> bool {
         if bodies.is_empty() {
             return false;
         }
-        let owner = self.owners();
         let on = |group: &Name| {
             let sides = self.site.mesh.groups.get(&group.text).map_or(&[][..], |group| &group.sides);
             sides.iter().any(|side| bodies.contains(&owner[side.cell]))
@@ -125,7 +126,7 @@ impl Builder<'_> {
     }
 
     /// Whether a load acts on these bodies alone; one that acts on others too is refused.
-    fn load_is_on(&mut self, term: &str, bodies: &BTreeSet<usize>, step: &Step) -> bool {
+    fn load_is_on(&mut self, term: &str, (owner, bodies): (&[usize], &BTreeSet<usize>), step: &Step) -> bool {
         let mesh = self.site.mesh.clone();
         let Some((kind, name)) = term.split_once('.').filter(|_| !bodies.is_empty()) else { return false };
         let Some(group) = mesh.groups.get(name) else { return false };
@@ -135,7 +136,6 @@ impl Builder<'_> {
             "gravity" | "body_force" => group.cells.clone(),
             _ => return false,
         };
-        let owner = self.owners();
         let on = cells.iter().filter(|&&cell| bodies.contains(&owner[cell])).count();
         if on > 0 && on < cells.len() {
             let what = format!("`{term}` acts on a body that is removed and on others: lay it on groups of their own");

@@ -68,8 +68,7 @@ impl Builder<'_> {
         let update = keys.update.as_ref().map(|update| update.update());
         let place = keys.update.as_ref().map_or(keys.law.place, |update| update.place);
         let place = keys.closure.as_ref().map_or(place, |closure| closure.place);
-        let closure = keys.closure.as_ref().map(|rows| Closure::new(pairs(&rows.value)));
-        let closure = self.keep(closure.transpose().map_err(crate::Error::input), place)?.map(Arc::new);
+        let closure = self.keep(closure(keys).map_err(crate::Error::input), place)?.map(Arc::new);
         let first = self.keep(integrated(law, update, closure.as_ref()).map_err(crate::Error::input), place)?;
         self.running(name, keys, (first, closure))
     }
@@ -159,11 +158,7 @@ impl Builder<'_> {
         backings: &[Backing],
     ) -> ContactOptions {
         let loads = self.carried(keys, (surface, opposite));
-        let steepest = keys
-            .closure
-            .as_ref()
-            .and_then(|rows| Closure::new(pairs(&rows.value)).ok())
-            .map(|closure| closure.steepest());
+        let steepest = closure(keys).ok().flatten().map(|closure| closure.steepest());
         let penalty =
             keys.penalty.or(steepest).unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), backings));
         ContactOptions {
@@ -297,9 +292,10 @@ pub(super) fn is_double(options: &ContactOptions, surface: &[Side], target: &[Si
 }
 
 /// Whether two lists hold the same sides; those of a group are sorted.
-/// Rows of two numbers.
-fn pairs(rows: &[Vec<f64>]) -> Vec<[f64; 2]> {
-    rows.iter().map(|row| [row[0], row[1]]).collect()
+/// The table of pressure over penetration that a contact has.
+fn closure(keys: &keys::Contact) -> Result<Option<Closure>, String> {
+    let rows = keys.closure.as_ref().map(|rows| rows.iter().map(|row| [row[0], row[1]]).collect());
+    rows.map(Closure::new).transpose()
 }
 
 fn same_sides(one: &[Side], other: &[Side]) -> bool {

@@ -6,6 +6,7 @@
 //! is known and can be printed; what is said is used, or is an error.
 
 mod build;
+mod degree;
 pub mod diagnose;
 mod facts;
 pub mod form;

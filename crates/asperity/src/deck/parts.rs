@@ -1,8 +1,9 @@
 //! The mesh of a deck: its file, its generated parts, its chosen groups.
 
+use super::degree;
 use super::diagnose::Diagnostic;
 use super::form::{Form, map, refers, table_of};
-use super::keys::{Generator, MeshKeys, Run, Selection};
+use super::keys::{Body, Generator, MeshKeys, Run, Selection};
 use super::reader::{Name, Reader};
 use super::schema::Names;
 use super::source::{Place, Source, Spot};
@@ -31,16 +32,31 @@ pub fn mesh(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader
         append(&mut mesh, part, name.place, reader)?;
     }
     lint(&mut mesh, keys.file.as_ref().map_or(keys.place, |file| file.place), reader)?;
-    let chosen = map(refers(Names::Group), table_of::<Selection>());
-    let mut waiting = entry(tree, "group").and_then(|node| chosen.read(node, &mut quiet)).unwrap_or_default();
-    // A group may be chosen from one that is written later.
+    let selections = map(refers(Names::Group), table_of::<Selection>());
+    let selections = entry(tree, "group").and_then(|node| selections.read(node, &mut quiet)).unwrap_or_default();
+    let bodies = map(refers(Names::Cells), table_of::<Body>());
+    let bodies = entry(tree, "body").and_then(|node| bodies.read(node, &mut quiet)).unwrap_or_default();
+    choose_all(&selections, &mut mesh, reader);
+    let raised = degree::raised(&bodies, &mesh, reader);
+    if raised.is_empty() {
+        return Some(mesh);
+    }
+    // Chosen once more, so that new nodes within the ranges are among them.
+    selections.iter().for_each(|(name, _)| _ = mesh.groups.remove(&name.text));
+    let mut mesh = mesh.raised(&raised);
+    choose_all(&selections, &mut mesh, &mut quiet);
+    Some(mesh)
+}
+
+/// Adds all chosen groups; one may be chosen from another that is written later.
+fn choose_all(selections: &[(Name, Selection)], mesh: &mut Mesh, reader: &mut Reader) {
+    let mut waiting: Vec<_> = selections.iter().collect();
     let ready =
         |selection: &Selection, mesh: &Mesh| selection.groups().all(|name| mesh.groups.contains_key(&name.text));
-    while let Some(next) = waiting.iter().position(|(_, selection)| ready(selection, &mesh)) {
+    while let Some(next) = waiting.iter().position(|(_, selection)| ready(selection, mesh)) {
         let (name, selection) = waiting.remove(next);
-        choose(&name, &selection, &mut mesh, reader);
+        choose(name, selection, mesh, reader);
     }
-    Some(mesh)
 }
 
 fn entry<'a>(tree: &'a Node, key: &str) -> Option<&'a Node> {

@@ -8,6 +8,7 @@ pub mod generate;
 mod groups;
 pub mod lint;
 mod measure;
+mod raise;
 mod space;
 mod unstructured;
 

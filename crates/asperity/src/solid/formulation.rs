@@ -6,7 +6,7 @@
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
 //! which they are too stiff in bending.
 
-use super::slenderness::Slenderness;
+use super::slenderness::{STIFF, Slenderness};
 use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
@@ -57,9 +57,6 @@ impl Default for BodyOptions {
 /// Ratio of bulk to shear modulus from which on cells would lock: just below that of Poisson's ratio 0.4, where `quad4` with 16
 /// edges a side are 5.0 % too stiff in Cook's membrane and 1.7 % with F-bar (3.7 and 1.8 % at 0.3, 21 and 1.7 % at 0.49).
 pub const NEARLY: f64 = 4.6;
-
-/// Part by which a body may be too stiff in bending without a word.
-const STIFF: f64 = 0.1;
 
 /// What the cells of one kind in a body became, and why.
 #[derive(Debug, Clone, PartialEq)]

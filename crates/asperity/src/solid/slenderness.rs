@@ -5,6 +5,17 @@ use super::{Formulation, incompatible};
 use crate::mesh::Mesh;
 use crate::mesh::cells::Cell;
 
+/// By what part some cells, all simplices or prisms of first degree, are too stiff in bending, where that is much.
+pub fn too_stiff(mesh: &Mesh, cells: &[usize]) -> Option<f64> {
+    let plain = |kind: &Cell| kind.degree == 1 && incompatible::modes(kind) == 0;
+    let kind =
+        cells.first().map(|&cell| mesh.kinds[cell]).filter(|_| cells.iter().all(|&cell| plain(mesh.kinds[cell])))?;
+    Some(Slenderness::of(mesh, cells).stiff(kind, Formulation::Standard)).filter(|part| *part > STIFF)
+}
+
+/// Part by which a body may be too stiff in bending without a word.
+pub(super) const STIFF: f64 = 0.1;
+
 /// Of a body's cells of first degree, simplices taken together to quadrilaterals and bricks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slenderness {

@@ -1,5 +1,6 @@
-//! Solids that hardly change their volume, on every cell of first and second degree at the formulation that a deck gets
-//! without a word: no cell may be too stiff.
+//! Solids that hardly change their volume, on every cell of first and second degree at the formulation and degree that a deck gets
+//! without a word: no cell may be too stiff. Simplices that are too few through a body to bend are raised to second degree, as a deck's
+//! are: those of the cantilevers, and of the slabs, which are two layers deep.
 //!
 //! The problems are in plane strain; cells of space fill a slab of two layers whose faces stay in their planes. The
 //! meshes are lattices of the unit square or box that are mapped onto the body, so that all cells share them.
@@ -14,7 +15,7 @@ use asperity::material::{Hyper, Material, Rate};
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Space};
 use asperity::model::{Model, ModelParts};
-use asperity::solid::{Body, BodyOptions, Strain};
+use asperity::solid::{Body, BodyOptions, Strain, too_stiff};
 use asperity::solve::{Course, Increments, NewtonOptions, Prescribed, Silent, Step};
 use asperity::system::{Constraints, Dofs, State, Term};
 use asperity::tensor::Vec3;
@@ -27,9 +28,6 @@ pub const CASE: Case = Case { name: "locking", measure };
 const PLANE: [&str; 4] = ["tri3", "tri6", "quad4", "quad8"];
 const SOLID: [&str; 4] = ["tet4", "tet10", "hex8", "hex20"];
 
-/// Tetrahedra that do not bear the block's pressure: of first degree up to 56 % of it, of second up to 20 %.
-const BEYOND: [&str; 2] = ["rubber_tet4", "rubber_tet10"];
-
 fn measure(bench: &Bench) -> Result<Measured, Error> {
     let mut measured = Measured::new();
     let all = [&PLANE[..], &SOLID[..]].concat();
@@ -39,9 +37,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         for name in bench.pick(&PLANE[..], &all[..]) {
             let cell = Cell::named(name).ok_or_else(|| Error::input(format!("there is no cell '{name}'")))?;
             let key = format!("{}_{name}", problem.name);
-            if !BEYOND.contains(&key.as_str()) {
-                measured.push((key, problem.solve(cell)?));
-            }
+            measured.push((key, problem.solve(cell)?));
         }
     }
     Ok(measured)
@@ -174,7 +170,8 @@ fn rubber() -> Problem {
         cells: [16, 16],
         law: Arc::new(Hyper(NeoHookean { shear: 1.0, bulk: 1000.0 })),
         strain: Strain::Finite,
-        moves: vec![("b.left", 0, 0.0), ("b.bottom", 1, 0.0), ("b.top", 0, 0.0)],
+        // A top that is free across the slab wrinkles under the dead load from a fifth of it on.
+        moves: vec![("b.left", 0, 0.0), ("b.bottom", 1, 0.0), ("b.top", 0, 0.0), ("b.top", 2, 0.0)],
         load: Some(("punch", Load::Traction([0.0, -6.0]))),
         increments: 30,
         answer: ("punch", 1, Answer::Displacement(-1.0)),
@@ -218,6 +215,10 @@ impl Problem {
             let [a, b] = (self.map)(x[0], x[1]);
             *x = Vec3::new(a, b, self.size * x[2]);
         }
+        let all: Vec<usize> = (0..mesh.cell_count()).collect();
+        if too_stiff(&mesh, &all).is_some() {
+            mesh = mesh.raised(&all);
+        }
         let depth = if cell.dimension == 2 { 1.0 } else { self.size * depth };
         let model = self.model(Arc::new(mesh), cell.dimension)?;
         let mut run = model.run(model.problem.initial_state());
@@ -230,7 +231,7 @@ impl Problem {
         let dofs = Dofs::new(dimension, mesh.points.len(), 0);
         let mut held: BTreeMap<usize, f64> = BTreeMap::new();
         let flat = [("b.back", 2, 0.0), ("b.front", 2, 0.0)];
-        for &(side, axis, value) in self.moves.iter().chain(flat.iter().filter(|_| dimension == 3)) {
+        for &(side, axis, value) in self.moves.iter().chain(&flat).filter(|(_, axis, _)| *axis < dimension) {
             mesh.groups[side].nodes.iter().for_each(|&node| {
                 held.insert(dofs.node(node) + axis, value);
             });

@@ -58,7 +58,20 @@ impl Builder<'_> {
             None => {
                 let given: BTreeMap<u64, f64> = keys.nodes.iter().map(|pair| (pair[0] as u64, pair[1])).collect();
                 let found = |&node: &usize| Some((node, *given.get(&mesh.node_number(node))?));
-                self.nodes(&name.text).iter().filter(|node| within(node)).filter_map(found).collect()
+                let group = self.nodes(&name.text);
+                let mut values: BTreeMap<usize, f64> =
+                    group.iter().filter(|node| within(node)).filter_map(found).collect();
+                // A node in the middle of an edge has the mean of the ends where it is not given.
+                for cell in mesh.groups.get(body).into_iter().flat_map(|body| &body.cells).map(|&cell| mesh.cell(cell))
+                {
+                    for (middle, [a, b]) in cell.kind.middles().filter(|_| cell.kind.degree == 2) {
+                        let ends = values.get(&cell.nodes[a]).copied().zip(values.get(&cell.nodes[b]).copied());
+                        if let (false, Some((a, b))) = (values.contains_key(&cell.nodes[middle]), ends) {
+                            values.insert(cell.nodes[middle], 0.5 * (a + b));
+                        }
+                    }
+                }
+                values
             }
         }
     }

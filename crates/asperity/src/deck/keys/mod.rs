@@ -118,6 +118,11 @@ table! {
         material: Name = refers(Names::Material).required(),
         /// How the deformation of a cell enters the law.
         formulation: Spot<Formulation> = word().spot().or("\"auto\""),
+        /// Degree of its cells. Cells of first degree are raised to second by a node in the middle of each edge, and with them those of
+        /// bodies that share nodes with them.
+        degree: Option<Spot<usize>> = whole(1..=2).spot().unless_given(
+            "that of the mesh; second where simplices, of which no formulation is said, are too few through the body to bend",
+        ),
         /// How many integration points a cell has.
         integration: Spot<Integration> = word().spot().or("\"full\""),
         /// How displacements make strain.

@@ -105,6 +105,19 @@ impl Cell {
         })
     }
 
+    /// The serendipity cell of second degree on its corners; the first of [`ALL`].
+    pub fn raised(&self) -> Option<&'static Cell> {
+        ALL.iter().copied().find(|cell| cell.degree == 2 && cell.linear == self.linear)
+    }
+
+    /// Its nodes in the middle of edges, each with the corners at the ends of its edge.
+    pub fn middles(&self) -> impl Iterator<Item = (usize, [usize; 2])> + '_ {
+        let nodes = self.nodes;
+        let middle = move |[a, b]: [usize; 2]| std::array::from_fn(|i| 0.5 * (nodes[a][i] + nodes[b][i]));
+        let ends = move |node: usize| self.edges().find(|&ends| middle(ends) == nodes[node]);
+        (self.linear.nodes.len()..nodes.len()).filter_map(move |node| Some((node, ends(node)?)))
+    }
+
     /// The order of the nodes that turns the cell inside out: node `i` of the turned cell is node `mirror()[i]` of the
     /// cell. Along a line the ends change places, elsewhere the first two reference coordinates.
     pub fn mirror(&self) -> Vec<usize> {

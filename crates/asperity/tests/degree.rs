@@ -1,0 +1,105 @@
+//! Cells of first degree raised to second: where simplices are too few through a body to bend, and where a deck says so.
+
+mod support;
+
+use asperity::deck::{build, read, review};
+use std::path::Path;
+use support::{made, model, run};
+
+/// A cantilever 20 long and 1 high under an end load of 1, one cell through it.
+fn cantilever(cell: &str, body: &str) -> String {
+    format!(
+        "version = 1
+        space = \"plane-strain\"
+        mesh.part.b.rectangle = {{ from = [0.0, 0.0], to = [20.0, 1.0], cells = [40, 1], cell = \"{cell}\" }}
+        material.m.elastic = {{ young = 1e6, poisson = 0.3 }}
+        body.b = {{ material = \"m\", strain = \"small\"{body} }}
+        [[step]]
+        increments.count = 1
+        displacement.\"b.left\" = {{ x = 0.0, y = 0.0 }}
+        traction.\"b.right\" = {{ y = -1.0 }}"
+    )
+}
+
+/// Kind of the cells, number of nodes, mean sinking of the tip over that of a beam with shear, and whether `check` tells of the degree.
+fn bent(deck: &str) -> (&'static str, usize, f64, bool) {
+    let made = made(deck, &[]);
+    let told = review(&made).unwrap().text.contains("degree = 1 keeps them")
+        || made.diagnostics.list.iter().any(|found| found.what.contains("degree = 1 keeps them"));
+    let keep = run(&made.model);
+    let (tip, u) = (&made.model.mesh.groups["b.right"].nodes, &keep.states.last().unwrap().u);
+    let sinking = -tip.iter().map(|&node| u[2 * node + 1]).sum::<f64>() / tip.len() as f64;
+    let beam = (4.0 * 20.0_f64.powi(3) * 0.91 + 1.2 * 20.0 * 2.6) / 1e6;
+    (made.model.mesh.kinds[0].name, made.model.mesh.points.len(), sinking / beam, told)
+}
+
+#[test]
+fn simplices_too_few_to_bend_are_raised() {
+    for (cell, body, (kind, nodes), range, noted) in [
+        ("tri3", "", ("tri6", 243), 0.98..1.0, true),
+        ("tri3", ", degree = 1", ("tri3", 82), 0.2..0.3, false),
+        ("tri3", ", degree = 2", ("tri6", 243), 0.98..1.0, false),
+        ("tri3", ", formulation = \"standard\"", ("tri3", 82), 0.2..0.3, false),
+        ("quad4", "", ("quad4", 82), 0.98..1.0, false),
+        ("quad4", ", degree = 2", ("quad8", 203), 0.98..1.0, false),
+    ] {
+        let found = bent(&cantilever(cell, body));
+        assert_eq!((found.0, found.1, found.3), (kind, nodes, noted), "{cell}{body}");
+        assert!(range.contains(&found.2), "{cell}{body}: {}", found.2);
+    }
+}
+
+/// A square of 20 by 20 cells bends as it should, and one of more nodes than are raised unasked keeps its own.
+#[test]
+fn what_is_thick_or_large_is_not_raised() {
+    let cells = |cells: &str| cantilever("tri3", "").replace("[40, 1]", cells);
+    for deck in [cells("[20, 20]").replace("[20.0, 1.0]", "[5.0, 5.0]"), cells("[20000, 1]")] {
+        assert_eq!(made(&deck, &[]).model.mesh.kinds[0].name, "tri3");
+    }
+}
+
+/// Bodies that share nodes are raised together, or not at all.
+#[test]
+fn bodies_that_share_nodes_have_one_degree() {
+    let two = |low: &str, high: &str| {
+        let halves = "group.low = { of = \"b\", y = [0.0, 0.5] }\ngroup.high = { of = \"b\", y = [0.5, 1.0] }\n";
+        let of = |name: &str, more: &str| format!("body.{name} = {{ material = \"m\"{more} }}\n");
+        let deck = cantilever("quad4", "").replace("[40, 1]", "[40, 2]");
+        deck.replace(
+            "body.b = { material = \"m\", strain = \"small\" }",
+            &(halves.to_string() + &of("low", low) + &of("high", high)),
+        )
+    };
+    let raised = model(&two(", degree = 2", ""), &[]);
+    assert!(raised.mesh.kinds.iter().all(|kind| kind.name == "quad8"));
+    assert_eq!(raised.mesh.points.len(), 123 + 40 * 3 + 41 * 2);
+    for (low, high, word) in [(", degree = 2", ", degree = 1", "share nodes")] {
+        let found = read(&two(low, high), "test.toml", Path::new(""), &[]).and_then(build).err().unwrap();
+        assert!(found.list.iter().any(|found| found.what.contains(word)), "{found:?}");
+    }
+    let second = cantilever("quad8", ", degree = 1");
+    let found = read(&second, "test.toml", Path::new(""), &[]).and_then(build).err().unwrap();
+    assert!(found.list.iter().any(|found| found.what.contains("of second degree")), "{found:?}");
+}
+
+/// Temperatures said of the corners alone hold between them: a bar with `T = x` that is free grows by `alpha x^2 / 2`.
+#[test]
+fn nodes_between_corners_have_their_temperature() {
+    let deck = cantilever("quad4", ", degree = 2, expansion = 1e-3").replace("[40, 1]", "[4, 1]");
+    let (head, _) = deck.split_once("displacement").unwrap();
+    let corners = |node: usize| format!("[{}, {}.0]", node + 1, 5 * (node % 5));
+    let nodes = (0..10).map(corners).collect::<Vec<_>>().join(", ");
+    let deck = format!(
+        "{head}displacement.\"b.left\" = {{ x = 0.0 }}\nsymmetry = [\"b.bottom\"]\ntemperature.b.nodes = [{nodes}]"
+    )
+    .replace("plane-strain", "plane-stress")
+    .replace("poisson = 0.3", "poisson = 0.0");
+    let model = model(&deck, &[]);
+    let keep = run(&model);
+    let u = &keep.states.last().unwrap().u;
+    // The left end stays straight, where it would bow by alpha h^2 / 2.
+    for &node in &model.mesh.groups["b.bottom"].nodes {
+        let x = model.mesh.points[node][0];
+        assert!((u[2 * node] - 0.5e-3 * x * x).abs() < 1e-3, "{x}: {}", u[2 * node]);
+    }
+}

@@ -201,8 +201,12 @@ impl Page {
         let free = made.model.run(made.model.problem.initial_state()).free_motions()?;
         let place = made.deck.step.first().map(|step| step.place);
         let warn = |motion: String| {
-            let warning = Diagnostic::warning(format!("{motion} until contact closes"));
-            let help = "hold it, or let it touch what is to hold it from the start";
+            let (until, help) = if made.deck.contact.is_empty() {
+                ("", "hold it: a support (`displacement`, `symmetry`), or springs")
+            } else {
+                (" until contact or friction holds it", "hold it, or let it touch what is to hold it from the start")
+            };
+            let warning = Diagnostic::warning(format!("{motion}{until}"));
             place.map_or(warning.clone(), |place| warning.at(place)).help(help)
         };
         Ok(free.into_iter().map(warn).collect())

@@ -19,6 +19,10 @@ pub struct Facts {
     pub iterations: usize,
     /// Parts of the procedure that are switched off, by their keys.
     pub switched_off: Vec<&'static str>,
+    /// What the mesh says of faces and nodes that lie on one another and are not joined, in words.
+    pub seams: Vec<String>,
+    /// The unit of length, where the deck names one.
+    pub length_unit: Option<String>,
 }
 
 /// A body.
@@ -28,6 +32,12 @@ pub struct BodyFacts {
     pub name: String,
     /// Its material.
     pub material: String,
+    /// The word of its law, and the law's numbers by their keys.
+    pub law: (&'static str, Vec<(&'static str, f64)>),
+    /// Whether it has stresses before the first increment.
+    pub prestressed: bool,
+    /// A step that moves every node of it, as its group.
+    pub driven_whole: Option<String>,
     /// Size, a length.
     pub size: f64,
     /// Length of its smallest cell.
@@ -119,6 +129,10 @@ pub struct StepFacts {
     pub driven: f64,
     /// Loads that grow in it.
     pub loads: Vec<Load>,
+    /// Its gravity.
+    pub gravity: Option<f64>,
+    /// Whether it prescribes motions and none of them differs from where the steps before led.
+    pub repeats: bool,
     /// Whether it follows a path by arc length.
     pub follows: bool,
     /// First increment as a part of the step.
@@ -139,5 +153,12 @@ impl Facts {
     /// Bodies that a text names.
     pub fn bodies_in<'a>(&'a self, text: &'a str) -> impl Iterator<Item = &'a BodyFacts> {
         self.bodies.iter().filter(move |body| text.contains(&format!("body '{}'", body.name)))
+    }
+}
+
+impl BodyFacts {
+    /// A number of its law by its key.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        self.law.1.iter().find(|(name, _)| *name == key).map(|(_, value)| *value)
     }
 }

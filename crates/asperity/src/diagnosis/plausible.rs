@@ -1,6 +1,6 @@
 //! Numbers of a model that hardly belong together, as where units are mixed: said before a run, and remembered when it fails.
 
-use super::facts::{BodyFacts, Facts, StepFacts};
+use super::facts::{BodyFacts, ContactFacts, Facts, StepFacts};
 
 /// Something odd.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,9 +22,17 @@ const LOAD_OVER_MODULUS: f64 = 2.0;
 const LOAD_OVER_YIELD: f64 = 20.0;
 const FAINT_LOAD: f64 = 1e-13;
 /// Size of a tool, its distance, and what is moved over the size of the mesh.
-const TOOL_SIZE: [f64; 2] = [2e-3, 3e3];
+const TOOL_SIZE: [f64; 2] = [2e-3, 300.0];
 const DISTANCE: f64 = 20.0;
 const MOTION: f64 = 50.0;
+/// Coefficient of friction: that of rubber on rough ground is some 1.5.
+const FRICTION: f64 = 2.0;
+/// Angle of friction of a soil in degrees, those of clays from some 5 on.
+const ANGLE: f64 = 1.6;
+/// Slope of a flow curve over Young's modulus.
+const HARDENING: f64 = 1.0;
+/// Gravity on earth in metres.
+const METRES: [f64; 2] = [9.7, 9.9];
 
 /// How strongly a ratio beyond a limit speaks of a mistake: by ten the more, by a thousand for certain.
 fn weight(beyond: f64) -> f64 {
@@ -38,6 +46,11 @@ pub fn oddities(facts: &Facts) -> Vec<Oddity> {
     found.extend(facts.steps.iter().filter_map(|step| motion(facts, step)));
     found.extend(tools(facts));
     found.extend(distances(facts));
+    found.extend(facts.bodies.iter().flat_map(numbers));
+    found.extend(facts.contacts.iter().filter_map(friction));
+    found.extend(facts.steps.iter().filter_map(|step| gravity(facts, step)));
+    found.extend(facts.steps.iter().skip(1).filter_map(repeated));
+    found.extend(facts.bodies.iter().filter_map(driven_whole));
     found
 }
 
@@ -49,9 +62,10 @@ fn stiffness(body: &BodyFacts) -> Option<Oddity> {
         return None;
     }
     let beyond = if ratio < least { least / ratio.max(1e-12) } else { ratio / most };
+    let said = body.number("yield_stress").map_or(String::new(), |said| format!(" (`yield_stress` {said})"));
     Some(Oddity {
         what: format!(
-            "material `{}` yields at {limit:.3e} with a modulus of {:.3e}: a ratio of {ratio:.1e}, where metals have 100 to 2000",
+            "material `{}` yields at {limit:.3e}{said} with a modulus of {:.3e}: a ratio of {ratio:.1e}, where metals have 100 to 2000",
             body.material, body.young
         ),
         help: "are both in the same unit of stress?".into(),
@@ -117,5 +131,60 @@ fn distances(facts: &Facts) -> impl Iterator<Item = Oddity> + '_ {
             help: "are both where they should be, and in the same unit of length?".into(),
             weight: weight(far / DISTANCE),
         })
+    })
+}
+
+/// Numbers of a law that are out of their range: slopes steeper than the modulus, angles that are no degrees.
+fn numbers(body: &BodyFacts) -> impl Iterator<Item = Oddity> + '_ {
+    body.law.1.iter().filter_map(|&(key, value)| {
+        let steep = ["hardening", "kinematic"].contains(&key) && value > HARDENING * body.young;
+        let radians = ["friction", "friction_angle"].contains(&key) && value > 0.0 && value < ANGLE;
+        let (what, help, beyond) = if steep {
+            let what = format!("{value:.3e}, {:.1e} of its modulus", value / body.young);
+            (what, "are both in the same unit of stress?", 10.0 * value / body.young)
+        } else if radians {
+            (format!("{value} degrees"), "is it in radians? Angles are in degrees", 10.0)
+        } else {
+            return None;
+        };
+        let what = format!("`{key}` of material `{}` is {what}", body.material);
+        Some(Oddity { what, help: help.into(), weight: weight(beyond) })
+    })
+}
+
+fn friction(contact: &ContactFacts) -> Option<Oddity> {
+    let friction = contact.friction.filter(|friction| *friction > FRICTION)?;
+    Some(Oddity {
+        what: format!("contact `{}` has a coefficient of friction of {friction}", contact.name),
+        help: "is it in per cent? It is shear over pressure, and rarely above 1".into(),
+        weight: weight(10.0 * friction / FRICTION),
+    })
+}
+
+fn gravity(facts: &Facts, step: &StepFacts) -> Option<Oddity> {
+    let unit = facts.length_unit.as_ref().filter(|unit| *unit != "m")?;
+    let gravity = step.gravity.filter(|gravity| (METRES[0]..METRES[1]).contains(gravity))?;
+    Some(Oddity {
+        what: format!("step `{}` has a gravity of {gravity}, and the unit of length is {unit}", step.name),
+        help: "9.81 is in metres; in millimetres it is 9810".into(),
+        weight: 0.9,
+    })
+}
+
+fn repeated(step: &StepFacts) -> Option<Oddity> {
+    step.repeats.then(|| Oddity {
+        what: format!("step `{}` prescribes what holds already and moves nothing", step.name),
+        help: "displacements and motions count from where the mesh was drawn, and not from the end of the step before"
+            .into(),
+        weight: 0.55,
+    })
+}
+
+fn driven_whole(body: &BodyFacts) -> Option<Oddity> {
+    let step = body.driven_whole.as_ref()?;
+    Some(Oddity {
+        what: format!("step `{step}` moves every node of body `{}`, which so cannot deform", body.name),
+        help: "name one of its sides, as `NAME.top`".into(),
+        weight: 0.7,
     })
 }

@@ -38,7 +38,7 @@ fn block() -> Facts {
         }],
         tolerance: 1e-6,
         iterations: 25,
-        switched_off: Vec::new(),
+        ..Facts::default()
     }
 }
 

@@ -10,6 +10,7 @@ pub mod lint;
 mod measure;
 mod raise;
 mod space;
+mod thickness;
 mod unstructured;
 
 pub use boundary::{Behind, Faces};
@@ -17,4 +18,5 @@ pub use cells::{Cell, Face, Rule};
 pub use groups::{Group, Side};
 pub use measure::Adjacency;
 pub use space::Space;
+pub use thickness::median;
 pub use unstructured::{CellView, Mesh, Numbers};

@@ -2,8 +2,8 @@
 //! modes get wrong in bending.
 
 use super::{Formulation, incompatible};
-use crate::mesh::Mesh;
 use crate::mesh::cells::Cell;
+use crate::mesh::{Mesh, median};
 
 /// By what part some cells, all simplices or prisms of first degree, are too stiff in bending, where that is much.
 pub fn too_stiff(mesh: &Mesh, cells: &[usize]) -> Option<f64> {
@@ -26,26 +26,20 @@ pub(super) struct Slenderness {
 }
 
 impl Slenderness {
-    /// That of some cells, as if they were those of a plate or strip: its thickness is twice the volume over the surface, and theirs
-    /// the median, over the surface, of the volume of the cell behind a side over its area.
+    /// That of some cells: the median, over their surface, of the thickness behind a side, and of the volume of the cell there over the
+    /// area of the side.
     pub fn of(mesh: &Mesh, cells: &[usize]) -> Self {
-        let sides = mesh.boundary(cells).into_iter().map(|side| {
+        let boundary = mesh.boundary(cells);
+        let sides = boundary.iter().map(|&side| {
             let kind = mesh.cell(side.cell).kind;
             // Of a simplex over its base.
             let part = if kind.linear.nodes.len() == kind.dimension + 1 { kind.dimension as f64 } else { 1.0 };
             (part * mesh.depth(side), mesh.extent(side))
         });
-        let mut sides: Vec<(f64, f64)> = sides.collect();
-        sides.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let surface: f64 = sides.iter().map(|side| side.1).sum();
-        let mut passed = 0.0;
-        let median = sides.iter().find(|side| {
-            passed += side.1;
-            passed >= 0.5 * surface
-        });
+        let deep = median(sides.collect());
         let volume: f64 = cells.iter().map(|&cell| mesh.measure(cell)).sum();
         let bricks: f64 = cells.iter().map(|&cell| 1.0 / together(mesh.cell(cell).kind)).sum();
-        let (thickness, deep) = (2.0 * volume / surface, median.map_or(1.0, |side| side.0));
+        let thickness = mesh.thickness(&boundary);
         let dimension = cells.first().map_or(2, |&cell| mesh.cell(cell).kind.dimension);
         let area = volume / bricks / deep;
         let along = if dimension == 3 { area.sqrt() } else { area };

@@ -33,6 +33,9 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
     BodyFacts {
         name: body.name().into(),
         material: made.model.materials.get(material).cloned().unwrap_or_default(),
+        law: made.deck.material.get(material).map_or_else(Default::default, |(_, law)| (law.name(), law.numbers())),
+        prestressed: keys.is_some_and(|keys| keys.initial_stress.is_some()),
+        driven_whole: driven_whole(made, body),
         size: extent(nodes.iter().map(|&node| mesh.points[node])).norm(),
         cell: body
             .cells()
@@ -51,6 +54,13 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
         unheld: if sprung { Vec::new() } else { unheld(model, &together) },
         held: held || sprung,
     }
+}
+
+/// The first step that moves the group of a body of several cells, all of its nodes, and not one of its sides.
+fn driven_whole(made: &Made, body: &Body) -> Option<String> {
+    let moves = |step: &&crate::deck::keys::Step| step.displacement.iter().any(|(group, _)| group.text == body.name());
+    let step = made.deck.step.iter().position(|step| moves(&step)).filter(|_| body.cells().len() > 1)?;
+    Some(made.model.problem.steps[step].name.clone())
 }
 
 /// Axes along which no step constrains any of some nodes.

@@ -10,6 +10,7 @@ use super::reader::Name;
 use super::review::Seen;
 use crate::diagnosis::{Facts, ToolFacts};
 use crate::mesh::Side;
+use crate::mesh::lint::{self, Finding, Kind};
 use crate::model::Model;
 use crate::solid::Body;
 use crate::system::Term;
@@ -33,8 +34,22 @@ pub(super) fn facts_seen(made: &Made, seen: &[Seen]) -> Facts {
         steps: steps::facts(made),
         tolerance: solver.tolerance,
         iterations: solver.iterations,
+        seams: seams(made),
+        length_unit: made
+            .deck
+            .units
+            .as_ref()
+            .and_then(|units| units.value.split(',').nth(1))
+            .map(|unit| unit.trim().into()),
         switched_off: off.iter().filter(|(_, on)| !on).map(|(key, _)| *key).collect(),
     }
+}
+
+/// Faces and nodes of the mesh that lie on one another and are not joined.
+fn seams(made: &Made) -> Vec<String> {
+    let open = |finding: &Finding| matches!(finding.kind, Kind::Crack | Kind::Touching | Kind::Hanging);
+    let found = lint::check(&made.model.mesh).into_iter().filter(open);
+    found.map(|finding| finding.text).collect()
 }
 
 fn extent(points: impl Iterator<Item = Vec3>) -> Vec3 {

@@ -1,8 +1,9 @@
 //! Steps: how far they move things, and the stresses that their loads amount to.
 
 use super::{bodies_of, extent, sides};
+use crate::amplitude::Amplitude;
 use crate::deck::build::Made;
-use crate::deck::keys::{Components, Step};
+use crate::deck::keys::{Components, Displacement, Step};
 use crate::deck::reader::Name;
 use crate::diagnosis::{Load, StepFacts};
 use crate::mesh::Space;
@@ -27,6 +28,7 @@ pub(super) fn facts(made: &Made) -> Vec<StepFacts> {
             smallest: step.increments.smallest,
             most: step.increments.most,
             loads: loads(made, keys),
+            gravity: keys.gravity.as_ref().map(size),
             ..StepFacts::default()
         };
         for prescribed in &step.prescribed {
@@ -41,7 +43,28 @@ pub(super) fn facts(made: &Made) -> Vec<StepFacts> {
         }
         facts
     };
-    solved.map(fact).collect()
+    let mut all: Vec<StepFacts> = solved.map(fact).collect();
+    for (facts, two) in all.iter_mut().skip(1).zip(made.deck.step.windows(2)) {
+        facts.repeats = facts.loads.is_empty() && repeats(&two[0], &two[1]);
+    }
+    all
+}
+
+/// Whether all that a step says are displacements that the step before led to already.
+fn repeats(before: &Step, step: &Step) -> bool {
+    let others = [&step.hold, &step.remove, &step.add, &step.release].iter().all(|names| names.is_empty())
+        && step.motion.is_empty()
+        && step.temperature.is_empty()
+        && step.friction.is_empty()
+        && step.spring.is_empty()
+        && step.gravity.is_none();
+    let values = |keys: &Displacement| [keys.x, keys.y, keys.z.map(|z| z.value), keys.value];
+    let said = |(name, keys): &(Name, Displacement)| {
+        let known = before.displacement.iter().find(|(other, _)| other.text == name.text);
+        known.is_some_and(|(_, known)| values(known) == values(keys)) && keys.amplitude == Amplitude::ramp()
+    };
+    let moves = |(_, keys): &(Name, Displacement)| values(keys).into_iter().flatten().any(|value| value != 0.0);
+    others && step.displacement.iter().all(said) && step.displacement.iter().any(moves)
 }
 
 /// The loads that a step says, as stresses.
@@ -62,19 +85,21 @@ fn loads(made: &Made, step: &Step) -> Vec<Load> {
     all.extend(step.traction.iter().map(|(name, keys)| load("traction", name, of_sides(name), size(keys))));
     for (name, keys) in &step.force {
         let Some(group) = model.mesh.groups.get(&name.text) else { continue };
-        let nodes: BTreeSet<usize> = group.nodes.iter().copied().collect();
-        let touches =
-            |body: &Body| body.cells().iter().any(|&c| model.mesh.cell(c).nodes.iter().any(|n| nodes.contains(n)));
-        let loaded = model.bodies.iter().filter(|(body, _)| touches(body)).map(|(body, _)| body.name().to_owned());
-        let loaded: Vec<String> = loaded.collect();
+        let loaded = of_nodes(model, name);
         let stress =
-            size(keys) * nodes.len() as f64 / loaded.first().map_or(f64::INFINITY, |body| section(model, body));
+            size(keys) * group.nodes.len() as f64 / loaded.first().map_or(f64::INFINITY, |body| section(model, body));
         all.push(load("force", name, loaded, stress));
     }
     for (name, keys) in &step.load {
         let force = [keys.x, keys.y, keys.z.map(|z| z.value)].into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
         let met = made.deck.contact.iter().find(|(_, contact)| contact.target.text == name.text);
-        let bodies = met.map(|(_, contact)| of_sides(&contact.surface)).unwrap_or_default();
+        let rigid = made.deck.rigid.iter().find(|(rigid, _)| rigid.text == name.text).map(|(_, keys)| &keys.group);
+        let spread =
+            made.deck.distributing.iter().find(|(point, _)| point.text == name.text).map(|(_, keys)| &keys.group);
+        let bodies = match rigid.or(spread) {
+            Some(group) => of_nodes(model, group),
+            None => met.map(|(_, contact)| of_sides(&contact.surface)).unwrap_or_default(),
+        };
         let stress = force / bodies.first().map_or(f64::INFINITY, |body| section(model, body));
         all.push(load("load", name, bodies, stress));
     }
@@ -92,6 +117,15 @@ fn loads(made: &Made, step: &Step) -> Vec<Load> {
     }
     all.retain(|load| load.stress > 0.0 && load.stress.is_finite());
     all
+}
+
+/// Names of the bodies of the nodes of a group.
+fn of_nodes(model: &Model, group: &Name) -> Vec<String> {
+    let nodes: BTreeSet<usize> =
+        model.mesh.groups.get(&group.text).into_iter().flat_map(|group| group.nodes.iter().copied()).collect();
+    let touches =
+        |body: &Body| body.cells().iter().any(|&c| model.mesh.cell(c).nodes.iter().any(|n| nodes.contains(n)));
+    model.bodies.iter().filter(|(body, _)| touches(body)).map(|(body, _)| body.name().to_owned()).collect()
 }
 
 fn size(load: &impl Components) -> f64 {

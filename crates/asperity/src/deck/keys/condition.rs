@@ -166,7 +166,7 @@ table! {
 
 table! {
     /// Springs to the ground.
-    pub struct Spring check some_component {
+    pub struct Spring check spring {
         /// Stiffness along x (r).
         x: Option<f64> = number(unit::STIFFNESS, Range::NOT_NEGATIVE).unless_given("0"),
         /// Stiffness along y (z when axisymmetric).
@@ -242,6 +242,15 @@ fn says_something(says: bool, place: Place, keys: &str, reader: &mut Reader) {
 
 fn some_component<T: Components>(load: &T, reader: &mut Reader) {
     says_something(load.components().iter().any(Option::is_some), load.place(), "`x`, `y`, `z`", reader);
+}
+
+fn spring(spring: &Spring, reader: &mut Reader) {
+    some_component(spring, reader);
+    let mut stiff = spring.components().into_iter().flatten().peekable();
+    if stiff.peek().is_some() && stiff.all(|stiffness| stiffness == 0.0) {
+        let what = format!("`{}` has no stiffness: it holds nothing", reader.path());
+        reader.report(Diagnostic::error(what).at(spring.place).help("say a stiffness, or leave the spring out"));
+    }
 }
 
 fn temperature(temperature: &Temperature, reader: &mut Reader) {

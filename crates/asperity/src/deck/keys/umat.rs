@@ -80,6 +80,14 @@ impl SolidLaw {
         }
     }
 
+    /// Its numbers by their keys; those of a library have none.
+    pub fn numbers(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::Own(law) => law.entry.parameters.iter().map(|p| p.key).zip(law.values.iter().copied()).collect(),
+            Self::Umat(_) => Vec::new(),
+        }
+    }
+
     /// What a user should know of its calls, in words.
     pub fn advice(&self) -> Option<&'static str> {
         match self {

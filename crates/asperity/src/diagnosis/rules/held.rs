@@ -85,6 +85,40 @@ pub(super) fn free_body(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
+/// A body that only friction is to hold along some axes, which does not.
+pub(super) fn slides(facts: &Facts, course: &Course) -> Option<Finding> {
+    let free = [Kind::Free, Kind::Singular, Kind::Hourglass];
+    let free = course.kind().is_some_and(|kind| free.contains(&kind)) || course.share(&free) > 0.3;
+    let adrift = |body: &BodyFacts| !body.held && course.never_closed();
+    let body = facts.bodies.iter().find(|body| !body.unheld.is_empty() && (free || adrift(body)))?;
+    course.kind()?;
+    let touches = |contact: &&ContactFacts| {
+        let bears = contact.gap.is_some_and(|gap| gap <= OPEN * contact.edge) || course.closed(&contact.name);
+        contact.bodies.contains(&body.name) && bears && !is_wrong(facts, contact)
+    };
+    let contact = facts.contacts.iter().find(touches)?;
+    let axes = body.unheld.join(" and ");
+    let held = match contact.friction.filter(|friction| *friction > 0.0) {
+        Some(friction) => format!(
+            "a coefficient of friction of {friction}: the load along the surface is more than that of the one across it"
+        ),
+        None => "no friction".into(),
+    };
+    Some(
+        finding(
+            "slides",
+            0.84,
+            format!("body '{}' slides on what it touches: friction is all that could hold it", body.name),
+        )
+        .shown(&course.reason)
+        .shown(format!("along {axes} no support acts on it; contact '{}' has {held}", contact.name))
+        .try_to(&[
+            "a support against the motion along the surface, or weak springs (`spring`)",
+            "more friction, or less of the load that makes it slide",
+        ]),
+    )
+}
+
 /// A body that slides without resistance on what touches it: the matrix is singular but for rounding.
 pub(super) fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
     let body = facts.bodies.iter().find(|body| !body.unheld.is_empty())?;

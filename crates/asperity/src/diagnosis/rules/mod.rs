@@ -10,6 +10,7 @@ use super::Finding;
 use super::course::{Course, End};
 use super::facts::{ContactFacts, Facts, ToolFacts};
 use super::plausible::oddities;
+use crate::Kind;
 
 type Rule = fn(&Facts, &Course) -> Option<Finding>;
 
@@ -17,15 +18,18 @@ type Rule = fn(&Facts, &Course) -> Option<Finding>;
 pub static ALL: &[Rule] = &[
     units,
     touch::wrong_side,
+    seams,
     touch::initial_overlap,
     held::not_touching,
     held::thrown,
     held::free_body,
+    held::slides,
     held::slides_freely,
     held::hourglass,
     held::lost_contact,
     touch::no_contact,
     strength::limit_load,
+    strength::no_strength,
     touch::missing_contact,
     touch::passage,
     strength::crushed,
@@ -92,6 +96,25 @@ fn units(facts: &Facts, course: &Course) -> Option<Finding> {
     let mut helps: Vec<&str> = found.iter().map(|oddity| oddity.help.as_str()).collect();
     helps.dedup();
     Some(told.try_to(&helps))
+}
+
+/// Faces and nodes that lie on one another and are not joined: what they part is free, or runs into itself.
+fn seams(facts: &Facts, course: &Course) -> Option<Finding> {
+    let kinds = [Kind::Free, Kind::Singular, Kind::Hourglass];
+    let parted = course.kind().is_some_and(|kind| kinds.contains(&kind)) || course.share(&kinds) > 0.3;
+    let itself = course.fault(&[Kind::Passage]).is_some_and(|fault| fault.reason.contains("in itself"));
+    // Bodies that only touch are meant to where a contact is between them.
+    let meant = |seam: &&String| !facts.contacts.is_empty() && seam.starts_with("separate bodies");
+    let seam = facts.seams.iter().find(|seam| !meant(seam)).filter(|_| parted || itself)?;
+    Some(
+        finding("seam", 0.93, "parts of the mesh lie on one another and are not joined")
+            .shown(seam)
+            .shown(&course.reason)
+            .try_to(&[
+                "merge the nodes where the parts are to be one; in one body, refine without nodes that hang between two others",
+                "or a `[[tie]]` between the two surfaces, or a `[contact]` where they are to part",
+            ]),
+    )
 }
 
 /// Part of the nodes of a body that lie in a tool where it stands on the wrong side.

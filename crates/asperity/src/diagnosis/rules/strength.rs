@@ -27,6 +27,9 @@ pub(super) fn limit_load(facts: &Facts, course: &Course) -> Option<Finding> {
         (part > 0.5 * BEYOND).then_some((load, part))
     });
     let over = over.max_by(|a, b| a.1.total_cmp(&b.1));
+    // A load that runs away at a part of itself is beyond what is borne by the rest.
+    let stopped =
+        (course.kind().is_some() && course.part > 0.0 && course.acceleration > RUNS_AWAY).then(|| 1.0 / course.part);
     let runs_away = course.acceleration > RUNS_AWAY;
     let mut weight: f64 = if runs_away { 0.8 } else { 0.45 };
     if let Some((_, part)) = over {
@@ -41,8 +44,10 @@ pub(super) fn limit_load(facts: &Facts, course: &Course) -> Option<Finding> {
             .shown(format!("step `{}` is driven by loads and ends at {reached:.1} % of it", step.name));
     if let Some((load, part)) = over {
         told = told.shown(format!(
-            "`{}` amounts to a stress of {:.2e} at its end, about {part:.1} times what the body bears",
-            load.name, load.stress
+            "`{}` amounts to a stress of {:.2e} at its end, about {:.1} times what the body bears",
+            load.name,
+            load.stress,
+            stopped.unwrap_or(part)
         ));
     }
     if runs_away {
@@ -60,6 +65,26 @@ pub(super) fn limit_load(facts: &Facts, course: &Course) -> Option<Finding> {
         "prescribe the displacement of what is loaded in place of the force: its reaction then shows the limit",
         "more hardening, more support, or a smaller load",
     ]))
+}
+
+/// A soil without cohesion bears nothing where nothing confines it.
+pub(super) fn no_strength(facts: &Facts, course: &Course) -> Option<Finding> {
+    let weak = |body: &&BodyFacts| !body.prestressed && body.number("cohesion") == Some(0.0);
+    let body = facts.bodies.iter().find(weak)?;
+    let early = course.kind().is_some() && course.part < 0.05;
+    early.then(|| {
+        finding(
+            "no-strength",
+            0.88,
+            format!("body '{}' has no cohesion and begins without stress: it bears nothing", body.name),
+        )
+        .shown(&course.reason)
+        .shown(format!("`cohesion` of material `{}` is 0, and no `initial_stress` confines it", body.material))
+        .try_to(&[
+            "`initial_stress` of the body, in equilibrium with its weight and supports",
+            "or a small `cohesion`, which holds its free surface together",
+        ])
+    })
 }
 
 /// Part of the distance of two ends of a body that prescribed motions leave, at the least, where it can bear them.

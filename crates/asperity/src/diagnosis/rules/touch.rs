@@ -3,7 +3,7 @@
 use super::super::Finding;
 use super::super::course::{Course, End};
 use super::super::facts::{BodyFacts, ContactFacts, Facts};
-use super::{finding, is_wrong};
+use super::{OPEN, finding, is_wrong};
 use crate::Kind;
 
 pub(super) fn wrong_side(facts: &Facts, _: &Course) -> Option<Finding> {
@@ -38,7 +38,7 @@ pub(super) fn initial_overlap(facts: &Facts, course: &Course) -> Option<Finding>
     Some(
         finding(
             "initial-overlap",
-            if early { 0.85 } else { 0.4 },
+            if early { 0.85 } else if course.ended == End::Well { 0.7 } else { 0.4 },
             format!("the two sides of contact '{}' lie in each other before anything moves", contact.name),
         )
         .shown(format!("by {gap:.3e}, {:.2} lengths of an edge", gap / contact.edge))
@@ -52,6 +52,8 @@ pub(super) fn initial_overlap(facts: &Facts, course: &Course) -> Option<Finding>
 pub(super) fn no_contact(facts: &Facts, course: &Course) -> Option<Finding> {
     if facts.contacts.is_empty()
         || !course.never_closed()
+        // Before the first accepted increment nothing is known of what touches from the start.
+        || course.increments == 0 && facts.contacts.iter().any(|contact| contact.gap.is_some_and(|gap| gap <= OPEN * contact.edge))
         || facts.contacts.iter().any(|contact| is_wrong(facts, contact))
     {
         return None;
@@ -60,6 +62,7 @@ pub(super) fn no_contact(facts: &Facts, course: &Course) -> Option<Finding> {
     let missed = course.share(&[Kind::Passage]) > 0.3;
     let weight = match course.ended {
         End::Well => 0.9,
+        End::Failed(_) if unseen.len() == facts.contacts.len() => 0.91,
         End::Failed(_) if missed && !unseen.is_empty() => 0.8,
         End::Failed(_) => 0.45,
     };

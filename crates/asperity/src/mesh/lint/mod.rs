@@ -7,6 +7,7 @@
 mod cells;
 mod coincident;
 mod groups;
+mod hanging;
 mod nodes;
 mod sides;
 mod words;
@@ -55,6 +56,8 @@ pub enum Kind {
     Crack,
     /// Faces of separate bodies at one place; only contact holds them apart.
     Touching,
+    /// Nodes in the middle of an edge or face of a neighbour that does not have them.
+    Hanging,
     /// Neighbours that share the corners of a face but not its mid-side nodes.
     Mismatched,
     /// Faces shared by more than two cells.

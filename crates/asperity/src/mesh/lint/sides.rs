@@ -1,7 +1,7 @@
 //! Neighbours: cracks and touching bodies, nodes that coincide, faces that do not fit or are shared too often.
 
 use super::coincident::representatives;
-use super::{Finding, Kind, Severity, words};
+use super::{Finding, Kind, Severity, hanging, words};
 use crate::mesh::{Faces, Mesh, Side};
 
 pub(super) fn check(mesh: &Mesh) -> Vec<Finding> {
@@ -12,6 +12,7 @@ pub(super) fn check(mesh: &Mesh) -> Vec<Finding> {
     let (cracks, touching): (Vec<_>, Vec<_>) = pairs.iter().partition(|[one, other]| bodies.same(one.cell, other.cell));
     let mut findings: Vec<Finding> = [crack(mesh, cracks), touch(mesh, touching)].into_iter().flatten().collect();
     findings.extend(duplicates(mesh, &first, &pairs, &bodies));
+    findings.extend(hanging::check(mesh, &faces, |one, other| bodies.joined(one, other)));
     findings.extend(misfits(mesh, &faces));
     findings
 }
@@ -169,10 +170,15 @@ impl<'a> Bodies<'a> {
         (self.roots[one], self.roots[other]) = (root, root);
     }
 
+    /// Whether nodes join them, over whatever cells.
+    fn joined(&self, one: usize, other: usize) -> bool {
+        self.roots[one] == self.roots[other]
+    }
+
     fn same(&self, one: usize, other: usize) -> bool {
         let groups = || self.mesh.groups.values().map(|group| &group.cells);
         let holds = |cells: &Vec<usize>, cell: usize| cells.binary_search(&cell).is_ok();
-        self.roots[one] == self.roots[other]
+        self.joined(one, other)
             || groups().all(|cells| holds(cells, one) == holds(cells, other)) && groups().any(|cells| holds(cells, one))
     }
 }

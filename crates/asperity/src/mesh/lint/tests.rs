@@ -185,3 +185,26 @@ fn findings_do_not_depend_on_the_unit_of_length() {
         expect(&mesh, Kind::Crack, Severity::Warning, "2 pairs");
     }
 }
+
+/// A quadrilateral beside two of half its height: the node between them hangs.
+#[test]
+fn nodes_that_hang_are_found() {
+    let quad = crate::mesh::Cell::named("quad4").unwrap();
+    let mut mesh = Mesh::new();
+    mesh.points = [[0, 0], [2, 0], [0, 2], [2, 2], [4, 0], [4, 1], [2, 1], [4, 2]]
+        .map(|[x, y]| Vec3::new(x.into(), y.into(), 0.0))
+        .to_vec();
+    for nodes in [[0, 1, 3, 2], [1, 4, 5, 6], [6, 5, 7, 3]] {
+        mesh.push_cell(quad, &nodes);
+    }
+    let hanging: Vec<_> = check(&mesh).into_iter().filter(|found| found.kind == Kind::Hanging).collect();
+    assert_eq!(hanging.len(), 1);
+    assert_eq!((&hanging[0].nodes[..], &hanging[0].cells[..]), (&[6][..], &[0][..]));
+    let whole = crate::mesh::generate::Block::new(
+        [0.0; 3],
+        [1.0, 2.0, 3.0],
+        [3, 4, 5],
+        crate::mesh::Cell::named("tet4").unwrap(),
+    );
+    assert!(check(&whole.mesh("b").unwrap()).iter().all(|found| found.kind != Kind::Hanging));
+}

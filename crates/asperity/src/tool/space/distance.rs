@@ -165,12 +165,22 @@ impl SpaceTool {
         NearestPoint { gap, normal, point: x - normal * gap, bends: flat, beyond }
     }
 
-    /// Whether a facet of another piece looks back along `aside` from a border point.
+    /// Whether a step along `aside` from a border point leads into the material: whether the facet of another piece that is then the
+    /// closest of those that meet there looks back.
     fn goes_on(&self, (pieces, piece): (&SmoothPieces, usize), border: Vec3, aside: Vec3) -> bool {
         let together = TOGETHER * self.size();
-        self.around(border, together).into_iter().filter(|&facet| pieces.labels[facet] != piece).any(|facet| {
-            let other = self.facets()[facet].nearest(border);
-            (other.point - border).norm() <= together && other.normal.dot(aside) < -INWARD
-        })
+        let beyond = border + aside * (10.0 * together);
+        let others = self.around(border, together).into_iter().filter(|&facet| pieces.labels[facet] != piece);
+        let meet = others
+            .map(|facet| &self.facets()[facet])
+            .filter(|facet| (facet.nearest(border).point - border).norm() <= together);
+        let seen = meet
+            .map(|facet| facet.nearest(beyond))
+            .map(|other| ((other.point - beyond).norm(), other.normal.dot(aside)));
+        let seen: Vec<(f64, f64)> = seen.collect();
+        let least = seen.iter().fold(f64::INFINITY, |least, (distance, _)| least.min(*distance));
+        // In a vertex several are as close, and the sum of their normals tells (Baerentzen and Aanaes 2005).
+        let closest = seen.iter().filter(|(distance, _)| *distance <= least + 0.01 * together);
+        closest.map(|(_, cosine)| cosine).sum::<f64>() < -INWARD
     }
 }

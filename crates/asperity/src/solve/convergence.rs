@@ -3,10 +3,11 @@
 //! The yardstick of a force is the largest sum of absolute stencil forces on any displacement, that of a moment the
 //! same over the rotations of tools. Below it stands what the rounding of positions leaves of each equation, its largest
 //! coefficient times the size of the model (Oettli & Prager, Numer. Math. 6, 1964), so that a body that carries nothing
-//! converges too; one of all equations together would let a stiff corner hide the forces of a soft contact. All are
-//! ratios: a change of units changes nothing.
+//! converges too; one of all equations together would let a stiff corner hide the forces of a soft contact. What is left on
+//! a part that hangs together is asked for as a whole too, against the largest force in it: many small forces of one
+//! sign are no equilibrium, and a reaction misses the loads by their sum. All are ratios: a change of units changes nothing.
 
-use crate::system::{Constraints, Dofs, Evaluation};
+use crate::system::{Constraints, Dofs, Evaluation, Row, Whole};
 
 /// The unknown with the largest unbalanced force, in its own yardstick.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,6 +23,8 @@ pub struct Worst {
 pub struct Norms {
     /// Largest ratio of an unbalanced force or moment to its yardstick.
     pub ratio: f64,
+    /// Largest ratio of the sum of unbalanced forces on a whole, along an axis, to its yardstick.
+    pub whole: f64,
     /// The largest ratio there may be: the tolerance, or rounding where that is larger.
     pub allowed: f64,
     /// The ratio that the rounding of positions leaves where the largest is.
@@ -60,7 +63,7 @@ impl Norms {
     pub fn measure(
         evaluation: &Evaluation,
         residual: &[f64],
-        (dofs, constraints): (&Dofs, &Constraints),
+        (dofs, constraints, wholes): (&Dofs, &Constraints, &[Whole]),
         yardstick: &Yardstick,
     ) -> Self {
         let mut largest = [0.0_f64; 2];
@@ -86,12 +89,25 @@ impl Norms {
                 (norms.ratio, norms.worst, norms.rounding) = (ratio, Worst { dof, force }, rounding / scale);
             }
         }
+        for whole in wholes {
+            let (mut sums, mut roundings, mut largest) = ([0.0_f64; 3], [0.0_f64; 3], MEMORY * scale[0]);
+            for (axis, dof) in whole.nodes().flat_map(|node| (dofs.node(node)..).take(dofs.per_node()).enumerate()) {
+                largest = largest.max(evaluation.magnitude[dof]);
+                if let Row::Free(row) = constraints.row(dof) {
+                    sums[axis] += residual[*row];
+                    roundings[axis] += rounding(*row);
+                }
+            }
+            for (sum, rounding) in sums.iter().zip(roundings).filter(|(sum, _)| **sum != 0.0) {
+                norms.whole = norms.whole.max(sum.abs() / largest.max(rounding / yardstick.tolerance));
+            }
+        }
         norms
     }
 
     /// Whether it is good enough.
     pub fn converged(&self) -> bool {
-        self.ratio <= self.allowed
+        self.ratio.max(self.whole) <= self.allowed
     }
 
     /// The same after an iteration that began with the ratio `before`, zero if there was none: unbalanced forces below

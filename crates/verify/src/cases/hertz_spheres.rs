@@ -76,7 +76,9 @@ fn undeformed(model: &Model, state: &State) -> Pressures {
     // Areas of a field are those of its history.
     let start = model.problem.initial_state();
     let both = points(model, state, 0).into_iter().zip(points(model, &start, 0));
-    both.filter(|(_, start)| start.area > 0.0).map(|(now, start)| (start.position[0], (now.force()[1] / (start.area * start.inward[1])).abs())).collect()
+    both.filter(|(_, start)| start.area > 0.0)
+        .map(|(now, start)| (start.position[0], (now.force()[1] / (start.area * start.inward[1])).abs()))
+        .collect()
 }
 
 fn refined(n: usize) -> Vec<String> {

@@ -3,10 +3,12 @@
 //! The yardstick of a force is the largest sum of absolute stencil forces on any displacement, that of a moment the
 //! same over the rotations of tools. Below it stands what the rounding of positions leaves of each equation, its largest
 //! coefficient times the size of the model (Oettli & Prager, Numer. Math. 6, 1964), so that a body that carries nothing
-//! converges too; one of all equations together would let a stiff corner hide the forces of a soft contact. All are
-//! ratios: a change of units changes nothing.
+//! converges too; one of all equations together would let a stiff corner hide the forces of a soft contact. What is left on
+//! a part that hangs together is asked for as a whole too, against the largest force in it: many small forces of one
+//! sign are no equilibrium, and a reaction misses the loads by their sum. One iteration more mends that. All are ratios: a
+//! change of units changes nothing.
 
-use crate::system::{Constraints, Dofs, Evaluation};
+use crate::system::{Constraints, Dofs, Evaluation, Row, Whole};
 
 /// The unknown with the largest unbalanced force, in its own yardstick.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,6 +24,8 @@ pub struct Worst {
 pub struct Norms {
     /// Largest ratio of an unbalanced force or moment to its yardstick.
     pub ratio: f64,
+    /// Largest ratio of the sum of unbalanced forces on a whole, along an axis, to its yardstick.
+    pub whole: f64,
     /// The largest ratio there may be: the tolerance, or rounding where that is larger.
     pub allowed: f64,
     /// The ratio that the rounding of positions leaves where the largest is.
@@ -60,7 +64,7 @@ impl Norms {
     pub fn measure(
         evaluation: &Evaluation,
         residual: &[f64],
-        (dofs, constraints): (&Dofs, &Constraints),
+        (dofs, constraints, wholes): (&Dofs, &Constraints, &[Whole]),
         yardstick: &Yardstick,
     ) -> Self {
         let mut largest = [0.0_f64; 2];
@@ -86,19 +90,34 @@ impl Norms {
                 (norms.ratio, norms.worst, norms.rounding) = (ratio, Worst { dof, force }, rounding / scale);
             }
         }
+        for whole in wholes {
+            let (mut sums, mut roundings, mut largest) = ([0.0_f64; 3], [0.0_f64; 3], MEMORY * scale[0]);
+            for (axis, dof) in whole.nodes().flat_map(|node| (dofs.node(node)..).take(dofs.per_node()).enumerate()) {
+                largest = largest.max(evaluation.magnitude[dof]);
+                if let Row::Free(row) = constraints.row(dof) {
+                    sums[axis] += residual[*row];
+                    roundings[axis] += rounding(*row);
+                }
+            }
+            for (sum, rounding) in sums.iter().zip(roundings).filter(|(sum, _)| **sum != 0.0) {
+                norms.whole = norms.whole.max(sum.abs() / largest.max(rounding / yardstick.tolerance));
+            }
+        }
         norms
     }
 
-    /// Whether it is good enough.
+    /// Whether each force is good enough.
     pub fn converged(&self) -> bool {
         self.ratio <= self.allowed
     }
 
-    /// The same after an iteration that began with the ratio `before`, zero if there was none: unbalanced forces below
-    /// what rounding may leave are not rounding yet as long as iterations make them much smaller.
+    /// Whether it is good enough after an iteration that began with the ratio `before`, zero if there was none. Where each force
+    /// was small enough then, what is left on a whole is what jumps of the forces leave. Unbalanced forces below what rounding may
+    /// leave are not rounding yet as long as iterations make them much smaller.
     pub fn converged_from(&self, before: f64) -> bool {
         let falling = self.ratio > 0.0 && before > FALLING * self.ratio;
-        self.converged() && !(falling && self.rounding >= self.allowed)
+        let balanced = self.whole <= self.allowed || (0.0 < before && before <= self.allowed);
+        self.converged() && balanced && !(falling && self.rounding >= self.allowed)
     }
 }
 
@@ -113,5 +132,12 @@ mod tests {
         assert!(norms(0.9e-13, 1e-13).converged_from(5e-13) && norms(0.9e-13, 1e-13).converged_from(0.0));
         assert!(norms(0.9e-13, 0.5e-13).converged_from(1e-8), "the tolerance itself is met");
         assert!(norms(0.0, 1e-13).converged_from(1e-8) && !norms(2e-13, 1e-13).converged_from(2e-13));
+    }
+
+    #[test]
+    fn a_whole_out_of_balance_takes_one_iteration_more() {
+        let norms = Norms { ratio: 5e-7, whole: 5e-6, allowed: 1e-6, ..Norms::default() };
+        assert!(!norms.converged_from(0.0) && !norms.converged_from(1e-3) && norms.converged_from(9e-7));
+        assert!(Norms { whole: 9e-7, ..norms }.converged_from(1e-3));
     }
 }

@@ -388,7 +388,7 @@ impl<'a> Newton<'a> {
             size: self.problem.size,
             tolerance: self.problem.newton.tolerance,
         };
-        let numbering = (&self.problem.dofs, &self.step.constraints);
+        let numbering = (&self.problem.dofs, &self.step.constraints, &*self.problem.wholes);
         Norms::measure(&self.evaluation, &self.residual, numbering, &yardstick)
     }
 

@@ -1,7 +1,7 @@
 //! Contact stress as a field of nodal values: Coulomb's limit, the weight of stacked blocks, and Lame's pressure between
 //! rings of facets that do not match.
 
-use crate::bench::{Bench, Solved};
+use crate::bench::{Bench, Solved, points};
 use crate::{Case, Measured};
 use asperity::Error;
 
@@ -14,7 +14,8 @@ const LAME: f64 = 1e6 * (1.0 - 0.04 / 0.36) / (1.0 - 0.04);
 const WEIGHT: f64 = 4.0;
 
 fn measure(bench: &Bench) -> Result<Measured, Error> {
-    let mut measured = vec![("friction".into(), friction(bench)?), ("weight".into(), weight(bench)?)];
+    let mut measured = vec![("friction".into(), friction(bench)?), ("weight".into(), weight(bench, "stack.toml", 2)?)];
+    measured.push(("weight_four".into(), weight(bench, "four.toml", 4)?));
     let mut open = 0;
     for (name, inner, outer) in [("rings_24", 24, 31), ("rings_48", 48, 62)] {
         let mut rings = |more: &[&str]| {
@@ -50,10 +51,15 @@ fn friction(bench: &Bench) -> Result<f64, Error> {
     Ok(worst)
 }
 
-fn weight(bench: &Bench) -> Result<f64, Error> {
-    let run = bench.solve("stack.toml", &[])?;
-    let [ground, joint] = [0, 1].map(|contact| force(&run, contact)[1]);
-    Ok((ground / (2.0 * WEIGHT) - 1.0).abs().max((joint / WEIGHT - 1.0).abs()))
+/// Largest error of what the contacts of so many stacked blocks carry in any increment, from the ground up, over the weight above.
+fn weight(bench: &Bench, deck: &str, blocks: usize) -> Result<f64, Error> {
+    let mut worst = 0.0_f64;
+    bench.follow(deck, &[], |model, state| {
+        let carried = |contact: usize| points(model, state, contact).iter().map(|point| point.force()[1]).sum::<f64>();
+        let above = |contact: usize| (blocks - contact) as f64 * WEIGHT * state.time;
+        worst = (0..blocks).map(|contact| (carried(contact) / above(contact) - 1.0).abs()).fold(worst, f64::max);
+    })?;
+    Ok(worst)
 }
 
 /// Force on the surface of a contact.

@@ -73,9 +73,12 @@ fn present(model: &Model, state: &State) -> Pressures {
 
 /// Axial forces over the areas that the undeformed surface has on the plane of contact, at undeformed radii.
 fn undeformed(model: &Model, state: &State) -> Pressures {
-    let start = State { u: vec![0.0; state.u.len()], ..state.clone() };
+    // Areas of a field are those of its history.
+    let start = model.problem.initial_state();
     let both = points(model, state, 0).into_iter().zip(points(model, &start, 0));
-    both.map(|(now, start)| (start.position[0], (now.force()[1] / (start.area * start.inward[1])).abs())).collect()
+    both.filter(|(_, start)| start.area > 0.0)
+        .map(|(now, start)| (start.position[0], (now.force()[1] / (start.area * start.inward[1])).abs()))
+        .collect()
 }
 
 fn refined(n: usize) -> Vec<String> {

@@ -71,10 +71,9 @@ impl FieldContact {
             let [thrust, e1, e2] = stencil.directions(sums);
             let record = &mut records[slot];
             let sheared = e1 * values[entry::SHEAR] + e2 * values[entry::SHEAR2];
-            let stretch = values[entry::HALF];
             // The part that a tip has in its face is that of the increment.
             let area = if self.node_of(slot).is_some() { sums.area } else { values[entry::XI] };
-            record.area = area * stretch;
+            record.area = area * stencil.stretch().0;
             let force = (thrust * values[entry::PRESSURE] + sheared) * record.area;
             record.resultant = Some([force, sums.place]);
             (record.thrust, record.inward, record.facing) = (thrust.unit(), thrust.unit(), thrust.unit());

@@ -62,7 +62,10 @@ impl<T> Owned<T> {
 
 impl<T> Drop for Owned<T> {
     fn drop(&mut self) {
-        // SAFETY: it is ours and given back once; where PETSc has ended the process ends too.
-        unsafe { (self.give_back)(&mut self.raw) };
+        // All ranks give back together; one that ends alone would wait for the others.
+        if !crate::ranks::has_arrived() {
+            // SAFETY: it is ours and given back once.
+            unsafe { (self.give_back)(&mut self.raw) };
+        }
     }
 }

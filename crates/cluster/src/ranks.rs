@@ -16,6 +16,16 @@ const LOOK_AGAIN: Duration = Duration::from_millis(5);
 const LAUNCHERS: [[&str; 2]; 3] =
     [["OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"], ["PMI_SIZE", "PMI_RANK"], ["SLURM_NTASKS", "SLURM_PROCID"]];
 
+/// What ranks must come to together.
+#[derive(Clone, Copy)]
+pub(crate) enum Meeting {
+    Question = 1,
+    Pattern,
+    Matrix,
+    Forces,
+    Loads,
+}
+
 /// The ranks that run together.
 pub struct Ranks {
     rank: usize,
@@ -48,6 +58,11 @@ pub fn start() -> Result<&'static Ranks, String> {
     }
     let begun = Ranks::begin()?;
     Ok(RANKS.get_or_init(|| begun))
+}
+
+/// Whether this rank has come to its end: what all must do together it can do no more.
+pub(crate) fn has_arrived() -> bool {
+    RANKS.get().is_some_and(|ranks| ranks.arrival.lock().is_ok_and(|arrival| arrival.is_some()))
 }
 
 impl Ranks {
@@ -94,13 +109,34 @@ impl Ranks {
         self.size
     }
 
-    /// Whether any rank says yes; all must ask. Says so to all.
+    /// Smallest and largest of the ranks' own numbers.
+    fn range(&self, mine: ffi::PetscInt) -> Result<[ffi::PetscInt; 2], String> {
+        let (mut mine, mut all) = ([mine; 2], [0; 2]);
+        // SAFETY: both are pairs.
+        checked(unsafe { ffi::PetscGlobalMinMaxInt(ffi::PETSC_COMM_WORLD, mine.as_mut_ptr(), all.as_mut_ptr()) })?;
+        Ok(all)
+    }
+
+    /// Whether any rank says yes, or is elsewhere than here; all must ask.
     pub fn any(&self, yes: bool) -> bool {
-        let (mut mine, mut all) = ([ffi::PetscInt::from(yes); 2], [0; 2]);
-        // SAFETY: smallest and largest, of the ranks' own and of all.
-        let agreed =
-            checked(unsafe { ffi::PetscGlobalMinMaxInt(ffi::PETSC_COMM_WORLD, mine.as_mut_ptr(), all.as_mut_ptr()) });
-        if agreed.is_ok() { all[1] > 0 } else { yes }
+        let question = Meeting::Question as ffi::PetscInt * 2;
+        self.range(question + ffi::PetscInt::from(yes)).map_or(true, |range| range != [question; 2])
+    }
+
+    /// Sees to it that all ranks come here with the same numbers.
+    pub(crate) fn agree(&self, on: Meeting, numbers: &[f64]) -> Result<(), String> {
+        let mix = |hash: u32, x: &f64| {
+            let bits = x.to_bits();
+            (hash ^ bits as u32 ^ (bits >> 32) as u32).wrapping_mul(0x0100_0193).rotate_left(5)
+        };
+        let hash = numbers.iter().fold(on as u32, mix) >> 4;
+        let [least, most] = self.range((((on as u32) << 28) | hash) as ffi::PetscInt)?;
+        if least == most {
+            return Ok(());
+        }
+        Err("the ranks have come to different equations: a law failed on some of them only, or their processors, libraries or files \
+             are not the same"
+            .into())
     }
 
     /// Puts together the pieces that the ranks hold of a vector, of these lengths.

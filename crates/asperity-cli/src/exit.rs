@@ -55,17 +55,20 @@ impl From<Exit> for ExitCode {
 impl Exit {
     /// Tells the user what ended the verb, and how the program ends for it.
     pub fn after(trouble: Trouble) -> Self {
-        match trouble {
-            Trouble::Deck(diagnostics) => {
-                tell(&diagnostics);
-                Self::Input
-            }
+        match &trouble {
+            Trouble::Deck(diagnostics) => tell(diagnostics),
             // The page at the end of the run has said so.
-            Trouble::Other(Error::Stopped) => Self::Stopped,
-            Trouble::Other(error) => {
-                eprintln!("error: {}", visible(&error.to_string()));
-                Self::of(&error)
-            }
+            Trouble::Other(Error::Stopped) => {}
+            Trouble::Other(error) => eprintln!("error: {}", visible(&error.to_string())),
+        }
+        Self::of_trouble(&trouble)
+    }
+
+    /// How the program ends for a trouble.
+    pub fn of_trouble(trouble: &Trouble) -> Self {
+        match trouble {
+            Trouble::Deck(_) => Self::Input,
+            Trouble::Other(error) => Self::of(error),
         }
     }
 

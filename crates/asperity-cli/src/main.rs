@@ -5,6 +5,7 @@
 
 mod arguments;
 mod exit;
+mod ranks;
 mod screen;
 mod signals;
 mod verbs;
@@ -12,7 +13,7 @@ mod watch;
 
 use arguments::{Command, Line};
 use clap::Parser;
-use exit::{Exit, Trouble};
+use exit::Exit;
 use signals::Interrupts;
 use std::process::ExitCode;
 use verbs::Outcome;
@@ -21,26 +22,27 @@ fn main() -> ExitCode {
     let line = Line::parse();
     umat::provide();
     Interrupts::listen()
-        .map_err(Trouble::from)
-        .and_then(|interrupts| obey(line, &interrupts))
-        .unwrap_or_else(Exit::after)
+        .map_or_else(
+            |error| Exit::after(error.into()),
+            |interrupts| ranks::obey(&line.command, |command| obey(command, &interrupts)),
+        )
         .into()
 }
 
-fn obey(line: Line, interrupts: &Interrupts) -> Outcome {
-    match line.command {
-        Command::Run(run) => verbs::run(&run, interrupts),
-        Command::Restart(restart) => verbs::restart(&restart, interrupts),
-        Command::Figure(figure) => verbs::figure(&figure),
-        Command::Report(report) => verbs::report(&report),
-        Command::Watch(watch) => verbs::watch(&watch, interrupts),
-        Command::Check(check) => verbs::check(&check),
-        Command::Info(info) => verbs::info(&info),
-        Command::Translate(translate) => verbs::translate(&translate),
-        Command::Schema(schema) => verbs::schema(&schema),
-        Command::Point(point) => verbs::point(&point),
+fn obey(command: &Command, interrupts: &Interrupts) -> Outcome {
+    match command {
+        Command::Run(run) => verbs::run(run, interrupts),
+        Command::Restart(restart) => verbs::restart(restart, interrupts),
+        Command::Figure(figure) => verbs::figure(figure),
+        Command::Report(report) => verbs::report(report),
+        Command::Watch(watch) => verbs::watch(watch, interrupts),
+        Command::Check(check) => verbs::check(check),
+        Command::Info(info) => verbs::info(info),
+        Command::Translate(translate) => verbs::translate(translate),
+        Command::Schema(schema) => verbs::schema(schema),
+        Command::Point(point) => verbs::point(point),
         Command::Laws => verbs::laws(),
-        Command::Penalty(command) => verbs::penalty(&command, interrupts),
-        Command::Completions(completions) => verbs::completions(&completions),
+        Command::Penalty(command) => verbs::penalty(command, interrupts),
+        Command::Completions(completions) => verbs::completions(completions),
     }
 }

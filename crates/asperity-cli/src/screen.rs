@@ -1,5 +1,6 @@
 //! What a run shows while it goes, and the page at its end.
 
+use crate::ranks;
 use asperity::Error;
 use asperity::error::visible;
 use asperity::output::{FIGURES, Status, Summary};
@@ -145,6 +146,14 @@ impl Observer for Screen<'_> {
 
     fn wants_stop(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    fn stops(&self, asked: bool) -> bool {
+        ranks::any(asked || self.wants_stop())
+    }
+
+    fn ended(&mut self) {
+        ranks::arrive();
     }
 }
 

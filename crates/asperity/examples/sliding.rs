@@ -9,7 +9,7 @@ mod ball;
 mod measure;
 
 use asperity::model::Model;
-use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run};
+use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run, Unknowns};
 use asperity::system::Csr;
 use ball::Attempts;
 use frontal::{Change, Service};
@@ -51,8 +51,8 @@ impl Clocked {
 }
 
 impl LinearSolver for Clocked {
-    fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
-        self.add(0, |solver| solver.analyse(pattern, nodes))
+    fn analyse(&mut self, pattern: &Csr, unknowns: Unknowns) -> Result<(), LinearError> {
+        self.add(0, |solver| solver.analyse(pattern, unknowns))
     }
     fn follow(&mut self, pattern: &Csr) -> bool {
         self.add(0, |solver| solver.follow(pattern))

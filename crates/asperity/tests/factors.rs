@@ -5,8 +5,8 @@
 mod ball;
 
 use asperity::model::Model;
-use asperity::solve::{Factors, Frontal, LinearSolver, RunOptions};
-use asperity::system::{Csr, Factorised, Near, State};
+use asperity::solve::{Factors, Frontal, LinearSolver, RunOptions, Unknowns};
+use asperity::system::{Csr, Dofs, Factorised, Near, State};
 use ball::{Attempts, model};
 use std::sync::Arc;
 
@@ -164,7 +164,8 @@ fn chain(skew: f64, first: f64) -> (Csr, Vec<f64>) {
 fn values_decide_how_a_matrix_is_factorised() {
     let (pattern, _) = chain(0.0, 2.0);
     let mut solver = Frontal::new(Factors::Fresh);
-    solver.analyse(&pattern, (0..pattern.rows()).collect()).unwrap();
+    let (dofs, free) = (Dofs::new(2, pattern.rows(), 0), (0..pattern.rows()).map(|k| 2 * k).collect::<Vec<_>>());
+    solver.analyse(&pattern, Unknowns { dofs: &dofs, free: &free }).unwrap();
     let mut solved: Vec<(f64, Vec<u64>)> = Vec::new();
     // Symmetric, by rounding, not, and again; one negative eigenvalue.
     let all = [0.0, 1e-15, 0.1, 0.0].map(|skew| (skew, 2.0, skew < 0.1, 0));

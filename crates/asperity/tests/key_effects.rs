@@ -10,6 +10,7 @@ use asperity::Failure;
 use asperity::deck::schema::{Names, Schema, root};
 use asperity::deck::{Loaded, build, read};
 use asperity::material::external::{Call, Library, UserLaw, provide};
+use asperity::solve::{Frontal, engine};
 use model_print::{print, run_print};
 use schema_sites::{Site, Step, at, decks, folder, last_key, parent, sites};
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,6 +25,7 @@ fn loaded(deck: &Value) -> Option<Loaded> {
 
 fn model(deck: &Value) -> Option<u64> {
     provide(stand_in);
+    engine::provide(|_| Box::new(Frontal::default()));
     build(loaded(deck)?).ok().map(|made| print(&made))
 }
 

@@ -5,7 +5,7 @@ mod support;
 
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
 use asperity::output::{CHECKPOINT, Job, Kept, Limits, ResultOptions, Start, simulate};
-use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run, RunOptions, Silent};
+use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run, RunOptions, Silent, Unknowns};
 use asperity::system::{Csr, State};
 use frontal::{Change, Service};
 use proptest::prelude::*;
@@ -206,9 +206,9 @@ impl Faulty {
 }
 
 impl LinearSolver for Faulty {
-    fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
-        self.unknowns = nodes.len();
-        self.solver.analyse(pattern, nodes)
+    fn analyse(&mut self, pattern: &Csr, unknowns: Unknowns) -> Result<(), LinearError> {
+        self.unknowns = unknowns.free.len();
+        self.solver.analyse(pattern, unknowns)
     }
     fn follow(&mut self, pattern: &Csr) -> bool {
         self.solver.follow(pattern)

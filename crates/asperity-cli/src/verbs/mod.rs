@@ -21,6 +21,8 @@ pub use laws::laws;
 pub use penalty::penalty;
 pub use point::point;
 pub use report::report;
+#[cfg(feature = "cluster")]
+pub use run::follow;
 pub use run::{restart, run};
 pub use schema::schema;
 pub use translate::translate;

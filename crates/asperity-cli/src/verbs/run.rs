@@ -3,10 +3,13 @@
 use super::{Outcome, claim, made, made_quietly, print, results_of, translate};
 use crate::arguments;
 use crate::exit::{Exit, Trouble};
+use crate::ranks;
 use crate::screen::{Screen, Voice, farewell};
 use crate::signals::Interrupts;
 use asperity::Error;
 use asperity::deck::Made;
+#[cfg(feature = "cluster")]
+use asperity::output::Simulation;
 use asperity::output::{CHECKPOINT, Job, Resume, SUMMARY, Start, Status, Summary, branch, resumed, simulate};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -84,12 +87,48 @@ fn quoted(word: &str) -> String {
     }
 }
 
-fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&arguments::Restart>) -> Outcome {
-    // Before the deck is read: what comes first in need of threads decides their number.
-    if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
-        pool.map_err(|error| asperity::Error::Internal(error.to_string()))?;
+/// Limits the threads, before the deck is read: what comes first in need of threads decides their number.
+fn set_threads(arguments: &arguments::Run) -> Result<(), Error> {
+    let Some(threads) = arguments.threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
+    pool.map_err(|error| Error::Internal(error.to_string()))
+}
+
+/// What a rank does that is not the first: it solves what that one solves, and writes nothing.
+#[cfg(feature = "cluster")]
+pub fn follow(arguments: &arguments::Run, restart: Option<&arguments::Restart>) -> Outcome {
+    /// Stops with the others.
+    struct Follower;
+    impl asperity::solve::Observer for Follower {
+        fn stops(&self, _: bool) -> bool {
+            ranks::any(false)
+        }
     }
+    set_threads(arguments)?;
+    let (made, _) = made_quietly(&arguments.deck)?;
+    let problem = &made.model.problem;
+    let state = match restart {
+        Some(restart) => resumed(&source(restart, &made)?.1, problem, &made.parts)?.0,
+        None => problem.initial_state(),
+    };
+    // Only now may the first change what is in the directory.
+    ranks::any(false);
+    let mut simulation = Simulation::in_memory(&made.model, state, &made.deck.limits.limits, &[])?;
+    let ended = rayon::scope(|_| {
+        loop {
+            match simulation.advance(&mut Follower) {
+                Ok(Some(_)) => {}
+                Ok(None) => break Ok(Exit::Done),
+                Err(error) => break Err(error.into()),
+            }
+        }
+    });
+    ranks::arrive();
+    ended
+}
+
+fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&arguments::Restart>) -> Outcome {
+    set_threads(arguments)?;
     if let Some(restart) = restart {
         there_is_a_checkpoint(restart)?;
     }
@@ -104,6 +143,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&a
         if voice == Voice::Quiet { made_quietly(&arguments.deck)? } else { made(&arguments.deck)? };
     let notes: Vec<String> = made.diagnostics.list.iter().map(|warning| warning.what.clone()).collect();
     let source = restart.map(|restart| source(restart, &made)).transpose()?;
+    ranks::any(false);
     let (directory, _claim) = claim(arguments.out.as_deref(), &arguments.deck.path)?;
     if let Some(translated) = translated {
         translated.write(&directory.join(format!("{}.toml", translate::stem(&arguments.deck.path))))?;

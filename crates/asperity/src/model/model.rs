@@ -8,7 +8,7 @@ use crate::contact::field::{FieldContact, TiedSurfaces};
 use crate::load::{Bearing, PenetratingPressure};
 use crate::mesh::{Mesh, Space};
 use crate::solid::Body;
-use crate::solve::{Frontal, NewtonOptions, Problem, Run, Step};
+use crate::solve::{NewtonOptions, Problem, Run, Step, engine};
 use crate::system::{Dofs, Following, State, Term, Whole};
 use crate::tensor::Vec3;
 use crate::tool::{self, ProfileTool};
@@ -227,8 +227,7 @@ impl Model {
 
     /// A run from a given state: the initial one ([`Problem::initial_state`]) or that of a checkpoint.
     pub fn run(&self, state: State) -> Run<'_> {
-        let newton = &self.problem.newton;
-        Run::new(&self.problem, state, Box::new(Frontal::new(newton.factors).within(newton.memory)))
+        Run::new(&self.problem, state, engine::make(&self.problem))
     }
 }
 

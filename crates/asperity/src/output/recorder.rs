@@ -139,6 +139,6 @@ impl Observer for Recorder<'_> {
         self.audience.accepted(state, attempt)
     }
     fn wants_stop(&self) -> bool {
-        self.audience.wants_stop() || self.keeper.is_asked_to_stop()
+        self.audience.stops(self.keeper.is_asked_to_stop())
     }
 }

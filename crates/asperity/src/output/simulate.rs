@@ -100,6 +100,7 @@ pub fn simulate(model: &Model, job: &Job, audience: &mut dyn Observer) -> Result
                     Err(error) => break Err(error),
                 }
             };
+            audience.ended();
             simulation.finish(ended, job.facts)
         }
     }

@@ -1,9 +1,9 @@
 //! What a run takes of memory and work, known before anything is assembled: from the symbolic analysis of the graph of its
 //! nodes, and from counts.
 
-use super::linear::dense;
+use super::engine;
+use super::linear::{Unknowns, dense};
 use super::problem::Problem;
-use super::step::owners;
 use crate::machine::{Room, room};
 use crate::system::{Constraints, Couplings, Csr, Instant, Reduced, State, Stencils};
 use crate::{Error, Failure};
@@ -73,12 +73,13 @@ impl Problem {
         Ok(Demand { unknowns, entries, factorisation, symmetric, bytes, symmetric_bytes, dimension })
     }
 
-    /// Whether the first step fits into the memory there is; of small models nothing is asked.
+    /// Whether the first step fits into the memory there is; of small models nothing is asked, nor of what an engine from
+    /// outside takes.
     ///
     /// # Errors
     /// [`Error::Input`] with the need and what would fit.
     pub fn check_memory(&self, state: &State) -> Result<(), Error> {
-        let Some(room) = room(self.newton.memory) else { return Ok(()) };
+        let Some(room) = room(self.newton.memory).filter(|_| !engine::provided()) else { return Ok(()) };
         if PLENTY * self.dofs.count() as u64 <= room.left() { Ok(()) } else { self.demand(state)?.check(&room) }
     }
 
@@ -102,7 +103,7 @@ pub(super) fn single(policy: &Policy, cost: &Prediction) -> u64 {
 
 /// The nodes of the free unknowns, and which of them couple.
 fn graph(problem: &Problem, constraints: &Constraints, groups: &Couplings) -> NodeGraph {
-    let node_of = owners(&problem.dofs, constraints.free());
+    let node_of = Unknowns { dofs: &problem.dofs, free: constraints.free() }.owners();
     let count = node_of.last().map_or(0, |last| last + 1);
     let mut weights = vec![0; count];
     node_of.iter().for_each(|&node| weights[node] += 1);

@@ -147,7 +147,7 @@ impl Newton<'_> {
         let motions = match &error {
             LinearError::Singular(motions) => motions,
             LinearError::Inaccurate(_) | LinearError::NotFinite(_) => return Trouble::Failure(Failure::from(&error)),
-            LinearError::Memory(text) => return Trouble::Error(Error::input(text)),
+            LinearError::Memory(text) | LinearError::Input(text) => return Trouble::Error(Error::input(text)),
             LinearError::Other(_) => return Trouble::Error(Error::Internal(error.to_string())),
         };
         let text = self.name_motions(motions).join("; ");

@@ -2,7 +2,7 @@
 
 use super::demand::{single, too_much};
 use crate::machine::room;
-use crate::system::Csr;
+use crate::system::{Csr, Dofs};
 use crate::{Failure, Kind};
 use frontal::{Change, Options, Pattern, Policy, Reuse, Service, Signs, Solver, Symbolic};
 use std::fmt;
@@ -18,6 +18,8 @@ pub enum LinearError {
     NotFinite(String),
     /// The factors do not fit into the memory there is, in words.
     Memory(String),
+    /// What was asked of the solver cannot be, in words.
+    Input(String),
     /// Anything else, in words.
     Other(String),
 }
@@ -26,9 +28,8 @@ impl fmt::Display for LinearError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular(_) => f.write_str("the matrix is singular"),
-            Self::Inaccurate(text) | Self::NotFinite(text) | Self::Memory(text) | Self::Other(text) => {
-                f.write_str(text)
-            }
+            Self::Inaccurate(text) | Self::NotFinite(text) => f.write_str(text),
+            Self::Memory(text) | Self::Input(text) | Self::Other(text) => f.write_str(text),
         }
     }
 }
@@ -39,7 +40,7 @@ impl From<&LinearError> for Failure {
         let kind = match error {
             LinearError::Singular(_) | LinearError::Inaccurate(_) => Kind::Singular,
             LinearError::NotFinite(_) => Kind::NotFinite,
-            LinearError::Memory(_) | LinearError::Other(_) => Kind::Other,
+            LinearError::Memory(_) | LinearError::Input(_) | LinearError::Other(_) => Kind::Other,
         };
         Failure::new(error.to_string()).of(kind)
     }
@@ -72,13 +73,45 @@ impl Factors {
     }
 }
 
-/// A direct solver in three phases, which may also solve by iterations with the factor of an earlier matrix.
+/// What the unknowns of a linear system are: those of all that are free, ascending.
+#[derive(Debug, Clone, Copy)]
+pub struct Unknowns<'a> {
+    /// The numbering of all.
+    pub dofs: &'a Dofs,
+    /// The free ones.
+    pub free: &'a [usize],
+}
+
+impl Unknowns<'_> {
+    /// The first unknown, free or not, of the node or tool that has this one.
+    pub fn first_of_owner(&self, dof: usize) -> usize {
+        match dof.checked_sub(self.dofs.tool(0)) {
+            None => dof / self.dofs.per_node() * self.dofs.per_node(),
+            Some(beyond) => self.dofs.tool(beyond / self.dofs.per_tool()),
+        }
+    }
+
+    /// For each free unknown, its node or tool, numbered as they come.
+    pub fn owners(&self) -> Vec<usize> {
+        let (mut number, mut last) = (0, None);
+        let number = |&dof: &usize| {
+            let owner = self.first_of_owner(dof);
+            number += usize::from(last.is_some_and(|last| last != owner));
+            last = Some(owner);
+            number
+        };
+        self.free.iter().map(number).collect()
+    }
+}
+
+/// A direct solver in three phases, which may also solve by iterations with the factor of an earlier matrix; or any other that
+/// passes `tests/support/contract.rs`. [`engine`](super::engine) says how another takes the place of [`Frontal`].
 pub trait LinearSolver: Send {
-    /// Prepares for a pattern; `nodes[i]` is the node that unknown `i` belongs to.
+    /// Prepares for a pattern over these unknowns.
     ///
     /// # Errors
     /// When the pattern cannot be handled.
-    fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError>;
+    fn analyse(&mut self, pattern: &Csr, unknowns: Unknowns) -> Result<(), LinearError>;
     /// Takes note that the matrices to come have another pattern, of the same unknowns, and says whether the factor there is
     /// may serve for them all the same; [`analyse`](Self::analyse) comes before the next factorisation then.
     fn follow(&mut self, _pattern: &Csr) -> bool {
@@ -103,7 +136,7 @@ pub trait LinearSolver: Send {
     /// When nothing is factorised or the solution cannot be trusted.
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError>;
     /// Solves for many loads, each given by unknowns and values that are added, with the factor there is and to the
-    /// accuracy of that factor, and writes the solutions at the unknowns `at`, load after load.
+    /// accuracy of that factor, and writes the solutions at the unknowns `at`, which ascend, load after load.
     ///
     /// # Errors
     /// When nothing is factorised.
@@ -233,13 +266,13 @@ fn dense_rows(pattern: &Csr) -> Vec<usize> {
 }
 
 impl LinearSolver for Frontal {
-    fn analyse(&mut self, pattern: &Csr, nodes: Vec<usize>) -> Result<(), LinearError> {
+    fn analyse(&mut self, pattern: &Csr, unknowns: Unknowns) -> Result<(), LinearError> {
         let mut options = Options::default();
         options.last = dense_rows(pattern);
         // What the values are shows when they come; nothing is touched before.
         options.symmetric = self.solver.as_ref().is_none_or(|solver| solver.symbolic().prediction().symmetric);
         let pattern = Pattern::sharing(pattern.starts.clone(), pattern.columns.clone());
-        let pattern = pattern.and_then(|pattern| pattern.with_nodes(nodes)).map_err(translate)?;
+        let pattern = pattern.and_then(|pattern| pattern.with_nodes(unknowns.owners())).map_err(translate)?;
         if let Some(solver) = self.solver.as_mut().filter(|solver| *solver.symbolic().pattern() == pattern) {
             solver.refuse();
             return solver.follow(pattern).map_err(translate);

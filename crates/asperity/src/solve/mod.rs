@@ -4,6 +4,7 @@
 mod bend;
 mod convergence;
 mod demand;
+pub mod engine;
 mod free;
 mod hand_over;
 mod influences;
@@ -30,7 +31,7 @@ mod trail;
 
 pub use convergence::{Norms, Worst};
 pub use demand::Demand;
-pub use linear::{Factors, Frontal, LinearError, LinearSolver};
+pub use linear::{Factors, Frontal, LinearError, LinearSolver, Unknowns};
 pub use newton::{IfFree, NewtonOptions, Variant};
 pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
 pub use problem::Problem;

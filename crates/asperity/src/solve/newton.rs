@@ -41,7 +41,7 @@ pub enum IfFree {
 }
 
 /// Options of the iterations.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NewtonOptions {
     /// Which matrix is used.
     pub variant: Variant,
@@ -64,6 +64,8 @@ pub struct NewtonOptions {
     pub if_free: IfFree,
     /// Bytes of memory that the process may take; what the machine gives where nothing is said.
     pub memory: Option<u64>,
+    /// What an engine from outside is told, in its own words.
+    pub engine: Option<Arc<str>>,
     /// Every attempt is made twice and the second kept, which must not change a bit. A check of the program itself.
     pub rehearse: bool,
 }
@@ -81,6 +83,7 @@ impl Default for NewtonOptions {
             relax: true,
             if_free: IfFree::Auto,
             memory: None,
+            engine: None,
             rehearse: false,
         }
     }
@@ -250,7 +253,7 @@ impl<'a> Newton<'a> {
 
     /// Iterates to the solution.
     pub fn solve(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, Trouble> {
-        let options = self.problem.newton;
+        let options = &self.problem.newton;
         let (mut u, mut missing) = match &self.step.arc_length {
             Some(arc) => (self.begin_path(arc)?, None),
             None => self.predict()?,

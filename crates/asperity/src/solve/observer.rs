@@ -125,6 +125,13 @@ pub trait Observer {
     fn wants_stop(&self) -> bool {
         false
     }
+    /// Whether it stops there, where something else asks for it or does not: once an increment, so that several processes may
+    /// agree.
+    fn stops(&self, asked: bool) -> bool {
+        asked || self.wants_stop()
+    }
+    /// The run has come to its end, whatever that is; what is left is to write its results.
+    fn ended(&mut self) {}
 }
 
 /// Listens to nothing.

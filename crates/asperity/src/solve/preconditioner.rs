@@ -2,10 +2,9 @@
 //! that the state holds, its factor and what it has served for, whatever was solved since the state was accepted. So an
 //! attempt that is made again, and a run that goes on from a checkpoint, arrive at the same bits.
 
-use super::linear::{LinearError, LinearSolver};
+use super::linear::{LinearError, LinearSolver, Unknowns};
 use super::newton::{Memory, Newton, Variant};
 use super::problem::Problem;
-use super::step::owners;
 use crate::system::{Constraints, Csr, Factorised, Preconditioner};
 use std::sync::Arc;
 use std::time::Instant;
@@ -26,7 +25,8 @@ impl Memory {
     ) -> Result<(), LinearError> {
         let analysis = self.workspace.analysis();
         if self.analysed != analysis {
-            solver.analyse(self.workspace.pattern(), owners(&problem.dofs, constraints.free()))?;
+            let unknowns = Unknowns { dofs: &problem.dofs, free: constraints.free() };
+            solver.analyse(self.workspace.pattern(), unknowns)?;
             self.analysed = analysis;
             self.analyses += 1;
         }
@@ -86,7 +86,8 @@ impl Newton<'_> {
         // Neither is that of the matrices to come, as far as is known.
         (memory.analysed, memory.followed, memory.factorised) = (0, 0, None);
         memory.free.clone_from(&matrix.free);
-        self.solver.analyse(&matrix.pattern(), owners(&self.problem.dofs, &matrix.free))?;
+        let unknowns = Unknowns { dofs: &self.problem.dofs, free: &matrix.free };
+        self.solver.analyse(&matrix.pattern(), unknowns)?;
         self.solver.factorise(&matrix.values)?;
         (memory.analyses, memory.factorisations) = (memory.analyses + 1, memory.factorisations + 1);
         memory.symmetric += usize::from(self.solver.signs().is_some_and(|signs| signs.symmetric));

@@ -5,7 +5,7 @@ use super::jump::Matrix;
 use super::linear::LinearError;
 use super::newton::{Newton, Trouble, Variant};
 use crate::Failure;
-use crate::system::{Dofs, Tangent};
+use crate::system::Tangent;
 
 /// Slope, as a part of the initial one, at which the search for a shorter step ends.
 const GOOD: f64 = 0.8;
@@ -263,19 +263,4 @@ pub(super) fn norm(x: &[f64]) -> f64 {
 pub(super) fn forcing(now: f64, before: f64, allowed: f64) -> f64 {
     let enough = ENOUGH * allowed / now.max(f64::MIN_POSITIVE);
     (now / before.max(f64::MIN_POSITIVE)).powi(2).max(enough).clamp(TIGHTEST, LOOSEST)
-}
-
-/// For each free unknown, its node or tool, numbered as they come.
-pub(super) fn owners(dofs: &Dofs, free: &[usize]) -> Vec<usize> {
-    let owner = |dof: usize| match dof.checked_sub(dofs.node(dofs.nodes())) {
-        None => dof / dofs.per_node(),
-        Some(beyond) => dofs.nodes() + beyond / dofs.per_tool(),
-    };
-    let (mut number, mut last) = (0, None);
-    let number = |&dof: &usize| {
-        number += usize::from(last.is_some_and(|last| last != owner(dof)));
-        last = Some(owner(dof));
-        number
-    };
-    free.iter().map(number).collect()
 }

@@ -42,6 +42,11 @@ impl Whole {
         self.nodes.iter().map(|(node, _)| *node)
     }
 
+    /// The nodes, and where they are in the undeformed mesh.
+    pub fn places(&self) -> &[(usize, Vec3)] {
+        &self.nodes
+    }
+
     /// Writes to `u` the accepted state with the motion of the last increment, times `part`, carried on.
     pub fn carry(&self, dofs: &Dofs, state: &State, part: f64, u: &mut [f64]) {
         let (now, arms) = self.placed(dofs, |dof| state.u[dof]);

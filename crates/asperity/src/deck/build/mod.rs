@@ -31,7 +31,7 @@ use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
 use crate::output::checkpoint::InputHash;
 use crate::output::{Asked, Part, ResultOptions};
-use crate::solve::{Increments, Step};
+use crate::solve::{Increments, Step, engine};
 use crate::system::{Dofs, Term};
 use crate::{Error, machine};
 use std::path::Path;
@@ -181,6 +181,7 @@ impl Builder<'_> {
 
     fn everything(&mut self) -> Option<ModelParts> {
         self.check_mesh();
+        self.check_engine();
         if !self.fits_memory() {
             return None;
         }
@@ -241,6 +242,16 @@ impl Builder<'_> {
             rigid,
             newton: self.deck.solver.newton_options(),
         })
+    }
+
+    /// Who asks for PETSc must have it.
+    fn check_engine(&mut self) {
+        if let Some(petsc) = self.deck.solver.petsc.as_ref().filter(|_| !engine::provided()) {
+            let what = "`petsc` wants a program with the crate `cluster`, and this one was built without";
+            let help = "build it by `cargo install --path crates/asperity-cli --features cluster`, which needs PETSc and MPI (see the \
+                        manual's page on a cluster), or leave `petsc` out";
+            self.found.push(Diagnostic::error(what).at(petsc.place).help(help));
+        }
     }
 
     /// The model alone must fit into memory.

@@ -1,8 +1,10 @@
 //! How the equations are solved.
 
-use crate::deck::form::{Form, Words, flag, number, table, whole, word, words};
+use crate::deck::form::{Form, Words, flag, number, table, text, whole, word, words};
+use crate::deck::source::Spot;
 use crate::declare::{Range, unit};
 use crate::solve::{Factors, IfFree, NewtonOptions, Variant};
+use std::sync::Arc;
 
 table! {
     /// How the equations are solved.
@@ -27,6 +29,9 @@ table! {
         relax: bool = flag().or("true"),
         /// What becomes of what nothing holds any more, as of a body that has lost its contact.
         if_free: IfFree = word().or("\"auto\""),
+        /// Options of PETSc, which solves the linear systems of a program that was built with it (feature `cluster`), as of its
+        /// command line: `"-ksp_type fgmres -pc_type hypre"`.
+        petsc: Option<Spot<String>> = text("options of PETSc").spot().computed("every matrix factorised by MUMPS"),
         /// Gigabytes (10^9 bytes) of memory that the process may take; a run that needs more ends before it takes them and says
         /// what would fit.
         memory: Option<f64> = number("GB", Range::from_to(0.01, 1e6))
@@ -80,6 +85,7 @@ impl Solver {
             relax: self.relax,
             if_free: self.if_free,
             memory: self.memory.map(|gigabytes| (gigabytes * 1e9) as u64),
+            engine: self.petsc.as_ref().map(|options| Arc::from(options.value.as_str())),
             rehearse: false,
         }
     }

@@ -1,0 +1,242 @@
+//! The ranks of a run: how they begin, agree and end together.
+
+use crate::petsc::{checked, ffi, text};
+use std::ffi::{CStr, c_char, c_int};
+use std::mem::{MaybeUninit, size_of};
+use std::ptr;
+use std::sync::{Mutex, OnceLock};
+use std::time::{Duration, Instant};
+
+/// How long a rank that is in trouble waits for the others to come to the same end.
+const PATIENCE: Duration = Duration::from_secs(10);
+const LOOK_AGAIN: Duration = Duration::from_millis(5);
+
+/// Variables that launchers set, those of one process before those of a whole job: how many processes there are, and which
+/// one this is.
+const LAUNCHERS: [[&str; 2]; 3] =
+    [["OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"], ["PMI_SIZE", "PMI_RANK"], ["SLURM_NTASKS", "SLURM_PROCID"]];
+
+/// What ranks must come to together.
+#[derive(Clone, Copy)]
+pub(crate) enum Meeting {
+    Question = 1,
+    Pattern,
+    Matrix,
+    Forces,
+    Loads,
+}
+
+/// The ranks that run together.
+pub struct Ranks {
+    rank: usize,
+    size: usize,
+    /// A communicator for `arrival` alone: a rank in trouble may come to it while the others are elsewhere.
+    own: ffi::MPI_Comm,
+    /// Has come to its end; all have once this is done.
+    arrival: Mutex<Option<ffi::MPI_Request>>,
+}
+
+// SAFETY: handles of MPI may be used by any thread, one at a time, for which it is initialised.
+unsafe impl Send for Ranks {}
+unsafe impl Sync for Ranks {}
+
+static RANKS: OnceLock<Ranks> = OnceLock::new();
+
+/// How many processes the launcher started, and which of them this is, if there is one.
+pub fn launched() -> Option<(usize, usize)> {
+    let number = |name: &str| std::env::var(name).ok()?.parse::<usize>().ok();
+    LAUNCHERS.iter().find_map(|[size, rank]| Some((number(size)?, number(rank).unwrap_or(0))))
+}
+
+/// Begins MPI and PETSc, once.
+///
+/// # Errors
+/// What is wrong with the launcher or the libraries, in words.
+pub fn start() -> Result<&'static Ranks, String> {
+    if let Some(ranks) = RANKS.get() {
+        return Ok(ranks);
+    }
+    let begun = Ranks::begin()?;
+    Ok(RANKS.get_or_init(|| begun))
+}
+
+/// Whether this rank has come to its end: what all must do together it can do no more.
+pub(crate) fn has_arrived() -> bool {
+    RANKS.get().is_some_and(|ranks| ranks.arrival.lock().is_ok_and(|arrival| arrival.is_some()))
+}
+
+impl Ranks {
+    fn begin() -> Result<Self, String> {
+        let (mut given, mut rank, mut size, mut own) = (0, 0, 0, MaybeUninit::uninit());
+        let serialised = ffi::MPI_THREAD_SERIALIZED as c_int;
+        // SAFETY: what is called before PETSc begins may be; errors of MPI end the process.
+        unsafe {
+            ffi::MPI_Init_thread(ptr::null_mut(), ptr::null_mut(), serialised, &mut given);
+            // What a law of a library does wrong is told by who calls it.
+            checked(ffi::PetscOptionsSetValue(ptr::null_mut(), text("-no_signal_handler").as_ptr(), ptr::null()))?;
+            checked(ffi::PetscInitializeNoArguments())?;
+            checked(ffi::PetscPushErrorHandler(Some(ffi::PetscReturnErrorHandler), ptr::null_mut()))?;
+            ffi::MPI_Comm_rank(ffi::PETSC_COMM_WORLD, &mut rank);
+            ffi::MPI_Comm_size(ffi::PETSC_COMM_WORLD, &mut size);
+            ffi::MPI_Comm_dup(ffi::PETSC_COMM_WORLD, own.as_mut_ptr());
+        }
+        // SAFETY: the call above wrote it.
+        let own = unsafe { own.assume_init() };
+        let ranks = Self { rank: rank as usize, size: size as usize, own, arrival: Mutex::new(None) };
+        let fault = ranks.alone().or_else(|| (given < serialised).then(|| "this MPI serves no threads".into()));
+        fault.map_or_else(other_library, Err).map(|()| ranks)
+    }
+
+    /// Why this process is alone where more were wanted; the first alone says so.
+    fn alone(&self) -> Option<String> {
+        let (wanted, which) = launched().filter(|(wanted, _)| self.size == 1 && *wanted > 1)?;
+        if which > 0 {
+            std::process::exit(2);
+        }
+        Some(format!(
+            "{wanted} processes are wanted and each is alone: start them by the `mpirun` of the MPI that this program was built \
+             with, {}, as `mpirun -n {wanted} asperity run DECK`, or by an `srun` that knows it; one alone by `mpirun -n 1`",
+            library()
+        ))
+    }
+
+    /// Number of this rank, from zero.
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+    /// How many there are.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Smallest and largest of the ranks' own numbers.
+    fn range(&self, mine: ffi::PetscInt) -> Result<[ffi::PetscInt; 2], String> {
+        let (mut mine, mut all) = ([mine; 2], [0; 2]);
+        // SAFETY: both are pairs.
+        checked(unsafe { ffi::PetscGlobalMinMaxInt(ffi::PETSC_COMM_WORLD, mine.as_mut_ptr(), all.as_mut_ptr()) })?;
+        Ok(all)
+    }
+
+    /// Whether any rank says yes, or is elsewhere than here; all must ask.
+    pub fn any(&self, yes: bool) -> bool {
+        let question = Meeting::Question as ffi::PetscInt * 2;
+        self.range(question + ffi::PetscInt::from(yes)).map_or(true, |range| range != [question; 2])
+    }
+
+    /// Sees to it that all ranks come here with the same numbers.
+    pub(crate) fn agree(&self, on: Meeting, numbers: &[f64]) -> Result<(), String> {
+        let mix = |hash: u32, x: &f64| {
+            let bits = x.to_bits();
+            (hash ^ bits as u32 ^ (bits >> 32) as u32).wrapping_mul(0x0100_0193).rotate_left(5)
+        };
+        let hash = numbers.iter().fold(on as u32, mix) >> 4;
+        let [least, most] = self.range((((on as u32) << 28) | hash) as ffi::PetscInt)?;
+        if least == most {
+            return Ok(());
+        }
+        Err("the ranks have come to different equations: a law failed on some of them only, or their processors, libraries or files \
+             are not the same"
+            .into())
+    }
+
+    /// Puts together the pieces that the ranks hold of a vector, of these lengths.
+    pub(crate) fn gather(&self, piece: &[f64], lengths: &[c_int], whole: &mut [f64]) -> Result<(), String> {
+        let starts = lengths.iter().scan(0, |next, length| Some(std::mem::replace(next, *next + length)));
+        let (starts, mut kind) = (starts.collect::<Vec<_>>(), MaybeUninit::uninit());
+        // SAFETY: the lengths are those of the pieces, and their sum that of the whole.
+        unsafe {
+            checked(ffi::PetscDataTypeToMPIDataType(ffi::PetscDataType_PETSC_DOUBLE, kind.as_mut_ptr()))?;
+            let (kind, to) = (kind.assume_init(), whole.as_mut_ptr().cast());
+            let (mine, all) = (lengths[self.rank], lengths.as_ptr());
+            ffi::MPI_Allgatherv(
+                piece.as_ptr().cast(),
+                mine,
+                kind,
+                to,
+                all,
+                starts.as_ptr(),
+                kind,
+                ffi::PETSC_COMM_WORLD,
+            );
+        }
+        Ok(())
+    }
+
+    /// Lets the others know that this rank has come to its end, whatever that is.
+    pub fn arrive(&self) {
+        let mut arrival = self.arrival.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        arrival.get_or_insert_with(|| {
+            let mut request = MaybeUninit::uninit();
+            // SAFETY: the call writes the request.
+            unsafe {
+                ffi::MPI_Ibarrier(self.own, request.as_mut_ptr());
+                request.assume_init()
+            }
+        });
+    }
+
+    /// Whether all have.
+    fn all_arrived(&self) -> bool {
+        let mut arrival = self.arrival.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let (mut done, mut status) = (0, MaybeUninit::uninit());
+        // SAFETY: the request is that of `arrive`; one that is done is so for good.
+        arrival.as_mut().is_some_and(|request| unsafe {
+            ffi::MPI_Test(request, &mut done, status.as_mut_ptr());
+            done != 0
+        })
+    }
+
+    /// Ends this rank with a code, all together where they come to the same end. Where this one is in trouble alone it says
+    /// why, in `words` that were not said yet, and ends all.
+    pub fn part(&self, code: u8, words: Option<&str>) {
+        self.arrive();
+        let begun = Instant::now();
+        while !self.all_arrived() {
+            if code != 0 && begun.elapsed() > PATIENCE {
+                if let Some(words) = words {
+                    eprintln!("error: rank {} of {}: {words}", self.rank, self.size);
+                }
+                // SAFETY: it ends this process.
+                unsafe { ffi::MPI_Abort(self.own, c_int::from(code)) };
+            }
+            std::thread::sleep(LOOK_AGAIN);
+        }
+        // SAFETY: nothing of either is asked for after.
+        unsafe {
+            ffi::PetscFinalize();
+            ffi::MPI_Finalize();
+        }
+    }
+}
+
+/// The name of the MPI, on one line.
+fn library() -> String {
+    let mut words = [0 as c_char; ffi::MPI_MAX_LIBRARY_VERSION_STRING as usize];
+    // SAFETY: it ends with a zero and is no longer than that.
+    let words = unsafe {
+        ffi::MPI_Get_library_version(words.as_mut_ptr(), &mut 0);
+        CStr::from_ptr(words.as_ptr()).to_string_lossy().into_owned()
+    };
+    words.split([',', '\n']).next().unwrap_or_default().trim().to_owned()
+}
+
+/// Whether the library that runs is the one whose headers were read.
+fn other_library() -> Result<(), String> {
+    let (mut version, mut int) = ([0; 2], 0);
+    // SAFETY: the calls write numbers.
+    unsafe {
+        let [major, minor] = &mut version;
+        checked(ffi::PetscGetVersionNumber(major, minor, ptr::null_mut(), ptr::null_mut()))?;
+        checked(ffi::PetscDataTypeGetSize(ffi::PetscDataType_PETSC_INT, &mut int))?;
+    }
+    let built = [ffi::PETSC_VERSION_MAJOR as ffi::PetscInt, ffi::PETSC_VERSION_MINOR as ffi::PetscInt];
+    if (version, int) == (built, size_of::<ffi::PetscInt>()) {
+        return Ok(());
+    }
+    let ([major, minor], [other_major, other_minor]) = (built, version);
+    Err(format!(
+        "this program was built with PETSc {major}.{minor} of integers of {} bytes, and meets PETSc {other_major}.{other_minor} of \
+         integers of {int}: load the library that it was built with, or build it again",
+        size_of::<ffi::PetscInt>(),
+    ))
+}

@@ -360,7 +360,8 @@ impl System {
     /// Makes the factor, and sees to it that the matrix has an inverse.
     fn factorise(&mut self, values: &[f64]) -> std::result::Result<(), LinearError> {
         self.take(values);
-        if !self.set_up(values)? && !(self.direct && self.set_up(&self.shifted())?) {
+        let factorised = self.set_up(values)? || self.direct && self.set_up(&self.shifted())?;
+        if !factorised {
             return Err(LinearError::Inaccurate("PETSc finds no preconditioner of the matrix".into()));
         }
         let motions = if self.direct { self.null_motions()? } else { Vec::new() };

@@ -120,7 +120,7 @@ impl Ranks {
     /// Whether any rank says yes, or is elsewhere than here; all must ask.
     pub fn any(&self, yes: bool) -> bool {
         let question = Meeting::Question as ffi::PetscInt * 2;
-        self.range(question + ffi::PetscInt::from(yes)).map_or(true, |range| range != [question; 2])
+        !self.range(question + ffi::PetscInt::from(yes)).is_ok_and(|range| range == [question; 2])
     }
 
     /// Sees to it that all ranks come here with the same numbers.

@@ -73,10 +73,9 @@ fn bodies_that_share_nodes_have_one_degree() {
     let raised = model(&two(", degree = 2", ""), &[]);
     assert!(raised.mesh.kinds.iter().all(|kind| kind.name == "quad8"));
     assert_eq!(raised.mesh.points.len(), 123 + 40 * 3 + 41 * 2);
-    for (low, high, word) in [(", degree = 2", ", degree = 1", "share nodes")] {
-        let found = read(&two(low, high), "test.toml", Path::new(""), &[]).and_then(build).err().unwrap();
-        assert!(found.list.iter().any(|found| found.what.contains(word)), "{found:?}");
-    }
+    let found =
+        read(&two(", degree = 2", ", degree = 1"), "test.toml", Path::new(""), &[]).and_then(build).err().unwrap();
+    assert!(found.list.iter().any(|found| found.what.contains("share nodes")), "{found:?}");
     let second = cantilever("quad8", ", degree = 1");
     let found = read(&second, "test.toml", Path::new(""), &[]).and_then(build).err().unwrap();
     assert!(found.list.iter().any(|found| found.what.contains("of second degree")), "{found:?}");

@@ -8,7 +8,7 @@ use asperity::contact::field::FieldContact;
 use asperity::model::Model;
 use asperity::system::{Dofs, State, Term};
 use perturbed::{Random, check, commit, instant, state};
-use support::{Keep, columns, model, run};
+use support::{Keep, columns, keep_degree, model, run};
 
 /// Largest difference of an entry of a tangent over the largest entry, between bodies,
 const ALLOWED: f64 = 1e-7;
@@ -173,7 +173,7 @@ version = 1
 space = "plane-strain"
 mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [4.0, 1.0], cells = [9, 3], cell = "{cell}" }}
 material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
-body.block = {{ material = "rubber" }}
+body.block = {{ material = "rubber"{} }}
 tool.floor = {{ profile = [{{ line = [[20.0, 0.0], [-20.0, 0.0]] }}] }}
 contact.joint = {{ surface = "block.bottom", target = "floor", form = "field", law.coulomb = {{ friction = {friction} }} }}
 [[step]]
@@ -182,7 +182,8 @@ displacement."block.top" = {{ x = 0.0, y = -0.01 }}
 [[step]]
 increments.count = 4
 displacement."block.top" = {{ x = 1.0, y = -0.01 }}
-"#
+"#,
+                keep_degree(cell)
             );
             let model = model(&deck, &[]);
             let keep: Keep = run(&model);

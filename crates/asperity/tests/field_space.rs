@@ -8,7 +8,7 @@ use asperity::contact::field::FieldContact;
 use asperity::system::{Dofs, State, Term};
 use asperity::system::{Stencil, Stencils, check_tangent};
 use perturbed::{Random, commit, instant, state};
-use support::{Keep, columns, model, run};
+use support::{Keep, columns, keep_degree, model, run};
 
 /// Largest difference of an entry of a tangent over the largest entry.
 const ALLOWED: f64 = 1e-6;
@@ -39,14 +39,17 @@ space = "solid"
 mesh.part.low.box = {{ from = [-0.2, -0.5, -0.1], to = [1.6, 0.0, 1.2], cells = [3, 1, 2], cell = "{}" }}
 mesh.part.high.box = {{ from = [0.1, 0.0, 0.05], to = [1.1, 0.5, 0.95], cells = [2, 1, 2], cell = "{}" }}
 material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
-body.low = {{ material = "rubber" }}
-body.high = {{ material = "rubber" }}
+body.low = {{ material = "rubber"{} }}
+body.high = {{ material = "rubber"{} }}
 contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", roles = "given", tangential_penalty = 1e5, law.coulomb = {{ friction = 0.3 }} }}
 [[step]]
 displacement."low.bottom" = {{ x = 0.0, y = 0.0, z = 0.0 }}
 displacement."high.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
 "#,
-        cells[0], cells[1]
+        cells[0],
+        cells[1],
+        keep_degree(cells[0]),
+        keep_degree(cells[1])
     )
 }
 
@@ -156,8 +159,8 @@ version = 1
 space = "solid"
 {}{}
 material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
-body.low = {{ material = "rubber" }}
-body.high = {{ material = "rubber" }}
+body.low = {{ material = "rubber"{} }}
+body.high = {{ material = "rubber"{} }}
 contact.joint = {{ surface = "high.bottom", target = "low.top", form = "field", law.coulomb = {{ friction = 0.0 }} }}
 [solver]
 tolerance = 1e-13
@@ -167,7 +170,9 @@ symmetry = ["low.bottom", "low.left", "low.back", "high.left", "high.back"]
 pressure."high.top" = {{ value = 10.0 }}
 "#,
             part(0, "low", 0.0),
-            part(1, "high", 1.0)
+            part(1, "high", 1.0),
+            keep_degree(cells[0]),
+            keep_degree(cells[1])
         );
         let model = model(&deck, &[]);
         let keep: Keep = run(&model);

@@ -117,6 +117,7 @@ yield_stress = 5.0
 hardening = 50.0
 [body.block]
 material = "steel"
+{}
 [tool.plate]
 {plate}
 [contact.base]
@@ -139,6 +140,7 @@ quantities = ["cauchy_stress", "equivalent_plastic_strain"]
 of.contact = "base"
 quantities = ["contact_pressure"]
 "#,
+        if ["tri3", "tet4", "wedge6"].iter().any(|cell| mesh.contains(cell)) { "degree = 1" } else { "" },
         if space == "solid" { ", z = 0.0" } else { "" }
     )
 }

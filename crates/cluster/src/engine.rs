@@ -1,7 +1,7 @@
 //! The linear solver of a run by PETSc's KSP.
 
 use crate::petsc::{KSP, Mat, Owned, Result, Vector, checked, ffi, int, text};
-use crate::ranks::{Meeting, Ranks, start};
+use crate::ranks::{Ranks, Rendezvous, start};
 use crate::rows::{Entries, Rows};
 use asperity::solve::{LinearError, LinearSolver, Problem, Unknowns};
 use asperity::system::Csr;
@@ -87,7 +87,7 @@ impl Petsc {
         // What was there goes first.
         self.system = None;
         let ranks = self.ranks.clone()?;
-        ranks.agree(Meeting::Pattern, &[pattern.rows() as f64, pattern.columns.len() as f64])?;
+        ranks.agree(Rendezvous::Pattern, &[pattern.rows() as f64, pattern.columns.len() as f64])?;
         if !std::mem::replace(&mut self.told, true) {
             let words = text(self.options.as_deref().unwrap_or(DIRECT));
             // SAFETY: it takes a copy of the words.
@@ -447,7 +447,7 @@ impl LinearSolver for Petsc {
     fn factorise(&mut self, values: &[f64]) -> std::result::Result<(), LinearError> {
         let system = self.system()?;
         system.factorised = false;
-        system.ranks.agree(Meeting::Matrix, values).map_err(LinearError::Input)?;
+        system.ranks.agree(Rendezvous::Matrix, values).map_err(LinearError::Input)?;
         if values.iter().any(|value| !value.is_finite()) {
             return Err(LinearError::NotFinite("the stiffness is not finite".into()));
         }
@@ -461,7 +461,7 @@ impl LinearSolver for Petsc {
         if !system.factorised {
             return Err(LinearError::Other("nothing is factorised".into()));
         }
-        system.ranks.agree(Meeting::Forces, rhs).map_err(LinearError::Input)?;
+        system.ranks.agree(Rendezvous::Forces, rhs).map_err(LinearError::Input)?;
         if rhs.iter().any(|force| !force.is_finite()) {
             return Err(LinearError::NotFinite("the forces are not finite".into()));
         }
@@ -479,7 +479,7 @@ impl LinearSolver for Petsc {
             return Err(LinearError::Other("nothing is factorised".into()));
         };
         let sizes = [loads.len() as f64, at.len() as f64];
-        system.ranks.agree(Meeting::Loads, &sizes).map_err(LinearError::Input)?;
+        system.ranks.agree(Rendezvous::Loads, &sizes).map_err(LinearError::Input)?;
         let pieces = loads.chunks(TOGETHER).zip(x.chunks_mut((TOGETHER * at.len()).max(1)));
         pieces.into_iter().try_for_each(|(loads, x)| system.influence(loads, at, x)).map_err(LinearError::Other)
     }

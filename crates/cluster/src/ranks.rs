@@ -18,7 +18,7 @@ const LAUNCHERS: [[&str; 2]; 3] =
 
 /// What ranks must come to together.
 #[derive(Clone, Copy)]
-pub(crate) enum Meeting {
+pub(crate) enum Rendezvous {
     Question = 1,
     Pattern,
     Matrix,
@@ -119,12 +119,12 @@ impl Ranks {
 
     /// Whether any rank says yes, or is elsewhere than here; all must ask.
     pub fn any(&self, yes: bool) -> bool {
-        let question = Meeting::Question as ffi::PetscInt * 2;
+        let question = Rendezvous::Question as ffi::PetscInt * 2;
         !self.range(question + ffi::PetscInt::from(yes)).is_ok_and(|range| range == [question; 2])
     }
 
     /// Sees to it that all ranks come here with the same numbers.
-    pub(crate) fn agree(&self, on: Meeting, numbers: &[f64]) -> Result<(), String> {
+    pub(crate) fn agree(&self, on: Rendezvous, numbers: &[f64]) -> Result<(), String> {
         let mix = |hash: u32, x: &f64| {
             let bits = x.to_bits();
             (hash ^ bits as u32 ^ (bits >> 32) as u32).wrapping_mul(0x0100_0193).rotate_left(5)

@@ -105,3 +105,8 @@ pub fn certificate(model: &Model, keep: &Keep) -> Certificate {
     frames(model, keep).iter().for_each(|frame| certificate.observe(frame));
     certificate
 }
+
+/// What a body says so that its cells are not raised to second degree.
+pub fn keep_degree(cell: &str) -> &'static str {
+    if ["tri3", "tet4", "wedge6"].contains(&cell) { ", degree = 1" } else { "" }
+}

@@ -20,7 +20,11 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         let sets = |gauss: Option<usize>| {
             let kind =
                 [format!("mesh.part.block.rectangle.cell={cell}"), format!("body.block.integration={integration}")];
-            kind.into_iter().chain(gauss.map(|points| format!("contact.sole.gauss={points}"))).collect::<Vec<_>>()
+            let kept = (cell == "tri3").then(|| "body.block.degree=1".to_string());
+            kind.into_iter()
+                .chain(kept)
+                .chain(gauss.map(|points| format!("contact.sole.gauss={points}")))
+                .collect::<Vec<_>>()
         };
         let default = bench.solve("patch.toml", &sets(None))?;
         measured.push((cell.into(), self::spread(&default)));

@@ -33,7 +33,8 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     }
     for (key, [low, up]) in space {
         let cells = ["low", "up"].into_iter().zip([low, up]);
-        let sets: Vec<String> = cells.map(|(part, cell)| format!("mesh.part.{part}.box.cell={cell}")).collect();
+        let mut sets: Vec<String> = cells.map(|(part, cell)| format!("mesh.part.{part}.box.cell={cell}")).collect();
+        sets.extend((low == "tet4").then(|| "body.low.degree=1".to_string()));
         measured.push((key.into(), error(&bench.solve("boxes.toml", &sets)?)));
     }
     Ok(measured)

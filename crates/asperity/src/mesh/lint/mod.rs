@@ -85,6 +85,9 @@ pub fn check(mesh: &Mesh) -> Vec<Finding> {
     findings.extend(cells::check(mesh));
     findings.extend(sides::check(mesh));
     findings.extend(groups::check(mesh));
+    if findings.iter().all(|finding| finding.severity < Severity::Error) {
+        findings.extend(sides::hanging(mesh));
+    }
     findings.sort_by_key(|finding| (std::cmp::Reverse(finding.severity), finding.kind));
     findings
 }

@@ -12,9 +12,14 @@ pub(super) fn check(mesh: &Mesh) -> Vec<Finding> {
     let (cracks, touching): (Vec<_>, Vec<_>) = pairs.iter().partition(|[one, other]| bodies.same(one.cell, other.cell));
     let mut findings: Vec<Finding> = [crack(mesh, cracks), touch(mesh, touching)].into_iter().flatten().collect();
     findings.extend(duplicates(mesh, &first, &pairs, &bodies));
-    findings.extend(hanging::check(mesh, &faces, |one, other| bodies.joined(one, other)));
     findings.extend(misfits(mesh, &faces));
     findings
+}
+
+/// Nodes that hang, of a mesh whose cells are sound.
+pub(super) fn hanging(mesh: &Mesh) -> Option<Finding> {
+    let bodies = Bodies::of(mesh);
+    hanging::check(mesh, &Faces::of(mesh, 0..mesh.cell_count()), |one, other| bodies.joined(one, other))
 }
 
 /// Outer faces that would be one if coincident nodes were joined.

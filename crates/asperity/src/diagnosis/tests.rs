@@ -141,3 +141,21 @@ fn of_each_cause_there_is_one_finding_and_the_strongest_comes_first() {
     assert_eq!(found.iter().map(|finding| finding.cause.as_str()).collect::<Vec<_>>(), ["locking"]);
     assert!(found.is_sorted_by(|a, b| a.weight >= b.weight));
 }
+
+/// Numbers that are hardly meant, each by its own words.
+#[test]
+fn odd_numbers_are_told_by_their_keys() {
+    let mut facts = block();
+    assert!(oddities(&facts).is_empty(), "{:?}", oddities(&facts));
+    facts.contacts[0].friction = Some(30.0);
+    facts.bodies[0].law = ("mohr_coulomb", vec![("friction", 0.52), ("hardening", 5e8)]);
+    facts.bodies[0].driven_whole = Some("press".into());
+    facts.length_unit = Some("mm".into());
+    facts.steps[0].gravity = Some(9.81);
+    let again = StepFacts { name: "again".into(), repeats: true, ..facts.steps[0].clone() };
+    facts.steps.push(again);
+    let told = oddities(&facts).into_iter().map(|oddity| oddity.what).collect::<Vec<_>>().join("\n");
+    for words in ["friction of 30", "0.52 degrees", "`hardening`", "every node", "gravity of 9.81", "holds already"] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+}

@@ -25,7 +25,7 @@ fn loaded(deck: &Value) -> Option<Loaded> {
 
 fn model(deck: &Value) -> Option<u64> {
     provide(stand_in);
-    engine::provide(|_| Box::new(Frontal::default()));
+    engine::provide(|problem| Box::new(Frontal::new(problem.newton.factors).within(problem.newton.memory)));
     build(loaded(deck)?).ok().map(|made| print(&made))
 }
 

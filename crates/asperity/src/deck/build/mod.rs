@@ -31,7 +31,7 @@ use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
 use crate::output::checkpoint::InputHash;
 use crate::output::{Asked, Part, ResultOptions};
-use crate::solve::{Increments, Step, engine};
+use crate::solve::{Factors, Increments, Step, engine};
 use crate::system::{Dofs, Term};
 use crate::{Error, machine};
 use std::path::Path;
@@ -244,9 +244,17 @@ impl Builder<'_> {
         })
     }
 
-    /// Who asks for PETSc must have it.
+    /// Who asks for PETSc must have it, and cannot ask for what only the library's own solver does.
     fn check_engine(&mut self) {
-        if let Some(petsc) = self.deck.solver.petsc.as_ref().filter(|_| !engine::provided()) {
+        let solver = &self.deck.solver;
+        let Some(petsc) = &solver.petsc else { return };
+        for (key, said) in [("factors", solver.factors != Factors::Auto), ("memory", solver.memory.is_some())] {
+            if said {
+                let what = format!("`{key}` is that of the library's own solver, and has no use beside `petsc`");
+                self.found.push(Diagnostic::error(what).at(petsc.place).help(format!("leave `petsc` or `{key}` out")));
+            }
+        }
+        if !engine::provided() {
             let what = "`petsc` wants a program with the crate `cluster`, and this one was built without";
             let help = "build it by `cargo install --path crates/asperity-cli --features cluster`, which needs PETSc and MPI (see the \
                         manual's page on a cluster), or leave `petsc` out";

@@ -171,16 +171,13 @@ impl SpaceTool {
         let together = TOGETHER * self.size();
         let beyond = border + aside * (10.0 * together);
         let others = self.around(border, together).into_iter().filter(|&facet| pieces.labels[facet] != piece);
-        let meet = others
-            .map(|facet| &self.facets()[facet])
-            .filter(|facet| (facet.nearest(border).point - border).norm() <= together);
-        let seen = meet
-            .map(|facet| facet.nearest(beyond))
-            .map(|other| ((other.point - beyond).norm(), other.normal.dot(aside)));
+        let meet =
+            others.map(|facet| &self.facets()[facet]).filter(|f| (f.nearest(border).point - border).norm() <= together);
+        let seen = meet.map(|facet| facet.nearest(beyond)).map(|f| ((f.point - beyond).norm(), f.normal.dot(aside)));
         let seen: Vec<(f64, f64)> = seen.collect();
         let least = seen.iter().fold(f64::INFINITY, |least, (distance, _)| least.min(*distance));
         // In a vertex several are as close, and the sum of their normals tells (Baerentzen and Aanaes 2005).
-        let closest = seen.iter().filter(|(distance, _)| *distance <= least + 0.01 * together);
-        closest.map(|(_, cosine)| cosine).sum::<f64>() < -INWARD
+        seen.iter().filter(|(distance, _)| *distance <= least + 0.01 * together).map(|(_, cosine)| cosine).sum::<f64>()
+            < -INWARD
     }
 }

@@ -122,6 +122,8 @@ def test_an_interrupt_ends_the_run_with_a_checkpoint(tmp_path):
     model = asperity.Model(TUBE, set={"step.push.increments.count": 60, "mesh.part.tube.rectangle.cells": [2, 30]})
     out = tmp_path / "out"
     before = signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGINT))
+    # A shell has its background jobs ignore interrupts.
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         run = model.run(out)
         run.advance()
@@ -132,6 +134,7 @@ def test_an_interrupt_ends_the_run_with_a_checkpoint(tmp_path):
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
+        signal.signal(signal.SIGINT, handler)
     reached = run.state.increment
     assert 1 < reached < 60 and run.status == "stopped" == status(out) and (out / "run.checkpoint").exists()
     resumed = model.solve(out, restart=True)

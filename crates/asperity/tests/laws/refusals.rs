@@ -44,7 +44,7 @@ fn impossible_sets_are_refused_by_name() {
             format!("chaboche = {{ {steel}, kinematic_1 = 1.0, recovery_3 = 1.0 }}"),
             "`recovery_3` has nothing to recover",
         ),
-        (sheet("normal_z = 0.0"), "the sheet has no normal"),
+        (sheet("normal_z = 0.0"), "`normal_z` are zero"),
         (sheet("rolling_x = 0.0, rolling_z = 2.0"), "does not lie in the sheet"),
         (format!("hill_coefficients = {{ {steel}, f = -0.5, g = 1.0, h = 0.5 }}"), "no closed surface"),
         (

@@ -251,7 +251,7 @@ pub static READ: &[Keyword] = &[
         &[
             used("NAME"),
             one_of("TIME", &["STEP TIME", "TOTAL TIME"]),
-            one_of("DEFINITION", &["TABULAR"]),
+            one_of("DEFINITION", &["TABULAR", "SMOOTH STEP"]),
             one_of("VALUE", &["RELATIVE"]),
             left("SMOOTH"),
             used("INPUT"),

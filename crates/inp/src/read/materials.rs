@@ -290,7 +290,9 @@ impl Reader {
             return self.error(block.place, what);
         }
         let total = block.word("TIME").as_deref() == Some("TOTALTIME");
-        let amplitude = Amplitude { points: pairs.to_vec(), total };
+        let smooth = block.word("DEFINITION").as_deref() == Some("SMOOTHSTEP");
+        let points = if smooth { smoothed(pairs) } else { pairs.to_vec() };
+        let amplitude = Amplitude { points, total };
         self.model.amplitudes.push((name.to_ascii_uppercase(), amplitude));
     }
 }
@@ -302,4 +304,18 @@ fn triangle(nine: &[f64]) -> Vec<f64> {
         all[at] = *value;
     }
     all
+}
+
+/// Straight pieces of a smooth step between each two points: `a + (b - a) x^3 (10 - 15 x + 6 x^2)`.
+fn smoothed(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const PIECES: usize = 16;
+    let between = |two: &[[f64; 2]]| {
+        let ([t, a], [end, b]) = (two[0], two[1]);
+        let at = move |piece: usize| {
+            let x = piece as f64 / PIECES as f64;
+            [t + (end - t) * x, a + (b - a) * x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)]
+        };
+        (0..PIECES).map(at).collect::<Vec<_>>()
+    };
+    points.windows(2).flat_map(between).chain(points.last().copied()).collect()
 }

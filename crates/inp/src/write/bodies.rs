@@ -249,11 +249,12 @@ impl Writer<'_> {
             self.error(material.place, what);
             return None;
         }
-        let what = "*USER MATERIAL is called as a UMAT in the library `umat.so` beside the deck; another: \
-                    --set 'material.NAME.umat.library=\"PATH\"'";
+        let what = "*USER MATERIAL is called as a UMAT in the library `umat.so` beside the input deck; another: \
+                    --set 'material.NAME.umat.library=\"PATH\"', from the root";
         self.note(user.place, what);
         let keys = format!(
-            "library = \"umat.so\"\nname = {}\nproperties = {}\nstates = {}\n",
+            "library = {}\nname = {}\nproperties = {}\nstates = {}\n",
+            quoted(self.library),
             quoted(&name),
             list(&user.properties),
             material.states

@@ -64,7 +64,12 @@ impl Writer<'_> {
         }
         if !pair.field {
             // CalculiX cuts the slave faces along those of the master; so many points come as near where they do not match.
-            text += &format!("gauss = {}\n", if self.dimension() == 3 { 6 } else { 10 });
+            let points = match self.family {
+                Family::Solid => 6,
+                Family::Axisymmetric => 5,
+                _ => 10,
+            };
+            text += &format!("gauss = {points}\n");
         }
         text += &law;
         if let Some(slope) = interaction.slope {

@@ -168,8 +168,9 @@ impl Reader {
             changed.shear_limit = Some(limit).filter(|&limit| limit > 0.0);
         }
         self.of_interaction(block.place, "FRICTION", |interaction| {
-            let (name, slope, tied) = (interaction.name.clone(), interaction.slope, interaction.tied);
-            *interaction = Interaction { name, slope, tied, ..changed };
+            // What is said of the pressure stays.
+            let Interaction { name, slope, closure, tied, .. } = interaction.clone();
+            *interaction = Interaction { name, slope, closure, tied, ..changed };
         });
     }
 

@@ -81,6 +81,11 @@ impl Reader {
             let full = format!("{}.{name}", found.name);
             nearest((&full, name), sets(found).values().map(|set| set.name.as_str()))
         });
+        let (other, kind) = if of == Of::Nodes { (Of::Elements, "elements") } else { (Of::Nodes, "nodes") };
+        let near = match other.set(found, &key) {
+            Some(_) => format!("; a set of {kind} has this name"),
+            None => near,
+        };
         let near = if near.is_empty() { "; a set must be defined before it is used".into() } else { near };
         self.error(place, format!("there is no set of {}s '{}'{near}", of.noun(), super::shorten(name)));
         None

@@ -111,6 +111,13 @@ impl Writer<'_> {
                 self.error(section.place, format!("there is no *ORIENTATION '{name}'{near}"));
             }
         }
+        let own =
+            |section: &&Section| section.orientation.is_some() && model.materials[section.material].user.is_some();
+        for section in model.sections.iter().filter(own) {
+            let what =
+                "a *USER MATERIAL is called along x, y and z, and the *ORIENTATION of its section cannot be translated";
+            self.error(section.place, what);
+        }
         let used: BTreeSet<(usize, Option<&String>)> =
             model.sections.iter().map(|section| (section.material, axes(model, section))).collect();
         for (number, axes) in used {

@@ -59,8 +59,8 @@ impl Writer<'_> {
         );
         match (pair.field, of_bodies) {
             (true, _) => text += "form = \"field\"\n",
-            (false, true) => text += "passes = \"one\"\n",
-            (false, false) => {}
+            (false, true) if pair.slave != pair.master => text += "passes = \"one\"\n",
+            (false, _) => {}
         }
         if !pair.field {
             // CalculiX cuts the slave faces along those of the master; so many points come as near where they do not match.

@@ -271,9 +271,9 @@ mod tests {
     #[test]
     fn what_is_no_solid_is_refused() {
         let along = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
-        let nine = [100.0, 1400.0, 80.0, 0.3, 0.3, 0.3, 50.0, 45.0, 30.0];
+        let nine = [1400.0, 100.0, 80.0, 3.0, 0.3, 0.3, 50.0, 45.0, 30.0];
         assert!((ORTHOTROPIC.build)(&[&nine[..], &along].concat()).is_ok());
-        let nine = [100.0, 10.0, 80.0, 3.3, 0.3, 0.3, 50.0, 45.0, 30.0];
+        let nine = [100.0, 1400.0, 80.0, 0.3, 0.3, 0.3, 50.0, 45.0, 30.0];
         assert!((ORTHOTROPIC.build)(&[&nine[..], &along].concat()).err().unwrap().contains("too large"));
         assert!((ANISOTROPIC.build)(&[&[0.0; 21][..], &along].concat()).is_err());
     }

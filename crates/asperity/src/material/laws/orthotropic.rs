@@ -126,7 +126,7 @@ fn inverted(matrix: &Matrix) -> Option<Matrix> {
     // Without exchange of rows the pivots are positive just if the form is.
     for i in 0..6 {
         let pivot = left[i][i];
-        if !(pivot > 1e-12 * matrix[i][i].abs()) {
+        if pivot.is_nan() || pivot <= 1e-12 * matrix[i][i].abs() {
             return None;
         }
         let (row, own) = (left[i].map(|x| x / pivot), right[i].map(|x| x / pivot));

@@ -204,3 +204,46 @@ fn the_program_exports_the_utilities() {
     let build = include_str!("../build.rs");
     umat::SYMBOLS.iter().for_each(|symbol| assert!(build.contains(&format!("{symbol:?}")), "{symbol}"));
 }
+
+/// Hooke's law by Young's modulus and Poisson's ratio.
+const HOOKE: &str = r#"
+#include <stddef.h>
+void umat_(double *stress, double *statev, double *ddsdde, double *sse, double *spd, double *scd, double *rpl,
+           double *ddsddt, double *drplde, double *drpldt, const double *stran, const double *dstran,
+           const double *time, const double *dtime, const double *temp, const double *dtemp, const double *predef,
+           const double *dpred, const char *cmname, const int *ndi, const int *nshr, const int *ntens,
+           const int *nstatv, const double *props, const int *nprops, const double *coords, const double *drot,
+           double *pnewdt)
+{
+    double shear = 0.5 * props[0] / (1.0 + props[1]), lambda = 2.0 * shear * props[1] / (1.0 - 2.0 * props[1]);
+    int n = *ntens;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            ddsdde[i + n * j] = (i < 3 && j < 3 ? lambda : 0.0) + (i != j ? 0.0 : i < 3 ? 2.0 * shear : shear);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            stress[i] += ddsdde[i + n * j] * dstran[j];
+    statev[0] += 1.0;
+}
+"#;
+
+/// `*USER MATERIAL` of an input deck is the law of the library beside it: what the comments of the deck expect.
+#[test]
+fn a_law_of_an_input_deck_is_that_of_the_library_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = Path::new(env!("CARGO_MANIFEST_DIR")).join("../inp/tests/decks/user_material.inp");
+    std::fs::copy(deck, folder.path().join("cube.inp")).unwrap();
+    let missing = asperity(folder.path(), &["run", "cube.inp"]);
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(error(&missing).contains("umat.so"), "{}", error(&missing));
+    if library(folder.path(), "umat", HOOKE).is_none() {
+        return;
+    }
+    let output = asperity(folder.path(), &["run", "cube.inp", "--no-report", "--set", "output.export=[\"frd\"]"]);
+    assert_eq!(output.status.code(), Some(0), "{}", error(&output));
+    let frd = std::fs::read_to_string(folder.path().join("cube.results/results.frd")).unwrap();
+    let last = &frd[frd.rfind(" -4  DISP").unwrap()..];
+    let row = last.lines().find(|line| line.starts_with(" -1         8")).unwrap();
+    let found: Vec<f64> = [13..25, 25..37, 37..49].map(|columns| row[columns].trim().parse().unwrap()).to_vec();
+    assert!((found[0] - 0.01).abs() < 1e-7 && (found[2] + 0.003).abs() < 1e-7, "{row}");
+}

@@ -93,3 +93,18 @@ fn a_group_is_held_where_it_is() {
     let strain = &history(deck)["energy.strain"];
     near(&strain[2..], &[strain[1]; 4], 1e-8);
 }
+
+/// A contact that is added where the block, grown back to its height, lies in the plate presses it down again over the step, in
+/// proportion to the time, and no energy is missing; with `overlap = "keep"` at once, and none is missing either.
+#[test]
+fn a_contact_that_is_added_presses_little_by_little() {
+    let steps = "remove = [\"plate\"]\n[[step]]\nincrements = { count = 4 }\nadd = [\"plate\"]";
+    let columns = history(steps);
+    let force = &columns["contact.top.force.y"];
+    let parts: Vec<f64> = force[6..].iter().map(|f| f / force[1]).collect();
+    // The block is pressed by logarithmic strain: the force is in proportion within a few per cent on the way.
+    near(&parts, &[0.25, 0.5, 0.75, 1.0], 0.02);
+    assert!((parts[3] - 1.0).abs() < 1e-4, "{parts:?}");
+    let (missing, external) = (columns["energy.missing"].last().unwrap(), columns["energy.external"][1]);
+    assert!((missing / external).abs() < 0.02, "{missing} of {external}");
+}

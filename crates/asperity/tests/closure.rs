@@ -42,5 +42,8 @@ fn a_block_is_borne_by_the_table() {
         assert!((shear / (0.2 * p) - 1.0).abs() < 0.01, "{form}: {shear}");
         let (missing, external) = (force("energy.missing", 39), force("energy.external", 39));
         assert!((missing / external).abs() < 2e-3, "{form}: {missing} of {external}");
+        // What a table takes up is meant, and is no penalty.
+        let certificate = support::certificate(&model, &keep);
+        assert!(certificate.figure("penalty_energy").is_none() && certificate.figure("max_penetration").is_some());
     }
 }

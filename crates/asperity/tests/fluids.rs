@@ -55,6 +55,42 @@ fn what_a_fluid_cannot_be_is_told() {
     assert!(nowhere.contains("no node of `from`"), "{nowhere}");
     let dead = told(", kind = \"dead\"");
     assert!(dead.contains("dead, and penetrates"), "{dead}");
+    let pulls = std::panic::catch_unwind(|| wet(-5.0, "")).unwrap_err();
+    assert!(pulls.downcast_ref::<String>().unwrap().contains("negative, and penetrates"));
+}
+
+/// A fluid needs a contact to enter, and presses on both bodies that touch where both are named.
+#[test]
+fn a_fluid_enters_between_surfaces_that_touch() {
+    let deck = |more: &str| {
+        format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.low.rectangle = {{ from = [0.0, 0.0], to = [4.0, 1.0], cells = [4, 1], cell = \"quad4\" }}
+            mesh.part.high.rectangle = {{ from = [0.0, 1.0], to = [4.0, 2.0], cells = [4, 1], cell = \"quad4\" }}
+            material.m.elastic = {{ young = 100.0, poisson = 0.0 }}
+            body.low.material = \"m\"
+            body.high.material = \"m\"
+            contact.seam = {{ surface = \"high.bottom\", target = \"low.top\", law.frictionless = {{}} }}
+            [[step]]
+            increments.count = 1
+            symmetry = [\"low.left\", \"high.left\", \"low.bottom\"]
+            displacement.\"high.top\".y = -0.01
+            {more}"
+        )
+    };
+    let read = |more: &str| asperity::deck::read(&deck(more), "test.toml", std::path::Path::new(""), &[]);
+    let told = |more: &str| match read(more).and_then(asperity::deck::build) {
+        Ok(made) => made.diagnostics.render(false),
+        Err(refused) => refused.render(false),
+    };
+    let dry = told("pressure.\"high.right\" = { value = 1.0, penetrates = true }");
+    assert!(dry.contains("penetrates, but none of its sides is in a contact"), "{dry}");
+    let one = "pressure.\"high.bottom\" = { value = 1.0, penetrates = true }";
+    let half = told(one);
+    assert!(half.contains("does not press on `low.top` opposite"), "{half}");
+    let both = told(&format!("{one}\npressure.\"low.top\" = {{ value = 1.0, penetrates = true }}"));
+    assert!(!both.contains("opposite"), "{both}");
 }
 
 /// A slice of one cell between planes of symmetry, where every node lies on the rim of the sole: a fluid of less than the contact

@@ -63,7 +63,10 @@ fn translated(
         return Err(messages.errors());
     }
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let written = write::deck(&model, &name, mesh_file, &mut messages);
+    // From wherever the deck is read, a library of laws lies beside the input deck.
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let library = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf()).join("umat.so");
+    let written = write::deck(&model, &name, (mesh_file, &library.to_string_lossy()), &mut messages);
     if messages.has_errors() {
         return Err(messages.errors());
     }

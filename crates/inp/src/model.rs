@@ -129,6 +129,12 @@ pub struct Material {
     pub place: Place,
     /// Modulus and Poisson's ratio.
     pub elastic: Option<[f64; 2]>,
+    /// Elasticity along axes.
+    pub stiffness: Option<Stiffness>,
+    /// A law of the user's own.
+    pub user: Option<UserLaw>,
+    /// How many values that keeps.
+    pub states: usize,
     /// The flow curve: stress and plastic strain.
     pub plastic: Vec<[f64; 2]>,
     /// Whether its hardening is kinematic.
@@ -141,6 +147,24 @@ pub struct Material {
     pub density: Option<f64>,
     /// Thermal expansion.
     pub expansion: Option<f64>,
+}
+
+/// Elasticity that is not alike in all directions.
+#[derive(Debug, Clone)]
+pub enum Stiffness {
+    /// Three moduli, three ratios 12, 13, 23, three shear moduli 12, 13, 23.
+    Constants(Vec<f64>),
+    /// The upper triangle of the stiffness, column by column, in the order 11, 22, 33, 12, 13, 23.
+    Coefficients(Vec<f64>),
+}
+
+/// A law that the user wrote.
+#[derive(Debug, Clone)]
+pub struct UserLaw {
+    /// Its numbers.
+    pub properties: Vec<f64>,
+    /// Where it stands.
+    pub place: Place,
 }
 
 /// A hyperelastic law and its constants: those of shape in their order, and that of volume, D1.
@@ -307,6 +331,22 @@ pub enum RigidPart {
 
 /// Three axes of a node: unit vectors.
 pub type Frame = [[f64; 3]; 3];
+
+/// Axes of materials.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Orientation {
+    /// The same everywhere.
+    Straight(Frame),
+    /// Those of a cylinder: a point of its axis and where that goes; turned about one of them, from 0 to 2, by an angle in degrees.
+    Cylinder {
+        /// A point of the axis.
+        origin: [f64; 3],
+        /// A unit vector along it.
+        along: [f64; 3],
+        /// The axis of the turn, and the angle.
+        turn: (usize, f64),
+    },
+}
 
 /// A sum of displacements with factors that is zero.
 #[derive(Debug, Clone)]
@@ -488,8 +528,8 @@ pub struct Model {
     pub rigid: Vec<Rigid>,
     /// Linear equations.
     pub equations: Vec<Equation>,
-    /// Axes of materials by their names; none for those that differ from place to place.
-    pub orientations: BTreeMap<String, Option<Frame>>,
+    /// Axes of materials by their names.
+    pub orientations: BTreeMap<String, Orientation>,
     /// Axes of nodes that have their own.
     pub frames: BTreeMap<usize, Frame>,
     /// Temperatures at the beginning, by nodes.

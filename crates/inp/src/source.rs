@@ -108,7 +108,11 @@ impl Cutter<'_> {
             Err(error) => {
                 let at =
                     from.unwrap_or_else(|| Place { file: self.messages.open(path.display().to_string()), line: 1 });
-                let hint = if from.is_some() { "; paths count from the including file" } else { "" };
+                let hint = if from.is_some() {
+                    "; paths count from the folder of the including file, or of the first"
+                } else {
+                    ""
+                };
                 let what = format!("'{}' cannot be read ({error}){hint}", path.display());
                 return self.messages.error(at, what);
             }
@@ -178,8 +182,11 @@ impl Cutter<'_> {
         }
         match input {
             Some(input) => {
-                let folder = self.open.last().and_then(|path| path.parent()).unwrap_or(Path::new(""));
-                self.file(&folder.join(input), Some(place));
+                // From the folder of the including file, or that of the first.
+                let folders = [self.open.last(), self.open.first()].map(|path| path.and_then(|path| path.parent()));
+                let paths = folders.map(|folder| folder.unwrap_or(Path::new("")).join(&input));
+                let path = paths.iter().find(|path| path.exists()).unwrap_or(&paths[0]);
+                self.file(path, Some(place));
             }
             None if is_include => self.messages.error(place, "*INCLUDE names no file; write *INCLUDE, INPUT=file"),
             None => {}

@@ -1,8 +1,8 @@
 //! What is added to the geometric penetration before a law sees it, besides multipliers: overlap that is removed little by
 //! little, and wear.
 //!
-//! A point that penetrates by `g_0` before the first increment may be pressed apart over the time `T` of a step: the law
-//! sees `u - (1 - t / T) g_0`. A surface that wears recedes by Archard's depth, the coefficient times the sum of pressure
+//! A point that penetrates by `g_0` before the first increment, or where its contact is added, may be pressed apart over the time `T`
+//! of that step: the law sees `u - (1 - t / T) g_0`. A surface that wears recedes by Archard's depth, the coefficient times the sum of pressure
 //! times sliding, at the last accepted state: `u - k sum p ds` (Archard, J. Appl. Phys. 24, 1953).
 
 use super::record::entry;
@@ -13,7 +13,7 @@ use crate::system::Instant;
 pub enum Overlap {
     /// It presses from the first increment on.
     Keep,
-    /// It is removed over this time from the start.
+    /// It is removed over the first step, which lasts so long, or over that in which the contact is added.
     Ramp(f64),
     /// The surfaces are meant to fit: what stands between them before the first increment counts as none for good.
     Fit,
@@ -29,28 +29,46 @@ pub struct Wear {
 }
 
 impl Overlap {
-    /// Takes the overlap of a point into its first history; up to `least` it is none.
-    pub fn begin(&self, values: &mut [f64], least: f64) {
-        if !matches!(self, Self::Keep) && values[entry::PENETRATION] > least {
+    /// Takes the overlap of a point into its first history; up to `least` it is none. `added` is the time of the step in which the
+    /// contact is there again, if it was not from the start.
+    pub fn begin(&self, values: &mut [f64], least: f64, added: Option<[f64; 2]>) {
+        let during = match (self, added) {
+            (Self::Keep, None) => return,
+            // It presses from the next increment on, whose work it then is.
+            (Self::Keep, Some([since, _])) => [since; 2],
+            (Self::Ramp(time), None) => [0.0, *time],
+            (_, added) => added.unwrap_or_default(),
+        };
+        if values[entry::PENETRATION] > least {
             values[entry::OVERLAP] = values[entry::PENETRATION];
             values[entry::CLOSURE] = -values[entry::PENETRATION];
+            [values[entry::SINCE], values[entry::UNTIL]] = during;
         }
     }
 
-    /// The part that is removed at the beginning and at the end of an increment.
-    pub fn settled(&self, at: Instant) -> [f64; 2] {
-        match self {
-            Self::Keep => [1.0; 2],
-            Self::Fit => [0.0; 2],
-            Self::Ramp(time) => [at.time - at.dt, at.time].map(|t| (t / time).clamp(0.0, 1.0)),
+    /// The part of a point's overlap that is removed at the beginning and at the end of an increment.
+    pub fn settled(&self, old: &[f64], at: Instant) -> [f64; 2] {
+        if *self == Self::Fit {
+            return [0.0; 2];
         }
+        let [since, until] = [old[entry::SINCE], old[entry::UNTIL]];
+        [at.time - at.dt, at.time].map(|t| match until > since {
+            true => ((t - since) / (until - since)).clamp(0.0, 1.0),
+            false => f64::from(u8::from(t > since + 0.5 * at.dt)),
+        })
     }
-}
 
-/// What overlap and wear add to the penetration of a point, from its accepted history.
-pub fn recession(wear: Option<Wear>, settled: f64, old: &[f64]) -> f64 {
-    let worn = wear.filter(|wear| wear.recedes).map_or(0.0, |wear| wear.coefficient * old[entry::RUBBED]);
-    -(1.0 - settled) * old[entry::OVERLAP] - worn
+    /// What overlap and wear add to the penetration of a point at the end of an increment, from its accepted history.
+    pub fn recession(&self, wear: Option<Wear>, old: &[f64], at: Instant) -> f64 {
+        let worn = wear.filter(|wear| wear.recedes).map_or(0.0, |wear| wear.coefficient * old[entry::RUBBED]);
+        -(1.0 - self.settled(old, at)[1]) * old[entry::OVERLAP] - worn
+    }
+
+    /// By how much the overlap of a point is reduced over an increment.
+    pub fn removed(&self, old: &[f64], at: Instant) -> f64 {
+        let [before, after] = self.settled(old, at);
+        (after - before) * old[entry::OVERLAP]
+    }
 }
 
 #[cfg(test)]
@@ -61,22 +79,36 @@ mod tests {
     fn an_overlap_goes_with_the_time() {
         let (overlap, mut values) = (Overlap::Ramp(4.0), vec![0.0; entry::COUNT]);
         values[entry::PENETRATION] = 0.2;
-        overlap.begin(&mut values, 0.1);
+        overlap.begin(&mut values, 0.1, None);
         assert_eq!((values[entry::OVERLAP], values[entry::CLOSURE]), (0.2, -0.2));
         let at = Instant { time: 1.0, dt: 1.0, ..Instant::default() };
-        assert_eq!(overlap.settled(at), [0.0, 0.25]);
-        assert!((recession(None, 0.25, &values) + 0.15).abs() < 1e-16);
-        assert_eq!(overlap.settled(Instant { time: 9.0, dt: 1.0, ..at }), [1.0; 2]);
+        assert_eq!(overlap.settled(&values, at), [0.0, 0.25]);
+        assert!((overlap.recession(None, &values, at) + 0.15).abs() < 1e-16);
+        assert!((overlap.removed(&values, at) - 0.05).abs() < 1e-16);
+        assert_eq!(overlap.settled(&values, Instant { time: 9.0, dt: 1.0, ..at }), [1.0; 2]);
         values[entry::OVERLAP] = 0.0;
-        overlap.begin(&mut values, 0.3);
+        overlap.begin(&mut values, 0.3, None);
         assert_eq!(values[entry::OVERLAP], 0.0);
+    }
+
+    /// Of a contact that is added it goes with that step, or at once.
+    #[test]
+    fn an_overlap_of_a_contact_that_is_added() {
+        let at = Instant { time: 6.0, dt: 1.0, ..Instant::default() };
+        for (overlap, settled) in [(Overlap::Ramp(4.0), [0.0, 0.25]), (Overlap::Keep, [0.0, 1.0])] {
+            let mut values = vec![0.0; entry::COUNT];
+            values[entry::PENETRATION] = 0.2;
+            overlap.begin(&mut values, 0.1, Some([5.0, 9.0]));
+            assert_eq!(values[entry::OVERLAP], 0.2);
+            assert_eq!(overlap.settled(&values, at), settled);
+        }
     }
 
     #[test]
     fn wear_recedes_only_when_it_is_to() {
-        let mut values = vec![0.0; entry::COUNT];
+        let (mut values, at) = (vec![0.0; entry::COUNT], Instant::default());
         values[entry::RUBBED] = 50.0;
-        let wear = |recedes| Some(Wear { coefficient: 1e-3, recedes });
-        assert_eq!((recession(wear(true), 1.0, &values), recession(wear(false), 1.0, &values)), (-0.05, 0.0));
+        let worn = |recedes| Overlap::Keep.recession(Some(Wear { coefficient: 1e-3, recedes }), &values, at);
+        assert_eq!((worn(true), worn(false)), (-0.05, 0.0));
     }
 }

@@ -42,11 +42,18 @@ pub mod entry {
     pub const RUBBED: usize = 16;
     /// What was added to the penetration that the law saw: multipliers, overlap not yet removed, wear.
     pub const CLOSURE: usize = 17;
-    /// Penetration before the first increment that is removed little by little.
+    /// Penetration at the beginning that is removed little by little,
     pub const OVERLAP: usize = 18;
+    /// the time from which on,
+    pub const SINCE: usize = 19;
+    /// and the time at which nothing is left of it.
+    pub const UNTIL: usize = 20;
     /// Number of these values.
-    pub const COUNT: usize = 19;
+    pub const COUNT: usize = 21;
 }
+
+/// What is said of an overlap.
+const OVERLAP: std::ops::Range<usize> = entry::OVERLAP..entry::UNTIL + 1;
 
 /// Pressure and shear stresses over the coordinates of a point; the last of these has none.
 pub fn stresses(values: &[f64]) -> Coordinates {
@@ -55,7 +62,7 @@ pub fn stresses(values: &[f64]) -> Coordinates {
 
 /// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.
 pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]) {
-    new[entry::OVERLAP] = old[entry::OVERLAP];
+    new[OVERLAP].copy_from_slice(&old[OVERLAP]);
     new[entry::PRESSURE] = response.pressure();
     [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear();
     new[entry::SLIP] = old[entry::SLIP] + slip[0];
@@ -70,8 +77,8 @@ pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]
 
 /// An open point keeps what has been, and of the law's own state what the law says.
 pub fn leave(law: &dyn Interface, old: &[f64], new: &mut [f64]) {
-    use entry::{DISSIPATED, OVERLAP, RUBBED, SLIP, SLIP2, SLIPPED};
-    for kept in [SLIP, SLIP2, SLIPPED, DISSIPATED, RUBBED, OVERLAP] {
+    use entry::{DISSIPATED, RUBBED, SLIP, SLIP2, SLIPPED};
+    for kept in [SLIP, SLIP2, SLIPPED, DISSIPATED, RUBBED].into_iter().chain(OVERLAP) {
         new[kept] = old[kept];
     }
     law.release(&old[entry::COUNT..], &mut new[entry::COUNT..]);

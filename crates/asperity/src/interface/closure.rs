@@ -130,6 +130,9 @@ impl Interface for Closing {
         let part = penalty / self.steepest;
         part * self.closure.stored(pressure / part)
     }
+    fn is_compliant(&self) -> bool {
+        true
+    }
     fn radius(&self) -> f64 {
         0.0
     }

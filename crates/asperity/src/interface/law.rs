@@ -183,6 +183,10 @@ pub trait Interface: Send + Sync {
     fn stored(&self, pressure: f64, penalty: f64) -> f64 {
         0.5 * pressure * pressure / penalty
     }
+    /// Whether its penetration is meant: the compliance of rough surfaces, and no penalty.
+    fn is_compliant(&self) -> bool {
+        false
+    }
     /// As [`InterfaceLaw::radius`].
     fn radius(&self) -> f64;
     /// As [`InterfaceLaw::sliding_stress`].

@@ -42,6 +42,7 @@ impl<T: Scalar, V: Vars<T>> Blend for Point<T, V> {
 impl<L: RateLaw> RateLaw for Integrated<L> {
     type Vars<T: Scalar> = L::Vars<T>;
     const VARIABLES: &'static [Variable] = L::VARIABLES;
+    const AXES: Option<usize> = L::AXES;
 
     fn initial(&self, state: &mut [f64]) {
         self.law.initial(state);
@@ -67,6 +68,9 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     }
     fn dissipation(&self, old: (&Tensor2, &Self::Vars<f64>), new: (&Tensor2, &Self::Vars<f64>)) -> f64 {
         self.law.dissipation(old, new)
+    }
+    fn mean_moduli(&self) -> Option<[f64; 2]> {
+        self.law.mean_moduli()
     }
     fn flow(&self) -> Flow {
         self.law.flow()

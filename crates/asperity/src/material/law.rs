@@ -127,6 +127,10 @@ pub trait Material: Send + Sync {
     fn initialise_at(&self, state: &mut [f64], _at: &Placement) {
         self.initialise(state);
     }
+    /// Where the state has the first and the third axis of the solid, one after the other, if it is not alike in all directions.
+    fn axes_at(&self) -> Option<usize> {
+        None
+    }
     /// Whether the stress of a state may stand at the beginning, given from outside.
     ///
     /// # Errors
@@ -216,8 +220,15 @@ pub trait Material: Send + Sync {
     fn advice(&self) -> Option<&'static str> {
         None
     }
+    /// Means of [`moduli`](Self::moduli) over all directions, where the solid is not alike in all.
+    fn mean_moduli(&self) -> Option<[f64; 2]> {
+        None
+    }
     /// Confined modulus `lambda + 2 G` and shear modulus `G` of the undeformed solid.
     fn moduli(&self) -> [f64; 2] {
+        if let Some(mean) = self.mean_moduli() {
+            return mean;
+        }
         let mut state = vec![0.0; self.state_len()];
         self.initialise(&mut state);
         let old = state.clone();

@@ -21,6 +21,9 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     /// Their declaration, in the order in which they are stored.
     const VARIABLES: &'static [Variable];
 
+    /// Where the state has the first and the third axis of the solid, one after the other, if it is not alike in all directions.
+    const AXES: Option<usize> = None;
+
     /// Fills in what is not zero in the state before any strain: six stress components, then the variables.
     fn initial(&self, _state: &mut [f64]) {}
 
@@ -55,6 +58,10 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     /// In words, why not.
     fn serves(&self, _update: Update) -> Result<(), String> {
         Ok(())
+    }
+    /// As [`Material::mean_moduli`].
+    fn mean_moduli(&self) -> Option<[f64; 2]> {
+        None
     }
     /// As [`Material::flow`].
     fn flow(&self) -> Flow {
@@ -203,6 +210,14 @@ impl<L: RateLaw> Material for Rate<L> {
         directions: Directions,
     ) -> Result<(), Failure> {
         self.advance_along(f, dt, old, out, directions)
+    }
+
+    fn axes_at(&self) -> Option<usize> {
+        L::AXES
+    }
+
+    fn mean_moduli(&self) -> Option<[f64; 2]> {
+        self.0.mean_moduli()
     }
 
     fn flow(&self) -> Flow {

@@ -73,6 +73,14 @@ impl<L: RateLaw> Material for SmallStrain<L> {
         self.advance_along(f, dt, old, out, directions)
     }
 
+    fn axes_at(&self) -> Option<usize> {
+        self.0.axes_at()
+    }
+
+    fn mean_moduli(&self) -> Option<[f64; 2]> {
+        self.0.mean_moduli()
+    }
+
     fn flow(&self) -> Flow {
         self.0.flow()
     }

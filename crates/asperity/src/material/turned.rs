@@ -103,6 +103,14 @@ impl<L: RateLaw> Material for Turned<L> {
         Ok(Box::new(Self::new(self.law.clone(), spin)))
     }
 
+    fn axes_at(&self) -> Option<usize> {
+        L::AXES
+    }
+
+    fn mean_moduli(&self) -> Option<[f64; 2]> {
+        self.law.mean_moduli()
+    }
+
     fn flow(&self) -> Flow {
         self.law.flow()
     }

@@ -107,6 +107,10 @@ impl Material for Undrained {
         self.with(self.soil.with_small_strain()?, true)
     }
 
+    fn axes_at(&self) -> Option<usize> {
+        self.soil.axes_at()
+    }
+
     /// The water lets the volume change hardly at all.
     fn flow(&self) -> Flow {
         if self.soil.flow() == Flow::None { Flow::None } else { Flow::Isochoric }

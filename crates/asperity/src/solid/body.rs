@@ -7,7 +7,7 @@ use super::incompatible;
 use super::patches::Patches;
 use super::slenderness::Slenderness;
 use super::volume::Places;
-use super::{BodyOptions, Choice, Formulation, Heat, InitialStress, Integration};
+use super::{BodyOptions, Choice, CylinderAxes, Formulation, Heat, InitialStress, Integration};
 use crate::material::{Material, Placement};
 use crate::mesh::cells::{Cell, Rule};
 use crate::mesh::{Mesh, Space};
@@ -29,6 +29,7 @@ pub struct Body {
     pub(super) shapes: Vec<KindShapes>,
     pub(super) patches: Patches,
     pub(super) places: Places,
+    axes: Option<CylinderAxes>,
     pub(super) initial_stress: Option<InitialStress>,
     pub(super) heat: Option<Heat>,
 }
@@ -94,7 +95,7 @@ impl Body {
             |kind: &Cell| choices.iter().any(|choice| choice.kind == kind && choice.formulation == Formulation::FBar);
         let patches = Patches::new(&mesh, &cells, barred);
         let name = name.into();
-        let (shapes, places, initial_stress, heat) = (Vec::new(), Places::default(), None, None);
+        let (shapes, places, axes, initial_stress, heat) = (Vec::new(), Places::default(), None, None, None);
         let mut body = Self {
             name,
             mesh,
@@ -107,6 +108,7 @@ impl Body {
             shapes,
             patches,
             places,
+            axes,
             initial_stress,
             heat,
         };
@@ -150,6 +152,19 @@ impl Body {
     /// Most nodes of a cell, incompatible modes among them.
     pub(super) fn most_nodes(&self) -> usize {
         self.shapes.iter().map(|kind| kind.kind.nodes.len() + kind.modes).max().unwrap_or(0)
+    }
+
+    /// The body with axes of a cylinder in place of those that its law says.
+    ///
+    /// # Errors
+    /// An input error where the law is alike in all directions.
+    pub fn along(mut self, axes: CylinderAxes) -> Result<Self, Error> {
+        if self.material.axes_at().is_none() {
+            let what = format!("body '{}': its law has no axes, or not such of a cylinder", self.name);
+            return Err(Error::input(what));
+        }
+        self.axes = Some(axes);
+        Ok(self)
     }
 
     /// The body with stresses before the first increment.
@@ -201,15 +216,38 @@ impl Body {
 
     /// The state of a point before the first increment: that of the law, then thickness as a ratio, amplitudes of
     /// incompatible modes and thermal stretch as a ratio.
-    fn begin(&self, at: &Placement, state: &mut [f64]) {
+    fn begin(&self, at: &Placement, stress: Option<&InitialStress>, state: &mut [f64]) {
         let (law, ratios) = state.split_at_mut(self.material.state_len());
         self.material.initialise_at(law, at);
-        if let Some(field) = &self.initial_stress {
+        if let Some((axes, first)) = self.axes.zip(self.material.axes_at()) {
+            law[first..first + 6]
+                .iter_mut()
+                .zip(axes.at(at.place).map(|axis| axis.0).as_flattened())
+                .for_each(|(x, e)| *x = *e);
+        }
+        if let Some(field) = stress {
             law[..6].copy_from_slice(&field.at(at.place));
         }
         ratios.fill(1.0);
         let first = usize::from(self.space == Space::PlaneStress);
         ratios[first..first + self.amplitudes_by_point()].fill(0.0);
+    }
+
+    /// The state of all points before the first increment, with a stress or none.
+    fn begun(&self, stress: Option<&InitialStress>) -> History {
+        let points = |&cell: &usize| self.rule(self.mesh.cell(cell).kind).points.len();
+        let mut history = History::new(self.cells.iter().map(|cell| points(cell) * self.point_len()));
+        for (slot, &cell) in self.cells.iter().enumerate() {
+            let view = self.mesh.cell(cell);
+            let states = history.slot_mut(slot).chunks_exact_mut(self.point_len());
+            let length = self.mesh.measure(cell).powf(1.0 / self.space.dimension() as f64);
+            for (point, (state, &xi)) in states.zip(self.rule(view.kind).points).enumerate() {
+                let place = view.map(&self.mesh.points, xi).0;
+                let at = Placement { cell: self.mesh.cell_number(cell), point: point + 1, place, length };
+                self.begin(&at, stress, state);
+            }
+        }
+        history
     }
 
     pub(super) fn inverted(&self, cell: usize) -> String {
@@ -253,19 +291,26 @@ impl Term for Body {
     }
 
     fn initial(&self) -> History {
-        let points = |&cell: &usize| self.rule(self.mesh.cell(cell).kind).points.len();
-        let mut history = History::new(self.cells.iter().map(|cell| points(cell) * self.point_len()));
-        for (slot, &cell) in self.cells.iter().enumerate() {
-            let view = self.mesh.cell(cell);
-            let states = history.slot_mut(slot).chunks_exact_mut(self.point_len());
-            let length = self.mesh.measure(cell).powf(1.0 / self.space.dimension() as f64);
-            for (point, (state, &xi)) in states.zip(self.rule(view.kind).points).enumerate() {
-                let place = view.map(&self.mesh.points, xi).0;
-                let at = Placement { cell: self.mesh.cell_number(cell), point: point + 1, place, length };
-                self.begin(&at, state);
+        self.begun(self.initial_stress.as_ref())
+    }
+
+    /// Without stress, also at the temperature that it then has.
+    fn returned(&self, accepted: &State, at: Instant, _: f64) -> Result<History, Failure> {
+        let mut history = self.begun(None);
+        let stretch = self.heat.as_ref().map(|heat| heat.stretch(at)).transpose()?;
+        if stretch.is_some() {
+            let before = history.clone();
+            let open = OpenBody { body: self, accepted, history: &before, gradients: vec![], dt: 0.0, stretch };
+            for slot in 0..self.cells.len() {
+                let own = matches!(self.shapes(self.kind(slot)).bar, Bar::Own);
+                let shared = if own { None } else { open.shared_stretch(slot) };
+                for (point, state) in history.slot_mut(slot).chunks_exact_mut(self.point_len()).enumerate() {
+                    let warm = open.stretch_at((slot, point), shared.as_ref());
+                    state.iter_mut().last().zip(warm).into_iter().for_each(|(last, warm)| *last = warm);
+                }
             }
         }
-        history
+        Ok(history)
     }
 
     fn at_start(&self, forces: &mut [f64]) -> Result<f64, Failure> {

@@ -7,6 +7,7 @@
 //! F-bar and incompatible modes change the deformation that the points of a cell see.
 
 mod attempt;
+mod axes;
 mod body;
 mod formulation;
 mod free;
@@ -27,6 +28,7 @@ mod slenderness;
 mod strain;
 mod volume;
 
+pub use axes::CylinderAxes;
 pub use body::Body;
 pub use formulation::{BodyOptions, Choice, Formulation, Integration, NEARLY};
 pub use heat::{Heat, Temperature};

@@ -26,6 +26,12 @@ impl Run<'_> {
             let held = state.internal[dof] - state.load[dof];
             match (rows.row(dof), after.row(dof)) {
                 (Row::Fixed, Row::Free(_) | Row::Combined(_)) => handed[dof] += held,
+                // Of what followed others and stays behind, what it bore was theirs.
+                (Row::Combined(others), Row::Fixed) => {
+                    let free = others.iter().map(|&(free, c)| (rows.free()[free], c));
+                    free.filter(|(dof, _)| matches!(after.row(*dof), Row::Free(_)))
+                        .for_each(|(dof, c)| handed[dof] -= c * held);
+                }
                 (Row::Combined(others), Row::Free(_)) => {
                     handed[dof] += held;
                     others.iter().for_each(|&(free, c)| handed[rows.free()[free]] -= c * held);
@@ -64,6 +70,13 @@ impl Run<'_> {
         }
         if handed.iter().any(|&force| force != 0.0) {
             state.handed = handed;
+        }
+        for &term in before.idle.iter().filter(|term| !now.idle.contains(term)) {
+            let at = Instant { step: state.step, time: state.time, ..Instant::default() };
+            // One that cannot begin says why in the first increment.
+            if let Ok(history) = self.problem.terms[term].returned(state, at, state.time + now.duration) {
+                state.histories[term] = history;
+            }
         }
         for &term in &before.leaving {
             state.histories[term] = self.problem.terms[term].initial();

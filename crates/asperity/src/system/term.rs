@@ -138,6 +138,13 @@ pub trait Term: Send + Sync {
     }
     /// History before the first increment: a slot for each stencil, and perhaps some for the term as a whole behind them.
     fn initial(&self) -> History;
+    /// The same where the term is there again after steps that did without it, from `at` on, in a step that ends at `until`.
+    ///
+    /// # Errors
+    /// A [`Failure`] where it cannot begin then.
+    fn returned(&self, _accepted: &State, _at: Instant, _until: f64) -> Result<History, Failure> {
+        Ok(self.initial())
+    }
     /// Adds the forces that the term exerts before the first increment to those on all unknowns, and returns the energy
     /// that it stores then.
     ///

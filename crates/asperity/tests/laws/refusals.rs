@@ -18,6 +18,11 @@ fn impossible_sets_are_refused_by_name() {
     let sand = "young = 1.0, poisson = 0.3, cohesion = 1.0";
     let end = "end_cohesion = 1.0, end_friction = 25.0, change_strain = 0.1";
     let sheet = |more: &str| format!("hill = {{ {steel}, r0 = 1.0, r45 = 1.0, r90 = 1.0, {more} }}");
+    let wood = |more: &str| {
+        let moduli = "young_1 = 10.0, young_2 = 1.0, young_3 = 1.0, shear_12 = 1.0, shear_13 = 1.0, shear_23 = 1.0";
+        let ratios = if more.contains("poisson_12") { "" } else { "poisson_12 = 0.3, " };
+        format!("orthotropic = {{ {moduli}, {ratios}poisson_13 = 0.3, poisson_23 = 0.3, {more} }}")
+    };
     let clay = |more: &str| {
         let common = "critical_slope = 1.0, specific_volume = 2.0, initial_pressure = 1.0";
         format!("modified_cam_clay = {{ {common}, {more} }}")
@@ -44,8 +49,11 @@ fn impossible_sets_are_refused_by_name() {
             format!("chaboche = {{ {steel}, kinematic_1 = 1.0, recovery_3 = 1.0 }}"),
             "`recovery_3` has nothing to recover",
         ),
-        (sheet("normal_z = 0.0"), "the sheet has no normal"),
-        (sheet("rolling_x = 0.0, rolling_z = 2.0"), "does not lie in the sheet"),
+        (sheet("normal_z = 0.0"), "`normal_z` are zero"),
+        (sheet("rolling_x = 0.0, rolling_z = 2.0"), "say no direction across"),
+        (wood("poisson_12 = 4.0"), "are too large for these moduli"),
+        (wood("first_x = 0.0, first_z = 1.0"), "say no direction across"),
+        ("anisotropic = { c1111 = 1.0, c2222 = 1.0, c3333 = 1.0, c1212 = 1.0, c1313 = 1.0 }".into(), "no stiffness"),
         (format!("hill_coefficients = {{ {steel}, f = -0.5, g = 1.0, h = 0.5 }}"), "no closed surface"),
         (
             format!("mohr_coulomb_hardening = {{ {sand}, friction = 30.0, {end}, end_dilatancy = 26.0 }}"),

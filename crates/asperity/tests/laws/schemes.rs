@@ -61,6 +61,8 @@ fn claim(law: &str) -> Claim {
         | "hill_table" => Claim::Kinks,
         "von_mises_johnson_cook" | "gurson_johnson_cook" | "hill_johnson_cook" => Claim::Stiff,
         "elastic"
+        | "orthotropic"
+        | "anisotropic"
         | "von_mises"
         | "von_mises_swift"
         | "perzyna"

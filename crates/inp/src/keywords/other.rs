@@ -79,8 +79,6 @@ pub static OTHER: &[Keyword] = &[
     no("CLAY PLASTICITY", BY_HAND),
     no("POROUS METAL PLASTICITY", BY_HAND),
     no("HYPERFOAM", "fit OGDEN with its D1"),
-    no("USER MATERIAL", BY_HAND),
-    no("DEPVAR", BY_HAND),
     no("DAMAGE INITIATION", "materials do not fail but for the porous laws of Asperity"),
     no("DAMAGE EVOLUTION", "materials do not fail but for the porous laws of Asperity"),
     no("MULLINS EFFECT", "rubber does not soften"),

@@ -162,11 +162,14 @@ pub static READ: &[Keyword] = &[
         "ELASTIC",
         Reader::elastic,
         &[
-            one_of("TYPE", &["ISO", "ISOTROPIC"]),
+            one_of(
+                "TYPE",
+                &["ISO", "ISOTROPIC", "ENGINEERING CONSTANTS", "ORTHO", "ORTHOTROPIC", "ANISO", "ANISOTROPIC"],
+            ),
             one_of("MODULI", &["LONG TERM", "INSTANTANEOUS"]),
             refused("DEPENDENCIES", TABLE_OF_TEMPERATURE),
         ],
-        "`elastic`",
+        "`elastic`, `orthotropic`, `anisotropic`",
     ),
     of_model(
         "PLASTIC",
@@ -180,6 +183,18 @@ pub static READ: &[Keyword] = &[
     ),
     of_model("POTENTIAL", Reader::potential, &[], "`hill_coefficients`"),
     of_model(
+        "USER MATERIAL",
+        Reader::user_material,
+        &[
+            used("CONSTANTS"),
+            one_of("TYPE", &["MECHANICAL"]),
+            left("UNSYMM"),
+            refused("HYBRID FORMULATION", "leave it out; the law is called as a UMAT is"),
+        ],
+        "`umat`, by the library that *MATERIAL names or `umat.so`",
+    ),
+    of_model("DEPVAR", Reader::depvar, &[left("DELETE")], "`states` of `umat`"),
+    of_model(
         "ORIENTATION",
         Reader::orientation,
         &[
@@ -188,7 +203,7 @@ pub static READ: &[Keyword] = &[
             one_of("DEFINITION", &["COORDINATES"]),
             refused("LOCAL DIRECTIONS", "give two points"),
         ],
-        "`rolling_x` to `normal_z` of Hill's law; other laws are isotropic",
+        "`first_x` to `third_z` of an elastic law, `rolling_x` to `normal_z` of Hill's, or `axes` of the body; other laws are isotropic",
     ),
     of_model(
         "HYPERELASTIC",
@@ -225,6 +240,7 @@ pub static READ: &[Keyword] = &[
             left("CONTROLS"),
             used("ORIENTATION"),
             refused("COMPOSITE", "give each layer its own elements"),
+            noted("OFFSET", "plane elements lie in their plane"),
             noted("NODAL THICKNESS", "the thickness of the data line holds"),
         ],
         "`body`",
@@ -235,7 +251,7 @@ pub static READ: &[Keyword] = &[
         &[
             used("NAME"),
             one_of("TIME", &["STEP TIME", "TOTAL TIME"]),
-            one_of("DEFINITION", &["TABULAR"]),
+            one_of("DEFINITION", &["TABULAR", "SMOOTH STEP"]),
             one_of("VALUE", &["RELATIVE"]),
             left("SMOOTH"),
             used("INPUT"),

@@ -99,6 +99,10 @@ impl Reader {
             else {
                 return;
             };
+            // Rows without pressure before the last such say nothing.
+            if pressure == 0.0 && rows.last().is_some_and(|last| last[0] == 0.0 && depth > last[1]) {
+                rows.clear();
+            }
             let rises = rows.last().is_none_or(|last| pressure > last[0] && depth > last[1]);
             if !rises || (rows.is_empty() && pressure != 0.0) {
                 let what = "a table of pressure over overclosure begins with a pressure of zero, and both rise from row to row";
@@ -164,8 +168,9 @@ impl Reader {
             changed.shear_limit = Some(limit).filter(|&limit| limit > 0.0);
         }
         self.of_interaction(block.place, "FRICTION", |interaction| {
-            let (name, slope, tied) = (interaction.name.clone(), interaction.slope, interaction.tied);
-            *interaction = Interaction { name, slope, tied, ..changed };
+            // What is said of the pressure stays.
+            let Interaction { name, slope, closure, tied, .. } = interaction.clone();
+            *interaction = Interaction { name, slope, closure, tied, ..changed };
         });
     }
 
@@ -229,6 +234,10 @@ impl Reader {
         };
         let mortar = block.word("TYPE").is_some_and(|kind| kind.contains("MORTAR"));
         let field = mortar || self.model.dialect == Dialect::Abaqus;
+        if !field && block.word("TYPE").is_some_and(|kind| kind == "NODETOSURFACE") {
+            let what = "NODE TO SURFACE has springs at the nodes of the slave in CalculiX; here contact lives on the faces between them";
+            self.note(block.place, what);
+        }
         for (place, [slave, master]) in self.surface_pairs(block) {
             self.model.pairs.push(Pair { place, slave, master, interaction, adjust: adjust.clone(), field });
         }

@@ -3,7 +3,7 @@
 use super::Reader;
 use super::names::Of;
 use crate::message::{Place, suggestion};
-use crate::model::{Amplitude, Form, Material, Rubber, Section};
+use crate::model::{Amplitude, Form, Material, Rubber, Section, Stiffness, UserLaw};
 use crate::source::{Block, Line};
 
 impl Reader {
@@ -41,8 +41,51 @@ impl Reader {
         Some(constants)
     }
 
+    /// So many constants over several lines, and a temperature after them; a second row is refused.
+    fn row(&mut self, block: &Block, count: usize, what: &str) -> Option<Vec<f64>> {
+        self.first_line(block, what)?;
+        let mut numbers = Vec::new();
+        for line in &block.lines {
+            if numbers.len() > count {
+                self.error(line.place, format!("*{} changes with temperature; give one row of constants", block.name));
+                return None;
+            }
+            for at in 0..line.fields().len() {
+                numbers.push(self.real_or(line, at, "a constant", 0.0)?);
+            }
+        }
+        if numbers.len() < count {
+            let told = format!("*{} has {} constants; it needs {count}: {what}", block.name, numbers.len());
+            self.error(block.place, told);
+            return None;
+        }
+        numbers.truncate(count);
+        Some(numbers)
+    }
+
     /// `*ELASTIC`.
     pub(crate) fn elastic(&mut self, block: &Block) {
+        let stiffness = match block.word("TYPE").as_deref() {
+            Some("ENGINEERINGCONSTANTS") => {
+                let what = "E1, E2, E3, nu12, nu13, nu23, G12, G13, G23";
+                self.row(block, 9, what).map(Stiffness::Constants)
+            }
+            Some("ORTHO" | "ORTHOTROPIC") => {
+                let what = "D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323";
+                self.row(block, 9, what).map(|nine| Stiffness::Coefficients(triangle(&nine)))
+            }
+            Some("ANISO" | "ANISOTROPIC") => {
+                let what = "the upper triangle of the stiffness, D1111 to D2323";
+                self.row(block, 21, what).map(Stiffness::Coefficients)
+            }
+            _ => return self.isotropic(block),
+        };
+        if let Some(stiffness) = stiffness {
+            self.of_material(block.place, "ELASTIC", |material| material.stiffness = Some(stiffness));
+        }
+    }
+
+    fn isotropic(&mut self, block: &Block) {
         let Some(constants) = self.constants(block, &["Young's modulus", "Poisson's ratio"]) else { return };
         let [young, poisson] = [constants[0], constants[1]];
         if young <= 0.0 || poisson <= -1.0 || poisson >= 0.5 {
@@ -93,6 +136,40 @@ impl Reader {
             ratios[at] = ratio;
         }
         self.of_material(block.place, "POTENTIAL", |material| material.potential = Some(ratios));
+    }
+
+    /// `*USER MATERIAL`: the numbers of a law of the user's own.
+    pub(crate) fn user_material(&mut self, block: &Block) {
+        let mut properties = Vec::new();
+        for line in &block.lines {
+            for at in 0..line.fields().len() {
+                let Some(number) = self.real_or(line, at, "a constant", 0.0) else { return };
+                properties.push(number);
+            }
+        }
+        let Some(count) = self.required(block, "CONSTANTS") else { return };
+        let Ok(count) = count.parse::<usize>() else {
+            return self
+                .error(block.place, format!("CONSTANTS is '{}', which is no number of them", super::shorten(count)));
+        };
+        // What follows the constants is a temperature.
+        if properties.len() < count || properties.len() > count + 1 {
+            let what = format!("CONSTANTS says {count}, but *USER MATERIAL has {} numbers", properties.len());
+            return self.error(block.place, what);
+        }
+        properties.truncate(count);
+        let place = block.place;
+        self.of_material(place, "USER MATERIAL", |material| material.user = Some(UserLaw { properties, place }));
+    }
+
+    /// `*DEPVAR`: how many values a law of the user's own keeps.
+    pub(crate) fn depvar(&mut self, block: &Block) {
+        let Some(line) = self.first_line(block, "the number of states") else { return };
+        let field = line.fields().first().copied().unwrap_or("").to_string();
+        let Ok(states) = field.parse::<usize>() else {
+            return self.error(line.place, format!("'{}' is no number of states", super::shorten(&field)));
+        };
+        self.of_material(block.place, "DEPVAR", |material| material.states = states);
     }
 
     /// `*HYPERELASTIC`.
@@ -213,7 +290,32 @@ impl Reader {
             return self.error(block.place, what);
         }
         let total = block.word("TIME").as_deref() == Some("TOTALTIME");
-        let amplitude = Amplitude { points: pairs.to_vec(), total };
+        let smooth = block.word("DEFINITION").as_deref() == Some("SMOOTHSTEP");
+        let points = if smooth { smoothed(pairs) } else { pairs.to_vec() };
+        let amplitude = Amplitude { points, total };
         self.model.amplitudes.push((name.to_ascii_uppercase(), amplitude));
     }
+}
+
+/// The 21 coefficients of an orthotropic stiffness from the nine that are not zero.
+fn triangle(nine: &[f64]) -> Vec<f64> {
+    let mut all = vec![0.0; 21];
+    for (at, value) in [0, 1, 2, 3, 4, 5, 9, 14, 20].into_iter().zip(nine) {
+        all[at] = *value;
+    }
+    all
+}
+
+/// Straight pieces of a smooth step between each two points: `a + (b - a) x^3 (10 - 15 x + 6 x^2)`.
+fn smoothed(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const PIECES: usize = 16;
+    let between = |two: &[[f64; 2]]| {
+        let ([t, a], [end, b]) = (two[0], two[1]);
+        let at = move |piece: usize| {
+            let x = piece as f64 / PIECES as f64;
+            [t + (end - t) * x, a + (b - a) * x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)]
+        };
+        (0..PIECES).map(at).collect::<Vec<_>>()
+    };
+    points.windows(2).flat_map(between).chain(points.last().copied()).collect()
 }

@@ -153,6 +153,9 @@ impl Reader {
             // What stands below a keyword of change is refused with it.
             let changed = std::mem::replace(&mut changes, block.name.starts_with("CHANGE "));
             match block.name.as_str() {
+                "STEP" if within => {
+                    self.error(block.place, "a step begins within a step; end the one before with *END STEP");
+                }
                 "STEP" => within = true,
                 "END STEP" => within = false,
                 name => {

@@ -73,11 +73,20 @@ impl Reader {
         if let Some(set) = of.set(found, name) {
             return Some(set.members);
         }
-        let sets = if of == Of::Nodes { &found.node_sets } else { &found.element_sets };
-        let mut near = suggestion(name, sets.values().map(|set| set.name.as_str()));
-        if near.is_empty() {
-            near = "; a set must be defined before it is used".into();
-        }
+        let sets =
+            |scope: &'_ Scope| if of == Of::Nodes { scope.node_sets.clone() } else { scope.element_sets.clone() };
+        let key = name.to_ascii_uppercase();
+        let others: Vec<Set> = self.model.scopes.iter().filter_map(|scope| of.set(scope, &key)).collect();
+        let near = owned(others.iter().map(|set| &set.name)).unwrap_or_else(|| {
+            let full = format!("{}.{name}", found.name);
+            nearest((&full, name), sets(found).values().map(|set| set.name.as_str()))
+        });
+        let (other, kind) = if of == Of::Nodes { (Of::Elements, "elements") } else { (Of::Nodes, "nodes") };
+        let near = match other.set(found, &key) {
+            Some(_) => format!("; a set of {kind} has this name"),
+            None => near,
+        };
+        let near = if near.is_empty() { "; a set must be defined before it is used".into() } else { near };
         self.error(place, format!("there is no set of {}s '{}'{near}", of.noun(), super::shorten(name)));
         None
     }
@@ -108,7 +117,11 @@ impl Reader {
         if let (Some(only), None) = (owners.next(), owners.next()) {
             return Some((only, key));
         }
-        let near = suggestion(rest, surfaces.values().map(|surface| surface.name.as_str()));
+        let near =
+            match owned(self.model.scopes.iter().filter_map(|scope| scope.surfaces.get(&key)).map(|one| &one.name)) {
+                None => nearest((name, rest), surfaces.values().map(|surface| surface.name.as_str())),
+                Some(which) => which,
+            };
         self.error(place, format!("there is no surface '{name}'{near}"));
         None
     }
@@ -120,4 +133,19 @@ impl Reader {
             _ => name.to_string(),
         }
     }
+}
+
+/// The nearest of some full names, by the whole of it or by what stands behind the instance.
+fn nearest<'a>((full, name): (&str, &str), known: impl Iterator<Item = &'a str> + Clone) -> String {
+    let whole = suggestion(full, known.clone());
+    match whole.is_empty() {
+        true => suggestion(name, known.map(|known| known.rsplit('.').next().unwrap_or(known))),
+        false => whole,
+    }
+}
+
+/// The full names of what instances have by this name, of which one is to be said.
+fn owned<'a>(names: impl Iterator<Item = &'a String>) -> Option<String> {
+    let names: Vec<String> = names.map(|name| format!("'{name}'")).collect();
+    (!names.is_empty()).then(|| format!("; say which: {}", names.join(", ")))
 }

@@ -163,6 +163,11 @@ impl Reader {
         let field = fields.get(at).copied().unwrap_or("");
         match field.parse::<usize>() {
             Ok(axis @ 1..=6) => Some(axis - 1),
+            _ if field.is_empty() => {
+                let what = "the degree of freedom is missing: 1 to 3 along the axes, 4 to 6 about them";
+                self.error(line.place, what);
+                None
+            }
             _ => {
                 let what = format!(
                     "'{}' is no degree of freedom; it is 1 to 3 along the axes, 4 to 6 about them",

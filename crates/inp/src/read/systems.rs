@@ -3,7 +3,7 @@
 
 use super::Reader;
 use super::names::Of;
-use crate::model::Frame;
+use crate::model::{Frame, Orientation};
 use crate::source::Block;
 use crate::vector::{cross, dot, less, unit};
 
@@ -14,12 +14,7 @@ impl Reader {
             return;
         };
         let Some(line) = self.first_line(block, "two points") else { return };
-        let turned =
-            block.lines.get(1).is_some_and(|line| line.fields().get(1).is_some_and(|angle| angle.parse() != Ok(0.0)));
-        if turned || block.word("SYSTEM").is_some_and(|system| system != "RECTANGULAR") {
-            self.model.orientations.insert(name, None);
-            return;
-        }
+        let Some(turn) = self.turn(block) else { return };
         let mut given = [0.0; 6];
         for (at, value) in given.iter_mut().enumerate() {
             let Some(number) = self.real(line, at, "a coordinate of the axes") else { return };
@@ -27,12 +22,37 @@ impl Reader {
         }
         let zero = self.placed([0.0; 3]);
         let (a, b) = (self.placed([given[0], given[1], given[2]]), self.placed([given[3], given[4], given[5]]));
+        if block.word("SYSTEM").as_deref() == Some("CYLINDRICAL") {
+            match unit(less(b, a)) {
+                Some(along) => {
+                    self.model.orientations.insert(name, Orientation::Cylinder { origin: a, along, turn });
+                }
+                None => self.error(line.place, "the two points of the axis of *ORIENTATION are one; give two"),
+            }
+            return;
+        }
         let Some(frame) = rectangular(less(a, zero), less(b, zero)) else {
             let what =
                 "the two points of *ORIENTATION span no plane; the first lies on the x axis, the second beside it";
             return self.error(line.place, what);
         };
-        self.model.orientations.insert(name, Some(frame));
+        self.model.orientations.insert(name, Orientation::Straight(turned(&frame, turn)));
+    }
+
+    /// The axis of an additional turn of *ORIENTATION, from 0 to 2, and its angle in degrees: the second line, if there is one.
+    fn turn(&mut self, block: &Block) -> Option<(usize, f64)> {
+        let Some(line) = block.lines.get(1) else { return Some((0, 0.0)) };
+        let axis = match line.fields().first().copied().unwrap_or("") {
+            "" | "1" => 0,
+            "2" => 1,
+            "3" => 2,
+            other => {
+                let what = format!("'{}' is no axis; axes are turned about 1, 2 or 3", super::shorten(other));
+                self.error(line.place, what);
+                return None;
+            }
+        };
+        Some((axis, self.real_or(line, 1, "the angle", 0.0)?))
     }
 
     /// `*TRANSFORM`.
@@ -81,6 +101,18 @@ impl Reader {
             self.note(line.place, what);
         }
     }
+}
+
+/// Axes turned about one of them by an angle in degrees.
+fn turned(frame: &Frame, (about, angle): (usize, f64)) -> Frame {
+    let (sin, cos) = angle.to_radians().sin_cos();
+    let (next, last) = ((about + 1) % 3, (about + 2) % 3);
+    let mut turned = *frame;
+    for i in 0..3 {
+        turned[next][i] = cos * frame[next][i] + sin * frame[last][i];
+        turned[last][i] = cos * frame[last][i] - sin * frame[next][i];
+    }
+    turned
 }
 
 /// Axes whose first is along a vector and whose second lies in the plane of another.

@@ -2,8 +2,8 @@
 
 use super::{Writer, list, quoted, rubber};
 use crate::elements::{Family, Formulation};
-use crate::message::Place;
-use crate::model::{ActionKind, Material, Model, RigidPart, Section, Target};
+use crate::message::{Place, suggestion};
+use crate::model::{ActionKind, Material, Model, Orientation, RigidPart, Section, Stiffness, Target, UserLaw};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A body: its group, material and formulation.
@@ -16,6 +16,8 @@ pub struct Body {
     pub material: usize,
     /// The name of its law.
     pub law: String,
+    /// The name of its axes, where they are those of a cylinder.
+    pub cylinder: Option<String>,
 }
 
 impl Writer<'_> {
@@ -103,6 +105,19 @@ impl Writer<'_> {
     /// The materials that sections name.
     pub(super) fn materials(&mut self) {
         let model = self.model;
+        for section in &model.sections {
+            if let Some(name) = section.orientation.as_ref().filter(|name| !model.orientations.contains_key(*name)) {
+                let near = suggestion(name, model.orientations.keys().map(String::as_str));
+                self.error(section.place, format!("there is no *ORIENTATION '{name}'{near}"));
+            }
+        }
+        let own =
+            |section: &&Section| section.orientation.is_some() && model.materials[section.material].user.is_some();
+        for section in model.sections.iter().filter(own) {
+            let what =
+                "a *USER MATERIAL is called along x, y and z, and the *ORIENTATION of its section cannot be translated";
+            self.error(section.place, what);
+        }
         let used: BTreeSet<(usize, Option<&String>)> =
             model.sections.iter().map(|section| (section.material, axes(model, section))).collect();
         for (number, axes) in used {
@@ -125,6 +140,12 @@ impl Writer<'_> {
             let (law, remark) = rubber::law(given)?;
             self.note(given.place, remark);
             return Some(law);
+        }
+        if let Some(user) = &material.user {
+            return self.user_law(material, user);
+        }
+        if let Some(stiffness) = &material.stiffness {
+            return self.stiffness(material, stiffness, axes);
         }
         let Some([young, poisson]) = material.elastic else {
             self.error(place, format!("material '{}' has no *ELASTIC and no *HYPERELASTIC", material.name));
@@ -176,21 +197,86 @@ impl Writer<'_> {
         let shears = [("l", n), ("m", m), ("n", l)].map(|(key, square)| (key, 1.5 * square));
         let mut text = elastic + &hardening;
         text.extend(sides.into_iter().chain(shears).map(|(key, value)| format!("{key} = {value:?}\n")));
-        let Some(name) = axes else { return Some(("hill_coefficients", text)) };
-        let Some(Some([rolling, _, normal])) = self.model.orientations.get(name) else {
-            let what = match self.model.orientations.contains_key(name) {
-                true => format!(
-                    "the axes of *ORIENTATION '{name}' are turned or cylindrical; give straight ones by two points"
-                ),
-                false => format!("there is no *ORIENTATION '{name}'"),
-            };
+        text += &self.along(axes, ["rolling", "normal"]);
+        Some(("hill_coefficients", text))
+    }
+
+    /// The keys of the first and the third axis of a law.
+    fn along(&self, axes: Option<&String>, keys: [&str; 2]) -> String {
+        let Some(Orientation::Straight([first, _, third])) = axes.and_then(|name| self.model.orientations.get(name))
+        else {
+            return String::new();
+        };
+        let lines = |(key, axis): (&str, &[f64; 3])| {
+            ["x", "y", "z"].iter().zip(axis).map(|(name, x)| format!("{key}_{name} = {x:?}\n")).collect::<String>()
+        };
+        keys.into_iter().zip([first, third]).map(lines).collect()
+    }
+
+    /// Elasticity along axes.
+    fn stiffness(
+        &mut self,
+        material: &Material,
+        stiffness: &Stiffness,
+        axes: Option<&String>,
+    ) -> Option<(&'static str, String)> {
+        if !material.plastic.is_empty() || material.elastic.is_some() {
+            let what = "an elastic law along axes takes no *PLASTIC and no second *ELASTIC; keep one of the two";
             self.error(material.place, what);
             return None;
-        };
-        for (key, axis) in [("rolling", rolling), ("normal", normal)] {
-            text.extend(["x", "y", "z"].iter().zip(axis).map(|(name, x)| format!("{key}_{name} = {x:?}\n")));
         }
-        Some(("hill_coefficients", text))
+        if !self.small(material) {
+            let what = "*ELASTIC at large strain: the axes turn with the polar rotation, and the stress follows the strain of each \
+                        increment; CalculiX' law is linear in Green's strain";
+            self.note(material.place, what);
+        }
+        let keyed = |keys: &[&str], values: &[f64]| {
+            keys.iter().zip(values).map(|(key, value)| format!("{key} = {value:?}\n")).collect::<String>()
+        };
+        let (name, text) = match stiffness {
+            Stiffness::Constants(values) => ("orthotropic", keyed(CONSTANTS, values)),
+            Stiffness::Coefficients(values) => ("anisotropic", keyed(COEFFICIENTS, values)),
+        };
+        Some((name, text + &self.along(axes, ["first", "third"])))
+    }
+
+    /// A law of the user's own, in a shared library.
+    fn user_law(&mut self, material: &Material, user: &UserLaw) -> Option<(&'static str, String)> {
+        let name = material.name.to_ascii_uppercase();
+        if let Some(own) = BUILT_IN.iter().find(|own| name.starts_with(**own)) {
+            let what = format!(
+                "the law {own} is in CalculiX itself and cannot be translated; give one that there is, or a UMAT"
+            );
+            self.error(user.place, what);
+            return None;
+        }
+        if material.elastic.is_some() || material.stiffness.is_some() || !material.plastic.is_empty() {
+            let what =
+                format!("material '{}' is a *USER MATERIAL and something else; keep one of the two", material.name);
+            self.error(material.place, what);
+            return None;
+        }
+        let what = "*USER MATERIAL is called as a UMAT in the library `umat.so` beside the input deck; another: \
+                    --set 'material.NAME.umat.library=\"PATH\"', from the root";
+        self.note(user.place, what);
+        let keys = format!(
+            "library = {}\nname = {}\nproperties = {}\nstates = {}\n",
+            quoted(self.library),
+            quoted(&name),
+            list(&user.properties),
+            material.states
+        );
+        Some(("umat", keys))
+    }
+
+    /// The axes of a body that are those of a cylinder.
+    fn cylinder(&self, name: &str) -> String {
+        let Some(Orientation::Cylinder { origin, along, turn: (about, angle) }) = self.model.orientations.get(name)
+        else {
+            return String::new();
+        };
+        let turn = if *angle == 0.0 { String::new() } else { format!(", about = {}, angle = {angle:?}", about + 1) };
+        format!("axes = {{ origin = {}, along = {}{turn} }}\n", list(origin), list(along))
     }
 
     /// The bodies: the elements of a section that are integrated alike.
@@ -204,6 +290,9 @@ impl Writer<'_> {
             let material = &self.model.materials[body.material];
             let mut text = format!("\n[body.{}]\nmaterial = {}\n", quoted(&body.group), quoted(&body.law));
             text += formulation.keys();
+            if let Some(name) = &body.cylinder {
+                text += &self.cylinder(name);
+            }
             if self.small(material) {
                 text += "strain = \"small\"\n";
             }
@@ -241,7 +330,9 @@ impl Writer<'_> {
             };
             let group = self.groups.cells(&name, elements.clone());
             let law = named(&model.materials[section.material], axes(model, section));
-            (Body { group, elements, material: section.material, law }, formulation)
+            let cylinder = oriented(model, section)
+                .filter(|name| matches!(model.orientations.get(*name), Some(Orientation::Cylinder { .. })));
+            (Body { group, elements, material: section.material, law, cylinder: cylinder.cloned() }, formulation)
         };
         sorted.into_iter().map(body).collect()
     }
@@ -277,9 +368,40 @@ fn changes(model: &Model) -> impl Iterator<Item = (&Target, bool, usize, Place)>
 }
 
 /// The axes of a section whose material has some.
-fn axes<'m>(model: &'m Model, section: &'m Section) -> Option<&'m String> {
-    section.orientation.as_ref().filter(|_| model.materials[section.material].potential.is_some())
+fn oriented<'m>(model: &'m Model, section: &'m Section) -> Option<&'m String> {
+    let material = &model.materials[section.material];
+    section.orientation.as_ref().filter(|_| material.potential.is_some() || material.stiffness.is_some())
 }
+
+/// Those that are the same everywhere, and belong to the law.
+fn axes<'m>(model: &'m Model, section: &'m Section) -> Option<&'m String> {
+    let straight = |name: &&String| matches!(model.orientations.get(*name), Some(Orientation::Straight(_)));
+    oriented(model, section).filter(straight)
+}
+
+/// Laws of CalculiX that are called as those of users are.
+const BUILT_IN: &[&str] = &[
+    "ANISO_PLAS",
+    "ANISO_CREEP",
+    "CIARLET_EL",
+    "COMPRESSION_ONLY",
+    "ELASTIC_FIBER",
+    "HONEYCOMB_",
+    "IDEAL_GAS",
+    "LIN_ISO_EL",
+    "MOHR_COULOMB",
+    "SINGLE_CRYSTAL",
+    "TENSION_ONLY",
+    "UNDO_",
+];
+
+const CONSTANTS: &[&str] =
+    &["young_1", "young_2", "young_3", "poisson_12", "poisson_13", "poisson_23", "shear_12", "shear_13", "shear_23"];
+
+const COEFFICIENTS: &[&str] = &[
+    "c1111", "c1122", "c2222", "c1133", "c2233", "c3333", "c1112", "c2212", "c3312", "c1212", "c1113", "c2213",
+    "c3313", "c1213", "c1313", "c1123", "c2223", "c3323", "c1223", "c1323", "c2323",
+];
 
 /// The name of a material along axes.
 fn named(material: &Material, axes: Option<&String>) -> String {

@@ -22,8 +22,8 @@ impl Writer<'_> {
             let what = if pair.field {
                 "contact stress is a field of nodal values: `form = \"field\"`"
             } else {
-                "contact stress lives at three points along each edge of the slave faces, as CalculiX' face to face does; \
-                 `form = \"field\"` makes a field of it"
+                "contact stress lives at points within the slave faces, as CalculiX' face to face does; `form = \"field\"` makes a field \
+                 of it"
             };
             self.note(pair.place, what);
         }
@@ -59,8 +59,17 @@ impl Writer<'_> {
         );
         match (pair.field, of_bodies) {
             (true, _) => text += "form = \"field\"\n",
-            (false, true) => text += "passes = \"one\"\ngauss = 3\n",
-            (false, false) => text += "gauss = 3\n",
+            (false, true) if pair.slave != pair.master => text += "passes = \"one\"\n",
+            (false, _) => {}
+        }
+        if !pair.field {
+            // CalculiX cuts the slave faces along those of the master; so many points come as near where they do not match.
+            let points = match self.family {
+                Family::Solid => 6,
+                Family::Axisymmetric => 5,
+                _ => 10,
+            };
+            text += &format!("gauss = {points}\n");
         }
         text += &law;
         if let Some(slope) = interaction.slope {

@@ -50,11 +50,18 @@ struct Writer<'m> {
     moved: BTreeMap<usize, [f64; 3]>,
     /// Nodes and axes that are held or led in each step.
     held: Vec<BTreeSet<(usize, usize)>>,
+    /// The path of a library with laws of users.
+    library: &'m str,
     text: String,
 }
 
-/// The deck and the mesh of a model; `name` is that of the input deck.
-pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages) -> Written {
+/// The deck and the mesh of a model; `name` is that of the input deck, `library` the path of the laws of users.
+pub fn deck<'m>(
+    model: &'m Model,
+    name: &str,
+    (mesh_file, library): (&str, &'m str),
+    messages: &'m mut Messages,
+) -> Written {
     let mut writer = Writer {
         model,
         messages,
@@ -67,6 +74,7 @@ pub fn deck(model: &Model, name: &str, mesh_file: &str, messages: &mut Messages)
         rings: vec![],
         moved: BTreeMap::new(),
         held: vec![],
+        library,
         text: String::new(),
     };
     writer.sort_elements();

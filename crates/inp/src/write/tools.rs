@@ -78,6 +78,11 @@ impl Writer<'_> {
         let taken = |name: &str| self.tools.iter().any(|tool| tool.name == name);
         let name = if taken(group) { format!("{group} {}", number + 1) } else { group.to_owned() };
         let (from, reference) = (self.from(rigid.place), &self.model.nodes[rigid.node].x[..self.dimension()]);
+        if !self.model.steps.iter().any(|step| step.large) {
+            let what =
+                "the nodes go with the reference node by finite rotation, also without NLGEOM: small rotations agree";
+            self.note(rigid.place, what);
+        }
         let (kind, more) = if rigid.distributing { ("distributing", "weights = \"area\"\n") } else { ("rigid", "") };
         let (title, group) = (quoted(&name), quoted(group));
         self.text += &format!("\n[{kind}.{title}]{from}\ngroup = {group}\nreference = {}\n{more}", list(reference));

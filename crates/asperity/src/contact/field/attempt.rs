@@ -12,10 +12,11 @@ use super::tip::TipFoot;
 use crate::contact::augment;
 use crate::contact::increment::{in_contact, refuse_turn};
 use crate::contact::kink::answer;
-use crate::contact::overlap::recession;
 use crate::contact::record::{entry, leave, stresses, write};
 use crate::interface::{Interface, Past};
-use crate::system::{Answer, Attempt, Branch, Coordinates, Couplings, History, Kinks, Local, Stencil, Stencils, Term};
+use crate::system::{
+    Answer, Attempt, Branch, Coordinates, Couplings, History, Instant, Kinks, Local, Stencil, Stencils, Term,
+};
 use crate::tensor::Vec3;
 use crate::{Failure, Kind};
 use std::cell::RefCell;
@@ -49,8 +50,8 @@ pub struct FieldAttempt<'a> {
     pub shifts: Vec<[f64; COUNT]>,
     /// How often they were improved in the attempt.
     pub augmented: usize,
-    /// The part of the overlap that is removed at the beginning and at the end.
-    pub settled: [f64; 2],
+    /// When it ends.
+    pub at: Instant,
     /// Tangential penalties of the attempt, slot by slot.
     pub tangential: Vec<f64>,
     /// Length of the increment.
@@ -173,7 +174,8 @@ impl FieldAttempt<'_> {
 
     /// What is added to the penetration of a node before the law sees it.
     fn closure(&self, slot: usize) -> f64 {
-        self.shift(slot)[0] + recession(self.contact.parts.options.wear, self.settled[1], self.history.slot(slot))
+        let options = &self.contact.parts.options;
+        self.shift(slot)[0] + options.overlap.recession(options.wear, self.history.slot(slot), self.at)
     }
 
     fn shift(&self, slot: usize) -> [f64; COUNT] {
@@ -332,7 +334,7 @@ impl FieldAttempt<'_> {
             mean[0] * now.slip[0] + mean[1] * now.slip[1] - (stored(now.shear) - stored(before))
         };
         let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);
-        local.supplied = area * pressure * (self.settled[1] - self.settled[0]) * old[entry::OVERLAP];
+        local.supplied = area * pressure * options.overlap.removed(old, self.at);
         local.dissipated = area * (friction + pressure * now.closure);
     }
 }

@@ -12,6 +12,30 @@ use crate::system::{Attempt, History, Instant, State, Term};
 use std::sync::{Mutex, RwLock};
 
 impl FieldContact {
+    /// The history of nodes that begin at displacements `u`; `added` as in [`Overlap::begin`].
+    fn begun(&self, u: &[f64], added: Option<[f64; 2]>) -> History {
+        let vars: usize = self.parts.law.first().variables().iter().map(|v| v.len()).sum();
+        let slots = (0..self.slots()).map(|_| entry::COUNT + vars);
+        let mut history = History::new(slots.chain(self.parts.options.augmentation.map(|_| self.slots())));
+        for slot in 0..self.slots() {
+            let values = history.slot_mut(slot);
+            values[entry::SEGMENT] = -1.0;
+            values[entry::HALF] = 1.0;
+            self.parts.law.first().initial(&mut values[entry::COUNT..]);
+        }
+        let (still, fits) = (vec![0.0; u.len()], FITS * self.sagitta());
+        self.each_seen(u, (self.reach(&still), false), |slot, _, sums| {
+            let values = history.slot_mut(slot);
+            (values[entry::SEGMENT], values[entry::PENETRATION], values[entry::XI]) = (0.0, sums.y[0], sums.area);
+            let gap = -sums.y[0];
+            if self.parts.options.overlap == Overlap::Fit && gap > 0.0 && gap <= fits {
+                (values[entry::OVERLAP], values[entry::CLOSURE]) = (sums.y[0], gap);
+            }
+            self.parts.options.overlap.begin(values, self.least, added);
+        });
+        history
+    }
+
     /// The tangential penalties of an attempt after an accepted history: a node that is about to slide under its pressure has
     /// slipped elastically by the stated part of its faces, and one under less than the mean pressure as under that. A stiffer
     /// interface resolves nothing that the mesh shows, and has nodes change between stick and slip with every small motion.
@@ -42,26 +66,14 @@ impl Term for FieldContact {
     }
 
     fn initial(&self) -> History {
-        let vars: usize = self.parts.law.first().variables().iter().map(|v| v.len()).sum();
-        let slots = (0..self.slots()).map(|_| entry::COUNT + vars);
-        let mut history = History::new(slots.chain(self.parts.options.augmentation.map(|_| self.slots())));
-        for slot in 0..self.slots() {
-            let values = history.slot_mut(slot);
-            values[entry::SEGMENT] = -1.0;
-            values[entry::HALF] = 1.0;
-            self.parts.law.first().initial(&mut values[entry::COUNT..]);
-        }
-        let (still, fits) = (vec![0.0; self.parts.dofs.count()], FITS * self.sagitta());
-        self.each_seen(&still, (self.reach(&still), false), |slot, _, sums| {
-            let values = history.slot_mut(slot);
-            (values[entry::SEGMENT], values[entry::PENETRATION], values[entry::XI]) = (0.0, sums.y[0], sums.area);
-            let gap = -sums.y[0];
-            if self.parts.options.overlap == Overlap::Fit && gap > 0.0 && gap <= fits {
-                (values[entry::OVERLAP], values[entry::CLOSURE]) = (sums.y[0], gap);
-            }
-            self.parts.options.overlap.begin(values, self.least);
-        });
-        history
+        self.begun(&vec![0.0; self.parts.dofs.count()], None)
+    }
+
+    fn returned(&self, accepted: &State, at: Instant, until: f64) -> Result<History, Failure> {
+        Ok(match self.parts.options.overlap {
+            Overlap::Fit => self.initial(),
+            _ => self.begun(&accepted.u, Some([at.time, until])),
+        })
     }
 
     fn attempt<'a>(
@@ -85,7 +97,7 @@ impl Term for FieldContact {
             ahead: ahead(accepted, at.dt),
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
             augmented: 0,
-            settled: self.parts.options.overlap.settled(at),
+            at,
             tangential: self.tangential_penalties(&*law, history),
             law,
             dt: at.dt,

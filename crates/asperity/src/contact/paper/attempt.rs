@@ -1,10 +1,9 @@
 //! A contact of Gauss points during one attempt.
 
 use super::contact::PaperContact;
-use crate::contact::overlap::recession;
 use crate::contact::record::entry;
 use crate::interface::{Interface, Past};
-use crate::system::History;
+use crate::system::{History, Instant};
 use crate::tool::Hit;
 use std::sync::Arc;
 
@@ -24,8 +23,8 @@ pub struct PaperAttempt<'a> {
     pub reach: f64,
     /// Unknowns that the last increment, carried on, leads to: a guess of what will couple.
     pub ahead: Vec<f64>,
-    /// The part of the overlap that is removed at the beginning and at the end.
-    pub settled: [f64; 2],
+    /// When it ends.
+    pub at: Instant,
     /// Length of the increment.
     pub dt: f64,
 }
@@ -49,7 +48,8 @@ pub fn touched(values: &[f64]) -> Option<(usize, [f64; 2])> {
 impl PaperAttempt<'_> {
     /// What overlap and wear add to the penetration of a point before the law sees it.
     pub(super) fn closure(&self, index: usize) -> f64 {
-        recession(self.contact.parts.options.wear, self.settled[1], self.history.slot(index))
+        let options = &self.contact.parts.options;
+        options.overlap.recession(options.wear, self.history.slot(index), self.at)
     }
 
     /// What the law may know of a point.

@@ -117,7 +117,7 @@ impl PaperAttempt<'_> {
         let work: f64 = (0..2).map(|i| 0.5 * (before[i] + now.shear[i]) * slip[i]).sum();
         let friction = work - (stored(now.shear) - stored(before));
         let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);
-        local.supplied = area * pressure * (self.settled[1] - self.settled[0]) * old[entry::OVERLAP];
+        local.supplied = area * pressure * options.overlap.removed(old, self.at);
         local.dissipated = area * (friction + pressure * now.closure);
     }
 }

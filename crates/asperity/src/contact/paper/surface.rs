@@ -33,7 +33,7 @@ pub struct PointSurface {
 }
 
 impl PointSurface {
-    /// The surface made of `sides`, with `gauss` points along an edge or each side of a face (1, 2 or 3); by default as many as
+    /// The surface made of `sides`, with `gauss` points along an edge or each side of a face; by default as many as
     /// the degree of the face, and around the axis of axial symmetry, where a point stands for a circumference, two also on an edge of
     /// first degree over which the radius changes markedly. More points than the face adds nodes enforce more conditions than it can
     /// meet.
@@ -42,9 +42,8 @@ impl PointSurface {
         let least = |face: &FieldFace| if space == Space::Axisymmetric && is_marked(face, mesh) { 2 } else { 1 };
         let mut points = Vec::new();
         for (number, face) in faces.faces.iter().enumerate() {
-            let order = gauss.unwrap_or_else(|| face.kind.degree.max(least(face))).clamp(1, 3);
-            let Some(rule) = face.kind.gauss[order - 1] else { continue };
-            for (&[a, b, _], &weight) in rule.points.iter().zip(rule.weights) {
+            let order = gauss.unwrap_or_else(|| face.kind.degree.max(least(face)));
+            for ([a, b, _], weight) in face.kind.surface_rule(order) {
                 points.push(GaussPoint { face: number, xi: [a, b], shape: face.shape([a, b]), weight });
             }
         }

@@ -4,6 +4,7 @@ use super::attempt::{PaperAttempt, write_hit};
 use super::contact::PaperContact;
 use super::stencil::D;
 use crate::Failure;
+use crate::contact::Overlap;
 use crate::contact::increment::ahead;
 use crate::contact::kink::{answer, answer_by_mean};
 use crate::contact::record::{entry, leave, stresses};
@@ -13,22 +14,35 @@ use crate::system::{
 use crate::tool::{Hit, Rejected};
 use rayon::prelude::*;
 
+impl PaperContact {
+    /// The history of points that begin at displacements `u`; `added` as in [`Overlap::begin`].
+    fn begun(&self, u: &[f64], added: Option<[f64; 2]>) -> History {
+        let vars: usize = self.parts.law.first().variables().iter().map(|v| v.len()).sum();
+        let mut history = History::new(self.parts.surface.points.iter().map(|_| entry::COUNT + vars));
+        for (i, hit) in self.search_within(u, self.reach(&vec![0.0; u.len()])).0.into_iter().enumerate() {
+            let values = history.slot_mut(i);
+            write_hit(hit, values);
+            self.parts.options.overlap.begin(values, self.least, added);
+            self.parts.law.first().initial(&mut values[entry::COUNT..]);
+        }
+        history
+    }
+}
+
 impl Term for PaperContact {
     fn name(&self) -> &str {
         &self.parts.name
     }
 
     fn initial(&self) -> History {
-        let vars: usize = self.parts.law.first().variables().iter().map(|v| v.len()).sum();
-        let mut history = History::new(self.parts.surface.points.iter().map(|_| entry::COUNT + vars));
-        let u = vec![0.0; self.parts.dofs.count()];
-        for (i, hit) in self.search_within(&u, self.reach(&u)).0.into_iter().enumerate() {
-            let values = history.slot_mut(i);
-            write_hit(hit, values);
-            self.parts.options.overlap.begin(values, self.least);
-            self.parts.law.first().initial(&mut values[entry::COUNT..]);
-        }
-        history
+        self.begun(&vec![0.0; self.parts.dofs.count()], None)
+    }
+
+    fn returned(&self, accepted: &State, at: Instant, until: f64) -> Result<History, Failure> {
+        Ok(match self.parts.options.overlap {
+            Overlap::Fit => self.initial(),
+            _ => self.begun(&accepted.u, Some([at.time, until])),
+        })
     }
 
     fn attempt<'a>(
@@ -45,7 +59,7 @@ impl Term for PaperContact {
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),
             ahead: ahead(accepted, at.dt),
-            settled: self.parts.options.overlap.settled(at),
+            at,
             dt: at.dt,
         }))
     }

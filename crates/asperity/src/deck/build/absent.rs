@@ -21,7 +21,6 @@ impl Builder<'_> {
                 if !meant.is_empty() && meant.iter().all(|term| gone.contains(term)) {
                     self.refuse(format!("`{name}` is removed already"), name.place);
                 }
-                meant.iter().filter(|term| **term < bodies).for_each(|&body| self.check_removal(body, name));
                 gone.extend(meant);
             }
             for name in &step.add {
@@ -31,7 +30,6 @@ impl Builder<'_> {
                     self.found
                         .push(Diagnostic::error(what).at(name.place).help("`add` brings back what `remove` took"));
                 }
-                meant.iter().filter(|term| **term < bodies).for_each(|&body| self.check_return(body, name));
                 meant.iter().for_each(|term| _ = gone.remove(term));
             }
             let mut without = gone.clone();
@@ -80,22 +78,38 @@ impl Builder<'_> {
         (bodies..terms.len()).filter(|&term| is_meant(&terms[term])).collect()
     }
 
-    /// What follows others cannot leave them, nor they what follows them.
-    fn check_removal(&mut self, body: usize, name: &Name) {
-        let nodes = self.nodes(&self.deck.body[body].0.text);
-        let glued = |node: &usize| nodes.binary_search(node).is_ok();
-        if self.ties.iter().any(|tie| tie.tie.nodes.iter().flatten().any(glued)) {
-            self.refuse(format!("the body `{name}` is tied to another and cannot be removed"), name.place);
+    /// The ties that hold in each step: those whose surfaces are both there.
+    pub(super) fn standing_ties(&mut self, absent: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
+        let (deck, owner, mesh) = (self.deck, self.owners(), self.site.mesh.clone());
+        let owners = |name: &Name| -> BTreeSet<usize> {
+            let sides = mesh.groups.get(&name.text).map_or(&[][..], |group| &group.sides);
+            sides.iter().map(|side| owner[side.cell]).collect()
+        };
+        let sides: Vec<[BTreeSet<usize>; 2]> = self
+            .ties
+            .iter()
+            .map(|glued| [owners(&deck.tie[glued.number].surface), owners(&deck.tie[glued.number].target)])
+            .collect();
+        let mut refused = BTreeSet::new();
+        let mut standing = |absent: &BTreeSet<usize>| {
+            let mut gone = |number: &usize| {
+                sides[*number].iter().any(|bodies| {
+                    let gone = bodies.iter().filter(|body| absent.contains(body)).count();
+                    if gone > 0 && gone < bodies.len() {
+                        refused.insert(*number);
+                    }
+                    gone > 0
+                })
+            };
+            (0..sides.len()).filter(|number| !gone(number)).collect()
+        };
+        let all = absent.iter().map(&mut standing).collect();
+        for number in refused {
+            let place = self.ties[number].place;
+            let what = "a surface of this tie lies on a body that is removed and on others";
+            self.found.push(Diagnostic::error(what).at(place).help("make a tie for each body"));
         }
-    }
-
-    /// A body that comes back is without stress as it then is.
-    fn check_return(&mut self, body: usize, name: &Name) {
-        let keys = &self.deck.body[body].1;
-        let other = keys.expansion.map(|_| "expansion").or(keys.initial_stress.as_ref().map(|_| "initial_stress"));
-        if let Some(key) = other {
-            self.refuse(format!("the body `{name}` has `{key}` and cannot come back without stress"), name.place);
-        }
+        all
     }
 
     /// The body of each cell.

@@ -48,11 +48,21 @@ impl Builder<'_> {
                 let material = self.keep(keys.strain.law(material).map_err(crate::Error::input), keys.strain.place)?;
                 let body = Body::new(&name.text, site, cells, material, options);
                 let body = self.keep(body, name.place)?;
+                let body = self.along(body, keys)?;
                 let body = self.heated(body, name, keys)?;
                 Some((self.prestressed(body, name, keys)?, number))
             })
             .collect();
         bodies.into_iter().collect::<Option<Vec<_>>>().filter(|_| self.found.len() == before)
+    }
+
+    fn along(&mut self, body: Body, keys: &BodyKeys) -> Option<Body> {
+        let Some(said) = &keys.axes else { return Some(body) };
+        let Some(axes) = said.axes() else {
+            self.refuse("`along` is zero: the axis has no direction", said.along.place);
+            return None;
+        };
+        self.keep(body.along(axes), said.place)
     }
 
     fn prestressed(&mut self, body: Body, name: &Name, keys: &BodyKeys) -> Option<Body> {

@@ -169,6 +169,7 @@ impl<'d> Builder<'d> {
             if !first.penetrates {
                 continue;
             }
+            self.check_fluid(name);
             let from = first.from.as_ref();
             let (title, value, sides) = (format!("pressure.{name}"), self.pressure_value(name), self.sides(name));
             let (source, bearing) = (from.map(|from| self.nodes(&from.text).to_vec()), self.bearing.clone());
@@ -177,6 +178,38 @@ impl<'d> Builder<'d> {
             fluids.push(Arc::new(self.keep(fluid, from.unwrap_or(name).place)?));
         }
         Some(fluids)
+    }
+
+    /// A fluid enters between surfaces that touch, and presses on both where both are of bodies.
+    fn check_fluid(&mut self, name: &Name) {
+        let (deck, wet) = (self.deck, self.sides(name));
+        let in_fluid = |side: &Side| wet.contains(side);
+        let tool = |keys: &Name| deck.tool.iter().any(|(tool, _)| tool.text == keys.text);
+        let of_bodies = |keys: &crate::deck::keys::Contact| {
+            let target = (!tool(&keys.target)).then_some(&keys.target);
+            std::iter::once(&keys.surface).chain(target).cloned().collect::<Vec<_>>()
+        };
+        let touching = deck.contact.iter().map(|(_, keys)| of_bodies(keys));
+        let touching: Vec<Vec<Name>> =
+            touching.filter(|sides| sides.iter().any(|side| self.sides(side).iter().any(in_fluid))).collect();
+        if touching.is_empty() {
+            let what = format!("`pressure.{name}` penetrates, but none of its sides is in a contact");
+            let help =
+                "a fluid enters where contact bears less than it: name sides that touch, or leave `penetrates` out";
+            self.found.push(Diagnostic::error(what).at(name.place).help(help));
+        }
+        let said = deck.step.iter().flat_map(|step| &step.pressure);
+        let fluids: Vec<&Name> = said.filter(|(_, pressure)| pressure.penetrates).map(|(name, _)| name).collect();
+        let all: Vec<Side> = fluids.iter().flat_map(|name| self.sides(name)).collect();
+        let dry = |side: &&Name| !self.sides(side).iter().any(|side| all.contains(side));
+        let dry: Vec<Name> = touching.iter().flatten().filter(dry).cloned().collect();
+        for side in dry {
+            let what = format!("the fluid of `pressure.{name}` enters, but does not press on `{side}` opposite");
+            let help = format!("say `pressure.{side}` with `penetrates = true` as well");
+            if self.found.iter().all(|found| found.what != what) {
+                self.found.push(Diagnostic::warning(what).at(name.place).help(help));
+            }
+        }
     }
 
     fn pressure_value(&self, name: &Name) -> Timeline {

@@ -18,6 +18,8 @@ const BARE: f64 = 0.1;
 pub(super) struct Glued {
     /// What was found.
     pub tie: TiedSurfaces,
+    /// Its number in the deck.
+    pub number: usize,
     /// The groups of surface and target.
     pub names: [String; 2],
     /// Where.
@@ -28,10 +30,10 @@ impl Builder<'_> {
     /// Finds the ties of the deck and closes their gaps.
     pub(super) fn glue(&mut self) {
         let deck = self.deck;
-        self.ties = deck.tie.iter().filter_map(|keys| self.tie(keys)).collect();
+        self.ties = deck.tie.iter().enumerate().filter_map(|(number, keys)| self.tie(number, keys)).collect();
     }
 
-    fn tie(&mut self, keys: &keys::Tie) -> Option<Glued> {
+    fn tie(&mut self, number: usize, keys: &keys::Tie) -> Option<Glued> {
         let mesh = self.site.mesh.clone();
         let sides = |group: &str| mesh.groups.get(group).map(|group| group.sides.as_slice());
         let (surface, target) = (sides(&keys.surface.text)?, sides(&keys.target.text)?);
@@ -54,7 +56,7 @@ impl Builder<'_> {
             self.close(&tie);
         }
         let names = [keys.surface.text.clone(), keys.target.text.clone()];
-        Some(Glued { tie, names, place: keys.place })
+        Some(Glued { tie, number, names, place: keys.place })
     }
 
     /// Says what of the surface reaches beyond the target.

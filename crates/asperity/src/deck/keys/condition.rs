@@ -327,6 +327,10 @@ fn pressure(given: &Pressure, reader: &mut Reader) {
         (_, true, PressureKind::Dead) => {
             Some(("is dead, and penetrates", "a fluid presses along the present normal: leave `kind` out"))
         }
+        (_, true, _) if given.value < 0.0 => Some((
+            "is negative, and penetrates",
+            "a fluid does not pull: give the pressure by which it exceeds that outside",
+        )),
         _ => None,
     };
     if let Some((what, help)) = fault {

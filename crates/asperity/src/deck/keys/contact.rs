@@ -21,9 +21,10 @@ table! {
         law: Law<Box<dyn Interface>> = law(interface::laws::ALL).required(),
         /// How the law is integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("in closed form where the law has one, else in one step"),
-        /// Integration points along an edge; along each side of a quadrilateral face, and 1, 3 or 6 on a triangle.
+        /// Integration points along an edge; along each side of a quadrilateral face, and 1, 3, 6, or their square from 4 on, on a
+        /// triangle.
         gauss: Option<Spot<usize>> =
-            whole(1..=3).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree; in axial symmetry 2 \
+            whole(1..=10).spot().computed("the degree of the edge: 1 on edges of first degree, 2 on edges of second degree; in axial symmetry 2 \
              also on edges of first degree within about ten of their lengths from the axis, over which the radius changes"),
         /// Pressure for one unit of penetration.
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)

@@ -1,6 +1,7 @@
 //! The keys of a deck: every table once, with its words, units, ranges and defaults. These declarations are the
 //! reader, the schema and the manual; nothing about a key is written anywhere else.
 
+mod axes;
 mod condition;
 mod contact;
 mod distributing;
@@ -24,6 +25,7 @@ mod tool;
 mod umat;
 mod update;
 
+pub use axes::AxesKeys;
 pub use condition::{
     BodyForce, Components, Displacement, Force, Friction, Gravity, Motion, Pressure, PressureKind, Spring, Temperature,
     ToolCondition, ToolLoad, Traction,
@@ -137,6 +139,8 @@ table! {
         mullins: Option<MullinsKeys> = table_of().unless_given("none"),
         /// Bulk modulus of the pore water over the porosity, of a soil that is not drained.
         pore_stiffness: Option<Spot<f64>> = number(unit::STRESS, Range::POSITIVE).spot().unless_given("drained"),
+        /// Axes of a cylinder for a law that is not alike in all directions.
+        axes: Option<AxesKeys> = table_of().unless_given("those that the law says"),
         /// Mass of an undeformed unit of volume, on which gravity acts.
         density: Option<Spot<f64>> = number(unit::DENSITY, Range::POSITIVE).spot().unless_given("no weight"),
         /// Linear thermal expansion.

@@ -116,11 +116,11 @@ table! {
     }
 }
 
-fn point() -> impl Form<Value = Vec<f64>> {
+pub(super) fn point() -> impl Form<Value = Vec<f64>> {
     list(number(unit::LENGTH, Range::ANY), 3..=3)
 }
 
-fn direction() -> impl Form<Value = Vec<f64>> {
+pub(super) fn direction() -> impl Form<Value = Vec<f64>> {
     list(number(unit::NONE, Range::ANY), 3..=3)
 }
 

@@ -9,33 +9,33 @@
 //! Backward Euler: with `x = 2 G_s dp/q` and the shear modulus `G_s` the stress is `(1 + x P)^-1` of the trial one, where
 //! `dq/dsigma = P sigma/q`; one equation `q(x) = sy(p_n + x q(x)/2 G_s)` is left, which falls in `x`.
 
+use super::axes::{axes, basis, component, local};
 use super::elastic::Elastic;
 use super::hardening::{Hardening, Kind};
 use super::rate;
 use crate::Failure;
-use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
+use crate::declare::{Entry, Parameter, Range, VariableKind};
 use crate::integrate::{System, Update, root};
 use crate::material::{Flow, Material, RateLaw, ScalarsAndVectors, Spin, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
 
 const fn number(key: &'static str, meaning: &'static str, range: Range, default: Option<f64>) -> Parameter {
-    Parameter { key, meaning, unit: unit::NONE, range, default }
+    Parameter { range, ..component(key, meaning, default) }
 }
 
 const ROLLING: [Parameter; 3] = [
-    number(
+    component(
         "rolling_x",
         "rolling direction along x, of any length; what of it is across the sheet counts not",
-        Range::ANY,
         Some(1.0),
     ),
-    number("rolling_y", "rolling direction along y", Range::ANY, Some(0.0)),
-    number("rolling_z", "rolling direction along z", Range::ANY, Some(0.0)),
+    component("rolling_y", "rolling direction along y", Some(0.0)),
+    component("rolling_z", "rolling direction along z", Some(0.0)),
 ];
 const NORMAL: [Parameter; 3] = [
-    number("normal_x", "normal of the sheet along x, of any length", Range::ANY, Some(0.0)),
-    number("normal_y", "normal of the sheet along y", Range::ANY, Some(0.0)),
-    number("normal_z", "normal of the sheet along z", Range::ANY, Some(1.0)),
+    component("normal_x", "normal of the sheet along x, of any length", Some(0.0)),
+    component("normal_y", "normal of the sheet along y", Some(0.0)),
+    component("normal_z", "normal of the sheet along z", Some(1.0)),
 ];
 
 const RATIOS: [Parameter; 9] = super::hardening::join(&[
@@ -121,21 +121,11 @@ fn by_ratios(v: &[f64], kind: Kind) -> Result<Box<dyn Material>, String> {
     build(v, hardening, [f, g, h, 1.5, 1.5, (f + g) * (r45 + 0.5)], &own[3..])
 }
 
-fn build(v: &[f64], hardening: Hardening, coefficients: [f64; 6], axes: &[f64]) -> Result<Box<dyn Material>, String> {
+fn build(v: &[f64], hardening: Hardening, coefficients: [f64; 6], along: &[f64]) -> Result<Box<dyn Material>, String> {
     let elastic = Elastic::new(v[0], v[1]);
     hardening.check(3.0 * elastic.shear)?;
-    let [rolling, normal] = [0, 3].map(|at| Vec3::new(axes[at], axes[at + 1], axes[at + 2]));
-    if normal.norm() == 0.0 {
-        return Err("`normal_x`, `normal_y` and `normal_z` are zero: the sheet has no normal".into());
-    }
-    let normal = normal.unit();
-    let along = rolling - normal * normal.dot(rolling);
-    if along.norm() <= 1e-6 * rolling.norm() {
-        return Err(
-            "the rolling direction, `rolling_x` to `rolling_z`, does not lie in the sheet: say its normal too".into()
-        );
-    }
-    Ok(rate(Hill { elastic, hardening, coefficients, axes: [along.unit(), normal] }))
+    let axes = basis(along, ["rolling", "normal"])?;
+    Ok(rate(Hill { elastic, hardening, coefficients, axes }))
 }
 
 /// The law.
@@ -193,18 +183,6 @@ impl Hill {
     }
 }
 
-/// Rolling direction, transverse direction and normal as columns.
-fn axes<T: Scalar>(vars: &State<T>) -> Tensor2<T> {
-    let [rolling, normal] = vars.vectors;
-    let columns = [rolling, normal.cross(rolling), normal];
-    Tensor2::from_fn(|i, j| columns[j][i])
-}
-
-/// Components of a tensor in the axes.
-fn local<T: Scalar>(stress: &Tensor2<T>, axes: &Tensor2<T>) -> [T; 6] {
-    (axes.transpose() * stress.deviator() * *axes).to_voigt()
-}
-
 type State<T> = ScalarsAndVectors<T, 1, 2>;
 
 impl RateLaw for Hill {
@@ -214,6 +192,7 @@ impl RateLaw for Hill {
         Variable { name: "rolling_direction", kind: VariableKind::Vector },
         Variable { name: "sheet_normal", kind: VariableKind::Vector },
     ];
+    const AXES: Option<usize> = Some(7);
 
     fn initial(&self, state: &mut [f64]) {
         state[7..10].copy_from_slice(&self.axes[0].0);
@@ -228,8 +207,8 @@ impl RateLaw for Hill {
         dt: f64,
     ) -> Result<(Tensor2<T>, State<T>), Failure> {
         let trial = stress + self.elastic.stress(&de);
-        let (axes, p) = (axes(vars), vars.scalars[0]);
-        let at = local(&trial, &axes);
+        let (axes, p) = (axes(&vars.vectors), vars.scalars[0]);
+        let at = local(&trial.deviator(), &axes);
         let [a, b, c, d, e, f] = at;
         let data = [a, b, c, d, e, f, p];
         let (mut high, plain) = (1.0, data.map(T::re));
@@ -258,7 +237,7 @@ impl RateLaw for Hill {
 
     fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64>) -> Option<[f64; 2]> {
         let trial = *stress + self.elastic.stress(de);
-        let q = self.equivalent(&self.returned(0.0, &local(&trial, &axes(vars))));
+        let q = self.equivalent(&self.returned(0.0, &local(&trial.deviator(), &axes(&vars.vectors))));
         (q <= self.hardening.stress(vars.scalars[0])).then_some([self.elastic.lambda, self.elastic.shear])
     }
 
@@ -271,6 +250,6 @@ impl RateLaw for Hill {
     }
 
     fn dissipation(&self, old: (&Tensor2, &State<f64>), new: (&Tensor2, &State<f64>)) -> f64 {
-        self.equivalent(&local(new.0, &axes(new.1))) * (new.1.scalars[0] - old.1.scalars[0])
+        self.equivalent(&local(&new.0.deviator(), &axes(&new.1.vectors))) * (new.1.scalars[0] - old.1.scalars[0])
     }
 }

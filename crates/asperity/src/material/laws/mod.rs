@@ -1,6 +1,7 @@
 //! The laws, one file each, and their registry.
 
 mod arruda_boyce;
+mod axes;
 mod cam_clay;
 mod drucker_prager;
 mod drucker_prager_cap;
@@ -16,6 +17,7 @@ mod neo_hookean;
 mod neo_hookean_compressible;
 mod norton_hoff;
 mod ogden;
+mod orthotropic;
 mod perzyna;
 mod saint_venant_kirchhoff;
 mod softening;
@@ -37,6 +39,7 @@ pub use neo_hookean::NeoHookean;
 pub use neo_hookean_compressible::NeoHookeanCompressible;
 pub use norton_hoff::NortonHoff;
 pub use ogden::Ogden;
+pub use orthotropic::Orthotropic;
 pub use perzyna::Perzyna;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use von_mises::{BackStress, VonMises};
@@ -48,6 +51,8 @@ use crate::declare::Entry;
 /// Every law a deck may name.
 pub static ALL: &[Entry<Box<dyn Material>>] = &[
     elastic::ENTRY,
+    orthotropic::ORTHOTROPIC,
+    orthotropic::ANISOTROPIC,
     neo_hookean::ENTRY,
     neo_hookean_compressible::ENTRY,
     saint_venant_kirchhoff::ENTRY,

@@ -4,18 +4,15 @@
 //! `f = tau + s_n tan phi_j - c_j` with flow by the angle of dilatancy, and `s_n <= s_t`. The normal turns with the
 //! frame. Returns to the matrix and to the joint alternate, each exact, until neither moves the stress: two passes mostly.
 
+use super::axes::component;
 use super::drucker_prager::{COHESION, DILATANCY, FRICTION, check_angles};
 use super::elastic::{Elastic, POISSON, YOUNG};
 use super::mohr_coulomb::MohrCoulomb;
 use super::rate;
 use crate::Failure;
-use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
+use crate::declare::{Entry, Parameter, VariableKind};
 use crate::material::{Flow, Material, RateLaw, ScalarsAndVectors, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
-
-const fn component(key: &'static str, meaning: &'static str, default: Option<f64>) -> Parameter {
-    Parameter { key, meaning, unit: unit::NONE, range: Range::ANY, default }
-}
 
 pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
     name: "ubiquitous_joint",

@@ -72,6 +72,32 @@ pub struct Rule {
 /// The largest number of nodes of any cell (hex27).
 pub const MAX_NODES: usize = 27;
 
+impl Cell {
+    /// Points and weights of a rule of this order on a cell that is a side: so many points along an edge or each side of a
+    /// quadrilateral; on a triangle 1, 3, 6, and from order 4 on a square whose one side is drawn together to a corner. None on others.
+    pub fn surface_rule(&self, order: usize) -> Vec<([f64; 3], f64)> {
+        if let Some(known) = self.gauss.get(order.saturating_sub(1)) {
+            return known
+                .iter()
+                .flat_map(|rule| rule.points.iter().copied().zip(rule.weights.iter().copied()))
+                .collect();
+        }
+        let line = rules::gauss(order);
+        match (self.dimension, self.linear.nodes.len()) {
+            (1, _) => line.iter().map(|&[x, weight]| ([x, 0.0, 0.0], weight)).collect(),
+            (2, corners) => {
+                let square = line.iter().flat_map(|&[y, b]| line.iter().map(move |&[x, a]| ([x, y, 0.0], a * b)));
+                let folded = |([x, y, _], weight): ([f64; 3], f64)| {
+                    let (a, b) = (0.5 * (1.0 + x), 0.5 * (1.0 + y));
+                    ([a * (1.0 - b), b, 0.0], 0.25 * weight * (1.0 - b))
+                };
+                if corners == 3 { square.map(folded).collect() } else { square.collect() }
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
 impl std::fmt::Debug for Cell {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name)

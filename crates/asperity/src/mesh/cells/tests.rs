@@ -146,6 +146,23 @@ fn the_quadratures_are_exact_to_their_degree_and_no_further() {
     }
 }
 
+/// Rules of any order on sides: of order `n` polynomials of degree `2 n - 1` in each direction are exact, one less on folded squares.
+#[test]
+fn surfaces_have_rules_of_any_order() {
+    for cell in ALL.iter().filter(|cell| cell.gauss[0].is_some()) {
+        for order in 4..=10 {
+            let rule = cell.surface_rule(order);
+            let degree =
+                if cell.dimension == 1 || cell.linear.nodes.len() == 4 { 2 * order - 1 } else { 2 * order - 2 };
+            for powers in monomials(cell, degree) {
+                let sum: f64 = rule.iter().map(|(xi, w)| w * monomial(*xi, powers)).sum();
+                assert_close(sum, exact(cell, powers), 1e-14, "a monomial", cell);
+            }
+        }
+        assert_eq!(cell.surface_rule(2).len(), cell.gauss[1].unwrap().points.len());
+    }
+}
+
 #[test]
 fn the_points_of_quadrature_lie_inside() {
     for cell in ALL {

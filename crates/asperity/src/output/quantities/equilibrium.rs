@@ -19,21 +19,30 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let largest = |of: &[f64]| axes(source).map(|axis| sum(source, of, axis).abs()).fold(0.0, f64::max);
     let (left, in_play) = (largest(&unbalanced), largest(&forces).max(state.in_play[0]));
     // Where no force is in play, what rounding leaves is out of no balance.
-    let part = |left: f64| if state.in_play[0] > 0.0 { left / in_play } else { 0.0 };
-    let scale = if state.in_play[0] > 0.0 { in_play } else { 0.0 };
+    let loaded = state.in_play[0] > rounding(source);
+    let part = |left: f64| if loaded { left / in_play } else { 0.0 };
+    let scale = if loaded { in_play } else { 0.0 };
     frame.certify(Reading::new("leap", "", state.leap));
     frame.certify(Reading::new("equilibrium_error", "", left).over(scale));
     // Springs pull on the ground, which is no support.
     if source.parts.springs.is_empty() {
         // What bodies do to each other may be many times what they are held and loaded by, but rounding goes with it.
         let outer = largest(&forces).max(ROUNDING * scale);
-        frame.certify(Reading::new("reaction_balance", "", largest(&state.internal)).over(outer));
+        let apart = if loaded { largest(&state.internal) } else { 0.0 };
+        frame.certify(Reading::new("reaction_balance", "", apart).over(outer));
     }
     if source.parts.follows {
         frame.push(Quantity::scalar("load_factor", Unit::One, state.factor))?;
     }
     frame.push(Quantity::scalar("equilibrium.leap", Unit::One, state.leap))?;
     frame.push(Quantity::scalar("equilibrium.error", Unit::One, part(left)))
+}
+
+/// A force below which nothing is loaded: that of the stiffest body over the model's size, at a strain of some hundred roundings.
+fn rounding(source: &Source) -> f64 {
+    let (size, dimension) = (source.parts.mesh.size(), source.parts.space.dimension() as i32);
+    let stiffness = source.parts.bodies.iter().map(|(_, body)| body.material().moduli()[0]).fold(0.0, f64::max);
+    100.0 * f64::EPSILON * stiffness * size.powi(dimension - 1)
 }
 
 /// The axes along which forces have a sum: radial forces of a full circumference have none.

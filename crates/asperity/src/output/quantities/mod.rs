@@ -123,6 +123,14 @@ impl Source<'_> {
     fn reaction(&self, dof: usize) -> f64 {
         self.state.internal[dof] - self.state.load[dof]
     }
+    /// The forces that hold all unknowns; what follows others by equations or ties is borne by those.
+    fn borne(&self) -> Vec<f64> {
+        let mut reactions: Vec<f64> = (0..self.state.u.len()).map(|dof| self.reaction(dof)).collect();
+        if let Some(constraints) = self.parts.constraints.get(self.step) {
+            constraints.carry(&mut reactions);
+        }
+        reactions
+    }
     /// A term's lane of the history.
     ///
     /// # Errors

@@ -8,10 +8,8 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let nodal = |values: &[f64]| -> Vec<f64> {
         (0..source.parts.mesh.points.len()).flat_map(|node| source.nodal(values, node)).collect()
     };
-    let (internal, load) = (&source.state.internal, &source.state.load);
-    let reaction: Vec<f64> = internal.iter().zip(load).map(|(resists, acts)| resists - acts).collect();
     let vector = |name: &str, unit, values| Quantity::new(name, unit, Place::Node, Width::Vector, values);
     frame.push(vector("displacement", Unit::Length, nodal(&source.state.u)))?;
-    frame.push(vector("reaction", Unit::Force, nodal(&reaction)))?;
-    frame.push(vector("load", Unit::Force, nodal(load)))
+    frame.push(vector("reaction", Unit::Force, nodal(&source.borne())))?;
+    frame.push(vector("load", Unit::Force, nodal(&source.state.load)))
 }

@@ -5,10 +5,7 @@ use crate::Error;
 use crate::output::{Frame, Place, Quantity, Unit, Width};
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    let mut reactions: Vec<f64> = (0..source.state.u.len()).map(|dof| source.reaction(dof)).collect();
-    if let Some(constraints) = source.parts.constraints.get(source.step) {
-        constraints.carry(&mut reactions);
-    }
+    let reactions = source.borne();
     let vector =
         |name: String, unit, values: [f64; 3]| Quantity::new(name, unit, Place::Global, Width::Vector, values.to_vec());
     let sum = |nodes: &[usize], of: &dyn Fn(usize) -> [f64; 3]| {

@@ -30,8 +30,13 @@ struct Combination {
 }
 
 impl Builder<'_> {
-    /// Constraints and prescribed values from all claims of a step and the equations.
-    pub(super) fn constrain(&mut self, claims: &[&Claim], equations: &[Equation]) -> (Constraints, Vec<Prescribed>) {
+    /// Constraints and prescribed values from all claims of a step, the equations and the ties that hold in it.
+    pub(super) fn constrain(
+        &mut self,
+        claims: &[&Claim],
+        equations: &[Equation],
+        ties: &[usize],
+    ) -> (Constraints, Vec<Prescribed>) {
         let mut sorted = Sorted::default();
         // A node of no cell is held, but not where an equation or a rigid group says what it does.
         let mut related: BTreeSet<usize> = equations.iter().flat_map(|e| e.terms.iter().map(|term| term.0)).collect();
@@ -54,7 +59,7 @@ impl Builder<'_> {
         let fixed: BTreeMap<usize, bool> =
             sorted.fixed.iter().map(|(&dof, claim)| (dof, claim.course != Course::Hold)).collect();
         let mut relations = Relations::of(sorted.relations(), &fixed, equations);
-        for glued in &self.ties {
+        for glued in ties.iter().map(|&tie| &self.ties[tie]) {
             (0..self.site.dofs.per_node()).for_each(|axis| relations.tie(glued, (&self.site.dofs, axis), &fixed));
         }
         for (what, place) in &relations.refused {

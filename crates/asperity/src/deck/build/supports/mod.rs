@@ -34,14 +34,16 @@ impl Builder<'_> {
         let mut claims = self.standing();
         let (deck, mut known) = (self.deck, Known::new(self.site.dofs.count()));
         let equations: Vec<_> = self.equations().into_iter().chain(self.periodic()).collect();
-        let steps = deck.step.iter().zip(self.absent_bodies()).map(|(step, absent)| {
+        let absent = self.absent_bodies();
+        let ties = self.standing_ties(&absent);
+        let steps = deck.step.iter().zip(absent.iter().zip(ties)).map(|(step, (absent, ties))| {
             self.release(step, &mut claims);
             hold(&mut claims);
-            claims.insert((String::new(), 2), self.left_alone(&absent));
+            claims.insert((String::new(), 2), self.left_alone(absent));
             self.claim(step, &mut claims);
             claims.values_mut().flatten().for_each(|claim| known.settle(claim));
             known.pass(claims.values().flatten());
-            let held = self.constrain(&claims.values().flatten().collect::<Vec<_>>(), &equations);
+            let held = self.constrain(&claims.values().flatten().collect::<Vec<_>>(), &equations, &ties);
             self.look_for_idle_loads(step, &held.0);
             held
         });

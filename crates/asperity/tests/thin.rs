@@ -56,12 +56,14 @@ fn what_keeps_its_volume_bends() {
             assert_eq!(chosen, formulation, "{through}");
             assert!((-sinking / beam - 1.0).abs() < 0.05, "{through}: {}", -sinking / beam);
         }
-        assert!((found[0].1 / found[1].1 - 1.0).abs() < 1e-9, "{through}: {found:?}");
+        // F-bar shares the change of volume over the two axes of the plane or the three of space.
+        let apart = if formulation == Formulation::FBar { 0.02 } else { 1e-6 };
+        assert!((found[0].1 / found[1].1 - 1.0).abs() < apart, "{through}: {found:?}");
     }
 }
 
-/// A block of steel upset between plates that stick: one layer of bricks between planes is what quadrilaterals are in plane strain,
-/// and between free faces a thin sheet.
+/// A block of steel upset between plates that stick: one layer of bricks between planes is not thin, and what quadrilaterals are in plane
+/// strain but for the axes over which F-bar shares the change of volume; with a free face it is a thin sheet.
 #[test]
 fn a_slice_is_not_thin() {
     let deck = |space: &str, part: &str, more: &str| {
@@ -85,5 +87,5 @@ fn a_slice_is_not_thin() {
         [("plane-strain", plane, ""), ("solid", solid, held), ("solid", solid, "symmetry = [\"b.back\"]")]
             .map(|(space, part, more)| ended(&deck(space, part, more), "b.right", 0));
     assert_eq!([flat.0, slice.0, sheet.0], [Formulation::FBar, Formulation::FBar, Formulation::Incompatible]);
-    assert!((slice.1 / flat.1 - 1.0).abs() < 1e-7 && flat.1 > 0.0, "{flat:?} {slice:?}");
+    assert!((slice.1 / flat.1 - 1.0).abs() < 3e-3 && flat.1 > 0.0, "{flat:?} {slice:?}");
 }

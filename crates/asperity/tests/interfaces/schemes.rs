@@ -77,8 +77,8 @@ pub fn orders() -> Vec<Order> {
 /// Errors fall with the order of the scheme, for every law of the registry.
 #[test]
 fn errors_fall_with_the_order_of_the_scheme() {
-    for Order { name, scheme, found, least, .. } in orders() {
-        assert!(found.is_none_or(|order| order > least), "{name}: {scheme:?} has the order {found:?}");
+    for Order { name, law, scheme, found, least } in orders() {
+        assert!(found.is_none_or(|order| order > least), "{law}, {name}: {scheme:?} has the order {found:?}");
     }
 }
 

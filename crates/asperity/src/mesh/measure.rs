@@ -60,6 +60,14 @@ impl Mesh {
         CellView { kind, nodes: &nodes.collect::<Vec<_>>() }.extent(&self.points)
     }
 
+    /// The axis that a side lies across.
+    pub fn faces(&self, side: Side) -> Option<usize> {
+        let (kind, nodes) = self.side(side);
+        let points: Vec<Vec3> = nodes.map(|node| self.points[node]).collect();
+        let size = points.iter().map(|&x| (x - points[0]).norm()).fold(0.0, f64::max);
+        (0..=kind.dimension).find(|&axis| points.iter().all(|x| (x[axis] - points[0][axis]).abs() <= 1e-9 * size))
+    }
+
     /// Volume of the cell behind a side over the area of the side.
     pub fn depth(&self, side: Side) -> f64 {
         self.measure(side.cell) / self.extent(side)

@@ -88,7 +88,12 @@ impl Body {
         for kind in cells.iter().map(|&cell| mesh.cell(cell).kind) {
             if choices.iter().all(|known| known.kind != kind) {
                 let choice = Choice::of(kind, space, material.as_ref(), &options);
-                choices.push(choice.in_body(|| *slenderness.get_or_init(|| Slenderness::of(&mesh, &cells)), &options));
+                choices.push(
+                    choice.in_body(
+                        || *slenderness.get_or_init(|| Slenderness::of(&mesh, &cells, options.held)),
+                        &options,
+                    ),
+                );
             }
         }
         let barred =

@@ -4,7 +4,7 @@
 //! limit loads are never reached. Where the ratio `K / G` of bulk to shear modulus is as small as that of metals the error
 //! is that of the mesh; from [`NEARLY`] on F-bar takes over, and always where a solid flows with no change of volume or with one that
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
-//! which they are too stiff in bending.
+//! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft.
 
 use super::slenderness::{STIFF, Slenderness};
 use super::{Strain, incompatible};
@@ -45,12 +45,14 @@ pub struct BodyOptions {
     pub strain: Strain,
     /// Thickness in the plane cases; ignored otherwise.
     pub thickness: f64,
+    /// Axes along which the sides that face them are held, so that it does not bend across them however thin it is.
+    pub held: [bool; 3],
 }
 
 impl Default for BodyOptions {
     fn default() -> Self {
         let (formulation, integration) = (Formulation::Auto, Integration::Full);
-        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0 }
+        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3] }
     }
 }
 
@@ -128,10 +130,15 @@ impl Choice {
     /// The same with what follows from the body's thickness, which is asked for where it matters.
     pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
         let reduced = options.integration == Integration::Reduced && self.kind.reduced.is_some();
-        if !reduced && self.kind.degree == 1 && self.formulation != Formulation::Incompatible {
+        if !reduced && self.kind.degree == 1 {
             let body = body();
-            self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
             self.soft = body.soft(self.kind, self.formulation);
+            if self.soft && options.formulation == Formulation::Auto {
+                self.formulation = Formulation::Incompatible;
+                self.reason = "bending, with one or two cells through it".into();
+                self.soft = false;
+            }
+            self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
         }
         self
     }
@@ -150,12 +157,15 @@ impl Choice {
                  times with one; three or more, cells of second degree or formulation = \"incompatible\" are not"
             )
         });
-        let stiff = self.stiff.filter(|_| !self.soft).map(|part| {
-            format!(
-                "where it bends it is too stiff, by some {:.0} %: its {name} cells are too long, or too few through it, for first degree; \
-                 those of second are right",
-                100.0 * part
-            )
+        let why = match self.formulation {
+            Formulation::Incompatible => {
+                "are trapezoids along it, which bend no better with incompatible modes; rectangles and cells of second degree do"
+            }
+            _ => "are too long, or too few through it, for first degree; those of second are right",
+        };
+        let stiff = self.stiff.filter(|_| !self.soft);
+        let stiff = stiff.map(|part| {
+            format!("where it bends it is too stiff, by some {:.0} %: its {name} cells {why}", 100.0 * part)
         });
         locks.into_iter().chain(soft).chain(stiff)
     }

@@ -1,16 +1,16 @@
-//! How long and how thick the cells of a body are, against its own thickness: what cells of first degree without incompatible
-//! modes get wrong in bending.
+//! How long and how thick the cells of a body are, against its own thickness, and how much they taper: what cells of first degree
+//! get wrong in bending.
 
 use super::{Formulation, incompatible};
 use crate::mesh::cells::Cell;
-use crate::mesh::{Mesh, median};
+use crate::mesh::{Mesh, Side, median};
 
 /// By what part some cells, all simplices or prisms of first degree, are too stiff in bending, where that is much.
 pub fn too_stiff(mesh: &Mesh, cells: &[usize]) -> Option<f64> {
     let plain = |kind: &Cell| kind.degree == 1 && incompatible::modes(kind) == 0;
     let kind =
         cells.first().map(|&cell| mesh.kinds[cell]).filter(|_| cells.iter().all(|&cell| plain(mesh.kinds[cell])))?;
-    Some(Slenderness::of(mesh, cells).stiff(kind, Formulation::Standard)).filter(|part| *part > STIFF)
+    Some(Slenderness::of(mesh, cells, [false; 3]).stiff(kind, Formulation::Standard)).filter(|part| *part > STIFF)
 }
 
 /// Part by which a body may be too stiff in bending without a word.
@@ -23,13 +23,20 @@ pub(super) struct Slenderness {
     pub along: f64,
     /// How many of them lie through it.
     pub through: f64,
+    /// How much longer one of their sides along it is than the other, as the slope of those between, times their length over their
+    /// own thickness.
+    pub taper: f64,
 }
 
 impl Slenderness {
     /// That of some cells: the median, over their surface, of the thickness behind a side, and of the volume of the cell there over the
-    /// area of the side.
-    pub fn of(mesh: &Mesh, cells: &[usize]) -> Self {
-        let boundary = mesh.boundary(cells);
+    /// area of the side; without sides that face an axis along which they are held.
+    pub fn of(mesh: &Mesh, cells: &[usize], held: [bool; 3]) -> Self {
+        let mut boundary = mesh.boundary(cells);
+        boundary.retain(|&side| mesh.faces(side).is_none_or(|axis| !held[axis]));
+        if boundary.is_empty() {
+            return Self { along: 0.0, through: f64::INFINITY, taper: 0.0 };
+        }
         let sides = boundary.iter().map(|&side| {
             let kind = mesh.cell(side.cell).kind;
             // Of a simplex over its base.
@@ -43,16 +50,18 @@ impl Slenderness {
         let dimension = cells.first().map_or(2, |&cell| mesh.cell(cell).kind.dimension);
         let area = volume / bricks / deep;
         let along = if dimension == 3 { area.sqrt() } else { area };
-        Self { along: along / thickness, through: thickness / deep }
+        let taper = median(boundary.iter().map(|&side| (taper(mesh, side), mesh.extent(side))).collect());
+        Self { along: along / thickness, through: thickness / deep, taper }
     }
 
     /// By what part of its deflection a body of such cells is too stiff in bending, roughly: the shear that comes along goes with the
     /// square of their length, the stretch across that is not free with that of their thickness. The factors are those of cantilevers
-    /// with one to eight cells through them, Poisson's ratio 0.3.
+    /// with one to eight cells through them, Poisson's ratio 0.3. Cells with incompatible modes bend, but as trapezoids they cannot
+    /// do so without shear either, whatever passes the patch test (MacNeal 1987).
     pub fn stiff(&self, kind: &Cell, formulation: Formulation) -> f64 {
         let (long, thick) = (self.along.powi(2), self.through.powi(-2));
         match (kind.degree, formulation) {
-            (1, Formulation::Incompatible) => 0.0,
+            (1, Formulation::Incompatible) => 0.7 * self.taper.powi(2) * thick,
             (1, Formulation::FBar) if incompatible::modes(kind) > 0 => 0.35 * long,
             (1, _) if incompatible::modes(kind) > 0 => 0.35 * long + 0.3 * thick,
             (1, _) => long + 2.7 * thick,
@@ -65,6 +74,24 @@ impl Slenderness {
         let barred = kind.degree == 1 && formulation == Formulation::FBar && incompatible::modes(kind) > 0;
         barred && self.through < 2.5
     }
+}
+
+/// The slope between a side of a quadrilateral or brick and the one across from it that makes the difference of their extents, times their length
+/// over their distance; none of other cells.
+fn taper(mesh: &Mesh, side: Side) -> f64 {
+    let view = mesh.cell(side.cell);
+    if incompatible::modes(view.kind) == 0 {
+        return 0.0;
+    }
+    let own: Vec<usize> = mesh.side(side).1.collect();
+    let across = (0..view.kind.faces.len()).map(|face| Side { cell: side.cell, face });
+    let Some(across) = across.into_iter().find(|&other| mesh.side(other).1.all(|node| !own.contains(&node))) else {
+        return 0.0;
+    };
+    let (near, far) = (mesh.extent(side), mesh.extent(across));
+    let mean = 0.5 * (near + far);
+    let (depth, length) = (mesh.measure(side.cell) / mean, if view.kind.dimension == 3 { mean.sqrt() } else { mean });
+    0.5 * (near - far).abs() / mean * (length / depth).powi(2)
 }
 
 /// Cells of a kind that fill a quadrilateral or a brick.
@@ -94,14 +121,26 @@ mod tests {
         ] {
             let kind = Cell::named(name).unwrap();
             let mesh = Rectangle::new([0.0; 2], size, cells, kind).mesh("b").unwrap();
-            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>());
+            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>(), [false; 3]);
             let (told, found) = (of.stiff(kind, Formulation::Standard), 1.0 / found - 1.0);
             assert!((0.7..1.4).contains(&(told / found)), "{name} {cells:?}: {told}, {found}");
+        }
+        // MacNeal's slender beam of six trapezoids, with modes.
+        for (angle, found) in [(45.0_f64, 0.05), (11.25, 0.40)] {
+            let kind = Cell::named("quad4").unwrap();
+            let mut mesh = Rectangle::new([0.0; 2], [6.0, 0.2], [6, 1], kind).mesh("b").unwrap();
+            for (node, x) in mesh.points.iter_mut().enumerate().filter(|(node, _)| !matches!(node % 7, 0 | 6)) {
+                let way = if node % 7 % 2 == node / 7 { 0.1 } else { -0.1 };
+                x[0] += way * angle.to_radians().tan();
+            }
+            let of = Slenderness::of(&mesh, &(0..6).collect::<Vec<_>>(), [false; 3]);
+            let (told, found) = (of.stiff(kind, Formulation::Incompatible), 1.0 / found - 1.0);
+            assert!((0.3..1.5).contains(&(told / found)), "{angle}: {told}, {found}");
         }
         for (through, soft) in [(1, true), (2, true), (3, false)] {
             let kind = Cell::named("hex8").unwrap();
             let mesh = Block::new([0.0; 3], [50.0, 50.0, 2.0], [20, 20, through], kind).mesh("b").unwrap();
-            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>());
+            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>(), [false; 3]);
             assert_eq!(of.soft(kind, Formulation::FBar), soft, "{through}: {of:?}");
         }
     }

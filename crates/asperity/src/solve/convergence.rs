@@ -4,8 +4,8 @@
 //! same over the rotations of tools. Below it stands what the rounding of positions leaves of each equation, its largest
 //! coefficient times the size of the model (Oettli & Prager, Numer. Math. 6, 1964), so that a body that carries nothing
 //! converges too; one of all equations together would let a stiff corner hide the forces of a soft contact. What is left on
-//! a part that hangs together is asked for as a whole too, against the largest force in it: many small forces of one
-//! sign are no equilibrium, and a reaction misses the loads by their sum. One iteration more mends that. All are ratios: a
+//! a part that hangs together is asked for as a whole too, against half of the force that goes through it: many small forces of
+//! one sign are no equilibrium, and a reaction misses the loads by their sum. One iteration more mends that. All are ratios: a
 //! change of units changes nothing.
 
 use crate::system::{Constraints, Dofs, Evaluation, Row, Whole};
@@ -92,15 +92,21 @@ impl Norms {
         }
         for whole in wholes {
             let (mut sums, mut roundings, mut largest) = ([0.0_f64; 3], [0.0_f64; 3], MEMORY * scale[0]);
-            for (axis, dof) in whole.nodes().flat_map(|node| (dofs.node(node)..).take(dofs.per_node()).enumerate()) {
+            let (mut forces, axes) = ([0.0_f64; 3], dofs.per_node());
+            for (axis, dof) in whole.nodes().flat_map(|node| (dofs.node(node)..).take(axes).enumerate()) {
                 largest = largest.max(evaluation.magnitude[dof]);
+                forces[axis] += evaluation.magnitude[dof];
                 if let Row::Free(row) = constraints.row(dof) {
                     sums[axis] += residual[*row];
                     roundings[axis] += rounding(*row);
                 }
             }
-            for (sum, rounding) in sums.iter().zip(roundings).filter(|(sum, _)| **sum != 0.0) {
-                norms.whole = norms.whole.max(sum.abs() / largest.max(rounding / yardstick.tolerance));
+            // The nodes of a layer bear the force through it from both sides: half of its mean over about so many layers.
+            let layers = (whole.nodes().count() as f64).powf((axes as f64).recip());
+            for ((sum, rounding), force) in sums.iter().zip(roundings).zip(forces).filter(|((sum, _), _)| **sum != 0.0)
+            {
+                let through = largest.max(force / (4.0 * layers));
+                norms.whole = norms.whole.max(sum.abs() / through.max(rounding / yardstick.tolerance));
             }
         }
         norms

@@ -253,7 +253,7 @@ impl Problem {
             leaving: vec![],
             arc_length: None,
         };
-        let options = BodyOptions { strain: self.strain, ..BodyOptions::default() };
+        let options = BodyOptions { strain: self.strain, held: [false, false, true], ..BodyOptions::default() };
         let cells = (0..mesh.cell_count()).collect();
         let body = Body::new("b", (mesh.clone(), dofs.clone(), space), cells, self.law.clone(), options)?;
         let site = Site { mesh: mesh.clone(), dofs: dofs.clone(), space, thickness: 1.0 };

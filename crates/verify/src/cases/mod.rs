@@ -24,6 +24,7 @@ mod laminate;
 mod laws;
 mod locking;
 mod o_ring;
+mod orders;
 mod partial_slip;
 mod partial_slip_3d;
 mod pile;
@@ -74,6 +75,7 @@ pub const ALL: &[&Case] = &[
     &o_ring::CASE,
     &locking::CASE,
     &laws::CASE,
+    &orders::CASE,
     &umat::CASE,
     &upsetting::CASE,
     &cup::CASE,

@@ -23,5 +23,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         let found = [("force", force / uniform()), ("iterations", run.solutions() as f64), ("cuts", run.cuts() as f64)];
         measured.extend(found.map(|(key, value)| (format!("{name}{key}"), value)));
     }
+    let value = |key: &str| measured.iter().find(|(known, _)| known == key).map_or(f64::NAN, |(_, value)| *value);
+    measured.push(("over_standard".into(), value("iterations") / value("standard_iterations")));
     Ok(measured)
 }

@@ -30,6 +30,7 @@ impl Builder<'_> {
                     integration: *keys.integration,
                     strain: *keys.strain,
                     thickness: self.site.thickness,
+                    held: self.held(&cells),
                 };
                 let site = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
                 // Nothing turns in small strain, and nothing is said against a rate that was not.
@@ -63,6 +64,32 @@ impl Builder<'_> {
             return None;
         };
         self.keep(body.along(axes), said.place)
+    }
+
+    /// Axes along which all sides of a body that face them are held from the first step to the end.
+    fn held(&self, cells: &[usize]) -> [bool; 3] {
+        let (mesh, mut held) = (&self.site.mesh, vec![[false; 3]; self.site.mesh.points.len()]);
+        let stays = |kind: &str, name: &Name| self.deck.step.iter().all(|step| !step.releases(kind, &name.text));
+        let Some(first) = self.deck.step.first() else { return [false; 3] };
+        for (name, keys) in first.displacement.iter().filter(|(name, _)| stays("displacement", name)) {
+            let axes = [keys.x.is_some(), keys.y.is_some(), keys.z.is_some()];
+            self.nodes(&name.text).iter().for_each(|&node| (0..3).for_each(|axis| held[node][axis] |= axes[axis]));
+        }
+        for group in
+            first.symmetry.iter().filter(|name| stays("symmetry", name)).filter_map(|name| mesh.groups.get(&name.text))
+        {
+            for (side, axis) in group.sides.iter().filter_map(|&side| Some((side, mesh.faces(side)?))) {
+                mesh.side(side).1.for_each(|node| held[node][axis] = true);
+            }
+        }
+        let mut all = [None; 3];
+        for side in mesh.boundary(cells) {
+            if let Some(axis) = mesh.faces(side) {
+                let whole = mesh.side(side).1.all(|node| held[node][axis]);
+                all[axis] = Some(all[axis].unwrap_or(true) && whole);
+            }
+        }
+        all.map(|all| all == Some(true))
     }
 
     fn prestressed(&mut self, body: Body, name: &Name, keys: &BodyKeys) -> Option<Body> {

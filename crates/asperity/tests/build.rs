@@ -266,6 +266,20 @@ fn a_thin_body_has_the_penalty_of_its_bending() {
     assert!((penalty / (50.0 * bending) - 1.0).abs() < 1e-12, "{penalty} {bending}");
 }
 
+/// The same strip does not bend where its other face is held, and follows by squeezing its cells; held along itself it bends.
+#[test]
+fn a_thin_body_that_is_held_over_a_face_does_not_bend() {
+    let penalty = |held: &str| {
+        let deck = resting("").replace("to = [2.0, 1.0], cells = [2, 1]", "to = [60.0, 1.0], cells = [60, 2]");
+        made(&format!("{deck}\ndisplacement.'block.top' = {{ {held} }}")).field_contacts[0].options().penalty
+    };
+    let (modulus, height) = (210e3 * 0.7 / (1.3 * 0.4), 0.5);
+    for held in ["y = 0.0", "x = 0.0, y = -0.1"] {
+        assert!((penalty(held) / (50.0 * modulus / height) - 1.0).abs() < 1e-12, "{held}");
+    }
+    assert!(penalty("x = 0.0") < 0.2 * penalty("y = 0.0"));
+}
+
 /// A half ring of radius 50 and thickness 1 also stretches: `200 M t / R^2` more, but for the chords of its edges.
 #[test]
 fn a_curved_thin_body_also_follows_by_stretching() {

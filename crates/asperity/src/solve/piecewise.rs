@@ -11,7 +11,7 @@
 use super::influences::{Influences, Site};
 use super::linear::LinearSolver;
 use crate::Failure;
-use crate::system::{Answer, Coordinates};
+use crate::system::{Answer, COORDINATES, Coordinates};
 use frontal::Full;
 
 /// Stresses that the linear system leaves count from this part of the largest stress on.
@@ -25,7 +25,7 @@ const DESCENT: f64 = 0.1;
 /// may carry more.
 const ENOUGH: f64 = 0.25;
 /// Most pieces that a path is followed through, halvings of the way to the end of one, and how far back it may lead.
-const PIECES: usize = 100;
+const PIECES: usize = 40;
 const HALVINGS: usize = 50;
 const FARTHEST: f64 = 100.0;
 /// Most stresses that are put right: more cost as much as a new matrix.
@@ -44,6 +44,9 @@ pub(super) struct Piecewise<'a> {
     /// `G d` of each kink.
     along: Vec<Coordinates>,
     active: Vec<Stress>,
+    /// Which coordinates of each kink are active, and the kinks that have active ones.
+    is_active: Vec<[bool; COORDINATES]>,
+    bent: Vec<usize>,
     /// `S`: change of the coordinates of all kinks for a unit of each active stress.
     influence: Vec<Vec<Coordinates>>,
     /// `w`, active stress by active stress, and `y` of each kink with it.
@@ -65,6 +68,7 @@ enum Steps {
 /// The small problem at some `w`.
 struct Problem {
     left: Vec<f64>,
+    /// Coordinates of all kinks, of which those of the active ones count.
     y: Vec<Coordinates>,
     /// `w - w(y)`.
     error: Vec<f64>,
@@ -80,8 +84,34 @@ impl Problem {
     }
 }
 
+/// The solutions on one piece of the laws: along them stresses and coordinates change linearly.
+struct Piece {
+    left: Vec<f64>,
+    rates: Vec<f64>,
+    y: Vec<Coordinates>,
+    motion: Vec<Coordinates>,
+    /// Largest stress where it begins.
+    size: f64,
+}
+
+impl Piece {
+    fn left(&self, length: f64) -> Vec<f64> {
+        self.left.iter().zip(&self.rates).map(|(w, rate)| w + length * rate).collect()
+    }
+    fn at(&self, kink: usize, length: f64) -> Coordinates {
+        std::array::from_fn(|c| self.y[kink][c] + length * self.motion[kink][c])
+    }
+}
+
 fn dot(a: &Coordinates, b: &Coordinates) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Whether slopes of laws differ by no more than rounding.
+fn are_alike(a: &[Coordinates], b: &[Coordinates]) -> bool {
+    let (a, b) = (a.as_flattened(), b.as_flattened());
+    let size = a.iter().fold(0.0_f64, |size, slope| size.max(slope.abs()));
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= NOTHING * size)
 }
 
 /// Adds a multiple of a motion of all kinks.
@@ -98,7 +128,9 @@ impl<'a> Piecewise<'a> {
         let along = kinks.list().iter().map(|kink| kinks.along(kink, direction)).collect();
         let y: Vec<Coordinates> = kinks.list().iter().map(|kink| kink.y).collect();
         let beyond = vec![Coordinates::default(); y.len()];
-        Ok(Self { site, start, along, active: Vec::new(), influence: Vec::new(), left: Vec::new(), y, beyond })
+        let (is_active, bent) = (vec![[false; COORDINATES]; y.len()], Vec::new());
+        let (active, influence, left) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { site, start, along, active, is_active, bent, influence, left, y, beyond })
     }
 
     /// Puts the step right and returns the part of it for which that could be done; None if for too little of it. Whole
@@ -220,6 +252,7 @@ impl<'a> Piecewise<'a> {
     /// Continuation Methods, 1990, ch. 15; for friction Klarbring & Bjorkman, Comput. Struct. 30, 1988).
     fn follow(&mut self, sense: f64, (influences, solver): Factored) -> Result<bool, Failure> {
         self.left.fill(0.0);
+        let all: Vec<usize> = (0..self.y.len()).collect();
         let (mut part, mut ahead) = (0.0, self.problem(self.left.clone(), self.coordinates(&self.left, 0.0))?);
         for _ in 0..PIECES {
             let n = self.active.len();
@@ -227,35 +260,38 @@ impl<'a> Piecewise<'a> {
             // What is left of the crossing into this piece.
             let mut rest = ahead.error.clone();
             slopes.solve(&mut rest);
-            self.left = ahead.left.iter().zip(&rest).map(|(w, rest)| w - rest).collect();
+            let left: Vec<f64> = ahead.left.iter().zip(&rest).map(|(w, rest)| w - rest).collect();
             let driven = self.active.iter().zip(&ahead.slopes);
             let mut rates: Vec<f64> = driven.map(|(&(kink, _), slopes)| dot(slopes, &self.along[kink])).collect();
             slopes.solve(&mut rates);
             let turned = if slopes.has_negative_determinant() { -sense } else { sense };
-            let at = |length: f64| -> (f64, Vec<f64>) {
-                (
-                    part + turned * length,
-                    self.left.iter().zip(&rates).map(|(w, rate)| w + turned * length * rate).collect(),
-                )
-            };
             let end = if turned > 0.0 { 1.0 - part } else { part + FARTHEST };
-            if !self.holds(at(0.0))? {
+            rates.iter_mut().for_each(|rate| *rate *= turned);
+            let (y, motion) = (self.coordinates(&left, part), self.motion(&rates, turned));
+            let piece = Piece { left, rates, y, motion, size: ahead.size };
+            if !self.leaving(&piece, 0.0, &all)?.is_empty() {
                 return Ok(false);
             }
-            let [mut low, mut high] = [0.0, end];
-            if self.holds(at(end))? {
+            let mut leaving = self.leaving(&piece, end, &all)?;
+            if leaving.is_empty() {
                 if turned < 0.0 {
                     return Ok(false);
                 }
-                (_, self.left) = at(end);
+                self.left = piece.left(end);
                 self.y = self.coordinates(&self.left, 1.0);
                 return Ok(true);
             }
+            let [mut low, mut high] = [0.0, end];
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (low + high);
-                *(if self.holds(at(middle))? { &mut low } else { &mut high }) = middle;
+                let found = self.leaving(&piece, middle, &leaving)?;
+                if found.is_empty() {
+                    low = middle;
+                } else {
+                    (high, leaving) = (middle, found);
+                }
             }
-            (part, self.left) = at(high);
+            (part, self.left) = (part + turned * high, piece.left(high));
             self.y = self.coordinates(&self.left, part);
             let woken = self.awake()?;
             self.activate(&woken, (influences, solver))?;
@@ -264,21 +300,27 @@ impl<'a> Piecewise<'a> {
         Ok(false)
     }
 
-    /// Whether a solution of one piece is one of all.
-    fn holds(&self, (part, left): (f64, Vec<f64>)) -> Result<bool, Failure> {
-        let y = self.coordinates(&left, part);
-        let problem = self.problem(left, y)?;
-        if problem.norm() > NOTHING * problem.size {
-            return Ok(false);
-        }
-        for (number, y) in problem.y.iter().enumerate() {
-            let (bent, size) = self.bend(number, y)?;
-            let asleep = |c: usize| !self.active.contains(&(number, c));
-            if bent.stress.iter().enumerate().any(|(c, w)| w.abs() > NOTHING * size.max(problem.size) && asleep(c)) {
-                return Ok(false);
+    /// Of some kinks those whose laws are on another piece at a place along one.
+    fn leaving(&self, piece: &Piece, length: f64, kinks: &[usize]) -> Result<Vec<usize>, Failure> {
+        let mut known = vec![[0.0; COORDINATES]; self.y.len()];
+        self.active.iter().zip(piece.left(length)).for_each(|(&(kink, c), w)| known[kink][c] = w);
+        let mut leaving = Vec::new();
+        for &kink in kinks {
+            let (bent, size) = self.bend(kink, &piece.at(kink, length))?;
+            let off = bent.stress.iter().zip(&known[kink]).fold(0.0_f64, |off, (w, known)| off.max((w - known).abs()));
+            if off > NOTHING * size.max(piece.size) {
+                leaving.push(kink);
             }
         }
-        Ok(true)
+        Ok(leaving)
+    }
+
+    /// Rates of the coordinates of all kinks where the part of the step and the stresses that are left change at these rates.
+    fn motion(&self, rates: &[f64], part: f64) -> Vec<Coordinates> {
+        let mut motion: Vec<Coordinates> = self.along.clone();
+        motion.as_flattened_mut().iter_mut().for_each(|along| *along *= part);
+        rates.iter().zip(&self.influence).for_each(|(rate, influence)| add(&mut motion, -rate, influence));
+        motion
     }
 
     /// `y0 + part G d - S w` of all kinks.
@@ -313,7 +355,7 @@ impl<'a> Piecewise<'a> {
             let left = bent.stress.into_iter().enumerate().filter(|(_, w)| *w != 0.0);
             found.extend(left.map(|(coordinate, w)| ((number, coordinate), w.abs())));
         }
-        found.retain(|(stress, w)| *w > NOTHING * largest && !self.active.contains(stress));
+        found.retain(|(stress, w)| *w > NOTHING * largest && !self.is_active[stress.0][stress.1]);
         found.truncate(MOST - self.active.len());
         Ok(found.into_iter().map(|(stress, _)| stress).collect())
     }
@@ -328,6 +370,12 @@ impl<'a> Piecewise<'a> {
         let responded = influences.respond(woken, (self.site, solver), take);
         responded.map_err(|error| Failure::from(&error))?;
         self.active.extend_from_slice(woken);
+        for &(kink, coordinate) in woken {
+            if self.is_active[kink] == [false; COORDINATES] {
+                self.bent.push(kink);
+            }
+            self.is_active[kink][coordinate] = true;
+        }
         self.left.resize(self.active.len(), 0.0);
         Ok(())
     }
@@ -349,16 +397,28 @@ impl<'a> Piecewise<'a> {
     /// Solves the small problem for the active stresses by Newton's method.
     fn solve(&mut self, part: f64, steps: Steps) -> Result<bool, Failure> {
         let mut at = self.problem(self.left.clone(), self.coordinates(&self.left, part))?;
+        let mut met: Vec<Vec<Coordinates>> = Vec::new();
         for _ in 0..ITERATIONS {
             if at.norm() <= NOTHING * at.size {
-                (self.left, self.y) = (at.left, at.y);
+                self.y = self.coordinates(&at.left, part);
+                self.left = at.left;
                 return Ok(true);
+            }
+            // A whole step from a piece of linear laws that it came to before leads round in a circle.
+            if matches!(steps, Steps::Whole) {
+                if met.iter().any(|met| are_alike(met, &at.slopes)) {
+                    return Ok(false);
+                }
+                met.push(at.slopes.clone());
             }
             let Some(slopes) = Full::factorise(at.error.len(), self.slopes(&at)) else { return Ok(false) };
             let mut step = at.error.clone();
             slopes.solve(&mut step);
-            let mut motion = vec![Coordinates::default(); at.y.len()];
-            step.iter().zip(&self.influence).for_each(|(d, influence)| add(&mut motion, *d, influence));
+            let moved = |&kink: &usize| {
+                let all = step.iter().zip(&self.influence);
+                all.fold(Coordinates::default(), |sum, (d, s)| std::array::from_fn(|c| sum[c] + d * s[kink][c]))
+            };
+            let motion: Vec<Coordinates> = self.bent.iter().map(moved).collect();
             let next = match steps {
                 Steps::Whole => Some(self.along(&at, (&step, &motion), 1.0)?),
                 Steps::Searched => self.search(&at, (&step, &motion))?,
@@ -386,7 +446,9 @@ impl<'a> Piecewise<'a> {
     fn along(&self, at: &Problem, step: (&[f64], &[Coordinates]), length: f64) -> Result<Problem, Failure> {
         let left = at.left.iter().zip(step.0).map(|(w, d)| w - length * d).collect();
         let mut y = at.y.clone();
-        add(&mut y, length, step.1);
+        for (&kink, motion) in self.bent.iter().zip(step.1) {
+            (0..COORDINATES).for_each(|c| y[kink][c] += length * motion[c]);
+        }
         self.problem(left, y)
     }
 

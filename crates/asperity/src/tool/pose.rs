@@ -13,21 +13,24 @@ pub struct PlanePose<T = f64> {
     pub translation: Vec3<T>,
     /// Rotation about it, counter-clockwise, in radians.
     pub angle: T,
+    /// `sin a` and `cos a - 1`.
+    turn: [T; 2],
 }
 
 impl<T: Scalar> PlanePose<T> {
     /// From the unknowns `ux, uy, angle`.
     pub fn new(ux: T, uy: T, angle: T) -> Self {
-        Self { translation: Vec3::new(ux, uy, T::zero()), angle }
+        let half = (angle * 0.5).sin();
+        Self { translation: Vec3::new(ux, uy, T::zero()), angle, turn: [angle.sin(), half * half * -2.0] }
     }
     /// Present position of the point that stood at `point`, with the reference point at `reference` then.
     pub fn place(&self, reference: Vec3, point: Vec3) -> Vec3<T> {
         let arm = (point - reference).lift();
-        point.lift() + self.translation + change(self.angle, arm)
+        point.lift() + self.translation + change(self.turn, arm)
     }
     /// The vector turned with the tool.
     pub fn rotate(&self, v: Vec3) -> Vec3<T> {
-        v.lift() + change(self.angle, v.lift())
+        v.lift() + change(self.turn, v.lift())
     }
 }
 
@@ -35,11 +38,14 @@ impl PlanePose {
     /// Where the point that is now at `placed` stood: the inverse of [`place`](Self::place).
     pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
         let back = placed - self.translation;
-        back + change(-self.angle, back - reference)
+        back + change(self.back(), back - reference)
     }
     /// The vector turned back into the tool's own frame.
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
-        v + change(-self.angle, v)
+        v + change(self.back(), v)
+    }
+    fn back(&self) -> [f64; 2] {
+        [-self.turn[0], self.turn[1]]
     }
     /// Derivatives of the position of a material point, now at `placed`, with respect to `ux`, `uy` and the angle.
     pub fn rates(&self, reference: Vec3, placed: Vec3) -> [Vec3; 3] {
@@ -48,10 +54,8 @@ impl PlanePose {
     }
 }
 
-/// `(R - I) v`.
-fn change<T: Scalar>(angle: T, v: Vec3<T>) -> Vec3<T> {
-    let half = (angle * 0.5).sin();
-    let (sin, less) = (angle.sin(), half * half * -2.0);
+/// `(R - I) v`, of `sin a` and `cos a - 1`.
+fn change<T: Scalar>([sin, less]: [T; 2], v: Vec3<T>) -> Vec3<T> {
     Vec3::new(less * v[0] - sin * v[1], sin * v[0] + less * v[1], T::zero())
 }
 

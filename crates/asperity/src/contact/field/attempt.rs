@@ -436,7 +436,7 @@ impl Attempt for FieldAttempt<'_> {
     }
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        let stretch = self.supports()[stencil].stretch;
+        let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner)[stencil].stretch;
         answer(&*self.law, &self.past(stencil, stretch), self.contact.least, y)
     }
 

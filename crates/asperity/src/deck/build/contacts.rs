@@ -2,9 +2,10 @@
 
 use super::Builder;
 use super::friction::integrated;
+use super::supports::flat_normal;
 use crate::contact::field::{FieldSurface, FieldTarget};
 use crate::contact::{
-    Backing, ContactForm, ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface, TWO_PASSES,
+    Backing, ContactForm, ContactOptions, LoadedSides, PaperContact, PaperParts, Plate, PointSurface, TWO_PASSES,
     default_penalty, plates, second_name,
 };
 use crate::deck::diagnose::Diagnostic;
@@ -15,7 +16,7 @@ use crate::mesh::{Mesh, Side};
 use crate::solid::Body;
 use crate::system::Dofs;
 use crate::tool::{self, ProfileTool};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Elastic slip under the friction that the pressure allows, over the length of an edge or face.
@@ -52,7 +53,7 @@ const LARGEST_PENALTY: f64 = 1e12;
 impl Builder<'_> {
     /// The contacts of Gauss points, those of the second of two passes right behind those of the first.
     pub(super) fn paper_contacts(&mut self, tools: Tools, bodies: &[(Body, usize)]) -> Option<Vec<PaperContact>> {
-        let backings = backings(&self.site.mesh, bodies.iter().map(|(body, _)| body));
+        let backings = backings(&self.site.mesh, self.deck, bodies.iter().map(|(body, _)| body));
         let deck = self.deck;
         self.check_doubles();
         let of_points: Vec<_> = deck.contact.iter().filter(|(_, keys)| !self.is_field(keys)).collect();
@@ -306,17 +307,48 @@ fn same_sides(one: &[Side], other: &[Side]) -> bool {
 /// by `2 G / (1 - nu)`, the incompressible one by `4 G`.
 const SURFACE: f64 = 4.0;
 
+/// Part of half of the boundary of a thin body that must be held for it to rest on what holds it and not to bend.
+const RESTS: f64 = 0.5;
+/// Component of a normal from which on what is held along that axis is held across the face.
+const ACROSS: f64 = 0.1;
+
 /// What stands behind the faces of each cell: the confined modulus of its material, at most four shear moduli, and the
-/// thickness of what it belongs to.
-pub(in crate::deck) fn backings<'b>(mesh: &Mesh, bodies: impl IntoIterator<Item = &'b Body>) -> Vec<Backing> {
-    let mut backings = vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()];
+/// thickness of what it belongs to where that is thin and free to bend.
+pub(in crate::deck) fn backings<'b>(
+    mesh: &Mesh,
+    deck: &keys::Deck,
+    bodies: impl IntoIterator<Item = &'b Body>,
+) -> Vec<Backing> {
+    let (mut backings, wholes) = (vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()], mesh.wholes());
+    let held = held(mesh, &wholes, deck);
     for body in bodies {
         let [confined, shear] = body.material().moduli();
         let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
         body.cells().iter().for_each(|&cell| backings[cell].modulus = modulus);
-        plates(mesh, body.cells()).for_each(|(cell, plate)| backings[cell].plate = plate);
+        let bends = |cell: usize, plate: &Plate| held.get(&wholes[cell]).is_none_or(|held| *held <= RESTS * plate.area);
+        plates(mesh, body.cells())
+            .for_each(|(cell, plate)| backings[cell].plate = plate.filter(|plate| bends(cell, plate)));
     }
     backings
+}
+
+/// Area of the faces of each connected whole that the first step holds along their normals.
+fn held(mesh: &Mesh, wholes: &[usize], deck: &keys::Deck) -> BTreeMap<usize, f64> {
+    let (mut areas, first) = (BTreeMap::new(), || deck.step.first().into_iter());
+    let given = |(name, keys): &'_ (Name, keys::Displacement)| {
+        (name.text.clone(), [keys.x.is_some(), keys.y.is_some(), keys.z.is_some()])
+    };
+    let given = first().flat_map(|step| &step.displacement).map(given);
+    let mirrored = first().flat_map(|step| &step.symmetry).map(|name| (name.text.clone(), [true; 3]));
+    for (name, axes) in given.chain(mirrored) {
+        let sides = mesh.groups.get(&name).map_or(&[][..], |group| &group.sides);
+        let normal = flat_normal(mesh, sides);
+        let across = |axis: usize| normal.is_none_or(|normal| normal[axis].abs() > ACROSS);
+        if (0..mesh.dimension()).all(|axis| axes[axis] || !across(axis)) {
+            sides.iter().for_each(|side| *areas.entry(wholes[side.cell]).or_default() += mesh.extent(*side));
+        }
+    }
+    areas
 }
 
 /// The whole outer boundary of what hangs together with the cells behind the sides, in whatever groups.

@@ -30,7 +30,7 @@ impl Builder<'_> {
         if fields.is_empty() {
             return Some(Vec::new());
         }
-        let backings = backings(&self.site.mesh, bodies?.iter().map(|(body, _)| body));
+        let backings = backings(&self.site.mesh, deck, bodies?.iter().map(|(body, _)| body));
         let tools = tools?;
         let contacts: Vec<_> =
             fields.into_iter().map(|(name, keys)| self.field_contact(name, keys, tools, &backings)).collect();

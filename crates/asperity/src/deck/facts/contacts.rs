@@ -18,7 +18,7 @@ const SAMPLE: usize = 200;
 
 /// What is known of the contacts, with what they see.
 pub(super) fn facts(made: &Made, all: &[Seen]) -> Vec<ContactFacts> {
-    let backings = backings(&made.model.mesh, made.model.bodies.iter().map(|(body, _)| body.as_ref()));
+    let backings = backings(&made.model.mesh, &made.deck, made.model.bodies.iter().map(|(body, _)| body.as_ref()));
     made.deck.contact.iter().map(|(name, keys)| contact_facts(made, (name, keys), all, &backings)).collect()
 }
 

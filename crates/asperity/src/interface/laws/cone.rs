@@ -138,6 +138,13 @@ impl<T: Scalar> Sliding<T> {
         let along = self.step.map(|d| d / length);
         let size = norm(self.shear);
         let (cos, sin) = (dot(self.shear, along) / size, (along[0] * self.shear[1] - along[1] * self.shear[0]) / size);
+        if sin.re() == 0.0 && cos.re() > 0.0 {
+            // Slip along the stress, as always in the plane, turns nothing but what derivatives see.
+            let rise = (self.to - self.from).re() / self.from.re();
+            let sin = sin * (-length.re() / self.from.re() * log_ratio(rise)).exp();
+            let shear = [along[0] - along[1] * sin, along[1] + along[0] * sin].map(|m| m * self.to);
+            return self.closed(shear, |_| 1.0);
+        }
         // tan(w / 2) as a fraction that is well defined at every angle.
         let half = if cos.re() >= 0.0 { (sin, cos + 1.0) } else { (T::one() - cos, sin) };
         let turned = |part: T| {

@@ -4,17 +4,13 @@
 //! the first solution as known motion (`K_ff dq = -(r + K_fc missing)`), so that a driven row takes the elements
 //! behind it along instead of turning them inside out.
 
-use super::newton::{Newton, Trouble};
+use super::constants::predictor::{GOOD_GUESS, ROUNDING};
+use super::newton::{Newton, SolveError};
 use crate::Failure;
 use crate::system::{Evaluation, Tangent};
 
 /// A first guess, and what prescribed unknowns miss there.
 type Start = (Vec<f64>, Option<Vec<f64>>);
-
-/// Unbalanced forces of a first guess, over those in play so far, below which no other is tried.
-const GOOD_GUESS: f64 = 0.1;
-/// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// An evaluation that is set aside, and the pattern of its matrix.
 struct Aside {
@@ -26,7 +22,7 @@ struct Aside {
 impl Newton<'_> {
     /// First guess, evaluated, and what the prescribed unknowns still miss there: the motion of the last increment carried
     /// on, node by node or, where that leaves much and this leaves less, with each whole as a rigid body.
-    pub(super) fn predict(&mut self) -> Result<Start, Trouble> {
+    pub(super) fn predict(&mut self) -> Result<Start, SolveError> {
         if self.state.last_dt == 0.0 {
             return Ok(self.begin(self.state.u.clone())?);
         }

@@ -41,6 +41,7 @@ mod factor;
 mod feral;
 mod full;
 mod graph;
+mod huge;
 mod influence;
 mod krylov;
 pub mod market;

@@ -4,6 +4,7 @@
 
 use crate::diagnose;
 use crate::factor::Factor;
+use crate::huge;
 use crate::solve::{Halves, Workspace};
 use crate::vector::{norm, subtract};
 
@@ -48,6 +49,11 @@ impl Rounded {
         let (bytes, limit) = (factor.symbolic.prediction.bytes, factor.symbolic.options.memory_limit);
         if limit.is_some_and(|limit| bytes + size_of_val(&*factor.factors) / 2 > limit) {
             return false;
+        }
+        if self.entries.capacity() < factor.factors.len() {
+            self.entries = Vec::new();
+            self.entries = vec![0.0; factor.factors.len()];
+            huge::ask(&self.entries);
         }
         self.entries.resize(factor.factors.len(), 0.0);
         self.entries.iter_mut().zip(&factor.factors).for_each(|(single, double)| *single = *double as f32);

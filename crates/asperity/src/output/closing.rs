@@ -120,8 +120,15 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     summary.timings.insert("run".into(), seconds);
     let counts = run.solver_counts();
     (summary.factorisations, summary.symmetric_factorisations) = (counts.factorisations, counts.symmetric);
-    let phases =
-        [("factorisation", counts.factorising), ("solution", counts.solving), ("compliance", counts.complying)];
+    let spent = run.memory.spent;
+    let phases = [
+        ("opening", spent.opening),
+        ("evaluation", spent.evaluating),
+        ("factorisation", counts.factorising),
+        ("solution", counts.solving),
+        ("compliance", counts.complying),
+        ("contact", spent.contact),
+    ];
     summary.timings.extend(phases.map(|(phase, time)| (phase.to_owned(), time.as_secs_f64())));
     summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
     summary.notes.extend(turns(&run.stability.turns));

@@ -35,11 +35,11 @@ pub mod demand {
     pub const PER_ENTRY: f64 = 48.0;
     pub const PER_PAIR: f64 = 2.0;
     pub const PER_UNKNOWN: f64 = 700.0;
-    /// What pictures, tables and buffers take whatever the model.
-    pub const BESIDES: f64 = 1e7;
-    /// The same for each entry in space where contact moves and an old factor preconditions: a pattern and a matrix more, and the columns of
-    /// the inverse near contact.
-    pub const PER_ENTRY_OF_CONTACT: f64 = 50.0;
+    /// What tables and buffers take whatever the model.
+    pub const BESIDES: f64 = 2e6;
+    /// The same for each entry, in the plane and in space, where contact moves and an old factor preconditions: a pattern and a matrix
+    /// more, and the columns of the inverse near contact.
+    pub const PER_ENTRY_OF_CONTACT: [f64; 2] = [25.0, 50.0];
     /// Unknowns of which no more than so many bytes each are asked for.
     pub const PLENTY: u64 = 60_000;
     /// Powers by which memory grows with unknowns in the plane and in space (George, SIAM J. Numer. Anal. 10, 1973).
@@ -96,8 +96,6 @@ pub mod path {
 
 /// The first guess.
 pub mod predictor {
-    /// Unbalanced forces of a first guess, over those in play so far, below which no other is tried.
-    pub const GOOD_GUESS: f64 = 0.1;
     /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
     pub const ROUNDING: f64 = 1e-12;
 }
@@ -129,8 +127,8 @@ pub mod relaxation {
     pub const ENOUGH: f64 = 0.05;
     /// Part of the tolerance that iterations without the medium must reach at the end.
     pub const SETTLED: f64 = 1e-2;
-    /// Iterations of one relaxation, at most.
-    pub const MOST: usize = 1500;
+    /// Iterations of one relaxation, at most: those that lead to an end take a few hundred.
+    pub const MOST: usize = 600;
 }
 
 /// Rigid motions that meet no stiffness.

@@ -122,7 +122,7 @@ pub struct Memory {
     pub(super) unborne: Vec<usize>,
     /// The evaluation of the last accepted increment: room for the next.
     pub spare: Option<Evaluation>,
-    /// Room for the evaluation of another first guess.
+    /// Room for the forces of the loads of a path.
     pub(super) other: Option<Evaluation>,
     /// What took how long.
     pub spent: Spent,

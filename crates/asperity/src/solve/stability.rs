@@ -157,16 +157,14 @@ impl Stability {
         suspected
     }
 
-    /// Counts the signs of a matrix that has no factor of its own. The factor is not to show in what follows.
+    /// Counts the signs of a matrix that has no factor of its own. The factor is that of the accepted state then, and serves on.
     fn factorise(&mut self, state: &mut State, look: &mut Look) -> Option<Turn> {
         self.counted += 1;
         look.sprung = None;
         let workspace = &look.memory.workspace;
         look.system.set_pattern(workspace.analysis(), workspace.pattern(), look.constraints().free());
         let factorised = look.system.factorise(look.values);
-        let turn = factorised.ok().and_then(|()| self.count(state, look));
-        look.system.invalidate_factor();
-        turn
+        factorised.ok().and_then(|()| self.count(state, look))
     }
 
     /// Takes the signs of the factor there is.

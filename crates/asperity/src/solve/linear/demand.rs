@@ -50,10 +50,10 @@ impl Problem {
         let costs = Prediction::of_nodes(graph, &last, &Options::default(), rayon::current_num_threads())
             .map_err(|error| Error::input(format!("the equations cannot be solved: {error}")))?;
         let (policy, dimension) = (self.newton.factors.policy(), self.dofs.per_node());
-        let contact = self.terms.iter().any(|term| term.bends()) && dimension == 3;
+        let contact = self.terms.iter().any(|term| term.bends());
         let [bytes, symmetric_bytes] = costs.map(|cost| {
             let bends = contact && policy.affordable_iterations(Work::from(&cost)) > 0;
-            let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT } else { 0.0 };
+            let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT[dimension - 2] } else { 0.0 };
             let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
             cost.bytes as u64 + single(&policy, &cost) + beside as u64
         });

@@ -212,12 +212,13 @@ impl LinearSystem {
         self.recycler.refuse();
     }
 
-    /// Factorises the matrix with these values.
+    /// Factorises the matrix with these values. Nothing is known of contact in it.
     ///
     /// # Errors
     /// Those of the engine.
     pub fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
         let begun = Instant::now();
+        self.compliance = ContactCompliance::new(Vec::new(), Some(BTreeSet::new()));
         let factorised = self.factorise_now(values);
         self.counts.factorising += begun.elapsed();
         factorised

@@ -10,7 +10,7 @@ const FUNCTIONS: [&str; 7] = [
     "Vec(CreateMPIWithArray|SetBlockSize|Destroy|GetArray|RestoreArray)",
     "Mat(CreateMPIAIJWithArrays|UpdateMPIAIJWithArray|SetBlockSize|SetNearNullSpace|NullSpace(CreateRigidBody|Destroy)|Destroy)",
     "Mat(CreateVecs|CreateDense|Dense(GetArray|RestoreArray)|Assembly(Begin|End))",
-    "KSP(Create|Reset|SetOperators|SetTolerances|SetFromOptions|SetUp|Reset|Solve|MatSolve|Get(PC|IterationNumber|ConvergedReason)|Destroy)|PCGetFailedReason",
+    "KSP(Create|Reset|SetOperators|SetTolerances|SetFromOptions|SetUp|Reset|Solve|MatSolve|Get(PC|IterationNumber|ConvergedReason)|Destroy)|PC(GetFailedReason|FactorGetMatrix)|MatGetInfo",
 ];
 const VARIABLES: &str =
     "PETSC_COMM_WORLD|PETSC_VERSION_(MAJOR|MINOR)|MPI_THREAD_SERIALIZED|MPI_MAX_LIBRARY_VERSION_STRING";

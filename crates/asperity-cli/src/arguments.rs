@@ -77,7 +77,7 @@ pub struct Run {
     /// Print errors only.
     #[arg(long, short, conflicts_with = "json")]
     pub quiet: bool,
-    /// Print events as lines of JSON: `begin`, `attempt`, `end`.
+    /// Print events as lines of JSON: `begin`, `iteration`, `attempt`, `end`.
     #[arg(long)]
     pub json: bool,
     /// Write no report.html at the end.

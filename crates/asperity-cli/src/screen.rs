@@ -4,7 +4,7 @@ use crate::ranks;
 use asperity::Error;
 use asperity::error::visible;
 use asperity::output::{FIGURES, Status, Summary};
-use asperity::solve::{AttemptRecord, Observer, Problem, Step};
+use asperity::solve::{AttemptRecord, IterationRecord, Observer, Problem, Step};
 use asperity::system::State;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
@@ -13,14 +13,18 @@ use std::io::{IsTerminal, Write as _};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
-/// A line an increment, below it a bar when a person watches; asks the run to stop when a signal came.
+/// A line an increment, below it a bar with the iterations as they happen when a person watches, and a line with the last iteration
+/// where nothing was said for a while; asks the run to stop when a signal came.
 pub struct Screen<'a> {
     problem: &'a Problem,
     stop: Arc<AtomicBool>,
     bar: Option<ProgressBar>,
     begun: bool,
     voice: Voice,
+    /// When something was said last.
+    said: Instant,
 }
 
 /// How a run is told.
@@ -36,12 +40,14 @@ pub enum Voice {
 
 const HEADER: &str = "increment  step              time  iterations  residual  order    open   stick    slip";
 const TICKS: u64 = 10_000;
+/// Silence after which an iteration is told in a line of its own.
+const SILENCE: Duration = Duration::from_secs(5);
 
 impl<'a> Screen<'a> {
     /// A screen for a run that begins.
     pub fn new(problem: &'a Problem, stop: Arc<AtomicBool>) -> Self {
         let watched = std::io::stdout().is_terminal() && std::io::stderr().is_terminal();
-        Self { problem, stop, bar: watched.then(bar), begun: false, voice: Voice::Page }
+        Self { problem, stop, bar: watched.then(bar), begun: false, voice: Voice::Page, said: Instant::now() }
     }
 
     /// The same in another voice; only people get a bar.
@@ -83,6 +89,47 @@ impl<'a> Screen<'a> {
         .to_string()
     }
 
+    /// An iteration as an event.
+    fn iteration_event(&self, record: &AttemptRecord, iteration: &IterationRecord) -> String {
+        let [open, stick, slip] = self.problem.points_by_status(iteration);
+        json!({
+            "event": "iteration",
+            "increment": record.increment,
+            "attempt": record.attempt,
+            "iteration": iteration.iteration,
+            "residual": iteration.residual,
+            "tolerance": iteration.tolerance,
+            "open": open,
+            "stick": stick,
+            "slip": slip,
+        })
+        .to_string()
+    }
+
+    /// An iteration in words.
+    fn iteration_words(&self, record: &AttemptRecord, iteration: &IterationRecord) -> String {
+        let [open, stick, slip] = self.problem.points_by_status(iteration);
+        let relaxed = if record.relaxed { ", relaxed" } else { "" };
+        format!(
+            "increment {} to {:.5}{relaxed}: iteration {}, residual {:.1e} of {:.0e}, {open} open, {stick} stick, {slip} slip",
+            record.increment, record.time, iteration.iteration, iteration.residual, iteration.tolerance
+        )
+    }
+
+    /// Says that an iteration was made.
+    fn tell(&mut self, record: &AttemptRecord, iteration: &IterationRecord) {
+        match (self.voice, &self.bar) {
+            (Voice::Quiet, _) => {}
+            (Voice::Json, _) => self.line(&self.iteration_event(record, iteration)),
+            (Voice::Page, Some(bar)) => bar.set_message(visible(&self.iteration_words(record, iteration)).into_owned()),
+            (Voice::Page, None) if self.said.elapsed() > SILENCE => {
+                self.said = Instant::now();
+                self.line(&format!("           {}", self.iteration_words(record, iteration)));
+            }
+            (Voice::Page, None) => {}
+        }
+    }
+
     /// Removes the bar.
     pub fn close(&self) {
         if let Some(bar) = &self.bar {
@@ -115,12 +162,17 @@ impl<'a> Screen<'a> {
 }
 
 impl Observer for Screen<'_> {
+    fn iteration(&mut self, record: &AttemptRecord, iteration: &IterationRecord) {
+        self.tell(record, iteration);
+    }
+
     fn attempt(&mut self, record: &AttemptRecord) {
         match self.voice {
             Voice::Quiet => return,
             Voice::Json => return self.line(&self.event(record)),
             Voice::Page => {}
         }
+        self.said = Instant::now();
         if !self.begun {
             self.begun = true;
             self.line(HEADER);
@@ -158,7 +210,7 @@ impl Observer for Screen<'_> {
 }
 
 fn bar() -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed} of about {duration}");
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed} of about {duration}  {wide_msg}");
     ProgressBar::new(TICKS).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 

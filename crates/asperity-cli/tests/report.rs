@@ -119,7 +119,22 @@ fn events_are_lines_of_json_and_a_report_can_be_left_out() {
     std::fs::write(folder.path().join("block.toml"), PLANE).unwrap();
     let output = asperity(folder.path(), &["run", "block.toml", "--json", "--no-report"]);
     let text = String::from_utf8(output.stdout).unwrap();
-    let events: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let all: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    // Iterations come before the attempt that they are of, which counts them; the first is the state before any.
+    let (mut events, mut iterations) = (Vec::new(), 0);
+    for event in all {
+        match event["event"].as_str() {
+            Some("iteration") => {
+                assert_eq!(event["iteration"], iterations);
+                iterations += 1;
+            }
+            kind => {
+                assert!(kind != Some("attempt") || event["iterations"] == iterations - 1, "{event}");
+                iterations = 0;
+                events.push(event);
+            }
+        }
+    }
     let kinds: Vec<&str> = events.iter().map(|event| event["event"].as_str().unwrap()).collect();
     assert_eq!(kinds, ["begin", "attempt", "attempt", "attempt", "attempt", "attempt", "attempt", "end"]);
     assert_eq!(events[0]["steps"][0]["name"], "press");

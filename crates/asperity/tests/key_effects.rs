@@ -200,13 +200,12 @@ fn keys_of_solver_and_output_change_the_run() {
     assert_eq!(plain, run(&[]));
     let changes = [
         "solver.newton=modified",
-        "solver.newton=kept",
         "solver.tangent=perturbation",
-        "solver.factors=attempt",
         "solver.tolerance=1e-3",
         "solver.iterations=2",
         "solver.piecewise=false",
         "output.every=3",
+        "output.pictures=false",
         "output.checkpoints=steps",
         "output.export=[\"frd\"]",
         "output.export=[\"deformed\"]",

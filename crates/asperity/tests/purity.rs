@@ -5,11 +5,10 @@ mod support;
 
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
 use asperity::output::{CHECKPOINT, Job, Kept, Limits, ResultOptions, Start, simulate};
-use asperity::solve::{Factors, Frontal, LinearError, LinearSolver, Run, RunOptions, Silent, Unknowns};
+use asperity::solve::{Factored, Factors, Frontal, LinearError, LinearSolver, Run, RunOptions, Silent, Unknowns};
 use asperity::system::{Csr, State};
-use frontal::{Change, Service};
+use frontal::Change;
 use proptest::prelude::*;
-use std::borrow::Cow;
 use support::{all_bytes, bytes, go_on, model, run, with_threads};
 
 const DECK: &str = include_str!("../../../cases/tube/tube.toml");
@@ -84,7 +83,7 @@ fn outputs_change_nothing() {
 /// Each attempt made twice, the first thrown away when it has converged.
 #[test]
 fn an_attempt_leaves_nothing_behind() {
-    for way in ["solver.factors=fresh", "solver.factors=attempt", "solver.factors=kept"] {
+    for way in ["solver.factors=fresh", "solver.factors=kept"] {
         let mut model = model(DECK, &coarse(&[way]));
         let once = all_bytes(&run(&model));
         model.problem.newton.rehearse = true;
@@ -156,7 +155,7 @@ fn a_failed_attempt_leaves_the_factor_of_the_state() {
             if state.attempts == direct.attempts + 1 {
                 failed += 1;
                 let counted = as_if_direct(state, &direct);
-                assert!(bytes(&counted) == bytes(&direct), "from {k}, matrix {at}");
+                assert!(bytes(&counted) == bytes(&direct), "from {k}, call {at}");
             }
         }
     }
@@ -179,77 +178,45 @@ fn faulty_increment(problem: &asperity::solve::Problem, start: State, faulty: Fa
     run.state
 }
 
-/// A solver that is given a poisoned matrix as its `at`-th, or calls that and all that follow in the same attempt singular.
+/// A solver whose `at`-th call that factorises or preconditions is poisoned, or which calls that matrix and the next, which is that one
+/// regularised, singular.
 #[derive(Default)]
 struct Faulty {
     solver: Frontal,
     at: usize,
     poisoned: bool,
-    /// Matrices met, those counted twice for which an old factor did not do.
-    matrices: usize,
-    broken: bool,
+    /// Calls so far.
+    calls: usize,
     unknowns: usize,
 }
 
-impl Faulty {
-    /// Meets another matrix: its values, as they are or poisoned.
-    fn meet<'v>(&mut self, values: &'v [f64]) -> Result<Cow<'v, [f64]>, LinearError> {
-        self.matrices += 1;
-        let fault = self.matrices == self.at;
-        self.broken |= fault && !self.poisoned;
-        match fault && self.poisoned {
-            _ if self.broken => Err(LinearError::Singular(vec![vec![1.0; self.unknowns]])),
-            true => Ok(vec![f64::NAN; values.len()].into()),
-            false => Ok(values.into()),
-        }
-    }
-}
-
 impl LinearSolver for Faulty {
-    fn analyse(&mut self, pattern: &Csr, unknowns: Unknowns) -> Result<(), LinearError> {
+    fn set_pattern(&mut self, pattern: &Csr, unknowns: Unknowns) -> Result<(), LinearError> {
         self.unknowns = unknowns.free.len();
-        self.solver.analyse(pattern, unknowns)
+        self.solver.set_pattern(pattern, unknowns)
     }
-    fn follow(&mut self, pattern: &Csr) -> bool {
-        self.solver.follow(pattern)
-    }
-    fn factorise(&mut self, values: &[f64]) -> Result<(), LinearError> {
-        let values = self.meet(values)?;
-        self.solver.factorise(&values)
+    fn factorise(&mut self, values: &[f64]) -> Result<Factored, LinearError> {
+        self.calls += 1;
+        match self.calls.checked_sub(self.at) {
+            Some(0) if self.poisoned => self.solver.factorise(&vec![f64::NAN; values.len()]),
+            Some(0 | 1) if !self.poisoned => Err(LinearError::Singular(vec![vec![1.0; self.unknowns]])),
+            _ => self.solver.factorise(values),
+        }
     }
     fn solve(&mut self, rhs: &mut [f64]) -> Result<(), LinearError> {
         self.solver.solve(rhs)
     }
-    fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), LinearError> {
-        self.solver.influence(loads, at, x)
+    fn substitute(&mut self, x: &mut [f64]) -> Result<(), LinearError> {
+        self.solver.substitute(x)
     }
-    fn row(&self, row: usize) -> Vec<(usize, f64)> {
-        self.solver.row(row)
+    fn precondition(&mut self, change: Option<&Change>, x: &mut [f64]) -> Result<(), LinearError> {
+        self.calls += usize::from(self.poisoned);
+        if self.poisoned && self.calls == self.at {
+            return Err(LinearError::NotFinite("poisoned".into()));
+        }
+        self.solver.precondition(change, x)
     }
-    fn begin(&mut self) {
-        self.broken = false;
-        self.solver.begin();
-    }
-    fn service(&self) -> Option<Service> {
-        self.solver.service()
-    }
-    fn resume(&mut self, service: Service) {
-        self.solver.resume(service);
-    }
-    fn iterates(&self) -> bool {
-        self.solver.iterates()
-    }
-    fn change(&mut self, change: Option<Change>) {
-        self.solver.change(change);
-    }
-    fn refuse(&mut self) {
-        self.solver.refuse();
-    }
-    fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
-        let values = self.meet(values)?;
-        self.solver.iterate(&values, rhs, tolerance)
-    }
-    fn iterate_again(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<bool, LinearError> {
-        self.solver.iterate_again(values, rhs, tolerance)
+    fn compliance(&mut self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<bool, LinearError> {
+        self.solver.compliance(loads, at, x)
     }
 }

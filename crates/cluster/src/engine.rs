@@ -3,8 +3,9 @@
 use crate::petsc::{KSP, Mat, Owned, Result, Vector, checked, ffi, int, text};
 use crate::ranks::{Ranks, Rendezvous, start};
 use crate::rows::{Entries, Rows};
-use asperity::solve::{LinearError, LinearSolver, Problem, Unknowns};
+use asperity::solve::{Factored, LinearError, LinearSolver, Problem, Unknowns};
 use asperity::system::Csr;
+use frontal::Work;
 use std::cell::Cell;
 use std::os::raw::c_int;
 use std::ptr;
@@ -28,6 +29,9 @@ const LOOKS: usize = 3;
 const MOTIONS: usize = 24;
 /// What is added to the diagonal of a matrix without a factor, to find out why it has none.
 const SHIFT: f64 = 1e-13;
+/// What moving a number of the factor counts in flops, as it is made and as it solves: those of `frontal`.
+const FACTOR_MOVED: f64 = 200.0;
+const SOLUTION_MOVED: f64 = 30.0;
 /// PETSc's PETSC_DECIDE.
 const DECIDE: ffi::PetscInt = -1;
 /// Loads that are solved for together.
@@ -105,6 +109,19 @@ impl Petsc {
         });
         self.system = Some(System::new(ranks, rows, pattern, places.as_deref())?);
         Ok(())
+    }
+
+    /// The factorised system, for a right-hand side on which all ranks agree.
+    fn checked(&mut self, rhs: &[f64]) -> std::result::Result<&mut System, LinearError> {
+        let system = self.system()?;
+        if !system.factorised {
+            return Err(LinearError::Other("nothing is factorised".into()));
+        }
+        system.ranks.agree(Rendezvous::Forces, rhs).map_err(LinearError::Input)?;
+        if rhs.iter().any(|force| !force.is_finite()) {
+            return Err(LinearError::NotFinite("the forces are not finite".into()));
+        }
+        Ok(system)
     }
 
     /// Whether an option of the deck was asked for by nobody, once all that may ask has.
@@ -294,6 +311,25 @@ impl System {
         Ok(())
     }
 
+    /// What the factor took and a solution with it takes, in flops, a number of the factor that is moved counted as so many; none
+    /// where the package that factorised does not say the size of its factors.
+    fn work(&self) -> Result<Option<Work>> {
+        let (mut conditioner, mut factor) = (ptr::null_mut(), ptr::null_mut());
+        // SAFETY: objects of ours; the factor is lent, and the numbers are written where they are told to.
+        let info = unsafe {
+            checked(ffi::KSPGetPC(self.solver.raw, &mut conditioner))?;
+            checked(ffi::PCFactorGetMatrix(conditioner, &mut factor))?;
+            let mut info = std::mem::zeroed::<ffi::MatInfo>();
+            checked(ffi::MatGetInfo(factor, ffi::MatInfoType_MAT_GLOBAL_SUM, &mut info))?;
+            info
+        };
+        let (entries, rows) = (info.nz_used, self.rows.count() as f64);
+        // The least that so many entries may have taken, with columns of one length (Cauchy and Schwarz).
+        let flops = entries * entries / (2.0 * rows.max(1.0));
+        let work = Work { factorisation: flops + FACTOR_MOVED * entries, solution: SOLUTION_MOVED * entries };
+        Ok((entries > 0.0).then_some(work))
+    }
+
     /// Motions that the matrix shrinks to nothing, by inverse iteration with the factor there is, one after the other.
     fn null_motions(&self) -> std::result::Result<Vec<Vec<f64>>, LinearError> {
         let mut found: Vec<Vec<f64>> = Vec::new();
@@ -440,11 +476,12 @@ impl System {
 }
 
 impl LinearSolver for Petsc {
-    fn analyse(&mut self, pattern: &Csr, unknowns: Unknowns) -> std::result::Result<(), LinearError> {
+    fn set_pattern(&mut self, pattern: &Csr, unknowns: Unknowns) -> std::result::Result<(), LinearError> {
         self.prepare(pattern, &unknowns).map_err(LinearError::Input)
     }
 
-    fn factorise(&mut self, values: &[f64]) -> std::result::Result<(), LinearError> {
+    /// What iterates anyway preconditions nothing; of a factor the cost is that which MUMPS says, or what there is to say of its size.
+    fn factorise(&mut self, values: &[f64]) -> std::result::Result<Factored, LinearError> {
         let system = self.system()?;
         system.factorised = false;
         system.ranks.agree(Rendezvous::Matrix, values).map_err(LinearError::Input)?;
@@ -453,42 +490,33 @@ impl LinearSolver for Petsc {
         }
         system.factorise(values)?;
         system.factorised = true;
-        Ok(())
+        let work = if system.direct { system.work().map_err(LinearError::Other)? } else { None };
+        Ok(Factored { signs: None, work })
     }
 
     fn solve(&mut self, rhs: &mut [f64]) -> std::result::Result<(), LinearError> {
-        let system = self.system()?;
-        if !system.factorised {
-            return Err(LinearError::Other("nothing is factorised".into()));
-        }
-        system.ranks.agree(Rendezvous::Forces, rhs).map_err(LinearError::Input)?;
-        if rhs.iter().any(|force| !force.is_finite()) {
-            return Err(LinearError::NotFinite("the forces are not finite".into()));
-        }
-        system.solve(rhs)?;
+        self.checked(rhs)?.solve(rhs)?;
         self.unasked()
     }
 
-    fn influence(
-        &self,
+    fn substitute(&mut self, x: &mut [f64]) -> std::result::Result<(), LinearError> {
+        self.checked(x)?.apply(x)
+    }
+
+    fn compliance(
+        &mut self,
         loads: &[Vec<(usize, f64)>],
         at: &[usize],
         x: &mut [f64],
-    ) -> std::result::Result<(), LinearError> {
+    ) -> std::result::Result<bool, LinearError> {
         let Some(system) = self.system.as_ref().filter(|system| system.factorised) else {
             return Err(LinearError::Other("nothing is factorised".into()));
         };
         let sizes = [loads.len() as f64, at.len() as f64];
         system.ranks.agree(Rendezvous::Loads, &sizes).map_err(LinearError::Input)?;
         let pieces = loads.chunks(TOGETHER).zip(x.chunks_mut((TOGETHER * at.len()).max(1)));
-        pieces.into_iter().try_for_each(|(loads, x)| system.influence(loads, at, x)).map_err(LinearError::Other)
-    }
-
-    fn row(&self, row: usize) -> Vec<(usize, f64)> {
-        self.system.as_ref().filter(|system| system.factorised).map_or_else(Vec::new, |system| {
-            let entries = system.pattern.starts[row]..system.pattern.starts[row + 1];
-            entries.map(|entry| (system.pattern.columns[entry], system.values[entry])).collect()
-        })
+        pieces.into_iter().try_for_each(|(loads, x)| system.influence(loads, at, x)).map_err(LinearError::Other)?;
+        Ok(true)
     }
 }
 

@@ -3,8 +3,10 @@
 //! matrix jump and the others change little, the old factor with this correction is a preconditioner as good as if nothing
 //! had jumped.
 
+use crate::error::Error;
 use crate::factor::Factor;
 use crate::full::Full;
+use crate::pattern::check_length;
 use crate::solve::{Halves, Workspace};
 use crate::vector::{Number, subtract};
 
@@ -53,6 +55,13 @@ impl Change {
         self.small.solve_together(&mut weights, width);
         weights
     }
+
+    /// Adds `U weights` to a vector.
+    pub fn push(&self, weights: &[f64], x: &mut [f64]) {
+        for (column, weight) in self.columns.iter().zip(weights) {
+            column.iter().for_each(|&(unknown, value)| x[unknown] += weight * value);
+        }
+    }
 }
 
 impl<T: Number> Halves<'_, T> {
@@ -81,34 +90,22 @@ impl<T: Number> Halves<'_, T> {
     }
 }
 
-/// What is done to a vector: `x <- M^-1 x`.
-pub(crate) type Map<'a> = Box<dyn FnMut(&mut [f64]) + 'a>;
-
-/// What a factor is taken with.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Preconditioner<'a> {
-    /// In single precision.
-    pub single: Option<Halves<'a, f32>>,
-    /// Put right for this.
-    pub change: Option<&'a Change>,
-}
-
-impl<'a> Preconditioner<'a> {
-    /// `x <- M^-1 x` for the equilibrated matrix that was factorised.
-    pub fn open(self, factor: &'a Factor) -> Map<'a> {
-        match self.single {
-            Some(single) => Box::new(single.open(self.change)),
-            None => Box::new(factor.halves().open(self.change)),
-        }
-    }
-}
-
-impl<'a, T: Number> Halves<'a, T> {
-    fn open(self, change: Option<&'a Change>) -> impl FnMut(&mut [f64]) + 'a {
+impl<T: Number> Halves<'_, T> {
+    /// `x <- (A + U V^T)^-1 x` for the matrix itself.
+    ///
+    /// # Errors
+    /// [`Error::NotFactorised`]; [`Error::WrongLength`] unless there is one number for each unknown.
+    pub fn apply_inverse(&self, change: Option<&Change>, x: &mut [f64]) -> Result<(), Error> {
+        let Factor { scaling, symbolic, .. } = self.factor;
+        self.factor.check_ready()?;
+        check_length("x", symbolic.pattern.len(), x.len())?;
         let mut work = Workspace::new(self.factor);
-        move |x| match change {
+        x.iter_mut().zip(&scaling.rows).for_each(|(x, scale)| *x *= scale);
+        match change {
             Some(change) => self.substitute_changed(change, x, &mut work),
             None => self.substitute(x, &mut work),
         }
+        x.iter_mut().zip(&scaling.columns).for_each(|(x, scale)| *x *= scale);
+        Ok(())
     }
 }

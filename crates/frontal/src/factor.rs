@@ -4,6 +4,7 @@ use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule};
 use crate::diagnose;
 use crate::error::Error;
+use crate::huge;
 use crate::numeric::Numeric;
 use crate::pattern::check_length;
 use crate::plan::Plan;
@@ -60,6 +61,7 @@ fn fit(numbers: &mut Vec<f64>, len: usize) {
     if numbers.capacity() < len {
         *numbers = Vec::new();
         *numbers = vec![0.0; len];
+        huge::ask(numbers);
     } else {
         numbers.resize(len, 0.0);
     }

@@ -1,11 +1,11 @@
 //! FGMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by a factor, within a recycled outer space.
 
-use crate::change::{Map, Preconditioner};
 use crate::error::Error;
 use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
 use crate::recycle::{Outer, orthogonalise};
 use crate::refine::check_finite;
+use crate::scaling::Scaling;
 use crate::vector::{norm, subtract};
 
 /// When an iterative solution ends.
@@ -46,39 +46,39 @@ impl Factor {
     /// # Errors
     /// [`Error::NotFactorised`], [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, Error> {
-        let matrix = (&self.symbolic.pattern, values);
-        let preconditioner = Preconditioner { single: None, change: None };
-        self.solve_recycling((matrix, preconditioner), rhs, krylov, (&mut Outer::default(), true))
-    }
-
-    /// The same for a matrix of any pattern with a preconditioner put right for a change, beginning in the space of the
-    /// directions of earlier solutions, with the `same` matrix or with another; its own are added to them.
-    pub(crate) fn solve_recycling(
-        &self,
-        ((pattern, values), preconditioner): ((&Pattern, &[f64]), Preconditioner),
-        rhs: &mut [f64],
-        krylov: &Krylov,
-        (outer, same): (&mut Outer, bool),
-    ) -> Result<Convergence, Error> {
         self.check_ready()?;
-        check_length("values", pattern.nonzeros(), values.len())?;
-        check_length("rhs", pattern.len(), rhs.len())?;
-        if pattern.len() == 0 {
-            return Ok(Convergence { converged: true, ..Default::default() });
-        }
-        pattern.check_finite(values)?;
-        check_finite(rhs, pattern.len())?;
-        let (precondition, scaled) = (preconditioner.open(self), rhs.to_vec());
-        let mut system = OtherValues { factor: self, matrix: (pattern, values), precondition, scaled };
-        let mut x = vec![0.0; rhs.len()];
-        scale(rhs, &self.scaling.rows);
-        if !same {
-            outer.carry_over(&mut system);
-        }
-        let convergence = fgmres(&mut system, rhs, &mut x, krylov, outer);
-        scale(&mut x, &self.scaling.columns);
-        rhs.copy_from_slice(&x);
-        Ok(convergence)
+        let pattern = &self.symbolic.pattern;
+        let precondition = |x: &mut [f64]| self.halves().apply_inverse(None, x);
+        let system = Scaled::new((pattern, values), &self.scaling, precondition)?;
+        solve_recycling(system, rhs, krylov, (&mut Outer::default(), true))
+    }
+}
+
+/// Solves in place beginning in the space of the directions of earlier solutions, with the `same` matrix or with another; its own
+/// are added to them.
+pub(crate) fn solve_recycling<P: FnMut(&mut [f64]) -> Result<(), E>, E: From<Error>>(
+    mut system: Scaled<'_, P, E>,
+    rhs: &mut [f64],
+    krylov: &Krylov,
+    (outer, same): (&mut Outer, bool),
+) -> Result<Convergence, E> {
+    let pattern = system.matrix.0;
+    check_length("rhs", pattern.len(), rhs.len())?;
+    if pattern.len() == 0 {
+        return Ok(Convergence { converged: true, ..Default::default() });
+    }
+    check_finite(rhs, pattern.len())?;
+    let mut x = vec![0.0; rhs.len()];
+    scale(rhs, &system.scaling.rows);
+    if !same {
+        outer.carry_over(&mut system);
+    }
+    let convergence = fgmres(&mut system, rhs, &mut x, krylov, outer);
+    scale(&mut x, &system.scaling.columns);
+    rhs.copy_from_slice(&x);
+    match system.failure {
+        Some(failure) => Err(failure),
+        None => Ok(convergence),
     }
 }
 
@@ -90,25 +90,48 @@ pub(crate) trait System {
     fn precondition(&mut self, x: &mut [f64]);
 }
 
-/// Another matrix than the one factorised, in the scale of the factor.
-struct OtherValues<'a> {
-    factor: &'a Factor,
+/// An equilibrated matrix with what preconditions the matrix itself.
+pub(crate) struct Scaled<'a, P, E> {
     matrix: (&'a Pattern, &'a [f64]),
-    precondition: Map<'a>,
+    scaling: &'a Scaling,
+    precondition: P,
     scaled: Vec<f64>,
+    /// What the preconditioner failed of.
+    failure: Option<E>,
 }
 
-impl System for OtherValues<'_> {
+impl<'a, P, E> Scaled<'a, P, E> {
+    /// The matrix with these factors of rows and columns.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`], [`Error::NotFinite`].
+    pub fn new(matrix: (&'a Pattern, &'a [f64]), scaling: &'a Scaling, precondition: P) -> Result<Self, Error> {
+        let (pattern, values) = matrix;
+        check_length("values", pattern.nonzeros(), values.len())?;
+        check_length("factors", pattern.len(), scaling.rows.len())?;
+        pattern.check_finite(values)?;
+        Ok(Scaled { matrix, scaling, precondition, scaled: vec![0.0; pattern.len()], failure: None })
+    }
+}
+
+impl<P: FnMut(&mut [f64]) -> Result<(), E>, E> System for Scaled<'_, P, E> {
     fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
         self.scaled.copy_from_slice(x);
-        scale(&mut self.scaled, &self.factor.scaling.columns);
+        scale(&mut self.scaled, &self.scaling.columns);
         let (pattern, values) = self.matrix;
         multiply(pattern, values, &self.scaled, y);
-        scale(y, &self.factor.scaling.rows);
+        scale(y, &self.scaling.rows);
     }
 
+    /// The factors are powers of two: nothing is rounded.
     fn precondition(&mut self, x: &mut [f64]) {
-        (self.precondition)(x);
+        x.iter_mut().zip(&self.scaling.rows).for_each(|(x, factor)| *x /= factor);
+        if let Err(failure) = (self.precondition)(x) {
+            // Of no use, which ends the iterations.
+            x.fill(f64::NAN);
+            self.failure = Some(failure);
+        }
+        x.iter_mut().zip(&self.scaling.columns).for_each(|(x, factor)| *x /= factor);
     }
 }
 

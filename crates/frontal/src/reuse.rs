@@ -1,13 +1,14 @@
 //! Not factorising at all when an old factor will do.
 
-use crate::change::{Change, Preconditioner};
+use crate::change::Change;
+use crate::direct::Direct;
 use crate::error::Error;
 use crate::factor::{Factor, Report};
-use crate::krylov::{Convergence, Krylov};
+use crate::krylov::{Convergence, Krylov, Scaled, solve_recycling};
 use crate::pattern::{Pattern, check_length};
 use crate::recycle::Outer;
 use crate::refine::Accuracy;
-use crate::rounded::Rounded;
+use crate::scaling::Scaling;
 use crate::symbolic::{Prediction, Symbolic};
 use serde::{Deserialize, Serialize};
 
@@ -49,9 +50,24 @@ impl Default for Policy {
 
 impl Policy {
     /// Iterations that one solution may take; zero if a fresh factor is the cheaper way from the start.
-    pub fn affordable_iterations(&self, cost: &Prediction) -> usize {
-        let affordable = (self.share * cost.factorisation_work() / cost.solve_work().max(1.0)) as usize;
+    pub fn affordable_iterations(&self, cost: Work) -> usize {
+        let affordable = (self.share * cost.factorisation / cost.solution.max(1.0)) as usize;
         if self.reuse == Reuse::Never || affordable < self.least_iterations { 0 } else { affordable.min(40) }
+    }
+}
+
+/// What a factor takes to be made and to be used, in one unit.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Work {
+    /// Of a factorisation.
+    pub factorisation: f64,
+    /// Of a solution with it.
+    pub solution: f64,
+}
+
+impl From<&Prediction> for Work {
+    fn from(cost: &Prediction) -> Self {
+        Work { factorisation: cost.factorisation_work(), solution: cost.solve_work() }
     }
 }
 
@@ -93,68 +109,31 @@ pub struct Service {
     /// Iterations, and those of the sequence that began last.
     iterations: usize,
     latest: usize,
-    /// Whether it preconditions in single precision, where that was found out.
-    single: Option<bool>,
 }
 
-/// A factor with a policy: solves a sequence of systems with one pattern and slowly changing values.
-#[derive(Debug)]
-pub struct Solver {
-    symbolic: Symbolic,
-    /// The same analysis for values of the other kind, where there were any.
-    other_kind: Option<Symbolic>,
-    factor: Factor,
+/// The policy at work, whatever makes the factor: whether that may serve for the next matrix, and the iterations that it
+/// preconditions.
+#[derive(Debug, Default)]
+pub struct Recycler {
     policy: Policy,
+    work: Work,
     /// Whether the factor may be used for the next matrix.
     usable: bool,
     /// Directions of the solutions since the sequence began.
     outer: Outer,
-    /// The factor in single precision, which is enough to precondition.
-    rounded: Rounded,
     /// Iterations spent on the matrix at hand.
     spent: usize,
     service: Service,
     /// What is known to have changed since.
     change: Option<Change>,
-    /// Pattern of the matrices to come, where it is not the one that was analysed.
-    other: Option<Pattern>,
-    counts: Counts,
+    /// Iterations since it was made, wasted ones included, and systems solved by them.
+    pub counts: Counts,
 }
 
-impl Solver {
-    /// Takes an analysis and makes room for one factor.
-    pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
-        let factor = symbolic.new_factor();
-        let (outer, rounded, counts) = (Outer::default(), Rounded::default(), Counts::default());
-        Solver {
-            symbolic,
-            other_kind: None,
-            factor,
-            policy,
-            usable: false,
-            outer,
-            rounded,
-            spent: 0,
-            service: Service::default(),
-            change: None,
-            other: None,
-            counts,
-        }
-    }
-
-    /// The analysis.
-    pub fn symbolic(&self) -> &Symbolic {
-        &self.symbolic
-    }
-
-    /// The factor of the last matrix that was factorised.
-    pub fn factor(&self) -> &Factor {
-        &self.factor
-    }
-
-    /// What was done so far.
-    pub fn counts(&self) -> Counts {
-        self.counts
+impl Recycler {
+    /// With a policy, and without a factor.
+    pub fn new(policy: Policy) -> Self {
+        Recycler { policy, ..Self::default() }
     }
 
     /// Begins a new sequence, such as the attempt of an increment: the next matrix is factorised, unless the policy
@@ -168,25 +147,27 @@ impl Solver {
 
     /// Whether the last sequence took no more work than all since the factorisation did on average.
     fn pays(&self) -> bool {
-        let cost = self.symbolic.prediction();
-        let work = |iterations: usize| cost.solve_work() * iterations as f64;
-        let Service { sequences, iterations, latest, .. } = self.service;
-        work(latest) * sequences as f64 <= cost.factorisation_work() + work(iterations)
+        let work = |iterations: usize| self.work.solution * iterations as f64;
+        let Service { sequences, iterations, latest } = self.service;
+        work(latest) * sequences as f64 <= self.work.factorisation + work(iterations)
     }
 
     /// What the factor there is has served for, if it may serve for the next sequence too.
     pub fn service(&self) -> Option<Service> {
         let stays = self.policy.reuse == Reuse::AcrossSequences && self.affordable_iterations() > 0;
-        (stays && self.pays()).then(|| Service { single: self.rounded.fit(), ..self.service })
+        (stays && self.pays()).then_some(self.service)
     }
 
-    /// Has the factor there is be one that has served for so much: what follows is the same to the bit as after that.
-    pub fn resume(&mut self, service: Service) {
-        self.usable = true;
-        self.service = service;
-        self.make_room();
-        self.rounded.settle(&self.factor, service.single);
-        self.change = None;
+    /// There is a new factor, or the making of one, which took so much, has begun anew for one that served for so much.
+    pub fn factorised(&mut self, work: Work, service: Option<Service>) {
+        (self.work, self.usable, self.change) = (work, true, None);
+        match service {
+            Some(service) => self.service = service,
+            None => {
+                self.outer.clear();
+                self.service = Service { sequences: 1, ..Service::default() };
+            }
+        }
     }
 
     /// Has the next matrix factorised, whatever the policy.
@@ -194,9 +175,21 @@ impl Solver {
         self.usable = false;
     }
 
+    /// There is no factor any more.
+    pub fn forget(&mut self) {
+        self.refuse();
+        self.outer.clear();
+        self.change = None;
+    }
+
     /// Iterations with the factor there is that the next solution may take; none if a fresh factor comes first.
     pub fn affordable_iterations(&self) -> usize {
-        if self.usable { self.policy.affordable_iterations(&self.symbolic.prediction()) } else { 0 }
+        if self.usable { self.policy.affordable_iterations(self.work) } else { 0 }
+    }
+
+    /// Whether a factor that takes so much is to precondition at all.
+    pub fn preconditions(&self, work: Work) -> bool {
+        self.policy.affordable_iterations(work) > 0
     }
 
     /// Says by what the matrices to come differ from the one that was factorised, besides small changes: the factor is
@@ -205,38 +198,118 @@ impl Solver {
         self.change = change;
     }
 
-    /// Takes another analysis, and for its factor the memory of the one there was.
-    pub fn replace(&mut self, symbolic: Symbolic) {
-        self.other_kind = None;
-        self.exchange(symbolic);
-    }
-
-    /// The analysis for values that are symmetric, or are not.
+    /// Solves `A x = b` in place with the factor there is as the preconditioner, until the residual is below `tolerance` times the
+    /// right-hand side, as in [`Krylov::tolerance`], in the scale of the matrix that was factorised; `None`, with `rhs` as it was,
+    /// if the policy has the matrix factorised, or if that took too many iterations. Of the `same` matrix as in the last call more
+    /// is known: both together may take as many iterations as one alone. `precondition` does `x <- (A0 + change)^-1 x` with the
+    /// matrix `A0` that was factorised.
     ///
     /// # Errors
-    /// Those of [`Symbolic::for_values`].
-    pub fn analysis(&self, symmetric: bool) -> Result<Symbolic, Error> {
-        match &self.other_kind {
-            Some(other) if other.prediction().symmetric == symmetric => Ok(other.clone()),
-            _ => self.symbolic.for_values(symmetric),
+    /// [`Error::WrongLength`], [`Error::NotFinite`]; those of `precondition`.
+    pub fn iterate<E: From<Error>>(
+        &mut self,
+        ((pattern, values), scaling, same): ((&Pattern, &[f64]), &Scaling, bool),
+        mut precondition: impl FnMut(Option<&Change>, &mut [f64]) -> Result<(), E>,
+        rhs: &mut [f64],
+        tolerance: f64,
+    ) -> Result<Option<Convergence>, E> {
+        if !same {
+            self.spent = 0;
+            // With a change known a few iterations do, of which each takes less than the products with all earlier directions.
+            if self.change.is_some() {
+                self.outer.clear();
+            }
         }
+        let affordable = self.affordable_iterations();
+        // Where a change is known other right-hand sides follow.
+        let decades = if self.change.is_some() { (-tolerance.log10()).clamp(FEWEST, DECADES) } else { DECADES };
+        let iterations = (affordable as f64 * decades / DECADES).ceil() as usize;
+        let iterations = iterations.min(affordable.saturating_sub(self.spent));
+        if iterations == 0 {
+            return Ok(None);
+        }
+        let mut x = rhs.to_vec();
+        let krylov = Krylov { tolerance, iterations, restart: iterations };
+        let change = self.change.as_ref();
+        let system = Scaled::new((pattern, values), scaling, |x: &mut [f64]| precondition(change, x))?;
+        let convergence = solve_recycling(system, &mut x, &krylov, (&mut self.outer, same))?;
+        let Service { iterations, latest, .. } = &mut self.service;
+        for count in [&mut self.counts.iterations, &mut self.spent, iterations, latest] {
+            *count += convergence.iterations;
+        }
+        if !convergence.converged {
+            return Ok(None);
+        }
+        self.counts.solutions += 1;
+        rhs.copy_from_slice(&x);
+        Ok(Some(convergence))
+    }
+}
+
+/// A factor with a policy: solves a sequence of systems with one pattern and slowly changing values.
+#[derive(Debug)]
+pub struct Solver {
+    direct: Direct,
+    recycler: Recycler,
+    /// Pattern of the matrices to come, where it is not the one that was analysed.
+    other: Option<Pattern>,
+}
+
+impl Solver {
+    /// Takes an analysis and makes room for one factor.
+    pub fn new(symbolic: Symbolic, policy: Policy) -> Self {
+        Solver { direct: Direct::new(symbolic), recycler: Recycler::new(policy), other: None }
     }
 
-    /// Takes the analysis of [`Solver::analysis`]; the one there was is kept. The next matrix is factorised.
-    pub fn expect(&mut self, symbolic: Symbolic) {
-        if symbolic.prediction().symmetric != self.symbolic.prediction().symmetric {
-            self.other_kind = Some(self.symbolic.clone());
-            self.exchange(symbolic);
-        }
+    /// The analysis.
+    pub fn symbolic(&self) -> &Symbolic {
+        self.direct.symbolic()
     }
 
-    fn exchange(&mut self, symbolic: Symbolic) {
-        self.refuse();
-        self.outer.clear();
-        self.rounded.forget();
-        (self.change, self.other) = (None, None);
-        self.factor = symbolic.new_factor_in(self.factor.take_memory());
-        self.symbolic = symbolic;
+    /// The factor of the last matrix that was factorised.
+    pub fn factor(&self) -> &Factor {
+        self.direct.factor()
+    }
+
+    /// What was done so far.
+    pub fn counts(&self) -> Counts {
+        self.recycler.counts
+    }
+
+    /// As [`Recycler::begin`].
+    pub fn begin(&mut self) {
+        self.recycler.begin();
+    }
+
+    /// As [`Recycler::service`].
+    pub fn service(&self) -> Option<Service> {
+        self.recycler.service()
+    }
+
+    /// Has the factor there is be one that has served for so much: what follows is the same to the bit as after that.
+    pub fn resume(&mut self, service: Service) {
+        self.recycler.factorised(self.work(), Some(service));
+    }
+
+    /// As [`Recycler::refuse`].
+    pub fn refuse(&mut self) {
+        self.recycler.refuse();
+    }
+
+    /// As [`Recycler::change`].
+    pub fn change(&mut self, change: Option<Change>) {
+        self.recycler.change(change);
+    }
+
+    fn work(&self) -> Work {
+        Work::from(&self.symbolic().prediction())
+    }
+
+    /// Takes another analysis, and for its factor the memory of the one there was.
+    pub fn replace(&mut self, symbolic: Symbolic) {
+        self.recycler.forget();
+        self.other = None;
+        self.direct.replace(symbolic);
     }
 
     /// Has the matrices to come have another pattern, of the same unknowns: the factor there is may precondition them. They
@@ -245,9 +318,9 @@ impl Solver {
     /// # Errors
     /// [`Error::WrongLength`] for another number of unknowns.
     pub fn follow(&mut self, pattern: Pattern) -> Result<(), Error> {
-        check_length("rows of the pattern", self.symbolic.pattern().len(), pattern.len())?;
-        self.change = None;
-        self.other = (!self.symbolic.covers(&pattern)).then_some(pattern);
+        check_length("rows of the pattern", self.symbolic().pattern().len(), pattern.len())?;
+        self.recycler.change(None);
+        self.other = (!self.symbolic().covers(&pattern)).then_some(pattern);
         Ok(())
     }
 
@@ -257,11 +330,11 @@ impl Solver {
     /// # Errors
     /// Those of [`Symbolic::factorise`] and [`Factor::solve`].
     pub fn solve(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Outcome, Error> {
-        let before = self.counts.iterations;
+        let before = self.counts().iterations;
         if let Some(convergence) = self.iterate(values, rhs, tolerance)? {
             return Ok(Outcome::Iterative(convergence));
         }
-        let wasted = self.counts.iterations - before;
+        let wasted = self.counts().iterations - before;
         let report = self.factorise(values)?;
         let accuracy = self.solve_directly(rhs)?;
         Ok(Outcome::Direct { report, accuracy, wasted })
@@ -273,11 +346,6 @@ impl Solver {
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NotFinite`].
     pub fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Option<Convergence>, Error> {
-        self.spent = 0;
-        // With a change known a few iterations do, of which each takes less than the products with all earlier directions.
-        if self.change.is_some() {
-            self.outer.clear();
-        }
         self.iterate_on((values, false), rhs, tolerance)
     }
 
@@ -301,32 +369,12 @@ impl Solver {
         rhs: &mut [f64],
         tolerance: f64,
     ) -> Result<Option<Convergence>, Error> {
-        let affordable = self.affordable_iterations();
-        // Where a change is known other right-hand sides follow.
-        let decades = if self.change.is_some() { (-tolerance.log10()).clamp(FEWEST, DECADES) } else { DECADES };
-        let iterations = (affordable as f64 * decades / DECADES).ceil() as usize;
-        let iterations = iterations.min(affordable.saturating_sub(self.spent));
-        if iterations == 0 {
-            return Ok(None);
+        if self.recycler.affordable_iterations() > 0 {
+            self.direct.round();
         }
-        self.make_room();
-        let mut x = rhs.to_vec();
-        let krylov = Krylov { tolerance, iterations, restart: iterations };
-        let preconditioner =
-            Preconditioner { single: self.rounded.of(&self.factor, rhs), change: self.change.as_ref() };
-        let pattern = self.other.as_ref().unwrap_or(self.symbolic.pattern());
-        let system = ((pattern, values), preconditioner);
-        let convergence = self.factor.solve_recycling(system, &mut x, &krylov, (&mut self.outer, same))?;
-        let Service { iterations, latest, .. } = &mut self.service;
-        for count in [&mut self.counts.iterations, &mut self.spent, iterations, latest] {
-            *count += convergence.iterations;
-        }
-        if !convergence.converged {
-            return Ok(None);
-        }
-        self.counts.solutions += 1;
-        rhs.copy_from_slice(&x);
-        Ok(Some(convergence))
+        let (direct, pattern) = (&self.direct, self.other.as_ref().unwrap_or(self.direct.symbolic().pattern()));
+        let system = ((pattern, values), &direct.factor().scaling, same);
+        self.recycler.iterate(system, |change, x| direct.precondition(change, x), rhs, tolerance)
     }
 
     /// Factorises.
@@ -334,15 +382,11 @@ impl Solver {
     /// # Errors
     /// Those of [`Symbolic::factorise`].
     pub fn factorise(&mut self, values: &[f64]) -> Result<Report, Error> {
-        self.usable = false;
-        self.outer.clear();
-        self.rounded.forget();
-        self.change = None;
-        self.counts.factorisations += 1;
-        self.counts.symmetric += usize::from(self.symbolic.prediction().symmetric);
-        self.service = Service { sequences: 1, ..Service::default() };
-        let report = self.symbolic.factorise(values, &mut self.factor)?;
-        self.usable = true;
+        self.recycler.forget();
+        self.recycler.counts.factorisations += 1;
+        self.recycler.counts.symmetric += usize::from(self.symbolic().prediction().symmetric);
+        let report = self.direct.factorise(values)?;
+        self.recycler.factorised(self.work(), None);
         Ok(report)
     }
 
@@ -351,19 +395,11 @@ impl Solver {
     /// # Errors
     /// Those of [`Factor::solve`].
     pub fn solve_directly(&mut self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
-        self.counts.solutions += 1;
-        if self.affordable_iterations() > 0 && rhs.len() == self.symbolic.pattern().len() {
-            self.make_room();
-            self.rounded.of(&self.factor, rhs);
+        self.recycler.counts.solutions += 1;
+        if self.recycler.affordable_iterations() > 0 {
+            self.direct.round();
         }
-        self.factor.solve(rhs)
-    }
-
-    /// Gives back what the factor in single precision may need.
-    fn make_room(&mut self) {
-        if !self.rounded.settled() {
-            self.factor.release();
-        }
+        self.direct.solve(rhs)
     }
 
     /// [`Factor::influence`] with the factor there is, in single precision where other matrices are to be preconditioned by
@@ -372,9 +408,6 @@ impl Solver {
     /// # Errors
     /// Those of [`Factor::influence`].
     pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
-        match self.rounded.known(&self.factor) {
-            Some(single) => single.influence(loads, at, x),
-            None => self.factor.influence(loads, at, x),
-        }
+        self.direct.influence(loads, at, x)
     }
 }

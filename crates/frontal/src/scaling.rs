@@ -7,21 +7,28 @@ const SWEEPS: usize = 3;
 
 /// Factors of rows and columns, powers of two so that scaling rounds nothing.
 #[derive(Debug, Clone)]
-pub(crate) struct Scaling {
-    pub rows: Vec<f64>,
-    pub columns: Vec<f64>,
+pub struct Scaling {
+    pub(crate) rows: Vec<f64>,
+    pub(crate) columns: Vec<f64>,
     /// Largest values by row and column, reused from one factorisation to the next.
     row_norms: Vec<f64>,
     column_norms: Vec<f64>,
 }
 
 impl Scaling {
-    pub fn identity(n: usize) -> Self {
+    /// That which brings the largest values of the rows and columns of a matrix close to one.
+    pub fn of(pattern: &Pattern, values: &[f64]) -> Self {
+        let mut scaling = Self::identity(pattern.len());
+        scaling.equilibrate(pattern, values);
+        scaling
+    }
+
+    pub(crate) fn identity(n: usize) -> Self {
         Scaling { rows: vec![1.0; n], columns: vec![1.0; n], row_norms: vec![0.0; n], column_norms: vec![0.0; n] }
     }
 
     /// Ruiz's iteration in the largest-value norm (CERFACS report TR/PA/01/35, 2001).
-    pub fn equilibrate(&mut self, pattern: &Pattern, values: &[f64]) {
+    pub(crate) fn equilibrate(&mut self, pattern: &Pattern, values: &[f64]) {
         self.rows.fill(1.0);
         self.columns.fill(1.0);
         for _ in 0..SWEEPS {
@@ -35,7 +42,7 @@ impl Scaling {
     }
 
     /// Writes the scaled values and returns the largest of them.
-    pub fn apply(&self, pattern: &Pattern, values: &[f64], scaled: &mut [f64]) -> f64 {
+    pub(crate) fn apply(&self, pattern: &Pattern, values: &[f64], scaled: &mut [f64]) -> f64 {
         let mut largest = 0.0;
         for (range, scale) in pattern.starts().windows(2).map(|w| w[0]..w[1]).zip(&self.rows) {
             let entries = values[range.clone()].iter().zip(&pattern.columns()[range.clone()]);

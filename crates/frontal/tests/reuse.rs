@@ -3,7 +3,7 @@
 #[path = "../benches/models/mod.rs"]
 mod models;
 
-use frontal::{Change, Krylov, Options, Outcome, Pattern, Policy, Reuse, Solver, Symbolic};
+use frontal::{Change, Krylov, Options, Outcome, Pattern, Policy, Reuse, Solver, Symbolic, Work};
 
 /// A body with stiff springs on some nodes of its top, as where a rigid body touches it.
 fn with_patch(model: &models::Model, first_node: usize) -> Vec<f64> {
@@ -120,7 +120,7 @@ fn a_factor_of_one_pattern_serves_another() {
 fn small_matrices_are_always_factorised() {
     let model = models::quad4([8, 30]);
     let symbolic = Symbolic::analyse(&model.pattern, &Options::default()).expect("a good pattern");
-    assert_eq!(Policy::default().affordable_iterations(&symbolic.prediction()), 0);
+    assert_eq!(Policy::default().affordable_iterations(Work::from(&symbolic.prediction())), 0);
 }
 
 #[test]

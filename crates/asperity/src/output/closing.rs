@@ -118,13 +118,22 @@ fn snaps(snaps: &[Snap]) -> Option<String> {
 fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
     (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
     summary.timings.insert("run".into(), seconds);
-    (summary.factorisations, summary.symmetric_factorisations) = (run.memory.factorisations, run.memory.symmetric);
-    summary.timings.insert("factorisation".into(), run.memory.factorising.as_secs_f64());
+    let counts = run.solver_counts();
+    (summary.factorisations, summary.symmetric_factorisations) = (counts.factorisations, counts.symmetric);
+    let spent = run.memory.spent;
+    let phases = [
+        ("opening", spent.opening),
+        ("evaluation", spent.evaluating),
+        ("factorisation", counts.factorising),
+        ("solution", counts.solving),
+        ("compliance", counts.complying),
+        ("contact", spent.contact),
+    ];
+    summary.timings.extend(phases.map(|(phase, time)| (phase.to_owned(), time.as_secs_f64())));
     summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
     summary.notes.extend(turns(&run.stability.turns));
     summary.notes.extend(snaps(&run.stability.snaps));
     summary.timings.insert("audit".into(), run.audited.as_secs_f64());
-    summary.notes.extend(run.problem.newton.notes());
     let cut = summary.attempts.saturating_sub(summary.increments);
     if cut > summary.increments / 2 {
         summary.notes.push(format!(

@@ -78,14 +78,23 @@ impl RunLog {
         };
         Ok(Self { increments: table("increments.csv")?, iterations: table("iterations.csv")? })
     }
-    /// Adds an attempt and its iterations.
+    /// Adds an iteration, as it happens.
     ///
     /// # Errors
-    /// [`Error::File`] when a row cannot be written.
+    /// [`Error::File`] when the row cannot be written.
+    pub fn iteration(
+        &mut self,
+        problem: &Problem,
+        record: &AttemptRecord,
+        iteration: &IterationRecord,
+    ) -> Result<(), Error> {
+        self.iterations.push(&iteration_row(problem, record, iteration))
+    }
+    /// Adds an attempt, whose iterations are told.
+    ///
+    /// # Errors
+    /// [`Error::File`] when the row cannot be written.
     pub fn attempt(&mut self, problem: &Problem, record: &AttemptRecord) -> Result<(), Error> {
-        for iteration in &record.iterations {
-            self.iterations.push(&iteration_row(problem, record, iteration))?;
-        }
         self.increments.push(&attempt_row(problem, record))
     }
 }

@@ -15,6 +15,8 @@ pub struct ResultOptions {
     pub checkpoint_every: usize,
     /// Which checkpoints are kept.
     pub keep: Keep,
+    /// Whether pictures are drawn at the end.
+    pub pictures: bool,
     /// How the arrays of frames are laid down.
     pub encoding: Encoding,
     /// Files for other programs.
@@ -33,6 +35,7 @@ impl Default for ResultOptions {
             every: 1,
             checkpoint_every: 10,
             keep: Keep::Last,
+            pictures: true,
             encoding: Encoding::default(),
             export: Vec::new(),
             probes: Vec::new(),

@@ -106,6 +106,12 @@ impl Keeper {
 
 impl Observer for Recorder<'_> {
     fn iteration(&mut self, attempt: &AttemptRecord, iteration: &IterationRecord) {
+        if let Keeper::Files(files) = self.keeper {
+            let told = files.log.iteration(self.problem, attempt, iteration);
+            if let Err(error) = told {
+                files.trouble.get_or_insert(error);
+            }
+        }
         self.audience.iteration(attempt, iteration);
     }
     fn attempt(&mut self, attempt: &AttemptRecord) {

@@ -32,10 +32,12 @@ use super::quantities::{Parts, Source};
 use super::quantity::{Frame, Place};
 use super::readings::{READINGS, ReadingTable};
 use super::units::Units;
-use super::vtk::{DataArray, Series, Values};
+use super::vtk::{DataArray, Grid, Series, Values};
 use crate::Error;
 use crate::system::State;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Writes the results of a run.
@@ -44,7 +46,7 @@ pub struct Results {
     options: ResultOptions,
     origin: Origin,
     grid: BodyGrid,
-    series: Vec<(Fields, Series)>,
+    frames: Mutex<Frames>,
     /// Frames where stability was lost or found again, from the first such on.
     modes: Option<Series>,
     history: HistoryTable,
@@ -57,6 +59,51 @@ pub struct Results {
     pub(super) spent: Duration,
     /// When the summary was last written.
     told: Instant,
+}
+
+/// The series of frames. A thread of its own writes each frame while the run goes on.
+#[derive(Default)]
+struct Frames {
+    fields: Vec<Fields>,
+    series: Vec<Series>,
+    pending: Option<JoinHandle<Written>>,
+}
+
+/// The series with a frame more, and whether that was written.
+type Written = (Vec<Series>, Result<(), Error>);
+
+impl Frames {
+    fn new(series: Vec<(Fields, Series)>) -> Mutex<Self> {
+        let (fields, series) = series.into_iter().unzip();
+        Mutex::new(Self { fields, series, pending: None })
+    }
+    /// Writes a frame, one grid for each series, once the one before is there.
+    fn push(&mut self, grids: Vec<Grid>) -> Result<(), Error> {
+        self.wait()?;
+        let mut series = std::mem::take(&mut self.series);
+        let write = move || {
+            let written = series.iter_mut().zip(&grids).try_for_each(|(series, grid)| series.push(grid));
+            (series, written)
+        };
+        let spawned = std::thread::Builder::new().name("frames".into()).spawn(write);
+        self.pending = Some(spawned.map_err(|error| Error::Internal(format!("no thread to write frames: {error}")))?);
+        Ok(())
+    }
+    /// Waits for the last frame.
+    fn wait(&mut self) -> Result<(), Error> {
+        let Some(pending) = self.pending.take() else { return Ok(()) };
+        let panicked = |_| Error::Internal("the thread that writes frames has panicked".into());
+        let (series, written) = pending.join().map_err(panicked)?;
+        self.series = series;
+        written
+    }
+}
+
+impl Drop for Frames {
+    fn drop(&mut self) {
+        // What could not be written is told where the run ends.
+        let _ = self.wait();
+    }
 }
 
 /// The kinds of frames.
@@ -199,7 +246,7 @@ impl Results {
             options,
             origin,
             grid,
-            series,
+            frames: Frames::new(series),
             modes: None,
             history,
             readings,
@@ -256,9 +303,21 @@ impl Results {
     /// # Errors
     /// [`Error::File`] when it cannot be written; the one before then still stands.
     pub fn checkpoint(&self, state: &State) -> Result<(), Error> {
+        // A run that goes on from it has all frames before it.
+        self.frames.lock().unwrap_or_else(PoisonError::into_inner).wait()?;
         write_checkpoint(&self.directory.join(CHECKPOINT), &self.origin, state)
     }
-    /// Says in the summary how the run ended, and draws the standard pictures. A picture that cannot be drawn is a note
+    /// Waits for what is still being written.
+    ///
+    /// # Errors
+    /// [`Error::File`] when that could not be written.
+    pub fn settle(&mut self) -> Result<(), Error> {
+        let begun = Instant::now();
+        let written = self.frames.get_mut().unwrap_or_else(PoisonError::into_inner).wait();
+        self.spent += begun.elapsed();
+        written
+    }
+    /// Says in the summary how the run ended, and draws the standard pictures where they are wanted. A picture that cannot be drawn is a note
     /// in the summary and no failure of the run.
     ///
     /// # Errors
@@ -268,6 +327,9 @@ impl Results {
         self.account.summary.timings.insert("output".into(), self.spent.as_secs_f64());
         remove(&self.directory, [RESERVE.to_owned()])?;
         self.write_summary()?;
+        if !self.options.pictures {
+            return Ok(());
+        }
         let start = Instant::now();
         if let Err(error) = draw_standard(&self.directory, &FigureOptions::default()) {
             self.account.summary.notes.push(format!("a picture is missing: {error}"));
@@ -283,8 +345,9 @@ impl Results {
     fn write_grids(&mut self, source: &Source, mut frame: Frame) -> Result<(), Error> {
         self.exports.push(source, &frame)?;
         let mut moved = None;
-        for (fields, series) in &mut self.series {
-            series.push(&match fields {
+        let frames = self.frames.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let grids = frames.fields.iter().map(|fields| {
+            Ok(match fields {
                 Fields::Bodies => {
                     let grid = self.grid.at(&mut frame);
                     moved = self.options.export.contains(&Export::Deformed).then(|| deformed(&grid));
@@ -295,9 +358,10 @@ impl Results {
                 Fields::Surfaces => surfaces(source, &mut frame)?,
                 Fields::Tools => tools(source, &frame),
                 Fields::Deformed => moved.take().unwrap_or_default(),
-            })?;
-        }
-        Ok(())
+            })
+        });
+        let grids = grids.collect::<Result<_, Error>>()?;
+        frames.push(grids)
     }
     pub(super) fn write_summary(&mut self) -> Result<(), Error> {
         self.write_summary_as(Durability::Machine)
@@ -309,7 +373,9 @@ impl Results {
     }
     /// The result files that are there, without the frames that a `.pvd` lists.
     fn present_files(&self) -> Vec<String> {
-        let frames = self.series.iter().map(|(fields, _)| format!("{}.pvd", fields.name()));
+        let frames = self.frames.lock().unwrap_or_else(PoisonError::into_inner);
+        let frames = frames.fields.iter().map(|fields| format!("{}.pvd", fields.name())).collect::<Vec<_>>();
+        let frames = frames.into_iter();
         let tables =
             [MODES_LIST, HISTORY, READINGS, "increments.csv", "iterations.csv", CHECKPOINT, SUMMARY, PROGRESS, ASKED]
                 .map(String::from);

@@ -175,6 +175,9 @@ impl<'m> Simulation<'m> {
     /// # Errors
     /// An error when the results cannot be written.
     pub fn finish(&mut self, mut ended: Result<(), Error>, facts: &Facts) -> Result<Ended, Error> {
+        if let (Keeper::Files(files), true) = (&mut self.keeper, ended.is_ok()) {
+            ended = files.results.settle();
+        }
         let state = &self.run.state;
         // Before the first increment of a step the checkpoint of the one before stands, from which the step may yet be changed.
         let stands = state.step_increment == 0 && state.increment > 0;

@@ -8,6 +8,7 @@
 //! one sign are no equilibrium, and a reaction misses the loads by their sum. One iteration more mends that. All are ratios: a
 //! change of units changes nothing.
 
+use super::constants::convergence::{FALLING, MEMORY, NOTHING};
 use crate::system::{Constraints, Dofs, Evaluation, Row, Whole};
 
 /// The unknown with the largest unbalanced force, in its own yardstick.
@@ -41,7 +42,7 @@ pub struct Norms {
 
 /// What the yardsticks are made of besides the evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Yardstick<'a> {
+pub struct ResidualScale<'a> {
     /// Largest forces and moments of the past.
     pub past: [f64; 2],
     /// Largest coefficient of a displacement in each equation; empty before there is a matrix.
@@ -52,20 +53,13 @@ pub struct Yardstick<'a> {
     pub tolerance: f64,
 }
 
-/// Part of the past yardstick that still counts: after unloading, equilibrium is asked to a tolerance of this.
-const MEMORY: f64 = 1e-3;
-/// Forces below this multiple of what rounding leaves of their equation are no forces.
-const NOTHING: f64 = 100.0;
-/// By what factor an iteration makes unbalanced forces smaller that are not yet rounding.
-const FALLING: f64 = 10.0;
-
 impl Norms {
     /// Measures an evaluation whose unbalanced forces on the free unknowns are `residual`.
     pub fn measure(
         evaluation: &Evaluation,
         residual: &[f64],
         (dofs, constraints, wholes): (&Dofs, &Constraints, &[Whole]),
-        yardstick: &Yardstick,
+        yardstick: &ResidualScale,
     ) -> Self {
         let mut largest = [0.0_f64; 2];
         for (dof, &magnitude) in evaluation.magnitude.iter().enumerate() {

@@ -1,19 +1,11 @@
 //! What is free: motions that meet no stiffness, in an iterate and in a solution.
 
+use super::constants::regularisation::{EASED, MOST_EASED, RESISTANCE, SMALL};
 use super::linear::LinearError;
-use super::newton::{IfFree, Newton, Trouble};
+use super::newton::{IfFree, Newton, SolveError, largest};
 use super::observer::AttemptRecord;
 use crate::system::Tangent;
 use crate::{Error, Failure, Kind};
-
-/// Stiffness that props an iterate in which something is free, over the largest in the matrix,
-const PROP: f64 = 1e-4;
-/// what each iteration makes of it over which no contact changes, as the prop slows the bending of a slender body too,
-const EASED: f64 = 0.1;
-/// and how often it does so at most.
-const MOST_EASED: i32 = 5;
-/// Force over the reference force that holds what meets no stiffness.
-const RESISTANCE: f64 = 1e-3;
 
 /// The failure that motions without stiffness are, in words.
 fn unheld(text: String) -> Failure {
@@ -27,15 +19,14 @@ impl Newton<'_> {
         self.problem.terms.iter().any(|term| term.bends())
     }
 
-    /// Factorises with a small stiffness on every unknown, since an iterate may lose a contact that the solution has.
-    /// The solution itself must stand without it.
-    pub(super) fn prop(&mut self, motions: &[Vec<f64>], iteration: usize) -> Result<(), Trouble> {
-        self.propped = self.name_motions(motions);
-        let prop = PROP * EASED.powi(self.steady.min(MOST_EASED)) * self.stiffness;
+    /// Puts a small stiffness on every unknown, since an iterate may lose a contact that the solution has.
+    /// The solution itself must be stable without it.
+    pub(super) fn regularise(&mut self, motions: &[Vec<f64>]) {
+        self.regularised = self.name_motions(motions);
+        let small = SMALL * EASED.powi(self.steady.min(MOST_EASED)) * self.stiffness;
         for &place in &self.memory.workspace.pattern().diagonal {
-            self.evaluation.values[place] += prop;
+            self.evaluation.values[place] += small;
         }
-        self.factorise_matrix().map_err(|e| self.explain(e, iteration))
     }
 
     /// Whether what nothing holds stays where it is.
@@ -47,16 +38,16 @@ impl Newton<'_> {
         }
     }
 
-    /// A solution that was reached with a propped matrix must stand without the prop, unless what is free is to be held.
-    pub(super) fn stands(&mut self, u: &[f64], reference: f64) -> Result<(), Trouble> {
-        if self.propped.is_empty() {
+    /// A solution that was reached with a regularised matrix must be stable without that, unless what is free is to be held.
+    pub(super) fn is_stable(&mut self, u: &[f64], reference: f64) -> Result<(), SolveError> {
+        if self.regularised.is_empty() {
             return Ok(());
         }
-        self.propped = self.loose(u, reference)?;
-        if self.propped.is_empty() || self.holds_still() {
+        self.regularised = self.rigid_modes(u, reference)?;
+        if self.regularised.is_empty() || self.holds_still() {
             return Ok(());
         }
-        Err(unheld(self.propped.join("; ")).into())
+        Err(unheld(self.regularised.join("; ")).into())
     }
 
     /// Whether the first guess, which left no force unbalanced, carries something on that nothing holds any more: no matrix
@@ -65,26 +56,26 @@ impl Newton<'_> {
     ///
     /// # Errors
     /// What is free in words, unless it is to be held.
-    pub(super) fn drifts(&mut self, u: &[f64], record: &AttemptRecord, reference: f64) -> Result<bool, Trouble> {
+    pub(super) fn drifts(&mut self, u: &[f64], record: &AttemptRecord, reference: f64) -> Result<bool, SolveError> {
         let guessed = record.iterations.len() == 1;
         if !guessed && !self.lets_go(record) || !self.opened().any(|opened| opened) {
             return Ok(false);
         }
         self.complete(u, None)?;
-        let motions = self.loose(u, reference)?;
+        let motions = self.rigid_modes(u, reference)?;
         let hold = self.holds_still();
         if motions.is_empty() || hold {
             let drifts = guessed && !motions.is_empty();
-            self.propped = motions;
+            self.regularised = motions;
             // What was factorised last may be singular.
-            self.solver.refuse();
+            self.system.invalidate_factor();
             return Ok(drifts);
         }
         let text = format!("{}: nothing holds it any more at time {:.4}", motions.join("; "), self.at.time);
         if !guessed {
             return Err(unheld(text).into());
         }
-        Err(Trouble::End(unheld(format!(
+        Err(SolveError::End(unheld(format!(
             "{text}; support it, keep it in contact, or leave it where it is by `solver.if_free = \"hold\"`"
         ))))
     }
@@ -104,12 +95,12 @@ impl Newton<'_> {
 
     /// Motions that meet no stiffness at `u`, nor a force when they go on further than the increment did, as where everything
     /// slips and would slip back; in words. The evaluation is then that of `u`.
-    fn loose(&mut self, u: &[f64], reference: f64) -> Result<Vec<String>, Trouble> {
+    fn rigid_modes(&mut self, u: &[f64], reference: f64) -> Result<Vec<String>, SolveError> {
         let motions = match self.factorise_matrix() {
             Err(LinearError::Singular(motions)) => motions,
             factorised => {
                 // Nothing is known of the inverse of this one.
-                self.solver.refuse();
+                self.system.invalidate_factor();
                 return factorised.map(|()| Vec::new()).map_err(|e| self.explain(e, 1));
             }
         };
@@ -129,9 +120,8 @@ impl Newton<'_> {
     pub(super) fn is_held(&mut self, u: &[f64], motion: &[f64], reference: f64) -> Result<bool, Failure> {
         let mut full = vec![0.0; u.len()];
         self.step.constraints.expand(motion, &mut full);
-        let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0_f64, |m, x| m.max(x.abs()));
-        let change = largest(&mut u.iter().zip(&self.state.u).map(|(a, b)| a - b));
-        let unit = largest(&mut full.iter().copied());
+        let change = largest(u.iter().zip(&self.state.u).map(|(a, b)| a - b));
+        let unit = largest(full.iter().copied());
         for side in [1.0, -1.0] {
             let moved: Vec<f64> = u.iter().zip(&full).map(|(u, d)| u + side * 2.0 * change / unit * d).collect();
             self.evaluate(&moved, None, Tangent::None)?;
@@ -143,18 +133,20 @@ impl Newton<'_> {
     }
 
     /// What a linear system that cannot be solved means in the user's words.
-    pub(super) fn explain(&self, error: LinearError, iteration: usize) -> Trouble {
+    pub(super) fn explain(&self, error: LinearError, iteration: usize) -> SolveError {
         let motions = match &error {
             LinearError::Singular(motions) => motions,
-            LinearError::Inaccurate(_) | LinearError::NotFinite(_) => return Trouble::Failure(Failure::from(&error)),
-            LinearError::Memory(text) | LinearError::Input(text) => return Trouble::Error(Error::input(text)),
-            LinearError::Other(_) => return Trouble::Error(Error::Internal(error.to_string())),
+            LinearError::Inaccurate(_) | LinearError::NotFinite(_) => {
+                return SolveError::Failure(Failure::from(&error));
+            }
+            LinearError::Memory(text) | LinearError::Input(text) => return SolveError::Error(Error::input(text)),
+            LinearError::Other(_) => return SolveError::Error(Error::Internal(error.to_string())),
         };
         let text = self.name_motions(motions).join("; ");
         if iteration == 0 {
-            Trouble::End(unheld(format!("{text}: nothing holds it; support it, or bring it into contact")))
+            SolveError::End(unheld(format!("{text}: nothing holds it; support it, or bring it into contact")))
         } else {
-            Trouble::Failure(unheld(format!("{text} in iteration {iteration}")))
+            SolveError::Failure(unheld(format!("{text} in iteration {iteration}")))
         }
     }
 

@@ -1,18 +1,19 @@
-//! One attempt at an increment: Newton's iterations from the first guess of the predictor.
+//! One attempt at an increment: Newton's iterations from the first guess of the predictor. All iterations of a run go through
+//! [`Newton::iterate`], those of a path of arc length and those of a relaxation too.
 
-use super::convergence::{Norms, Yardstick};
-use super::influences::Influences;
-use super::linear::{Factors, LinearSolver};
-use super::mixed::Mixed;
+use super::constants::iterations::{NAMED, PATIENCE, SLOPE, STALLED, STALLS, STRICT};
+use super::convergence::{Norms, ResidualScale};
+use super::cycle::{Cycle, CycleDetector};
+use super::linear::{Factors, LinearSystem};
 use super::observer::{AttemptRecord, IterationRecord, Observer};
 use super::path::{Path, Reached};
 use super::problem::Problem;
 use super::progress::Progress;
-use super::relax::Drag;
+use super::relax::PseudoTime;
 use super::schedule::Step;
+use super::semismooth::MipStress;
 use super::step::forcing;
-use super::trail::{Cycle, Trail};
-use crate::system::{Assembly, Evaluation, Factorised, Instant, Kinks, State, Tangent, Trial, Workspace};
+use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace};
 use crate::{Error, Failure, Kind};
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,9 +25,6 @@ pub enum Variant {
     Full,
     /// That of the attempt's first iteration.
     Modified,
-    /// The one of an earlier increment while it serves. Results then depend on what was computed before, to within the
-    /// tolerance: restart and repetition are no longer identical to the bit.
-    Kept,
 }
 
 /// What becomes of a motion that nothing holds and nothing drives, as of a body that has lost its contact.
@@ -90,14 +88,24 @@ impl Default for NewtonOptions {
 }
 
 impl NewtonOptions {
-    /// What a user must know of these options when reading the results.
-    pub fn notes(&self) -> Option<String> {
-        (self.variant == Variant::Kept).then(|| {
-            "newton = \"kept\": matrices are kept across increments; results agree with those of a restarted run to the \
-             tolerance only, not to the bit"
-                .into()
-        })
+    /// When an older factor preconditions: never where one matrix serves a whole attempt.
+    pub(super) fn policy(&self) -> frontal::Policy {
+        match self.variant {
+            Variant::Full => self.factors.policy(),
+            Variant::Modified => Factors::Fresh.policy(),
+        }
     }
+}
+
+/// Time that the procedure took, but for its linear systems.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Spent {
+    /// Opening the terms of attempts and their patterns.
+    pub opening: Duration,
+    /// Evaluating the terms: search, stencils, forces and matrices.
+    pub evaluating: Duration,
+    /// The contact points over the steps, without their linear systems.
+    pub contact: Duration,
 }
 
 /// Memory of the iterations that lives through the run.
@@ -105,37 +113,24 @@ impl NewtonOptions {
 pub struct Memory {
     /// Pattern, places and buffers.
     pub workspace: Workspace,
-    /// Pattern that was analysed, pattern that the solver was told of, and the unknowns of both.
-    pub(super) analysed: usize,
-    pub(super) followed: usize,
-    pub(super) free: Vec<usize>,
-    /// Whether there is a factor that [`Variant::Modified`] and [`Variant::Kept`] may use again.
+    /// Whether there is a factor that [`Variant::Modified`] uses on.
     pub(super) current: bool,
-    /// The matrix that was factorised last, where an accepted state may hold it.
-    pub(super) factorised: Option<Arc<Factorised>>,
-    /// Stencils that bend.
+    /// Contact points.
     pub(super) kinks: Kinks,
-    pub(super) mixed: Mixed,
-    pub(super) influences: Influences,
+    pub(super) mip: MipStress,
     /// Unknowns of tools that nothing bore where the last attempt failed.
     pub(super) unborne: Vec<usize>,
     /// The evaluation of the last accepted increment: room for the next.
     pub spare: Option<Evaluation>,
-    /// Room for the evaluation of another first guess.
+    /// Room for the forces of the loads of a path.
     pub(super) other: Option<Evaluation>,
-    /// Analyses of the solver so far.
-    pub analyses: usize,
-    /// Factorisations so far.
-    pub factorisations: usize,
-    /// Those of matrices that are symmetric, as L D L^T.
-    pub symmetric: usize,
-    /// Time that they took.
-    pub factorising: Duration,
+    /// What took how long.
+    pub spent: Spent,
 }
 
 /// Why an attempt ended without a solution.
 #[derive(Debug)]
-pub enum Trouble {
+pub enum SolveError {
     /// A smaller increment may help.
     Failure(Failure),
     /// Nothing smaller helps: the run does not go on.
@@ -144,7 +139,7 @@ pub enum Trouble {
     Error(Error),
 }
 
-impl From<Failure> for Trouble {
+impl From<Failure> for SolveError {
     fn from(failure: Failure) -> Self {
         Self::Failure(failure)
     }
@@ -172,7 +167,7 @@ pub struct Newton<'a> {
     pub(super) assembly: Assembly<'a>,
     pub(super) at: Instant,
     pub(super) memory: &'a mut Memory,
-    pub(super) solver: &'a mut dyn LinearSolver,
+    pub(super) system: &'a mut LinearSystem,
     pub(super) evaluation: Evaluation,
     /// Whether the matrix belongs to the state that was evaluated last.
     pub(super) linearised: bool,
@@ -182,30 +177,62 @@ pub struct Newton<'a> {
     pub(super) coefficients: Vec<f64>,
     /// Multiple of the initial slope that the line search allows at the end of a step.
     pub(super) bound: f64,
-    /// Motions that the last matrix was propped against, in words.
-    pub(super) propped: Vec<String>,
+    /// Motions that the last matrix was regularised against, in words.
+    pub(super) regularised: Vec<String>,
     /// Iterations in a row over which no contact changed.
     pub(super) steady: i32,
-    /// What the unknowns are dragged through.
-    pub(super) medium: Option<Drag>,
+    /// The implicit step through a viscous medium that is being made.
+    pub(super) medium: Option<PseudoTime>,
     /// The path that the step follows.
     pub(super) path: Option<Path<'a>>,
 }
 
-/// The line search takes a step at whose end the slope is at most this multiple of the initial one: a point that
-/// closes over the step raises it a little and is dealt with by the next iteration; only what goes far astray is
-/// shortened.
-const SLOPE: f64 = 10.0;
-/// An iteration with an old factor stalls that leaves more than this part of the unbalanced forces; so many in a row, and
-/// the next has a fresh one.
-const STALLED: f64 = 0.5;
-const STALLS: usize = 2;
-/// Iterations after which the line search turns strict: a step must then lower the slope,
-const PATIENCE: usize = 8;
-/// to this part of the initial one. Points that slip to and fro in turn are held by it.
-const STRICT: f64 = 0.5;
-/// Points of a cycle that a message names.
-const NAMED: usize = 3;
+/// Unknowns, and what prescribed ones still miss there, if anything.
+pub(super) type Iterate = (Vec<f64>, Option<Vec<f64>>);
+
+/// What iterations are to reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Goal {
+    /// Equilibrium at the end of the increment.
+    Equilibrium,
+    /// Less of the unbalanced forces: a part of those at the beginning, or of the tolerance where that is more, within so many
+    /// iterations after the first evaluation.
+    Less { part: f64, of_tolerance: f64, most: usize },
+    /// This part of the tolerance, or rounding, within so many iterations none of which leaves more than the one before.
+    Balance { of_tolerance: f64, most: usize },
+}
+
+/// A sequence of iterations: what they went through so far.
+#[derive(Debug, Default)]
+pub(super) struct Sequence {
+    cycles: CycleDetector,
+    progress: Progress,
+    /// Iterations so far, and when they began anew since multipliers were improved, how often that was.
+    count: usize,
+    begun: usize,
+    augmentation: usize,
+    /// What the last iteration changed, which part of its step it took, whether its matrix was factorised, and the unbalanced forces
+    /// that it began with and, at the first, all began with.
+    correction: f64,
+    taken: f64,
+    factorised: bool,
+    ratio: f64,
+    first: f64,
+    /// Iterations in a row that stalled.
+    stalls: usize,
+}
+
+impl Sequence {
+    /// Begins anew after multipliers were improved.
+    fn improved(&mut self) {
+        (self.augmentation, self.begun) = (self.augmentation + 1, self.count);
+        (self.correction, self.taken, self.factorised, self.ratio) = (0.0, 0.0, false, 0.0);
+    }
+    /// Iterations so far.
+    pub fn solutions(&self) -> usize {
+        self.count.saturating_sub(1)
+    }
+}
 
 impl<'a> Newton<'a> {
     /// Opens all terms at the accepted state.
@@ -214,8 +241,9 @@ impl<'a> Newton<'a> {
         state: &'a State,
         dt: f64,
         memory: &'a mut Memory,
-        solver: &'a mut dyn LinearSolver,
+        system: &'a mut LinearSystem,
     ) -> Result<Self, Failure> {
+        let begun = std::time::Instant::now();
         let step = &problem.steps[state.step];
         let time = (state.step_time + dt, state.time + dt);
         let factor = step.arc_length.as_ref().map(|_| state.factor);
@@ -227,9 +255,10 @@ impl<'a> Newton<'a> {
             if step.arc_length.is_some() || step.ends_at(at.step_time) { problem.removable.clone() } else { 0..0 };
         let assembly = Assembly { terms, attempts, dofs, constraints: &step.constraints, apart };
         memory.workspace.prepare(&assembly, state)?;
-        memory.mixed.begin(&assembly, &memory.workspace);
+        memory.mip.begin(&assembly, &memory.workspace);
         let evaluation = memory.spare.take().unwrap_or_else(|| Evaluation::new(&problem.terms, state));
         let residual = vec![0.0; step.constraints.free_count()];
+        memory.spent.opening += begun.elapsed();
         Ok(Self {
             problem,
             state,
@@ -237,14 +266,14 @@ impl<'a> Newton<'a> {
             assembly,
             at,
             memory,
-            solver,
+            system,
             evaluation,
             linearised: false,
             residual,
             stiffness: 0.0,
             coefficients: Vec::new(),
             bound: SLOPE,
-            propped: Vec::new(),
+            regularised: Vec::new(),
             steady: 0,
             medium: None,
             path: None,
@@ -252,82 +281,138 @@ impl<'a> Newton<'a> {
     }
 
     /// Iterates to the solution.
-    pub fn solve(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, Trouble> {
-        let options = &self.problem.newton;
-        let (mut u, mut missing) = match &self.step.arc_length {
+    pub fn solve(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, SolveError> {
+        let mut at = match &self.step.arc_length {
             Some(arc) => (self.begin_path(arc)?, None),
             None => self.predict()?,
         };
-        let (mut correction, mut taken, mut factorised, mut ratio) = (0.0, 0.0, false, 0.0);
         self.begin_sequence();
-        let (mut trail, mut progress, mut still) = (Trail::default(), Progress::default(), false);
-        let (mut augmentation, mut begun, mut stalls) = (0, 0, 0);
-        for iteration in 0.. {
-            self.refresh_stiffness();
+        let (mut sequence, mut still) = (Sequence::default(), false);
+        while let Some(norms) =
+            self.iterate(&mut at, Goal::Equilibrium, &mut sequence, (&mut *record, &mut *observer))?
+        {
+            let u = &at.0;
+            if !still && self.path.is_none() && self.drifts(u, record, norms.reference[0])? {
+                at = self.begin(self.state.u.clone())?;
+                still = true;
+                continue;
+            }
+            self.is_stable(u, norms.reference[0])?;
+            if !self.augment(u)? {
+                return Ok(self.converged(at.0, norms));
+            }
+            sequence.improved();
+            self.bound = SLOPE;
+        }
+        self.memory.unborne = self.unborne();
+        let kind = if sequence.cycles.cycle().is_some() { Kind::Cycle } else { Kind::Iterations };
+        Err(Failure::new(self.why_not(record, &sequence.cycles)).of(kind).into())
+    }
+
+    /// Begins a sequence of matrices with the factor that the accepted state holds.
+    pub(super) fn begin_sequence(&mut self) {
+        self.system.restore(self.state.preconditioner.as_ref(), self.step.constraints.free());
+    }
+
+    /// The attempt as it has converged.
+    pub(super) fn converged(mut self, u: Vec<f64>, norms: Norms) -> Converged {
+        let reached = self.reached(&u);
+        Converged { u, evaluation: self.evaluation, in_play: norms.in_play, held: self.regularised, reached }
+    }
+
+    /// Newton's iterations from an iterate that is evaluated to a goal: what is left there of the unbalanced forces; none where they
+    /// are given up. Every iteration of a run is one of these.
+    pub(super) fn iterate(
+        &mut self,
+        (u, missing): &mut Iterate,
+        goal: Goal,
+        sequence: &mut Sequence,
+        (record, observer): (&mut AttemptRecord, &mut dyn Observer),
+    ) -> Result<Option<Norms>, SolveError> {
+        let options = &self.problem.newton;
+        let main = goal == Goal::Equilibrium;
+        loop {
+            let iteration = sequence.count;
+            if self.medium.is_none() {
+                self.refresh_stiffness();
+            }
             let norms = self.measure();
-            trail.push(&self.evaluation.branches);
-            let mut line = self.describe(iteration, &norms, &trail);
-            self.steady = if iteration > 0 && line.changes == 0 { self.steady + 1 } else { 0 };
-            (line.correction, line.step, line.factorised) = (correction, taken, factorised);
-            line.augmentation = augmentation;
+            if iteration == 0 {
+                sequence.first = norms.ratio;
+            }
+            sequence.cycles.push(&self.evaluation.branches);
+            let line = self.describe(iteration, &norms, sequence);
+            if main {
+                self.steady = if iteration > 0 && line.changes == 0 { self.steady + 1 } else { 0 };
+            }
             observer.iteration(record, &line);
             record.iterations.push(line);
-            if missing.is_none() && norms.converged_from(ratio) && self.arrives(&u)? {
-                if !still && self.path.is_none() && self.drifts(&u, record, norms.reference[0])? {
-                    (u, missing) = self.begin(self.state.u.clone())?;
-                    still = true;
-                    continue;
-                }
-                self.stands(&u, norms.reference[0])?;
-                if !self.augment(&u)? {
-                    let reached = self.reached(&u);
-                    let Self { evaluation, propped, .. } = self;
-                    return Ok(Converged { u, evaluation, in_play: norms.in_play, held: propped, reached });
-                }
-                (augmentation, begun, self.bound) = (augmentation + 1, iteration + 1, SLOPE);
-                (correction, taken, factorised, ratio) = (0.0, 0.0, false, 0.0);
-                continue;
+            sequence.count += 1;
+            if missing.is_none() && self.reaches(goal, &norms, sequence, u)? {
+                return Ok(Some(norms));
             }
             if !norms.ratio.is_finite() {
                 return Err(Failure::new("the forces are not finite").of(Kind::NotFinite).into());
             }
-            progress.push(iteration == begun, norms.ratio, taken);
-            if iteration - begun == options.iterations || progress.wanders() {
-                break;
+            let since = iteration - sequence.begun;
+            if main {
+                sequence.progress.push(since == 0, norms.ratio, sequence.taken);
+                // Where flow is not associated a step need not lower the slope: only contact is to be calmed.
+                if since >= PATIENCE && !self.problem.contacts.is_empty() {
+                    self.bound = STRICT;
+                }
             }
-            // Where flow is not associated a step need not lower the slope: only contact is to be calmed.
-            if iteration - begun >= PATIENCE && !self.problem.contacts.is_empty() {
-                self.bound = STRICT;
+            let grows = norms.ratio > sequence.ratio.max(norms.allowed) && iteration > 0;
+            let given_up = match goal {
+                Goal::Equilibrium => since == options.iterations || sequence.progress.wanders(),
+                Goal::Less { most, .. } => iteration == most,
+                Goal::Balance { most, .. } => iteration == most || grows,
+            };
+            if given_up {
+                return Ok(None);
             }
-            stalls = if factorised || norms.ratio <= STALLED * ratio { 0 } else { stalls + 1 };
-            if stalls == STALLS {
-                (stalls, _) = (0, self.solver.refuse());
+            let stalls = !sequence.factorised && norms.ratio > STALLED * sequence.ratio;
+            sequence.stalls = if stalls { sequence.stalls + 1 } else { 0 };
+            if main && sequence.stalls == STALLS {
+                sequence.stalls = 0;
+                self.system.invalidate_factor();
             }
-            let loose = forcing(norms.ratio, ratio, norms.allowed);
-            let motion = if self.path.is_some() {
-                self.linearise_on_path((iteration, &u), loose)?
+            let loose = forcing(norms.ratio, sequence.ratio, if main { norms.allowed } else { 0.0 });
+            let step = if self.path.is_some() {
+                self.linearise_on_path((iteration, u), loose)?
             } else {
-                self.complete(&u, missing.as_deref())?;
-                self.linearise((iteration, &u), missing.as_deref(), loose)?
+                self.complete(u, missing.as_deref())?;
+                self.linearise((iteration, u), missing.as_deref(), loose)?
             };
-            let tangent = self.wanted(&norms, ratio);
-            (factorised, ratio) = (motion.factorised, norms.ratio);
+            let tangent = if main { self.wanted(&norms, sequence.ratio) } else { self.tangent() };
+            (sequence.factorised, sequence.ratio) = (step.factorised, norms.ratio);
             let from = u.clone();
-            taken = match self.path {
-                Some(_) => self.advance_on_path(&mut u, (&motion, tangent))?,
-                None => self.advance(&mut u, (&motion, tangent), missing.as_deref())?,
+            sequence.taken = match self.path {
+                Some(_) => self.advance_on_path(u, (&step, tangent))?,
+                None => self.advance(u, (&step, tangent), missing.as_deref())?,
             };
-            if taken < motion.part && !factorised {
-                self.solver.refuse();
+            if main && sequence.taken < step.part && !step.factorised {
+                self.system.invalidate_factor();
             }
-            let largest = |v: &mut dyn Iterator<Item = f64>| v.fold(0.0_f64, |m, x| m.max(x.abs()));
-            let change = largest(&mut u.iter().zip(&self.state.u).map(|(a, b)| a - b));
-            correction = largest(&mut u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);
-            missing = missing.filter(|_| taken < 1.0).map(|m| m.iter().map(|m| m * (1.0 - taken)).collect());
+            let change = largest(u.iter().zip(&self.state.u).map(|(a, b)| a - b));
+            sequence.correction = largest(u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);
+            let rest = 1.0 - sequence.taken;
+            *missing = missing.take().filter(|_| rest > 0.0).map(|m| m.iter().map(|m| m * rest).collect());
         }
-        self.memory.unborne = self.unborne();
-        let kind = if trail.cycle().is_some() { Kind::Cycle } else { Kind::Iterations };
-        Err(Failure::new(self.why_not(record, &trail)).of(kind).into())
+    }
+
+    /// Whether an iterate that misses nothing has reached a goal.
+    fn reaches(&mut self, goal: Goal, norms: &Norms, sequence: &Sequence, u: &[f64]) -> Result<bool, Failure> {
+        let iterated = sequence.count > 1;
+        match goal {
+            Goal::Equilibrium => Ok(norms.converged_from(sequence.ratio) && self.arrives(u)?),
+            Goal::Less { part, of_tolerance, .. } => {
+                Ok(iterated && norms.ratio <= (of_tolerance * norms.allowed).max(part * sequence.first))
+            }
+            Goal::Balance { of_tolerance, .. } => {
+                Ok(iterated && norms.ratio <= (of_tolerance * norms.allowed).max(norms.rounding))
+            }
+        }
     }
 
     /// Lets the terms improve what they hold besides the unknowns, and evaluates anew if any did.
@@ -353,7 +438,7 @@ impl<'a> Newton<'a> {
     /// What the end of a step is to be evaluated with, from the unbalanced forces at its beginning and an iteration before:
     /// nothing but forces where they will have converged if they fall as fast again.
     fn wanted(&self, norms: &Norms, before: f64) -> Tangent {
-        let last = self.propped.is_empty() && norms.ratio * norms.ratio < before * norms.allowed;
+        let last = self.regularised.is_empty() && norms.ratio * norms.ratio < before * norms.allowed;
         if last { Tangent::None } else { self.tangent() }
     }
 
@@ -364,13 +449,16 @@ impl<'a> Newton<'a> {
 
     pub(super) fn evaluate(&mut self, u: &[f64], missing: Option<&[f64]>, tangent: Tangent) -> Result<(), Failure> {
         self.linearised = tangent != Tangent::None;
-        let trial = Trial { u, missing, tangent, acting: self.memory.mixed.acting() };
-        self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
+        let trial = Trial { u, missing, tangent, acting: self.memory.mip.acting() };
+        let begun = std::time::Instant::now();
+        let evaluated = self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation);
+        self.memory.spent.evaluating += begun.elapsed();
+        evaluated?;
         self.let_go();
         self.stop(u, tangent != Tangent::None);
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         self.step.constraints.gather(&unbalanced, &mut self.residual);
-        self.drag(u, tangent != Tangent::None);
+        self.resist(u, tangent != Tangent::None);
         Ok(())
     }
 
@@ -385,14 +473,14 @@ impl<'a> Newton<'a> {
     }
 
     pub(super) fn measure(&self) -> Norms {
-        let yardstick = Yardstick {
+        let scale = ResidualScale {
             past: self.state.in_play,
             coefficients: &self.coefficients,
             size: self.problem.size,
             tolerance: self.problem.newton.tolerance,
         };
         let numbering = (&self.problem.dofs, &self.step.constraints, &*self.problem.wholes);
-        Norms::measure(&self.evaluation, &self.residual, numbering, &yardstick)
+        Norms::measure(&self.evaluation, &self.residual, numbering, &scale)
     }
 
     /// Largest diagonal entry of a displacement, and the largest coefficient of one in each equation, where the matrix was
@@ -415,8 +503,8 @@ impl<'a> Newton<'a> {
         }));
     }
 
-    pub(super) fn describe(&self, iteration: usize, norms: &Norms, trail: &Trail) -> IterationRecord {
-        let changes = || trail.changed();
+    fn describe(&self, iteration: usize, norms: &Norms, sequence: &Sequence) -> IterationRecord {
+        let changes = || sequence.cycles.changed();
         let counts = self.problem.terms.iter().zip(&self.evaluation.branches).map(|(term, branches)| {
             let mut counts = vec![0; term.branches().len()];
             if !counts.is_empty() {
@@ -433,11 +521,14 @@ impl<'a> Newton<'a> {
             branches: counts.collect(),
             changes: changes().count(),
             changed: changes().last(),
-            ..IterationRecord::default()
+            correction: sequence.correction,
+            step: sequence.taken,
+            factorised: sequence.factorised,
+            augmentation: sequence.augmentation,
         }
     }
 
-    fn why_not(&self, record: &AttemptRecord, trail: &Trail) -> String {
+    fn why_not(&self, record: &AttemptRecord, cycles: &CycleDetector) -> String {
         let Some(last) = record.iterations.last() else { return "no iteration was made".into() };
         let mut text = format!(
             "the largest unbalanced force is {:.1e} of the forces in play after {} iterations (at most {:.0e}), at {}",
@@ -446,7 +537,7 @@ impl<'a> Newton<'a> {
             last.tolerance,
             self.problem.name_of(last.worst.dof)
         );
-        if let Some(cycle) = trail.cycle() {
+        if let Some(cycle) = cycles.cycle() {
             text += &format!("; contact states repeat every {} iterations: {}", cycle.period, self.name_cycle(&cycle));
         } else if let Some((term, stencil)) = last.changed {
             let name = self.problem.terms[term].name_of(stencil);
@@ -474,4 +565,9 @@ impl<'a> Newton<'a> {
         }
         text
     }
+}
+
+/// The largest size of these numbers.
+pub(super) fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |most: f64, x| most.max(x.abs()))
 }

@@ -9,23 +9,12 @@
 //! the first guess: it goes the same way along the path. The first increment of a step is one of the load factor and is the
 //! measure of those that follow; the one that would pass the end of the step ends there.
 
-use super::linear::LinearError;
-use super::newton::{Newton, Trouble, Variant};
+use super::constants::path::{AHEAD, LENGTH, LOAD, REACHED, SHORTEST};
+use super::newton::{Newton, SolveError};
 use super::schedule::{ArcLength, Until};
-use super::step::Motion;
+use super::step::NewtonStep;
 use crate::Failure;
 use crate::system::{Evaluation, Role, Tangent};
-
-/// What the solution for the load may leave of it where it is an iterative one.
-const LOAD: f64 = 1e-7;
-/// By what part of itself the square of the length of an increment may differ from what it should be.
-const LENGTH: f64 = 0.05;
-/// Difference of an end that is reached, over what leads to it.
-const REACHED: f64 = 1e-9;
-/// Cosine of the angle between two increments, at least: else the path turns back.
-const AHEAD: f64 = -0.5;
-/// Shortest part of a step that is taken where the whole cannot be evaluated.
-const SHORTEST: f64 = 0.01;
 
 /// The equation of the load factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -207,14 +196,14 @@ impl<'a> Newton<'a> {
         &mut self,
         (iteration, u): (usize, &[f64]),
         forcing: f64,
-    ) -> Result<Motion, Trouble> {
+    ) -> Result<NewtonStep, SolveError> {
         if !self.linearised {
             self.evaluate_on_path(u, self.tangent())?;
         }
         let mut push = self.push(u)?;
         let led = self.path.as_ref().is_some_and(|path| path.led.is_some());
         if !led && push.iter().all(|force| *force == 0.0) {
-            return Err(Trouble::End(Failure::new(format!(
+            return Err(SolveError::End(Failure::new(format!(
                 "step '{}' follows a path, and no load on what is free changes in it: say the load whose factor is followed, or leave \
                  `control` out",
                 self.step.name
@@ -232,7 +221,7 @@ impl<'a> Newton<'a> {
             self.evaluation.values[place] = value;
         }
         let Some((factorised, by_spring)) = solved? else {
-            self.solver.refuse();
+            self.system.invalidate_factor();
             return self.linearise_on_path((iteration, u), forcing);
         };
         let (mut du, mut with_load, mut with_spring) = (vec![0.0; u.len()], vec![0.0; u.len()], vec![0.0; u.len()]);
@@ -252,10 +241,10 @@ impl<'a> Newton<'a> {
         for (du, (load_moves, spring_moves)) in du.iter_mut().zip(with_load.iter().zip(&with_spring)) {
             *du += load * load_moves + pulled * spring_moves;
         }
-        let mut motion = Motion { du, part: 1.0, factorised, load };
+        let mut motion = NewtonStep { du, part: 1.0, factorised, load };
         self.limit(u, None, &mut motion);
         motion.load *= motion.part;
-        self.memory.mixed.aim(&self.assembly, &self.memory.kinks, &motion.du)?;
+        self.memory.mip.aim(&self.assembly, &self.memory.kinks, &motion.du)?;
         Ok(motion)
     }
 
@@ -276,20 +265,16 @@ impl<'a> Newton<'a> {
         iteration: usize,
         [rhs, push]: [&mut Vec<f64>; 2],
         (spring, forcing): (Option<&Spring>, f64),
-    ) -> Result<Option<Solved>, Trouble> {
+    ) -> Result<Option<Solved>, SolveError> {
         let factorised = self.solve_linear(iteration, rhs, forcing)?;
-        let direct = factorised || self.problem.newton.variant != Variant::Full;
         let mut pulled = spring.map(|spring| {
             let mut forces = vec![0.0; push.len()];
             forces[spring.row] = spring.stiffness;
             forces
         });
         for more in std::iter::once(push).chain(&mut pulled) {
-            let solved = match direct {
-                true => self.solver.solve(more).map(|()| true),
-                false => self.solver.iterate_again(&self.evaluation.values, more, LOAD),
-            };
-            if !solved.map_err(|error: LinearError| self.explain(error, 1))? {
+            let solved = self.system.solve_again(&self.evaluation.values, more, LOAD);
+            if !solved.map_err(|error| self.explain(error, 1))? {
                 return Ok(None);
             }
         }
@@ -341,12 +326,12 @@ impl<'a> Newton<'a> {
     pub(super) fn advance_on_path(
         &mut self,
         u: &mut [f64],
-        (motion, tangent): (&Motion, Tangent),
+        (motion, tangent): (&NewtonStep, Tangent),
     ) -> Result<f64, Failure> {
         let (begin, factor) = (u.to_vec(), self.path.as_ref().map_or(0.0, |path| path.factor));
         let mut part = 1.0;
         loop {
-            self.memory.mixed.follow(part);
+            self.memory.mip.follow(part);
             u.iter_mut().zip(begin.iter().zip(&motion.du)).for_each(|(u, (begin, du))| *u = begin + part * du);
             let evaluated = self.load_to(factor + part * motion.load).and_then(|()| self.evaluate_on_path(u, tangent));
             match evaluated {

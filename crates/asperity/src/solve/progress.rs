@@ -4,14 +4,7 @@
 //! Iterations that leave them large, no smaller than they were before, and must shorten their steps, wander: a smaller increment
 //! costs less than the rest of them.
 
-/// Iterations that are judged together; as many and the first guess come before them.
-const WINDOW: usize = 6;
-/// Part of the forces in play above which unbalanced forces are large,
-const LARGE: f64 = 0.01;
-/// what the least of them must fall to within the window,
-const FALL: f64 = 0.5;
-/// and the part of Newton's step below which it counts as shortened; it is so in most iterations that wander.
-const SHORT: f64 = 0.5;
+use super::constants::progress::{FALL, LARGE, SHORT, WINDOW};
 
 /// The iterations of a sequence: what each left of the unbalanced forces over those in play, and the part of Newton's step that led
 /// there.

@@ -3,17 +3,11 @@
 //!
 //! A motion that deforms cells without resistance is not among them: that only a factorisation finds.
 
+use super::constants::rigid_motions::{ALLOWED, HELD, TRIED};
 use super::problem::Problem;
 use super::schedule::Step;
 use crate::Failure;
 use crate::system::{Assembly, Constraints, Evaluation, Instant, Row, State, Tangent, Trial, Workspace, kernel};
-
-/// Part of the size of the model by which motions are tried: rounding leaves 1e-9 of their forces, curvature less.
-const TRIED: f64 = 1e-7;
-/// Part of the mean stiffness of an unknown that holds.
-const HELD: f64 = 1e-7;
-/// Part of a unit motion by which constraints may be missed.
-const ALLOWED: f64 = 1e-9;
 
 /// Motions of all unknowns that span those which nothing holds at an accepted state.
 ///

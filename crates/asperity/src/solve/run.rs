@@ -1,7 +1,8 @@
 //! Steps and increments: the loop around the attempts.
 
-use super::linear::LinearSolver;
-use super::newton::{Converged, Memory, Newton, Trouble};
+use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
+use super::linear::{LinearSolver, LinearSystem, SolverCounts};
+use super::newton::{Converged, Memory, Newton, SolveError};
 use super::observer::{AttemptRecord, Observer};
 use super::path::Reached;
 use super::problem::{Problem, largest};
@@ -12,9 +13,6 @@ use super::stability::{Look, Stability};
 use crate::system::{Caution, Energies, Interpenetration, State};
 use crate::{Error, Failure, Kind};
 use std::time::{Duration, Instant};
-
-/// Energy below this part of that of the model and of its forces over a cell is rounding.
-const NOISE: f64 = 1e-9;
 
 /// Options of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,7 +36,7 @@ pub struct Run<'a> {
     pub problem: &'a Problem,
     /// The accepted state.
     pub state: State,
-    /// Memory and counts of the solver.
+    /// Memory of the iterations.
     pub memory: Memory,
     /// Time that the audit took.
     pub audited: Duration,
@@ -48,22 +46,8 @@ pub struct Run<'a> {
     pub first_held: Option<(String, f64)>,
     /// What the run failed of, if it did.
     pub ended: Kind,
-    solver: Box<dyn LinearSolver>,
+    system: LinearSystem,
 }
-
-/// Part of the size that served last, at most the first of the step, from which on an increment that fails is relaxed, and what
-/// the next one is after that, at least.
-const RELAX: f64 = 0.125;
-const JUMPED: f64 = 0.25;
-/// Attempts at one increment before the run gives up.
-const ATTEMPTS: usize = 40;
-
-/// An increment leaps that moves this many times as fast as the one before,
-const LEAP: f64 = 20.0;
-/// by more than this multiple of what is prescribed,
-const DRIVEN: f64 = 3.0;
-/// and by more than this part of the model's size.
-const FAR: f64 = 0.05;
 
 /// How far an increment leapt, over the size of the model: what it moved where that is far more than at the speed of the
 /// increment before and than what it was driven.
@@ -83,8 +67,13 @@ impl<'a> Run<'a> {
             stability: Stability::default(),
             first_held: None,
             ended: Kind::Other,
-            solver,
+            system: LinearSystem::new(solver, problem.newton.policy(), problem.dofs.clone()),
         }
+    }
+
+    /// What the linear systems took so far.
+    pub fn solver_counts(&self) -> SolverCounts {
+        self.system.counts()
     }
 
     /// Runs to the end of the last step.
@@ -171,8 +160,8 @@ impl<'a> Run<'a> {
                             problem: self.problem,
                             record: &record,
                             values: &converged.evaluation.values,
-                            memory: &mut self.memory,
-                            solver: self.solver.as_mut(),
+                            memory: &self.memory,
+                            system: &mut self.system,
                             sprung: converged.reached.as_mut().and_then(|reached| reached.sprung.take()),
                         };
                         record.turn = self.stability.look(&mut self.state, look);
@@ -183,18 +172,18 @@ impl<'a> Run<'a> {
                     self.note(found);
                     return Ok(record);
                 }
-                Err(Trouble::End(failure)) => {
+                Err(SolveError::End(failure)) => {
                     (record.failure, record.kind) = (Some(failure.reason.clone()), failure.kind);
                     observer.attempt(&record);
                     self.ended = failure.kind;
                     return Err(Error::NotConverged(failure.reason));
                 }
-                Err(Trouble::Error(error)) => {
+                Err(SolveError::Error(error)) => {
                     record.failure = Some(error.to_string());
                     observer.attempt(&record);
                     return Err(error);
                 }
-                Err(Trouble::Failure(failure)) => {
+                Err(SolveError::Failure(failure)) => {
                     (record.failure, record.kind) = (Some(failure.reason.clone()), failure.kind);
                     observer.attempt(&record);
                     // Relaxation is the last resort: what made it one is why the increment failed.
@@ -290,9 +279,9 @@ impl<'a> Run<'a> {
         dt: f64,
         record: &mut AttemptRecord,
         observer: &mut dyn Observer,
-    ) -> Result<Converged, Trouble> {
+    ) -> Result<Converged, SolveError> {
         let mut solve = |record: &mut AttemptRecord, observer: &mut dyn Observer| {
-            let newton = Newton::open(self.problem, &self.state, dt, &mut self.memory, self.solver.as_mut())?;
+            let newton = Newton::open(self.problem, &self.state, dt, &mut self.memory, &mut self.system)?;
             if record.relaxed { newton.relax(record, observer) } else { newton.solve(record, observer) }
         };
         if self.problem.newton.rehearse {
@@ -395,7 +384,7 @@ impl<'a> Run<'a> {
         }
         state.leaving = evaluation.apart.drain(..).map(|(term, forces)| (term, added(forces))).collect();
         self.memory.spare = Some(evaluation);
-        state.preconditioner = self.memory.preconditioner(self.solver.as_ref());
+        state.preconditioner = self.system.snapshot();
         for (past, now) in state.in_play.iter_mut().zip(converged.in_play) {
             *past = past.max(now);
         }

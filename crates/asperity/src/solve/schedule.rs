@@ -1,5 +1,6 @@
 //! Steps, what is prescribed in them, and the size of increments.
 
+use super::constants::sizes::{EASY, GROWTH, MOST_PATIENCE, PATIENCE, USUAL};
 use crate::amplitude::Amplitude;
 use crate::system::{Caution, Constraints};
 
@@ -110,11 +111,6 @@ pub struct Step {
     pub leaving: Vec<usize>,
 }
 
-/// Iterations up to which an increment counts as easy.
-const EASY: usize = 6;
-/// Growth after an easy increment.
-const GROWTH: f64 = 1.5;
-
 impl Step {
     /// Whether a time of the step is its end, but for rounding.
     pub fn ends_at(&self, step_time: f64) -> bool {
@@ -144,13 +140,6 @@ impl Step {
         if iterations > EASY { dt.min(wanted) } else { (GROWTH * dt.max(wanted.min(dt * GROWTH))).min(largest) }
     }
 }
-
-/// Increments that must succeed after one that failed before a larger one is tried; twice as many each time that this fails, up
-/// to the most. An attempt that fails costs about as much as three or four increments that succeed.
-const PATIENCE: usize = 4;
-const MOST_PATIENCE: usize = 16;
-/// Part of the first increment of a step below which no size counts as usual.
-const USUAL: f64 = 1.0 / 16.0;
 
 impl Caution {
     /// Takes note of a size that failed.

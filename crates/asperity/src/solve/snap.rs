@@ -4,13 +4,8 @@
 //! increment and at its end, `f0 . du` and `f1 . du`. Where they take up less than both, the forces have fallen below both on the
 //! way: no equilibrium led there, and the difference is set free, as the energy of motion that a slow procedure does not see.
 
+use super::constants::snaps::{DRIVEN, FREE};
 use crate::system::State;
-
-/// Part of the work that is no error of the increment.
-const FREE: f64 = 0.1;
-/// Work of what is loaded or driven, over the energy set free, below which something else set that free: an overlap that is pressed
-/// apart, a change of temperature.
-const DRIVEN: f64 = 1e-3;
 
 /// An increment that jumped.
 #[derive(Debug, Clone, PartialEq)]

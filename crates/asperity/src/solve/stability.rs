@@ -9,7 +9,8 @@
 //! not the one that the last pivots said, this matrix is factorised and counted. Increments are passed over in which the quotient,
 //! carried on in time, keeps more than half of itself.
 
-use super::linear::LinearSolver;
+use super::constants::stability::{BEGUN, CHANGED, FOLLOWED, KEPT, PASSED, SAME, SETTLED};
+use super::linear::LinearSystem;
 use super::newton::Memory;
 use super::observer::AttemptRecord;
 use super::path::Sprung;
@@ -18,19 +19,6 @@ use super::snap::Snap;
 use super::step::norm;
 use crate::system::{Constraints, Signs, Softest, State};
 use std::time::{Duration, Instant};
-
-/// Inverse iterations on a mode that is followed, on one that is begun, and at most where the number of negative eigenvalues has
-/// changed, where they end at this change of the eigenvalue.
-const FOLLOWED: usize = 1;
-const BEGUN: usize = 3;
-const CHANGED: usize = 12;
-const SETTLED: f64 = 1e-3;
-/// Part of itself that the quotient, carried on in time, keeps where an increment is passed over, and how many are in a row at
-/// most.
-const KEPT: f64 = 0.5;
-const PASSED: usize = 8;
-/// Cosine of the angle between two vectors of the same mode, at least.
-const SAME: f64 = 0.9;
 
 /// A change of the number of negative eigenvalues of the tangent between two accepted states.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,14 +73,14 @@ pub(super) struct Look<'a> {
     pub record: &'a AttemptRecord,
     /// The matrix of the last iteration, with its pattern in the memory.
     pub values: &'a [f64],
-    pub memory: &'a mut Memory,
-    pub solver: &'a mut dyn LinearSolver,
+    pub memory: &'a Memory,
+    pub system: &'a mut LinearSystem,
     /// What the factor has besides the stiffness.
     pub sprung: Option<Sprung>,
 }
 
-impl Look<'_> {
-    fn constraints(&self) -> &Constraints {
+impl<'a> Look<'a> {
+    fn constraints(&self) -> &'a Constraints {
         &self.problem.steps[self.record.step].constraints
     }
 }
@@ -113,8 +101,8 @@ impl Stability {
         let fresh = look.record.iterations.iter().any(|line| line.factorised);
         let turn = match look.record.relaxed {
             true => None,
-            false if fresh => self.count(state, &look),
-            false => self.suspects(state, &look).then(|| self.factorise(state, &mut look)).flatten(),
+            false if fresh => self.count(state, &mut look),
+            false => self.suspects(state, &mut look).then(|| self.factorise(state, &mut look)).flatten(),
         };
         self.turns.extend(turn.clone().map(|turn| Turn { mode: Vec::new(), ..turn }));
         self.spent += begun.elapsed();
@@ -122,7 +110,7 @@ impl Stability {
     }
 
     /// Improves the softest mode by the old factor; whether its quotient has not the sign that the last pivots said.
-    fn suspects(&self, state: &mut State, look: &Look) -> bool {
+    fn suspects(&self, state: &mut State, look: &mut Look) -> bool {
         let (pattern, record) = (look.memory.workspace.pattern(), look.record);
         let (Some(softest), Some(signs)) = (&mut state.softest, state.signs) else { return false };
         let same = look.problem.steps[softest.step].constraints.free() == look.constraints().free();
@@ -138,7 +126,7 @@ impl Stability {
         let image = pattern.times(look.values, x);
         let quotient = dot(x, &image);
         let mut way: Vec<f64> = image.iter().zip(x).map(|(image, x)| image - quotient * x).collect();
-        if !look.solver.substitute(&mut way) {
+        if !look.system.substitute(&mut way) {
             return false;
         }
         let along = dot(x, &way);
@@ -169,21 +157,20 @@ impl Stability {
         suspected
     }
 
-    /// Counts the signs of a matrix that has no factor of its own. The factor is not to show in what follows.
+    /// Counts the signs of a matrix that has no factor of its own. The factor is that of the accepted state then, and serves on.
     fn factorise(&mut self, state: &mut State, look: &mut Look) -> Option<Turn> {
         self.counted += 1;
-        let step = &look.problem.steps[look.record.step];
         look.sprung = None;
-        let factorised = look.memory.factorise((look.problem, &step.constraints), look.values, look.solver);
-        let turn = factorised.ok().and_then(|()| self.count(state, look));
-        look.solver.refuse();
-        turn
+        let workspace = &look.memory.workspace;
+        look.system.set_pattern(workspace.analysis(), workspace.pattern(), look.constraints().free());
+        let factorised = look.system.factorise(look.values);
+        factorised.ok().and_then(|()| self.count(state, look))
     }
 
     /// Takes the signs of the factor there is.
-    fn count(&mut self, state: &mut State, look: &Look) -> Option<Turn> {
-        let (problem, record, solver) = (look.problem, look.record, &*look.solver);
-        let frontal::Signs { symmetric, mut negative } = solver.signs()?;
+    fn count(&mut self, state: &mut State, look: &mut Look) -> Option<Turn> {
+        let (problem, record) = (look.problem, look.record);
+        let frontal::Signs { symmetric, mut negative } = look.system.signs()?;
         let more = look.sprung.as_ref().map_or(0, Sprung::more);
         negative = if symmetric { negative + more } else { (negative + more) % 2 };
         let constraints = look.constraints();
@@ -210,7 +197,7 @@ impl Stability {
             (None, None) => BEGUN,
         };
         let mode = before.as_ref().map_or_else(begin, |before| before.mode.clone());
-        let (mode, eigenvalue) = nearest((solver, look.sprung.as_ref()), mode, iterations)?;
+        let (mode, eigenvalue) = nearest((look.system, look.sprung.as_ref()), mode, iterations)?;
         let turn = changed.map(|last| {
             let passed = before.as_ref().and_then(|before| {
                 let same = dot(&before.mode, &mode).abs() >= SAME && before.eigenvalue * eigenvalue < 0.0;
@@ -247,7 +234,7 @@ fn passes_over(softest: &Softest, time: f64) -> bool {
 
 /// The eigenvector nearest to the null space by inverse iterations, and its eigenvalue; none where they lead nowhere.
 fn nearest(
-    (solver, sprung): (&dyn LinearSolver, Option<&Sprung>),
+    (system, sprung): (&mut LinearSystem, Option<&Sprung>),
     mut mode: Vec<f64>,
     most: usize,
 ) -> Option<(Vec<f64>, f64)> {
@@ -256,7 +243,7 @@ fn nearest(
         let length = norm(&mode);
         scale(&mut mode, 1.0 / length);
         let mut image = mode.clone();
-        if !solver.substitute(&mut image) {
+        if !system.substitute(&mut image) {
             return None;
         }
         sprung.iter().for_each(|sprung| sprung.without(&mut image));

@@ -1,30 +1,15 @@
-//! One step of Newton's method: the linear system, what bends over its solution, and how far to go along it.
+//! One step of Newton's method: the linear system, the contact points over its solution, and the line search along it.
 
-use super::influences::Site;
-use super::jump::Matrix;
-use super::linear::LinearError;
-use super::newton::{Newton, Trouble, Variant};
+use super::constants::steps::{ENOUGH, FAR, GOOD, LOOSEST, SHORTEST, TIGHTEST, TURN};
+use super::linear::{LinearError, Unsolved};
+use super::newton::{Newton, SolveError, Variant};
+use super::semismooth::{self, ContactSystem, Linearised};
 use crate::Failure;
 use crate::system::Tangent;
-
-/// Slope, as a part of the initial one, at which the search for a shorter step ends.
-const GOOD: f64 = 0.8;
-/// Bounds of what an iterative solution may leave of its right-hand side.
-const LOOSEST: f64 = 1e-3;
-pub(super) const TIGHTEST: f64 = 1e-8;
-/// Part of the unbalanced forces allowed at the end that it may always leave.
-const ENOUGH: f64 = 0.01;
-/// Rings of stencils around those near contact that the columns of the inverse reach from the start.
-const RINGS: usize = 2;
-/// Shortest step of the line search.
-const SHORTEST: f64 = 0.01;
-/// A step is at most a cell long, or this multiple of what was moved in the increment so far and what is still missing,
-const FAR: f64 = 4.0;
-/// and turns a tool by at most so much, in radians.
-const TURN: f64 = 0.5;
+use std::time::Instant;
 
 /// A step.
-pub(super) struct Motion {
+pub(super) struct NewtonStep {
     /// Change of all unknowns.
     pub du: Vec<f64>,
     /// Part of the whole step that it is.
@@ -36,14 +21,14 @@ pub(super) struct Motion {
 }
 
 impl Newton<'_> {
-    /// Newton's step from `u`, as far as the functions that bend over it allow; `forcing` bounds what an iterative solution
+    /// Newton's step from `u`, as far as the contact points over it allow; `forcing` bounds what an iterative solution
     /// leaves of the linear system.
     pub(super) fn linearise(
         &mut self,
         (iteration, u): (usize, &[f64]),
         missing: Option<&[f64]>,
         forcing: f64,
-    ) -> Result<Motion, Trouble> {
+    ) -> Result<NewtonStep, SolveError> {
         let constraints = &self.step.constraints;
         let mut rhs = vec![0.0; self.residual.len()];
         let mut du = vec![0.0; self.state.u.len()];
@@ -56,21 +41,34 @@ impl Newton<'_> {
         let size = norm(&rhs);
         let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
         constraints.expand(&rhs, &mut du);
-        let mut motion = Motion { du, part: 1.0, factorised, load: 0.0 };
-        if self.problem.newton.piecewise && !self.bend(size, &mut motion, forcing)? {
-            self.solver.refuse();
+        let mut step = NewtonStep { du, part: 1.0, factorised, load: 0.0 };
+        if self.problem.newton.piecewise && !self.put_right(size, &mut step, forcing)? {
+            self.system.invalidate_factor();
             return self.linearise((iteration, u), missing, forcing);
         }
-        self.limit(u, missing, &mut motion);
-        self.memory.mixed.aim(&self.assembly, &self.memory.kinks, &motion.du)?;
-        Ok(motion)
+        self.limit(u, missing, &mut step);
+        self.memory.mip.aim(&self.assembly, &self.memory.kinks, &step.du)?;
+        Ok(step)
+    }
+
+    /// Puts the linear step right for the contact points over it; false where an old factor does not tell how.
+    fn put_right(&mut self, size: f64, step: &mut NewtonStep, forcing: f64) -> Result<bool, SolveError> {
+        let exact = step.factorised || self.problem.newton.variant != Variant::Full;
+        let linearised = Linearised { values: &self.evaluation.values, size, forcing: (!exact).then_some(forcing) };
+        let (kinks, workspace) = (&self.memory.kinks, &self.memory.workspace);
+        let contact = ContactSystem { assembly: &self.assembly, kinks, workspace };
+        let (begun, before) = (Instant::now(), self.system.counts().time());
+        let put_right = semismooth::put_right(contact, self.system, &linearised, step);
+        let linear = self.system.counts().time() - before;
+        self.memory.spent.contact += begun.elapsed().saturating_sub(linear);
+        put_right.map_err(|unsolved| self.unsolved(unsolved, 1))
     }
 
     /// Shortens a step that leads far beyond what the increment moves: something is then free that a shorter step may
     /// find held.
-    pub(super) fn limit(&self, u: &[f64], missing: Option<&[f64]>, motion: &mut Motion) {
+    pub(super) fn limit(&self, u: &[f64], missing: Option<&[f64]>, step: &mut NewtonStep) {
         let (mut longest, mut usual) = ([0.0_f64; 2], [self.problem.cell_size, TURN]);
-        for (dof, du) in motion.du.iter().enumerate() {
+        for (dof, du) in step.du.iter().enumerate() {
             let kind = usize::from(self.problem.dofs.is_rotation(dof));
             longest[kind] = longest[kind].max(du.abs());
             let moved = (u[dof] - self.state.u[dof]).abs().max(missing.map_or(0.0, |missing| missing[dof].abs()));
@@ -78,102 +76,76 @@ impl Newton<'_> {
         }
         let allowed = longest.iter().zip(&usual).map(|(longest, usual)| usual / longest).fold(1.0, f64::min);
         if allowed < 1.0 {
-            motion.du.iter_mut().for_each(|du| *du *= allowed);
-            motion.part *= allowed;
+            step.du.iter_mut().for_each(|du| *du *= allowed);
+            step.part *= allowed;
         }
     }
 
-    /// Tells the solver of the pattern if it is new, and whether its unknowns are those that it knows.
-    fn follow(&mut self) {
-        let (analysis, free) = (self.memory.workspace.analysis(), self.step.constraints.free());
-        if self.memory.followed == analysis {
-            return;
+    /// Tells the linear system of the pattern, where that is new.
+    fn set_pattern(&mut self) {
+        let workspace = &self.memory.workspace;
+        let free = self.step.constraints.free();
+        if self.system.set_pattern(workspace.analysis(), workspace.pattern(), free) {
+            self.memory.current = false;
         }
-        if self.memory.free != free || !self.solver.follow(self.memory.workspace.pattern()) {
-            self.solver.refuse();
-            self.memory.influences.forget();
-            self.memory.free = free.to_vec();
-        }
-        (self.memory.followed, self.memory.current) = (analysis, false);
     }
 
-    /// Factorises the matrix at hand, and analyses its pattern before if that is new.
+    /// Factorises the matrix at hand.
     pub(super) fn factorise_matrix(&mut self) -> Result<(), LinearError> {
-        let of = (self.problem, &self.step.constraints);
-        self.memory.factorise(of, &self.evaluation.values, self.solver)
-    }
-
-    /// Factorises if this iteration asks for it, and says whether it did.
-    fn factorise(&mut self, iteration: usize) -> Result<bool, Trouble> {
-        let keep = match self.problem.newton.variant {
-            Variant::Full => false,
-            Variant::Modified => iteration > 0,
-            Variant::Kept => iteration != 4,
-        };
-        if keep && self.medium.is_none() && self.memory.current {
-            return Ok(false);
-        }
-        self.memory.current = false;
-        self.propped.clear();
-        match self.factorise_matrix() {
-            Err(LinearError::Singular(motions)) if self.may_hold() => self.prop(&motions, iteration)?,
-            factorised => {
-                factorised.map_err(|e| self.explain(e, iteration))?;
-                self.memory.current = true;
-            }
-        }
-        Ok(true)
-    }
-
-    /// Forgets what an earlier factor said of the unknowns near contact.
-    fn begin_influences(&mut self) -> Result<(), Failure> {
-        let (terms, memory) = (self.assembly.terms, &mut *self.memory);
-        let stays = self.problem.newton.variant == Variant::Full && self.solver.iterates();
-        let dofs = memory.kinks.dofs();
-        let mut near = dofs.to_vec();
-        // Where contact may go while the factor serves.
-        for _ in 0..if stays { RINGS } else { 0 } {
-            near = memory.workspace.around(&near, |t| terms[t].bends());
-        }
-        let site = Site::of(&self.assembly, &memory.kinks);
-        memory.influences.begin(site, near, stays)
-    }
-
-    /// Puts the factor right for what has changed near contact.
-    fn put_right(&mut self) -> Result<(), Failure> {
-        let memory = &mut *self.memory;
-        let site = Site::of(&self.assembly, &memory.kinks);
-        let matrix = Matrix::of(&memory.workspace, &self.evaluation.values);
-        memory.influences.cover(site);
-        let change = memory.influences.change((site, matrix), self.solver)?;
-        self.solver.change(change);
-        Ok(())
+        self.set_pattern();
+        self.system.factorise(&self.evaluation.values)
     }
 
     /// Solves with the present matrix or that of the variant, and says whether a matrix was factorised.
-    pub(super) fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, Trouble> {
-        self.follow();
-        if self.problem.newton.variant == Variant::Full && self.solver.iterates() {
-            self.put_right()?;
-            let solved = self.solver.iterate(&self.evaluation.values, rhs, forcing);
-            if solved.map_err(|e| self.explain(e, 1))? {
-                return Ok(false);
-            }
+    pub(super) fn solve_linear(&mut self, iteration: usize, rhs: &mut [f64], forcing: f64) -> Result<bool, SolveError> {
+        self.set_pattern();
+        let modified = self.problem.newton.variant == Variant::Modified;
+        if modified && iteration > 0 && self.medium.is_none() && self.memory.current {
+            self.system.solve_again(&self.evaluation.values, rhs, forcing).map_err(|e| self.explain(e, 1))?;
+            return Ok(false);
         }
-        let factorised = self.factorise(iteration)?;
-        self.begin_influences()?;
-        let again = (factorised && self.may_hold() && self.state.increment > 0).then(|| rhs.to_vec());
-        match (self.solver.solve(rhs), again) {
-            // A matrix that rounding cannot tell from a singular one: the iterate may have lost a contact that the solution has.
-            (Err(LinearError::Inaccurate(_)), Some(begun)) => {
+        let begun = self.may_hold().then(|| rhs.to_vec());
+        let regularised = std::mem::take(&mut self.regularised);
+        self.memory.current = true;
+        let error = match self.solve_system(rhs, forcing) {
+            Ok(factorised) => {
+                if !factorised {
+                    self.regularised = regularised;
+                }
+                return Ok(factorised);
+            }
+            Err(unsolved) => unsolved,
+        };
+        self.memory.current = false;
+        // An iterate may have lost a contact that the solution has: in a matrix that is singular, or that rounding cannot tell from
+        // one.
+        match (error, begun) {
+            (Unsolved::Engine(LinearError::Singular(motions)), Some(begun)) => {
+                self.regularise(&motions);
                 rhs.copy_from_slice(&begun);
-                self.prop(&[], iteration)?;
-                self.memory.current = false;
-                self.solver.solve(rhs).map_err(|e| self.explain(e, 1))?;
             }
-            (solved, _) => solved.map_err(|e| self.explain(e, 1))?,
+            (Unsolved::Engine(LinearError::Inaccurate(_)), Some(begun)) if self.state.increment > 0 => {
+                self.regularise(&[]);
+                rhs.copy_from_slice(&begun);
+            }
+            (unsolved, _) => return Err(self.unsolved(unsolved, iteration)),
         }
-        Ok(factorised)
+        self.system.invalidate_factor();
+        self.solve_system(rhs, forcing).map_err(|unsolved| self.unsolved(unsolved, iteration))
+    }
+
+    fn solve_system(&mut self, rhs: &mut [f64], forcing: f64) -> Result<bool, Unsolved> {
+        let (kinks, workspace) = (&self.memory.kinks, &self.memory.workspace);
+        let contact = ContactSystem { assembly: &self.assembly, kinks, workspace };
+        self.system.solve(&self.evaluation.values, &contact, rhs, forcing)
+    }
+
+    /// What a system that was not solved means.
+    fn unsolved(&self, unsolved: Unsolved, iteration: usize) -> SolveError {
+        match unsolved {
+            Unsolved::Engine(error) => self.explain(error, iteration),
+            Unsolved::Law(failure) => failure.into(),
+        }
     }
 
     /// Moves `u` along a step, evaluates there, with no more than the `tangent` where nothing is missing any more, and
@@ -181,17 +153,17 @@ impl Newton<'_> {
     pub(super) fn advance(
         &mut self,
         u: &mut Vec<f64>,
-        (motion, tangent): (&Motion, Tangent),
+        (step, tangent): (&NewtonStep, Tangent),
         missing: Option<&[f64]>,
     ) -> Result<f64, Failure> {
-        let (begin, slope) = (u.clone(), self.slope(&motion.du));
-        let along = |part: f64| -> Vec<f64> { begin.iter().zip(&motion.du).map(|(u, d)| u + part * d).collect() };
+        let (begin, slope) = (u.clone(), self.slope(&step.du));
+        let along = |part: f64| -> Vec<f64> { begin.iter().zip(&step.du).map(|(u, d)| u + part * d).collect() };
         let rest = |part: f64| missing.filter(|_| part < 1.0).map(|m| m.iter().map(|m| m * (1.0 - part)).collect());
         let mut part = 1.0;
         loop {
-            self.memory.mixed.follow(part);
+            self.memory.mip.follow(part);
             *u = along(part);
-            let missing: Option<Vec<f64>> = rest(part * motion.part);
+            let missing: Option<Vec<f64>> = rest(part * step.part);
             let tangent = if missing.is_some() { self.tangent() } else { tangent };
             match self.evaluate(u, missing.as_deref(), tangent) {
                 Ok(()) => break,
@@ -200,17 +172,17 @@ impl Newton<'_> {
             }
         }
         if !self.problem.newton.line_search || missing.is_some() || part < 1.0 {
-            return Ok(part * motion.part);
+            return Ok(part * step.part);
         }
-        let end = self.slope(&motion.du);
+        let end = self.slope(&step.du);
         if end.abs() <= self.bound * slope.abs() {
-            return Ok(motion.part);
+            return Ok(step.part);
         }
-        part = self.search(&along, &motion.du, (slope, end))?;
-        self.memory.mixed.follow(part);
+        part = self.search(&along, &step.du, (slope, end))?;
+        self.memory.mip.follow(part);
         *u = along(part);
         self.evaluate(u, None, self.tangent())?;
-        Ok(part * motion.part)
+        Ok(part * step.part)
     }
 
     /// Work of the present unbalanced forces along a direction.

@@ -3,17 +3,11 @@
 //!
 //! A blank holder that the rim of the blank has left is the common case. Without a stop no state is in equilibrium.
 
-use super::newton::{Converged, IfFree, Newton, Trouble};
+use super::constants::stops::{LEAVES, LOST, YIELD};
+use super::newton::{Converged, IfFree, Newton, SolveError};
 use super::run::Run;
 use crate::Failure;
 use crate::system::{Evaluation, Row, State};
-
-/// Part of its load that contacts may bear on a tool that they have lost.
-const LOST: f64 = 0.01;
-/// Yield of a stop under the whole load, over the size of a cell.
-const YIELD: f64 = 1e-4;
-/// Part of its load by which contact may exceed it before a tool leaves its stop.
-const LEAVES: f64 = 1e-3;
 
 /// Force of a stop under a load after some motion, and its stiffness.
 fn stop(load: f64, motion: f64, cell: f64) -> [f64; 2] {
@@ -63,7 +57,7 @@ impl Run<'_> {
     ///
     /// # Errors
     /// The failure of an attempt whose stops would pull.
-    pub(super) fn stops_push(&mut self, load: &[f64], u: &[f64]) -> Result<(), Trouble> {
+    pub(super) fn stops_push(&mut self, load: &[f64], u: &[f64]) -> Result<(), SolveError> {
         let State { stopped, u: before, .. } = &mut self.state;
         let cell = self.problem.cell_size;
         let pulls = |dof: usize| {

@@ -33,9 +33,9 @@ pub struct Factorised {
 /// Unknowns near contact, each list ascending.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Near {
-    /// All whose motions the columns of the inverse hold.
-    pub dofs: Vec<usize>,
-    /// Free unknowns of stencils that were closed in the matrix, by their numbers among the free ones.
+    /// Free unknowns whose motions the columns of the inverse hold, by their numbers among the free ones.
+    pub at: Vec<usize>,
+    /// Those of stencils that were closed in the matrix.
     pub closed: Vec<usize>,
     /// Those whose columns were found.
     pub columns: Vec<usize>,
@@ -64,7 +64,7 @@ impl Preconditioner {
         rows && starts.windows(2).all(row)
             && entries == values.len()
             && ascend(free, dofs.count())
-            && ascend(&near.dofs, dofs.count())
+            && ascend(&near.at, free.len())
             && ascend(&near.closed, free.len())
             && ascend(&near.columns, free.len())
     }

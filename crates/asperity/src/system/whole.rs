@@ -1,13 +1,8 @@
-//! Parts of the mesh that hang together, carried on as rigid wholes.
-//!
-//! The motion of the last increment, node by node, is the better first guess where a body deforms steadily. Where it slides
-//! past something, its nodes follow each other: what one did last its neighbour does next, and a body bent as it was bent
-//! last is strained. Carried on as a whole it is not.
+//! Parts of the mesh that hang together by cells.
 
-use super::{Dofs, State};
+use super::Dofs;
 use crate::mesh::Space;
-use crate::tensor::{Tensor2, Vec3};
-use crate::tool::space::SpacePose;
+use crate::tensor::Vec3;
 
 /// Nodes that hang together by cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,21 +40,6 @@ impl Whole {
     /// The nodes, and where they are in the undeformed mesh.
     pub fn places(&self) -> &[(usize, Vec3)] {
         &self.nodes
-    }
-
-    /// Writes to `u` the accepted state with the motion of the last increment, times `part`, carried on.
-    pub fn carry(&self, dofs: &Dofs, state: &State, part: f64, u: &mut [f64]) {
-        let (now, arms) = self.placed(dofs, |dof| state.u[dof]);
-        let (before, earlier) = self.placed(dofs, |dof| state.u[dof] - state.last_change[dof]);
-        let (mut shift, mut turn) = (now - before, rotation(&earlier, &arms));
-        if self.space == Space::Axisymmetric {
-            (shift, turn) = (Vec3::new(0.0, shift[1], 0.0), Vec3::zero());
-        }
-        let along = carried(shift, turn, part);
-        for (&(node, x), &arm) in self.nodes.iter().zip(&arms) {
-            let to = now + along + rotated(arm, turn * part);
-            (0..dofs.per_node()).for_each(|axis| u[dofs.node(node) + axis] = to[axis] - x[axis]);
-        }
     }
 
     /// Its rigid motions in the undeformed mesh as motions of all unknowns: translations, then rotations about the mean of
@@ -107,47 +87,12 @@ fn lead(leader: &[Option<usize>], mut node: usize) -> usize {
     node
 }
 
-/// The rotation vector that takes one set of arms to another, by least squares over the arms halfway: exact where one is the
-/// other turned, since the chord over the arm halfway is twice the tangent of half the angle.
-fn rotation(before: &[Vec3], now: &[Vec3]) -> Vec3 {
-    let (mut inertia, mut moment) = (Tensor2::zero(), Vec3::zero());
-    for (&a, &b) in before.iter().zip(now) {
-        let arm = (a + b) * 0.5;
-        inertia = inertia + Tensor2::identity() * arm.dot(arm) - Tensor2::from_fn(|i, j| arm[i] * arm[j]);
-        moment += arm.cross(b - a);
-    }
-    let tangent = inertia.inverse() * moment * 0.5;
-    if !tangent.norm().is_finite() {
-        return Vec3::zero();
-    }
-    let size = tangent.norm();
-    if size == 0.0 { tangent } else { tangent * (2.0 * size.atan() / size) }
-}
-
-/// How far a point goes in `part` of the time in which it went by `shift`, when its motion turns on: the chord of the arc that
-/// follows the one which it has gone.
-fn carried(shift: Vec3, turn: Vec3, part: f64) -> Vec3 {
-    let angle = turn.norm();
-    if angle == 0.0 {
-        return shift * part;
-    }
-    let axis = turn * angle.recip();
-    let along = axis * axis.dot(shift);
-    let chord = (0.5 * part * angle).sin() / (0.5 * angle).sin();
-    along * part + rotated(shift - along, turn * (0.5 * (part + 1.0))) * chord
-}
-
-/// `v` turned by a rotation vector.
-fn rotated(v: Vec3, rotation: Vec3) -> Vec3 {
-    SpacePose { rotation, ..SpacePose::default() }.rotate(v)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn each_whole_goes_on_as_a_rigid_body() {
+    fn wholes_hang_together_and_move_rigidly() {
         let points: Vec<Vec3> = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [9.0, 9.0], [5.0, 0.0], [6.0, 0.0], [5.0, 3.0]]
             .map(|[x, y]| Vec3::new(x, y, 0.0))
             .to_vec();
@@ -156,24 +101,12 @@ mod tests {
             wholes.iter().map(|w| w.nodes.iter().map(|n| n.0).collect()).collect::<Vec<Vec<_>>>(),
             [vec![0, 1, 2], vec![4, 5, 6]]
         );
-        let (dofs, turn) = (Dofs::new(2, 7, 0), Vec3::new(0.0, 0.0, 0.7));
-        // The first is turned about the origin, the second shifted and stretched.
-        let mut state = State { u: vec![0.0; dofs.count()], ..State::default() };
-        for (node, &x) in points[..3].iter().enumerate() {
-            let moved = rotated(x, turn) - x;
-            (0..2).for_each(|axis| state.u[2 * node + axis] = moved[axis]);
-        }
-        (4..7).for_each(|node| state.u[2 * node] = 0.5);
-        state.last_change = state.u.clone();
-        state.u[8] -= 0.1;
-        state.u[10] += 0.1;
-        let mut u = vec![7.0; dofs.count()];
-        wholes.iter().for_each(|whole| whole.carry(&dofs, &state, 2.0, &mut u));
-        for (node, &x) in points[..3].iter().enumerate() {
-            let to = rotated(x, turn * 3.0) - x;
-            (0..2).for_each(|axis| assert!((u[2 * node + axis] - to[axis]).abs() < 1e-14));
-        }
-        assert_eq!(u[6..8], [7.0, 7.0]);
-        assert!((u[10] - u[8] - 0.2).abs() < 1e-14, "the stretch stays as it was");
+        let dofs = Dofs::new(2, 7, 0);
+        let [along, _, about] = &wholes[0].rigid_motions(&dofs)[..] else { panic!("three in the plane") };
+        assert!(along[..6] == [1.0, 0.0, 1.0, 0.0, 1.0, 0.0] && along[6..].iter().all(|x| *x == 0.0));
+        let apart = |a: usize, b: usize| [about[2 * b] - about[2 * a], about[2 * b + 1] - about[2 * a + 1]];
+        // About one axis: across the way from one node to the other.
+        let (first, second) = (apart(0, 1), apart(0, 2));
+        assert!(first[0].abs() < 1e-14 && second[1].abs() < 1e-14 && (first[1] + 2.0 * second[0]).abs() < 1e-14);
     }
 }

@@ -198,3 +198,9 @@ impl Observer for Attempts {
         self.0.push(attempt.clone());
     }
 }
+
+/// Largest difference over the largest displacement.
+pub fn distance(u: &[f64], v: &[f64]) -> f64 {
+    let largest = u.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    u.iter().zip(v).fold(0.0_f64, |m, (u, v)| m.max((u - v).abs())) / largest
+}

@@ -31,7 +31,7 @@ use crate::mesh::Space;
 use crate::model::{Model, ModelParts};
 use crate::output::checkpoint::InputHash;
 use crate::output::{Asked, Part, ResultOptions};
-use crate::solve::{Factors, Increments, Step, engine};
+use crate::solve::{Increments, Step, engine};
 use crate::system::{Dofs, Term};
 use crate::{Error, machine};
 use std::path::Path;
@@ -248,11 +248,9 @@ impl Builder<'_> {
     fn check_engine(&mut self) {
         let solver = &self.deck.solver;
         let Some(petsc) = &solver.petsc else { return };
-        for (key, said) in [("factors", solver.factors != Factors::Auto), ("memory", solver.memory.is_some())] {
-            if said {
-                let what = format!("`{key}` is that of the library's own solver, and has no use beside `petsc`");
-                self.found.push(Diagnostic::error(what).at(petsc.place).help(format!("leave `petsc` or `{key}` out")));
-            }
+        if solver.memory.is_some() {
+            let what = "`memory` is that of the library's own solver, and has no use beside `petsc`";
+            self.found.push(Diagnostic::error(what).at(petsc.place).help("leave `petsc` or `memory` out"));
         }
         if !engine::provided() {
             let what = "`petsc` wants a program with the crate `cluster`, and this one was built without";

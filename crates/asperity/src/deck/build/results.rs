@@ -16,6 +16,7 @@ pub fn results(deck: &Deck, model: &Model) -> (ResultOptions, Vec<Diagnostic>) {
     let mut options = ResultOptions {
         every: deck.output.every,
         checkpoint_every: deck.output.checkpoint_every,
+        pictures: deck.output.pictures,
         keep: deck.output.checkpoints,
         export: deck.output.export.clone(),
         // What is wrong with them was reported when the deck was read.

@@ -1,6 +1,6 @@
 //! What is written.
 
-use crate::deck::form::{Form, Words, list, one_of, refers, table, table_of, text, whole, word};
+use crate::deck::form::{Form, Words, flag, list, one_of, refers, table, table_of, text, whole, word};
 use crate::deck::reader::Name;
 use crate::deck::schema::Names;
 use crate::deck::source::Spot;
@@ -15,6 +15,8 @@ table! {
         checkpoint_every: usize = whole(1..=1_000_000).or("10"),
         /// Which checkpoints stay in the result directory, to go on from.
         checkpoints: Keep = word().or("\"last\""),
+        /// Whether the standard pictures are drawn at the end; `asperity figure` draws them at any time.
+        pictures: bool = flag().or("true"),
         /// Files for other programs, with a frame as often as those of VTU.
         export: Vec<Export> = list(word(), 0..=usize::MAX).or("[]"),
         /// Tables of values in `results.dat`, as CalculiX prints them, as often as frames.

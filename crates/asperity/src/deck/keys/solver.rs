@@ -41,12 +41,9 @@ table! {
 
 impl Words for Variant {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
-        let kept =
-            "that of an earlier increment while it serves; a restarted run is then no longer the same to the bit";
         vec![
             (Self::Full, "full", "a new matrix at every iteration"),
             (Self::Modified, "modified", "that of the attempt's first iteration"),
-            (Self::Kept, "kept", kept),
         ]
     }
 }
@@ -61,11 +58,9 @@ impl Words for IfFree {
 
 impl Words for Factors {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
-        let attempt = "the matrix of an attempt's first iteration, with which the others are solved by FGMRES";
         vec![
             (Self::Auto, "auto", "as `kept` where that is predicted to be cheaper, as in space; else as `fresh`"),
             (Self::Fresh, "fresh", "every matrix"),
-            (Self::Attempt, "attempt", attempt),
             (Self::Kept, "kept", "as few matrices as possible, with which those of later increments are solved too"),
         ]
     }

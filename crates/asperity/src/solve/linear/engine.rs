@@ -1,7 +1,7 @@
 //! Linear solvers from outside the library: what provides one has every run use it.
 
-use super::linear::{Frontal, LinearSolver};
-use super::problem::Problem;
+use super::{Frontal, LinearSolver};
+use crate::solve::Problem;
 use std::sync::OnceLock;
 
 /// What makes the linear solver of a run.

@@ -1,13 +1,16 @@
 //! What a run takes of memory and work, known before anything is assembled: from the symbolic analysis of the graph of its
 //! nodes, and from counts.
 
-use super::engine;
-use super::linear::{Unknowns, dense};
-use super::problem::Problem;
+use super::super::constants::demand::{
+    BESIDES, GROWTH, PER_ENTRY, PER_ENTRY_OF_CONTACT, PER_PAIR, PER_UNKNOWN, PLENTY,
+};
+use super::frontal::dense;
+use super::{Unknowns, engine};
 use crate::machine::{Room, room};
+use crate::solve::Problem;
 use crate::system::{Constraints, Couplings, Csr, Instant, Reduced, State, Stencils};
 use crate::{Error, Failure};
-use frontal::{NodeGraph, Options, Policy, Prediction};
+use frontal::{NodeGraph, Options, Policy, Prediction, Work};
 
 /// What the first step of a run takes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -28,21 +31,6 @@ pub struct Demand {
     dimension: usize,
 }
 
-/// Bytes beside the factor: for each entry of the matrix its column, its value in the evaluations at hand and in the copy that
-/// preconditions, for each pair of unknowns of a stencil its place, and for each unknown the vectors of the iterations.
-const PER_ENTRY: f64 = 48.0;
-const PER_PAIR: f64 = 2.0;
-const PER_UNKNOWN: f64 = 700.0;
-/// What pictures, tables and buffers take whatever the model.
-const BESIDES: f64 = 1e7;
-/// The same for each entry in space where contact moves and an old factor preconditions: a pattern and a matrix more, and the columns of
-/// the inverse near contact.
-const PER_ENTRY_OF_CONTACT: f64 = 50.0;
-/// Unknowns of which no more than so many bytes each are asked for.
-const PLENTY: u64 = 60_000;
-/// Powers by which memory grows with unknowns in the plane and in space (George, SIAM J. Numer. Anal. 10, 1973).
-const GROWTH: [f64; 2] = [1.1, 4.0 / 3.0];
-
 impl Problem {
     /// What the first step takes. Nothing is assembled or factorised.
     ///
@@ -62,10 +50,10 @@ impl Problem {
         let costs = Prediction::of_nodes(graph, &last, &Options::default(), rayon::current_num_threads())
             .map_err(|error| Error::input(format!("the equations cannot be solved: {error}")))?;
         let (policy, dimension) = (self.newton.factors.policy(), self.dofs.per_node());
-        let contact = self.terms.iter().any(|term| term.bends()) && dimension == 3;
+        let contact = self.terms.iter().any(|term| term.bends());
         let [bytes, symmetric_bytes] = costs.map(|cost| {
-            let bends = contact && policy.affordable_iterations(&cost) > 0;
-            let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT } else { 0.0 };
+            let bends = contact && policy.affordable_iterations(Work::from(&cost)) > 0;
+            let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT[dimension - 2] } else { 0.0 };
             let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
             cost.bytes as u64 + single(&policy, &cost) + beside as u64
         });
@@ -98,7 +86,7 @@ impl Problem {
 
 /// Bytes of the factor in single precision, where it preconditions, beyond those of the working memory that it takes the place of.
 pub(super) fn single(policy: &Policy, cost: &Prediction) -> u64 {
-    if policy.affordable_iterations(cost) > 0 { cost.single_bytes() as u64 } else { 0 }
+    if policy.affordable_iterations(Work::from(cost)) > 0 { cost.single_bytes() as u64 } else { 0 }
 }
 
 /// The nodes of the free unknowns, and which of them couple.

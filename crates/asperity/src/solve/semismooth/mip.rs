@@ -11,7 +11,7 @@ use crate::system::{Assembly, Coordinates, Kinks, Workspace};
 
 /// Stresses of all stencils that bend, and where a step leads them.
 #[derive(Debug, Default)]
-pub(super) struct Mixed {
+pub(in crate::solve) struct MipStress {
     acting: Vec<Vec<Coordinates>>,
     aims: Vec<Aim>,
 }
@@ -25,7 +25,7 @@ struct Aim {
     to: Coordinates,
 }
 
-impl Mixed {
+impl MipStress {
     /// Begins an attempt with the stresses of the accepted state.
     pub fn begin(&mut self, assembly: &Assembly, workspace: &Workspace) {
         let terms = assembly.terms.iter().zip(&assembly.attempts).enumerate();

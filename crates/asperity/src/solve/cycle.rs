@@ -1,17 +1,15 @@
 //! The branches that the stencils took in the last iterations of an attempt: which of them changed, and whether they go
 //! round in circles.
 
+use super::constants::cycles::LENGTH;
 use std::collections::VecDeque;
 
 /// Branch and discrete choice of every stencil, for each term.
 type Branches = Vec<Vec<(u8, u32)>>;
 
-/// Iterations that are remembered: two rounds of the longest cycle that is looked for.
-const LENGTH: usize = 8;
-
 /// The last iterations, the latest first.
 #[derive(Debug, Default)]
-pub struct Trail {
+pub struct CycleDetector {
     steps: VecDeque<Branches>,
 }
 
@@ -35,7 +33,7 @@ pub struct Member {
     pub through: Vec<(u8, u32)>,
 }
 
-impl Trail {
+impl CycleDetector {
     /// Remembers what one iteration met.
     pub fn push(&mut self, branches: &Branches) {
         let mut room = if self.steps.len() == LENGTH { self.steps.pop_back() } else { None }.unwrap_or_default();
@@ -75,29 +73,29 @@ impl Trail {
 mod tests {
     use super::*;
 
-    fn trail(steps: &[[u8; 3]]) -> Trail {
-        let mut trail = Trail::default();
-        steps.iter().for_each(|step| trail.push(&vec![vec![(7, 0)], step.map(|branch| (branch, 4)).to_vec()]));
-        trail
+    fn detector(steps: &[[u8; 3]]) -> CycleDetector {
+        let mut detector = CycleDetector::default();
+        steps.iter().for_each(|step| detector.push(&vec![vec![(7, 0)], step.map(|branch| (branch, 4)).to_vec()]));
+        detector
     }
 
     #[test]
     fn what_changed_is_told_by_term_and_stencil() {
         let none: [(usize, usize); 0] = [];
-        assert_eq!(trail(&[]).changed().collect::<Vec<_>>(), none);
-        assert_eq!(trail(&[[0, 1, 2]]).changed().collect::<Vec<_>>(), none);
-        assert_eq!(trail(&[[0, 1, 2], [0, 2, 1]]).changed().collect::<Vec<_>>(), [(1, 1), (1, 2)]);
+        assert_eq!(detector(&[]).changed().collect::<Vec<_>>(), none);
+        assert_eq!(detector(&[[0, 1, 2]]).changed().collect::<Vec<_>>(), none);
+        assert_eq!(detector(&[[0, 1, 2], [0, 2, 1]]).changed().collect::<Vec<_>>(), [(1, 1), (1, 2)]);
     }
 
     #[test]
     fn a_cycle_is_one_gone_through_twice() {
         let (a, b, c) = ([0, 1, 2], [0, 2, 2], [0, 2, 1]);
-        assert_eq!(trail(&[a, b, a]).cycle(), None);
-        assert_eq!(trail(&[a, a, a, a]).cycle(), None);
-        let cycle = trail(&[c, a, b, a, b]).cycle().unwrap();
+        assert_eq!(detector(&[a, b, a]).cycle(), None);
+        assert_eq!(detector(&[a, a, a, a]).cycle(), None);
+        let cycle = detector(&[c, a, b, a, b]).cycle().unwrap();
         let member = Member { term: 1, stencil: 1, through: vec![(1, 4), (2, 4)] };
         assert_eq!(cycle, Cycle { period: 2, members: vec![member] });
-        assert_eq!(trail(&[a, b, c, a, b, c]).cycle().unwrap().period, 3);
+        assert_eq!(detector(&[a, b, c, a, b, c]).cycle().unwrap().period, 3);
     }
 
     #[test]
@@ -105,7 +103,7 @@ mod tests {
         let (a, b) = ([0, 1, 2], [0, 2, 2]);
         let mut steps = vec![a; 20];
         steps.extend([b, a, b, a]);
-        assert_eq!(trail(&steps).cycle().unwrap().period, 2);
-        assert_eq!(trail(&steps).steps.len(), LENGTH);
+        assert_eq!(detector(&steps).cycle().unwrap().period, 2);
+        assert_eq!(detector(&steps).steps.len(), LENGTH);
     }
 }

@@ -1,57 +1,51 @@
 //! What has jumped in the matrix near contact since it was factorised, as a change of low rank by which the factor is put
 //! right.
 
-use super::influences::{Influences, Site, add_multiple};
-use super::linear::LinearSolver;
-use crate::Failure;
-use crate::system::{Csr, Workspace};
+use super::super::constants::low_rank::{CHANGED, MOST};
+use super::LinearError;
+use super::compliance::{ContactCompliance, Engine, add_multiple};
 use frontal::{Change, Sparse};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most unknowns for which the factor is put right, and the part of its largest value by which a row must have changed.
-const MOST: usize = 1024;
-const CHANGED: f64 = 0.01;
-
-/// The matrix at hand.
+/// A matrix by rows.
 #[derive(Clone, Copy)]
-pub(super) struct Matrix<'a> {
-    pub pattern: &'a Csr,
+pub(super) struct Rows<'a> {
+    pub starts: &'a [usize],
+    pub columns: &'a [usize],
     pub values: &'a [f64],
 }
 
-impl<'a> Matrix<'a> {
-    pub fn of(workspace: &'a Workspace, values: &'a [f64]) -> Self {
-        Self { pattern: workspace.pattern(), values }
-    }
-
+impl Rows<'_> {
     fn row(&self, row: usize) -> (&[usize], &[f64]) {
-        (self.pattern.row(row), &self.values[self.pattern.starts[row]..self.pattern.starts[row + 1]])
+        let range = self.starts[row]..self.starts[row + 1];
+        (&self.columns[range.clone()], &self.values[range])
     }
 }
 
-impl Influences {
-    /// What has changed of the matrix among the unknowns of stencils that are closed or were; None if that is nothing, or
-    /// too much.
+impl ContactCompliance {
+    /// What a matrix is beyond the one that was factorised among the unknowns of points that are closed or were; None if that is
+    /// nothing, or too much.
     ///
     /// # Errors
-    /// When a law cannot answer, or a solution with the factor fails.
-    pub fn change(
+    /// When a solution with the factor fails.
+    pub fn low_rank_update(
         &mut self,
-        (site, matrix): (Site, Matrix),
-        solver: &dyn LinearSolver,
-    ) -> Result<Option<Change>, Failure> {
+        [now, then]: [Rows; 2],
+        closed: &BTreeSet<usize>,
+        engine: Engine,
+    ) -> Result<Option<Change>, LinearError> {
         self.change = None;
-        let mut near: Vec<usize> = self.closed.union(&site.closed()?).copied().collect();
+        let mut near: Vec<usize> = self.closed.union(closed).copied().collect();
         near.retain(|unknown| self.at.binary_search(unknown).is_ok());
         let changed = near.iter().filter_map(|&row| {
-            let change = difference(matrix.row(row), solver.row(row), &near)?;
+            let change = difference(now.row(row), then.row(row), &near)?;
             Some((row, change))
         });
         let (unknowns, rows): (BTreeSet<usize>, Vec<Sparse>) = changed.unzip();
         if unknowns.is_empty() || unknowns.len() > MOST {
             return Ok(None);
         }
-        self.find(&unknowns, solver).map_err(|error| Failure::from(&error))?;
+        self.find(&unknowns, engine)?;
         let unknowns: Vec<usize> = unknowns.into_iter().collect();
         let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
         let capacitance = self.capacitance(&rows, &unknowns);
@@ -78,9 +72,13 @@ impl Influences {
 }
 
 /// What has changed of a row among these unknowns, if that is much; all are in ascending order.
-fn difference((columns, now): (&[usize], &[f64]), then: Sparse, among: &[usize]) -> Option<Sparse> {
+fn difference(
+    (columns, now): (&[usize], &[f64]),
+    (before, then): (&[usize], &[f64]),
+    among: &[usize],
+) -> Option<Sparse> {
     let largest = now.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    let then = then.into_iter().map(|(column, value)| (column, -value));
+    let then = before.iter().zip(then).map(|(&column, value)| (column, -value));
     let mut changed: Sparse = then.chain(columns.iter().copied().zip(now.iter().copied())).collect();
     changed.retain(|(column, _)| among.binary_search(column).is_ok());
     changed.sort_by_key(|(column, _)| *column);

@@ -19,6 +19,8 @@ pub use tet::{TET4, TET10};
 pub use tri::{TRI3, TRI6};
 pub use wedge::{WEDGE6, WEDGE15};
 
+use crate::tensor::legendre;
+
 /// Every cell the program knows.
 pub static ALL: &[&Cell] =
     &[&LINE2, &LINE3, &TRI3, &TRI6, &QUAD4, &QUAD8, &QUAD9, &TET4, &TET10, &HEX8, &HEX20, &HEX27, &WEDGE6, &WEDGE15];
@@ -82,11 +84,11 @@ impl Cell {
                 .flat_map(|rule| rule.points.iter().copied().zip(rule.weights.iter().copied()))
                 .collect();
         }
-        let line = rules::gauss(order);
+        let line = legendre(order);
         match (self.dimension, self.linear.nodes.len()) {
-            (1, _) => line.iter().map(|&[x, weight]| ([x, 0.0, 0.0], weight)).collect(),
+            (1, _) => line.iter().map(|&(x, weight)| ([x, 0.0, 0.0], weight)).collect(),
             (2, corners) => {
-                let square = line.iter().flat_map(|&[y, b]| line.iter().map(move |&[x, a]| ([x, y, 0.0], a * b)));
+                let square = line.iter().flat_map(|&(y, b)| line.iter().map(move |&(x, a)| ([x, y, 0.0], a * b)));
                 let folded = |([x, y, _], weight): ([f64; 3], f64)| {
                     let (a, b) = (0.5 * (1.0 + x), 0.5 * (1.0 + y));
                     ([a * (1.0 - b), b, 0.0], 0.25 * weight * (1.0 - b))

@@ -13,29 +13,6 @@ pub(super) const X1: Gauss<1> = [[0.0, 2.0]];
 pub(super) const X2: Gauss<2> = [[-A2, 1.0], [A2, 1.0]];
 pub(super) const X3: Gauss<3> = [[-A3, 5.0 / 9.0], [0.0, 8.0 / 9.0], [A3, 5.0 / 9.0]];
 
-/// Gauss points and weights of the interval `[-1, 1]`, the zeros of Legendre's polynomial of degree `n` by Newton's method.
-pub(super) fn gauss(n: usize) -> Vec<[f64; 2]> {
-    let point = |i: usize| {
-        let mut x = -((std::f64::consts::PI * (i as f64 + 0.75)) / (n as f64 + 0.5)).cos();
-        let mut slope = 1.0;
-        for _ in 0..100 {
-            let (mut before, mut value) = (1.0, x);
-            for k in 2..=n {
-                let k = k as f64;
-                (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
-            }
-            slope = n as f64 * (x * value - before) / (x * x - 1.0);
-            let step = value / slope;
-            x -= step;
-            if step.abs() < 1e-16 {
-                break;
-            }
-        }
-        [x, 2.0 / ((1.0 - x * x) * slope * slope)]
-    };
-    (0..n).map(point).collect()
-}
-
 /// Points of a rule on the line.
 pub(super) const fn line_points<const N: usize>(x: &Gauss<N>) -> [[f64; 3]; N] {
     let mut points = [[0.0; 3]; N];

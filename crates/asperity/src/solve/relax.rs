@@ -97,7 +97,8 @@ impl Newton<'_> {
         let evaluated = self.evaluate(&at.0, at.1.as_deref(), self.tangent()).map_err(SolveError::from);
         let taken = evaluated.and_then(|()| self.iterate(at, goal, &mut sequence, told));
         self.medium = None;
-        *spent += sequence.solutions();
+        // A step whose forces cannot be found ends before its first solution.
+        *spent += sequence.solutions().max(1);
         Ok(taken?.map(|_| sequence.solutions()))
     }
 

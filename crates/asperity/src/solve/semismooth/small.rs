@@ -270,10 +270,11 @@ impl SmallProblem {
             rates.iter_mut().for_each(|rate| *rate *= turned);
             let (y, motion) = (self.coordinates(&left, part), self.motion(&rates, turned));
             let piece = Piece { left, rates, y, motion, size: ahead.size };
-            if !self.leaving(&piece, 0.0, &all, laws)?.is_empty() {
+            // The last piece ended where a law was off it by little more than nothing; as much, the other way, is on this one.
+            if !self.leaving(&piece, 0.0, (&all, 10.0 * NOTHING), laws)?.is_empty() {
                 return Ok(false);
             }
-            let mut leaving = self.leaving(&piece, end, &all, laws)?;
+            let mut leaving = self.leaving(&piece, end, (&all, NOTHING), laws)?;
             if leaving.is_empty() {
                 if turned < 0.0 {
                     return Ok(false);
@@ -285,7 +286,7 @@ impl SmallProblem {
             let [mut low, mut high] = [0.0, end];
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (low + high);
-                let found = self.leaving(&piece, middle, &leaving, laws)?;
+                let found = self.leaving(&piece, middle, (&leaving, NOTHING), laws)?;
                 if found.is_empty() {
                     low = middle;
                 } else {
@@ -301,12 +302,12 @@ impl SmallProblem {
         Ok(false)
     }
 
-    /// Of some points those whose laws are on another piece at a place along one.
+    /// Of some points those whose laws are off a piece, by more than a part of the largest stress, at a place along it.
     fn leaving(
         &self,
         piece: &Piece,
         length: f64,
-        points: &[usize],
+        (points, nothing): (&[usize], f64),
         laws: &dyn ContactLaws,
     ) -> Result<Vec<usize>, Failure> {
         let mut known = vec![[0.0; COORDINATES]; self.y.len()];
@@ -316,7 +317,7 @@ impl SmallProblem {
             let (left, size) = self.left_at(point, &piece.at(point, length), laws)?;
             let both = left.stress.iter().zip(&known[point]);
             let off = both.fold(0.0_f64, |off, (w, known)| off.max((w - known).abs()));
-            if off > NOTHING * size.max(piece.size) {
+            if off > nothing * size.max(piece.size) {
                 leaving.push(point);
             }
         }

@@ -4,6 +4,7 @@ mod arch;
 mod billet;
 mod capstan;
 mod claw;
+mod contact_default;
 mod contact_field;
 mod contact_patch;
 mod crushed_ring;
@@ -53,6 +54,7 @@ pub const ALL: &[&Case] = &[
     &tube::CASE,
     &contact_patch::CASE,
     &contact_field::CASE,
+    &contact_default::CASE,
     &two_body_patch::CASE,
     &interference_fit::CASE,
     &partial_slip::CASE,

@@ -316,8 +316,10 @@ impl SmallProblem {
         for &point in points {
             let (left, size) = self.left_at(point, &piece.at(point, length), laws)?;
             let both = left.stress.iter().zip(&known[point]);
-            let off = both.fold(0.0_f64, |off, (w, known)| off.max((w - known).abs()));
-            if off > nothing * size.max(piece.size) {
+            let [off, size] = both.fold([0.0, size.max(piece.size)], |[off, size]: [f64; 2], (w, known)| {
+                [off.max((w - known).abs()), size.max(known.abs())]
+            });
+            if off > nothing * size {
                 leaving.push(point);
             }
         }

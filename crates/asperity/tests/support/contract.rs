@@ -8,6 +8,9 @@ use std::sync::Arc;
 /// What a preconditioner may miss of a solution.
 const FEW_DIGITS: f64 = 1e-3;
 
+/// An unknown, and the changes of its row with their columns.
+type ChangedRow = (usize, Vec<(usize, f64)>);
+
 /// A grid of `n` by `n` nodes with two unknowns each, some of them held: springs to the neighbours, and friction that makes the
 /// values unsymmetric. Without `ground` nothing holds a node that has no neighbour.
 struct Grid {
@@ -45,8 +48,8 @@ impl Grid {
         solver.set_pattern(&self.pattern, unknowns).expect("a pattern");
     }
 
-    /// Rows that are changed: each with its unknown, and the values of the matrix with them.
-    fn stiffened(&self, unknowns: &[usize]) -> (Vec<(usize, Vec<(usize, f64)>)>, Vec<f64>) {
+    /// Rows that are changed, and the values of the matrix with them.
+    fn stiffened(&self, unknowns: &[usize]) -> (Vec<ChangedRow>, Vec<f64>) {
         let mut values = self.values.clone();
         let rows = unknowns.iter().map(|&row| {
             let entries = self.pattern.starts[row]..self.pattern.starts[row + 1];

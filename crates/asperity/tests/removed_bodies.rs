@@ -3,6 +3,7 @@
 mod support;
 
 use asperity::deck::{build, read};
+use asperity::output::{Parts, Place, Source};
 use std::path::Path;
 use support::{columns, model, run};
 
@@ -61,6 +62,28 @@ fn a_layer_is_dug_away_and_filled_in() {
     let expected =
         [[-0.0075, -0.01], [-0.015, -0.02], [-0.01, -0.02], [-0.005, -0.02], [-0.01, -0.0275], [-0.015, -0.035]];
     assert_near(&sunk(&deck), &expected);
+}
+
+/// What stays in the means at the nodes that both share is that of the layer which is left; its ends stay where they are.
+#[test]
+fn a_layer_that_is_gone_leaves_no_stress_at_shared_nodes() {
+    let deck = layers("", "", "").replace(
+        "symmetry = [\"block.left\", \"block.right\"]",
+        "displacement.\"block.left\".x = 0.0\ndisplacement.\"block.right\".x = 0.02",
+    ) + "\n[[step]]\nincrements.count = 2\nremove = [\"high\"]";
+    let model = model(&deck, &[]);
+    let states = run(&model).states;
+    let parts = Parts::of(&model);
+    for (state, step) in states.iter().zip([0, 0, 1, 1]).skip(1) {
+        let frame = Source { parts: &parts, state, step }.gather().unwrap();
+        for (name, expected) in [("cauchy_stress_averaged", 10.0), ("logarithmic_strain_averaged", 0.01)] {
+            let quantity = frame.get(Place::Node, name).unwrap();
+            for node in model.mesh.groups["low"].cells.iter().flat_map(|&cell| model.mesh.cell(cell).nodes) {
+                let value = quantity.at(*node)[0];
+                assert!((value / expected - 1.0).abs() < 1e-9, "{name} {step} {node}: {value}");
+            }
+        }
+    }
 }
 
 /// Under a pressure the layers are shortened by `p/E` each; the pressure goes with the layer that it acts on.

@@ -32,18 +32,24 @@ impl<'a> NodalMean<'a> {
     pub fn bounded(self) -> Self {
         Self { bounded: true, ..self }
     }
-    /// Adds a cell by the values at the points of `rule`, point after point.
+    /// Adds a cell by the values at the points of `rule`, point after point, at those of its nodes that take it.
     ///
     /// # Errors
     /// [`Error::Internal`] when the values are not as many as the points.
-    pub fn add(&mut self, cell: usize, rule: &Rule, values: &[f64]) -> Result<(), Error> {
+    pub fn add(
+        &mut self,
+        cell: usize,
+        rule: &Rule,
+        values: &[f64],
+        takes: impl Fn(usize) -> bool,
+    ) -> Result<(), Error> {
         let CellView { kind, nodes } = self.mesh.cell(cell);
         if values.len() != self.width * rule.points.len() {
             return Err(Error::Internal(format!("cell {cell} has {} values at its points", values.len())));
         }
         let key = (kind.name, rule.points.len());
         let weights = self.known.entry(key).or_insert_with(|| extrapolation(kind, rule));
-        for (&node, weights) in nodes.iter().zip(weights.iter()) {
+        for (&node, weights) in nodes.iter().zip(weights.iter()).filter(|(node, _)| takes(**node)) {
             let sums = &mut self.sums[node * self.width..][..self.width];
             for (component, sum) in sums.iter_mut().enumerate() {
                 let at_points = values.iter().skip(component).step_by(self.width).copied();
@@ -120,7 +126,7 @@ mod tests {
             for rule in [Some(kind.full), kind.reduced].into_iter().flatten() {
                 let mesh = single(kind);
                 let mut mean = NodalMean::new(&mesh, 2);
-                mean.add(0, rule, &rule.points.iter().flat_map(field).collect::<Vec<_>>()).unwrap();
+                mean.add(0, rule, &rule.points.iter().flat_map(field).collect::<Vec<_>>(), |_| true).unwrap();
                 let nodal = mean.finish();
                 let enough = rule.points.len() >= kind.linear.nodes.len();
                 for (node, found) in kind.nodes.iter().zip(nodal.chunks_exact(2)) {
@@ -140,7 +146,7 @@ mod tests {
         let mesh = single(kind);
         let values = [400.0, 400.0, 400.0, 250.0];
         let nodal = |mut mean: NodalMean| {
-            mean.add(0, kind.full, &values).unwrap();
+            mean.add(0, kind.full, &values, |_| true).unwrap();
             mean.finish().into_iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(x), h.max(x)])
         };
         let [low, high] = nodal(NodalMean::new(&mesh, 1));
@@ -154,8 +160,8 @@ mod tests {
         let mut mesh = single(kind);
         mesh.points.push(crate::tensor::Vec3::zero());
         let mut mean = NodalMean::new(&mesh, 1);
-        assert!(mean.add(0, kind.full, &[1.0]).is_err());
-        mean.add(0, kind.full, &[1.0; 4]).unwrap();
+        assert!(mean.add(0, kind.full, &[1.0], |_| true).is_err());
+        mean.add(0, kind.full, &[1.0; 4], |_| true).unwrap();
         let nodal = mean.finish();
         assert!(nodal[4].is_nan() && nodal[..4].iter().all(|x| (x - 1.0).abs() < 1e-12));
     }

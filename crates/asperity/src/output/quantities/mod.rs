@@ -62,6 +62,8 @@ pub struct Parts<'a> {
     pub watched: Vec<(String, Vec<usize>)>,
     /// For each step what it does with each unknown.
     pub constraints: Vec<&'a Constraints>,
+    /// For each step the terms that it does without.
+    pub idle: Vec<&'a [usize]>,
     /// Whether any step follows a path, so that the load factor is worth a column.
     pub follows: bool,
 }
@@ -131,6 +133,18 @@ impl Source<'_> {
         }
         reactions
     }
+    /// Whether the step does without a term.
+    fn is_idle(&self, term: usize) -> bool {
+        self.parts.idle.get(self.step).is_some_and(|idle| idle.contains(&term))
+    }
+    /// Which nodes belong to a body that the step has: what others at them have forgotten does not count there.
+    fn borne_nodes(&self) -> Vec<bool> {
+        let (mesh, mut borne) = (self.parts.mesh, vec![false; self.parts.mesh.points.len()]);
+        for (_, body) in self.parts.bodies.iter().filter(|(term, _)| !self.is_idle(*term)) {
+            body.cells().iter().flat_map(|&cell| mesh.cell(cell).nodes).for_each(|&node| borne[node] = true);
+        }
+        borne
+    }
     /// A term's lane of the history.
     ///
     /// # Errors
@@ -182,6 +196,7 @@ impl<'a> Parts<'a> {
             supports: model.supports.clone(),
             watched: model.watched.clone(),
             constraints: model.problem.steps.iter().map(|step| &step.constraints).collect(),
+            idle: model.problem.steps.iter().map(|step| step.idle.as_slice()).collect(),
             follows: model.problem.steps.iter().any(|step| step.arc_length.is_some()),
         }
     }

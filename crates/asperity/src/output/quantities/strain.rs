@@ -14,8 +14,10 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let mesh = source.parts.mesh;
     let (mut mean, mut all) = (NodalMean::new(mesh, 6), Vec::new());
     let mut variables: Vec<(&'static str, NodalMean)> = Vec::new();
+    let borne = source.borne_nodes();
     for (term, body) in &source.parts.bodies {
-        let (history, len) = (source.history(*term)?, body.point_len());
+        let (history, len, idle) = (source.history(*term)?, body.point_len(), source.is_idle(*term));
+        let takes = |node: usize| !(idle && borne[node]);
         let scalars = scalars(body.material().variables());
         for (name, _) in &scalars {
             if variables.iter().all(|(known, _)| known != name) {
@@ -26,11 +28,11 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
             let (states, first) = (history.slot(slot), all.len());
             all.extend(body.total_strains(slot, &source.state.u, states).flatten());
             let rule = body.rule(mesh.cell(cell).kind);
-            mean.add(cell, rule, &all[first..])?;
+            mean.add(cell, rule, &all[first..], takes)?;
             for (name, place) in &scalars {
                 let values: Vec<f64> = states.chunks_exact(len).map(|state| state[*place]).collect();
                 let own = variables.iter_mut().find(|(known, _)| known == name);
-                own.map_or(Ok(()), |(_, mean)| mean.add(cell, rule, &values))?;
+                own.map_or(Ok(()), |(_, mean)| mean.add(cell, rule, &values, takes))?;
             }
         }
     }

@@ -100,15 +100,17 @@ fn report_nodes(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let mesh = source.parts.mesh;
     let (mut mean, mut stress) = (NodalMean::new(mesh, 6), Vec::new());
     let mut equivalent = NodalMean::new(mesh, 1).bounded();
+    let borne = source.borne_nodes();
     for (term, body) in &source.parts.bodies {
-        let (history, len) = (source.history(*term)?, body.point_len());
+        let (history, len, idle) = (source.history(*term)?, body.point_len(), source.is_idle(*term));
+        let takes = |node: usize| !(idle && borne[node]);
         for (slot, &cell) in body.cells().iter().enumerate() {
             let states = history.slot(slot).chunks_exact(len);
             stress.clear();
             states.for_each(|state| stress.extend_from_slice(&state[..6]));
             let rule = body.rule(mesh.cell(cell).kind);
-            mean.add(cell, rule, &stress)?;
-            equivalent.add(cell, rule, &equivalents(&stress))?;
+            mean.add(cell, rule, &stress, takes)?;
+            equivalent.add(cell, rule, &equivalents(&stress), takes)?;
         }
     }
     // Not that of the mean stress: extrapolated components would leave the yield surface.

@@ -112,6 +112,20 @@ fn a_contact_goes_with_its_body() {
     assert!((sunk[2] / sunk[1] - 0.5).abs() < 1e-9 && sunk[3].abs() < 1e-12, "{sunk:?}");
 }
 
+/// A tool that is removed stays where it is, and its load ends with its contact: what it pressed comes back.
+#[test]
+fn a_loaded_tool_is_removed_in_one_line() {
+    let more = "tool.plate.profile = [{ line = [[-9.0, 2.0], [9.0, 2.0]] }]
+        contact.plate = { surface = \"block.top\", target = \"plate\", law.frictionless = {} }";
+    let steps = "load.plate.y = -40.0
+        [[step]]
+        increments.count = 2
+        remove = [\"plate\"]";
+    let sunk = sunk(&layers("", more, steps));
+    assert!((sunk[1][1] / -0.04 - 1.0).abs() < 1e-9 && (sunk[2][1] / -0.02 - 1.0).abs() < 1e-9, "{sunk:?}");
+    assert!(sunk[3].iter().all(|u| u.abs() < 1e-12), "{sunk:?}");
+}
+
 /// A layer comes back without stress at the temperature that it then has, and expands from there.
 #[test]
 fn a_heated_layer_comes_back_without_stress() {

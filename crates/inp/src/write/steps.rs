@@ -66,7 +66,7 @@ impl Writer<'_> {
             if released.iter().any(|name| name.starts_with("\"displacement.")) {
                 self.note(
                     step.place,
-                    "what is no longer held is let go at the beginning of the step, not little by little",
+                    "what is no longer held is let go little by little over the step; CalculiX lets go of it at the beginning",
                 );
             }
             if number > 0 && step.large && !model.steps[number - 1].large {

@@ -42,7 +42,7 @@ fn timeline<T>(
         let new = said(step).iter().find(|(other, _)| other.text == name).and_then(|(_, keys)| value(keys));
         match new {
             Some((value, amplitude)) => Change::To(value, amplitude),
-            None if step.releases(kind, name) || (kind == "load" && step.holds(name)) => Change::Release,
+            None if step.releases(kind, name) || (kind == "load" && step.ends_load(name)) => Change::Release,
             None => Change::Keep,
         }
     };

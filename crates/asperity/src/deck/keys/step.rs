@@ -178,7 +178,13 @@ impl Step {
         self.hold.iter().any(|held| held.text == name)
     }
 
-    /// The same for `kind.name`.
+    /// Whether a load on a tool or group ends with the step: it is released, held, or the tool is removed.
+    pub fn ends_load(&self, name: &str) -> bool {
+        let removes = self.remove.iter().any(|removed| removed.text == name);
+        removes || self.holds(name) || self.releases("load", name)
+    }
+
+    /// Whether the step releases `kind.name`.
     pub fn releases_path(&self, path: &str) -> bool {
         self.release.iter().any(|released| released.text == path)
     }

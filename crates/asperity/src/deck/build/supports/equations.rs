@@ -83,7 +83,10 @@ impl Relations {
         let order = equation.terms.iter().map(|term| term.0).chain(sum.keys().copied());
         let Some(pivot) = order.into_iter().find(|dof| free(dof) && sum[dof].abs() >= 0.1 * most) else {
             return match sum.keys().any(|dof| fixed.get(dof) == Some(&true)) {
-                true => Err("all its nodes are held or led, not all alike".into()),
+                true => Err(
+                    "all its nodes are held or led: the supports alone say where they go; remove one of them, or this"
+                        .into(),
+                ),
                 false => Ok(()),
             };
         };

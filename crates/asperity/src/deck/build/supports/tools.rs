@@ -27,9 +27,9 @@ impl Builder<'_> {
                 }
             }
         }
-        // A tool that is released from a load is held again.
+        // A tool that is released from a load, or removed, is held again.
         for (tool, name) in self.leaders().enumerate() {
-            if step.releases("load", &name.text) || step.holds(&name.text) {
+            if step.ends_load(&name.text) {
                 self.hold_tool(tool, name, claims);
             }
         }
@@ -62,7 +62,6 @@ impl Builder<'_> {
 
     /// Whether an earlier step loads a tool along one of its unknowns, and nothing has ended that.
     fn is_loaded(&self, step: &Step, name: &Name, i: usize) -> bool {
-        let ends = |step: &Step| step.releases("load", &name.text) || step.holds(&name.text);
         let loads = |step: &Step| {
             let said = step.load.iter().find(|(other, _)| other.text == name.text);
             said.is_some_and(|(_, keys)| if self.plane() { keys.plane()[i] } else { keys.space()[i] }.is_some())
@@ -71,12 +70,12 @@ impl Builder<'_> {
             let said = step.motion.iter().find(|(other, _)| other.text == name.text);
             said.is_some_and(|(_, keys)| if self.plane() { keys.plane()[i] } else { keys.space()[i] }.is_some())
         };
-        if ends(step) {
+        if step.ends_load(&name.text) {
             return false;
         }
         self.before(step).rev().find_map(|step| match () {
             () if loads(step) => Some(true),
-            () if ends(step) || moves(step) => Some(false),
+            () if step.ends_load(&name.text) || moves(step) => Some(false),
             () => None,
         }) == Some(true)
     }

@@ -129,7 +129,7 @@ impl Facet {
 }
 
 /// Corners of a face of an element and the nodes in the middle of its edges.
-fn nodes_of(element: &Element, face: usize) -> Vec<usize> {
+pub(super) fn nodes_of(element: &Element, face: usize) -> Vec<usize> {
     let Some(corners) = element.kind.faces.get(face - 1) else { return vec![] };
     let mut nodes: Vec<usize> = corners.iter().map(|&corner| element.nodes[corner]).collect();
     let count = element.kind.faces.iter().flat_map(|face| face.iter()).max().map_or(0, |most| most + 1);

@@ -1,12 +1,16 @@
 //! Loads and temperatures, step by step.
 
 use super::Writer;
+use super::adjust::nodes_of;
 use super::conditions::Table;
 use super::courses::{Item, Record};
 use super::temperatures::Temperatures;
 use crate::model::{Action, ActionKind, Condition, Target};
 use crate::read::along;
 use std::collections::BTreeMap;
+
+/// Components of a direction below which they are what rounding left of zero.
+const ROUNDING: f64 = 1e-12;
 
 /// Loads of each kind.
 pub struct Loads {
@@ -66,7 +70,7 @@ impl Writer<'_> {
                         *idle.entry(record).or_insert(0) += 1;
                     } else if self.used[*node] && *axis < self.dimension() {
                         let parts = along(model.frames.get(node), *axis);
-                        for at in (0..self.dimension()).filter(|&at| parts[at] != 0.0) {
+                        for at in (0..self.dimension()).filter(|&at| parts[at].abs() > ROUNDING) {
                             pieces.entry((record, at, parts[at].to_bits())).or_default().push(*node);
                         }
                     } else if !self.used[*node] && !model.rigid.iter().any(|rigid| rigid.node == *node) {
@@ -143,8 +147,15 @@ impl Writer<'_> {
                 let item = Item { end, start: None, course, place: record.place };
                 match kind {
                     ActionKind::Pressure(_, faces, _) => {
-                        let kept =
+                        let kept: Vec<_> =
                             faces.iter().copied().filter(|(element, _)| self.section[*element].is_some()).collect();
+                        if kept.iter().all(|side| self.is_held(*side, number)) {
+                            if !kept.is_empty() {
+                                let what = "this pressure acts on faces all of whose nodes are held, and is left out: it moves nothing";
+                                self.note(record.place, what);
+                            }
+                            continue;
+                        }
                         let group = self.groups.sides(&record.name, kept);
                         self.lay(&mut pressed, group, 0, item);
                     }
@@ -163,6 +174,13 @@ impl Writer<'_> {
             }
         }
         (pressures, volumes)
+    }
+
+    /// Whether all nodes of a face are held or led along all axes in a step.
+    fn is_held(&self, (element, face): (usize, Option<usize>), step: usize) -> bool {
+        let (Some(face), Some(held)) = (face, self.held.get(step)) else { return false };
+        let mut nodes = nodes_of(&self.model.elements[element], face).into_iter().peekable();
+        nodes.peek().is_some() && nodes.all(|node| (0..self.dimension()).all(|axis| held.contains(&(node, axis))))
     }
 
     /// A force per volume on elements: times their density where it is gravity.

@@ -48,7 +48,7 @@ struct Writer<'m> {
     rings: Vec<(String, Place)>,
     /// New places of nodes that are moved onto a surface.
     moved: BTreeMap<usize, [f64; 3]>,
-    /// Nodes and axes that are held or led in each step.
+    /// Nodes and axes, those of the node's `*TRANSFORM`, that are held or led in each step.
     held: Vec<BTreeSet<(usize, usize)>>,
     /// The path of a library with laws of users.
     library: &'m str,

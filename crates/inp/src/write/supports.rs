@@ -47,8 +47,7 @@ impl Writer<'_> {
             let (displacement, motion) = self.led(number, &owners, &records, &start);
             supports.displacement.push(displacement);
             supports.motion.push(motion);
-            let own = |key: &&(usize, usize)| !model.frames.contains_key(&key.0);
-            self.held.push(owners.keys().filter(own).copied().collect());
+            self.held.push(owners.keys().copied().collect());
             let reached: Vec<f64> = records.iter().map(|record| self.followed(record, number).0).collect();
             records.iter_mut().zip(reached).for_each(|(record, reached)| record.reached = reached);
         }

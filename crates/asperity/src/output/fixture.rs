@@ -54,6 +54,7 @@ impl Fixture {
             supports: vec![("all".into(), (0..self.mesh.points.len()).collect())],
             watched: vec![],
             constraints: vec![&self.held],
+            idle: vec![],
             follows: false,
         }
     }

@@ -28,6 +28,10 @@ fn layers(body: &str, more: &str, steps: &str) -> String {
     )
 }
 
+/// A plate upon the layers.
+const PLATE: &str = "tool.plate.profile = [{ line = [[-9.0, 2.0], [9.0, 2.0]] }]
+    contact.plate = { surface = \"block.top\", target = \"plate\", law.frictionless = {} }";
+
 /// Displacements along y at each state of the nodes between the layers and at the top.
 fn sunk(deck: &str) -> Vec<[f64; 2]> {
     let model = model(deck, &[]);
@@ -97,13 +101,11 @@ fn a_load_goes_with_its_body() {
 /// So does a contact, whose force fades.
 #[test]
 fn a_contact_goes_with_its_body() {
-    let more = "tool.plate.profile = [{ line = [[-9.0, 2.0], [9.0, 2.0]] }]
-        contact.plate = { surface = \"block.top\", target = \"plate\", law.frictionless = {} }";
     let steps = "motion.plate.y = -0.02
         [[step]]
         increments.count = 2
         remove = [\"high\"]";
-    let model = model(&layers("", more, steps), &[]);
+    let model = model(&layers("", PLATE, steps), &[]);
     let keep = run(&model);
     let force: Vec<f64> = columns(&model, &keep)["contact.plate.force.y"].iter().map(|force| force.abs()).collect();
     assert!(force[1] > 15.0 && force[2].abs() + force[3].abs() < 1e-9, "{force:?}");
@@ -115,13 +117,11 @@ fn a_contact_goes_with_its_body() {
 /// A tool that is removed stays where it is, and its load ends with its contact: what it pressed comes back.
 #[test]
 fn a_loaded_tool_is_removed_in_one_line() {
-    let more = "tool.plate.profile = [{ line = [[-9.0, 2.0], [9.0, 2.0]] }]
-        contact.plate = { surface = \"block.top\", target = \"plate\", law.frictionless = {} }";
     let steps = "load.plate.y = -40.0
         [[step]]
         increments.count = 2
         remove = [\"plate\"]";
-    let sunk = sunk(&layers("", more, steps));
+    let sunk = sunk(&layers("", PLATE, steps));
     assert!((sunk[1][1] / -0.04 - 1.0).abs() < 1e-9 && (sunk[2][1] / -0.02 - 1.0).abs() < 1e-9, "{sunk:?}");
     assert!(sunk[3].iter().all(|u| u.abs() < 1e-12), "{sunk:?}");
 }

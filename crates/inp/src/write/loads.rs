@@ -5,12 +5,10 @@ use super::adjust::nodes_of;
 use super::conditions::Table;
 use super::courses::{Item, Record};
 use super::temperatures::Temperatures;
+use super::turned::PARALLEL;
 use crate::model::{Action, ActionKind, Condition, Target};
 use crate::read::along;
 use std::collections::BTreeMap;
-
-/// Components of a direction below which they are what rounding left of zero.
-const ROUNDING: f64 = 1e-12;
 
 /// Loads of each kind.
 pub struct Loads {
@@ -70,7 +68,7 @@ impl Writer<'_> {
                         *idle.entry(record).or_insert(0) += 1;
                     } else if self.used[*node] && *axis < self.dimension() {
                         let parts = along(model.frames.get(node), *axis);
-                        for at in (0..self.dimension()).filter(|&at| parts[at].abs() > ROUNDING) {
+                        for at in (0..self.dimension()).filter(|&at| parts[at].abs() > PARALLEL) {
                             pieces.entry((record, at, parts[at].to_bits())).or_default().push(*node);
                         }
                     } else if !self.used[*node] && !model.rigid.iter().any(|rigid| rigid.node == *node) {
@@ -149,11 +147,9 @@ impl Writer<'_> {
                     ActionKind::Pressure(_, faces, _) => {
                         let kept: Vec<_> =
                             faces.iter().copied().filter(|(element, _)| self.section[*element].is_some()).collect();
-                        if kept.iter().all(|side| self.is_held(*side, number)) {
-                            if !kept.is_empty() {
-                                let what = "this pressure acts on faces all of whose nodes are held, and is left out: it moves nothing";
-                                self.note(record.place, what);
-                            }
+                        if !kept.is_empty() && kept.iter().all(|side| self.is_held(*side, number)) {
+                            let what = "this pressure acts on faces all of whose nodes are held, and is left out: it moves nothing";
+                            self.note(record.place, what);
                             continue;
                         }
                         let group = self.groups.sides(&record.name, kept);
@@ -179,8 +175,9 @@ impl Writer<'_> {
     /// Whether all nodes of a face are held or led along all axes in a step.
     fn is_held(&self, (element, face): (usize, Option<usize>), step: usize) -> bool {
         let (Some(face), Some(held)) = (face, self.held.get(step)) else { return false };
-        let mut nodes = nodes_of(&self.model.elements[element], face).into_iter().peekable();
-        nodes.peek().is_some() && nodes.all(|node| (0..self.dimension()).all(|axis| held.contains(&(node, axis))))
+        let nodes = nodes_of(&self.model.elements[element], face);
+        let is_led = |&node: &usize| (0..self.dimension()).all(|axis| held.contains(&(node, axis)));
+        !nodes.is_empty() && nodes.iter().all(is_led)
     }
 
     /// A force per volume on elements: times their density where it is gravity.

@@ -14,7 +14,7 @@ pub enum Led {
 }
 
 /// Sines of angles below this count as nothing.
-const PARALLEL: f64 = 1e-12;
+pub(super) const PARALLEL: f64 = 1e-12;
 
 /// What values along some axes of a frame say along those of the model: components where an axis of the frame is one of the
 /// model, or where all that are none are led; a value along a direction where one is. None where two of three are.

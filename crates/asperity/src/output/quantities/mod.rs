@@ -133,17 +133,15 @@ impl Source<'_> {
         }
         reactions
     }
-    /// Whether the step does without a term.
-    fn is_idle(&self, term: usize) -> bool {
-        self.parts.idle.get(self.step).is_some_and(|idle| idle.contains(&term))
-    }
-    /// Which nodes belong to a body that the step has: what others at them have forgotten does not count there.
-    fn borne_nodes(&self) -> Vec<bool> {
-        let (mesh, mut borne) = (self.parts.mesh, vec![false; self.parts.mesh.points.len()]);
-        for (_, body) in self.parts.bodies.iter().filter(|(term, _)| !self.is_idle(*term)) {
+    /// Whether a body, by its term, counts in the mean at a node: where a body is that the step has, those that it does without have
+    /// forgotten their stress.
+    fn counting(&self) -> impl Fn(usize, usize) -> bool {
+        let (mesh, idle) = (self.parts.mesh, self.parts.idle.get(self.step).copied().unwrap_or_default());
+        let mut borne = vec![false; mesh.points.len()];
+        for (_, body) in self.parts.bodies.iter().filter(|(term, _)| !idle.is_empty() && !idle.contains(term)) {
             body.cells().iter().flat_map(|&cell| mesh.cell(cell).nodes).for_each(|&node| borne[node] = true);
         }
-        borne
+        move |term, node| !idle.contains(&term) || !borne[node]
     }
     /// A term's lane of the history.
     ///

@@ -14,10 +14,10 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let mesh = source.parts.mesh;
     let (mut mean, mut all) = (NodalMean::new(mesh, 6), Vec::new());
     let mut variables: Vec<(&'static str, NodalMean)> = Vec::new();
-    let borne = source.borne_nodes();
+    let counts = source.counting();
     for (term, body) in &source.parts.bodies {
-        let (history, len, idle) = (source.history(*term)?, body.point_len(), source.is_idle(*term));
-        let takes = |node: usize| !(idle && borne[node]);
+        let (history, len) = (source.history(*term)?, body.point_len());
+        let takes = |node: usize| counts(*term, node);
         let scalars = scalars(body.material().variables());
         for (name, _) in &scalars {
             if variables.iter().all(|(known, _)| known != name) {

@@ -100,10 +100,10 @@ fn report_nodes(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let mesh = source.parts.mesh;
     let (mut mean, mut stress) = (NodalMean::new(mesh, 6), Vec::new());
     let mut equivalent = NodalMean::new(mesh, 1).bounded();
-    let borne = source.borne_nodes();
+    let counts = source.counting();
     for (term, body) in &source.parts.bodies {
-        let (history, len, idle) = (source.history(*term)?, body.point_len(), source.is_idle(*term));
-        let takes = |node: usize| !(idle && borne[node]);
+        let (history, len) = (source.history(*term)?, body.point_len());
+        let takes = |node: usize| counts(*term, node);
         for (slot, &cell) in body.cells().iter().enumerate() {
             let states = history.slot(slot).chunks_exact(len);
             stress.clear();

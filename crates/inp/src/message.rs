@@ -58,6 +58,12 @@ impl Messages {
         !self.errors.is_empty()
     }
 
+    /// Whether anything is wrong at a place.
+    pub fn has_error_at(&self, place: Place) -> bool {
+        let first = Message { place, text: String::new() };
+        self.errors.range(first..).next().is_some_and(|error| error.place == place)
+    }
+
     /// All errors in order of their places, `file:line: what`; of very many the first.
     pub fn errors(&self) -> Vec<String> {
         let mut lines: Vec<String> = self.errors.iter().take(MOST_TOLD).map(|error| self.line(error)).collect();

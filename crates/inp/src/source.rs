@@ -2,6 +2,7 @@
 
 use crate::keywords;
 use crate::message::{Messages, Place};
+use std::cell::Cell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -16,13 +17,37 @@ pub struct Line {
     pub place: Place,
     text: Rc<str>,
     range: Range<usize>,
+    /// How many of its fields were read.
+    read: Cell<usize>,
 }
 
 impl Line {
+    /// A field, trimmed, without quotes; empty where the line ends before it.
+    pub fn field(&self, at: usize) -> &str {
+        self.read.set(self.read.get().max(at + 1));
+        self.split().nth(at).unwrap_or("")
+    }
+
+    /// The first field that is not empty and was not read, where others of the line were.
+    pub fn unread(&self) -> Option<(usize, &str)> {
+        let read = self.read.get();
+        self.split().enumerate().skip(read).find(|(_, field)| read > 0 && !field.is_empty())
+    }
+
+    /// Whether any of its fields was read.
+    pub fn is_read(&self) -> bool {
+        self.read.get() > 0
+    }
+
     /// The fields between its commas, trimmed, without quotes; a comma at its end adds none.
     pub fn fields(&self) -> Vec<&str> {
-        let text = self.text[self.range.clone()].trim();
-        text.strip_suffix(',').unwrap_or(text).split(',').map(|field| field.trim().trim_matches('"')).collect()
+        self.read.set(usize::MAX);
+        self.split().collect()
+    }
+
+    fn split(&self) -> impl Iterator<Item = &str> {
+        let text = self.text();
+        text.strip_suffix(',').unwrap_or(text).split(',').map(|field| field.trim().trim_matches('"'))
     }
 
     /// The whole line.
@@ -117,7 +142,7 @@ impl Cutter<'_> {
                 return self.messages.error(at, what);
             }
         };
-        self.text(path, &String::from_utf8_lossy(&bytes));
+        self.text(path, &decoded(&bytes));
     }
 
     fn text(&mut self, path: &Path, text: &str) {
@@ -135,7 +160,7 @@ impl Cutter<'_> {
                 continue;
             }
             let Some(keyword) = line.trim_start().trim_start_matches('\u{feff}').strip_prefix('*') else {
-                self.data(Line { place, text: text.clone(), range });
+                self.data(Line { place, text: text.clone(), range, read: Cell::new(0) });
                 continue;
             };
             let mut keyword = keyword.trim().to_string();
@@ -192,6 +217,20 @@ impl Cutter<'_> {
             None => {}
         }
     }
+}
+
+/// The text of a file: UTF-8, or UTF-16 where it begins with the mark of that; lines may end as on any machine.
+fn decoded(bytes: &[u8]) -> String {
+    let wide = |of: fn([u8; 2]) -> u16| {
+        let words = bytes[2..].chunks_exact(2).map(|two| of([two[0], two[1]]));
+        char::decode_utf16(words).map(|found| found.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+    };
+    let text: String = match bytes {
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
+        _ => String::from_utf8_lossy(bytes).into_owned(),
+    };
+    if text.contains('\n') { text } else { text.replace('\r', "\n") }
 }
 
 /// Capitals, one blank between words.

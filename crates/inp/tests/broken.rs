@@ -91,6 +91,30 @@ fn a_wrong_field_is_told_at_its_line() {
     assert!(told > 1500, "only {told} fields were told at their line");
 }
 
+/// A field more than a line has is told at its line, whether it would have a meaning or not.
+#[test]
+fn a_field_too_many_is_told_at_its_line() {
+    let folder = folder();
+    for deck in decks() {
+        let text = std::fs::read_to_string(&deck).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        let mut keyword = "";
+        for (at, line) in lines.iter().enumerate() {
+            if line.starts_with('*') {
+                keyword = if line.starts_with("**") { keyword } else { line };
+                continue;
+            }
+            if line.contains('=') || line.trim() == "generate" || !is_read(keyword) || line.trim().is_empty() {
+                continue;
+            }
+            let found = errors(folder.path(), &with(&lines, at, &format!("{},?%&", line.trim_end_matches(','))));
+            let place = format!("deck.inp:{}: ", at + 1);
+            let told = found.iter().any(|error| error.contains(&place));
+            assert!(told, "{}:{}: '{line}': {found:?}", deck.display(), at + 1);
+        }
+    }
+}
+
 /// A keyword or a parameter of no known name is told, with the nearest one.
 #[test]
 fn a_wrong_keyword_is_told_at_its_line() {
@@ -148,6 +172,25 @@ fn torn_decks_do_not_panic() {
     }
 }
 
+/// Decks in UTF-16 and with the ends of lines of other machines say the same.
+#[test]
+fn encodings_and_ends_of_lines() {
+    let folder = folder();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks/cload.inp");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let deck = folder.path().join("cload.inp");
+    let translated = |bytes: &[u8]| {
+        std::fs::write(&deck, bytes).unwrap();
+        inp::translate(&deck, "mesh.inp").unwrap().deck
+    };
+    let plain = translated(text.as_bytes());
+    let wide = |of: fn(u16) -> [u8; 2]| format!("\u{feff}{text}").encode_utf16().flat_map(of).collect::<Vec<u8>>();
+    assert_eq!(translated(&wide(u16::to_le_bytes)), plain);
+    assert_eq!(translated(&wide(u16::to_be_bytes)), plain);
+    assert_eq!(translated(text.replace('\n', "\r\n").as_bytes()), plain);
+    assert_eq!(translated(text.replace('\n', "\r").as_bytes()), plain);
+}
+
 #[test]
 fn files_that_are_no_decks_are_told() {
     let folder = folder();
@@ -159,6 +202,40 @@ fn files_that_are_no_decks_are_told() {
     assert!(errors(folder.path(), "*INCLUDE, INPUT=.\n")[0].contains("no regular file"));
     let errors = inp::translate(&folder.path().join("gone.inp"), "mesh.inp").unwrap_err();
     assert!(errors[0].contains("gone.inp") && errors[0].contains("cannot be read"));
+}
+
+/// What once passed without a word.
+#[test]
+fn nothing_is_passed_over() {
+    let folder = folder();
+    let text =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks/held_loads.inp")).unwrap();
+    let said = |from: &str, to: &str, what: &str| {
+        assert!(text.contains(from), "{from}");
+        let found = errors(folder.path(), &text.replace(from, to));
+        assert!(found.iter().any(|error| error.contains(what)), "{to}: {found:?}");
+    };
+    said("1000, 0\n", "1000, 0, 20, 7\n", "*ELASTIC does not read field 4, '7'");
+    said("1, P4, 3\n", "1, P4, 3, 5\n", "*DLOAD does not read field 4, '5'");
+    said("*STATIC\n", "*STATIC\n.1, 1.\n.2, 1.\n", "*STATIC does not read this line");
+    said("*MATERIAL", "*SURFACE, NAME=S\n1, -4\n*MATERIAL", "no face '-4'");
+    said("*MATERIAL", "*SURFACE, NAME=S\n1, S+4\n*MATERIAL", "no face 'S+4'");
+    // A keyword line that is wrong does not hide what is wrong below it.
+    said("*CLOAD\nRIGHT, 1, 5\n", "*CLOAD, AMPLITUDE=A\nRIGHTT, 1, 5\n", "did you mean 'RIGHT'?");
+    let tied = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks/tie.inp")).unwrap();
+    let led = tied.replace("*STATIC\n", "*STATIC\n*BOUNDARY\n101, 3, 3, -0.01\n");
+    let notes = inp::translate_text(&folder.path().join("deck.inp"), &led, "mesh.inp").unwrap().notes;
+    assert!(
+        notes.iter().any(|note| note.contains("1 of these nodes are of a surface that follows in a *TIE")),
+        "{notes:?}"
+    );
+    let some = text.replace("1, 4\n", "1, 4\n*NSET, NSET=SOME, GENERATE\n3, 9\n");
+    let made = inp::translate_text(&folder.path().join("deck.inp"), &some, "mesh.inp");
+    let notes = made.map(|made| made.notes);
+    assert!(
+        notes.as_ref().is_ok_and(|notes| notes.iter().any(|note| note.contains("2 of the 7 numbers"))),
+        "{notes:?}"
+    );
 }
 
 /// All faults are told at once.

@@ -57,6 +57,11 @@ impl Constraints {
         Self { tied, ..self }
     }
 
+    /// Whether an unknown follows others by an equation.
+    pub fn is_tied(&self, dof: usize) -> bool {
+        self.tied.iter().any(|(tied, _)| *tied == dof)
+    }
+
     /// Moves forces on unknowns that follow others by equations to those that they follow.
     pub fn carry(&self, forces: &mut [f64]) {
         for (dof, others) in &self.tied {

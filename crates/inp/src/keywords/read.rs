@@ -269,7 +269,7 @@ pub static READ: &[Keyword] = &[
             left("DIRECT"),
             refused("NO SEPARATION", "surfaces part where nothing presses them; leave it out"),
         ],
-        "`penalty`; hard contact has the computed one; `tie` where surfaces are TIED",
+        "`penalty`; hard contact has the computed one; `tie` where surfaces are TIED; `closure` of a table, which begins at an overclosure of zero",
     ),
     Keyword {
         name: "FRICTION",

@@ -49,6 +49,7 @@ impl Reader {
     fn linear(&mut self, block: &Block) {
         let Some(line) = self.first_line(block, "the slope of pressure over penetration") else { return };
         let Some(slope) = self.positive(line, 0, "the slope of pressure over penetration") else { return };
+        self.real_or(line, 2, "the distance of that tension", 0.0);
         let Some(tension) = self.real_or(line, 1, "the tension far away", 0.0) else { return };
         if tension != 0.0 {
             let what = format!("surfaces that are apart pull each other by nothing here, in place of up to {tension}");
@@ -189,11 +190,11 @@ impl Reader {
         };
         let adjust = block.word("ADJUST").is_none_or(|word| word != "NO");
         for line in &block.lines {
-            let fields = line.fields();
-            let [first, second, ..] = fields.as_slice() else {
+            let (first, second) = (line.field(0), line.field(1));
+            if second.is_empty() {
                 self.error(line.place, "a tie has two surfaces: the one that follows, and the one that it follows");
                 continue;
-            };
+            }
             let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
             if let (Some(slave), Some(master)) = (slave, master) {
                 self.model.ties.push(Tie { place: line.place, slave, master, tolerance, adjust });
@@ -271,9 +272,8 @@ impl Reader {
             return pairs;
         }
         for line in &block.lines {
-            let fields = line.fields();
-            let first = fields.first().copied().unwrap_or("");
-            let second = fields.get(1).copied().filter(|field| !field.is_empty()).unwrap_or(first);
+            let first = line.field(0);
+            let second = Some(line.field(1)).filter(|field| !field.is_empty()).unwrap_or(first);
             let (slave, master) = (self.named_surface(line.place, first), self.named_surface(line.place, second));
             if let (Some(slave), Some(master)) = (slave, master) {
                 pairs.push((line.place, [slave, master]));

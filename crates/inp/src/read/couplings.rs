@@ -90,7 +90,7 @@ impl Reader {
             return;
         }
         for line in &block.lines {
-            let name = line.fields().first().copied().unwrap_or("").to_string();
+            let name = line.field(0).to_string();
             let Some(target) = self.members(line.place, &name, Of::Nodes) else { continue };
             let Some(axes) = self.held_axes(line, 1) else { continue };
             let what = RigidPart::Nodes(target.members, target.name);
@@ -100,7 +100,7 @@ impl Reader {
 
     /// The axes from one degree of freedom to another, all where none is named.
     pub(super) fn held_axes(&mut self, line: &Line, at: usize) -> Option<[bool; 3]> {
-        let given = |at: usize| line.fields().get(at).is_some_and(|field| !field.is_empty());
+        let given = |at: usize| !line.field(at).is_empty();
         if !given(at) {
             return Some([true; 3]);
         }

@@ -11,7 +11,7 @@ impl Reader {
     pub(crate) fn equation(&mut self, block: &Block) {
         let mut lines = block.lines.iter();
         while let Some(line) = lines.next() {
-            let field = line.fields().first().map(|field| (*field).to_string()).unwrap_or_default();
+            let field = line.field(0).to_string();
             let Some(count) = field.parse::<usize>().ok().filter(|count| (1..=100_000).contains(count)) else {
                 let what = format!(
                     "an equation begins with the number of its terms, which '{}' is not",
@@ -39,7 +39,7 @@ impl Reader {
 
     /// Nodes, axis and factor of a term.
     fn term(&mut self, line: &Line, at: usize) -> Option<(Vec<usize>, usize, f64)> {
-        let name = line.fields().get(at).map(|field| (*field).to_string()).unwrap_or_default();
+        let name = line.field(at).to_string();
         let nodes = self.members(line.place, &name, Of::Nodes)?.members;
         Some((nodes, self.axis(line, at + 1)?, self.real(line, at + 2, "the factor")?))
     }

@@ -29,6 +29,7 @@ impl Reader {
     fn constants(&mut self, block: &Block, names: &[&str]) -> Option<Vec<f64>> {
         let first = self.first_line(block, &names.join(", "))?;
         let row = |reader: &mut Self, line: &Line| -> Option<Vec<f64>> {
+            reader.real_or(line, names.len(), "the temperature", 0.0)?;
             names.iter().enumerate().map(|(at, name)| reader.real(line, at, name)).collect()
         };
         let constants = row(self, first)?;
@@ -104,6 +105,7 @@ impl Reader {
         }
         let mut curve: Vec<[f64; 2]> = Vec::new();
         for line in &block.lines {
+            self.real_or(line, 2, "the temperature", 0.0);
             let Some(stress) = self.positive(line, 0, "the yield stress") else { return };
             let Some(strain) = self.real_or(line, 1, "the plastic strain", 0.0) else { return };
             let wrong = match curve.last() {
@@ -130,6 +132,7 @@ impl Reader {
     pub(crate) fn potential(&mut self, block: &Block) {
         const NAMES: [&str; 6] = ["R11", "R22", "R33", "R12", "R13", "R23"];
         let Some(line) = self.first_line(block, &NAMES.join(", ")) else { return };
+        self.real_or(line, 6, "the temperature", 0.0);
         let mut ratios = [1.0; 6];
         for (at, name) in NAMES.iter().enumerate() {
             let Some(ratio) = self.positive(line, at, name) else { return };
@@ -165,7 +168,7 @@ impl Reader {
     /// `*DEPVAR`: how many values a law of the user's own keeps.
     pub(crate) fn depvar(&mut self, block: &Block) {
         let Some(line) = self.first_line(block, "the number of states") else { return };
-        let field = line.fields().first().copied().unwrap_or("").to_string();
+        let field = line.field(0).to_string();
         let Ok(states) = field.parse::<usize>() else {
             return self.error(line.place, format!("'{}' is no number of states", super::shorten(&field)));
         };
@@ -253,7 +256,7 @@ impl Reader {
             return self.error(block.place, format!("there is no material '{name}'{near}"));
         };
         let thickness = match block.lines.first() {
-            Some(line) if line.fields().first().is_some_and(|field| !field.is_empty()) => {
+            Some(line) if !line.field(0).is_empty() => {
                 let Some(thickness) = self.positive(line, 0, "the thickness") else { return };
                 Some(thickness)
             }

@@ -31,11 +31,8 @@ impl Reader {
         for (axis, value) in x.iter_mut().enumerate() {
             *value = self.real_or(line, axis + 1, "a coordinate", 0.0)?;
         }
-        if line.fields().len() > 7 {
-            self.error(
-                line.place,
-                format!("node {label} has too many fields; one line holds a number and its coordinates"),
-            );
+        for at in 4..7 {
+            self.real_or(line, at, "a component of the normal", 0.0)?;
         }
         let (x, scope) = (self.placed(x), self.scope);
         let index = self.model.nodes.len();
@@ -47,8 +44,7 @@ impl Reader {
     }
 
     fn whole(&mut self, line: &Line, at: usize, what: &str) -> Option<u64> {
-        let fields = line.fields();
-        let field = fields.get(at).copied().unwrap_or("");
+        let field = line.field(at);
         let number = field.parse::<u64>().ok().filter(|number| (1..=MOST_NUMBER).contains(number));
         if number.is_none() {
             self.error(
@@ -200,8 +196,12 @@ impl Reader {
         let numbers = if of == Of::Nodes { &scope.nodes } else { &scope.elements };
         let found: Vec<usize> =
             numbers.range(first..=last).filter(|(n, _)| (*n - first).is_multiple_of(step)).map(|(_, &i)| i).collect();
+        let wanted = (last - first) / step + 1;
         if found.is_empty() {
             self.error(line.place, format!("nothing has a number from {first} to {last} by {step}"));
+        } else if (found.len() as u64) < wanted {
+            let what = format!("{} of the {wanted} numbers from {first} to {last} are there", found.len());
+            self.note(line.place, what);
         }
         found
     }
@@ -214,9 +214,14 @@ impl Reader {
                 SurfaceKind::Faces(block.lines.iter().flat_map(|line| self.faces(line)).collect())
             }
             Some("NODE") => {
-                let nodes = |line: &Line| line.fields().first().map(|field| (*field).to_string());
-                let named: Vec<(Place, String)> =
-                    block.lines.iter().filter_map(|line| Some((line.place, nodes(line)?))).collect();
+                let named: Vec<(Place, String)> = block
+                    .lines
+                    .iter()
+                    .map(|line| {
+                        self.real_or(line, 1, "the area of a node", 0.0);
+                        (line.place, line.field(0).to_string())
+                    })
+                    .collect();
                 let found = named.iter().filter_map(|(place, name)| self.members(*place, name, Of::Nodes));
                 SurfaceKind::Nodes(found.flat_map(|target| target.members).collect())
             }
@@ -243,8 +248,7 @@ impl Reader {
 
     /// The faces that a line of a surface names.
     fn faces(&mut self, line: &Line) -> Vec<(usize, Option<usize>, bool)> {
-        let fields = line.fields();
-        let (name, label) = (fields.first().copied().unwrap_or("").to_string(), fields.get(1).copied().unwrap_or(""));
+        let (name, label) = (line.field(0).to_string(), line.field(1));
         if name.is_empty() {
             self.error(line.place, "a line of a surface names an element or a set; mend it");
             return vec![];
@@ -272,7 +276,8 @@ impl Reader {
             "SNEG" if rigid => return Some((Some(1), true)),
             _ => {}
         }
-        let number = label.get(1..).and_then(|number| number.parse::<usize>().ok());
+        let digits = label.strip_prefix('S').filter(|digits| digits.chars().all(|c| c.is_ascii_digit()));
+        let number = digits.and_then(|digits| digits.parse::<usize>().ok());
         match number.filter(|number| (1..=count).contains(number)) {
             Some(number) => Some((Some(number), false)),
             None => {

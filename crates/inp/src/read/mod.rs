@@ -76,6 +76,7 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
     reader.end_couplings();
     reader.end_change();
     reader.finish(blocks);
+    blocks.iter().for_each(|block| reader.all_read(block));
     *messages = reader.messages;
     reader.model
 }
@@ -186,10 +187,26 @@ impl Reader {
         }
     }
 
+    /// Whether all that stands below a keyword was read.
+    fn all_read(&mut self, block: &Block) {
+        if self.messages.has_error_at(block.place) {
+            return;
+        }
+        // What an error hides was not read either.
+        let whole = block.lines.iter().any(Line::is_read) && !self.messages.has_errors();
+        for line in &block.lines {
+            if let Some((at, field)) = line.unread().filter(|_| !self.messages.has_error_at(line.place)) {
+                let what = format!("*{} does not read field {}, '{}'; take it out", block.name, at + 1, shorten(field));
+                self.error(line.place, what);
+            } else if whole && !line.is_read() {
+                self.error(line.place, format!("*{} does not read this line; take it out", block.name));
+            }
+        }
+    }
+
     /// A field as a number; none is an error.
     fn real(&mut self, line: &Line, at: usize, what: &str) -> Option<f64> {
-        let fields = line.fields();
-        match fields.get(at).copied().unwrap_or("") {
+        match line.field(at) {
             "" => {
                 self.error(line.place, format!("{what} is missing; it is field {} of the line", at + 1));
                 None
@@ -200,8 +217,7 @@ impl Reader {
 
     /// A field as a number, with a value for an empty one.
     fn real_or(&mut self, line: &Line, at: usize, what: &str, otherwise: f64) -> Option<f64> {
-        let fields = line.fields();
-        match fields.get(at).copied().unwrap_or("") {
+        match line.field(at) {
             "" => Some(otherwise),
             field => self.number(line.place, field, what),
         }

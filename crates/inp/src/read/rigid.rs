@@ -52,7 +52,7 @@ impl Reader {
     }
 
     fn word(&self, line: &Line) -> String {
-        line.fields().first().copied().unwrap_or("").to_ascii_uppercase()
+        line.field(0).to_ascii_uppercase()
     }
 
     /// The segments below START. A profile of the plane is placed with its instance.

@@ -64,8 +64,7 @@ impl Reader {
             return None;
         }
         let Some(line) = block.lines.first() else { return Some(Path { until: None }) };
-        let fields = line.fields();
-        let until = match fields.get(5).copied().unwrap_or("") {
+        let until = match line.field(5) {
             "" => None,
             name => {
                 let target = self.members(line.place, name, Of::Nodes)?;
@@ -101,26 +100,24 @@ impl Reader {
     }
 
     /// The amplitude of a block; conditions of its kind end where it says OP=NEW.
-    fn begin(&mut self, block: &Block, condition: Condition) -> Option<Course> {
+    fn begin(&mut self, block: &Block, condition: Condition) -> Course {
         if block.word("OP").as_deref() == Some("NEW") {
             self.act(block.place, None, ActionKind::Fresh(condition));
         }
-        let Some(name) = block.value("AMPLITUDE").map(str::to_ascii_uppercase) else { return Some(None) };
+        let Some(name) = block.value("AMPLITUDE").map(str::to_ascii_uppercase) else { return None };
         let found = self.model.amplitudes.iter().position(|(known, _)| *known == name);
         if found.is_none() {
             let near = suggestion(&name, self.model.amplitudes.iter().map(|(known, _)| known.as_str()));
             self.error(block.place, format!("there is no amplitude '{name}'{near}"));
-            return None;
         }
-        Some(found)
+        found
     }
 
     /// `*BOUNDARY`.
     pub(crate) fn boundary(&mut self, block: &Block) {
-        let Some(course) = self.begin(block, Condition::Boundary) else { return };
+        let course = self.begin(block, Condition::Boundary);
         for line in &block.lines {
-            let fields = line.fields();
-            let name = fields.first().copied().unwrap_or("").to_string();
+            let name = line.field(0).to_string();
             let Some(target) = self.members(line.place, &name, Of::Nodes) else { continue };
             let Some((axes, value)) = self.led(line) else { continue };
             for axis in axes {
@@ -131,8 +128,7 @@ impl Reader {
 
     /// The axes that a line of *BOUNDARY holds, and the value.
     fn led(&mut self, line: &Line) -> Option<(Vec<usize>, f64)> {
-        let fields = line.fields();
-        let first = fields.get(1).copied().unwrap_or("").to_ascii_uppercase();
+        let first = line.field(1).to_ascii_uppercase();
         let symmetry: Option<&[usize]> = match first.as_str() {
             "XSYMM" => Some(&[0, 4, 5]),
             "YSYMM" => Some(&[1, 3, 5]),
@@ -148,7 +144,7 @@ impl Reader {
             return Some((axes.to_vec(), 0.0));
         }
         let first = self.axis(line, 1)?;
-        let last = if fields.get(2).is_none_or(|field| field.is_empty()) { first } else { self.axis(line, 2)? };
+        let last = if line.field(2).is_empty() { first } else { self.axis(line, 2)? };
         if last < first {
             self.error(line.place, "the last degree of freedom lies before the first; mend the line");
             return None;
@@ -159,8 +155,7 @@ impl Reader {
 
     /// A degree of freedom from 1 to 6, counted from zero.
     pub(super) fn axis(&mut self, line: &Line, at: usize) -> Option<usize> {
-        let fields = line.fields();
-        let field = fields.get(at).copied().unwrap_or("");
+        let field = line.field(at);
         match field.parse::<usize>() {
             Ok(axis @ 1..=6) => Some(axis - 1),
             _ if field.is_empty() => {
@@ -181,9 +176,9 @@ impl Reader {
 
     /// `*CLOAD`.
     pub(crate) fn cload(&mut self, block: &Block) {
-        let Some(course) = self.begin(block, Condition::Force) else { return };
+        let course = self.begin(block, Condition::Force);
         for line in &block.lines {
-            let name = line.fields().first().copied().unwrap_or("").to_string();
+            let name = line.field(0).to_string();
             let Some(target) = self.members(line.place, &name, Of::Nodes) else { continue };
             let (Some(axis), Some(value)) = (self.axis(line, 1), self.real(line, 2, "the force")) else { continue };
             self.act(line.place, course, ActionKind::Force(target, axis, value));
@@ -192,16 +187,14 @@ impl Reader {
 
     /// `*DLOAD`.
     pub(crate) fn dload(&mut self, block: &Block) {
-        let Some(course) = self.begin(block, Condition::Distributed) else { return };
+        let course = self.begin(block, Condition::Distributed);
         for line in &block.lines {
             self.load(line, course);
         }
     }
 
     fn load(&mut self, line: &Line, course: Course) -> Option<()> {
-        let fields = line.fields();
-        let label = fields.get(1).copied().unwrap_or("").to_ascii_uppercase();
-        let name = fields.first().copied().unwrap_or("").to_string();
+        let (name, label) = (line.field(0).to_string(), line.field(1).to_ascii_uppercase());
         let target = match name.as_str() {
             // Abaqus takes the whole model.
             "" => Target { name: "ALL".into(), members: (0..self.model.elements.len()).collect() },
@@ -263,10 +256,9 @@ impl Reader {
 
     /// `*DSLOAD`.
     pub(crate) fn dsload(&mut self, block: &Block) {
-        let Some(course) = self.begin(block, Condition::Distributed) else { return };
+        let course = self.begin(block, Condition::Distributed);
         for line in &block.lines {
-            let fields = line.fields();
-            let (name, label) = (fields.first().copied().unwrap_or(""), fields.get(1).copied().unwrap_or(""));
+            let (name, label) = (line.field(0), line.field(1));
             if !label.eq_ignore_ascii_case("P") {
                 let what = format!("loads of type '{}' on surfaces cannot be translated; P can", super::shorten(label));
                 self.error(line.place, what);
@@ -306,13 +298,21 @@ impl Reader {
             return self.error(block.place, "*FRICTION in a step belongs to a *CHANGE FRICTION; put that above it");
         };
         let plain = !["ROUGH", "TAUMAX", "EXPONENTIAL DECAY"].iter().any(|parameter| block.has(parameter));
-        let known = self.model.interactions.get(interaction);
-        if !plain || block.lines.len() > 1 || known.is_some_and(|known| known.rough || known.decay.is_some()) {
+        let known = self.model.interactions.get(interaction).cloned();
+        if !plain || block.lines.len() > 1 || known.as_ref().is_some_and(|known| known.rough || known.decay.is_some()) {
             let what = "only the coefficient of friction can be changed, of an interaction that has one or none";
             return self.error(block.place, what);
         }
         let value = match block.lines.first() {
-            Some(line) => self.real(line, 0, "the coefficient of friction"),
+            Some(line) => {
+                let slope = self.real_or(line, 1, "the slope of stick", 0.0);
+                if slope.is_some_and(|slope| {
+                    slope > 0.0 && known.as_ref().is_some_and(|known| known.stick_slope != Some(slope))
+                }) {
+                    self.note(line.place, "the slope of stick stays what it was: only the coefficient changes");
+                }
+                self.real(line, 0, "the coefficient of friction")
+            }
             None => Some(0.0),
         };
         match value {
@@ -364,9 +364,9 @@ impl Reader {
 
     /// `*TEMPERATURE`.
     pub(crate) fn temperature(&mut self, block: &Block) {
-        let Some(course) = self.begin(block, Condition::Temperature) else { return };
+        let course = self.begin(block, Condition::Temperature);
         for line in &block.lines {
-            let name = line.fields().first().copied().unwrap_or("").to_string();
+            let name = line.field(0).to_string();
             let target = self.members(line.place, &name, Of::Nodes);
             if let (Some(target), Some(value)) = (target, self.real(line, 1, "the temperature")) {
                 self.act(line.place, course, ActionKind::Temperature(target, value));
@@ -381,7 +381,7 @@ impl Reader {
             return self.error(block.place, what);
         }
         for line in &block.lines {
-            let name = line.fields().first().copied().unwrap_or("").to_string();
+            let name = line.field(0).to_string();
             let target = self.members(line.place, &name, Of::Nodes);
             if let (Some(target), Some(value)) = (target, self.real(line, 1, "the temperature")) {
                 self.model.initial_temperature.extend(target.members.iter().map(|&node| (node, value)));

@@ -42,7 +42,7 @@ impl Reader {
     /// The axis of an additional turn of *ORIENTATION, from 0 to 2, and its angle in degrees: the second line, if there is one.
     fn turn(&mut self, block: &Block) -> Option<(usize, f64)> {
         let Some(line) = block.lines.get(1) else { return Some((0, 0.0)) };
-        let axis = match line.fields().first().copied().unwrap_or("") {
+        let axis = match line.field(0) {
             "" | "1" => 0,
             "2" => 1,
             "3" => 2,

@@ -1,11 +1,12 @@
 //! What leads nodes and tools, step by step: the last line that names a node and an axis holds.
 
 use super::Writer;
+use super::adjust::nodes_of;
 use super::conditions::Table;
 use super::courses::{Item, Record};
 use super::turned::resolved;
-use crate::model::{ActionKind, Condition};
-use std::collections::BTreeMap;
+use crate::model::{ActionKind, Condition, SurfaceKind};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Who leads each node along each axis.
 type Owners = BTreeMap<(usize, usize), usize>;
@@ -27,12 +28,20 @@ impl Writer<'_> {
         let model = self.model;
         let (mut owners, mut records) = (Owners::new(), Vec::<Record>::new());
         let mut supports = Supports { displacement: vec![], motion: vec![] };
+        let glued = self.glued();
         for number in 0..model.steps.len() {
             let before = owners.clone();
             for action in model.actions(number) {
                 match &action.kind {
                     ActionKind::Fresh(Condition::Boundary) => owners.clear(),
                     ActionKind::Lead(target, axis, value) => {
+                        let both = target.members.iter().filter(|node| *value != 0.0 && glued.contains(node)).count();
+                        if both > 0 {
+                            let what = format!(
+                                "{both} of these nodes are of a surface that follows in a *TIE: what leads them holds here, in CalculiX the tie"
+                            );
+                            self.note(action.place, what);
+                        }
                         let (name, place, course) = (target.name.clone(), action.place, action.course);
                         records.push(Record { name, value: *value, course, place, step: number, reached: 0.0 });
                         owners.extend(target.members.iter().map(|&node| ((node, *axis), records.len() - 1)));
@@ -52,6 +61,17 @@ impl Writer<'_> {
             records.iter_mut().zip(reached).for_each(|(record, reached)| record.reached = reached);
         }
         supports
+    }
+
+    /// Nodes of surfaces that follow in ties.
+    fn glued(&self) -> BTreeSet<usize> {
+        let slaves = self.model.ties.iter().filter_map(|tie| self.model.surface(&tie.slave));
+        let faces =
+            slaves.filter_map(|surface| if let SurfaceKind::Faces(faces) = &surface.kind { Some(faces) } else { None });
+        let nodes = |&(element, face, _): &(usize, Option<usize>, bool)| {
+            nodes_of(&self.model.elements[element], face.unwrap_or(0))
+        };
+        faces.flatten().filter(|face| face.1.is_some()).flat_map(nodes).collect()
     }
 
     /// What is led in one step.

@@ -213,6 +213,19 @@ fn conflicts(step: &Step, reader: &mut Reader) {
         let what = format!("`{}` both holds `{name}` and moves or loads it", reader.path());
         reader.report(Diagnostic::error(what).at(name.place).help("keep one of the two"));
     }
+    for name in step.add.iter().filter(|name| step.remove.iter().any(|removed| removed.text == name.text)) {
+        let what = format!("`{}` both removes and adds `{name}`", reader.path());
+        reader
+            .report(Diagnostic::error(what).at(name.place).help("keep one of the two, or give each a step of its own"));
+    }
+    for released in &step.release {
+        let motion = ["hold.", "displacement.", "motion."].iter().find_map(|kind| released.text.strip_prefix(kind));
+        if let Some(name) = motion.filter(|name| step.holds(name)) {
+            let what = format!("`{}` both holds `{name}` and releases it", reader.path());
+            let help = "keep one of the two: `hold` alone ends a motion where it is";
+            reader.report(Diagnostic::error(what).at(released.place).help(help));
+        }
+    }
     for (tool, load) in &step.load {
         let Some((_, motion)) = step.motion.iter().find(|(name, _)| name.text == tool.text) else { continue };
         let keys = ["x", "y", "z", "rotation_x", "rotation_y", "rotation_z", "x", "y", "rotation"];

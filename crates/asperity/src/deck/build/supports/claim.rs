@@ -36,6 +36,10 @@ impl Known {
     pub fn new(count: usize) -> Self {
         Self(vec![Some(0.0); count])
     }
+    /// Where an unknown is, if that is known.
+    pub fn at(&self, dof: usize) -> Option<f64> {
+        self.0[dof]
+    }
     /// A claim that leads its unknown to where it is holds it: so that two claims of the same can be seen to agree.
     pub fn settle(&self, claim: &mut Claim) {
         if let (Some(dof), Course::To(end, _)) = (claim.single(), &claim.course)

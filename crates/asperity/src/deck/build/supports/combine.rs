@@ -2,8 +2,8 @@
 //! left free at its node. Two claims on one unknown must agree.
 
 use super::Builder;
-use super::claim::{Claim, What};
-use super::equations::{Equation, Relation, Relations};
+use super::claim::{Claim, Known, What};
+use super::equations::{Equation, Fixed, Relation, Relations};
 use super::flat::ROUNDING;
 use crate::deck::diagnose::Diagnostic;
 use crate::solve::{Course, Prescribed};
@@ -30,10 +30,11 @@ struct Combination {
 }
 
 impl Builder<'_> {
-    /// Constraints and prescribed values from all claims of a step, the equations and the ties that hold in it.
+    /// Constraints and prescribed values from all claims of a step, the equations and the ties that hold in it; `known` are the
+    /// values at its end.
     pub(super) fn constrain(
         &mut self,
-        claims: &[&Claim],
+        (claims, known): (&[&Claim], &Known),
         equations: &[Equation],
         ties: &[usize],
     ) -> (Constraints, Vec<Prescribed>) {
@@ -56,8 +57,12 @@ impl Builder<'_> {
         for (dof, one, other) in &sorted.quarrels {
             self.quarrel(*dof, one, other);
         }
-        let fixed: BTreeMap<usize, bool> =
-            sorted.fixed.iter().map(|(&dof, claim)| (dof, claim.course != Course::Hold)).collect();
+        let end = |dof: usize, course: &Course| match course {
+            Course::Hold => known.at(dof),
+            Course::To(end, _) => Some(*end),
+        };
+        let fixed: Fixed =
+            sorted.fixed.iter().map(|(&dof, claim)| (dof, (&claim.course, end(dof, &claim.course)))).collect();
         let mut relations = Relations::of(sorted.relations(), &fixed, equations);
         for glued in ties.iter().map(|&tie| &self.ties[tie]) {
             (0..self.site.dofs.per_node()).for_each(|axis| relations.tie(glued, (&self.site.dofs, axis), &fixed));

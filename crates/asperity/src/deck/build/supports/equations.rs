@@ -20,6 +20,9 @@ pub struct Equation {
     pub by: &'static str,
 }
 
+/// Prescribed unknowns: the course of each, and where it leads or holds it, if that is known.
+pub type Fixed<'c> = BTreeMap<usize, (&'c Course, Option<f64>)>;
+
 /// What an unknown follows: a combination of others, plus a course.
 #[derive(Debug, Clone)]
 pub struct Relation {
@@ -42,9 +45,9 @@ pub struct Relations {
 }
 
 impl Relations {
-    /// Solves each equation for its first unknown that is free and has a factor to speak of. `fixed` are the prescribed
-    /// unknowns, and whether they move. An equation that follows from others is left out.
-    pub fn of(given: BTreeMap<usize, Relation>, fixed: &BTreeMap<usize, bool>, equations: &[Equation]) -> Self {
+    /// Solves each equation for its first unknown that is free and has a factor to speak of. An equation that
+    /// follows from others, or from what prescribed unknowns do anyhow, is left out.
+    pub fn of(given: BTreeMap<usize, Relation>, fixed: &Fixed, equations: &[Equation]) -> Self {
         let mut relations = Self { list: BTreeMap::new(), refused: vec![], followers: BTreeMap::new() };
         given.into_iter().for_each(|(dof, relation)| relations.insert(dof, relation));
         equations.iter().for_each(|equation| relations.hold(equation, fixed));
@@ -52,7 +55,7 @@ impl Relations {
     }
 
     /// Adds an equation, or takes note that it cannot hold.
-    pub fn hold(&mut self, equation: &Equation, fixed: &BTreeMap<usize, bool>) {
+    pub fn hold(&mut self, equation: &Equation, fixed: &Fixed) {
         if let Err(why) = self.add(equation, fixed) {
             self.refused.push((format!("`{}` cannot hold: {why}", equation.by), equation.place));
         }
@@ -65,7 +68,7 @@ impl Relations {
         self.list.insert(dof, relation);
     }
 
-    fn add(&mut self, equation: &Equation, fixed: &BTreeMap<usize, bool>) -> Result<(), String> {
+    fn add(&mut self, equation: &Equation, fixed: &Fixed) -> Result<(), String> {
         let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
         for &(dof, factor) in &equation.terms {
             match self.list.get(&dof) {
@@ -82,12 +85,11 @@ impl Relations {
         let most = sum.iter().filter(|(dof, _)| free(dof)).fold(0.0_f64, |most, (_, c)| most.max(c.abs()));
         let order = equation.terms.iter().map(|term| term.0).chain(sum.keys().copied());
         let Some(pivot) = order.into_iter().find(|dof| free(dof) && sum[dof].abs() >= 0.1 * most) else {
-            return match sum.keys().any(|dof| fixed.get(dof) == Some(&true)) {
-                true => Err(
-                    "all its nodes are held or led: the supports alone say where they go; remove one of them, or this"
-                        .into(),
-                ),
-                false => Ok(()),
+            return match holds(&sum, fixed) {
+                true => Ok(()),
+                false => {
+                    Err("all its nodes are held or led, to where it does not hold; remove one of them, or this".into())
+                }
             };
         };
         let scale = -1.0 / sum[&pivot];
@@ -102,6 +104,21 @@ impl Relations {
         self.insert(pivot, Relation { others, course: Course::Hold, equation: true });
         Ok(())
     }
+}
+
+/// Whether a sum of prescribed unknowns that is zero stays so: nothing moves, or all that moves has one course in time and ends
+/// where the sum is zero.
+fn holds(sum: &BTreeMap<usize, f64>, fixed: &Fixed) -> bool {
+    let course = |dof| fixed.get(dof).map(|(course, _)| *course);
+    let mut times = sum.keys().filter_map(|dof| match course(dof)? {
+        Course::Hold => None,
+        Course::To(_, amplitude) => Some(amplitude),
+    });
+    let Some(first) = times.next() else { return true };
+    let ends: Option<Vec<f64>> = sum.iter().map(|(dof, factor)| Some(factor * fixed.get(dof)?.1?)).collect();
+    let zero =
+        |ends: Vec<f64>| ends.iter().sum::<f64>().abs() <= ROUNDING * ends.iter().map(|end| end.abs()).sum::<f64>();
+    times.all(|other| other == first) && ends.is_some_and(zero)
 }
 
 impl Relation {
@@ -151,6 +168,7 @@ impl Builder<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::amplitude::Amplitude;
 
     fn equation(terms: &[(usize, f64)]) -> Equation {
         Equation { terms: terms.to_vec(), place: Place::default(), by: "equation" }
@@ -160,19 +178,35 @@ mod tests {
     fn chains_are_followed_to_what_is_free_or_prescribed() {
         let equations =
             [equation(&[(0, 1.0), (1, -1.0)]), equation(&[(1, 2.0), (2, -1.0)]), equation(&[(0, 2.0), (2, -1.0)])];
-        let relations = Relations::of(BTreeMap::new(), &BTreeMap::from([(2, true)]), &equations);
+        let course = to(1.0);
+        let relations = Relations::of(BTreeMap::new(), &Fixed::from([(2, (&course, Some(1.0)))]), &equations);
         assert!(relations.refused.is_empty());
         assert_eq!(relations.list[&0].others, [(2, 0.5)]);
         assert_eq!(relations.list[&1].others, [(2, 0.5)]);
         assert_eq!(relations.list.len(), 2, "the third follows from the others");
     }
 
-    #[test]
-    fn what_is_led_all_over_cannot_follow() {
-        let fixed = BTreeMap::from([(0, true), (1, false)]);
+    fn to(end: f64) -> Course {
+        Course::To(end, Amplitude::ramp())
+    }
+
+    /// Two unknowns that an equation makes equal, led as these say.
+    fn refused(courses: [(Course, Option<f64>); 2]) -> bool {
+        let fixed = courses.iter().enumerate().map(|(dof, (course, end))| (dof, (course, *end))).collect();
         let refused = Relations::of(BTreeMap::new(), &fixed, &[equation(&[(0, 1.0), (1, -1.0)])]).refused;
-        assert!(refused[0].0.contains("held or led"));
-        let held = BTreeMap::from([(0, false), (1, false)]);
-        assert!(Relations::of(BTreeMap::new(), &held, &[equation(&[(0, 1.0), (1, -1.0)])]).refused.is_empty());
+        assert!(refused.iter().all(|(what, _)| what.contains("held or led")));
+        !refused.is_empty()
+    }
+
+    #[test]
+    fn what_is_led_all_over_must_be_led_alike() {
+        assert!(!refused([(Course::Hold, None), (Course::Hold, None)]));
+        assert!(!refused([(to(0.1), Some(0.1)), (to(0.1), Some(0.1))]));
+        assert!(!refused([(to(0.1), Some(0.1)), (Course::Hold, Some(0.1))]));
+        assert!(refused([(to(0.1), Some(0.1)), (Course::Hold, Some(0.0))]));
+        assert!(refused([(to(0.1), Some(0.1)), (Course::Hold, None)]));
+        assert!(refused([(to(0.1), Some(0.1)), (to(0.2), Some(0.2))]));
+        let at_once = Course::To(0.1, Amplitude::at_once());
+        assert!(refused([(to(0.1), Some(0.1)), (at_once, Some(0.1))]));
     }
 }

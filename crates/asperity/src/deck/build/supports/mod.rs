@@ -43,7 +43,7 @@ impl Builder<'_> {
             self.claim(step, &mut claims);
             claims.values_mut().flatten().for_each(|claim| known.settle(claim));
             known.pass(claims.values().flatten());
-            let held = self.constrain(&claims.values().flatten().collect::<Vec<_>>(), &equations, &ties);
+            let held = self.constrain((&claims.values().flatten().collect::<Vec<_>>(), &known), &equations, &ties);
             self.look_for_idle_loads(step, &held.0);
             held
         });
@@ -66,11 +66,14 @@ impl Builder<'_> {
         });
         let mut found = Vec::new();
         let led = |group: &Name, axis: usize| {
-            // What follows others carries its load over to them.
-            let held = |node: usize| match constraints.row(self.site.dofs.node(node) + axis) {
-                Row::Free(_) => false,
-                Row::Fixed => true,
-                Row::Combined(others) => others.is_empty(),
+            // What follows others carries its load over to them, be they held: what leads them bears it.
+            let held = |node: usize| {
+                let dof = self.site.dofs.node(node) + axis;
+                match constraints.row(dof) {
+                    Row::Free(_) => false,
+                    Row::Fixed => true,
+                    Row::Combined(others) => others.is_empty() && !constraints.is_tied(dof),
+                }
             };
             let nodes = self.nodes(&group.text);
             !nodes.is_empty() && nodes.iter().all(|node| held(*node) && !rigid.contains_key(node))

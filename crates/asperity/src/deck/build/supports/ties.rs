@@ -3,14 +3,14 @@
 //! A node that something else holds or leads cannot follow as well. What it would have followed goes to its neighbours in equal
 //! parts, as at the ends of an interface (Wohlmuth 2000): the sum of all conditions, by which a uniform stress passes, stays.
 
-use super::equations::{Equation, Relations};
+use super::equations::{Equation, Fixed, Relations};
 use crate::deck::build::ties::Glued;
 use crate::system::Dofs;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Relations {
-    /// Adds the conditions of a tie along an axis; `fixed` are the prescribed unknowns, and whether they move.
-    pub fn tie(&mut self, glued: &Glued, (dofs, axis): (&Dofs, usize), fixed: &BTreeMap<usize, bool>) {
+    /// Adds the conditions of a tie along an axis; `fixed` are the prescribed unknowns.
+    pub fn tie(&mut self, glued: &Glued, (dofs, axis): (&Dofs, usize), fixed: &Fixed) {
         let (conditions, dof) = (&glued.tie.conditions, |node: usize| dofs.node(node) + axis);
         let taken = |node: usize| fixed.contains_key(&dof(node)) || self.list.contains_key(&dof(node));
         let able = conditions.iter().filter(|condition| condition.follows && !taken(condition.node));

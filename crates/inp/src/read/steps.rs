@@ -104,7 +104,7 @@ impl Reader {
         if block.word("OP").as_deref() == Some("NEW") {
             self.act(block.place, None, ActionKind::Fresh(condition));
         }
-        let Some(name) = block.value("AMPLITUDE").map(str::to_ascii_uppercase) else { return None };
+        let name = block.value("AMPLITUDE").map(str::to_ascii_uppercase)?;
         let found = self.model.amplitudes.iter().position(|(known, _)| *known == name);
         if found.is_none() {
             let near = suggestion(&name, self.model.amplitudes.iter().map(|(known, _)| known.as_str()));

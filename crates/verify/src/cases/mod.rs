@@ -2,6 +2,7 @@
 
 mod arch;
 mod billet;
+mod branch;
 mod capstan;
 mod claw;
 mod contact_default;
@@ -97,4 +98,5 @@ pub const ALL: &[&Case] = &[
     &rigid_hub::CASE,
     &springback::CASE,
     &seal::CASE,
+    &branch::CASE,
 ];

@@ -2,7 +2,7 @@
 
 use crate::elements::{Dialect, Type};
 use crate::message::Place;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A node.
 #[derive(Debug, Clone)]
@@ -108,6 +108,8 @@ pub struct Scope {
     pub nodes: BTreeMap<u64, usize>,
     /// Elements by their numbers.
     pub elements: BTreeMap<u64, usize>,
+    /// Numbers of elements whose type is not known.
+    pub unknown: BTreeSet<u64>,
     /// Sets of nodes by their names in capitals.
     pub node_sets: BTreeMap<String, Set>,
     /// Sets of elements.

@@ -222,6 +222,9 @@ fn nothing_is_passed_over() {
     said("*MATERIAL", "*SURFACE, NAME=S\n1, S+4\n*MATERIAL", "no face 'S+4'");
     // A keyword line that is wrong does not hide what is wrong below it.
     said("*CLOAD\nRIGHT, 1, 5\n", "*CLOAD, AMPLITUDE=A\nRIGHTT, 1, 5\n", "did you mean 'RIGHT'?");
+    // Nor does an unknown type make errors of all that names its elements.
+    let found = errors(folder.path(), &text.replace("TYPE=CPE4", "TYPE=CPE44"));
+    assert!(found.len() == 1 && found[0].contains("elements of type CPE44"), "{found:?}");
     let tied = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks/tie.inp")).unwrap();
     let led = tied.replace("*STATIC\n", "*STATIC\n*BOUNDARY\n101, 3, 3, -0.01\n");
     let notes = inp::translate_text(&folder.path().join("deck.inp"), &led, "mesh.inp").unwrap().notes;

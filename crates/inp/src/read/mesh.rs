@@ -62,7 +62,8 @@ impl Reader {
             let known: Vec<&str> = elements::TYPES.iter().filter(|kind| kind.is_cell()).map(|kind| kind.name).collect();
             let what =
                 format!("elements of type {name} cannot be solved; {} can, with their variants", known.join(", "));
-            return self.error(block.place, what);
+            self.error(block.place, what);
+            return self.unknown_elements(block);
         };
         let (mut open, first): (Option<Element>, usize) = (None, self.model.elements.len());
         for line in &block.lines {
@@ -104,6 +105,17 @@ impl Reader {
         }
         if let Some(name) = block.value("ELSET") {
             self.extend(name, Of::Elements, (first..self.model.elements.len()).collect(), false);
+        }
+    }
+
+    /// What names elements of an unknown type is not told as well.
+    fn unknown_elements(&mut self, block: &Block) {
+        let labels = block.lines.iter().filter_map(|line| line.field(0).parse::<u64>().ok());
+        if let Some(scope) = self.model.scopes.get_mut(self.scope) {
+            scope.unknown.extend(labels);
+        }
+        if let Some(name) = block.value("ELSET") {
+            self.extend(name, Of::Elements, vec![], false);
         }
     }
 
@@ -197,6 +209,9 @@ impl Reader {
         let found: Vec<usize> =
             numbers.range(first..=last).filter(|(n, _)| (*n - first).is_multiple_of(step)).map(|(_, &i)| i).collect();
         let wanted = (last - first) / step + 1;
+        if of == Of::Elements && !scope.unknown.is_empty() {
+            return found;
+        }
         if found.is_empty() {
             self.error(line.place, format!("nothing has a number from {first} to {last} by {step}"));
         } else if (found.len() as u64) < wanted {

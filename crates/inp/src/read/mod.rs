@@ -189,7 +189,9 @@ impl Reader {
 
     /// Whether all that stands below a keyword was read.
     fn all_read(&mut self, block: &Block) {
-        if self.messages.has_error_at(block.place) {
+        // What names elements of an unknown type is not read to its end.
+        let unknown = self.model.scopes.iter().any(|scope| !scope.unknown.is_empty());
+        if unknown || self.messages.has_error_at(block.place) {
             return;
         }
         // What an error hides was not read either.

@@ -65,7 +65,7 @@ impl Reader {
         let found = self.model.scopes.get(scope)?;
         if let Ok(number) = name.parse::<u64>() {
             let member = of.number(found, number);
-            if member.is_none() {
+            if member.is_none() && !(of == Of::Elements && found.unknown.contains(&number)) {
                 self.error(place, format!("there is no {} {number}; mend the number", of.noun()));
             }
             return member.map(|member| vec![member]);

@@ -3,7 +3,7 @@
 
     python3 benches/quick_decks/constants.py [--directory DIR] [--profile quick] [--jobs 1] [WORD ...]
 
-The numbers are those of `crates/asperity/src/solve/constants.rs`. The sources are copied below DIR, the numbers in the copy are read
+The numbers are those of `crates/core/src/solve/constants.rs`. The sources are copied below DIR, the numbers in the copy are read
 from the environment, the program is built there once, and each number is halved and doubled, one at a time, in the decks of SETS below.
 Printed are iterations of all attempts that both runs end, failed attempts, and decks that do not end any more. WORDs pick numbers whose
 `module::NAME` holds one of them. Also: first guesses by rigid wholes left out, and tangents with the stresses of the iterate in place of
@@ -81,7 +81,7 @@ def built(directory, profile):
     for name in ("Cargo.toml", "Cargo.lock", "rustfmt.toml"):
         shutil.copy(ROOT / name, copy)
     shutil.copytree(ROOT / "crates", copy / "crates")
-    numbers = opened(copy / "crates/asperity/src/solve")
+    numbers = opened(copy / "crates/core/src/solve")
     environment = dict(os.environ, CARGO_TARGET_DIR=str(directory / "target"))
     subprocess.run(["cargo", "build", "--profile", profile, "-p", "asperity-cli"], cwd=copy, env=environment, check=True)
     return directory / "target" / profile / "asperity", numbers

@@ -39,42 +39,18 @@
 //! `examples/press.rs`, `branch.rs` and `law.rs` go on from here; a program of your own reads what a run writes, or listens to it as a
 //! [`solve::Observer`].
 //!
-//! The rooms, by layer; a room may use rooms of lower layers only (`tests/layers.rs` holds the rule):
-//!
-//! 1. [`tensor`] dual numbers, vectors, tensors; [`declare`] parameters declared once, nearest names;
-//!    [`amplitude`] values in time; [`machine`] memory there is; [`integrate`] sub-steps and local equations of laws;
-//!    [`files`] reading what a user names.
-//! 2. [`mesh`] nodes, cells, groups, files; [`material`] laws; [`tool`] rigid tools and what a ray meets on them.
-//! 3. [`system`] unknowns, state, terms, assembly.
-//! 4. [`solid`] bodies; [`contact`] contact with friction; [`load`] loads and springs;
-//!    [`audit`] whether anything lies in or went through anything.
-//! 5. [`solve`] increments, Newton's method.
-//! 6. The program: [`model`] what is to be solved; [`output`] files, tables, pictures; [`point`] one driven
-//!    material point; [`deck`] what a user writes.
+//! Four crates are joined here, each with the packages that it needs and no more: `asperity-core` with all that is solved (the rooms
+//! [`tensor`] to [`model`]), `asperity-results` ([`output`], [`diagnosis`], [`point`]), `asperity-deck` ([`deck`]). Its users may
+//! depend on one of them alone.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod amplitude;
-pub mod audit;
-pub mod contact;
-pub mod deck;
-pub mod declare;
-pub mod diagnosis;
-pub mod error;
-pub mod files;
-pub mod integrate;
-pub mod interface;
-pub mod load;
-pub mod machine;
-pub mod material;
-pub mod mesh;
-pub mod model;
-pub mod output;
-pub mod point;
-pub mod solid;
-pub mod solve;
-pub mod system;
-pub mod tensor;
-pub mod tool;
-
-pub use error::{Error, Failure, Kind};
+#[doc(inline)]
+pub use asperity_core::{
+    Error, Failure, Kind, amplitude, audit, contact, declare, error, files, integrate, interface, load, machine,
+    material, mesh, model, solid, solve, system, tensor, tool,
+};
+#[doc(inline)]
+pub use asperity_deck as deck;
+#[doc(inline)]
+pub use asperity_results::{diagnosis, output, point};

@@ -1,21 +1,27 @@
 //! The rule of the house: a room uses rooms of lower layers only. Rooms of one line below are strangers; a line uses
-//! the lines above it. This reads every `crate::ROOM` of the library against the table.
+//! the lines above it. This reads every `crate::ROOM` of the core and of the results against the table; the borders between crates
+//! are the compiler's.
 
 use std::path::{Path, PathBuf};
 
 const LAYERS: &[&[&str]] = &[
     &["error"],
-    &["tensor", "declare", "amplitude", "machine", "diagnosis"],
+    &["tensor", "declare", "amplitude", "machine"],
     &["integrate", "files"],
     &["mesh", "material", "interface", "tool"],
     &["system"],
     &["solid", "contact", "load", "audit"],
     &["solve"],
     &["model"],
+    &["diagnosis"],
     &["output"],
     &["point"],
-    &["deck"],
 ];
+
+/// The folder of the sources of a crate.
+fn source(of: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join(of).join("src")
+}
 
 fn layer(room: &str) -> Option<usize> {
     LAYERS.iter().position(|rooms| rooms.contains(&room))
@@ -52,19 +58,23 @@ fn named(text: &str) -> Vec<String> {
 
 #[test]
 fn rooms_use_lower_layers_only() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut paths = Vec::new();
-    files(&source, &mut paths);
+    for source in ["core", "results"].map(source) {
+        let mut found = Vec::new();
+        files(&source, &mut found);
+        paths.extend(
+            found.into_iter().map(|path| path.strip_prefix(&source).unwrap().to_owned()).map(|p| (source.clone(), p)),
+        );
+    }
     let mut broken = Vec::new();
     let mut read = 0;
-    for path in &paths {
-        let inside = path.strip_prefix(&source).unwrap();
+    for (source, inside) in &paths {
         let room = inside.components().next().unwrap().as_os_str().to_str().unwrap().trim_end_matches(".rs").to_owned();
         if room == "lib" {
             continue;
         }
         let own = layer(&room).unwrap_or_else(|| panic!("the room '{room}' stands in no layer"));
-        for other in named(&std::fs::read_to_string(path).unwrap()) {
+        for other in named(&std::fs::read_to_string(source.join(inside)).unwrap()) {
             // `crate::Error` and `crate::Failure` are layer 0 under their short names; so are items of the lists.
             let Some(theirs) = layer(&other) else { continue };
             read += 1;
@@ -75,6 +85,19 @@ fn rooms_use_lower_layers_only() {
     }
     assert!(read > 100, "only {read} uses found: is the reading broken?");
     assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn the_core_needs_few_packages() {
+    let mut tree = std::process::Command::new(env!("CARGO"));
+    tree.args(["tree", "--offline", "--locked", "-p", "asperity-core", "-e", "normal", "--prefix", "none"]);
+    let said = tree.current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let said = String::from_utf8(said.stdout).unwrap();
+    let packages: std::collections::BTreeSet<&str> = said.lines().map(|line| line.trim_end_matches(" (*)")).collect();
+    assert!(packages.iter().any(|package| package.starts_with("faer ")), "is the reading broken? {said}");
+    assert!(packages.len() <= 85, "{} packages", packages.len());
+    let heavy = ["png ", "zstd ", "toml ", "tiny-skia ", "serde_json "];
+    assert!(!packages.iter().any(|package| heavy.iter().any(|name| package.starts_with(name))), "{packages:?}");
 }
 
 #[test]
@@ -110,7 +133,7 @@ fn types_of_contact_and_tools_have_names_of_their_own() {
             owners.entry(name).or_default().push(path.strip_prefix(crates).unwrap().to_owned());
         }
     }
-    let rooms = [Path::new("asperity/src/contact"), Path::new("asperity/src/tool")];
+    let rooms = [Path::new("core/src/contact"), Path::new("core/src/tool")];
     let theirs = |path: &PathBuf| rooms.iter().any(|room| path.starts_with(room));
     assert!(owners.values().filter(|paths| paths.iter().any(theirs)).count() > 50, "is the reading broken?");
     let shared = owners.iter().filter(|(_, paths)| paths.len() > 1 && paths.iter().any(theirs));
@@ -146,7 +169,7 @@ fn imports(text: &str) -> Vec<String> {
 #[test]
 fn files_of_contact_import_one_another_in_no_circle() {
     use std::collections::{BTreeMap, BTreeSet};
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = source("core");
     let mut paths = Vec::new();
     files(&source.join("contact"), &mut paths);
     let module = |path: &PathBuf| -> Vec<String> {

@@ -3,8 +3,8 @@
 use crate::petsc::{KSP, Mat, Owned, Result, Vector, checked, ffi, int, text};
 use crate::ranks::{Ranks, Rendezvous, start};
 use crate::rows::{Entries, Rows};
-use asperity::solve::{Factored, LinearError, LinearSolver, Problem, Unknowns};
-use asperity::system::Csr;
+use asperity_core::solve::{Factored, LinearError, LinearSolver, Problem, Unknowns};
+use asperity_core::system::Csr;
 use frontal::Work;
 use std::cell::Cell;
 use std::os::raw::c_int;

@@ -19,5 +19,5 @@ pub use ranks::{Ranks, launched, start};
 
 /// Has runs solve their linear systems by PETSc, and lets decks say how.
 pub fn provide() {
-    asperity::solve::engine::provide(|problem| Box::new(Petsc::new(problem)));
+    asperity_core::solve::engine::provide(|problem| Box::new(Petsc::new(problem)));
 }

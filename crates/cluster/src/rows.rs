@@ -4,8 +4,8 @@
 //! unknown is prescribed is held by a row of its own. Each rank owns a run of blocks, with as many entries as the others.
 
 use crate::petsc::{PetscInt, Result, int};
-use asperity::solve::Unknowns;
-use asperity::system::Csr;
+use asperity_core::solve::Unknowns;
+use asperity_core::system::Csr;
 use std::ops::Range;
 use std::os::raw::c_int;
 
@@ -117,7 +117,7 @@ fn end_of_block(places: &[usize], block: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::system::Dofs;
+    use asperity_core::system::Dofs;
     use std::sync::Arc;
 
     #[test]

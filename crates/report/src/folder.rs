@@ -1,8 +1,8 @@
 //! The files of a result directory.
 
-use asperity::Error;
-use asperity::output::vtk::{Grid, read_grid, read_series};
-use asperity::output::{Asked, Columns, Progress, SUMMARY, Summary, is_claimed};
+use asperity_core::Error;
+use asperity_results::output::vtk::{Grid, read_grid, read_series};
+use asperity_results::output::{Asked, Columns, Progress, SUMMARY, Summary, is_claimed};
 use std::path::{Path, PathBuf};
 
 /// A result directory.

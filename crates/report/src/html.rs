@@ -6,7 +6,7 @@ use std::fmt::Write;
 /// writing are replaced, as on the screen.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in asperity::error::visible(text).chars() {
+    for c in asperity_core::error::visible(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
@@ -20,8 +20,8 @@ pub fn escape(text: &str) -> String {
 }
 
 /// JSON that may stand in a script element: no `<` can end it early.
-pub fn script_json(value: &impl serde::Serialize) -> Result<String, asperity::Error> {
-    let text = serde_json::to_string(value).map_err(|error| asperity::Error::Internal(error.to_string()))?;
+pub fn script_json(value: &impl serde::Serialize) -> Result<String, asperity_core::Error> {
+    let text = serde_json::to_string(value).map_err(|error| asperity_core::Error::Internal(error.to_string()))?;
     Ok(text.replace('<', "\\u003c"))
 }
 

@@ -5,10 +5,10 @@ use crate::folder::Folder;
 use crate::html::{escape, script_json};
 use crate::sections;
 use crate::tables::Table;
-use asperity::Error;
-use asperity::output::figure::field_color;
-use asperity::output::file::{Durability, write_atomic};
-use asperity::output::{Columns, FIGURES, REPORT, SUMMARY, Summary};
+use asperity_core::Error;
+use asperity_results::output::figure::field_color;
+use asperity_results::output::file::{Durability, write_atomic};
+use asperity_results::output::{Columns, FIGURES, REPORT, SUMMARY, Summary};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
@@ -209,7 +209,7 @@ fn last_attempts(iterations: &Columns) -> usize {
 
 /// The places where figures were worst.
 fn worst(summary: &Summary) -> Vec<Value> {
-    let place = |figure: &asperity::output::Figure| {
+    let place = |figure: &asperity_results::output::Figure| {
         let worst = summary.worst.get(figure.name)?;
         let position = worst.position?;
         Some(json!({ "name": figure.name, "words": figure.words.trim(), "position": position, "time": worst.time }))

@@ -2,7 +2,7 @@
 
 use crate::folder::Folder;
 use crate::html::{definitions, escape};
-use asperity::output::{FIGURES, Status};
+use asperity_results::output::{FIGURES, Status};
 use std::fmt::Write;
 
 /// What the page is called.

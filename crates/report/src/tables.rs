@@ -1,6 +1,6 @@
 //! Tables of numbers for the page, short: seven digits, and at most so many rows.
 
-use asperity::output::Columns;
+use asperity_results::output::Columns;
 use serde::Serialize;
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! The arguments of a UMAT, in their order.
 
-use asperity::material::external::Call;
-use asperity::tensor::Tensor2;
+use asperity_core::material::external::Call;
+use asperity_core::tensor::Tensor2;
 
 /// A UMAT: 37 addresses and the length of CMNAME, which Fortran appends.
 pub type Function = unsafe extern "C-unwind" fn(

@@ -15,8 +15,8 @@ mod utilities;
 pub use utilities::SYMBOLS;
 
 use arguments::{Arguments, Function, UNTOUCHED};
-use asperity::Failure;
-use asperity::material::external::{self, Call, Library, UserLaw};
+use asperity_core::Failure;
+use asperity_core::material::external::{self, Call, Library, UserLaw};
 use std::cell::RefCell;
 use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError};

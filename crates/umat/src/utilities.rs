@@ -1,7 +1,7 @@
 //! What laws of others may call, under the names that Fortran gives.
 
 use crate::guard;
-use asperity::tensor::{Tensor2, principal};
+use asperity_core::tensor::{Tensor2, principal};
 use std::ffi::c_void;
 
 /// The names, for the linker of a program that exports them.

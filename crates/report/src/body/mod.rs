@@ -5,9 +5,9 @@ mod surface;
 
 use crate::folder::{Folder, Frames};
 use crate::pack::{Blobs, Packed, whole};
-use asperity::Error;
-use asperity::mesh::Mesh;
-use asperity::output::vtk::Grid;
+use asperity_core::Error;
+use asperity_core::mesh::Mesh;
+use asperity_results::output::vtk::Grid;
 use points::{PackedPoints, Points};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -134,7 +134,7 @@ impl Raw {
         let mesh = first.to_mesh()?;
         let surface = Surface::of(&mesh);
         let size = |grid: &Grid, nodes: usize, cells: usize| {
-            let sum = |arrays: &[asperity::output::vtk::DataArray]| {
+            let sum = |arrays: &[asperity_results::output::vtk::DataArray]| {
                 arrays.iter().filter(|a| !a.name.starts_with("group.")).map(|a| a.components).sum::<usize>()
             };
             nodes * sum(&grid.point_data) + cells * sum(&grid.cell_data)

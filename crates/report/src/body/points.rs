@@ -1,7 +1,7 @@
 //! Points of several frames, where they are, and the values at them and at cells.
 
 use crate::pack::{Blobs, Packed, real};
-use asperity::output::vtk::{DataArray, Grid};
+use asperity_results::output::vtk::{DataArray, Grid};
 use rayon::prelude::*;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! What of a mesh is seen: the cells of a plane mesh, the outer faces of a solid one, as triangles and edges.
 
-use asperity::mesh::{Cell, Mesh};
+use asperity_core::mesh::{Cell, Mesh};
 use std::collections::BTreeMap;
 
 /// The visible part of a mesh.
@@ -104,8 +104,8 @@ pub fn tetrahedra(kind: &Cell) -> &'static [[usize; 4]] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity::mesh::cells::ALL;
-    use asperity::tensor::Vec3;
+    use asperity_core::mesh::cells::ALL;
+    use asperity_core::tensor::Vec3;
 
     fn single(kind: &'static Cell) -> Mesh {
         let mut mesh = Mesh::new();

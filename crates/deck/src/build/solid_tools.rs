@@ -1,0 +1,132 @@
+//! Rigid tools in space, with what their check finds shown at the tool concerned.
+
+use super::Builder;
+use crate::diagnose::Diagnostic;
+use crate::keys::{FacetKeys, Segment, StlKeys, ToolKeys};
+use crate::reader::Name;
+use crate::source::{Place, Spot};
+use asperity_core::tensor::Vec3;
+use asperity_core::tool::space::solids::{Facets, cone, extruded, plane, polygons, revolved, sphere, torus};
+use asperity_core::tool::space::{FacetFinding, ProfileFrame, SpaceTool, stl};
+use asperity_core::tool::{self, FindingSeverity};
+use std::sync::Arc;
+
+fn vector(x: &[f64]) -> Vec3 {
+    Vec3(std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0)))
+}
+
+impl Builder<'_> {
+    /// The tools of a model in space.
+    pub(super) fn solid_tools(&mut self) -> Option<Vec<Arc<SpaceTool>>> {
+        let tools: Vec<_> = self.deck.tool.iter().map(|(name, keys)| self.solid_tool(name, keys)).collect();
+        tools.into_iter().collect()
+    }
+
+    fn solid_tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<SpaceTool>> {
+        let (facets, reference) = (self.facets(name, keys), self.reference(name, keys, 3)?);
+        let tool = SpaceTool::new(&name.text, facets?, reference);
+        self.judge_facets(&tool, keys).then(|| Arc::new(tool))
+    }
+
+    fn facets(&mut self, name: &Name, keys: &ToolKeys) -> Option<Facets> {
+        if let Some(profile) = &keys.profile {
+            return self.swept(name, keys, profile);
+        }
+        if let Some(stl) = &keys.stl {
+            return self.triangles(stl);
+        }
+        let made = if let Some(facets) = &keys.facets {
+            of_nodes(facets)
+        } else if let Some(it) = &keys.plane {
+            plane(vector(&it.at), vector(&it.normal), it.side)
+        } else if let Some(it) = &keys.sphere {
+            sphere(vector(&it.center), it.radius)
+        } else if let Some(it) = &keys.cylinder {
+            cone(vector(&it.from), vector(&it.to), [it.radius; 2], it.fillet)
+        } else if let Some(it) = &keys.cone {
+            cone(vector(&it.from), vector(&it.to), [it.radii[0], it.radii[1]], it.fillet)
+        } else {
+            let it = keys.torus.as_ref()?;
+            torus(vector(&it.center), vector(&it.axis), it.radius, it.tube)
+        };
+        let told = made.map_err(|why| asperity_core::Error::input(format!("tool `{name}`: {why}")));
+        self.keep(told, keys.place)
+    }
+
+    /// A profile that is revolved or extruded, judged as a profile first.
+    fn swept(&mut self, name: &Name, keys: &ToolKeys, profile: &Spot<Vec<Segment>>) -> Option<Facets> {
+        let (segments, _) = self.segments(profile, keys)?;
+        let (again, places) = self.segments(profile, keys)?;
+        let flat = tool::ProfileTool::new(&name.text, vec![again], Vec3::zero());
+        if !self.judge(&flat, (&places, profile.place), keys.revolve.is_some()) {
+            return None;
+        }
+        let told = |why| asperity_core::Error::input(format!("tool `{name}`: {why}"));
+        if let Some(it) = &keys.revolve {
+            let frame = ProfileFrame::about(vector(&it.origin), vector(&it.axis)).map_err(told);
+            return self.keep(frame, it.place).map(|frame| revolved(segments, frame));
+        }
+        let Some(it) = &keys.extrude else {
+            let what = format!("the profile of tool `{name}` is plane, but space = \"solid\"");
+            let help = "say `revolve` or `extrude` as well";
+            self.found.push(Diagnostic::error(what).at(profile.place).help(help));
+            return None;
+        };
+        let along = vector(&it.along);
+        let frame = ProfileFrame::across(vector(&it.origin), along, vector(&it.x)).map_err(told);
+        self.keep(frame, it.place).map(|frame| extruded(segments, frame, along.norm()))
+    }
+
+    fn triangles(&mut self, keys: &StlKeys) -> Option<Facets> {
+        let path = self.folder.join(&keys.file.value);
+        let told = |why: String| asperity_core::Error::input(format!("{}: {why}", path.display()));
+        let bytes = asperity_core::files::read(&path);
+        let bytes = self.keep(bytes, keys.file.place)?;
+        let read = stl::read(&bytes).map_err(told);
+        self.files.push(bytes);
+        let stl::Stl { triangles, dropped } = self.keep(read, keys.file.place)?;
+        if dropped > 0 {
+            let what = format!("`{}`: {dropped} triangles of no area are left out", keys.file.value);
+            self.found.push(Diagnostic::note(what).at(keys.file.place));
+        }
+        let origin = vector(&keys.origin);
+        let corners = |corners: [Vec3; 3]| corners.map(|x| x * keys.scale + origin).to_vec();
+        let facets = polygons(triangles.into_iter().map(corners)).map_err(asperity_core::Error::input);
+        self.keep(facets, keys.file.place)
+    }
+
+    /// Whether a tool can be used.
+    fn judge_facets(&mut self, tool: &SpaceTool, keys: &ToolKeys) -> bool {
+        let mut sound = true;
+        for finding in tool.check() {
+            let facets = keys.facets.as_ref().map(|facets| facets.faces.value.as_slice());
+            let place: Option<Place> = facets.zip(finding.facet()).and_then(|(all, i)| Some(all.get(i)?.place));
+            let (what, grave) =
+                (format!("tool `{}`: {finding}", tool.name()), finding.severity() == FindingSeverity::Error);
+            sound &= !grave;
+            let diagnostic = if grave { Diagnostic::error(what) } else { Diagnostic::note(what) };
+            let diagnostic = diagnostic.at(place.unwrap_or(keys.place));
+            self.found.push(match remedy(&finding) {
+                "" => diagnostic,
+                help => diagnostic.help(help),
+            });
+        }
+        sound
+    }
+}
+
+fn of_nodes(keys: &FacetKeys) -> Result<Facets, String> {
+    let node = |&number: &usize| keys.nodes.get(number - 1).map(|x| vector(x));
+    let face = |face: &Spot<Vec<usize>>| face.value.iter().filter_map(node).collect();
+    polygons(keys.faces.value.iter().map(face))
+}
+
+/// What to do about a finding whose sentence does not say it.
+fn remedy(finding: &FacetFinding) -> &'static str {
+    match finding {
+        FacetFinding::Degenerate(_) => "remove the facet, or move one of its corners",
+        FacetFinding::Opposed(..) => "list the corners of each facet counter-clockwise as seen from outside",
+        FacetFinding::InsideOut => "reverse the order of the corners of every facet",
+        _ => "",
+    }
+}

@@ -1,0 +1,141 @@
+//! Surfaces that are glued: found before anything else, since their nodes may move.
+
+use super::Builder;
+use crate::diagnose::Diagnostic;
+use crate::keys::{self, TieGap};
+use crate::source::Place;
+use asperity_core::contact::field::{Apart, TieParts, TiedSurfaces};
+use asperity_core::mesh::Mesh;
+use asperity_core::tensor::Vec3;
+use std::sync::Arc;
+
+/// Motions below this part of the size of the mesh are rounding.
+const ROUNDING: f64 = 1e-12;
+/// A note says where more than this part of the function of a node has nothing opposite: about a twentieth of a face.
+const BARE: f64 = 0.1;
+
+/// A tie and where the deck says it.
+pub(super) struct Glued {
+    /// What was found.
+    pub tie: TiedSurfaces,
+    /// Its number in the deck.
+    pub number: usize,
+    /// The groups of surface and target.
+    pub names: [String; 2],
+    /// Where.
+    pub place: Place,
+}
+
+impl Builder<'_> {
+    /// Finds the ties of the deck and closes their gaps.
+    pub(super) fn glue(&mut self) {
+        let deck = self.deck;
+        self.ties = deck.tie.iter().enumerate().filter_map(|(number, keys)| self.tie(number, keys)).collect();
+    }
+
+    fn tie(&mut self, number: usize, keys: &keys::Tie) -> Option<Glued> {
+        let mesh = self.site.mesh.clone();
+        let sides = |group: &str| mesh.groups.get(group).map(|group| group.sides.as_slice());
+        let (surface, target) = (sides(&keys.surface.text)?, sides(&keys.target.text)?);
+        if surface.iter().any(|side| target.contains(side)) {
+            let what = format!("`{}` and `{}` share some of their sides", keys.surface, keys.target);
+            self.found.push(Diagnostic::error(what).at(keys.target.place).help("a tie is between two surfaces"));
+            return None;
+        }
+        let tolerance = keys.tolerance.map(|tolerance| tolerance.value);
+        let parts = TieParts { mesh: &mesh, space: self.site.space, surface, target, tolerance };
+        let tie = match TiedSurfaces::new(&parts) {
+            Ok(tie) => tie,
+            Err(apart) => {
+                self.apart(keys, &apart);
+                return None;
+            }
+        };
+        self.bare(keys, &tie);
+        if keys.gap == TieGap::Close {
+            self.close(&tie);
+        }
+        let names = [keys.surface.text.clone(), keys.target.text.clone()];
+        Some(Glued { tie, number, names, place: keys.place })
+    }
+
+    /// Says what of the surface reaches beyond the target.
+    fn bare(&mut self, keys: &keys::Tie, tie: &TiedSurfaces) {
+        let (keys::Tie { surface, target, .. }, (node, part)) = (keys, tie.barest);
+        if part < BARE {
+            return;
+        }
+        let (area, at) = (tie.bare, self.words(&self.site.mesh.points[node]));
+        let all = tie.nodes[0].len();
+        let free = all - tie.conditions.iter().filter(|condition| condition.follows).count();
+        let mut what = format!(
+            "{area:.3} of the area of `{surface}` has no face of `{target}` opposite and is not glued, most of it around {at}"
+        );
+        if free > 0 {
+            what += &format!("; {free} of the {all} nodes follow nothing");
+        }
+        let label = format!("this surface reaches beyond `{target}`");
+        self.found.push(Diagnostic::warning(what).at(keys.surface.place).label(label));
+    }
+
+    /// A place of the mesh.
+    fn words(&self, x: &Vec3) -> String {
+        match self.plane() {
+            true => format!("({:.4}, {:.4})", x[0], x[1]),
+            false => format!("({:.4}, {:.4}, {:.4})", x[0], x[1], x[2]),
+        }
+    }
+
+    fn apart(&mut self, keys: &keys::Tie, apart: &Apart) {
+        let (keys::Tie { surface, target, .. }, at) = (keys, |x: &Vec3| self.words(x));
+        let (what, help) = match apart {
+            Apart::Far(distance, x, tolerance) => (
+                format!(
+                    "`{surface}` lies {distance:.3e} from `{target}` at {}, which is more than the tolerance, {tolerance:.3e}",
+                    at(x)
+                ),
+                format!(
+                    "name the part that is to be glued by [group.NAME], move it, or say tolerance = {:.2e}",
+                    1.01 * distance
+                ),
+            ),
+            Apart::Nothing(distance, x, tolerance) => (
+                format!(
+                    "no face of `{surface}` has `{target}` opposite within {tolerance:.3e}; the nearest nodes are {distance:.3e} \
+                     apart, at {}",
+                    at(x)
+                ),
+                "is it the right side of the right body? Raise `tolerance` where the gap is meant".into(),
+            ),
+        };
+        self.found.push(Diagnostic::error(what).at(keys.place).help(help));
+    }
+
+    /// Moves the nodes of a tie together, within the planes that hold them.
+    fn close(&mut self, tie: &TiedSurfaces) {
+        let (mut mesh, least) = ((*self.site.mesh).clone(), ROUNDING * self.site.mesh.size());
+        let planes = self.planes(&mesh);
+        for (node, to) in tie.fitted(&mesh.points) {
+            let mut by = to - mesh.points[node];
+            for (_, normal) in planes.iter().filter(|(nodes, _)| nodes.binary_search(&node).is_ok()) {
+                by = by - *normal * normal.dot(by);
+            }
+            if by.norm() > least {
+                mesh.points[node] += by;
+            }
+        }
+        self.site.mesh = Arc::new(mesh);
+    }
+
+    /// Nodes and normals of the flat groups that a step holds or moves, and of the axis of revolution.
+    fn planes(&self, mesh: &Mesh) -> Vec<(Vec<usize>, Vec3)> {
+        let steps = self.deck.step.iter();
+        let names = steps.flat_map(|step| step.displacement.iter().map(|(name, _)| name).chain(&step.symmetry));
+        let plane = |name: &crate::reader::Name| {
+            let group = mesh.groups.get(&name.text).filter(|group| !group.sides.is_empty())?;
+            Some((group.nodes.clone(), Vec3(super::supports::flat_normal(mesh, &group.sides)?)))
+        };
+        let axis = (super::supports::on_axis(mesh, self.site.space), Vec3::new(1.0, 0.0, 0.0));
+        names.filter_map(plane).chain([axis]).collect()
+    }
+}

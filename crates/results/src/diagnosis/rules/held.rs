@@ -1,0 +1,183 @@
+//! What holds nothing: bodies that are free, not held yet, or held no more.
+
+use super::super::Finding;
+use super::super::course::{Course, End};
+use super::super::facts::{BodyFacts, ContactFacts, Facts};
+use super::{OPEN, finding, is_wrong};
+use asperity_core::Kind;
+
+fn at_start(course: &Course) -> bool {
+    course.increments == 0 && course.step == 0
+}
+
+/// A body that only contacts are to hold, and those are open.
+pub(super) fn not_touching(facts: &Facts, course: &Course) -> Option<Finding> {
+    if !at_start(course) || course.kind() != Some(Kind::Free) {
+        return None;
+    }
+    let (body, contact) = waiting(facts, course)?;
+    let gap = contact.gap.unwrap_or(contact.distance);
+    Some(
+        finding(
+            "not-touching",
+            0.9,
+            format!("body '{}' is to be held by contact '{}', which does not touch yet", body.name, contact.name),
+        )
+        .shown(&course.reason)
+        .shown(format!("a gap of {gap:.3e} before anything moves"))
+        .try_to(&[
+            "move the parts together, so that they touch from the start",
+            "bring them together by a prescribed motion in a first step, and let loads act in the second",
+            "or hold the body by weak springs (`spring`) until contact closes",
+        ]),
+    )
+}
+
+/// What began apart from what is to hold it, and was thrown onto it by its load.
+pub(super) fn thrown(facts: &Facts, course: &Course) -> Option<Finding> {
+    let loaded = facts.steps.iter().any(|step| !step.loads.is_empty());
+    let open = facts.contacts.iter().find(|contact| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge))?;
+    let missing = course.doubt(&["energy_balance"]).is_some();
+    ((course.jumps > 0 || missing) && loaded && !is_wrong(facts, open)).then(|| {
+        let gap = open.gap.unwrap_or(open.distance);
+        finding(
+            "not-touching",
+            0.8,
+            format!("a load acts before contact '{}' touches: nothing holds it until then", open.name),
+        )
+        .shown(format!("a gap of {gap:.3e} before anything moves, over which the load finds nothing to work against"))
+        .try_to(&[
+            "move the parts together, so that they touch from the start",
+            "bring them together by a prescribed motion in a first step, and let loads act in the second",
+        ])
+    })
+}
+
+/// A free body and the open contact that is to hold it.
+fn waiting<'a>(facts: &'a Facts, course: &'a Course) -> Option<(&'a BodyFacts, &'a ContactFacts)> {
+    facts.bodies_in(&course.reason).find_map(|body| {
+        let mut own = facts.contacts.iter().filter(|contact| contact.bodies.contains(&body.name)).peekable();
+        own.peek()?;
+        let open = own.find(|contact| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge));
+        open.filter(|contact| !is_wrong(facts, contact)).map(|contact| (body, contact))
+    })
+}
+
+pub(super) fn free_body(facts: &Facts, course: &Course) -> Option<Finding> {
+    if course.kind() != Some(Kind::Free) || course.increments > 0 && course.closed.iter().any(|(_, closed)| *closed) {
+        return None;
+    }
+    let names: Vec<&str> = facts.bodies_in(&course.reason).map(|body| body.name.as_str()).collect();
+    let what = match names.first() {
+        Some(name) => format!("nothing holds body '{name}'"),
+        None => "nothing holds a part of the model".into(),
+    };
+    let weight = if at_start(course) && waiting(facts, course).is_some() { 0.6 } else { 0.9 };
+    let unheld = facts.bodies_in(&course.reason).any(|body| !body.held);
+    Some(
+        finding("free-body", weight, what)
+            .shown(&course.reason)
+            .shown(if unheld { "no step supports any of its nodes" } else { "" })
+            .try_to(&[
+                "a support (`displacement`, `symmetry`) against the motion that is named; in the plane a body needs three, in space six",
+                "or contact with friction that holds it, or weak springs (`spring`)",
+            ]),
+    )
+}
+
+/// A body that only friction is to hold along some axes, which does not.
+pub(super) fn slides(facts: &Facts, course: &Course) -> Option<Finding> {
+    let free = [Kind::Free, Kind::Singular, Kind::Hourglass];
+    let free = course.kind().is_some_and(|kind| free.contains(&kind)) || course.share(&free) > 0.3;
+    let adrift = |body: &BodyFacts| !body.held && course.never_closed();
+    let body = facts.bodies.iter().find(|body| !body.unheld.is_empty() && (free || adrift(body)))?;
+    course.kind()?;
+    let touches = |contact: &&ContactFacts| {
+        let bears = contact.gap.is_some_and(|gap| gap <= OPEN * contact.edge) || course.closed(&contact.name);
+        contact.bodies.contains(&body.name) && bears && !is_wrong(facts, contact)
+    };
+    let contact = facts.contacts.iter().find(touches)?;
+    let axes = body.unheld.join(" and ");
+    let held = match contact.friction.filter(|friction| *friction > 0.0) {
+        Some(friction) => format!(
+            "a coefficient of friction of {friction}: the load along the surface is more than that of the one across it"
+        ),
+        None => "no friction".into(),
+    };
+    Some(
+        finding(
+            "slides",
+            0.84,
+            format!("body '{}' slides on what it touches: friction is all that could hold it", body.name),
+        )
+        .shown(&course.reason)
+        .shown(format!("along {axes} no support acts on it; contact '{}' has {held}", contact.name))
+        .try_to(&[
+            "a support against the motion along the surface, or weak springs (`spring`)",
+            "more friction, or less of the load that makes it slide",
+        ]),
+    )
+}
+
+/// A body that slides without resistance on what touches it: the matrix is singular but for rounding.
+pub(super) fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
+    let body = facts.bodies.iter().find(|body| !body.unheld.is_empty())?;
+    let singular = course.kind() == Some(Kind::Singular) || course.share(&[Kind::Singular]) > 0.3;
+    let adrift = !body.held && course.never_closed() && !facts.contacts.iter().any(|contact| is_wrong(facts, contact));
+    (course.kind().is_some() && (singular || adrift)).then(|| {
+        let slides =
+            facts.contacts.iter().any(|c| c.bodies.contains(&body.name) && c.friction.is_none_or(|f| f == 0.0));
+        let axes = body.unheld.join(" and ");
+        let gap = |contact: &&ContactFacts| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge);
+        let apart = facts.contacts.iter().filter(|contact| contact.bodies.contains(&body.name)).find(gap);
+        let cause = if apart.is_some() && course.never_closed() { "not-touching" } else { "free-body" };
+        finding(cause, 0.82, format!("nothing holds body '{}' along {axes}", body.name))
+            .shown(&course.reason)
+            .shown(format!("no support acts on it along {axes}"))
+            .shown(
+                apart.map_or(String::new(), |c| format!("contact '{}' does not touch before anything moves", c.name)),
+            )
+            .shown(if slides { "the contact that it rests on has no friction" } else { "" })
+            .try_to(&["a support along that axis, or weak springs (`spring`)", "friction, where there is some"])
+    })
+}
+
+pub(super) fn hourglass(facts: &Facts, course: &Course) -> Option<Finding> {
+    let soft = facts.bodies.iter().filter(|body| body.hourglass).map(|body| body.name.as_str()).collect::<Vec<_>>();
+    let of_kind = course.kind() == Some(Kind::Hourglass);
+    let doubted = course.doubt(&["hourglass"]).is_some();
+    if soft.is_empty() || !of_kind && !doubted && course.share(&[Kind::Hourglass, Kind::Singular]) < 0.3 {
+        return None;
+    }
+    Some(
+        finding(
+            "hourglass",
+            if of_kind { 0.93 } else { 0.7 },
+            "cells with reduced integration move without resistance",
+        )
+        .shown(if of_kind { course.reason.as_str() } else { "" })
+        .shown(format!("reduced integration of cells of first degree in: {}", soft.join(", ")))
+        .try_to(&[
+            "`integration = \"full\"`, with `formulation = \"f-bar\"` where the volume is kept",
+            "or supports and contacts on more nodes than one or two",
+        ]),
+    )
+}
+
+pub(super) fn lost_contact(facts: &Facts, course: &Course) -> Option<Finding> {
+    let closed = course.closed.iter().any(|(_, closed)| *closed);
+    let free = course.kind() == Some(Kind::Free) && course.increments > 0;
+    let adrift = facts.bodies.iter().find(|body| !body.held && !body.unheld.is_empty());
+    let adrift = adrift.filter(|_| course.ended == End::Well && course.touching == 0);
+    (closed && (free || adrift.is_some())).then(|| {
+        finding("lost-contact", 0.9, "a body lost the contact that held it")
+            .shown(&course.reason)
+            .shown(adrift.map_or(String::new(), |body| {
+                format!("at the end no contact is closed, and no support holds body '{}'", body.name)
+            }))
+            .try_to(&[
+                "support it, or keep it in contact: a smaller motion, a spring, friction",
+                "`solver.if_free = \"hold\"` leaves it where it is until something touches it",
+            ])
+    })
+}

@@ -1,0 +1,177 @@
+//! What is said of a run at its end besides its figures: what its certificate means in words, what it cost, which promises it
+//! bends.
+
+use super::account::Account;
+use super::certificate::{Certificate, Limits};
+use super::quantities::Parts;
+use super::summary::Summary;
+use asperity_core::mesh::Space;
+use asperity_core::model::Model;
+use asperity_core::solid::{Body, Choice};
+use asperity_core::solve::{Run, Snap, Turn};
+use asperity_core::system::{State, Term};
+
+/// Puts notes and costs of a run of `seconds` into its summary.
+pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
+    let Account { certificate, limits, summary, .. } = account;
+    cost(summary, run, seconds);
+    summary.notes.extend(facets(model, &run.state));
+    summary.notes.extend(model.bodies.iter().flat_map(|(body, _)| locking(body)));
+    summary.notes.extend(imbalance(certificate, limits));
+    summary.notes.extend(large_strain(certificate));
+    summary.notes.extend(rests(certificate, model.space));
+}
+
+/// Which cells of a body stay too stiff, and what helps.
+fn locking(body: &Body) -> Vec<String> {
+    let advice = body.choices().iter().flat_map(Choice::advice);
+    advice.map(|advice| format!("body '{}': {advice}", body.name())).collect()
+}
+
+/// Part of their force by which two sides of a contact may differ without a word.
+const BALANCED: f64 = 0.02;
+
+/// What it means that two sides of a contact press with different forces, where that is no doubt yet.
+fn imbalance(certificate: &Certificate, limits: &Limits) -> Option<String> {
+    let worst = certificate.worst("imbalance", limits)?;
+    let noted = worst.value > BALANCED && worst.limit.is_some_and(|limit| worst.value <= limit);
+    noted.then(|| {
+        format!(
+            "the forces on the two sides differ by {:.1} %{}: with two passes each side answers for itself, and action equals \
+             reaction only as far as the meshes agree; finer meshes bring them together, passes = \"one\" makes them equal",
+            100.0 * worst.value,
+            worst.place()
+        )
+    })
+}
+
+/// Displacement gradient up to which small strain is taken at its word.
+const SMALL: f64 = 0.1;
+
+/// What it means that a body in small strain moves by more than that.
+fn large_strain(certificate: &Certificate) -> Vec<String> {
+    let beyond = certificate.each("small_strain").filter(|(_, gradient)| *gradient > SMALL);
+    let said = |(body, gradient): (&str, f64)| {
+        format!(
+            "{body} is computed in small strain, but the gradient of its displacements reaches {gradient:.2}: strains \
+             and rotations beyond {SMALL} are not small, and results are wrong by a part of that order; \
+             strain = \"finite\" has no such limit"
+        )
+    };
+    beyond.map(said).collect()
+}
+
+/// Closed points along one direction below which the force of a contact is not smooth.
+const FEW: usize = 3;
+
+/// What it means that a contact never closed, or at so few points that its force changes with each of them.
+fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
+    let few = (if space == Space::Solid { FEW * FEW } else { FEW }) as f64;
+    let said = |(contact, most): (&str, f64)| match most {
+        0.0 => Some(format!(
+            "{contact} never closed in the whole run; `asperity check` says what its points see: the surface or the target \
+             may be another than is meant, a tool may have its material on the wrong side, or nothing moves them together"
+        )),
+        most if most < few => Some(format!(
+            "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves; a \
+             finer surface, a higher `gauss` gives it more"
+        )),
+        _ => None,
+    };
+    certificate.each("closed_points").filter_map(said).collect()
+}
+
+/// What contacts say of the facets that their overlap is between.
+fn facets(model: &Model, state: &State) -> Vec<String> {
+    let contacts = Parts::of(model).contacts;
+    contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.histories[*term])).collect()
+}
+
+/// Changes of stability that are told one by one.
+const TOLD: usize = 5;
+
+/// Where stability was lost or found again.
+fn turns(turns: &[Turn]) -> impl Iterator<Item = String> {
+    let more = turns.len().saturating_sub(TOLD);
+    let more = (more > 0).then(|| format!("{more} more changes of stability; the modes of all are in modes.pvd"));
+    let told = turns.iter().take(TOLD).map(|turn| {
+        let lost = turn.negative[1] > turn.negative[0];
+        let help =
+            "; a perfect shape stays on its path beyond it, a small imperfection along the mode (modes.pvd) leaves it";
+        format!("{turn}{}", if lost { help } else { "" })
+    });
+    told.chain(more)
+}
+
+/// Increments that jumped: the first, and how many.
+fn snaps(snaps: &[Snap]) -> Option<String> {
+    let first = snaps.first()?;
+    let more = if snaps.len() > 1 { format!(" (the first of {})", snaps.len()) } else { String::new() };
+    Some(format!(
+        "the increment to time {:.5}{more} jumped: its forces fell on the way, and an energy of {:.4e} at the least was set free; \
+         most moved {}. `control = \"arc-length\"` follows loads without a jump",
+        first.time, first.energy, first.largest
+    ))
+}
+
+/// What the run knows of its cost, and of promises that it bends.
+fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
+    (summary.attempts, summary.iterations) = (run.state.attempts, run.state.iterations);
+    summary.timings.insert("run".into(), seconds);
+    let counts = run.solver_counts();
+    (summary.factorisations, summary.symmetric_factorisations) = (counts.factorisations, counts.symmetric);
+    let spent = run.memory.spent;
+    let phases = [
+        ("opening", spent.opening),
+        ("evaluation", spent.evaluating),
+        ("factorisation", counts.factorising),
+        ("solution", counts.solving),
+        ("compliance", counts.complying),
+        ("contact", spent.contact),
+    ];
+    summary.timings.extend(phases.map(|(phase, time)| (phase.to_owned(), time.as_secs_f64())));
+    summary.timings.insert("stability".into(), run.stability.spent.as_secs_f64());
+    summary.notes.extend(turns(&run.stability.turns));
+    summary.notes.extend(snaps(&run.stability.snaps));
+    summary.timings.insert("audit".into(), run.audited.as_secs_f64());
+    let cut = summary.attempts.saturating_sub(summary.increments);
+    if cut > summary.increments / 2 {
+        summary.notes.push(format!(
+            "{cut} of {} attempts at an increment were cut; the page \"When a run does not converge\" of the manual says what helps",
+            summary.attempts
+        ));
+    }
+    if run.state.held > 0 {
+        let first =
+            run.first_held.as_ref().map_or(String::new(), |(what, time)| format!(" ({what} from time {time:.4} on)"));
+        summary.notes.push(format!(
+            "in {} increments something was held still that nothing holds any more{first}: it stays where it is until something \
+             touches it; with `solver.if_free = \"stop\"` the run ends there",
+            run.state.held
+        ));
+    }
+    if run.state.jumps > 0 {
+        summary.notes.push(format!(
+            "increments relaxed to an equilibrium beyond an instability: {}; energy set free: {:.4e}",
+            run.state.jumps, run.state.released
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Frame, Reading};
+    use super::*;
+
+    #[test]
+    fn a_body_that_leaves_small_strain_is_named() {
+        let mut frame = Frame::new(1, 1, 1.0);
+        for (body, gradient) in [("body 'soft'", 0.137), ("body 'stiff'", 0.099)] {
+            frame.certify(Reading::new("small_strain", body, gradient));
+        }
+        let mut certificate = Certificate::default();
+        certificate.observe(&frame);
+        let [said] = &large_strain(&certificate)[..] else { panic!("one note") };
+        assert!(said.contains("'soft'") && said.contains("0.14") && said.contains("beyond 0.1"), "{said}");
+    }
+}

@@ -1,0 +1,35 @@
+//! How far pressures jump from point to point: cells that cannot keep their volume and deform lock, and their pressures alternate.
+
+use super::Source;
+use crate::output::{Frame, Place, Reading};
+use asperity_core::Error;
+use asperity_core::system::Term;
+
+/// For each body the root mean square distance of the pressure at its points from the mean of the nodal means of their cell, over
+/// that of von Mises' stress, both by volume. A smooth field changes little over a cell.
+pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
+    let nodal = frame.at(Place::Node).find(|quantity| quantity.name == "cauchy_stress_averaged");
+    let Some(nodal) = nodal.map(|quantity| quantity.values.clone()) else { return Ok(()) };
+    for (term, body) in &source.parts.bodies {
+        let (mut apart, mut scale) = (0.0, 0.0);
+        for record in body.records(&source.state.u, source.history(*term)?) {
+            let nodes = source.parts.mesh.cell(record.cell).nodes;
+            let mean = nodes.iter().map(|&node| pressure(&nodal[6 * node..])).sum::<f64>() / nodes.len() as f64;
+            apart += record.volume * (pressure(record.state) - mean).powi(2);
+            scale += record.volume * shape(record.state);
+        }
+        let reading = Reading::new("pressure_oscillation", format!("body '{}'", body.name()), apart.sqrt());
+        frame.certify(reading.over(scale.sqrt()));
+    }
+    Ok(())
+}
+
+fn pressure(stress: &[f64]) -> f64 {
+    -(stress[0] + stress[1] + stress[2]) / 3.0
+}
+
+/// Square of von Mises' stress.
+fn shape(stress: &[f64]) -> f64 {
+    let [xx, yy, zz, xy, yz, xz] = std::array::from_fn(|i| stress[i]);
+    0.5 * ((xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2)) + 3.0 * (xy * xy + yz * yz + xz * xz)
+}

@@ -36,7 +36,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `examples/press.rs`, `branch.rs` and `law.rs` go on from here; a program of your own reads what a run writes, or listens to it as a
+//! A model without a deck is put together by name with [`model::Model::builder`], as in `examples/hertz.rs`. `press.rs`, `branch.rs` and
+//! `law.rs` go on from here; a program of your own reads what a run writes, or listens to it as a
 //! [`solve::Observer`].
 //!
 //! Four crates are joined here, each with the packages that it needs and no more: `asperity-core` with all that is solved (the rooms

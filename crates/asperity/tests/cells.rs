@@ -40,52 +40,27 @@ fn solve(mesh: &Arc<Mesh>, space: Space, options: BodyOptions, fields: &[Field])
     boundary.dedup();
     let fixed: Vec<usize> = boundary.iter().flat_map(|&n| (0..dim).map(move |a| n * dim + a)).collect();
     let constraints = Constraints::new(dofs.count(), &fixed, &[]);
-    let step = |field: &Field| Step {
-        name: "go".into(),
-        duration: 1.0,
-        increments: Increments { first: 1.0, largest: 1.0, ..Increments::default() },
-        arc_length: None,
-        constraints: constraints.clone(),
-        prescribed: boundary
-            .iter()
-            .flat_map(|&n| {
-                let u = field(mesh.points[n]);
-                (0..dim).map(move |a| Prescribed {
-                    dof: n * dim + a,
-                    others: vec![],
-                    course: Course::To(u[a], Amplitude::ramp()),
-                })
+    let step = |field: &Field| {
+        let prescribed = boundary.iter().flat_map(|&n| {
+            let u = field(mesh.points[n]);
+            (0..dim).map(move |a| Prescribed {
+                dof: n * dim + a,
+                others: vec![],
+                course: Course::To(u[a], Amplitude::ramp()),
             })
-            .collect(),
-        idle: vec![],
-        leaving: vec![],
+        });
+        let mut step = Step::new("go", constraints.clone(), prescribed.collect());
+        step.increments = Increments { first: 1.0, largest: 1.0, ..Increments::default() };
+        step
     };
     let material = Arc::new(Rate(Elastic::new(200.0, 0.3)));
     let cells = (0..mesh.cell_count()).collect();
     let body = Body::new("b", (mesh.clone(), dofs.clone(), space), cells, material, options).ok()?;
-    let model = Model::new(ModelParts {
-        title: String::new(),
-        space,
-        thickness: 1.0,
-        mesh: mesh.clone(),
-        dofs,
-        bodies: vec![(body, 0)],
-        materials: vec!["m".into()],
-        tools: vec![],
-        solid_tools: vec![],
-        field_contacts: vec![],
-        contacts: vec![],
-        springs: vec![],
-        loads: vec![],
-        fluids: vec![],
-        bearing: Default::default(),
-        steps: fields.iter().map(step).collect(),
-        supports: vec![],
-        watched: vec![],
-        ties: vec![],
-        rigid: vec![],
-        newton: NewtonOptions { tolerance: 1e-12, ..NewtonOptions::default() },
-    });
+    let mut parts = ModelParts::new(space, mesh.clone(), dofs);
+    (parts.bodies, parts.materials) = (vec![(body, 0)], vec!["m".into()]);
+    parts.steps = fields.iter().map(step).collect();
+    parts.newton = NewtonOptions { tolerance: 1e-12, ..NewtonOptions::default() };
+    let model = Model::new(parts);
     let state = model.problem.initial_state();
     let mut run = model.run(state);
     run.run(&Default::default(), &mut Silent).unwrap();

@@ -78,21 +78,14 @@ fn truss(spring: f64, load: f64, until: Option<f64>, arc: bool) -> Problem {
     let ramp = Timeline::new([(1.0, Change::To(-load, Amplitude::ramp()))]);
     let loaded = force_on_nodes("load", &dofs, &[1], vec![Timeline::new([]), ramp]);
     let until = until.map(|value| Until { dofs: vec![3], value: -value });
-    let count = dofs.count();
+    let mut step = Step::new("load", Constraints::new(dofs.count(), &[0, 2], &[]), vec![]);
+    step.increments = Increments { first: 0.02, largest: 0.02, ..Increments::default() };
+    step.arc_length = arc.then_some(ArcLength { until });
     Problem {
         terms: vec![Arc::new(Truss { spring }), Arc::new(loaded)],
         contacts: 0..0,
         removable: 0..0,
-        steps: vec![Step {
-            name: "load".into(),
-            duration: 1.0,
-            increments: Increments { first: 0.02, largest: 0.02, ..Increments::default() },
-            arc_length: arc.then_some(ArcLength { until }),
-            constraints: Constraints::new(count, &[0, 2], &[]),
-            prescribed: vec![],
-            idle: vec![],
-            leaving: vec![],
-        }],
+        steps: vec![step],
         newton: NewtonOptions { tolerance: 1e-9, ..NewtonOptions::default() },
         size: 2.0,
         cell_size: 1.0,

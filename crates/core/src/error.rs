@@ -75,6 +75,7 @@ impl std::error::Error for Error {}
 
 /// Why an attempt at an increment was given up; the increment is cut and tried again.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Failure {
     /// In words, with the user's names: what happened and where.
     pub reason: String,
@@ -84,6 +85,7 @@ pub struct Failure {
 
 /// What an attempt fails of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Kind {
     /// Anything else.
     #[default]

@@ -18,6 +18,7 @@ pub enum Severity {
 
 /// One message.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// How much it weighs.
     pub severity: Severity,

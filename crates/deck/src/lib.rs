@@ -49,6 +49,7 @@ use tree::Node;
 
 /// A deck that was read, with its mesh.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Loaded {
     /// The deck.
     pub deck: Deck,

@@ -39,7 +39,9 @@ fn dangling(mention: &Mention, mentions: &[Mention], mesh: Option<&Mesh>) -> Opt
                 .then(|| otherwise(nothing(name, *names, &valid), name, mentions, mesh))
         }
         Names::Group | Names::Cells | Names::Sides => {
-            group(name, *names, mesh?).map(|diagnostic| otherwise(diagnostic, name, mentions, mesh))
+            let found = group(name, *names, mesh?).map(|diagnostic| otherwise(diagnostic, name, mentions, mesh))?;
+            let tool = *names == Names::Group && defined(mentions, Names::Tool).contains(&name.text.as_str());
+            Some(if tool { found.help("a tool is moved by `motion`") } else { found })
         }
         _ => {
             let valid = defined(mentions, *names);

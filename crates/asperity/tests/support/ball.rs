@@ -6,10 +6,10 @@ use asperity::Failure;
 use asperity::material::{Rate, laws::Elastic};
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Space, cells};
-use asperity::model::{Model, ModelParts};
-use asperity::solid::{Body, BodyOptions};
-use asperity::solve::{AttemptRecord, Course, Factors, Increments, NewtonOptions, Observer, Prescribed, Step};
-use asperity::system::{Attempt, Branch, Constraints, Dofs, History, Instant, Local, State, Stencil, Stencils, Term};
+use asperity::model::{Model, StepBuilder};
+use asperity::solid::BodyOptions;
+use asperity::solve::{AttemptRecord, Factors, NewtonOptions, Observer};
+use asperity::system::{Attempt, Branch, Dofs, History, Instant, Local, State, Stencil, Stencils, Term};
 use asperity::tensor::{Dual, Scalar, Vec3};
 use std::sync::Arc;
 
@@ -120,54 +120,17 @@ impl Attempt for OpenBall<'_> {
 pub fn model(size: usize, factors: Factors) -> Model {
     let side = size as f64;
     let mesh = Arc::new(Block::new([0.0; 3], [side; 3], [size; 3], &cells::HEX8).mesh("block").expect("a mesh"));
-    let dofs = Dofs::new(3, mesh.points.len(), 0);
-    let options = BodyOptions::default();
-    let material = Arc::new(Rate(Elastic::new(YOUNG, 0.3)));
-    let all = (0..mesh.cell_count()).collect();
-    let body = Body::new("block", (mesh.clone(), dofs.clone(), Space::Solid), all, material, options);
-    let points = &mesh.points;
-    let height = |z: f64| (0..points.len()).filter(move |&n| points[n].0[2] == z);
-    let bottom = height(0.0).flat_map(|n| dofs.node(n)..dofs.node(n) + 3).collect::<Vec<_>>();
-    let top = height(side).map(|n| (n, points[n])).collect();
+    let top: Vec<_> = mesh.groups["block.front"].nodes.iter().map(|&n| (n, mesh.points[n])).collect();
     let touch = Vec3([0.45 * side, 0.51 * side, side]);
-    let ball = Ball { dofs: dofs.clone(), top, touch, side };
-    Model::new(ModelParts {
-        title: String::new(),
-        space: Space::Solid,
-        thickness: 1.0,
-        bodies: vec![(body.expect("a body"), 0)],
-        materials: vec!["rubber".into()],
-        tools: vec![],
-        solid_tools: vec![],
-        field_contacts: vec![],
-        contacts: vec![],
-        springs: vec![],
-        loads: vec![Box::new(ball)],
-        fluids: vec![],
-        bearing: Default::default(),
-        steps: ["press", "slide"].map(|name| step(name, &dofs, &bottom)).into(),
-        supports: vec![],
-        watched: vec![],
-        ties: vec![],
-        rigid: vec![],
-        newton: NewtonOptions { factors, ..NewtonOptions::default() },
-        mesh: mesh.clone(),
-        dofs,
-    })
-}
-
-fn step(name: &str, dofs: &Dofs, held: &[usize]) -> Step {
-    let hold = |&dof: &usize| Prescribed { dof, others: vec![], course: Course::Hold };
-    Step {
-        name: name.into(),
-        duration: 1.0,
-        increments: Increments { first: 0.25, largest: 0.25, ..Increments::default() },
-        arc_length: None,
-        constraints: Constraints::new(dofs.count(), held, &[]),
-        prescribed: held.iter().map(hold).collect(),
-        idle: vec![],
-        leaving: vec![],
-    }
+    let step = |name: &str| StepBuilder::new(name).count(4).hold("block.back");
+    Model::builder(Space::Solid, mesh)
+        .body("block", Arc::new(Rate(Elastic::new(YOUNG, 0.3))), BodyOptions::default())
+        .load(move |site| Ok(Box::new(Ball { dofs: site.dofs.clone(), top, touch, side })))
+        .step(step("press"))
+        .step(step("slide"))
+        .newton(NewtonOptions { factors, ..NewtonOptions::default() })
+        .build()
+        .expect("a model")
 }
 
 /// Gathers the attempts of a run.

@@ -3,6 +3,7 @@
 mod boundary;
 pub mod cells;
 mod connected;
+mod flat;
 pub mod formats;
 pub mod generate;
 mod groups;
@@ -15,6 +16,7 @@ mod unstructured;
 
 pub use boundary::{Behind, Faces};
 pub use cells::{Cell, Face, Rule};
+pub use flat::{ROUNDING, flat_normal, unit};
 pub use groups::{Group, Side};
 pub use measure::Adjacency;
 pub use space::Space;

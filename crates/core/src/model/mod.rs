@@ -2,7 +2,11 @@
 
 mod audited;
 mod bearing;
+mod behind;
+mod builder;
 #[allow(clippy::module_inception)] // the room and the type it is about share the field's word
 mod model;
 
+pub use behind::{ELASTIC_SLIP, backings, boundary_behind, suits_better};
+pub use builder::{ContactBuilder, ModelBuilder, StepBuilder};
 pub use model::{Model, ModelParts, RigidGroup};

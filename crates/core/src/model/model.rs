@@ -2,6 +2,7 @@
 
 use super::audited::claims;
 use super::bearing::bearing;
+use super::builder::ModelBuilder;
 use crate::audit::{Audit, Subject};
 use crate::contact::PaperContact;
 use crate::contact::field::{FieldContact, TiedSurfaces};
@@ -14,7 +15,8 @@ use crate::tensor::Vec3;
 use crate::tool::{self, ProfileTool};
 use std::sync::Arc;
 
-/// What a model is put together from.
+/// What a model is put together from: begin with [`ModelParts::new`], and say what there is. [`Model::builder`] does so by names.
+#[non_exhaustive]
 pub struct ModelParts {
     /// The user's words for it; may be empty.
     pub title: String,
@@ -60,6 +62,35 @@ pub struct ModelParts {
     pub newton: NewtonOptions,
 }
 
+impl ModelParts {
+    /// A mesh in a space with its numbering of unknowns, and nothing else yet.
+    pub fn new(space: Space, mesh: Arc<Mesh>, dofs: Dofs) -> Self {
+        Self {
+            title: String::new(),
+            space,
+            thickness: 1.0,
+            mesh,
+            dofs,
+            bodies: Vec::new(),
+            materials: Vec::new(),
+            tools: Vec::new(),
+            solid_tools: Vec::new(),
+            contacts: Vec::new(),
+            field_contacts: Vec::new(),
+            springs: Vec::new(),
+            loads: Vec::new(),
+            fluids: Vec::new(),
+            bearing: Bearing::default(),
+            steps: Vec::new(),
+            supports: Vec::new(),
+            watched: Vec::new(),
+            ties: Vec::new(),
+            rigid: Vec::new(),
+            newton: NewtonOptions::default(),
+        }
+    }
+}
+
 /// Nodes that follow a reference point as a rigid body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidGroup {
@@ -72,6 +103,7 @@ pub struct RigidGroup {
 }
 
 /// What is to be solved. Terms are numbered bodies first, then contacts, springs and loads.
+#[non_exhaustive]
 pub struct Model {
     /// The user's words for it.
     pub title: String,
@@ -110,6 +142,11 @@ pub struct Model {
 }
 
 impl Model {
+    /// A model of bodies, tools, contacts, loads and steps, called by their names.
+    pub fn builder(space: Space, mesh: impl Into<Arc<Mesh>>) -> ModelBuilder {
+        ModelBuilder::new(space, mesh.into())
+    }
+
     /// Puts the parts together.
     pub fn new(parts: ModelParts) -> Self {
         let ModelParts {

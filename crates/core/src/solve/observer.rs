@@ -6,6 +6,7 @@ use crate::system::State;
 
 /// One iteration.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct IterationRecord {
     /// Number within the attempt, from zero: the state before the first solution.
     pub iteration: usize,
@@ -35,6 +36,7 @@ pub struct IterationRecord {
 
 /// One attempt at an increment, finished.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct AttemptRecord {
     /// Step, from zero.
     pub step: usize,

@@ -47,6 +47,8 @@ pub struct Run<'a> {
     /// What the run failed of, if it did.
     pub ended: Kind,
     system: LinearSystem,
+    /// Whether the first state is known to be one of the problem.
+    fits: bool,
 }
 
 /// How far an increment leapt, over the size of the model: what it moved where that is far more than at the speed of the
@@ -68,6 +70,7 @@ impl<'a> Run<'a> {
             first_held: None,
             ended: Kind::Other,
             system: LinearSystem::new(solver, problem.newton.policy(), problem.dofs.clone()),
+            fits: false,
         }
     }
 
@@ -80,8 +83,9 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// [`Error::NotConverged`] when the increments shrink to nothing or a motion is held by nothing; [`Error::Input`] when
-    /// it does not fit into memory; an error of the observer.
+    /// it does not fit into memory or began with a state of another model; an error of the observer.
     pub fn run(&mut self, options: &RunOptions, observer: &mut dyn Observer) -> Result<Stop, Error> {
+        self.check_state()?;
         self.problem.check_memory(&self.state)?;
         let mut accepted = 0;
         while self.state.step < self.problem.steps.len() {
@@ -94,11 +98,21 @@ impl<'a> Run<'a> {
         Ok(Stop::Done)
     }
 
+    /// The state that a run begins with is one of its problem.
+    fn check_state(&mut self) -> Result<(), Error> {
+        if !self.fits {
+            self.problem.fits(&self.state).map_err(Error::Input)?;
+            self.fits = true;
+        }
+        Ok(())
+    }
+
     /// Solves the next increment and accepts it; none when all steps are done.
     ///
     /// # Errors
     /// As [`run`](Self::run). The accepted state then is the last one that was reached.
     pub fn advance(&mut self, observer: &mut dyn Observer) -> Result<Option<AttemptRecord>, Error> {
+        self.check_state()?;
         let Some(step) = self.problem.steps.get(self.state.step) else { return Ok(None) };
         if self.state.step_increment >= step.increments.most {
             self.ended = Kind::TooMany;

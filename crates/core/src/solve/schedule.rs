@@ -92,6 +92,7 @@ pub struct Until {
 
 /// One step of a run.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Step {
     /// The user's name for it.
     pub name: String,
@@ -112,6 +113,20 @@ pub struct Step {
 }
 
 impl Step {
+    /// A step of unit duration and usual increments that keeps all terms.
+    pub fn new(name: &str, constraints: Constraints, prescribed: Vec<Prescribed>) -> Self {
+        Self {
+            name: name.into(),
+            duration: 1.0,
+            increments: Increments::default(),
+            arc_length: None,
+            constraints,
+            prescribed,
+            idle: Vec::new(),
+            leaving: Vec::new(),
+        }
+    }
+
     /// Whether a time of the step is its end, but for rounding.
     pub fn ends_at(&self, step_time: f64) -> bool {
         step_time >= self.duration * (1.0 - 1e-9)

@@ -2,25 +2,21 @@
 
 use super::Builder;
 use super::friction::integrated;
-use super::supports::flat_normal;
 use crate::diagnose::Diagnostic;
 use crate::keys::{self, Passes};
 use crate::reader::Name;
 use asperity_core::contact::field::{FieldSurface, FieldTarget};
 use asperity_core::contact::{
-    Backing, ContactForm, ContactOptions, LoadedSides, PaperContact, PaperParts, Plate, PointSurface, TWO_PASSES,
-    default_penalty, plates, second_name,
+    Backing, ContactForm, ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface, TWO_PASSES,
+    default_penalty, second_name,
 };
 use asperity_core::interface::{Closure, Rule};
 use asperity_core::mesh::{Mesh, Side};
+use asperity_core::model::{self, ELASTIC_SLIP};
 use asperity_core::solid::Body;
 use asperity_core::system::Dofs;
 use asperity_core::tool::{self, ProfileTool};
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// Elastic slip under the friction that the pressure allows, over the length of an edge or face.
-const ELASTIC_SLIP: f64 = 0.005;
 
 /// Which edges a contact joins.
 #[derive(Clone, Copy)]
@@ -303,56 +299,19 @@ fn same_sides(one: &[Side], other: &[Side]) -> bool {
     one == other
 }
 
-/// Multiple of the shear modulus above which the confined modulus says nothing of a surface: a half-space yields to pressure
-/// by `2 G / (1 - nu)`, the incompressible one by `4 G`.
-const SURFACE: f64 = 4.0;
-
-/// Part of half of the boundary of a thin body that must be held for it to rest on what holds it and not to bend.
-const RESTS: f64 = 0.5;
-/// Component of a normal from which on what is held along that axis is held across the face.
-const ACROSS: f64 = 0.1;
-
-/// What stands behind the faces of each cell: the confined modulus of its material, at most four shear moduli, and the
-/// thickness of what it belongs to where that is thin and free to bend.
+/// What stands behind the faces of each cell, with what the first step holds.
 pub(crate) fn backings<'b>(mesh: &Mesh, deck: &keys::Deck, bodies: impl IntoIterator<Item = &'b Body>) -> Vec<Backing> {
-    let (mut backings, wholes) = (vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()], mesh.wholes());
-    let held = held(mesh, &wholes, deck);
-    for body in bodies {
-        let [confined, shear] = body.material().moduli();
-        let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
-        body.cells().iter().for_each(|&cell| backings[cell].modulus = modulus);
-        let bends = |cell: usize, plate: &Plate| held.get(&wholes[cell]).is_none_or(|held| *held <= RESTS * plate.area);
-        plates(mesh, body.cells())
-            .for_each(|(cell, plate)| backings[cell].plate = plate.filter(|plate| bends(cell, plate)));
-    }
-    backings
-}
-
-/// Area of the faces of each connected whole that the first step holds along their normals.
-fn held(mesh: &Mesh, wholes: &[usize], deck: &keys::Deck) -> BTreeMap<usize, f64> {
-    let (mut areas, first) = (BTreeMap::new(), || deck.step.first().into_iter());
+    let first = || deck.step.first().into_iter();
     let given = |(name, keys): &'_ (Name, keys::Displacement)| {
         (name.text.clone(), [keys.x.is_some(), keys.y.is_some(), keys.z.is_some()])
     };
     let given = first().flat_map(|step| &step.displacement).map(given);
     let mirrored = first().flat_map(|step| &step.symmetry).map(|name| (name.text.clone(), [true; 3]));
-    for (name, axes) in given.chain(mirrored) {
-        let sides = mesh.groups.get(&name).map_or(&[][..], |group| &group.sides);
-        let normal = flat_normal(mesh, sides);
-        let across = |axis: usize| normal.is_none_or(|normal| normal[axis].abs() > ACROSS);
-        if (0..mesh.dimension()).all(|axis| axes[axis] || !across(axis)) {
-            sides.iter().for_each(|side| *areas.entry(wholes[side.cell]).or_default() += mesh.extent(*side));
-        }
-    }
-    areas
+    model::backings(mesh, given.chain(mirrored), bodies)
 }
 
 /// The whole outer boundary of what hangs together with the cells behind the sides, in whatever groups.
 pub(super) fn boundary_behind(mesh: &Mesh, sides: &[Side], bodies: &[(Name, keys::Body)]) -> Vec<Side> {
-    let wholes = mesh.wholes();
-    let behind: BTreeSet<usize> = sides.iter().map(|side| wholes[side.cell]).collect();
     let groups = bodies.iter().filter_map(|(name, _)| mesh.groups.get(&name.text));
-    let cells = groups.flat_map(|group| group.cells.iter().copied());
-    let cells: BTreeSet<usize> = cells.filter(|&cell| behind.contains(&wholes[cell])).collect();
-    mesh.boundary(&cells.into_iter().collect::<Vec<_>>())
+    model::boundary_behind(mesh, sides, groups.flat_map(|group| group.cells.iter().copied()))
 }

@@ -7,7 +7,8 @@ use crate::reader::Name;
 use crate::source::Place;
 use asperity_core::contact::field::{FieldContact, FieldParts, FieldSurface, FieldTarget};
 use asperity_core::contact::{Backing, ContactForm};
-use asperity_core::mesh::{Mesh, Side};
+use asperity_core::mesh::Side;
+use asperity_core::model::suits_better;
 use asperity_core::solid::Body;
 
 impl Builder<'_> {
@@ -119,15 +120,3 @@ fn said_of_points(keys: &keys::Contact) -> Vec<(&'static str, Place)> {
 
 /// Most pairs of a node of the field and a smooth piece of its target; each has a history.
 const MOST: usize = 1_000_000;
-/// Sides whose faces differ in size by less than this factor are alike.
-const ALIKE: f64 = 1.2;
-/// Facets that stand off a smooth surface by more than this part of their size are those of a curve.
-const CURVED: f64 = 1e-3;
-
-/// Whether `other` is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
-/// facets the other side cannot all follow; else the finer, since a coarse field on a fine target misses what lies between its
-/// nodes.
-fn suits_better(other: &FieldSurface, surface: &FieldSurface, mesh: &Mesh) -> bool {
-    let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
-    if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
-}

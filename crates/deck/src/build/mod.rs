@@ -21,9 +21,10 @@ mod tools;
 
 use contacts::Tools;
 pub(super) use contacts::backings;
+use supports::Held;
 
 use super::diagnose::Diagnostic;
-use super::keys::Deck;
+use super::keys::{self, Deck};
 use super::source::Place;
 use super::{Diagnostics, Loaded, Unsaid, prints};
 use asperity_core::load::{Bearing, Site};
@@ -38,6 +39,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A deck and the model that it makes.
+#[non_exhaustive]
 pub struct Made {
     /// The deck.
     pub deck: Deck,
@@ -208,40 +210,30 @@ impl Builder<'_> {
             let next = absent.get(i + 1).into_iter().flatten().copied();
             next.filter(|term| !absent[i].contains(term)).collect()
         };
-        Some(ModelParts {
-            title: self.deck.title.clone(),
-            space: self.site.space,
-            thickness: self.site.thickness,
-            mesh: self.site.mesh.clone(),
-            dofs: self.site.dofs.clone(),
-            bodies: bodies?,
-            materials: self.deck.material.iter().map(|(name, _)| name.text.clone()).collect(),
-            tools: tools?,
-            solid_tools: solid_tools?,
-            contacts: contacts?,
-            field_contacts: field_contacts?,
-            springs: springs?,
-            loads: loads?,
-            fluids: fluids?,
-            bearing: std::mem::take(&mut self.bearing),
-            steps: steps
-                .map(|((i, step), (constraints, prescribed))| Step {
-                    name: step.name.as_ref().map_or_else(|| format!("step {}", i + 1), |name| name.value.clone()),
-                    duration: step.duration,
-                    increments: increments(&step.increments),
-                    arc_length: arc_lengths[i].clone(),
-                    constraints,
-                    prescribed,
-                    idle: absent[i].clone(),
-                    leaving: leaving(i),
-                })
-                .collect(),
-            supports,
-            watched: self.watched(),
-            ties: self.ties.iter().map(|glued| (glued.names.clone(), glued.tie.clone())).collect(),
-            rigid,
-            newton: self.deck.solver.newton_options(),
-        })
+        let mut parts = ModelParts::new(self.site.space, self.site.mesh.clone(), self.site.dofs.clone());
+        parts.title = self.deck.title.clone();
+        parts.thickness = self.site.thickness;
+        parts.bodies = bodies?;
+        parts.materials = self.deck.material.iter().map(|(name, _)| name.text.clone()).collect();
+        (parts.tools, parts.solid_tools) = (tools?, solid_tools?);
+        (parts.contacts, parts.field_contacts) = (contacts?, field_contacts?);
+        (parts.springs, parts.loads, parts.fluids) = (springs?, loads?, fluids?);
+        parts.bearing = std::mem::take(&mut self.bearing);
+        let step = |((i, keys), (constraints, prescribed)): ((usize, &keys::Step), Held)| {
+            let name = keys.name.as_ref().map_or_else(|| format!("step {}", i + 1), |name| name.value.clone());
+            let mut step = Step::new(&name, constraints, prescribed);
+            (step.duration, step.increments) = (keys.duration, increments(&keys.increments));
+            step.arc_length = arc_lengths[i].clone();
+            (step.idle, step.leaving) = (absent[i].clone(), leaving(i));
+            step
+        };
+        parts.steps = steps.map(step).collect();
+        parts.supports = supports;
+        parts.watched = self.watched();
+        parts.ties = self.ties.iter().map(|glued| (glued.names.clone(), glued.tie.clone())).collect();
+        parts.rigid = rigid;
+        parts.newton = self.deck.solver.newton_options();
+        Some(parts)
     }
 
     /// Who asks for PETSc must have it, and cannot ask for what only the library's own solver does.
@@ -289,7 +281,7 @@ impl Builder<'_> {
     }
 }
 
-fn increments(keys: &super::keys::Increments) -> Increments {
+fn increments(keys: &keys::Increments) -> Increments {
     let (first, largest) = keys.sizes();
     Increments { first, largest, smallest: keys.smallest.value, most: keys.most }
 }

@@ -5,7 +5,7 @@ use crate::diagnose::Diagnostic;
 use crate::keys::{self, TieGap};
 use crate::source::Place;
 use asperity_core::contact::field::{Apart, TieParts, TiedSurfaces};
-use asperity_core::mesh::Mesh;
+use asperity_core::mesh::{Mesh, flat_normal};
 use asperity_core::tensor::Vec3;
 use std::sync::Arc;
 
@@ -133,7 +133,7 @@ impl Builder<'_> {
         let names = steps.flat_map(|step| step.displacement.iter().map(|(name, _)| name).chain(&step.symmetry));
         let plane = |name: &crate::reader::Name| {
             let group = mesh.groups.get(&name.text).filter(|group| !group.sides.is_empty())?;
-            Some((group.nodes.clone(), Vec3(super::supports::flat_normal(mesh, &group.sides)?)))
+            Some((group.nodes.clone(), Vec3(flat_normal(mesh, &group.sides)?)))
         };
         let axis = (super::supports::on_axis(mesh, self.site.space), Vec3::new(1.0, 0.0, 0.0));
         names.filter_map(plane).chain([axis]).collect()

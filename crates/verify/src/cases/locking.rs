@@ -9,17 +9,16 @@ use crate::bench::Bench;
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::amplitude::{Amplitude, Change, Timeline};
-use asperity::load::{Site, dead_pressure, traction};
+use asperity::load::{dead_pressure, traction};
 use asperity::material::laws::{BackStress, Elastic, Hardening, NeoHookean, VonMises};
 use asperity::material::{Hyper, Material, Rate};
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Space};
-use asperity::model::{Model, ModelParts};
-use asperity::solid::{Body, BodyOptions, Strain, too_stiff};
-use asperity::solve::{Course, Increments, NewtonOptions, Prescribed, Silent, Step};
-use asperity::system::{Constraints, Dofs, State, Term};
+use asperity::model::{Model, StepBuilder};
+use asperity::solid::{BodyOptions, Strain, too_stiff};
+use asperity::solve::Silent;
+use asperity::system::State;
 use asperity::tensor::Vec3;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The case.
@@ -228,70 +227,27 @@ impl Problem {
 
     fn model(&self, mesh: Arc<Mesh>, dimension: usize) -> Result<Model, Error> {
         let space = if dimension == 2 { Space::PlaneStrain } else { Space::Solid };
-        let dofs = Dofs::new(dimension, mesh.points.len(), 0);
-        let mut held: BTreeMap<usize, f64> = BTreeMap::new();
         let flat = [("b.back", 2, 0.0), ("b.front", 2, 0.0)];
+        let mut step = StepBuilder::new("go").count(self.increments);
         for &(side, axis, value) in self.moves.iter().chain(&flat).filter(|(_, axis, _)| *axis < dimension) {
-            mesh.groups[side].nodes.iter().for_each(|&node| {
-                held.insert(dofs.node(node) + axis, value);
-            });
+            step = step.displace(side, (0..=axis).map(|a| (a == axis).then_some(value)).collect::<Vec<_>>());
         }
-        let fixed: Vec<usize> = held.keys().copied().collect();
-        let part = 1.0 / self.increments as f64;
-        let prescribed = held.iter().map(|(&dof, &value)| Prescribed {
-            dof,
-            others: vec![],
-            course: Course::To(value, Amplitude::ramp()),
-        });
-        let step = Step {
-            name: "go".into(),
-            duration: 1.0,
-            increments: Increments { first: part, largest: part, ..Increments::default() },
-            constraints: Constraints::new(dofs.count(), &fixed, &[]),
-            prescribed: prescribed.collect(),
-            idle: vec![],
-            leaving: vec![],
-            arc_length: None,
-        };
         let options = BodyOptions { strain: self.strain, held: [false, false, true], ..BodyOptions::default() };
-        let cells = (0..mesh.cell_count()).collect();
-        let body = Body::new("b", (mesh.clone(), dofs.clone(), space), cells, self.law.clone(), options)?;
-        let site = Site { mesh: mesh.clone(), dofs: dofs.clone(), space, thickness: 1.0 };
+        let mut builder = Model::builder(space, mesh).body("b", self.law.clone(), options).step(step);
         let ramp = |value: f64| Timeline::new([(1.0, Change::To(value, Amplitude::ramp()))]);
-        let mut loads: Vec<Box<dyn Term>> = Vec::new();
         if let Some((side, load)) = self.load {
-            let sides = &mesh.groups[side].sides;
-            loads.push(match load {
-                Load::Pressure(value) => Box::new(dead_pressure("load", &site, sides, ramp(value))?),
-                Load::Traction([x, y]) => {
-                    let all = [x, y, 0.0][..dimension].iter().map(|&value| ramp(value)).collect();
-                    Box::new(traction("load", &site, sides, all)?)
-                }
+            builder = builder.load(move |site| {
+                let sides = &site.mesh.groups[side].sides;
+                Ok(match load {
+                    Load::Pressure(value) => Box::new(dead_pressure("load", site, sides, ramp(value))?),
+                    Load::Traction([x, y]) => {
+                        let all = [x, y, 0.0][..dimension].iter().map(|&value| ramp(value)).collect();
+                        Box::new(traction("load", site, sides, all)?)
+                    }
+                })
             });
         }
-        Ok(Model::new(ModelParts {
-            title: String::new(),
-            space,
-            thickness: 1.0,
-            mesh,
-            dofs,
-            bodies: vec![(body, 0)],
-            materials: vec!["m".into()],
-            tools: vec![],
-            solid_tools: vec![],
-            field_contacts: vec![],
-            contacts: vec![],
-            springs: vec![],
-            loads,
-            fluids: vec![],
-            bearing: Default::default(),
-            steps: vec![step],
-            supports: vec![],
-            watched: vec![],
-            ties: vec![],
-            rigid: vec![],
-            newton: NewtonOptions::default(),
-        }))
+        builder.build()
     }
 
     fn read(&self, model: &Model, state: &State, depth: f64) -> f64 {

@@ -58,6 +58,7 @@ impl From<frontal::Error> for LinearError {
 
 /// What was done so far, and the time that it took.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct SolverCounts {
     /// Analyses of a pattern.
     pub analyses: usize,

@@ -1,7 +1,7 @@
 //! What conditions claim of the unknowns, step by step.
 
-use super::flat::ROUNDING;
 use crate::source::Place;
+use asperity_core::mesh::ROUNDING;
 use asperity_core::solve::Course;
 use std::collections::BTreeMap;
 

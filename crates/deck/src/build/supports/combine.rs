@@ -4,8 +4,8 @@
 use super::Builder;
 use super::claim::{Claim, Known, What};
 use super::equations::{Equation, Fixed, Relation, Relations};
-use super::flat::ROUNDING;
 use crate::diagnose::Diagnostic;
+use asperity_core::mesh::ROUNDING;
 use asperity_core::solve::{Course, Prescribed};
 use asperity_core::system::Constraints;
 use std::collections::{BTreeMap, BTreeSet};

@@ -6,7 +6,6 @@
 mod claim;
 mod combine;
 mod equations;
-mod flat;
 mod periodic;
 mod ties;
 mod tools;
@@ -15,12 +14,10 @@ use super::Builder;
 use crate::diagnose::Diagnostic;
 use crate::keys::{Components, Displacement, Step};
 use crate::reader::Name;
-use asperity_core::mesh::{Mesh, Space};
+use asperity_core::mesh::{Mesh, ROUNDING, Space, flat_normal, unit};
 use asperity_core::solve::{Course, Prescribed};
 use asperity_core::system::{Constraints, Row};
 use claim::{Claim, Claims, Known, What, hold};
-pub(super) use flat::flat_normal;
-use flat::{ROUNDING, unit};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Constraints and prescribed values of one step.

@@ -1,7 +1,7 @@
 //! Directions: unit vectors, and the common normal of a flat group of sides.
 
-use asperity_core::mesh::{CellView, Mesh, Side};
-use asperity_core::tensor::Vec3;
+use super::{CellView, Mesh, Side};
+use crate::tensor::Vec3;
 
 /// A component of a unit vector below this is rounding.
 pub const ROUNDING: f64 = 1e-9;

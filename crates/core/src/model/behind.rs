@@ -1,0 +1,75 @@
+//! What stands behind the surfaces of contacts: the stiffness that a default penalty follows, the boundary, the better side.
+
+use crate::contact::field::FieldSurface;
+use crate::contact::{Backing, Plate, plates};
+use crate::mesh::{Mesh, Side, flat_normal};
+use crate::solid::Body;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Elastic slip under the friction that the pressure allows, over the length of an edge or face, where nothing is said.
+pub const ELASTIC_SLIP: f64 = 0.005;
+
+/// Multiple of the shear modulus above which the confined modulus says nothing of a surface: a half-space yields to pressure
+/// by `2 G / (1 - nu)`, the incompressible one by `4 G`.
+const SURFACE: f64 = 4.0;
+
+/// Part of half of the boundary of a thin body that must be held for it to rest on what holds it and not to bend.
+const RESTS: f64 = 0.5;
+/// Component of a normal from which on what is held along that axis is held across the face.
+const ACROSS: f64 = 0.1;
+
+/// What stands behind the faces of each cell: the confined modulus of its material, at most four shear moduli, and the
+/// thickness of what it belongs to where that is thin and free to bend. `holds` names the groups that the first step holds or
+/// moves, and along which axes.
+pub fn backings<'b>(
+    mesh: &Mesh,
+    holds: impl IntoIterator<Item = (String, [bool; 3])>,
+    bodies: impl IntoIterator<Item = &'b Body>,
+) -> Vec<Backing> {
+    let (mut backings, wholes) = (vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()], mesh.wholes());
+    let held = held(mesh, &wholes, holds);
+    for body in bodies {
+        let [confined, shear] = body.material().moduli();
+        let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
+        body.cells().iter().for_each(|&cell| backings[cell].modulus = modulus);
+        let bends = |cell: usize, plate: &Plate| held.get(&wholes[cell]).is_none_or(|held| *held <= RESTS * plate.area);
+        plates(mesh, body.cells())
+            .for_each(|(cell, plate)| backings[cell].plate = plate.filter(|plate| bends(cell, plate)));
+    }
+    backings
+}
+
+/// Area of the faces of each connected whole that are held along their normals.
+fn held(mesh: &Mesh, wholes: &[usize], holds: impl IntoIterator<Item = (String, [bool; 3])>) -> BTreeMap<usize, f64> {
+    let mut areas = BTreeMap::new();
+    for (name, axes) in holds {
+        let sides = mesh.groups.get(&name).map_or(&[][..], |group| &group.sides);
+        let normal = flat_normal(mesh, sides);
+        let across = |axis: usize| normal.is_none_or(|normal| normal[axis].abs() > ACROSS);
+        if (0..mesh.dimension()).all(|axis| axes[axis] || !across(axis)) {
+            sides.iter().for_each(|side| *areas.entry(wholes[side.cell]).or_default() += mesh.extent(*side));
+        }
+    }
+    areas
+}
+
+/// The whole outer boundary of those of the cells that hang together with the cells behind the sides.
+pub fn boundary_behind(mesh: &Mesh, sides: &[Side], cells: impl Iterator<Item = usize>) -> Vec<Side> {
+    let wholes = mesh.wholes();
+    let behind: BTreeSet<usize> = sides.iter().map(|side| wholes[side.cell]).collect();
+    let cells: BTreeSet<usize> = cells.filter(|&cell| behind.contains(&wholes[cell])).collect();
+    mesh.boundary(&cells.into_iter().collect::<Vec<_>>())
+}
+
+/// Sides whose faces differ in size by less than this factor are alike.
+const ALIKE: f64 = 1.2;
+/// Facets that stand off a smooth surface by more than this part of their size are those of a curve.
+const CURVED: f64 = 1e-3;
+
+/// Whether `other` is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
+/// facets the other side cannot all follow; else the finer, since a coarse field on a fine target misses what lies between its
+/// nodes.
+pub fn suits_better(other: &FieldSurface, surface: &FieldSurface, mesh: &Mesh) -> bool {
+    let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
+    if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
+}

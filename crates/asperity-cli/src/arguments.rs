@@ -117,6 +117,9 @@ pub struct Watch {
     /// The port of 127.0.0.1; by default one that is free.
     #[arg(long, value_name = "PORT", default_value_t = 0)]
     pub port: u16,
+    /// Print the address alone, without the full-screen view, as where there is no terminal.
+    #[arg(long)]
+    pub plain: bool,
 }
 
 /// Arguments of `figure`.

@@ -221,6 +221,42 @@ fn until(is: impl Fn() -> bool) {
 }
 
 #[test]
+fn a_terminal_shows_the_run_and_stops_it() {
+    if Command::new("script").arg("--version").output().is_err() {
+        println!("skipped: there is no `script` to make a terminal");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let mut watched = Watched::start(folder.path());
+    let watch = format!("stty rows 30 cols 100; exec '{}' watch tube.results", env!("CARGO_BIN_EXE_asperity"));
+    let mut terminal = Command::new("script")
+        .args(["-qec", &watch, "/dev/null"])
+        .env("TERM", "xterm")
+        .current_dir(folder.path())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut keys = terminal.stdin.take().unwrap();
+    for key in ["", "s", "y"] {
+        std::thread::sleep(Duration::from_secs(1));
+        keys.write_all(key.as_bytes()).unwrap();
+    }
+    assert_eq!(watched.ended(), 4, "the run was not stopped from the terminal");
+    keys.write_all(b"q").unwrap();
+    let shown = terminal.wait_with_output().unwrap();
+    assert!(shown.status.success());
+    let shown = String::from_utf8_lossy(&shown.stdout).into_owned();
+    // What stands between words is not drawn where nothing was before.
+    for part in ["tube.results", "contact.bore.thrust", "trust", "yes,", "http://127.0.0.1:"] {
+        assert!(shown.contains(part), "'{part}' was not shown");
+    }
+    // The screen that was there before is back.
+    assert!(shown.contains("\u{1b}[?1049h") && shown.contains("\u{1b}[?1049l"));
+    assert!(folder.path().join("tube.results/run.checkpoint").exists());
+}
+
+#[test]
 fn the_server_answers_its_own_page_only_and_stops_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let mut watched = Watched::start(folder.path());

@@ -5,6 +5,7 @@
 //! run.
 
 mod http;
+mod view;
 
 use asperity::Error;
 use asperity::output::{Request as Wish, SUMMARY};
@@ -15,6 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+pub use view::show;
 
 /// Between two looks for a request.
 const PAUSE: Duration = Duration::from_millis(20);

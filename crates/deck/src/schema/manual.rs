@@ -6,61 +6,99 @@ use std::fmt::Write;
 /// The heading of the outermost table.
 const TOP: &str = "the deck";
 
+/// An example of each key, from decks that the tests run: the kind of deck, the path of the key, and what may stand behind it.
+const EXAMPLES: &str = include_str!("examples.txt");
+
 /// The page: a section for each table of a deck, a line for each key.
 pub fn manual() -> String {
-    titled("Keys of a deck", "--manual", &root())
+    titled("Keys of a deck", ("deck", "--manual"), &root())
 }
 
 /// The page of a deck for one material point.
 pub fn point_manual() -> String {
-    titled("Keys of a deck for a material point", "--manual --point", &point_root())
+    titled("Keys of a deck for a material point", ("point", "--manual --point"), &point_root())
 }
 
 /// The page of a deck for one point of an interface.
 pub fn interface_manual() -> String {
-    titled("Keys of a deck for a point of an interface", "--manual --interface", &interface_root())
+    titled("Keys of a deck for a point of an interface", ("interface", "--manual --interface"), &interface_root())
 }
 
-fn titled(title: &str, option: &str, root: &Schema) -> String {
-    let mut page = format!("# {title}\n\nPrinted by `asperity schema {option}`.\n");
+/// The path of a key as the manual and its examples write it.
+pub fn path_of(table: &str, key: &str) -> String {
+    if table.is_empty() || table == TOP { key.to_owned() } else { format!("{table}.{key}") }
+}
+
+/// The path of the tables that stand behind a path: each item of a list, each name of a map.
+pub fn path_behind(path: &str, schema: &Schema) -> String {
+    match schema {
+        Schema::List { .. } => format!("{path}[]"),
+        Schema::Map { names, .. } => {
+            format!("{path}.{}", names.noun().split(' ').next().unwrap_or_default().to_uppercase())
+        }
+        _ => path.to_owned(),
+    }
+}
+
+fn titled(title: &str, (kind, option): (&'static str, &str), root: &Schema) -> String {
+    let mut page = Page { text: format!("# {title}\n\nPrinted by `asperity schema {option}`.\n"), kind };
     let about = "The keys at the top. `NAME[]` below stands for each item of a list, capitals for a name.";
     section(TOP, about, root, &mut page);
-    page
+    page.text
+}
+
+/// A page that is written.
+struct Page {
+    text: String,
+    /// The kind of deck, as the examples call it.
+    kind: &'static str,
+}
+
+impl Page {
+    /// What may stand behind a key.
+    fn example(&self, path: &str) -> &'static str {
+        let of = |line: &'static str| {
+            let mut parts = line.splitn(3, '\t');
+            (parts.next() == Some(self.kind) && parts.next() == Some(path)).then(|| parts.next()).flatten()
+        };
+        EXAMPLES.lines().find_map(of).unwrap_or_default()
+    }
 }
 
 /// Heads of the two kinds of lists.
-const KEYS: &str = "| key | meaning | value | if not given |\n|---|---|---|---|\n";
-const TAGS: &str = "| key | meaning | value |\n|---|---|---|\n";
+const KEYS: &str = "| key | meaning | value | if not given | example |\n|---|---|---|---|---|\n";
+const TAGS: &str = "| key | meaning | value | example |\n|---|---|---|---|\n";
 
-fn section(path: &str, about: &str, schema: &Schema, page: &mut String) {
+fn section(path: &str, about: &str, schema: &Schema, page: &mut Page) {
     let (keys, tagged) = match schema {
         Schema::Table(keys) => (keys, false),
         Schema::OneOf(keys) => (keys, true),
-        Schema::List { item, .. } => return section(&format!("{path}[]"), about, item, page),
-        Schema::Map { names, item, .. } => {
-            let name = names.noun().split(' ').next().unwrap_or_default().to_uppercase();
-            return section(&format!("{path}.{name}"), about, item, page);
+        Schema::List { item, .. } | Schema::Map { item, .. } => {
+            return section(&path_behind(path, schema), about, item, page);
         }
         _ => return,
     };
     // Writing into a String cannot fail.
-    let _ = writeln!(page, "\n## `{path}`\n\n{about}\n");
+    let _ = writeln!(page.text, "\n## `{path}`\n\n{about}\n");
     if tagged {
-        page.push_str("Exactly one of:\n\n");
+        page.text.push_str("Exactly one of:\n\n");
     }
-    page.push_str(if tagged { TAGS } else { KEYS });
+    page.text.push_str(if tagged { TAGS } else { KEYS });
     for key in keys {
-        line(key, tagged, page);
+        line(path, key, tagged, page);
     }
-    let inner = |key: &str| if path == TOP { key.to_owned() } else { format!("{path}.{key}") };
     for key in keys {
-        section(&inner(key.name), key.doc, &key.schema, page);
+        section(&path_of(path, key.name), key.doc, &key.schema, page);
     }
 }
 
-fn line(key: &Key, tagged: bool, page: &mut String) {
+fn line(table: &str, key: &Key, tagged: bool, page: &mut Page) {
+    let example = match page.example(&path_of(table, key.name)) {
+        "" => String::new(),
+        example => format!("`{example}`"),
+    };
     if tagged {
-        let _ = writeln!(page, "| `{}` | {} | {} |", key.name, key.doc, value(&key.schema));
+        let _ = writeln!(page.text, "| `{}` | {} | {} | {example} |", key.name, key.doc, value(&key.schema));
         return;
     }
     let unless = match &key.presence {
@@ -69,7 +107,7 @@ fn line(key: &Key, tagged: bool, page: &mut String) {
         Presence::Default(text) => &format!("`{text}`"),
         Presence::Optional(words) => words,
     };
-    let _ = writeln!(page, "| `{}` | {} | {} | {unless} |", key.name, key.doc, value(&key.schema));
+    let _ = writeln!(page.text, "| `{}` | {} | {} | {unless} | {example} |", key.name, key.doc, value(&key.schema));
 }
 
 fn value(schema: &Schema) -> String {

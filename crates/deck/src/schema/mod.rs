@@ -5,7 +5,7 @@ mod json;
 mod manual;
 
 pub use json::{interface_json_schema, json_schema, point_json_schema};
-pub use manual::{interface_manual, manual, point_manual};
+pub use manual::{interface_manual, manual, path_behind, path_of, point_manual};
 
 use super::form::Table;
 use super::keys::{Deck, InterfaceDeck, PointDeck};

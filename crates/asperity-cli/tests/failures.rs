@@ -16,7 +16,8 @@ struct Seed {
 fn seeds() -> Vec<Seed> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/failures");
     let mut paths = Vec::new();
-    for folder in [root.clone(), root.join("more")] {
+    // Those in `blind` were written by the list of causes in the manual, before their answers were seen.
+    for folder in [root.clone(), root.join("more"), root.join("blind")] {
         let Ok(entries) = std::fs::read_dir(folder) else { continue };
         paths.extend(
             entries.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "toml")),
@@ -75,6 +76,6 @@ fn seeded_failures_are_named_rightly() {
         }
     });
     let wrong = wrong.into_inner().unwrap();
-    assert!(seeds.len() >= 50, "only {} seeds were found", seeds.len());
+    assert!(seeds.len() >= 74, "only {} seeds were found", seeds.len());
     assert!(wrong.is_empty(), "{} of {} are named wrongly:\n{}", wrong.len(), seeds.len(), wrong.join("\n"));
 }

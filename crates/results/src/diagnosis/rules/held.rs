@@ -20,7 +20,8 @@ pub(super) fn not_touching(facts: &Facts, course: &Course) -> Option<Finding> {
     Some(
         finding(
             "not-touching",
-            0.9,
+            // The run names the body that is free: more than that no contact closed.
+            0.92,
             format!("body '{}' is to be held by contact '{}', which does not touch yet", body.name, contact.name),
         )
         .shown(&course.reason)

@@ -3,7 +3,7 @@
 use crate::ranks;
 use asperity::Error;
 use asperity::error::visible;
-use asperity::output::{FIGURES, Status, Summary};
+use asperity::output::{FIGURES, RunStatus, Summary};
 use asperity::solve::{AttemptRecord, IterationRecord, Observer, Problem, Step};
 use asperity::system::State;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -219,10 +219,10 @@ fn bar() -> ProgressBar {
 pub fn farewell(summary: &Summary, directory: &Path, again: &dyn Fn(Option<&str>) -> String) -> String {
     let mut text = String::from("\n");
     let word = match summary.status {
-        Status::Converged => "converged",
-        Status::Doubtful => "doubtful",
-        Status::Stopped => "stopped on request",
-        Status::FileError => "broken off",
+        RunStatus::Converged => "converged",
+        RunStatus::Doubtful => "doubtful",
+        RunStatus::Stopped => "stopped on request",
+        RunStatus::FileError => "broken off",
         _ => "not converged",
     };
     let (increments, attempts, iterations) = (summary.increments, summary.attempts, summary.iterations);
@@ -246,7 +246,10 @@ pub fn farewell(summary: &Summary, directory: &Path, again: &dyn Fn(Option<&str>
     text += &likely(summary);
     let _ = writeln!(text, "certificate, the worst of all increments:               limit");
     figures(summary).for_each(|line| text += &line);
-    if !matches!(summary.status, Status::Converged | Status::Doubtful | Status::FileError | Status::InputError) {
+    if !matches!(
+        summary.status,
+        RunStatus::Converged | RunStatus::Doubtful | RunStatus::FileError | RunStatus::InputError
+    ) {
         let _ = writeln!(text, "the last accepted increment is kept; from there goes on\n  {}", again(None));
         for setting in &summary.settings {
             let _ = writeln!(text, "or, with {}\n  {}", setting.what, again(Some(&setting.set)));

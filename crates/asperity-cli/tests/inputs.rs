@@ -8,7 +8,7 @@
 //! ```
 
 use asperity::deck;
-use asperity::output::{Job, Start, Status, simulate};
+use asperity::output::{Job, RunStatus, Start, simulate};
 use asperity::solve::{RunOptions, Silent};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -91,7 +91,7 @@ fn differences(path: &Path) -> Vec<String> {
             facts: &Default::default(),
         };
         let (summary, _) = simulate(&made.model, &job, &mut Silent).unwrap();
-        if !matches!(summary.status, Status::Converged | Status::Doubtful) {
+        if !matches!(summary.status, RunStatus::Converged | RunStatus::Doubtful) {
             return told(&format!("{:?}", summary.status));
         }
         columns = history(directory);

@@ -11,7 +11,7 @@ use asperity::model::Model;
 use asperity::solve::{Factored, Factors, Frontal, LinearError, LinearSolver, Run, Unknowns};
 use asperity::system::Csr;
 use ball::Attempts;
-use frontal::Change;
+use frontal::LowRankChange;
 use measure::timed;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
@@ -46,7 +46,7 @@ impl LinearSolver for Clocked {
     fn substitute(&mut self, x: &mut [f64]) -> Result<(), LinearError> {
         self.add(2, |engine| engine.substitute(x))
     }
-    fn precondition(&mut self, change: Option<&Change>, x: &mut [f64]) -> Result<(), LinearError> {
+    fn precondition(&mut self, change: Option<&LowRankChange>, x: &mut [f64]) -> Result<(), LinearError> {
         self.add(3, |engine| engine.precondition(change, x))
     }
     fn compliance(&mut self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<bool, LinearError> {

@@ -48,7 +48,7 @@
 
 #[doc(inline)]
 pub use asperity_core::{
-    Error, Failure, Kind, amplitude, audit, contact, declare, error, files, integrate, interface, load, machine,
+    Error, Failure, FailureKind, amplitude, audit, contact, declare, error, files, integrate, interface, load, machine,
     material, mesh, model, solid, solve, system, tensor, tool,
 };
 #[doc(inline)]

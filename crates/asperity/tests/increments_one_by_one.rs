@@ -4,7 +4,7 @@ mod support;
 
 use asperity::Error;
 use asperity::deck::{self, Made};
-use asperity::output::{Begun, CHECKPOINT, Job, SUMMARY, Simulation, Start, Status, Summary, simulate};
+use asperity::output::{Begun, CHECKPOINT, Job, RunStatus, SUMMARY, Simulation, Start, Summary, simulate};
 use asperity::solve::Silent;
 use std::path::Path;
 
@@ -74,8 +74,8 @@ fn a_run_that_is_stopped_between_increments_leaves_a_checkpoint() {
     let mut simulation = begun(&made, &job(&made, directory.path(), Start::Beginning, &facts));
     simulation.advance(&mut Silent).unwrap();
     let (summary, ended) = simulation.finish(Err(Error::Stopped), &facts).unwrap();
-    assert_eq!((summary.status, ended), (Status::Stopped, Err(Error::Stopped)));
-    assert_eq!(Summary::read(&directory.path().join(SUMMARY)).unwrap().status, Status::Stopped);
+    assert_eq!((summary.status, ended), (RunStatus::Stopped, Err(Error::Stopped)));
+    assert_eq!(Summary::read(&directory.path().join(SUMMARY)).unwrap().status, RunStatus::Stopped);
     assert!(directory.path().join(CHECKPOINT).exists());
     let mut again = begun(&made, &job(&made, directory.path(), Start::Checkpoint, &facts));
     assert_eq!(again.advance(&mut Silent).unwrap().unwrap().increment, 2);

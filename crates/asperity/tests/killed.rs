@@ -2,7 +2,7 @@
 //! names only whole frames, the table has only whole rows.
 
 use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
-use asperity::output::vtk::{Cells, Encoding, Grid, Series, read_grid, read_series};
+use asperity::output::vtk::{Cells, Encoding, Grid, PvdSeries, read_grid, read_series};
 use asperity::output::{Columns, Table, file};
 use asperity::system::State;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ fn child() {
     let Some(directory) = std::env::var_os(DIRECTORY).map(PathBuf::from) else { return };
     let before = checkpoint::read::<State>(&checkpoint_path(&directory));
     let first = before.map_or(0, |(_, state)| state.increment) + 1;
-    let mut series = Series::create(&directory, "frames", Encoding::default()).unwrap();
+    let mut series = PvdSeries::create(&directory, "frames", Encoding::default()).unwrap();
     let mut table = Table::create(&directory.join("rows.csv"), &["increment", "text"]).unwrap();
     for increment in first.. {
         let stamp = Stamp { step: 0, increment: increment as u64, time: 0.0 };

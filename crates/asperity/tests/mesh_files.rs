@@ -80,7 +80,7 @@ fn plane_meshes_of_gmsh_are_read_in_every_form() {
             assert_eq!((corner.len(), mesh.points[corner[0]]), (1, Vec3([2.0, 1.3, 0.0])), "{file}");
             assert_eq!(notes.len(), 1, "{notes:?}");
             assert!(notes[0].text.contains("'curve_17'"), "{notes:?}");
-            assert!(lint::check(&mesh).iter().all(|finding| finding.kind == lint::Kind::InnerFaces), "{file}");
+            assert!(lint::check(&mesh).iter().all(|finding| finding.kind == lint::LintKind::InnerFaces), "{file}");
         }
     }
 }
@@ -103,7 +103,7 @@ fn solid_meshes_of_gmsh_are_read_in_every_form() {
             let edge = &mesh.groups["edge"];
             assert!(edge.sides.is_empty() && edge.nodes.len() >= 6, "{file}");
             assert!(edge.nodes.iter().all(|&node| mesh.points[node][2] == 0.0));
-            let unused = |finding: &lint::Finding| finding.kind == lint::Kind::Unused;
+            let unused = |finding: &lint::LintFinding| finding.kind == lint::LintKind::Unused;
             assert!(lint::check(&mesh).iter().all(unused), "{file}: {:?}", lint::check(&mesh));
         }
     }
@@ -203,7 +203,7 @@ fn an_input_file_written_by_hand_is_read_whole() {
     assert_eq!((mesh.points.len(), mesh.cell_count(), mesh.kinds[0].name), (32, 2, "hex20"));
     assert_eq!((mesh.numbers.nodes[31], mesh.numbers.cells.as_slice()), (32, &[1, 2][..]));
     assert_nodes_in_order(&mesh, "written.inp");
-    assert_eq!(lint::check(&mesh).iter().map(|finding| finding.kind).collect::<Vec<_>>(), [lint::Kind::InnerFaces]);
+    assert_eq!(lint::check(&mesh).iter().map(|finding| finding.kind).collect::<Vec<_>>(), [lint::LintKind::InnerFaces]);
     let nodes = |group: &str| mesh.groups[group].nodes.iter().map(|&node| mesh.node_number(node)).collect::<Vec<_>>();
     assert_eq!(nodes("FEW"), [9, 10, 11, 12, 25, 27, 29]);
     assert_eq!(nodes("Ground"), [1, 2, 3, 4, 9, 13, 14, 15, 16]);

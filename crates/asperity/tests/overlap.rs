@@ -2,7 +2,7 @@
 
 mod support;
 
-use asperity::output::{Parts, Place, Source};
+use asperity::output::{Parts, QuantityPlace, Source};
 use std::collections::BTreeMap;
 use support::{Keep, columns, model, run};
 
@@ -102,7 +102,7 @@ fn wear_relieves_the_pressure() {
         let pressure = columns(&model, &keep)["contact.base.max_pressure"].clone();
         let state = keep.states.last().unwrap();
         let frame = Source { parts: &Parts::of(&model), state, step: 1 }.gather().unwrap();
-        let depth = frame.at(Place::Contact).find(|q| q.name == "contact_wear").unwrap().values[0];
+        let depth = frame.at(QuantityPlace::Contact).find(|q| q.name == "contact_wear").unwrap().values[0];
         (pressure[3], *pressure.last().unwrap(), depth)
     };
     let stiffness = 1.0 / (2.0 / 10.0 + 1.0 / 500.0);
@@ -121,7 +121,7 @@ fn variables_of_laws_are_fields() {
     let state = model.problem.initial_state();
     let frame = Source { parts: &Parts::of(&model), state: &state, step: 0 }.gather().unwrap();
     for name in ["contact_dilation", "contact_log_state", "contact_slip_velocity", "contact_closure"] {
-        let field = frame.at(Place::Contact).find(|q| q.name == name).unwrap_or_else(|| panic!("{name}"));
+        let field = frame.at(QuantityPlace::Contact).find(|q| q.name == name).unwrap_or_else(|| panic!("{name}"));
         let numbers = field.values.iter().filter(|value| value.is_finite()).count();
         assert!(numbers > 0 && numbers < field.values.len(), "{name}");
     }

@@ -7,7 +7,7 @@ use asperity::output::checkpoint::{self, Head, InputHash, Stamp};
 use asperity::output::{CHECKPOINT, Job, Kept, Limits, ResultOptions, Start, simulate};
 use asperity::solve::{Factored, Factors, Frontal, LinearError, LinearSolver, Run, RunOptions, Silent, Unknowns};
 use asperity::system::{Csr, State};
-use frontal::Change;
+use frontal::LowRankChange;
 use proptest::prelude::*;
 use support::{all_bytes, bytes, go_on, model, run, with_threads};
 
@@ -209,7 +209,7 @@ impl LinearSolver for Faulty {
     fn substitute(&mut self, x: &mut [f64]) -> Result<(), LinearError> {
         self.solver.substitute(x)
     }
-    fn precondition(&mut self, change: Option<&Change>, x: &mut [f64]) -> Result<(), LinearError> {
+    fn precondition(&mut self, change: Option<&LowRankChange>, x: &mut [f64]) -> Result<(), LinearError> {
         self.calls += usize::from(self.poisoned);
         if self.poisoned && self.calls == self.at {
             return Err(LinearError::NotFinite("poisoned".into()));

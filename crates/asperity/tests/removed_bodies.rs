@@ -3,7 +3,7 @@
 mod support;
 
 use asperity::deck::{build, read};
-use asperity::output::{Parts, Place, Source};
+use asperity::output::{Parts, QuantityPlace, Source};
 use std::path::Path;
 use support::{columns, model, run};
 
@@ -81,7 +81,7 @@ fn a_layer_that_is_gone_leaves_no_stress_at_shared_nodes() {
     for (state, step) in states.iter().zip([0, 0, 1, 1]).skip(1) {
         let frame = Source { parts: &parts, state, step }.gather().unwrap();
         for (name, expected) in [("cauchy_stress_averaged", 10.0), ("logarithmic_strain_averaged", 0.01)] {
-            let quantity = frame.get(Place::Node, name).unwrap();
+            let quantity = frame.get(QuantityPlace::Node, name).unwrap();
             for node in model.mesh.groups["low"].cells.iter().flat_map(|&cell| model.mesh.cell(cell).nodes) {
                 let value = quantity.at(*node)[0];
                 assert!((value / expected - 1.0).abs() < 1e-9, "{name} {step} {node}: {value}");

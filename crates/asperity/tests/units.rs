@@ -3,7 +3,7 @@
 
 mod support;
 
-use asperity::output::{Frame, Parts, Place, Quantity, Source, Unit};
+use asperity::output::{Frame, Parts, Quantity, QuantityPlace, Source, Unit};
 use support::{Keep, model, run};
 
 /// The tube with lengths and forces multiplied.
@@ -75,7 +75,14 @@ impl Scaled {
         other: &'a Self,
         frame: usize,
     ) -> impl Iterator<Item = (&'a Quantity, Vec<f64>, &'a [f64])> {
-        let places = [Place::Node, Place::Cell, Place::Gauss, Place::Contact, Place::Face, Place::Global];
+        let places = [
+            QuantityPlace::Node,
+            QuantityPlace::Cell,
+            QuantityPlace::Gauss,
+            QuantityPlace::Contact,
+            QuantityPlace::Face,
+            QuantityPlace::Global,
+        ];
         let quantities =
             places.into_iter().flat_map(move |place| self.frames[frame].at(place).zip(other.frames[frame].at(place)));
         quantities.map(|(mine, theirs)| {
@@ -139,7 +146,7 @@ fn common_systems_of_units_agree() {
 
 /// Columns of the history agree to 1e-8 of the largest value of each.
 fn columns_agree(scaled: &Scaled, plain: &Scaled) {
-    let names: Vec<String> = plain.frames[0].at(Place::Global).map(|quantity| quantity.name.clone()).collect();
+    let names: Vec<String> = plain.frames[0].at(QuantityPlace::Global).map(|quantity| quantity.name.clone()).collect();
     for name in names {
         let (mut mine, mut theirs) = (Vec::new(), Vec::new());
         for frame in 0..plain.frames.len() {

@@ -80,13 +80,13 @@ pub struct Failure {
     /// In words, with the user's names: what happened and where.
     pub reason: String,
     /// What of, for a diagnosis.
-    pub kind: Kind,
+    pub kind: FailureKind,
 }
 
 /// What an attempt fails of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum Kind {
+pub enum FailureKind {
     /// Anything else.
     #[default]
     Other,
@@ -119,10 +119,10 @@ pub enum Kind {
 impl Failure {
     /// A failure with its reason in words.
     pub fn new(reason: impl Into<String>) -> Self {
-        Self { reason: reason.into(), kind: Kind::Other }
+        Self { reason: reason.into(), kind: FailureKind::Other }
     }
     /// The same of a kind.
-    pub fn of(self, kind: Kind) -> Self {
+    pub fn of(self, kind: FailureKind) -> Self {
         Self { kind, ..self }
     }
     /// The same with the name of the place before its reason.

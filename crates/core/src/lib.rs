@@ -37,4 +37,4 @@ pub mod system;
 pub mod tensor;
 pub mod tool;
 
-pub use error::{Error, Failure, Kind};
+pub use error::{Error, Failure, FailureKind};

@@ -2,7 +2,7 @@
 //! a body to bend.
 
 use super::diagnose::Diagnostic;
-use super::keys::Body;
+use super::keys::BodyKeys;
 use super::reader::{Name, Reader};
 use asperity_core::mesh::{Group, Mesh};
 use asperity_core::solid::{Formulation, Integration, too_stiff};
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 const MOST: usize = 100_000;
 
 /// The cells to raise, always all of a connected whole, so that neighbours go on sharing all their nodes; what was raised unasked is noted.
-pub fn raised(bodies: &[(Name, Body)], mesh: &Mesh, reader: &mut Reader) -> Vec<usize> {
+pub fn raised(bodies: &[(Name, BodyKeys)], mesh: &Mesh, reader: &mut Reader) -> Vec<usize> {
     let whole = mesh.wholes();
     let count = whole.iter().max().map_or(0, |last| last + 1);
     let mut cells = vec![Vec::new(); count];
@@ -32,12 +32,12 @@ pub fn raised(bodies: &[(Name, Body)], mesh: &Mesh, reader: &mut Reader) -> Vec<
     wholes.flat_map(|(cells, _)| cells).filter(|&cell| mesh.kinds[cell].degree == 1).collect()
 }
 
-fn degree(body: &Body) -> Option<usize> {
+fn degree(body: &BodyKeys) -> Option<usize> {
     body.degree.map(|degree| degree.value)
 }
 
 /// Cells of second degree are not made ones of first.
-fn kept(name: &Name, body: &Body, mesh: &Mesh, reader: &mut Reader) {
+fn kept(name: &Name, body: &BodyKeys, mesh: &Mesh, reader: &mut Reader) {
     let Some(said) = body.degree.filter(|degree| degree.value == 1) else { return };
     let cells = mesh.groups.get(&name.text).map_or(&[][..], |group: &Group| &group.cells);
     if let Some(kind) = cells.iter().map(|&cell| mesh.kinds[cell]).find(|kind| kind.degree == 2) {
@@ -49,7 +49,7 @@ fn kept(name: &Name, body: &Body, mesh: &Mesh, reader: &mut Reader) {
 }
 
 /// Whether a body of a whole says second degree; then none may say first.
-fn asked(owners: &[&(Name, Body)], reader: &mut Reader) -> bool {
+fn asked(owners: &[&(Name, BodyKeys)], reader: &mut Reader) -> bool {
     let Some((name, _)) = owners.iter().find(|(_, body)| degree(body) == Some(2)) else { return false };
     for (other, said) in
         owners.iter().filter_map(|(other, body)| Some((other, body.degree.filter(|degree| degree.value == 1)?)))
@@ -65,8 +65,8 @@ fn asked(owners: &[&(Name, Body)], reader: &mut Reader) -> bool {
 }
 
 /// Whether a whole of simplices (or prisms) of first degree, of whose bodies nothing is said, is too stiff in bending.
-fn unasked(owners: &[&(Name, Body)], cells: &[usize], mesh: &Mesh, reader: &mut Reader) -> bool {
-    let silent = |body: &Body| {
+fn unasked(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh, reader: &mut Reader) -> bool {
+    let silent = |body: &BodyKeys| {
         body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Full
     };
     let Some((name, _)) = owners.first().filter(|_| owners.iter().all(|(_, body)| silent(body))) else { return false };

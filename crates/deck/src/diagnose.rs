@@ -1,6 +1,6 @@
 //! Messages about a deck: what is wrong, the line with its caret, the nearest valid name and what to do.
 
-use super::source::{Place, Source};
+use super::source::{Place, SourceText};
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use asperity_core::error::visible;
@@ -83,7 +83,7 @@ fn enumerate(names: &[&str]) -> String {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Diagnostics {
     /// The texts: first the deck's file, then each `--set`, then what else was read.
-    pub sources: Vec<Source>,
+    pub sources: Vec<SourceText>,
     /// The messages.
     pub list: Vec<Diagnostic>,
 }
@@ -117,7 +117,7 @@ impl Diagnostics {
     /// The same without what would steer a terminal, of the same lengths, so that places still point where they did.
     fn shown(&self) -> Self {
         let text = |text: &str| visible(text).into_owned();
-        let source = |s: &Source| Source { name: text(&s.name), text: text(&s.text), first_line: s.first_line };
+        let source = |s: &SourceText| SourceText { name: text(&s.name), text: text(&s.text), first_line: s.first_line };
         let message = |d: &Diagnostic| Diagnostic {
             what: text(&d.what),
             label: text(&d.label),

@@ -2,7 +2,7 @@
 //! all the keys that the other kind does not know.
 
 use super::diagnose::Diagnostic;
-use super::tree::{Entry, Node, Value};
+use super::tree::{Node, TreeEntry, Value};
 
 /// What a deck is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,19 +27,19 @@ pub fn mistaken(tree: &Node, wanted: Kind) -> Option<Diagnostic> {
 }
 
 /// The kind and the key that shows it.
-fn kind(tree: &Node) -> Option<(Kind, &Entry)> {
+fn kind(tree: &Node) -> Option<(Kind, &TreeEntry)> {
     let model = ["mesh", "body"].into_iter().find_map(|key| under(tree, key));
     let point = || under(tree, "interface").or_else(|| driven(under(tree, "step")?));
     model.map(|entry| (Kind::Model, entry)).or_else(|| Some((Kind::Point, point()?)))
 }
 
 /// What a step prescribes of a point of a solid, and of nothing else.
-fn driven(steps: &Entry) -> Option<&Entry> {
+fn driven(steps: &TreeEntry) -> Option<&TreeEntry> {
     let Value::List(steps) = &steps.node.value else { return None };
     steps.iter().flat_map(|step| ["strain", "stress"].map(|key| under(step, key))).find_map(|entry| entry)
 }
 
-fn under<'n>(node: &'n Node, key: &str) -> Option<&'n Entry> {
+fn under<'n>(node: &'n Node, key: &str) -> Option<&'n TreeEntry> {
     let Value::Table(entries) = &node.value else { return None };
     entries.iter().find(|entry| entry.key == key)
 }

@@ -40,10 +40,10 @@ use asperity_core::error::Error;
 use asperity_core::files;
 use asperity_core::mesh::Mesh;
 use asperity_results::output::Part;
-use form::Table;
+use form::KeyTable;
 use kind::Kind;
 use reader::Reader;
-use source::Source;
+use source::SourceText;
 use std::path::{Path, PathBuf};
 use tree::Node;
 
@@ -132,13 +132,13 @@ fn understood<T>(
     wanted: Kind,
     read: impl FnOnce(&Node, &mut Reader) -> Option<T>,
 ) -> (Option<T>, Reader) {
-    let mut reader = Reader::new(Source::new(name, text));
+    let mut reader = Reader::new(SourceText::new(name, text));
     let (mut tree, faults) = tree::parse(text, 0);
     let torn = faults.iter().any(|fault| fault.what.contains("not valid TOML"));
     reader.diagnostics.extend(faults);
     for set in sets {
         reader.diagnostics.extend(overrides::apply(set, reader.sources.len(), &mut tree).err());
-        reader.sources.push(Source::new("--set", set));
+        reader.sources.push(SourceText::new("--set", set));
     }
     // Text that is not TOML may hide the rest of its table: what would be said about that is not to be trusted.
     let mistaken = kind::mistaken(&tree, wanted).filter(|_| !torn);
@@ -147,7 +147,7 @@ fn understood<T>(
     (value, reader)
 }
 
-fn gathered(sources: Vec<Source>, list: Vec<Diagnostic>) -> Diagnostics {
+fn gathered(sources: Vec<SourceText>, list: Vec<Diagnostic>) -> Diagnostics {
     let mut diagnostics = Diagnostics { sources, list };
     diagnostics.sort();
     diagnostics

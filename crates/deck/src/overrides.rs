@@ -6,7 +6,7 @@
 
 use super::diagnose::Diagnostic;
 use super::source::Place;
-use super::tree::{Entry, Node, Value, parse};
+use super::tree::{Node, TreeEntry, Value, parse};
 
 /// Changes the tree; `source` is the number of the text in the list of sources.
 pub fn apply(set: &str, source: usize, tree: &mut Node) -> Result<(), Diagnostic> {
@@ -34,7 +34,7 @@ fn read(text: &str, source: usize) -> Option<(Vec<(String, Place)>, Node)> {
         if entries.first().is_none_or(|entry| entry.place.start >= end) {
             break;
         }
-        let Entry { key, place, node: inner } = entries.swap_remove(0);
+        let TreeEntry { key, place, node: inner } = entries.swap_remove(0);
         keys.push((key, place));
         node = inner;
     }
@@ -49,7 +49,7 @@ fn put(keys: &[(String, Place)], new: Node, tree: &mut Node) -> Result<(), Diagn
     match &mut tree.value {
         Value::Table(entries) => {
             let at = entries.iter().position(|entry| entry.key == *key).unwrap_or_else(|| {
-                entries.push(Entry { key: key.clone(), place: *place, node: Node::empty(*place) });
+                entries.push(TreeEntry { key: key.clone(), place: *place, node: Node::empty(*place) });
                 entries.len() - 1
             });
             put(rest, new, &mut entries[at].node)

@@ -3,10 +3,10 @@
 use super::degree;
 use super::diagnose::Diagnostic;
 use super::form::{Form, map, refers, table_of};
-use super::keys::{Body, Generator, MeshKeys, Run, Selection};
+use super::keys::{BodyKeys, Generator, MeshKeys, RunKeys, Selection};
 use super::reader::{Name, Reader};
 use super::schema::Names;
-use super::source::{Place, Source, Spot};
+use super::source::{Place, SourceText, Spot};
 use super::tree::{Node, Value};
 use asperity_core::error::Error;
 use asperity_core::mesh::generate::{self, Grade, Spacing};
@@ -34,7 +34,7 @@ pub fn mesh(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader
     lint(&mut mesh, keys.file.as_ref().map_or(keys.place, |file| file.place), reader)?;
     let selections = map(refers(Names::Group), table_of::<Selection>());
     let selections = entry(tree, "group").and_then(|node| selections.read(node, &mut quiet)).unwrap_or_default();
-    let bodies = map(refers(Names::Cells), table_of::<Body>());
+    let bodies = map(refers(Names::Cells), table_of::<BodyKeys>());
     let bodies = entry(tree, "body").and_then(|node| bodies.read(node, &mut quiet)).unwrap_or_default();
     choose_all(&selections, &mut mesh, reader);
     let raised = degree::raised(&bodies, &mesh, reader);
@@ -104,7 +104,7 @@ fn refuse_file(path: &Path, error: &str, key: Place, reader: &mut Reader) {
     let text = bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default();
     let text: String = String::from_utf8_lossy(text).trim_end().chars().take(LINE_SHOWN).collect();
     let place = Place::new(reader.sources.len(), 0..text.len());
-    reader.sources.push(Source { name, text, first_line: line });
+    reader.sources.push(SourceText { name, text, first_line: line });
     reader.report(Diagnostic::error(what).at(place));
 }
 
@@ -115,9 +115,9 @@ fn lint(mesh: &mut Mesh, place: Place, reader: &mut Reader) -> Option<()> {
     let turned = mesh.orient();
     for finding in turned.into_iter().chain(lint::check(mesh)) {
         let diagnostic = match finding.severity {
-            lint::Severity::Error => Diagnostic::error(finding.text),
-            lint::Severity::Warning => Diagnostic::warning(finding.text),
-            lint::Severity::Note => Diagnostic::note(finding.text),
+            lint::LintSeverity::Error => Diagnostic::error(finding.text),
+            lint::LintSeverity::Warning => Diagnostic::warning(finding.text),
+            lint::LintSeverity::Note => Diagnostic::note(finding.text),
         };
         reader.report(diagnostic.at(place));
     }
@@ -153,7 +153,7 @@ fn generated(name: &str, part: &Generator) -> Result<Mesh, Error> {
 type Even<'k> = (Option<&'k [f64]>, Option<&'k [usize]>, Option<&'k [f64]>);
 
 /// Stations along each direction: graded between two ends, or by runs.
-fn spacings<const N: usize>(from: &[f64], (to, cells, ratio): Even<'_>, runs: [&Vec<Run>; N]) -> [Spacing; N] {
+fn spacings<const N: usize>(from: &[f64], (to, cells, ratio): Even<'_>, runs: [&Vec<RunKeys>; N]) -> [Spacing; N] {
     std::array::from_fn(|a| match (to, cells) {
         (Some(to), Some(cells)) => Spacing::graded(from[a], to[a], cells[a], ratio.map_or(1.0, |ratio| ratio[a])),
         _ => runs[a].iter().fold(Spacing::from(from[a]), |spacing, run| {

@@ -1,7 +1,7 @@
 //! Reads the deck of a material point, and runs it.
 
 use super::diagnose::{Diagnostic, Diagnostics};
-use super::form::Table;
+use super::form::KeyTable;
 use super::keys::{self, PointCurve, PointDeck};
 use super::kind::Kind;
 use super::reader::Name;
@@ -9,7 +9,7 @@ use super::source::Spot;
 use super::{folder_of, gathered, text_of, understood};
 use asperity_core::Error;
 use asperity_core::material::Material;
-use asperity_results::point::{Curve, Probe, Record, Stage, TangentCheck, columns};
+use asperity_results::point::{Curve, MaterialPointDriver, PointTangentCheck, Record, Stage, columns};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -116,10 +116,10 @@ impl LoadedPoint {
     }
 
     /// Drives every material along the path as far as it can be followed, and compares its tangents with differences.
-    pub fn tangents(&self) -> Vec<(String, TangentCheck)> {
+    pub fn tangents(&self) -> Vec<(String, PointTangentCheck)> {
         let one = |(name, material): &(String, Arc<dyn Material>)| {
-            let mut probe = Probe::new(material.as_ref(), self.initial_stress());
-            probe.check = Some(TangentCheck::default());
+            let mut probe = MaterialPointDriver::new(material.as_ref(), self.initial_stress());
+            probe.check = Some(PointTangentCheck::default());
             // Why a path ends is told by `follow`.
             let _ = self.stages.iter().try_for_each(|stage| probe.follow(stage, |_| {}));
             (name.clone(), probe.check.unwrap_or_default())
@@ -132,7 +132,7 @@ impl LoadedPoint {
     }
 
     fn drive(&self, name: &str, material: &dyn Material, stress: Option<[f64; 6]>) -> (Record, Option<Error>) {
-        let mut probe = Probe::new(material, stress);
+        let mut probe = MaterialPointDriver::new(material, stress);
         let mut record = Record::new(name, material);
         record.push(&probe);
         let mut follow = |stage| probe.follow(stage, |probe| record.push(probe));

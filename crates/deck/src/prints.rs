@@ -1,7 +1,7 @@
 //! Fingerprints of the parts of a deck, by which a restart finds out what has changed. They are those of the values: comments,
 //! the order of keys and `1` for `1.0` make no difference.
 
-use super::tree::{Entry, Node, Value};
+use super::tree::{Node, TreeEntry, Value};
 use asperity_core::mesh::Mesh;
 use asperity_results::output::Part;
 use asperity_results::output::checkpoint::InputHash;
@@ -16,7 +16,7 @@ pub fn of(tree: &Node, made: &Mesh) -> Vec<Part> {
     for (name, group) in &made.groups {
         parts.push(part(&format!("group {name}"), &[format!("{group:?}").as_bytes()]));
     }
-    for Entry { key, node, .. } in entries(tree) {
+    for TreeEntry { key, node, .. } in entries(tree) {
         match (key.as_str(), &node.value) {
             ("mesh" | "group", _) => {}
             ("step", Value::List(steps)) => steps.iter().enumerate().for_each(|(i, one)| step(i + 1, one, &mut parts)),
@@ -51,20 +51,20 @@ fn part(key: &str, texts: &[&[u8]]) -> Part {
     Part { key: key.into(), print: InputHash::of(texts) }
 }
 
-fn entries(node: &Node) -> &[Entry] {
+fn entries(node: &Node) -> &[TreeEntry] {
     match &node.value {
         Value::Table(entries) => entries,
         _ => &[],
     }
 }
 
-fn sorted(entries: &[Entry]) -> impl Iterator<Item = &Entry> {
-    let mut sorted: Vec<&Entry> = entries.iter().collect();
+fn sorted(entries: &[TreeEntry]) -> impl Iterator<Item = &TreeEntry> {
+    let mut sorted: Vec<&TreeEntry> = entries.iter().collect();
     sorted.sort_by(|a, b| a.key.cmp(&b.key));
     sorted.into_iter()
 }
 
-fn of_entry(entry: &Entry) -> Vec<u8> {
+fn of_entry(entry: &TreeEntry) -> Vec<u8> {
     [lengthy(b'k', entry.key.as_bytes()), bytes(&entry.node)].concat()
 }
 

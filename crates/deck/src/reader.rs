@@ -2,14 +2,14 @@
 
 use super::diagnose::{Diagnostic, Severity};
 use super::schema::Names;
-use super::source::{Place, Source};
-use super::tree::{Entry, Node, Value};
+use super::source::{Place, SourceText};
+use super::tree::{Node, TreeEntry, Value};
 
 /// What a reading leaves besides the values.
 #[derive(Debug, Default)]
 pub struct Reader {
     /// The texts that places point into: first the deck's file, then each `--set`, then what else was read.
-    pub sources: Vec<Source>,
+    pub sources: Vec<SourceText>,
     /// What is wrong.
     pub diagnostics: Vec<Diagnostic>,
     /// What was not said, and what holds instead.
@@ -62,7 +62,7 @@ fn quoted(key: String) -> String {
 
 impl Reader {
     /// A reader of a deck's text.
-    pub fn new(deck: Source) -> Self {
+    pub fn new(deck: SourceText) -> Self {
         Self { sources: vec![deck], ..Self::default() }
     }
 
@@ -109,7 +109,7 @@ impl Reader {
     }
 
     /// The entries of a table, or a message that it is none.
-    pub fn table<'n>(&mut self, node: &'n Node) -> Option<&'n [Entry]> {
+    pub fn table<'n>(&mut self, node: &'n Node) -> Option<&'n [TreeEntry]> {
         match &node.value {
             Value::Table(entries) => Some(entries),
             Value::List(items) if items.iter().any(|item| matches!(item.value, Value::Table(_))) => {

@@ -1,7 +1,7 @@
 //! Reads the deck of a point of an interface, and runs it.
 
 use super::diagnose::{Diagnostic, Diagnostics};
-use super::form::Table;
+use super::form::KeyTable;
 use super::keys::InterfaceDeck;
 use super::kind::Kind;
 use super::point::{LoadedPoint, all, curves, refuse_name, whole};
@@ -9,7 +9,7 @@ use super::tree::{self, Value};
 use super::{folder_of, gathered, text_of, understood};
 use asperity_core::Error;
 use asperity_core::interface::Interface;
-use asperity_results::point::{Curve, Record, Slide, TangentCheck, drive, slider_columns, yield_surface};
+use asperity_results::point::{Curve, PointTangentCheck, Record, Slide, drive, slider_columns, yield_surface};
 use std::path::Path;
 
 /// A deck of a point of an interface that was read, with its laws.
@@ -160,7 +160,7 @@ impl Driven {
     ///
     /// # Errors
     /// In words, for laws of interfaces.
-    pub fn tangents(&self) -> Result<Vec<(String, TangentCheck)>, Error> {
+    pub fn tangents(&self) -> Result<Vec<(String, PointTangentCheck)>, Error> {
         match self {
             Self::Solid(loaded) => Ok(loaded.tangents()),
             Self::Interface(_) => Err(Error::input(

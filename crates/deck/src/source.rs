@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// A text that values are read from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Source {
+pub struct SourceText {
     /// What messages call it: a path, or `--set`.
     pub name: String,
     /// The text: the whole of a deck, one line of a mesh file.
@@ -13,14 +13,14 @@ pub struct Source {
     pub first_line: usize,
 }
 
-impl Source {
+impl SourceText {
     /// A text from its first line on.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into(), first_line: 1 }
     }
 }
 
-/// A stretch of a [`Source`], in bytes.
+/// A stretch of a [`SourceText`], in bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Place {
     /// Position in the list of sources: 0 is the deck's file.

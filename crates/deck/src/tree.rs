@@ -30,12 +30,12 @@ pub enum Value {
     /// An array, or an array of tables.
     List(Vec<Node>),
     /// A table, in the order in which its keys were written.
-    Table(Vec<Entry>),
+    Table(Vec<TreeEntry>),
 }
 
 /// One key of a table.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
+pub struct TreeEntry {
     /// The key.
     pub key: String,
     /// Where the key stands.
@@ -137,9 +137,9 @@ fn fault(error: &toml::de::Error, text: &str, source: usize) -> Diagnostic {
 }
 
 fn entries(table: &DeTable<'_>, source: usize) -> Value {
-    let mut entries: Vec<Entry> = table
+    let mut entries: Vec<TreeEntry> = table
         .iter()
-        .map(|(key, value)| Entry {
+        .map(|(key, value)| TreeEntry {
             key: key.get_ref().to_string(),
             place: Place::new(source, key.span()),
             node: node(value, source),

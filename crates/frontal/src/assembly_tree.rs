@@ -1,6 +1,6 @@
 //! The assembly tree: fronts in the order in which they are eliminated, and where every number goes.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::etree::{NONE, children};
 use crate::graph::Graph;
 use crate::pattern::Pattern;
@@ -130,14 +130,14 @@ pub(crate) struct AssemblyTree {
 
 impl AssemblyTree {
     /// # Errors
-    /// [`Error::TooLarge`] if a front has too many entries for 32 bits.
+    /// [`FrontalError::TooLarge`] if a front has too many entries for 32 bits.
     pub fn new(
         pattern: &Pattern,
         graph: &Graph,
         node_order: &[u32],
         supernodes: &[Supernode],
         symmetric: bool,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FrontalError> {
         let (supernodes, parents) = in_final_order(supernodes);
         let (child_starts, child_list) = children(&parents);
         let nodes = supernodes.iter().flat_map(|s| s.nodes.iter().map(|&k| node_order[k as usize]));
@@ -166,7 +166,7 @@ impl AssemblyTree {
     ///
     /// # Errors
     /// As [`AssemblyTree::new`].
-    pub fn for_values(&self, pattern: &Pattern, symmetric: bool) -> Result<Self, Error> {
+    pub fn for_values(&self, pattern: &Pattern, symmetric: bool) -> Result<Self, FrontalError> {
         let mut tree = AssemblyTree {
             fronts: Vec::with_capacity(self.fronts.len()),
             child_starts: self.child_starts.clone(),
@@ -189,7 +189,7 @@ impl AssemblyTree {
     ///
     /// # Errors
     /// As [`AssemblyTree::new`].
-    pub fn outline(supernodes: &[Supernode], symmetric: bool) -> Result<Self, Error> {
+    pub fn outline(supernodes: &[Supernode], symmetric: bool) -> Result<Self, FrontalError> {
         let (supernodes, parents) = in_final_order(supernodes);
         let (child_starts, child_list) = children(&parents);
         let mut tree = AssemblyTree {
@@ -252,7 +252,7 @@ impl AssemblyTree {
         supernodes: &[&Supernode],
         parents: &[u32],
         symmetric: bool,
-    ) -> Result<(), Error> {
+    ) -> Result<(), FrontalError> {
         let mut seen_by = vec![NONE; self.order.len()];
         let mut first = 0;
         for (s, supernode) in supernodes.iter().enumerate() {
@@ -267,13 +267,18 @@ impl AssemblyTree {
     }
 
     /// Adds a front whose border's rows start at `rows`.
-    fn push_front(&mut self, (pivots, border): (usize, usize), rows: usize, symmetric: bool) -> Result<(), Error> {
+    fn push_front(
+        &mut self,
+        (pivots, border): (usize, usize),
+        rows: usize,
+        symmetric: bool,
+    ) -> Result<(), FrontalError> {
         let s = self.fronts.len();
         let first = self.fronts.last().map_or(0, |front| front.pivot_range().end);
         let first_descendant = self.children(s).first().map_or(s, |&c| self.fronts[c as usize].first_descendant);
         let factor = self.factor_len();
         let front = Front { first, pivots, border, rows, factor, entries: 0, first_descendant, symmetric, depth: 0 };
-        u32::try_from(front.factor_len()).map_err(|_| Error::TooLarge)?;
+        u32::try_from(front.factor_len()).map_err(|_| FrontalError::TooLarge)?;
         self.fronts.push(front);
         Ok(())
     }

@@ -3,7 +3,7 @@
 //! matrix jump and the others change little, the old factor with this correction is a preconditioner as good as if nothing
 //! had jumped.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::factor::Factor;
 use crate::full::Full;
 use crate::pattern::check_length;
@@ -15,13 +15,13 @@ pub type Sparse = Vec<(usize, f64)>;
 
 /// The change `sum of columns[k] rows[k]^T` of a matrix that was factorised.
 #[derive(Debug, Clone)]
-pub struct Change {
+pub struct LowRankChange {
     columns: Vec<Sparse>,
     rows: Vec<Sparse>,
     small: Full,
 }
 
-impl Change {
+impl LowRankChange {
     /// A change; `capacitance` holds `I + V^T A^-1 U` by rows, see [`Factor::influence`]. `None` if that is singular, and
     /// with it the changed matrix, or not finite.
     ///
@@ -30,7 +30,7 @@ impl Change {
     pub fn new(columns: Vec<Sparse>, rows: Vec<Sparse>, capacitance: Vec<f64>) -> Option<Self> {
         let n = columns.len();
         assert!(rows.len() == n && capacitance.len() == n * n, "a change of rank {n}");
-        Some(Change { columns, rows, small: Full::factorise(n, capacitance)? })
+        Some(LowRankChange { columns, rows, small: Full::factorise(n, capacitance)? })
     }
 
     /// Its rank, at the most.
@@ -66,7 +66,7 @@ impl Change {
 
 impl<T: Number> Halves<'_, T> {
     /// `x <- (A + U V^T)^-1 x` for the equilibrated matrix. The second substitution begins where the first turned round.
-    pub fn substitute_changed(&self, change: &Change, x: &mut [f64], work: &mut Workspace<T>) {
+    pub fn substitute_changed(&self, change: &LowRankChange, x: &mut [f64], work: &mut Workspace<T>) {
         let Factor { symbolic, scaling, .. } = self.factor;
         let position = |unknown: usize| symbolic.tree.position[unknown];
         let at = |list: &[Sparse]| list.iter().flatten().map(|&(unknown, _)| position(unknown)).collect::<Vec<_>>();
@@ -94,8 +94,8 @@ impl<T: Number> Halves<'_, T> {
     /// `x <- (A + U V^T)^-1 x` for the matrix itself.
     ///
     /// # Errors
-    /// [`Error::NotFactorised`]; [`Error::WrongLength`] unless there is one number for each unknown.
-    pub fn apply_inverse(&self, change: Option<&Change>, x: &mut [f64]) -> Result<(), Error> {
+    /// [`FrontalError::NotFactorised`]; [`FrontalError::WrongLength`] unless there is one number for each unknown.
+    pub fn apply_inverse(&self, change: Option<&LowRankChange>, x: &mut [f64]) -> Result<(), FrontalError> {
         let Factor { scaling, symbolic, .. } = self.factor;
         self.factor.check_ready()?;
         check_length("x", symbolic.pattern.len(), x.len())?;

@@ -1,6 +1,6 @@
 //! Is a matrix with perturbed pivots singular, and if so, along which vectors?
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::factor::Factor;
 use crate::solve::Workspace;
 use crate::vector::{dot, norm, subtract};
@@ -59,8 +59,8 @@ impl fmt::Display for Singular {
 /// vectors of A stay as they are and all else shrinks to what E leaves of it.
 ///
 /// # Errors
-/// [`Error::Singular`] if there are null vectors.
-pub(crate) fn check_regular(factor: &Factor) -> Result<(), Error> {
+/// [`FrontalError::Singular`] if there are null vectors.
+pub(crate) fn check_regular(factor: &Factor) -> Result<(), FrontalError> {
     let mut work = Workspace::new(factor);
     let n = factor.symbolic.pattern.len();
     let count = (factor.perturbed().len() + SPARE).min(MOST).min(n);
@@ -77,7 +77,7 @@ pub(crate) fn check_regular(factor: &Factor) -> Result<(), Error> {
     if null_vectors.is_empty() {
         return Ok(());
     }
-    Err(Error::Singular(Box::new(Singular { unknowns: factor.perturbed().to_vec(), null_vectors })))
+    Err(FrontalError::Singular(Box::new(Singular { unknowns: factor.perturbed().to_vec(), null_vectors })))
 }
 
 /// A vector, in the equilibrated scale, as the caller sees it; `None` if the matrix does not send it to zero.

@@ -1,8 +1,8 @@
 //! Factors of one pattern after another behind one face: an analysis for either kind of values, the memory of one factor, and the
 //! same factor in single precision where it preconditions.
 
-use crate::change::Change;
-use crate::error::Error;
+use crate::change::LowRankChange;
+use crate::error::FrontalError;
 use crate::factor::{Factor, Report};
 use crate::refine::Accuracy;
 use crate::rounded::Rounded;
@@ -45,7 +45,7 @@ impl Direct {
     ///
     /// # Errors
     /// Those of [`Symbolic::for_values`].
-    pub fn analysis(&self, symmetric: bool) -> Result<Symbolic, Error> {
+    pub fn analysis(&self, symmetric: bool) -> Result<Symbolic, FrontalError> {
         match &self.other_kind {
             Some(other) if other.prediction().symmetric == symmetric => Ok(other.clone()),
             _ => self.symbolic.for_values(symmetric),
@@ -70,7 +70,7 @@ impl Direct {
     ///
     /// # Errors
     /// Those of [`Symbolic::factorise`].
-    pub fn factorise(&mut self, values: &[f64]) -> Result<Report, Error> {
+    pub fn factorise(&mut self, values: &[f64]) -> Result<Report, FrontalError> {
         self.rounded.forget();
         self.symbolic.factorise(values, &mut self.factor)
     }
@@ -79,7 +79,7 @@ impl Direct {
     ///
     /// # Errors
     /// Those of [`Factor::solve`].
-    pub fn solve(&self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
+    pub fn solve(&self, rhs: &mut [f64]) -> Result<Accuracy, FrontalError> {
         self.factor.solve(rhs)
     }
 
@@ -97,7 +97,7 @@ impl Direct {
     ///
     /// # Errors
     /// Those of [`Factor::apply_inverse`].
-    pub fn precondition(&self, change: Option<&Change>, x: &mut [f64]) -> Result<(), Error> {
+    pub fn precondition(&self, change: Option<&LowRankChange>, x: &mut [f64]) -> Result<(), FrontalError> {
         match self.rounded.known(&self.factor) {
             Some(single) => single.apply_inverse(change, x),
             None => self.factor.halves().apply_inverse(change, x),
@@ -108,7 +108,7 @@ impl Direct {
     ///
     /// # Errors
     /// Those of [`Factor::influence`].
-    pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
+    pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), FrontalError> {
         match self.rounded.known(&self.factor) {
             Some(single) => single.influence(loads, at, x),
             None => self.factor.influence(loads, at, x),

@@ -6,7 +6,7 @@ use std::fmt;
 /// Why a matrix was refused or could not be solved. Rows, columns and unknowns count from zero in the caller's numbering.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub enum Error {
+pub enum FrontalError {
     /// A slice does not have the length that the pattern asks for.
     WrongLength {
         /// Name of the slice.
@@ -79,38 +79,38 @@ pub enum Error {
     },
 }
 
-impl fmt::Display for Error {
+impl fmt::Display for FrontalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::WrongLength { what, expected, found } => {
+            FrontalError::WrongLength { what, expected, found } => {
                 write!(f, "{what} has length {found}, the pattern asks for {expected}")
             }
-            Error::InvalidStarts { row } => write!(f, "the start of row {row} is out of order"),
-            Error::InvalidColumn { row, column } => {
+            FrontalError::InvalidStarts { row } => write!(f, "the start of row {row} is out of order"),
+            FrontalError::InvalidColumn { row, column } => {
                 write!(f, "column {column} of row {row} is out of range or out of order")
             }
-            Error::NotSymmetric { row, column } => {
+            FrontalError::NotSymmetric { row, column } => {
                 write!(f, "entry ({row}, {column}) is in the pattern but ({column}, {row}) is not")
             }
-            Error::InvalidOrder { unknown } => {
+            FrontalError::InvalidOrder { unknown } => {
                 write!(f, "unknown {unknown} is repeated, missing or out of range in the given order")
             }
-            Error::TooLarge => write!(f, "the matrix or one of its fronts has more than 2^32 entries"),
-            Error::OrderingFailed => write!(f, "the ordering library returned no ordering"),
-            Error::OrderingNotBuilt => write!(f, "this ordering needs a feature that was not built in"),
-            Error::MemoryLimit { needed, limit } => {
+            FrontalError::TooLarge => write!(f, "the matrix or one of its fronts has more than 2^32 entries"),
+            FrontalError::OrderingFailed => write!(f, "the ordering library returned no ordering"),
+            FrontalError::OrderingNotBuilt => write!(f, "this ordering needs a feature that was not built in"),
+            FrontalError::MemoryLimit { needed, limit } => {
                 write!(f, "the factorisation needs {needed} bytes and may use {limit}")
             }
-            Error::NotFinite { row, column } => write!(f, "the value at ({row}, {column}) is not finite"),
-            Error::ForeignFactor => write!(f, "the factor belongs to another analysis"),
-            Error::NotFactorised => write!(f, "the factor holds no values"),
-            Error::Unstable => write!(f, "pivots from the diagonal lose too much accuracy"),
-            Error::Singular(singular) => singular.fmt(f),
-            Error::Inaccurate { backward_error, unknowns } => {
+            FrontalError::NotFinite { row, column } => write!(f, "the value at ({row}, {column}) is not finite"),
+            FrontalError::ForeignFactor => write!(f, "the factor belongs to another analysis"),
+            FrontalError::NotFactorised => write!(f, "the factor holds no values"),
+            FrontalError::Unstable => write!(f, "pivots from the diagonal lose too much accuracy"),
+            FrontalError::Singular(singular) => singular.fmt(f),
+            FrontalError::Inaccurate { backward_error, unknowns } => {
                 write!(f, "backward error {backward_error:.1e} after refinement; perturbed pivots: {unknowns:?}")
             }
         }
     }
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for FrontalError {}

@@ -1,6 +1,6 @@
 //! Condition and growth, on demand.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::factor::Factor;
 use crate::krylov::multiply;
 use crate::solve::Workspace;
@@ -13,8 +13,8 @@ impl Factor {
     /// 1-norm (Hager, SIAM J. Sci. Stat. Comput. 5, 1984; Higham, ACM TOMS 14, 1988). It costs a few solutions.
     ///
     /// # Errors
-    /// [`Error::NotFactorised`].
-    pub fn condition(&self) -> Result<f64, Error> {
+    /// [`FrontalError::NotFactorised`].
+    pub fn condition(&self) -> Result<f64, FrontalError> {
         self.check_ready()?;
         let (pattern, n) = (&self.symbolic.pattern, self.symbolic.pattern.len());
         let mut column_sums = vec![0.0; n];
@@ -55,8 +55,8 @@ impl Factor {
     /// have lost. Without trouble it is of the order of one.
     ///
     /// # Errors
-    /// [`Error::NotFactorised`].
-    pub fn growth(&self) -> Result<f64, Error> {
+    /// [`FrontalError::NotFactorised`].
+    pub fn growth(&self) -> Result<f64, FrontalError> {
         self.check_ready()?;
         let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let mut most = 0.0_f64;

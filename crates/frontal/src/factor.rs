@@ -3,7 +3,7 @@
 use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule};
 use crate::diagnose;
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::huge;
 use crate::numeric::Numeric;
 use crate::pattern::check_length;
@@ -48,7 +48,7 @@ pub(crate) struct Memory {
 
 /// What the signs of the pivots say of a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Signs {
+pub struct PivotSigns {
     /// Whether its values were factorised as symmetric ones.
     pub symmetric: bool,
     /// Number of its negative eigenvalues where it is symmetric (Sylvester's law of inertia); one else if its determinant is
@@ -82,12 +82,12 @@ impl Symbolic {
     /// Factorises the matrix with these values, in the order of [`Pattern::columns`](crate::Pattern::columns).
     ///
     /// # Errors
-    /// [`Error::WrongLength`], [`Error::NotFinite`]; [`Error::ForeignFactor`] unless the factor came from this
-    /// analysis; [`Error::Singular`] with the unknowns responsible; [`Error::Unstable`] where pivots from the diagonal will not do
+    /// [`FrontalError::WrongLength`], [`FrontalError::NotFinite`]; [`FrontalError::ForeignFactor`] unless the factor came from this
+    /// analysis; [`FrontalError::Singular`] with the unknowns responsible; [`FrontalError::Unstable`] where pivots from the diagonal will not do
     /// for symmetric values. After an error the factor holds no values.
-    pub fn factorise(&self, values: &[f64], factor: &mut Factor) -> Result<Report, Error> {
+    pub fn factorise(&self, values: &[f64], factor: &mut Factor) -> Result<Report, FrontalError> {
         if !Arc::ptr_eq(&self.inner, &factor.symbolic) {
-            return Err(Error::ForeignFactor);
+            return Err(FrontalError::ForeignFactor);
         }
         factor.ready = false;
         check_length("values", self.inner.pattern.nonzeros(), values.len())?;
@@ -99,7 +99,7 @@ impl Symbolic {
         }
         if self.inner.options.symmetric && !factor.stable() {
             factor.ready = false;
-            return Err(Error::Unstable);
+            return Err(FrontalError::Unstable);
         }
         Ok(Report { perturbed: factor.perturbed.clone() })
     }
@@ -156,7 +156,7 @@ impl Factor {
     }
 
     /// Signs of the pivots; None where nothing is factorised or a pivot was perturbed.
-    pub fn signs(&self) -> Option<Signs> {
+    pub fn signs(&self) -> Option<PivotSigns> {
         let symmetric = self.symbolic.options.symmetric;
         let negative = self.pivots.iter().filter(|pivot| pivot.negative).count();
         let exchanged = || {
@@ -166,7 +166,7 @@ impl Factor {
             self.symbolic.tree.fronts.iter().map(own).sum::<usize>()
         };
         let negative = if symmetric { negative } else { (negative + exchanged()) % 2 };
-        (self.ready && self.perturbed.is_empty()).then_some(Signs { symmetric, negative })
+        (self.ready && self.perturbed.is_empty()).then_some(PivotSigns { symmetric, negative })
     }
 
     /// Whether pivots from the diagonal did: always where all are positive, and else where a solution comes out well.
@@ -194,11 +194,11 @@ impl Factor {
         entries.map(move |(&column, value)| (column, value / (rows[row] * columns[column])))
     }
 
-    pub(crate) fn check_ready(&self) -> Result<(), Error> {
-        if self.ready { Ok(()) } else { Err(Error::NotFactorised) }
+    pub(crate) fn check_ready(&self) -> Result<(), FrontalError> {
+        if self.ready { Ok(()) } else { Err(FrontalError::NotFactorised) }
     }
 
-    fn load(&mut self, values: &[f64]) -> Result<(), Error> {
+    fn load(&mut self, values: &[f64]) -> Result<(), FrontalError> {
         let Inner { pattern, options, .. } = &*self.symbolic;
         pattern.check_finite(values)?;
         if options.equilibrate {

@@ -1,6 +1,6 @@
 //! Some entries of the inverse: what loads on a few unknowns do at a few others.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::factor::Factor;
 use crate::pattern::check_length;
 use crate::solve::Halves;
@@ -18,11 +18,11 @@ impl Factor {
     /// fronts between loads, unknowns wanted and the root of the tree are visited.
     ///
     /// # Errors
-    /// [`Error::NotFactorised`]; [`Error::WrongLength`] unless `x` holds one number for each load and unknown wanted.
+    /// [`FrontalError::NotFactorised`]; [`FrontalError::WrongLength`] unless `x` holds one number for each load and unknown wanted.
     ///
     /// # Panics
     /// If there is no such unknown.
-    pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
+    pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), FrontalError> {
         self.check_ready()?;
         self.halves().influence(loads, at, x)
     }
@@ -30,7 +30,12 @@ impl Factor {
 
 impl<T: Number> Halves<'_, T> {
     /// [`Factor::influence`] by factors in this precision.
-    pub(crate) fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
+    pub(crate) fn influence(
+        &self,
+        loads: &[Vec<(usize, f64)>],
+        at: &[usize],
+        x: &mut [f64],
+    ) -> Result<(), FrontalError> {
         check_length("x", loads.len() * at.len(), x.len())?;
         if x.is_empty() {
             return Ok(());

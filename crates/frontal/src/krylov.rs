@@ -1,6 +1,6 @@
 //! FGMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by a factor, within a recycled outer space.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::factor::Factor;
 use crate::pattern::{Pattern, check_length};
 use crate::recycle::{Outer, orthogonalise};
@@ -44,8 +44,8 @@ impl Factor {
     /// result says so.
     ///
     /// # Errors
-    /// [`Error::NotFactorised`], [`Error::WrongLength`], [`Error::NotFinite`].
-    pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, Error> {
+    /// [`FrontalError::NotFactorised`], [`FrontalError::WrongLength`], [`FrontalError::NotFinite`].
+    pub fn solve_with(&self, values: &[f64], rhs: &mut [f64], krylov: &Krylov) -> Result<Convergence, FrontalError> {
         self.check_ready()?;
         let pattern = &self.symbolic.pattern;
         let precondition = |x: &mut [f64]| self.halves().apply_inverse(None, x);
@@ -56,7 +56,7 @@ impl Factor {
 
 /// Solves in place beginning in the space of the directions of earlier solutions, with the `same` matrix or with another; its own
 /// are added to them.
-pub(crate) fn solve_recycling<P: FnMut(&mut [f64]) -> Result<(), E>, E: From<Error>>(
+pub(crate) fn solve_recycling<P: FnMut(&mut [f64]) -> Result<(), E>, E: From<FrontalError>>(
     mut system: Scaled<'_, P, E>,
     rhs: &mut [f64],
     krylov: &Krylov,
@@ -104,8 +104,8 @@ impl<'a, P, E> Scaled<'a, P, E> {
     /// The matrix with these factors of rows and columns.
     ///
     /// # Errors
-    /// [`Error::WrongLength`], [`Error::NotFinite`].
-    pub fn new(matrix: (&'a Pattern, &'a [f64]), scaling: &'a Scaling, precondition: P) -> Result<Self, Error> {
+    /// [`FrontalError::WrongLength`], [`FrontalError::NotFinite`].
+    pub fn new(matrix: (&'a Pattern, &'a [f64]), scaling: &'a Scaling, precondition: P) -> Result<Self, FrontalError> {
         let (pattern, values) = matrix;
         check_length("values", pattern.nonzeros(), values.len())?;
         check_length("factors", pattern.len(), scaling.rows.len())?;

@@ -22,7 +22,7 @@
 //! let mut x = [5.0, 8.0, 9.0];
 //! factor.solve(&mut x)?;
 //! assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-14));
-//! # Ok::<(), frontal::Error>(())
+//! # Ok::<(), frontal::FrontalError>(())
 //! ```
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
@@ -67,11 +67,11 @@ mod symmetric;
 mod together;
 mod vector;
 
-pub use change::{Change, Sparse};
+pub use change::{LowRankChange, Sparse};
 pub use diagnose::{NullVector, Singular};
 pub use direct::Direct;
-pub use error::Error;
-pub use factor::{Factor, Report, Signs};
+pub use error::FrontalError;
+pub use factor::{Factor, PivotSigns, Report};
 pub use full::{Full, subtract_product};
 pub use krylov::{Convergence, Krylov};
 pub use options::{Amalgamation, Options, Ordering};

@@ -1,6 +1,6 @@
 //! Matrix Market files, for tests and bug reports.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::pattern::Pattern;
 use std::fmt;
 use std::io::{self, BufRead, Write};
@@ -21,7 +21,7 @@ pub enum MarketError {
     /// The matrix is not square.
     NotSquare,
     /// The matrix was refused.
-    Matrix(Error),
+    Matrix(FrontalError),
 }
 
 impl fmt::Display for MarketError {
@@ -94,7 +94,7 @@ fn sizes(line: Option<(usize, String)>) -> Result<(usize, usize), MarketError> {
     let numbers = line.split_whitespace().map(|word| word.parse::<usize>()).collect::<Result<Vec<_>, _>>();
     match numbers.as_deref() {
         Ok([rows, columns, _]) if rows != columns => Err(MarketError::NotSquare),
-        Ok([rows, ..]) if u32::try_from(*rows).is_err() => Err(MarketError::Matrix(Error::TooLarge)),
+        Ok([rows, ..]) if u32::try_from(*rows).is_err() => Err(MarketError::Matrix(FrontalError::TooLarge)),
         Ok([rows, _, entries]) => Ok((*rows, *entries)),
         _ => Err(MarketError::Line { number, expected }),
     }

@@ -1,7 +1,7 @@
 //! Nested dissection by METIS (Karypis & Kumar, SIAM J. Sci. Comput. 20, 1998): the one place with foreign code.
 #![allow(unsafe_code)]
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::graph::Graph;
 use metis_sys as sys;
 use std::sync::{Mutex, PoisonError};
@@ -13,13 +13,13 @@ static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 /// Elimination order of the vertices; a pure function of the graph.
 ///
 /// # Errors
-/// [`Error::TooLarge`] past 32-bit indices, [`Error::OrderingFailed`] if METIS says so.
-pub(crate) fn nested_dissection(graph: &Graph) -> Result<Vec<u32>, Error> {
+/// [`FrontalError::TooLarge`] past 32-bit indices, [`FrontalError::OrderingFailed`] if METIS says so.
+pub(crate) fn nested_dissection(graph: &Graph) -> Result<Vec<u32>, FrontalError> {
     let n = graph.len();
     if graph.neighbours.is_empty() {
         return Ok((0..n as u32).collect());
     }
-    let index = |k: usize| sys::idx_t::try_from(k).map_err(|_| Error::TooLarge);
+    let index = |k: usize| sys::idx_t::try_from(k).map_err(|_| FrontalError::TooLarge);
     let mut vertices = index(n)?;
     let mut starts = graph.starts.iter().map(|&start| index(start)).collect::<Result<Vec<_>, _>>()?;
     let mut neighbours = graph.neighbours.iter().map(|&v| index(v as usize)).collect::<Result<Vec<_>, _>>()?;
@@ -44,7 +44,7 @@ pub(crate) fn nested_dissection(graph: &Graph) -> Result<Vec<u32>, Error> {
     };
     drop(guard);
     if status != sys::rstatus_et_METIS_OK {
-        return Err(Error::OrderingFailed);
+        return Err(FrontalError::OrderingFailed);
     }
     Ok(order.into_iter().map(|v| v as u32).collect())
 }

@@ -47,7 +47,7 @@ pub struct Options {
     /// Whether the values are symmetric. The factorisation is then L D L^T with pivots from the diagonal in their order,
     /// at half the flops and half the memory; of each pair of mirrored values it reads one, while refinement uses both. Values
     /// that are not definite and for which such pivots will not do are refused, see
-    /// [`Error::Unstable`](crate::Error::Unstable).
+    /// [`FrontalError::Unstable`](crate::FrontalError::Unstable).
     pub symmetric: bool,
     /// Bytes that analysis, factor and working memory may take together; refused before any number is touched.
     pub memory_limit: Option<usize>,

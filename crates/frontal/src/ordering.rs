@@ -1,6 +1,6 @@
 //! The order in which nodes are eliminated.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::graph::Graph;
 use crate::options::{Options, Ordering};
 use crate::pattern::{Pattern, check_length};
@@ -8,8 +8,8 @@ use crate::pattern::{Pattern, check_length};
 /// The graph to be eliminated and the order of its nodes.
 ///
 /// # Errors
-/// [`Error::InvalidOrder`] or [`Error::WrongLength`] if a given order is not a permutation; those of METIS.
-pub(crate) fn order(pattern: &Pattern, options: &Options) -> Result<(Graph, Vec<u32>), Error> {
+/// [`FrontalError::InvalidOrder`] or [`FrontalError::WrongLength`] if a given order is not a permutation; those of METIS.
+pub(crate) fn order(pattern: &Pattern, options: &Options) -> Result<(Graph, Vec<u32>), FrontalError> {
     check_distinct(&options.last, pattern.len())?;
     let graph = match &options.ordering {
         Ordering::NestedDissection | Ordering::MinimumDegree => Graph::of(pattern),
@@ -32,16 +32,16 @@ pub(crate) fn order(pattern: &Pattern, options: &Options) -> Result<(Graph, Vec<
 /// The order of the nodes of a graph by a library, with those to come last behind it.
 ///
 /// # Errors
-/// [`Error::InvalidOrder`] for a node that is not there or stands twice in `last`; [`Error::OrderingNotBuilt`] for a given
+/// [`FrontalError::InvalidOrder`] for a node that is not there or stands twice in `last`; [`FrontalError::OrderingNotBuilt`] for a given
 /// order, which is one of unknowns; those of METIS.
-pub(crate) fn order_nodes(graph: &Graph, last: &[usize], by: &Ordering) -> Result<Vec<u32>, Error> {
+pub(crate) fn order_nodes(graph: &Graph, last: &[usize], by: &Ordering) -> Result<Vec<u32>, FrontalError> {
     check_distinct(last, graph.len())?;
     let mut is_last = vec![false; graph.len()];
     last.iter().for_each(|&node| is_last[node] = true);
     with_last(graph, (last.iter().map(|&node| node as u32).collect(), &is_last), by)
 }
 
-fn with_last(graph: &Graph, (last, is_last): (Vec<u32>, &[bool]), by: &Ordering) -> Result<Vec<u32>, Error> {
+fn with_last(graph: &Graph, (last, is_last): (Vec<u32>, &[bool]), by: &Ordering) -> Result<Vec<u32>, FrontalError> {
     if last.is_empty() {
         return reduce_fill(by, graph);
     }
@@ -51,7 +51,7 @@ fn with_last(graph: &Graph, (last, is_last): (Vec<u32>, &[bool]), by: &Ordering)
 }
 
 /// The order of a library that was built in.
-fn reduce_fill(by: &Ordering, graph: &Graph) -> Result<Vec<u32>, Error> {
+fn reduce_fill(by: &Ordering, graph: &Graph) -> Result<Vec<u32>, FrontalError> {
     match by {
         #[cfg(feature = "metis")]
         Ordering::NestedDissection => crate::metis::nested_dissection(graph),
@@ -61,7 +61,7 @@ fn reduce_fill(by: &Ordering, graph: &Graph) -> Result<Vec<u32>, Error> {
         Ordering::MinimumDegree => crate::feral::minimum_degree(graph),
         _ => {
             let _ = graph;
-            Err(Error::OrderingNotBuilt)
+            Err(FrontalError::OrderingNotBuilt)
         }
     }
 }
@@ -79,12 +79,12 @@ fn nodes_of(graph: &Graph, unknowns: &[usize]) -> (Vec<u32>, Vec<bool>) {
     (nodes, marked)
 }
 
-fn check_distinct(unknowns: &[usize], n: usize) -> Result<(), Error> {
+fn check_distinct(unknowns: &[usize], n: usize) -> Result<(), FrontalError> {
     let mut seen = vec![false; if unknowns.is_empty() { 0 } else { n }];
     for &unknown in unknowns {
         match seen.get_mut(unknown) {
             Some(seen) if !*seen => *seen = true,
-            _ => return Err(Error::InvalidOrder { unknown }),
+            _ => return Err(FrontalError::InvalidOrder { unknown }),
         }
     }
     Ok(())

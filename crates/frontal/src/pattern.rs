@@ -1,6 +1,6 @@
 //! The places of a sparse matrix that may be nonzero.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use std::sync::Arc;
 
 /// A square, structurally symmetric pattern in compressed rows, with the columns of each row in ascending order.
@@ -18,8 +18,8 @@ impl Pattern {
     /// Takes the row starts (`n + 1` numbers) and the columns of all rows.
     ///
     /// # Errors
-    /// [`Error::InvalidStarts`], [`Error::InvalidColumn`] or [`Error::NotSymmetric`], at the first offence.
-    pub fn new(starts: Vec<usize>, columns: Vec<usize>) -> Result<Self, Error> {
+    /// [`FrontalError::InvalidStarts`], [`FrontalError::InvalidColumn`] or [`FrontalError::NotSymmetric`], at the first offence.
+    pub fn new(starts: Vec<usize>, columns: Vec<usize>) -> Result<Self, FrontalError> {
         Self::sharing(Arc::new(starts), Arc::new(columns))
     }
 
@@ -27,7 +27,7 @@ impl Pattern {
     ///
     /// # Errors
     /// As [`Pattern::new`].
-    pub fn sharing(starts: Arc<Vec<usize>>, columns: Arc<Vec<usize>>) -> Result<Self, Error> {
+    pub fn sharing(starts: Arc<Vec<usize>>, columns: Arc<Vec<usize>>) -> Result<Self, FrontalError> {
         check_starts(&starts, columns.len())?;
         check_columns(&starts, &columns)?;
         check_symmetry(&starts, &columns)?;
@@ -47,12 +47,12 @@ impl Pattern {
     /// numbered in any way and may have any number of unknowns.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] unless there is one node per unknown; [`Error::InvalidOrder`] if a node's number is not
+    /// [`FrontalError::WrongLength`] unless there is one node per unknown; [`FrontalError::InvalidOrder`] if a node's number is not
     /// below the number of unknowns.
-    pub fn with_nodes(mut self, node_of: Vec<usize>) -> Result<Self, Error> {
+    pub fn with_nodes(mut self, node_of: Vec<usize>) -> Result<Self, FrontalError> {
         check_length("node_of", self.len(), node_of.len())?;
         if let Some(unknown) = node_of.iter().position(|&node| node >= self.len()) {
-            return Err(Error::InvalidOrder { unknown });
+            return Err(FrontalError::InvalidOrder { unknown });
         }
         self.node_of = Some(Arc::new(node_of));
         Ok(self)
@@ -61,11 +61,11 @@ impl Pattern {
     /// Says that every `k` consecutive unknowns are those of one node.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] if the number of unknowns is not a multiple of `k`.
-    pub fn with_block(self, k: usize) -> Result<Self, Error> {
+    /// [`FrontalError::WrongLength`] if the number of unknowns is not a multiple of `k`.
+    pub fn with_block(self, k: usize) -> Result<Self, FrontalError> {
         let n = self.len();
         if k == 0 || !n.is_multiple_of(k) {
-            return Err(Error::WrongLength { what: "a block of unknowns", expected: n, found: k });
+            return Err(FrontalError::WrongLength { what: "a block of unknowns", expected: n, found: k });
         }
         self.with_nodes((0..n).map(|unknown| unknown / k).collect())
     }
@@ -139,10 +139,10 @@ impl Pattern {
     }
 
     /// Refuses values, in the pattern's order, of which one is not finite.
-    pub(crate) fn check_finite(&self, values: &[f64]) -> Result<(), Error> {
+    pub(crate) fn check_finite(&self, values: &[f64]) -> Result<(), FrontalError> {
         let Some(at) = values.iter().position(|value| !value.is_finite()) else { return Ok(()) };
         let row = self.starts.partition_point(|&start| start <= at) - 1;
-        Err(Error::NotFinite { row, column: self.columns[at] })
+        Err(FrontalError::NotFinite { row, column: self.columns[at] })
     }
 
     /// The node of each unknown, if it was given.
@@ -152,28 +152,28 @@ impl Pattern {
 }
 
 /// Refuses a slice of the wrong length.
-pub(crate) fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), Error> {
-    if expected == found { Ok(()) } else { Err(Error::WrongLength { what, expected, found }) }
+pub(crate) fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), FrontalError> {
+    if expected == found { Ok(()) } else { Err(FrontalError::WrongLength { what, expected, found }) }
 }
 
-fn check_starts(starts: &[usize], nonzeros: usize) -> Result<(), Error> {
+fn check_starts(starts: &[usize], nonzeros: usize) -> Result<(), FrontalError> {
     if starts.first() != Some(&0) {
-        return Err(Error::InvalidStarts { row: 0 });
+        return Err(FrontalError::InvalidStarts { row: 0 });
     }
     if let Some(row) = starts.windows(2).position(|pair| pair[0] > pair[1]) {
-        return Err(Error::InvalidStarts { row: row + 1 });
+        return Err(FrontalError::InvalidStarts { row: row + 1 });
     }
     let row = starts.len() - 1;
-    if starts[row] == nonzeros { Ok(()) } else { Err(Error::InvalidStarts { row }) }
+    if starts[row] == nonzeros { Ok(()) } else { Err(FrontalError::InvalidStarts { row }) }
 }
 
-fn check_columns(starts: &[usize], columns: &[usize]) -> Result<(), Error> {
+fn check_columns(starts: &[usize], columns: &[usize]) -> Result<(), FrontalError> {
     let n = starts.len() - 1;
     for row in 0..n {
         let mut least = 0;
         for &column in &columns[starts[row]..starts[row + 1]] {
             if column < least || column >= n {
-                return Err(Error::InvalidColumn { row, column });
+                return Err(FrontalError::InvalidColumn { row, column });
             }
             least = column + 1;
         }
@@ -183,16 +183,16 @@ fn check_columns(starts: &[usize], columns: &[usize]) -> Result<(), Error> {
 
 /// Walks the rows in order; `seen[c]` counts the entries of row `c` that have met their mirror images. As rows are
 /// sorted, the entry `(r, c)` must meet the next entry of row `c` not met so far.
-fn check_symmetry(starts: &[usize], columns: &[usize]) -> Result<(), Error> {
+fn check_symmetry(starts: &[usize], columns: &[usize]) -> Result<(), FrontalError> {
     let mut seen = starts[..starts.len() - 1].to_vec();
     for row in 0..seen.len() {
         for &column in &columns[starts[row]..starts[row + 1]] {
             let mirror = seen[column];
             if mirror == starts[column + 1] || columns[mirror] > row {
-                return Err(Error::NotSymmetric { row, column });
+                return Err(FrontalError::NotSymmetric { row, column });
             }
             if columns[mirror] < row {
-                return Err(Error::NotSymmetric { row: column, column: columns[mirror] });
+                return Err(FrontalError::NotSymmetric { row: column, column: columns[mirror] });
             }
             seen[column] += 1;
         }
@@ -206,12 +206,12 @@ mod tests {
 
     #[test]
     fn offences_are_named() {
-        assert_eq!(Pattern::new(vec![], vec![]), Err(Error::InvalidStarts { row: 0 }));
-        assert_eq!(Pattern::new(vec![0, 2, 1], vec![0]), Err(Error::InvalidStarts { row: 2 }));
-        assert_eq!(Pattern::new(vec![0, 1], vec![1]), Err(Error::InvalidColumn { row: 0, column: 1 }));
-        assert_eq!(Pattern::new(vec![0, 2, 2], vec![1, 1]), Err(Error::InvalidColumn { row: 0, column: 1 }));
-        assert_eq!(Pattern::new(vec![0, 1, 1], vec![1]), Err(Error::NotSymmetric { row: 0, column: 1 }));
-        assert_eq!(Pattern::new(vec![0, 0, 1], vec![0]), Err(Error::NotSymmetric { row: 1, column: 0 }));
+        assert_eq!(Pattern::new(vec![], vec![]), Err(FrontalError::InvalidStarts { row: 0 }));
+        assert_eq!(Pattern::new(vec![0, 2, 1], vec![0]), Err(FrontalError::InvalidStarts { row: 2 }));
+        assert_eq!(Pattern::new(vec![0, 1], vec![1]), Err(FrontalError::InvalidColumn { row: 0, column: 1 }));
+        assert_eq!(Pattern::new(vec![0, 2, 2], vec![1, 1]), Err(FrontalError::InvalidColumn { row: 0, column: 1 }));
+        assert_eq!(Pattern::new(vec![0, 1, 1], vec![1]), Err(FrontalError::NotSymmetric { row: 0, column: 1 }));
+        assert_eq!(Pattern::new(vec![0, 0, 1], vec![0]), Err(FrontalError::NotSymmetric { row: 1, column: 0 }));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Iterative refinement with a componentwise backward error.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::factor::Factor;
 use crate::krylov::{Krylov, System, fgmres, multiply, multiply_transposed};
 use crate::pattern::{Pattern, check_length};
@@ -73,9 +73,9 @@ impl Factor {
     /// worst accuracy.
     ///
     /// # Errors
-    /// [`Error::NotFactorised`]; [`Error::WrongLength`] unless the length is a multiple of `n`; [`Error::NotFinite`];
-    /// [`Error::Inaccurate`] if refinement cannot bring the backward error below 1e-10, with `rhs` undefined.
-    pub fn solve(&self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
+    /// [`FrontalError::NotFactorised`]; [`FrontalError::WrongLength`] unless the length is a multiple of `n`; [`FrontalError::NotFinite`];
+    /// [`FrontalError::Inaccurate`] if refinement cannot bring the backward error below 1e-10, with `rhs` undefined.
+    pub fn solve(&self, rhs: &mut [f64]) -> Result<Accuracy, FrontalError> {
         self.solve_all(rhs, Side::Plain)
     }
 
@@ -83,15 +83,15 @@ impl Factor {
     ///
     /// # Errors
     /// Those of [`Factor::solve`].
-    pub fn solve_transposed(&self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
+    pub fn solve_transposed(&self, rhs: &mut [f64]) -> Result<Accuracy, FrontalError> {
         self.solve_all(rhs, Side::Transposed)
     }
 
     /// `x <- A^-1 x` by one substitution, not refined, perturbed pivots included.
     ///
     /// # Errors
-    /// [`Error::NotFactorised`]; [`Error::WrongLength`] unless there is one number for each unknown.
-    pub fn apply_inverse(&self, x: &mut [f64]) -> Result<(), Error> {
+    /// [`FrontalError::NotFactorised`]; [`FrontalError::WrongLength`] unless there is one number for each unknown.
+    pub fn apply_inverse(&self, x: &mut [f64]) -> Result<(), FrontalError> {
         self.check_ready()?;
         check_length("x", self.symbolic.pattern.len(), x.len())?;
         x.iter_mut().zip(&self.scaling.rows).for_each(|(x, scale)| *x *= scale);
@@ -100,7 +100,7 @@ impl Factor {
         Ok(())
     }
 
-    fn solve_all(&self, rhs: &mut [f64], side: Side) -> Result<Accuracy, Error> {
+    fn solve_all(&self, rhs: &mut [f64], side: Side) -> Result<Accuracy, FrontalError> {
         self.check_ready()?;
         let n = self.symbolic.pattern.len();
         if n == 0 || !rhs.len().is_multiple_of(n) {
@@ -119,9 +119,9 @@ impl Factor {
     }
 }
 
-pub(crate) fn check_finite(rhs: &[f64], n: usize) -> Result<(), Error> {
+pub(crate) fn check_finite(rhs: &[f64], n: usize) -> Result<(), FrontalError> {
     match rhs.iter().position(|value| !value.is_finite()) {
-        Some(at) => Err(Error::NotFinite { row: at % n, column: at / n }),
+        Some(at) => Err(FrontalError::NotFinite { row: at % n, column: at / n }),
         None => Ok(()),
     }
 }
@@ -144,7 +144,7 @@ impl<'a> Refinement<'a> {
         Refinement { factor, side, work: Workspace::new(factor), x, residual, bound }
     }
 
-    fn solve(&mut self, b: &mut [f64]) -> Result<Accuracy, Error> {
+    fn solve(&mut self, b: &mut [f64]) -> Result<Accuracy, FrontalError> {
         let scaling = &self.factor.scaling;
         let (before, after) = match self.side {
             Side::Plain => (&scaling.rows, &scaling.columns),
@@ -158,7 +158,7 @@ impl<'a> Refinement<'a> {
         Ok(accuracy)
     }
 
-    fn refine(&mut self, b: &[f64]) -> Result<Accuracy, Error> {
+    fn refine(&mut self, b: &[f64]) -> Result<Accuracy, FrontalError> {
         let options = &self.factor.symbolic.options;
         self.x.copy_from_slice(b);
         self.side.substitute(self.factor, &mut self.x, &mut self.work);
@@ -180,7 +180,7 @@ impl<'a> Refinement<'a> {
             return Ok(accuracy);
         }
         let unknowns = self.factor.perturbed().to_vec();
-        Err(Error::Inaccurate { backward_error: accuracy.backward_error, unknowns })
+        Err(FrontalError::Inaccurate { backward_error: accuracy.backward_error, unknowns })
     }
 
     /// `x <- x + A^-1 r`.

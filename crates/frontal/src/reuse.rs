@@ -1,8 +1,8 @@
 //! Not factorising at all when an old factor will do.
 
-use crate::change::Change;
+use crate::change::LowRankChange;
 use crate::direct::Direct;
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::factor::{Factor, Report};
 use crate::krylov::{Convergence, Krylov, Scaled, solve_recycling};
 use crate::pattern::{Pattern, check_length};
@@ -125,7 +125,7 @@ pub struct Recycler {
     spent: usize,
     service: Service,
     /// What is known to have changed since.
-    change: Option<Change>,
+    change: Option<LowRankChange>,
     /// Iterations since it was made, wasted ones included, and systems solved by them.
     pub counts: Counts,
 }
@@ -194,7 +194,7 @@ impl Recycler {
 
     /// Says by what the matrices to come differ from the one that was factorised, besides small changes: the factor is
     /// put right for that until the next factorisation or the next change.
-    pub fn change(&mut self, change: Option<Change>) {
+    pub fn change(&mut self, change: Option<LowRankChange>) {
         self.change = change;
     }
 
@@ -205,11 +205,11 @@ impl Recycler {
     /// matrix `A0` that was factorised.
     ///
     /// # Errors
-    /// [`Error::WrongLength`], [`Error::NotFinite`]; those of `precondition`.
-    pub fn iterate<E: From<Error>>(
+    /// [`FrontalError::WrongLength`], [`FrontalError::NotFinite`]; those of `precondition`.
+    pub fn iterate<E: From<FrontalError>>(
         &mut self,
         ((pattern, values), scaling, same): ((&Pattern, &[f64]), &Scaling, bool),
-        mut precondition: impl FnMut(Option<&Change>, &mut [f64]) -> Result<(), E>,
+        mut precondition: impl FnMut(Option<&LowRankChange>, &mut [f64]) -> Result<(), E>,
         rhs: &mut [f64],
         tolerance: f64,
     ) -> Result<Option<Convergence>, E> {
@@ -297,7 +297,7 @@ impl Solver {
     }
 
     /// As [`Recycler::change`].
-    pub fn change(&mut self, change: Option<Change>) {
+    pub fn change(&mut self, change: Option<LowRankChange>) {
         self.recycler.change(change);
     }
 
@@ -316,8 +316,8 @@ impl Solver {
     /// are not factorised by this solver.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for another number of unknowns.
-    pub fn follow(&mut self, pattern: Pattern) -> Result<(), Error> {
+    /// [`FrontalError::WrongLength`] for another number of unknowns.
+    pub fn follow(&mut self, pattern: Pattern) -> Result<(), FrontalError> {
         check_length("rows of the pattern", self.symbolic().pattern().len(), pattern.len())?;
         self.recycler.change(None);
         self.other = (!self.symbolic().covers(&pattern)).then_some(pattern);
@@ -329,7 +329,7 @@ impl Solver {
     ///
     /// # Errors
     /// Those of [`Symbolic::factorise`] and [`Factor::solve`].
-    pub fn solve(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Outcome, Error> {
+    pub fn solve(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Outcome, FrontalError> {
         let before = self.counts().iterations;
         if let Some(convergence) = self.iterate(values, rhs, tolerance)? {
             return Ok(Outcome::Iterative(convergence));
@@ -344,8 +344,13 @@ impl Solver {
     /// that took too many iterations. [`Solver::factorise`] comes next then.
     ///
     /// # Errors
-    /// [`Error::WrongLength`], [`Error::NotFinite`].
-    pub fn iterate(&mut self, values: &[f64], rhs: &mut [f64], tolerance: f64) -> Result<Option<Convergence>, Error> {
+    /// [`FrontalError::WrongLength`], [`FrontalError::NotFinite`].
+    pub fn iterate(
+        &mut self,
+        values: &[f64],
+        rhs: &mut [f64],
+        tolerance: f64,
+    ) -> Result<Option<Convergence>, FrontalError> {
         self.iterate_on((values, false), rhs, tolerance)
     }
 
@@ -359,7 +364,7 @@ impl Solver {
         values: &[f64],
         rhs: &mut [f64],
         tolerance: f64,
-    ) -> Result<Option<Convergence>, Error> {
+    ) -> Result<Option<Convergence>, FrontalError> {
         self.iterate_on((values, true), rhs, tolerance)
     }
 
@@ -368,7 +373,7 @@ impl Solver {
         (values, same): (&[f64], bool),
         rhs: &mut [f64],
         tolerance: f64,
-    ) -> Result<Option<Convergence>, Error> {
+    ) -> Result<Option<Convergence>, FrontalError> {
         if self.recycler.affordable_iterations() > 0 {
             self.direct.round();
         }
@@ -381,7 +386,7 @@ impl Solver {
     ///
     /// # Errors
     /// Those of [`Symbolic::factorise`].
-    pub fn factorise(&mut self, values: &[f64]) -> Result<Report, Error> {
+    pub fn factorise(&mut self, values: &[f64]) -> Result<Report, FrontalError> {
         self.recycler.forget();
         self.recycler.counts.factorisations += 1;
         self.recycler.counts.symmetric += usize::from(self.symbolic().prediction().symmetric);
@@ -394,7 +399,7 @@ impl Solver {
     ///
     /// # Errors
     /// Those of [`Factor::solve`].
-    pub fn solve_directly(&mut self, rhs: &mut [f64]) -> Result<Accuracy, Error> {
+    pub fn solve_directly(&mut self, rhs: &mut [f64]) -> Result<Accuracy, FrontalError> {
         self.recycler.counts.solutions += 1;
         if self.recycler.affordable_iterations() > 0 {
             self.direct.round();
@@ -407,7 +412,7 @@ impl Solver {
     ///
     /// # Errors
     /// Those of [`Factor::influence`].
-    pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), Error> {
+    pub fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<(), FrontalError> {
         self.direct.influence(loads, at, x)
     }
 }

@@ -1,6 +1,6 @@
 //! How fast this machine factorises.
 
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::options::{Options, Ordering};
 use crate::pattern::Pattern;
 use crate::symbolic::Symbolic;
@@ -16,7 +16,7 @@ const TIMES: usize = 4;
 ///
 /// # Errors
 /// None that is known; those of the factorisation.
-pub fn speed() -> Result<f64, Error> {
+pub fn speed() -> Result<f64, FrontalError> {
     let starts = (0..=ORDER).map(|row| row * ORDER).collect();
     let pattern = Pattern::new(starts, (0..ORDER * ORDER).map(|at| at % ORDER).collect())?;
     let options = Options { ordering: Ordering::Given((0..ORDER).collect()), equilibrate: false, ..Options::default() };

@@ -1,7 +1,7 @@
 //! The analysis: all that can be known before any value is.
 
 use crate::assembly_tree::AssemblyTree;
-use crate::error::Error;
+use crate::error::FrontalError;
 use crate::etree::{NONE, children, column_counts, elimination_tree, postorder};
 use crate::factor::{Factor, LARGE, Memory};
 use crate::graph::Graph;
@@ -68,10 +68,10 @@ impl Symbolic {
     /// Orders the unknowns, finds the fronts and predicts the cost: a pure function of pattern and options.
     ///
     /// # Errors
-    /// [`Error::InvalidOrder`] or [`Error::WrongLength`] for bad options, [`Error::TooLarge`],
-    /// [`Error::OrderingFailed`], and [`Error::MemoryLimit`] if the prediction exceeds the limit.
-    pub fn analyse(pattern: &Pattern, options: &Options) -> Result<Self, Error> {
-        u32::try_from(pattern.nonzeros().max(pattern.len() + 1)).map_err(|_| Error::TooLarge)?;
+    /// [`FrontalError::InvalidOrder`] or [`FrontalError::WrongLength`] for bad options, [`FrontalError::TooLarge`],
+    /// [`FrontalError::OrderingFailed`], and [`FrontalError::MemoryLimit`] if the prediction exceeds the limit.
+    pub fn analyse(pattern: &Pattern, options: &Options) -> Result<Self, FrontalError> {
+        u32::try_from(pattern.nonzeros().max(pattern.len() + 1)).map_err(|_| FrontalError::TooLarge)?;
         let (graph, order) = ordering::order(pattern, options)?;
         let (order, supernodes) = divided(&graph, order, options);
         Self::laid_out(pattern, options, AssemblyTree::new(pattern, &graph, &order, &supernodes, options.symmetric)?)
@@ -81,8 +81,8 @@ impl Symbolic {
     /// places.
     ///
     /// # Errors
-    /// [`Error::TooLarge`], and [`Error::MemoryLimit`] if the prediction exceeds the limit.
-    pub fn for_values(&self, symmetric: bool) -> Result<Self, Error> {
+    /// [`FrontalError::TooLarge`], and [`FrontalError::MemoryLimit`] if the prediction exceeds the limit.
+    pub fn for_values(&self, symmetric: bool) -> Result<Self, FrontalError> {
         let Inner { pattern, options, tree, .. } = &*self.inner;
         if options.symmetric == symmetric {
             return Ok(self.clone());
@@ -90,7 +90,7 @@ impl Symbolic {
         Self::laid_out(pattern, &Options { symmetric, ..options.clone() }, tree.for_values(pattern, symmetric)?)
     }
 
-    fn laid_out(pattern: &Pattern, options: &Options, tree: AssemblyTree) -> Result<Self, Error> {
+    fn laid_out(pattern: &Pattern, options: &Options, tree: AssemblyTree) -> Result<Self, FrontalError> {
         let prediction = predict((pattern.len(), pattern.nonzeros()), &tree, Plan::new(&tree, 1).len());
         check_limit(prediction.bytes, options.memory_limit)?;
         let inner = Inner { pattern: pattern.clone(), options: options.clone(), tree, prediction };
@@ -176,9 +176,14 @@ impl Prediction {
     ///
     /// # Errors
     /// Those of [`Symbolic::analyse`].
-    pub fn of_nodes(graph: NodeGraph, last: &[usize], options: &Options, threads: usize) -> Result<[Self; 2], Error> {
+    pub fn of_nodes(
+        graph: NodeGraph,
+        last: &[usize],
+        options: &Options,
+        threads: usize,
+    ) -> Result<[Self; 2], FrontalError> {
         let (unknowns, nonzeros) = (graph.unknowns(), graph.nonzeros());
-        u32::try_from(nonzeros.max(unknowns + 1)).map_err(|_| Error::TooLarge)?;
+        u32::try_from(nonzeros.max(unknowns + 1)).map_err(|_| FrontalError::TooLarge)?;
         let graph = Graph::of_nodes(graph.starts, graph.neighbours, graph.weights);
         let order = ordering::order_nodes(&graph, last, &options.ordering)?;
         let (_, supernodes) = divided(&graph, order, options);
@@ -246,9 +251,9 @@ fn predict((unknowns, nonzeros): (usize, usize), tree: &AssemblyTree, stack_entr
     }
 }
 
-fn check_limit(needed: usize, limit: Option<usize>) -> Result<(), Error> {
+fn check_limit(needed: usize, limit: Option<usize>) -> Result<(), FrontalError> {
     match limit {
-        Some(limit) if needed > limit => Err(Error::MemoryLimit { needed, limit }),
+        Some(limit) if needed > limit => Err(FrontalError::MemoryLimit { needed, limit }),
         _ => Ok(()),
     }
 }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use frontal::{Error, Options, Ordering, Pattern, Symbolic, market};
+use frontal::{FrontalError, Options, Ordering, Pattern, Symbolic, market};
 use proptest::prelude::*;
 use support::{Matrix, Random, matrix, solve};
 
@@ -53,11 +53,11 @@ proptest! {
         let bound = if unperturbed { 1e-12 } else { 1e-10 };
         match solve(&matrix, &options, &b) {
             Ok(x) => prop_assert!(matrix.backward_error(&x, &b) < bound),
-            Err(Error::Singular(singular)) => {
+            Err(FrontalError::Singular(singular)) => {
                 prop_assert!(!singular.unknowns.is_empty() && !singular.null_vectors.is_empty());
                 prop_assert!(smallest_pivot < 1e-9 || matches!(kind, Kind::BadlyScaled), "{smallest_pivot}");
             }
-            Err(Error::Inaccurate { unknowns, .. }) => {
+            Err(FrontalError::Inaccurate { unknowns, .. }) => {
                 prop_assert!(!unknowns.is_empty());
                 prop_assert!(smallest_pivot < 1e-6 || matches!(kind, Kind::BadlyScaled), "{smallest_pivot}");
             }

@@ -3,7 +3,7 @@
 #[path = "../benches/models/mod.rs"]
 mod models;
 
-use frontal::{Change, Krylov, Options, Outcome, Pattern, Policy, Reuse, Solver, Symbolic, Work};
+use frontal::{Krylov, LowRankChange, Options, Outcome, Pattern, Policy, Reuse, Solver, Symbolic, Work};
 
 /// A body with stiff springs on some nodes of its top, as where a rigid body touches it.
 fn with_patch(model: &models::Model, first_node: usize) -> Vec<f64> {
@@ -146,7 +146,7 @@ fn directions_of_earlier_solutions_save_iterations() {
 }
 
 /// What springs that many times as stiff as the body change between two places, with the entries of the inverse it takes.
-fn leap(solver: &Solver, patches: [&[f64]; 2]) -> Change {
+fn leap(solver: &Solver, patches: [&[f64]; 2]) -> LowRankChange {
     let pattern = solver.symbolic().pattern().clone();
     let (starts, columns) = (pattern.starts(), pattern.columns());
     let rows = (0..pattern.len()).filter_map(|row| {
@@ -163,7 +163,7 @@ fn leap(solver: &Solver, patches: [&[f64]; 2]) -> Change {
     let along = |i: usize, j: usize| rows[i].iter().map(|&(unknown, value)| value * entry(unknown, j)).sum::<f64>();
     let all = (0..at.len()).flat_map(|i| (0..at.len()).map(move |j| (i, j)));
     let capacitance = all.map(|(i, j)| f64::from(u8::from(i == j)) + along(i, j)).collect();
-    Change::new(loads, rows, capacitance).expect("a regular matrix")
+    LowRankChange::new(loads, rows, capacitance).expect("a regular matrix")
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn a_factor_put_right_for_a_leap_solves_at_once() {
     let [then, now] = [0, 6].map(|node| with_patch(&model, node));
     solver.factorise(&then).expect("a regular matrix");
     let b = (0..model.pattern.len()).map(|k| (k as f64).cos()).collect::<Vec<_>>();
-    let mut solve = |change: Option<Change>| {
+    let mut solve = |change: Option<LowRankChange>| {
         solver.change(change);
         let mut x = b.clone();
         let done = solver.iterate(&now, &mut x, 1e-9).expect("good input").expect("an old factor would do");

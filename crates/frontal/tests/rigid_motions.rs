@@ -3,7 +3,7 @@
 #[path = "../benches/models/mod.rs"]
 mod models;
 
-use frontal::{Error, Options, Singular, Symbolic};
+use frontal::{FrontalError, Options, Singular, Symbolic};
 
 fn free_block(cells: usize, symmetric: bool) -> Singular {
     let mut model = models::hex8([cells; 3]);
@@ -13,7 +13,7 @@ fn free_block(cells: usize, symmetric: bool) -> Singular {
     options.symmetric = symmetric;
     let symbolic = Symbolic::analyse(&model.pattern, &options).expect("a good pattern");
     match symbolic.factorise(&model.values, &mut symbolic.new_factor()) {
-        Err(Error::Singular(singular)) => *singular,
+        Err(FrontalError::Singular(singular)) => *singular,
         other => panic!("{other:?}"),
     }
 }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use frontal::{Error, Options, Ordering, Pattern, Symbolic};
+use frontal::{FrontalError, Options, Ordering, Pattern, Symbolic};
 use support::{Matrix, Random, grid, matrix, solve};
 
 fn assert_solves(matrix: &Matrix, options: &Options) {
@@ -45,7 +45,7 @@ fn minimum_degree_is_there_if_it_was_built() {
         assert_solves(&matrix, &options);
     } else {
         let analysis = Symbolic::analyse(&matrix.pattern, &options).map(|_| ());
-        assert_eq!(analysis, Err(Error::OrderingNotBuilt));
+        assert_eq!(analysis, Err(FrontalError::OrderingNotBuilt));
     }
 }
 
@@ -77,7 +77,7 @@ fn some_entries_of_the_inverse_are_found_without_the_others() {
     let at = [n - 1, 0, n / 2, 17];
     let loads: Vec<_> = (0..37).map(|k| vec![((k * 29) % n, 1.0 + k as f64), (k, -0.5), (k, 0.25)]).collect();
     let mut x = vec![0.0; loads.len() * at.len()];
-    assert_eq!(factor.influence(&loads, &at, &mut x), Err(Error::NotFactorised));
+    assert_eq!(factor.influence(&loads, &at, &mut x), Err(FrontalError::NotFactorised));
     symbolic.factorise(&matrix.values, &mut factor).expect("a regular matrix");
     factor.influence(&loads, &at, &mut x).expect("a factor");
     for (load, x) in loads.iter().zip(x.chunks_exact(at.len())) {
@@ -87,7 +87,7 @@ fn some_entries_of_the_inverse_are_found_without_the_others() {
         let largest = solved.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         assert!(x.iter().zip(at).all(|(x, unknown)| (x - solved[unknown]).abs() < 1e-12 * largest));
     }
-    assert!(matches!(factor.influence(&loads, &at[..3], &mut x), Err(Error::WrongLength { .. })));
+    assert!(matches!(factor.influence(&loads, &at[..3], &mut x), Err(FrontalError::WrongLength { .. })));
     factor.influence(&[], &at, &mut []).expect("nothing to do");
 }
 
@@ -137,7 +137,7 @@ fn a_free_chain_is_singular_along_its_translation() {
         false => -1.0,
     });
     match solve(&chain, &Options::default(), &vec![1.0; n]) {
-        Err(Error::Singular(singular)) => {
+        Err(FrontalError::Singular(singular)) => {
             assert_eq!(singular.unknowns.len(), 1);
             assert!(singular.null_vectors[0].entries.iter().all(|x| (x - 1.0).abs() < 1e-9));
         }
@@ -155,7 +155,7 @@ fn two_free_chains_have_two_null_vectors() {
         false => -stiffness(i),
     });
     match solve(&chains, &Options::default(), &[1.0; 40]) {
-        Err(Error::Singular(singular)) => {
+        Err(FrontalError::Singular(singular)) => {
             assert_eq!(singular.null_vectors.len(), 2);
             for vector in &singular.null_vectors {
                 let constant = |half: &[f64]| half.iter().all(|x| (x - half[0]).abs() < 1e-9);
@@ -193,20 +193,20 @@ fn bad_input_is_refused() {
     let matrix = grid([2, 2, 0], 1, 1);
     let symbolic = Symbolic::analyse(&matrix.pattern, &Options::default()).expect("a good pattern");
     let mut factor = symbolic.new_factor();
-    assert_eq!(factor.solve(&mut [0.0; 9]), Err(Error::NotFactorised));
+    assert_eq!(factor.solve(&mut [0.0; 9]), Err(FrontalError::NotFactorised));
     let mut values = matrix.values.clone();
     values[4] = f64::NAN;
-    assert_eq!(symbolic.factorise(&values, &mut factor), Err(Error::NotFinite { row: 1, column: 0 }));
-    assert!(matches!(symbolic.factorise(&values[1..], &mut factor), Err(Error::WrongLength { .. })));
+    assert_eq!(symbolic.factorise(&values, &mut factor), Err(FrontalError::NotFinite { row: 1, column: 0 }));
+    assert!(matches!(symbolic.factorise(&values[1..], &mut factor), Err(FrontalError::WrongLength { .. })));
     symbolic.factorise(&matrix.values, &mut factor).expect("a regular matrix");
-    assert!(matches!(factor.solve(&mut [0.0; 10]), Err(Error::WrongLength { .. })));
-    assert!(matches!(factor.solve(&mut [f64::INFINITY; 9]), Err(Error::NotFinite { .. })));
+    assert!(matches!(factor.solve(&mut [0.0; 10]), Err(FrontalError::WrongLength { .. })));
+    assert!(matches!(factor.solve(&mut [f64::INFINITY; 9]), Err(FrontalError::NotFinite { .. })));
     let other = Symbolic::analyse(&matrix.pattern, &Options::default()).expect("a good pattern");
-    assert_eq!(other.factorise(&matrix.values, &mut factor), Err(Error::ForeignFactor));
+    assert_eq!(other.factorise(&matrix.values, &mut factor), Err(FrontalError::ForeignFactor));
     let mut options = Options::default();
     options.memory_limit = Some(100);
-    assert!(matches!(Symbolic::analyse(&matrix.pattern, &options), Err(Error::MemoryLimit { limit: 100, .. })));
+    assert!(matches!(Symbolic::analyse(&matrix.pattern, &options), Err(FrontalError::MemoryLimit { limit: 100, .. })));
     options = Options::default();
     options.last = vec![3, 3];
-    assert!(matches!(Symbolic::analyse(&matrix.pattern, &options), Err(Error::InvalidOrder { unknown: 3 })));
+    assert!(matches!(Symbolic::analyse(&matrix.pattern, &options), Err(FrontalError::InvalidOrder { unknown: 3 })));
 }

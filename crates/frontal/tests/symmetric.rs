@@ -4,7 +4,7 @@
 mod models;
 mod support;
 
-use frontal::{Error, Factor, Options, Pattern, Signs, Symbolic};
+use frontal::{Factor, FrontalError, Options, Pattern, PivotSigns, Symbolic};
 use std::f64::consts::PI;
 use support::{Matrix, matrix};
 
@@ -14,7 +14,7 @@ fn symmetric() -> Options {
     options
 }
 
-fn factorised(pattern: &Pattern, values: &[f64], options: &Options) -> Result<Factor, Error> {
+fn factorised(pattern: &Pattern, values: &[f64], options: &Options) -> Result<Factor, FrontalError> {
     let symbolic = Symbolic::analyse(pattern, options)?;
     let mut factor = symbolic.new_factor();
     symbolic.factorise(values, &mut factor)?;
@@ -52,7 +52,7 @@ fn both_factors_solve_alike() {
         lu.influence(&loads, &at, &mut x).unwrap();
         ldl.influence(&loads, &at, &mut y).unwrap();
         near(&x, &y, 1e-10);
-        let signs = |symmetric, negative| Some(Signs { symmetric, negative });
+        let signs = |symmetric, negative| Some(PivotSigns { symmetric, negative });
         assert_eq!((lu.signs(), ldl.signs()), (signs(false, 0), signs(true, 0)));
         assert!(ldl.growth().unwrap() <= 1.0 + 1e-12 && lu.growth().unwrap() < 10.0);
     }
@@ -71,8 +71,8 @@ fn negative_pivots_are_negative_eigenvalues() {
         let Matrix { pattern, values } = matrix(n, &pairs, |i, j| if i == j { 4.0 - shift } else { -1.0 });
         let [factor, lu] = [symmetric(), Options::default()].map(|o| factorised(&pattern, &values, &o).unwrap());
         let lower = (0..n).filter(|k| wave(k % width, width) + wave(k / width, height) < shift).count();
-        assert_eq!(factor.signs(), Some(Signs { symmetric: true, negative: lower }), "{shift}");
-        assert_eq!(lu.signs(), Some(Signs { symmetric: false, negative: lower % 2 }), "{shift}");
+        assert_eq!(factor.signs(), Some(PivotSigns { symmetric: true, negative: lower }), "{shift}");
+        assert_eq!(lu.signs(), Some(PivotSigns { symmetric: false, negative: lower % 2 }), "{shift}");
     }
 }
 
@@ -81,7 +81,7 @@ fn pivots_from_the_diagonal_that_will_not_do_are_refused() {
     // Multipliers: nothing on their diagonal.
     let saddle = matrix(4, &[(0, 2), (1, 3), (2, 3)], |i, j| if i == j { 0.0 } else { (i + j) as f64 });
     let refused = factorised(&saddle.pattern, &saddle.values, &symmetric());
-    assert_eq!(refused.map(|_| ()), Err(Error::Unstable));
+    assert_eq!(refused.map(|_| ()), Err(FrontalError::Unstable));
     let factor = factorised(&saddle.pattern, &saddle.values, &Options::default()).unwrap();
     let mut x = [1.0, 2.0, 3.0, 4.0];
     factor.solve(&mut x).unwrap();

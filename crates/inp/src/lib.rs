@@ -2,7 +2,7 @@
 //!
 //! [`source`] cuts a file and those it includes into blocks: a keyword with its parameters and data lines. Every keyword
 //! is declared once in [`keywords`], with its parameters and the function that reads it; checks and the manual's page
-//! come from the same declarations. `read` makes a [`model::Model`] of the blocks, instances of parts laid out; `write`
+//! come from the same declarations. `read` makes a `model::Model` of the blocks, instances of parts laid out; `write`
 //! makes a deck and a mesh of the model. All that is wrong is told at once, each with file and line.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -10,14 +10,14 @@
 mod elements;
 pub mod keywords;
 pub mod message;
-pub mod model;
+mod model;
 mod read;
 pub mod source;
 mod vector;
 mod write;
 
 pub use keywords::manual;
-pub use message::{Message, Messages, Place};
+pub use message::{InputPlace, Message, Messages};
 
 use std::path::Path;
 
@@ -54,7 +54,7 @@ pub fn translate_text(path: &Path, text: &str, mesh_file: &str) -> Result<Transl
 
 fn translated(
     path: &Path,
-    blocks: &[source::Block],
+    blocks: &[source::KeywordBlock],
     mesh_file: &str,
     mut messages: Messages,
 ) -> Result<Translation, Vec<String>> {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 /// A line of one of the files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub struct Place {
+pub struct InputPlace {
     /// Number of the file among those that were opened.
     pub file: usize,
     /// Its line, counted from 1.
@@ -15,7 +15,7 @@ pub struct Place {
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Message {
     /// Where.
-    pub place: Place,
+    pub place: InputPlace,
     /// What.
     pub text: String,
 }
@@ -44,12 +44,12 @@ impl Messages {
     }
 
     /// Something is wrong.
-    pub fn error(&mut self, place: Place, text: impl Into<String>) {
+    pub fn error(&mut self, place: InputPlace, text: impl Into<String>) {
         self.errors.insert(Message { place, text: text.into() });
     }
 
     /// Something was left out or became something else.
-    pub fn note(&mut self, place: Place, text: impl Into<String>) {
+    pub fn note(&mut self, place: InputPlace, text: impl Into<String>) {
         self.notes.insert(Message { place, text: text.into() });
     }
 
@@ -59,7 +59,7 @@ impl Messages {
     }
 
     /// Whether anything is wrong at a place.
-    pub fn has_error_at(&self, place: Place) -> bool {
+    pub fn has_error_at(&self, place: InputPlace) -> bool {
         let first = Message { place, text: String::new() };
         self.errors.range(first..).next().is_some_and(|error| error.place == place)
     }
@@ -79,7 +79,7 @@ impl Messages {
     }
 
     /// A place in words: `block.inp:12`.
-    pub fn at(&self, place: Place) -> String {
+    pub fn at(&self, place: InputPlace) -> String {
         format!("{}:{}", self.files.get(place.file).map_or("", String::as_str), place.line)
     }
 

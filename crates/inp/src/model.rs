@@ -1,7 +1,7 @@
 //! What an input deck says, with instances laid out and names resolved.
 
 use crate::elements::{Dialect, Type};
-use crate::message::Place;
+use crate::message::InputPlace;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A node.
@@ -29,7 +29,7 @@ pub struct Element {
     /// Its nodes.
     pub nodes: Vec<usize>,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
 }
 
 /// A set of nodes or elements.
@@ -49,7 +49,7 @@ pub struct Surface {
     /// Its name.
     pub name: String,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// What it consists of.
     pub kind: SurfaceKind,
 }
@@ -81,7 +81,7 @@ pub struct Profile {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Segment {
     /// Straight.
-    Line([[f64; 2]; 2]),
+    DataLine([[f64; 2]; 2]),
     /// Beginning, a point between, end.
     Arc([[f64; 2]; 3]),
     /// Beginning, middle, end.
@@ -128,7 +128,7 @@ pub struct Material {
     /// Its name.
     pub name: String,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// Modulus and Poisson's ratio.
     pub elastic: Option<[f64; 2]>,
     /// Elasticity along axes.
@@ -166,7 +166,7 @@ pub struct UserLaw {
     /// Its numbers.
     pub properties: Vec<f64>,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
 }
 
 /// A hyperelastic law and its constants: those of shape in their order, and that of volume, D1.
@@ -179,7 +179,7 @@ pub struct Rubber {
     /// D1; zero where the deck leaves it to the program.
     pub d1: f64,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
 }
 
 /// Hyperelastic laws.
@@ -211,7 +211,7 @@ pub struct Section {
     /// The name of the material's axes.
     pub orientation: Option<String>,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
 }
 
 /// A course in time.
@@ -261,7 +261,7 @@ pub struct Adjust {
 #[derive(Debug, Clone)]
 pub struct Pair {
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// The dependent surface: scope and name in capitals.
     pub slave: (usize, String),
     /// What it touches.
@@ -278,7 +278,7 @@ pub struct Pair {
 #[derive(Debug, Clone)]
 pub struct Tie {
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// The surface whose nodes follow: scope and name in capitals.
     pub slave: (usize, String),
     /// What they follow.
@@ -293,7 +293,7 @@ pub struct Tie {
 #[derive(Debug, Clone)]
 pub struct Rigid {
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// The reference node.
     pub node: usize,
     /// Node whose translations are the rotation of the body (CalculiX).
@@ -308,7 +308,7 @@ pub struct Rigid {
 
 impl Rigid {
     /// What follows a node by translation and rotation.
-    pub fn new(place: Place, node: usize, what: RigidPart) -> Self {
+    pub fn new(place: InputPlace, node: usize, what: RigidPart) -> Self {
         Self { place, node, rotation_node: None, what, distributing: false, axes: [true; 3] }
     }
 
@@ -354,7 +354,7 @@ pub enum Orientation {
 #[derive(Debug, Clone)]
 pub struct Equation {
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// Node, axis and factor.
     pub terms: Vec<(usize, usize, f64)>,
 }
@@ -375,7 +375,7 @@ pub struct Target {
 #[derive(Debug, Clone)]
 pub struct Action {
     /// Where.
-    pub place: Place,
+    pub place: InputPlace,
     /// Its course.
     pub course: Course,
     /// What.
@@ -429,7 +429,7 @@ pub struct Path {
 #[derive(Debug, Clone, Default)]
 pub struct Step {
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// Its name.
     pub name: String,
     /// Whether strains and rotations are large.
@@ -456,7 +456,7 @@ pub struct Step {
 #[derive(Debug)]
 pub struct Output {
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// Every so many increments.
     pub every: u64,
     /// What.

@@ -1,7 +1,7 @@
 //! A file and those it includes, cut into blocks: a keyword line with its parameters, and the data lines below it.
 
 use crate::keywords;
-use crate::message::{Messages, Place};
+use crate::message::{InputPlace, Messages};
 use std::cell::Cell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -12,16 +12,16 @@ const MOST_FILES: usize = 1000;
 
 /// A line of data.
 #[derive(Debug, Clone)]
-pub struct Line {
+pub struct DataLine {
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     text: Rc<str>,
     range: Range<usize>,
     /// How many of its fields were read.
     read: Cell<usize>,
 }
 
-impl Line {
+impl DataLine {
     /// A field, trimmed, without quotes; empty where the line ends before it.
     pub fn field(&self, at: usize) -> &str {
         self.read.set(self.read.get().max(at + 1));
@@ -58,18 +58,18 @@ impl Line {
 
 /// A keyword, its parameters and its data.
 #[derive(Debug, Clone)]
-pub struct Block {
+pub struct KeywordBlock {
     /// In capitals without the star, words with one blank between them.
     pub name: String,
     /// Names in capitals with their values; a flag has an empty one.
     pub parameters: Vec<(String, String)>,
     /// Where the keyword stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// The lines of data.
-    pub lines: Vec<Line>,
+    pub lines: Vec<DataLine>,
 }
 
-impl Block {
+impl KeywordBlock {
     /// The value of a parameter, if it is there and not empty.
     pub fn value(&self, name: &str) -> Option<&str> {
         let found = self.parameters.iter().find(|parameter| parameter.0 == name);
@@ -88,21 +88,21 @@ impl Block {
 }
 
 /// The blocks of a file and of those it includes, in order; what cannot be read is told.
-pub fn blocks(path: &Path, messages: &mut Messages) -> Vec<Block> {
+pub fn blocks(path: &Path, messages: &mut Messages) -> Vec<KeywordBlock> {
     let mut cutter = Cutter { blocks: vec![], open: vec![], messages };
     cutter.file(path, None);
     cutter.blocks
 }
 
 /// The blocks of a text as if it stood in the file at `path`.
-pub fn blocks_of(path: &Path, text: &str, messages: &mut Messages) -> Vec<Block> {
+pub fn blocks_of(path: &Path, text: &str, messages: &mut Messages) -> Vec<KeywordBlock> {
     let mut cutter = Cutter { blocks: vec![], open: vec![], messages };
     cutter.text(path, text);
     cutter.blocks
 }
 
 struct Cutter<'m> {
-    blocks: Vec<Block>,
+    blocks: Vec<KeywordBlock>,
     /// Files that are open, the innermost last.
     open: Vec<PathBuf>,
     messages: &'m mut Messages,
@@ -110,7 +110,7 @@ struct Cutter<'m> {
 
 impl Cutter<'_> {
     /// Cuts one file, which `from` includes.
-    fn file(&mut self, path: &Path, from: Option<Place>) {
+    fn file(&mut self, path: &Path, from: Option<InputPlace>) {
         let here = from.unwrap_or_default();
         if self.messages.files() >= MOST_FILES {
             return self.messages.error(here, format!("more than {MOST_FILES} files are included; join some of them"));
@@ -131,8 +131,8 @@ impl Cutter<'_> {
         let bytes = match read() {
             Ok(bytes) => bytes,
             Err(error) => {
-                let at =
-                    from.unwrap_or_else(|| Place { file: self.messages.open(path.display().to_string()), line: 1 });
+                let at = from
+                    .unwrap_or_else(|| InputPlace { file: self.messages.open(path.display().to_string()), line: 1 });
                 let hint = if from.is_some() {
                     "; paths count from the folder of the including file, or of the first"
                 } else {
@@ -155,12 +155,12 @@ impl Cutter<'_> {
     fn cut(&mut self, file: usize, text: &Rc<str>) {
         let mut lines = lines(text).enumerate().peekable();
         while let Some((number, range)) = lines.next() {
-            let (line, place) = (&text[range.clone()], Place { file, line: number + 1 });
+            let (line, place) = (&text[range.clone()], InputPlace { file, line: number + 1 });
             if is_skipped(line) {
                 continue;
             }
             let Some(keyword) = line.trim_start().trim_start_matches('\u{feff}').strip_prefix('*') else {
-                self.data(Line { place, text: text.clone(), range, read: Cell::new(0) });
+                self.data(DataLine { place, text: text.clone(), range, read: Cell::new(0) });
                 continue;
             };
             let mut keyword = keyword.trim().to_string();
@@ -174,7 +174,7 @@ impl Cutter<'_> {
         }
     }
 
-    fn data(&mut self, line: Line) {
+    fn data(&mut self, line: DataLine) {
         match self.blocks.last_mut() {
             Some(block) => block.lines.push(line),
             None => {
@@ -184,7 +184,7 @@ impl Cutter<'_> {
         }
     }
 
-    fn keyword(&mut self, text: &str, place: Place) {
+    fn keyword(&mut self, text: &str, place: InputPlace) {
         let mut parts = text.split(',');
         let name = words(parts.next().unwrap_or(""));
         let parameter = |part: &str| {
@@ -199,7 +199,7 @@ impl Cutter<'_> {
             let declared = keyword.and_then(|keyword| keyword.parameters.iter().find(|p| keywords::same(p.name, name)));
             *name = declared.map_or_else(|| name.clone(), |declared| declared.name.to_string());
         }
-        let block = Block { name, parameters, place, lines: vec![] };
+        let block = KeywordBlock { name, parameters, place, lines: vec![] };
         let input = block.value("INPUT").map(str::to_string);
         let is_include = block.name == "INCLUDE";
         if !is_include {

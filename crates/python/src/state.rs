@@ -9,7 +9,7 @@ use asperity::Error;
 use asperity::contact::ContactRecord;
 use asperity::deck::Made;
 use asperity::declare::nearest;
-use asperity::output::{BodyGrid, Frame, Parts, Place, Quantity, Source, cloud, global_columns, tool_outlines};
+use asperity::output::{BodyGrid, Frame, Parts, Quantity, QuantityPlace, Source, cloud, global_columns, tool_outlines};
 use asperity::solve::AttemptRecord;
 use asperity::system::State;
 use pyo3::exceptions::{PyLookupError, PyValueError};
@@ -19,12 +19,12 @@ use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 /// Where fields live, by the names that users give.
-const PLACES: [(&str, Place); 5] = [
-    ("node", Place::Node),
-    ("cell", Place::Cell),
-    ("gauss", Place::Gauss),
-    ("contact", Place::Contact),
-    ("face", Place::Face),
+const PLACES: [(&str, QuantityPlace); 5] = [
+    ("node", QuantityPlace::Node),
+    ("cell", QuantityPlace::Cell),
+    ("gauss", QuantityPlace::Gauss),
+    ("contact", QuantityPlace::Contact),
+    ("face", QuantityPlace::Face),
 ];
 
 /// What is read of a contact point.
@@ -89,11 +89,13 @@ impl Snapshot {
     }
 
     fn totals_named<'f>(frame: &'f Frame, prefix: &str) -> impl Iterator<Item = (&'f str, &'f Quantity)> {
-        frame.at(Place::Global).filter_map(move |quantity| Some((quantity.name.strip_prefix(prefix)?, quantity)))
+        frame
+            .at(QuantityPlace::Global)
+            .filter_map(move |quantity| Some((quantity.name.strip_prefix(prefix)?, quantity)))
     }
 }
 
-fn place(name: &str) -> PyResult<Place> {
+fn place(name: &str) -> PyResult<QuantityPlace> {
     let found = PLACES.iter().find(|(known, _)| *known == name);
     found.map(|(_, place)| *place).ok_or_else(|| {
         let all = PLACES.map(|(known, _)| format!("\"{known}\"")).join(", ");
@@ -266,8 +268,8 @@ impl Snapshot {
         let parts = Parts::of(&self.made.model);
         let read = || match kind {
             "bodies" => BodyGrid::new(parts.mesh).map(|grid| Some(grid.at(&mut frame))),
-            "points" => Ok(Some(cloud(&mut frame, Place::Gauss))),
-            "contacts" => Ok(Some(cloud(&mut frame, Place::Contact))),
+            "points" => Ok(Some(cloud(&mut frame, QuantityPlace::Gauss))),
+            "contacts" => Ok(Some(cloud(&mut frame, QuantityPlace::Contact))),
             "tools" => Ok(Some(tool_outlines(&self.source(&parts), &frame))),
             _ => Ok(None),
         };

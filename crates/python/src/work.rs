@@ -8,7 +8,7 @@ use crate::trouble::{exception, guarded, raised, raised_with, warn};
 use asperity::Error;
 use asperity::deck::Made;
 use asperity::diagnosis::Facts;
-use asperity::output::{Claim, Job, Others, Start, Status, Summary, resumed};
+use asperity::output::{Job, Others, ResultsClaim, RunStatus, Start, Summary, resumed};
 use asperity::solve::{AttemptRecord, Silent};
 use asperity::system::State;
 use pyo3::exceptions::PyValueError;
@@ -36,7 +36,7 @@ pub struct Inner {
     /// None when the run has ended.
     pub course: Option<Course>,
     /// The right to write into the directory.
-    pub claim: Option<Claim>,
+    pub claim: Option<ResultsClaim>,
     pub out: Option<PathBuf>,
     pub facts: Facts,
     pub report: bool,
@@ -73,11 +73,11 @@ impl Wanted {
 }
 
 /// Claims the result directory and writes what was asked into it.
-pub fn claimed(model: &Model, wanted: &Wanted, out: &Path) -> Result<Claim, Error> {
+pub fn claimed(model: &Model, wanted: &Wanted, out: &Path) -> Result<ResultsClaim, Error> {
     if wanted.restart {
         Job::checkpoint_in(out)?;
     }
-    let claim = Claim::take(out, &model.path, Others::Replace)?;
+    let claim = ResultsClaim::take(out, &model.path, Others::Replace)?;
     if let Some(translated) = &model.translated {
         translated.write(out)?;
     }
@@ -127,7 +127,7 @@ impl Inner {
         let finished = py.detach(|| {
             let finish = || course.with_dependent_mut(|_, simulation| simulation.finish(ended, facts));
             let (mut summary, ended) = guarded(|| rayon::scope(|_| finish())).and_then(|finished| finished)?;
-            if let Some(out) = out.filter(|_| summary.status != Status::FileError) {
+            if let Some(out) = out.filter(|_| summary.status != RunStatus::FileError) {
                 guarded(|| report::conclude(&mut summary, out))?;
             }
             Ok((summary, ended))
@@ -136,7 +136,7 @@ impl Inner {
         let (summary, ended) = finished.map_err(|error: Error| raised(py, &error))?;
         let told = match &ended {
             Err(error) if tells => Err(self.failure(py, error, &summary)),
-            Ok(()) if tells && summary.status == Status::Doubtful => self.doubt(py, &summary),
+            Ok(()) if tells && summary.status == RunStatus::Doubtful => self.doubt(py, &summary),
             _ => Ok(()),
         };
         self.summary = Some(summary);

@@ -2,7 +2,7 @@
 
 use crate::folder::Folder;
 use crate::html::{definitions, escape};
-use asperity_results::output::{FIGURES, Status};
+use asperity_results::output::{FIGURES, RunStatus};
 use std::fmt::Write;
 
 /// What the page is called.
@@ -49,15 +49,15 @@ pub fn all(folder: &Folder, live: bool) -> String {
 /// How the run stands, in a word and a class of the style.
 fn standing(folder: &Folder) -> (&'static str, &'static str) {
     match folder.summary.status {
-        Status::Running if folder.runs => ("running", "going"),
-        Status::Running => ("broken off without a word", "bad"),
-        Status::Converged => ("converged", "good"),
-        Status::Doubtful => ("doubtful", "doubt"),
-        Status::NotConverged => ("not converged", "bad"),
-        Status::Stopped => ("stopped on request", "doubt"),
-        Status::InputError => ("wrong input", "bad"),
-        Status::FileError => ("broken off at a file", "bad"),
-        Status::InternalError => ("ended by a fault of the program", "bad"),
+        RunStatus::Running if folder.runs => ("running", "going"),
+        RunStatus::Running => ("broken off without a word", "bad"),
+        RunStatus::Converged => ("converged", "good"),
+        RunStatus::Doubtful => ("doubtful", "doubt"),
+        RunStatus::NotConverged => ("not converged", "bad"),
+        RunStatus::Stopped => ("stopped on request", "doubt"),
+        RunStatus::InputError => ("wrong input", "bad"),
+        RunStatus::FileError => ("broken off at a file", "bad"),
+        RunStatus::InternalError => ("ended by a fault of the program", "bad"),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Outcome, print, translate};
 use crate::arguments::Info;
 use crate::exit::{Exit, tell};
-use asperity::mesh::lint::{self, Severity};
+use asperity::mesh::lint::{self, LintSeverity};
 use asperity::mesh::{Mesh, formats};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -25,14 +25,14 @@ pub fn info(arguments: &Info) -> Outcome {
     }
     for finding in &findings {
         let word = match finding.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
+            LintSeverity::Error => "error",
+            LintSeverity::Warning => "warning",
+            LintSeverity::Note => "note",
         };
         let _ = writeln!(text, "{word}: {}", finding.text);
     }
     print(&text)?;
-    let problems = findings.iter().any(|finding| finding.severity != Severity::Note);
+    let problems = findings.iter().any(|finding| finding.severity != LintSeverity::Note);
     Ok(if problems { Exit::Problems } else { Exit::Done })
 }
 

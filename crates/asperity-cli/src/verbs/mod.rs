@@ -32,7 +32,7 @@ use crate::arguments;
 use crate::exit::{Exit, Trouble, tell};
 use asperity::deck::{self, Loaded, Made};
 use asperity::error::visible;
-use asperity::output::{Claim, Others};
+use asperity::output::{Others, ResultsClaim};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use translate::Translated;
@@ -78,9 +78,9 @@ fn made_quietly(arguments: &arguments::Deck) -> Result<(Made, Option<Translated>
 }
 
 /// The result directory of a deck, which is claimed for it.
-fn claim(out: Option<&Path>, deck: &Path) -> Result<(PathBuf, Claim), asperity::Error> {
+fn claim(out: Option<&Path>, deck: &Path) -> Result<(PathBuf, ResultsClaim), asperity::Error> {
     let directory = out.map_or_else(|| results_of(deck), Path::to_path_buf);
-    let claim = Claim::take(&directory, deck, if out.is_some() { Others::Replace } else { Others::Spare })?;
+    let claim = ResultsClaim::take(&directory, deck, if out.is_some() { Others::Replace } else { Others::Spare })?;
     Ok((directory, claim))
 }
 

@@ -4,7 +4,7 @@ use super::{Outcome, claim, print};
 use crate::arguments::Point;
 use crate::exit::tell;
 use asperity::deck;
-use asperity::point::{TangentCheck, draw, write};
+use asperity::point::{PointTangentCheck, draw, write};
 
 /// Runs the deck of a point, writes its tables and pictures, and says what it wrote.
 pub fn point(arguments: &Point) -> Outcome {
@@ -24,8 +24,8 @@ pub fn point(arguments: &Point) -> Outcome {
 }
 
 /// What differences say of a law's tangents, in a line.
-fn compared((name, check): &(String, TangentCheck)) -> String {
-    let TangentCheck { worst, time, columns, corners } = check;
+fn compared((name, check): &(String, PointTangentCheck)) -> String {
+    let PointTangentCheck { worst, time, columns, corners } = check;
     let corners = if *corners > 0 { format!("; {corners} more at corners of the law") } else { String::new() };
     format!("{name}: tangent within {worst:.1e} of differences, worst at the time {time}, {columns} columns{corners}\n")
 }

@@ -10,7 +10,7 @@ use asperity::Error;
 use asperity::deck::Made;
 #[cfg(feature = "cluster")]
 use asperity::output::Simulation;
-use asperity::output::{CHECKPOINT, Job, Resume, SUMMARY, Start, Status, Summary, branch, resumed, simulate};
+use asperity::output::{CHECKPOINT, Job, Resume, RunStatus, SUMMARY, Start, Summary, branch, resumed, simulate};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -163,7 +163,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&a
     let (mut summary, ended) = simulated?;
     // A restart of a run that had come to its end writes nothing, but for a note that only the screen gets.
     let written = Summary::read(&directory.join(SUMMARY)).is_ok_and(|told| told.notes == summary.notes);
-    if !arguments.no_report && written && summary.status != Status::FileError {
+    if !arguments.no_report && written && summary.status != RunStatus::FileError {
         report::conclude(&mut summary, &directory);
     }
     match voice {
@@ -171,7 +171,7 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&a
         Voice::Json => print(&format!("{}\n", json!({ "event": "end", "directory": directory, "summary": summary })))?,
         Voice::Quiet => Exit::Done,
     };
-    let exit = if summary.status == Status::Doubtful { Exit::Doubtful } else { Exit::Done };
+    let exit = if summary.status == RunStatus::Doubtful { Exit::Doubtful } else { Exit::Done };
     ended.map(|()| exit).map_err(Trouble::from)
 }
 

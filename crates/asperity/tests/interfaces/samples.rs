@@ -48,15 +48,16 @@ pub fn samples() -> Vec<Sample> {
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
         let most = |record: &Record, name: &str| record.column(name).unwrap().into_iter().fold(0.0, f64::max);
         let penalty = loaded.deck.penalty;
-        let sample = |((name, law), record): (&(asperity::deck::Name, asperity::deck::form::Law<_>), &Record)| Sample {
-            name: format!("{} of {stem}.{name}", law.entry.name),
-            law: law.entry.name,
-            interface: law.build().unwrap(),
-            penalties: [penalty, loaded.deck.tangential_penalty.unwrap_or(0.7 * penalty)],
-            pressure: most(record, "pressure"),
-            slip: most(record, "slip"),
-            time: most(record, "time"),
-        };
+        let sample =
+            |((name, law), record): (&(asperity::deck::Name, asperity::deck::form::ChosenLaw<_>), &Record)| Sample {
+                name: format!("{} of {stem}.{name}", law.entry.name),
+                law: law.entry.name,
+                interface: law.build().unwrap(),
+                penalties: [penalty, loaded.deck.tangential_penalty.unwrap_or(0.7 * penalty)],
+                pressure: most(record, "pressure"),
+                slip: most(record, "slip"),
+                time: most(record, "time"),
+            };
         loaded.deck.interface.iter().zip(&records).map(sample).collect::<Vec<_>>()
     };
     decks().iter().flat_map(of).collect()

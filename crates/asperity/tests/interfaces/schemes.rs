@@ -125,7 +125,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 #[test]
 fn the_state_of_a_gouge_is_carried_with_second_order() {
     use asperity::interface::Past;
-    use asperity::interface::laws::{Course, Evolution, RateState};
+    use asperity::interface::laws::{Evolution, RateState, StateCourse};
     let (distance_c, pressure, velocity) = (1e-5, 1e7, 1e-6);
     for evolution in [Evolution::Ageing, Evolution::Slip] {
         let law = RateState {
@@ -137,7 +137,7 @@ fn the_state_of_a_gouge_is_carried_with_second_order() {
             state: 1.0,
             damping: 0.0,
             law: evolution,
-            course: Course::Exact,
+            course: StateCourse::Exact,
         };
         let stiffness = 20.0 * 0.015 * pressure / distance_c;
         let end = |scheme: Scheme, substeps: usize| {

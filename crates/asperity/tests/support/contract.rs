@@ -2,7 +2,7 @@
 
 use asperity::solve::{LinearError, LinearSolver, Unknowns};
 use asperity::system::{Csr, Dofs};
-use frontal::Change;
+use frontal::LowRankChange;
 use std::sync::Arc;
 
 /// What a preconditioner may miss of a solution.
@@ -124,7 +124,8 @@ pub fn hold(solver: &mut dyn LinearSolver, direct: bool) {
         }
     }
     let forces = rows.iter().map(|(unknown, _)| vec![(*unknown, 1.0)]).collect();
-    let change = Change::new(forces, rows.into_iter().map(|(_, row)| row).collect(), capacitance).expect("a change");
+    let change =
+        LowRankChange::new(forces, rows.into_iter().map(|(_, row)| row).collect(), capacitance).expect("a change");
     let mut x = grid.product(&changed, &expected);
     solver.precondition(Some(&change), &mut x).expect("a substitution");
     assert!(apart(&x, &expected) < FEW_DIGITS, "{:.1e}", apart(&x, &expected));

@@ -8,7 +8,7 @@ use super::surface::{Placed, Surface};
 use crate::mesh::Mesh;
 use crate::system::{Dofs, History, Interpenetration};
 use crate::tensor::Vec3;
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
@@ -521,7 +521,7 @@ impl Look<'_> {
     }
 
     pub(super) fn refusal(&self, found: &Found) -> Failure {
-        Failure::new(self.words(found)).of(Kind::Passage)
+        Failure::new(self.words(found)).of(FailureKind::Passage)
     }
 
     fn words(&self, found: &Found) -> String {

@@ -1,7 +1,7 @@
 //! Augmentation after Uzawa: multipliers take out what the penalties leave of penetration and elastic slip (Hestenes 1969; Simo & Laursen,
 //! Comput. Struct. 42, 1992).
 
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 
 /// How far a contact is augmented. Lengths are parts of the size of the surface's element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +40,6 @@ impl Augmentation {
              at its nodes",
             left.penetration, left.slip
         ))
-        .of(Kind::Multipliers))
+        .of(FailureKind::Multipliers))
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::system::State;
 use crate::tensor::Scalar;
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 use std::f64::consts::FRAC_PI_2;
 
 /// A point counts as closed from this part of the shortest edge on. One depth for all points: a flat surface
@@ -27,7 +27,7 @@ pub fn reach(longest: f64, last_change: &[f64]) -> f64 {
 pub fn refuse_jump(penetration: f64, depth: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
     if penetration > 0.25 * depth {
         let reason = format!("{} came to lie {penetration:.3e} deep in one increment", name());
-        return Err(Failure::new(reason).of(Kind::Passage));
+        return Err(Failure::new(reason).of(FailureKind::Passage));
     }
     Ok(())
 }
@@ -38,7 +38,7 @@ pub fn refuse_turn(turned: f64, name: impl FnOnce() -> String) -> Result<(), Fai
     if turned.abs() > FRAC_PI_2 {
         let degrees = turned.abs().to_degrees();
         let reason = format!("{}: its tool turned by {degrees:.0} degrees in one increment", name());
-        return Err(Failure::new(reason).of(Kind::Turn));
+        return Err(Failure::new(reason).of(FailureKind::Turn));
     }
     Ok(())
 }

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -261,7 +261,7 @@ impl External {
                 let de = (*f - Tensor2::identity()).sym();
                 return Ok(Turn { de, q: Tensor2::identity(), memory: Tensor2::zero() });
             }
-            _ if f.det().re() <= 0.0 => return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted)),
+            _ if f.det().re() <= 0.0 => return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted)),
             Frame::Jaumann => {
                 let (de, q) = hughes_winget(f);
                 return Ok(Turn { de, q, memory: Tensor2::zero() });
@@ -338,7 +338,7 @@ impl External {
     }
 
     fn blamed(&self, failure: Failure) -> Failure {
-        failure.at(self.law.name()).of(Kind::Material)
+        failure.at(self.law.name()).of(FailureKind::Material)
     }
 
     /// The stress that a tensor makes by the tangent.

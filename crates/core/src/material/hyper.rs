@@ -6,7 +6,7 @@ use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Material, Spin, Variable, VariableKind};
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 
 /// An isotropic law between `b` and the Cauchy stress.
 pub trait HyperLaw: Clone + Send + Sync + 'static {
@@ -55,7 +55,7 @@ pub(super) fn left_cauchy_green(state: &[f64]) -> Tensor2 {
 /// `f b_n` and `b = f b_n f^T`.
 fn carried(f: &Tensor2, old: &[f64]) -> Result<(Tensor2, Tensor2), Failure> {
     if f.det() <= 0.0 {
-        return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
+        return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
     }
     let half = *f * left_cauchy_green(old);
     let b = |i: usize, j: usize| Vec3(half.0[i]).dot(Vec3(f.0[j]));

@@ -19,7 +19,7 @@ use super::rate::INSIDE_OUT;
 use super::{Directions, Gradient, Hyper, Material, Spin, Variable, VariableKind};
 use crate::integrate::Update;
 use crate::tensor::{Scalar, Tensor2};
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 use libm::erf;
 
 /// Most terms of a Prony series.
@@ -158,7 +158,7 @@ impl<L: HyperLaw> Advance for Remembering<L> {
     fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
         let det = f.det();
         if det.re() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
+            return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
         }
         let b = (*f * left_cauchy_green(old).lift() * f.transpose()).sym();
         let j = b.det().sqrt();

@@ -12,7 +12,7 @@ use super::law::{self, Differentiate};
 use super::{Directions, Flow, Gradient, Material, SmallStrain, Spin, Turned, Variable, Vars};
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 
 /// A law between the strain increment of an objective frame and the rotated stress.
 pub trait RateLaw: Clone + Send + Sync + 'static {
@@ -148,7 +148,7 @@ impl<L: RateLaw> Differentiate for Rate<L> {
         directions: Directions,
     ) -> Result<(), Failure> {
         if f.det() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
+            return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
         }
         let (stress, places) = (stress_of(old), directions.components());
         if N == 9 {
@@ -196,7 +196,7 @@ impl<L: RateLaw> Material for Rate<L> {
 
     fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         if f.det() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
+            return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
         }
         self.update_in(&Frame::of(f, &stress_of(old)), dt, old, new)
     }

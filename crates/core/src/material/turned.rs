@@ -12,7 +12,7 @@ use super::{
 };
 use crate::integrate::Update;
 use crate::tensor::{Scalar, Tensor2};
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 
 /// The spin of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,7 +58,7 @@ impl<L: RateLaw> Turned<L> {
 impl<L: RateLaw> Advance for Turned<L> {
     fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
         if f.det().re() <= 0.0 {
-            return Err(Failure::new(INSIDE_OUT).of(Kind::Inverted));
+            return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
         }
         let at = self.memory_at();
         let memory = Tensor2::from_voigt(std::array::from_fn(|i| old[at + i]));

@@ -15,7 +15,7 @@ mod thickness;
 mod unstructured;
 
 pub use boundary::{Behind, Faces};
-pub use cells::{Cell, Face, Rule};
+pub use cells::{Cell, Face, Quadrature};
 pub use flat::{ROUNDING, flat_normal, unit};
 pub use groups::{Group, Side};
 pub use measure::Adjacency;

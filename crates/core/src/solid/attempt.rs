@@ -12,7 +12,7 @@ use crate::mesh::Space;
 use crate::mesh::cells::MAX_NODES;
 use crate::system::{Attempt, Branch, History, Local, State, Stencil, Stencils, Term};
 use crate::tensor::Tensor2;
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 use rayon::prelude::*;
 
 /// Cells whose gradients one thread finds together.
@@ -75,7 +75,7 @@ impl Body {
         let x = if shapes.modes > 0 { self.undeformed(view.nodes) } else { self.present(view.nodes, u) };
         let nodes = view.nodes.len();
         if !shapes.points.iter().all(|shapes| gradients.push(shapes, &x[..nodes], self.space)) {
-            return Err(Failure::new(self.inverted(cell)).of(Kind::Inverted));
+            return Err(Failure::new(self.inverted(cell)).of(FailureKind::Inverted));
         }
         let (rows, volumes) = gradients.present();
         take_mean(rows, volumes, (padded(nodes + shapes.modes), nodes..nodes + shapes.modes));
@@ -304,6 +304,6 @@ fn trace(state: &[f64]) -> f64 {
 
 /// The failure of a law at an integration point, counted from zero.
 fn at_point(failure: Failure, number: usize) -> Failure {
-    let kind = if failure.kind == Kind::Other { Kind::Material } else { failure.kind };
+    let kind = if failure.kind == FailureKind::Other { FailureKind::Material } else { failure.kind };
     failure.of(kind).at(format_args!("integration point {}", number + 1))
 }

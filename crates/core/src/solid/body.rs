@@ -9,7 +9,7 @@ use super::slenderness::Slenderness;
 use super::volume::Places;
 use super::{BodyOptions, Choice, CylinderAxes, Formulation, Heat, InitialStress, Integration};
 use crate::material::{Material, Placement};
-use crate::mesh::cells::{Cell, Rule};
+use crate::mesh::cells::{Cell, Quadrature};
 use crate::mesh::{Mesh, Space};
 use crate::system::{Attempt, Dofs, History, Instant, State, Term};
 use crate::{Error, Failure};
@@ -207,7 +207,7 @@ impl Body {
         &self.material
     }
     /// Quadrature of a cell of the body.
-    pub fn rule(&self, kind: &'static Cell) -> &'static Rule {
+    pub fn rule(&self, kind: &'static Cell) -> &'static Quadrature {
         match self.options.integration {
             Integration::Full => kind.full,
             Integration::Reduced => kind.reduced.unwrap_or(kind.full),

@@ -21,7 +21,7 @@ use crate::mesh::Space;
 use crate::mesh::cells::Cell;
 use crate::system::Local;
 use crate::tensor::{Tensor2, Vec3, invert};
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 
 /// Most modes of a cell.
 const MOST: usize = 3;
@@ -242,7 +242,7 @@ impl OpenBody<'_> {
             let f = deformation(&carried_rows(&point.undeformed, &cell.mean, &by), &accepted) + by;
             let det = f.det();
             if det.is_nan() || det <= 0.0 {
-                return Err(Failure::new("a cell is turned inside out").of(Kind::Inverted));
+                return Err(Failure::new("a cell is turned inside out").of(FailureKind::Inverted));
             }
             point.inverse = f.inverse();
             point.volume *= det;
@@ -312,7 +312,7 @@ impl OpenBody<'_> {
         Err(Failure::new(
             "the incompatible modes find no equilibrium: the law has no stiffness there, or not that of its stress",
         )
-        .of(Kind::Material))
+        .of(FailureKind::Material))
     }
 }
 

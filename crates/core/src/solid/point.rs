@@ -10,7 +10,7 @@ use super::piola::{Derivative, VOIGT, first_piola, place};
 use crate::material::{Directions, Gradient, Material};
 use crate::mesh::Space;
 use crate::tensor::Tensor2;
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 
 /// `P` and its derivatives along the `D` components of f that vary and along the shared change of volume `theta`.
 pub struct PointStress<const D: usize> {
@@ -128,7 +128,7 @@ impl PointLaw<'_> {
     fn admissible(&self, f: &Tensor2) -> Result<f64, Failure> {
         let det = f.det();
         let fine = det > 0.0 && self.shared.is_none_or(|theta| theta > 0.0);
-        if fine { Ok(det) } else { Err(Failure::new("a cell is turned inside out").of(Kind::Inverted)) }
+        if fine { Ok(det) } else { Err(Failure::new("a cell is turned inside out").of(FailureKind::Inverted)) }
     }
 
     /// New state, and in `out` `P` and its derivatives.

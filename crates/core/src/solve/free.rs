@@ -5,11 +5,11 @@ use super::linear::LinearError;
 use super::newton::{IfFree, Newton, SolveError, largest};
 use super::observer::AttemptRecord;
 use crate::system::Tangent;
-use crate::{Error, Failure, Kind};
+use crate::{Error, Failure, FailureKind};
 
 /// The failure that motions without stiffness are, in words.
 fn unheld(text: String) -> Failure {
-    let kind = if text.contains("deforms without resistance") { Kind::Hourglass } else { Kind::Free };
+    let kind = if text.contains("deforms without resistance") { FailureKind::Hourglass } else { FailureKind::Free };
     Failure::new(text).of(kind)
 }
 

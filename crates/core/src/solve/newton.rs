@@ -14,7 +14,7 @@ use super::schedule::Step;
 use super::semismooth::MipStress;
 use super::step::forcing;
 use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace};
-use crate::{Error, Failure, Kind};
+use crate::{Error, Failure, FailureKind};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -305,7 +305,7 @@ impl<'a> Newton<'a> {
             self.bound = SLOPE;
         }
         self.memory.unborne = self.unborne();
-        let kind = if sequence.cycles.cycle().is_some() { Kind::Cycle } else { Kind::Iterations };
+        let kind = if sequence.cycles.cycle().is_some() { FailureKind::Cycle } else { FailureKind::Iterations };
         Err(Failure::new(self.why_not(record, &sequence.cycles)).of(kind).into())
     }
 
@@ -352,7 +352,7 @@ impl<'a> Newton<'a> {
                 return Ok(Some(norms));
             }
             if !norms.ratio.is_finite() {
-                return Err(Failure::new("the forces are not finite").of(Kind::NotFinite).into());
+                return Err(Failure::new("the forces are not finite").of(FailureKind::NotFinite).into());
             }
             let since = iteration - sequence.begun;
             if main {

@@ -1,7 +1,7 @@
 //! What a run tells while it goes: the library prints nothing.
 
 use super::{Turn, Worst};
-use crate::Kind;
+use crate::FailureKind;
 use crate::system::State;
 
 /// One iteration.
@@ -57,7 +57,7 @@ pub struct AttemptRecord {
     /// Why it was given up, if it was.
     pub failure: Option<String>,
     /// What of.
-    pub kind: Kind,
+    pub kind: FailureKind,
     /// Whether it went through a bifurcation or a limit point.
     pub turn: Option<Turn>,
 }

@@ -11,7 +11,7 @@ use super::schedule::{SMALLEST, Step};
 use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability};
 use crate::system::{Caution, Energies, Interpenetration, State};
-use crate::{Error, Failure, Kind};
+use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
 
 /// Options of a run.
@@ -45,7 +45,7 @@ pub struct Run<'a> {
     /// What was held still first that nothing held, in words, and when.
     pub first_held: Option<(String, f64)>,
     /// What the run failed of, if it did.
-    pub ended: Kind,
+    pub ended: FailureKind,
     system: LinearSystem,
     /// Whether the first state is known to be one of the problem.
     fits: bool,
@@ -68,7 +68,7 @@ impl<'a> Run<'a> {
             audited: Duration::ZERO,
             stability: Stability::default(),
             first_held: None,
-            ended: Kind::Other,
+            ended: FailureKind::Other,
             system: LinearSystem::new(solver, problem.newton.policy(), problem.dofs.clone()),
             fits: false,
         }
@@ -115,7 +115,7 @@ impl<'a> Run<'a> {
         self.check_state()?;
         let Some(step) = self.problem.steps.get(self.state.step) else { return Ok(None) };
         if self.state.step_increment >= step.increments.most {
-            self.ended = Kind::TooMany;
+            self.ended = FailureKind::TooMany;
             return Err(self.too_many(step));
         }
         if let Some(until) = step.arc_length.as_ref().and_then(|arc| arc.until.as_ref())

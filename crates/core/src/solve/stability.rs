@@ -170,7 +170,7 @@ impl Stability {
     /// Takes the signs of the factor there is.
     fn count(&mut self, state: &mut State, look: &mut Look) -> Option<Turn> {
         let (problem, record) = (look.problem, look.record);
-        let frontal::Signs { symmetric, mut negative } = look.system.signs()?;
+        let frontal::PivotSigns { symmetric, mut negative } = look.system.signs()?;
         let more = look.sprung.as_ref().map_or(0, Sprung::more);
         negative = if symmetric { negative + more } else { (negative + more) % 2 };
         let constraints = look.constraints();

@@ -3,7 +3,7 @@
 use super::Builder;
 use super::bodies::NONE;
 use crate::diagnose::Diagnostic;
-use crate::keys::Step;
+use crate::keys::StepKeys;
 use crate::reader::Name;
 use asperity_core::contact::second_name;
 use asperity_core::mesh::Group;
@@ -140,7 +140,7 @@ impl Builder<'_> {
     }
 
     /// Whether a load acts on these bodies alone; one that acts on others too is refused.
-    fn load_is_on(&mut self, term: &str, (owner, bodies): (&[usize], &BTreeSet<usize>), step: &Step) -> bool {
+    fn load_is_on(&mut self, term: &str, (owner, bodies): (&[usize], &BTreeSet<usize>), step: &StepKeys) -> bool {
         let mesh = self.site.mesh.clone();
         let Some((kind, name)) = term.split_once('.').filter(|_| !bodies.is_empty()) else { return false };
         let Some(group) = mesh.groups.get(name) else { return false };

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{Body as BodyKeys, ObjectiveRate, completed, integrated};
+use crate::keys::{BodyKeys, ObjectiveRate, completed, integrated};
 use crate::reader::Name;
 use asperity_core::material::Material;
 use asperity_core::solid::{Body, BodyOptions, Heat, Strain};

@@ -272,7 +272,7 @@ impl Builder<'_> {
                 passes.place,
             );
         }
-        let perturbed = self.deck.solver.tangent == keys::Tangent::Perturbation;
+        let perturbed = self.deck.solver.tangent == keys::TangentWord::Perturbation;
         if let Some(coupling) = keys.coupling.filter(|coupling| perturbed && !coupling.value) {
             self.refuse(
                 "a perturbed tangent holds the coupling: `coupling = false` needs tangent = \"exact\"",
@@ -311,7 +311,7 @@ pub(crate) fn backings<'b>(mesh: &Mesh, deck: &keys::Deck, bodies: impl IntoIter
 }
 
 /// The whole outer boundary of what hangs together with the cells behind the sides, in whatever groups.
-pub(super) fn boundary_behind(mesh: &Mesh, sides: &[Side], bodies: &[(Name, keys::Body)]) -> Vec<Side> {
+pub(super) fn boundary_behind(mesh: &Mesh, sides: &[Side], bodies: &[(Name, keys::BodyKeys)]) -> Vec<Side> {
     let groups = bodies.iter().filter_map(|(name, _)| mesh.groups.get(&name.text));
     model::boundary_behind(mesh, sides, groups.flat_map(|group| group.cells.iter().copied()))
 }

@@ -37,7 +37,7 @@ impl Builder<'_> {
         (first, closure): (Arc<dyn Interface>, Option<Arc<Closure>>),
     ) -> Option<Rule> {
         let steps = &self.deck.step;
-        let said = |step: &'_ keys::Step| step.friction.iter().find(|(other, _)| other.text == name.text).cloned();
+        let said = |step: &'_ keys::StepKeys| step.friction.iter().find(|(other, _)| other.text == name.text).cloned();
         let Some((place, _)) = steps.iter().find_map(said).map(|(name, keys)| (name.place, keys)) else {
             return Some(first.into());
         };
@@ -49,7 +49,7 @@ impl Builder<'_> {
             self.found.push(Diagnostic::error(what).at(place).help(help));
             return None;
         };
-        let change = |step: &keys::Step| match said(step) {
+        let change = |step: &keys::StepKeys| match said(step) {
             Some((_, keys)) => Change::To(keys.value, keys.amplitude),
             None => Change::Keep,
         };

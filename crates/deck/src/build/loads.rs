@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{Components, Pressure, PressureKind, Step, ToolCondition};
+use crate::keys::{Components, Pressure, PressureKind, StepKeys, ToolCondition};
 use crate::reader::Name;
 use crate::source::Spot;
 use asperity_core::amplitude::{Amplitude, Change, Timeline};
@@ -17,10 +17,10 @@ use std::sync::Arc;
 type Terms = Vec<Box<dyn Term>>;
 
 /// The conditions of one kind that a step says.
-type Said<T> = fn(&Step) -> &[(Name, T)];
+type Said<T> = fn(&StepKeys) -> &[(Name, T)];
 
 /// Names in the order in which the steps say them first.
-fn names<'d, T: 'd>(steps: &'d [Step], said: Said<T>) -> Vec<&'d Name> {
+fn names<'d, T: 'd>(steps: &'d [StepKeys], said: Said<T>) -> Vec<&'d Name> {
     let mut names: Vec<&Name> = Vec::new();
     for (name, _) in steps.iter().flat_map(said) {
         if !names.iter().any(|known| known.text == name.text) {
@@ -33,12 +33,12 @@ fn names<'d, T: 'd>(steps: &'d [Step], said: Said<T>) -> Vec<&'d Name> {
 /// The course of one value of a condition over the steps. `value` picks it from what a step says; nothing leaves it as
 /// it is.
 fn timeline<T>(
-    steps: &[Step],
+    steps: &[StepKeys],
     (kind, name): (&str, &str),
     said: Said<T>,
     value: impl Fn(&T) -> Option<(f64, Amplitude)>,
 ) -> Timeline {
-    let change = |step: &Step| {
+    let change = |step: &StepKeys| {
         let new = said(step).iter().find(|(other, _)| other.text == name).and_then(|(_, keys)| value(keys));
         match new {
             Some((value, amplitude)) => Change::To(value, amplitude),
@@ -130,7 +130,7 @@ impl<'d> Builder<'d> {
         }
         let term = |(name, density): (&Name, Spot<f64>)| {
             let weight = |axis: usize| {
-                let change = |step: &Step| {
+                let change = |step: &StepKeys| {
                     let said = step.gravity.as_ref().and_then(|g| Some((g.components()[axis]?, g.amplitude.clone())));
                     said.map_or(Change::Keep, |(value, amplitude)| Change::To(value * density.value, amplitude))
                 };

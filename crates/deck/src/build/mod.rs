@@ -219,7 +219,7 @@ impl Builder<'_> {
         (parts.contacts, parts.field_contacts) = (contacts?, field_contacts?);
         (parts.springs, parts.loads, parts.fluids) = (springs?, loads?, fluids?);
         parts.bearing = std::mem::take(&mut self.bearing);
-        let step = |((i, keys), (constraints, prescribed)): ((usize, &keys::Step), Held)| {
+        let step = |((i, keys), (constraints, prescribed)): ((usize, &keys::StepKeys), Held)| {
             let name = keys.name.as_ref().map_or_else(|| format!("step {}", i + 1), |name| name.value.clone());
             let mut step = Step::new(&name, constraints, prescribed);
             (step.duration, step.increments) = (keys.duration, increments(&keys.increments));
@@ -281,7 +281,7 @@ impl Builder<'_> {
     }
 }
 
-fn increments(keys: &keys::Increments) -> Increments {
+fn increments(keys: &keys::IncrementKeys) -> Increments {
     let (first, largest) = keys.sizes();
     Increments { first, largest, smallest: keys.smallest.value, most: keys.most }
 }

@@ -2,13 +2,13 @@
 
 use super::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{Control, Step};
+use crate::keys::{ControlWord, StepKeys};
 use asperity_core::solve::{ArcLength, Until};
 
 impl Builder<'_> {
     /// How a step follows a path, if it does.
-    pub(super) fn path(&mut self, step: &Step) -> Option<ArcLength> {
-        if step.control.value == Control::Time {
+    pub(super) fn path(&mut self, step: &StepKeys) -> Option<ArcLength> {
+        if step.control.value == ControlWord::Time {
             return None;
         }
         let until = step.until.as_ref().and_then(|until| {

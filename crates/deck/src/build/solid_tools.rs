@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{FacetKeys, Segment, StlKeys, ToolKeys};
+use crate::keys::{FacetKeys, SegmentKeys, StlKeys, ToolKeys};
 use crate::reader::Name;
 use crate::source::{Place, Spot};
 use asperity_core::tensor::Vec3;
@@ -54,7 +54,7 @@ impl Builder<'_> {
     }
 
     /// A profile that is revolved or extruded, judged as a profile first.
-    fn swept(&mut self, name: &Name, keys: &ToolKeys, profile: &Spot<Vec<Segment>>) -> Option<Facets> {
+    fn swept(&mut self, name: &Name, keys: &ToolKeys, profile: &Spot<Vec<SegmentKeys>>) -> Option<Facets> {
         let (segments, _) = self.segments(profile, keys)?;
         let (again, places) = self.segments(profile, keys)?;
         let flat = tool::ProfileTool::new(&name.text, vec![again], Vec3::zero());

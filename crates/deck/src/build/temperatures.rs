@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{Step, Temperature as Keys};
+use crate::keys::{StepKeys, TemperatureKeys as Keys};
 use crate::reader::Name;
 use asperity_core::amplitude::{Change, Timeline};
 use asperity_core::solid::Temperature;
@@ -25,7 +25,7 @@ impl Builder<'_> {
             .iter()
             .map(|step| step.temperature.iter().map(|(name, keys)| self.warmed(body, name, keys)).collect())
             .collect();
-        let named = |(step, values): (&Step, &Vec<BTreeMap<usize, f64>>)| {
+        let named = |(step, values): (&StepKeys, &Vec<BTreeMap<usize, f64>>)| {
             let all = step.temperature.iter().zip(values).filter(|(_, values)| !values.is_empty());
             all.map(|((name, keys), _)| name.text == body && keys.value.is_some()).collect::<Vec<_>>()
         };
@@ -101,9 +101,9 @@ impl Builder<'_> {
 }
 
 /// What the steps say of a node; of several names in a step the last holds.
-fn course<'s>(steps: &'s [Step], values: &[Vec<BTreeMap<usize, f64>>], node: usize) -> Vec<Said> {
+fn course<'s>(steps: &'s [StepKeys], values: &[Vec<BTreeMap<usize, f64>>], node: usize) -> Vec<Said> {
     let mut owner: Option<&str> = None;
-    let said = |(step, values): (&'s Step, &Vec<BTreeMap<usize, f64>>)| {
+    let said = |(step, values): (&'s StepKeys, &Vec<BTreeMap<usize, f64>>)| {
         let last = values.iter().enumerate().rev().find_map(|(number, values)| Some((number, values.get(&node)?)));
         if let Some((number, value)) = last {
             owner = Some(step.temperature[number].0.text.as_str());
@@ -120,8 +120,8 @@ fn course<'s>(steps: &'s [Step], values: &[Vec<BTreeMap<usize, f64>>], node: usi
     steps.iter().zip(values).map(said).collect()
 }
 
-fn timeline(steps: &[Step], said: &[Said]) -> Timeline {
-    let change = |(step, said): (&Step, &Said)| {
+fn timeline(steps: &[StepKeys], said: &[Said]) -> Timeline {
+    let change = |(step, said): (&StepKeys, &Said)| {
         let change = match *said {
             Said::Nothing => Change::Keep,
             Said::Release => Change::Release,

@@ -33,7 +33,7 @@ impl Builder<'_> {
         self.ties = deck.tie.iter().enumerate().filter_map(|(number, keys)| self.tie(number, keys)).collect();
     }
 
-    fn tie(&mut self, number: usize, keys: &keys::Tie) -> Option<Glued> {
+    fn tie(&mut self, number: usize, keys: &keys::TieKeys) -> Option<Glued> {
         let mesh = self.site.mesh.clone();
         let sides = |group: &str| mesh.groups.get(group).map(|group| group.sides.as_slice());
         let (surface, target) = (sides(&keys.surface.text)?, sides(&keys.target.text)?);
@@ -60,8 +60,8 @@ impl Builder<'_> {
     }
 
     /// Says what of the surface reaches beyond the target.
-    fn bare(&mut self, keys: &keys::Tie, tie: &TiedSurfaces) {
-        let (keys::Tie { surface, target, .. }, (node, part)) = (keys, tie.barest);
+    fn bare(&mut self, keys: &keys::TieKeys, tie: &TiedSurfaces) {
+        let (keys::TieKeys { surface, target, .. }, (node, part)) = (keys, tie.barest);
         if part < BARE {
             return;
         }
@@ -86,8 +86,8 @@ impl Builder<'_> {
         }
     }
 
-    fn apart(&mut self, keys: &keys::Tie, apart: &Apart) {
-        let (keys::Tie { surface, target, .. }, at) = (keys, |x: &Vec3| self.words(x));
+    fn apart(&mut self, keys: &keys::TieKeys, apart: &Apart) {
+        let (keys::TieKeys { surface, target, .. }, at) = (keys, |x: &Vec3| self.words(x));
         let (what, help) = match apart {
             Apart::Far(distance, x, tolerance) => (
                 format!(

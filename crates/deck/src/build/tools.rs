@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{Segment, ToolKeys};
+use crate::keys::{SegmentKeys, ToolKeys};
 use crate::reader::Name;
 use crate::source::{Place, Spot};
 use asperity_core::mesh::Space;
@@ -35,8 +35,8 @@ impl Builder<'_> {
     }
 
     /// The segments of a profile, with its fillets, and where each is said.
-    pub(super) fn segments(&mut self, profile: &Spot<Vec<Segment>>, keys: &ToolKeys) -> Option<Segments> {
-        let draft = |(i, segment): (usize, &Segment)| (i, segment.kind, segment.nodes.clone());
+    pub(super) fn segments(&mut self, profile: &Spot<Vec<SegmentKeys>>, keys: &ToolKeys) -> Option<Segments> {
+        let draft = |(i, segment): (usize, &SegmentKeys)| (i, segment.kind, segment.nodes.clone());
         let drafts: Vec<Draft> = profile.value.iter().enumerate().map(draft).collect();
         let drafts = match keys.fillet {
             Some(fillet) => {

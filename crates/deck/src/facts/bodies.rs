@@ -58,7 +58,7 @@ pub(super) fn facts(made: &Made, body: &Body, material: usize) -> BodyFacts {
 
 /// The first step that moves the group of a body of several cells, all of its nodes, and not one of its sides.
 fn driven_whole(made: &Made, body: &Body) -> Option<String> {
-    let moves = |step: &&crate::keys::Step| step.displacement.iter().any(|(group, _)| group.text == body.name());
+    let moves = |step: &&crate::keys::StepKeys| step.displacement.iter().any(|(group, _)| group.text == body.name());
     let step = made.deck.step.iter().position(|step| moves(&step)).filter(|_| body.cells().len() > 1)?;
     Some(made.model.problem.steps[step].name.clone())
 }

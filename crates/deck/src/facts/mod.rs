@@ -9,7 +9,7 @@ use super::build::Made;
 use super::reader::Name;
 use super::review::Seen;
 use asperity_core::mesh::Side;
-use asperity_core::mesh::lint::{self, Finding, Kind};
+use asperity_core::mesh::lint::{self, LintFinding, LintKind};
 use asperity_core::model::Model;
 use asperity_core::solid::Body;
 use asperity_core::system::Term;
@@ -47,7 +47,7 @@ pub(super) fn facts_seen(made: &Made, seen: &[Seen]) -> Facts {
 
 /// Faces and nodes of the mesh that lie on one another and are not joined.
 fn seams(made: &Made) -> Vec<String> {
-    let open = |finding: &Finding| matches!(finding.kind, Kind::Crack | Kind::Touching | Kind::Hanging);
+    let open = |finding: &LintFinding| matches!(finding.kind, LintKind::Crack | LintKind::Touching | LintKind::Hanging);
     let found = lint::check(&made.model.mesh).into_iter().filter(open);
     found.map(|finding| finding.text).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::{bodies_of, extent, sides};
 use crate::build::Made;
-use crate::keys::{Components, Displacement, Step};
+use crate::keys::{Components, Displacement, StepKeys};
 use crate::reader::Name;
 use asperity_core::amplitude::Amplitude;
 use asperity_core::mesh::Space;
@@ -19,7 +19,7 @@ pub(super) fn facts(made: &Made) -> Vec<StepFacts> {
     let dofs = &made.model.problem.dofs;
     let (bodies, mut last) = (dofs.node(dofs.nodes()), BTreeMap::new());
     let solved = made.model.problem.steps.iter().zip(&made.deck.step);
-    let fact = |(step, keys): (&asperity_core::solve::Step, &Step)| {
+    let fact = |(step, keys): (&asperity_core::solve::Step, &StepKeys)| {
         let mut facts = StepFacts {
             name: step.name.clone(),
             follows: step.arc_length.is_some(),
@@ -51,7 +51,7 @@ pub(super) fn facts(made: &Made) -> Vec<StepFacts> {
 }
 
 /// Whether all that a step says are displacements that the step before led to already.
-fn repeats(before: &Step, step: &Step) -> bool {
+fn repeats(before: &StepKeys, step: &StepKeys) -> bool {
     let others = [&step.hold, &step.remove, &step.add, &step.release].iter().all(|names| names.is_empty())
         && step.motion.is_empty()
         && step.temperature.is_empty()
@@ -68,7 +68,7 @@ fn repeats(before: &Step, step: &Step) -> bool {
 }
 
 /// The loads that a step says, as stresses.
-fn loads(made: &Made, step: &Step) -> Vec<Load> {
+fn loads(made: &Made, step: &StepKeys) -> Vec<Load> {
     let model = &made.model;
     let of_sides = |name: &Name| bodies_of(model, sides(model, name).iter().map(|side| side.cell));
     let of_cells = |name: &Name| {

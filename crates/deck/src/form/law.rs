@@ -1,7 +1,7 @@
 //! Laws and their numbers, as their registries declare them.
 
 use super::scalar::Number;
-use super::{Field, Fields, Form, list, number, tag};
+use super::{Fields, Form, KeyField, list, number, tag};
 use crate::diagnose::Diagnostic;
 use crate::reader::Reader;
 use crate::schema::{Key, Presence, Schema};
@@ -19,7 +19,7 @@ pub fn law<T>(registry: &'static [Entry<T>]) -> LawForm<T> {
 pub struct LawForm<T: 'static>(&'static [Entry<T>]);
 
 /// A law of a registry with its numbers.
-pub struct Law<T: 'static> {
+pub struct ChosenLaw<T: 'static> {
     /// Its entry.
     pub entry: &'static Entry<T>,
     /// Its numbers in the order of the entry's parameters, then its pairs.
@@ -28,7 +28,7 @@ pub struct Law<T: 'static> {
     pub place: Place,
 }
 
-impl<T> Law<T> {
+impl<T> ChosenLaw<T> {
     /// The law itself; its numbers were found good when the deck was read.
     ///
     /// # Errors
@@ -38,20 +38,20 @@ impl<T> Law<T> {
     }
 }
 
-impl<T> Clone for Law<T> {
+impl<T> Clone for ChosenLaw<T> {
     fn clone(&self) -> Self {
         Self { entry: self.entry, values: self.values.clone(), place: self.place }
     }
 }
 
-impl<T> fmt::Debug for Law<T> {
+impl<T> fmt::Debug for ChosenLaw<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} {:?}", self.entry.name, self.values)
     }
 }
 
 impl<T> Form for LawForm<T> {
-    type Value = Law<T>;
+    type Value = ChosenLaw<T>;
 
     fn schema(&self) -> Schema {
         let key = |entry: &Entry<T>| Key {
@@ -63,13 +63,13 @@ impl<T> Form for LawForm<T> {
         Schema::OneOf(self.0.iter().map(key).collect())
     }
 
-    fn read(&self, node: &Node, reader: &mut Reader) -> Option<Law<T>> {
+    fn read(&self, node: &Node, reader: &mut Reader) -> Option<ChosenLaw<T>> {
         let names: Vec<&str> = self.0.iter().map(|entry| entry.name).collect();
         let written = tag(node, &names, reader)?;
         let entry = find(self.0, &written.key)?;
         reader.under(entry.name, |reader| {
             let values = numbers(entry, &written.node, reader)?;
-            let law = Law { entry, values, place: written.place };
+            let law = ChosenLaw { entry, values, place: written.place };
             if let Err(against) = law.build() {
                 let what = format!("`{}`: {against}", reader.path());
                 reader.report(Diagnostic::error(what).at(written.place));
@@ -101,7 +101,7 @@ fn numbers<T>(entry: &Entry<T>, node: &Node, reader: &mut Reader) -> Option<Vec<
     values.into_iter().collect::<Option<_>>().filter(|_| complete)
 }
 
-impl Field for Parameter {
+impl KeyField for Parameter {
     type Value = f64;
     fn key(&self, name: &'static str, doc: &'static str) -> Key {
         let presence = self.default.map_or(Presence::Required, |value| Presence::Default(value.to_string()));

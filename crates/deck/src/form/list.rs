@@ -6,7 +6,7 @@ use crate::diagnose::Diagnostic;
 use crate::reader::{Name, Reader};
 use crate::schema::{Key, Schema};
 use crate::source::Place;
-use crate::tree::{Entry, Node, Value};
+use crate::tree::{Node, TreeEntry, Value};
 use asperity_core::declare::nearest;
 use std::ops::RangeInclusive;
 
@@ -82,7 +82,7 @@ pub struct Map<F> {
 
 impl<F: Form> Map<F> {
     /// What to write instead of a name with points that stands without quotes, which TOML reads as table in table.
-    fn unquoted(&self, entry: &Entry, reader: &Reader) -> Option<Diagnostic> {
+    fn unquoted(&self, entry: &TreeEntry, reader: &Reader) -> Option<Diagnostic> {
         let Schema::Table(known) = self.item.schema() else { return None };
         let (rest, place) = below(entry, &known).filter(|_| !self.names.defines)?;
         let path = reader.path();
@@ -94,10 +94,10 @@ impl<F: Form> Map<F> {
 }
 
 /// The tables in an entry that none of the known keys means, not even misspelt: `right` of `block.right = { x = 0 }`.
-fn below(entry: &Entry, known: &[Key]) -> Option<(String, Place)> {
+fn below(entry: &TreeEntry, known: &[Key]) -> Option<(String, Place)> {
     let Value::Table(inner) = &entry.node.value else { return None };
-    let is_table = |entry: &&Entry| matches!(entry.node.value, Value::Table(_));
-    let is_unknown = |entry: &&Entry| nearest(&entry.key, known.iter().map(|key| key.name)).is_none();
+    let is_table = |entry: &&TreeEntry| matches!(entry.node.value, Value::Table(_));
+    let is_unknown = |entry: &&TreeEntry| nearest(&entry.key, known.iter().map(|key| key.name)).is_none();
     let unknown = inner.iter().filter(is_table).find(is_unknown)?;
     Some(match below(unknown, known) {
         Some((rest, place)) => (format!("{}.{rest}", unknown.key), place),

@@ -9,14 +9,14 @@ mod scalar;
 mod table;
 mod word;
 
-pub use law::{Law, law};
+pub use law::{ChosenLaw, law};
 pub use list::{list, map};
 pub use name::{defines, refers};
 pub(super) use one_of::one_of;
 pub use one_of::tag;
 pub use scalar::{flag, number, text, whole};
 pub(super) use table::table;
-pub use table::{Fields, Table, table_of};
+pub use table::{Fields, KeyTable, table_of};
 pub(super) use word::words;
 pub use word::{Words, word};
 
@@ -70,7 +70,7 @@ impl<F: Form> Form for Placed<F> {
 }
 
 /// What stands behind a key: a form, and what holds when the key is not given.
-pub trait Field {
+pub trait KeyField {
     /// What reading gives.
     type Value;
     /// The description under the name and words of the key.
@@ -81,7 +81,7 @@ pub trait Field {
 }
 
 /// The description of a key whose value is a `T`; `doc` as the compiler hands doc comments on, joined.
-pub fn key<T>(field: &impl Field<Value = T>, name: &'static str, doc: &'static str) -> Key {
+pub fn key<T>(field: &impl KeyField<Value = T>, name: &'static str, doc: &'static str) -> Key {
     field.key(name, doc.trim_start())
 }
 
@@ -96,7 +96,7 @@ pub struct Optional<F> {
     computed: bool,
 }
 
-impl<F: Form> Field for Required<F> {
+impl<F: Form> KeyField for Required<F> {
     type Value = F::Value;
     fn key(&self, name: &'static str, doc: &'static str) -> Key {
         Key { name, doc, schema: self.0.schema(), presence: Presence::Required }
@@ -106,7 +106,7 @@ impl<F: Form> Field for Required<F> {
     }
 }
 
-impl<F: Form> Field for Defaulted<F> {
+impl<F: Form> KeyField for Defaulted<F> {
     type Value = F::Value;
     fn key(&self, name: &'static str, doc: &'static str) -> Key {
         Key { name, doc, schema: self.0.schema(), presence: Presence::Default(self.1.to_owned()) }
@@ -122,7 +122,7 @@ impl<F: Form> Field for Defaulted<F> {
     }
 }
 
-impl<F: Form> Field for Optional<F> {
+impl<F: Form> KeyField for Optional<F> {
     type Value = Option<F::Value>;
     fn key(&self, name: &'static str, doc: &'static str) -> Key {
         Key { name, doc, schema: self.form.schema(), presence: Presence::Optional(self.words) }

@@ -2,10 +2,10 @@
 
 use crate::diagnose::Diagnostic;
 use crate::reader::Reader;
-use crate::tree::{Entry, Node, Value};
+use crate::tree::{Node, TreeEntry, Value};
 
 /// The only key of a table, if it is one of `valid`; else messages.
-pub fn tag<'n>(node: &'n Node, valid: &[&'static str], reader: &mut Reader) -> Option<&'n Entry> {
+pub fn tag<'n>(node: &'n Node, valid: &[&'static str], reader: &mut Reader) -> Option<&'n TreeEntry> {
     let words = valid.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
     let Value::Table(entries) = &node.value else {
         return reader.refuse(node.place, &format!("a table with one of {words}"), node.value.kind());

@@ -1,16 +1,16 @@
 //! Tables: a Rust struct, its reader and its schema from one declaration.
 
 use super::removed::successor;
-use super::{Field, Form};
+use super::{Form, KeyField};
 use crate::diagnose::Diagnostic;
 use crate::reader::Reader;
 use crate::schema::{Key, Schema};
-use crate::tree::{Entry, Node};
+use crate::tree::{Node, TreeEntry};
 use asperity_core::declare::nearest;
 use std::marker::PhantomData;
 
 /// A struct that stands for a table of a deck.
-pub trait Table: Sized {
+pub trait KeyTable: Sized {
     /// Its keys.
     fn keys() -> Vec<Key>;
     /// The table read, or messages in `reader` and nothing.
@@ -18,14 +18,14 @@ pub trait Table: Sized {
 }
 
 /// The form of a table.
-pub fn table_of<T: Table>() -> TableForm<T> {
+pub fn table_of<T: KeyTable>() -> TableForm<T> {
     TableForm(PhantomData)
 }
 
 /// See [`table_of`].
 pub struct TableForm<T>(PhantomData<T>);
 
-impl<T: Table> Form for TableForm<T> {
+impl<T: KeyTable> Form for TableForm<T> {
     type Value = T;
     fn schema(&self) -> Schema {
         Schema::Table(T::keys())
@@ -38,7 +38,7 @@ impl<T: Table> Form for TableForm<T> {
 /// A table whose keys are being taken one by one; what is left over at the end is unknown.
 pub struct Fields<'n> {
     node: &'n Node,
-    entries: &'n [Entry],
+    entries: &'n [TreeEntry],
     known: Vec<&'static str>,
     missing: Vec<&'static str>,
 }
@@ -50,7 +50,7 @@ impl<'n> Fields<'n> {
     }
 
     /// Reads one key.
-    pub fn take<F: Field>(&mut self, name: &'static str, field: &F, reader: &mut Reader) -> Option<F::Value> {
+    pub fn take<F: KeyField>(&mut self, name: &'static str, field: &F, reader: &mut Reader) -> Option<F::Value> {
         let entry = self.entries.iter().find(|entry| entry.key == name);
         self.known.push(name);
         let before = reader.diagnostics.len();
@@ -65,7 +65,7 @@ impl<'n> Fields<'n> {
     /// reported once.
     pub fn close(self, reader: &mut Reader) -> bool {
         let unknown = self.entries.iter().filter(|entry| !self.known.contains(&entry.key.as_str()));
-        let unknown: Vec<&Entry> = unknown.collect();
+        let unknown: Vec<&TreeEntry> = unknown.collect();
         let meant = self.meant();
         for entry in &unknown {
             reader.report(Self::unknown(entry, &meant, &reader.path()));
@@ -87,7 +87,7 @@ impl<'n> Fields<'n> {
         keys
     }
 
-    fn unknown(entry: &Entry, meant: &[&str], path: &str) -> Diagnostic {
+    fn unknown(entry: &TreeEntry, meant: &[&str], path: &str) -> Diagnostic {
         let what = match path {
             "" => format!("a deck has no key `{}`", entry.key),
             _ => format!("`{path}` has no key `{}`", entry.key),
@@ -124,7 +124,7 @@ macro_rules! table {
             pub place: $crate::source::Place,
         }
 
-        impl $crate::form::Table for $name {
+        impl $crate::form::KeyTable for $name {
             fn keys() -> Vec<$crate::schema::Key> {
                 vec![$($crate::form::key::<$type>(&$form, stringify!($field), concat!($($doc),+))),+]
             }

@@ -143,7 +143,7 @@ words! {
 
 table! {
     /// The temperature of a body or of nodes.
-    pub struct Temperature check temperature {
+    pub struct TemperatureKeys check temperature {
         /// Temperature above that at which the undeformed body is free of stress.
         value: Option<f64> = number(unit::TEMPERATURE, Range::ANY).unless_given("see nodes"),
         /// That of some nodes, each with its own: pairs of the node's number in the mesh's file (in generated meshes counted from 1) and
@@ -190,7 +190,7 @@ impl Components for Spring {
 
 table! {
     /// Motion of a tool's reference point and its rotation. What no step says stays where it is.
-    pub struct Motion check motion {
+    pub struct MotionKeys check motion {
         /// Translation along x (r).
         x: Option<f64> = number(unit::LENGTH, Range::ANY).unless_given("held"),
         /// Translation along y (z when axisymmetric).
@@ -253,7 +253,7 @@ fn spring(spring: &Spring, reader: &mut Reader) {
     }
 }
 
-fn temperature(temperature: &Temperature, reader: &mut Reader) {
+fn temperature(temperature: &TemperatureKeys, reader: &mut Reader) {
     if temperature.value.is_some() != temperature.nodes.is_empty() {
         let what = format!("`{}` needs either `value` or `nodes`", reader.path());
         reader.report(
@@ -264,7 +264,7 @@ fn temperature(temperature: &Temperature, reader: &mut Reader) {
     }
 }
 
-fn motion(motion: &Motion, reader: &mut Reader) {
+fn motion(motion: &MotionKeys, reader: &mut Reader) {
     let says = motion.plane().iter().chain(&motion.space()).any(Option::is_some);
     says_something(says, motion.place, "`x`, `y`, `z`, `rotation`", reader);
 }
@@ -291,7 +291,7 @@ fn value(spot: Option<Spot<f64>>) -> Option<f64> {
     spot.map(|spot| spot.value)
 }
 
-impl ToolCondition for Motion {
+impl ToolCondition for MotionKeys {
     fn plane(&self) -> [Option<f64>; 3] {
         [self.x, self.y, value(self.rotation)]
     }

@@ -2,7 +2,7 @@
 
 use super::UpdateKeys;
 use crate::diagnose::Diagnostic;
-use crate::form::{Form, Law, Words, flag, law, list, number, refers, table, table_of, whole, word, words};
+use crate::form::{ChosenLaw, Form, Words, flag, law, list, number, refers, table, table_of, whole, word, words};
 use crate::reader::{Name, Reader};
 use crate::schema::Names;
 use crate::source::Spot;
@@ -18,7 +18,7 @@ table! {
         /// What it may touch: a rigid tool, or a group of sides of this or another body.
         target: Name = refers(Names::Target).required(),
         /// The law of the interface. Without friction: law.coulomb = { friction = 0.0 }.
-        law: Law<Box<dyn Interface>> = law(interface::laws::ALL).required(),
+        law: ChosenLaw<Box<dyn Interface>> = law(interface::laws::ALL).required(),
         /// How the law is integrated over an increment.
         update: Option<UpdateKeys> = table_of().unless_given("in closed form where the law has one, else in one step"),
         /// Integration points along an edge; along each side of a quadrilateral face, and 1, 3, 6, or their square from 4 on, on a

@@ -9,7 +9,7 @@ use asperity_core::declare::{Range, unit};
 
 table! {
     /// A sum of displacements, each with a factor, that stays zero.
-    pub struct Equation check equation {
+    pub struct EquationKeys check equation {
         /// What is added up. The group of the first term may hold many nodes, for each of which the equation holds; those of
         /// the others hold one.
         terms: Vec<EquationTerm> = list(table_of(), 2..=usize::MAX).required(),
@@ -42,7 +42,7 @@ impl Words for Axis {
     }
 }
 
-fn equation(equation: &Equation, reader: &mut Reader) {
+fn equation(equation: &EquationKeys, reader: &mut Reader) {
     if equation.terms.iter().all(|term| term.factor == 0.0) {
         let what = format!("`{}` says nothing: all its factors are zero", reader.path());
         reader.report(Diagnostic::error(what).at(equation.place));

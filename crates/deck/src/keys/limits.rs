@@ -1,6 +1,6 @@
 //! Limits of the certificate. Their keys are the figures that have one: what is declared there is a key here.
 
-use crate::form::{Fields, Form, Table, key, number};
+use crate::form::{Fields, Form, KeyTable, key, number};
 use crate::reader::Reader;
 use crate::schema::Key;
 use crate::tree::Node;
@@ -22,7 +22,7 @@ fn limit() -> impl Form<Value = f64> {
     number(unit::NONE, Range::NOT_NEGATIVE)
 }
 
-impl Table for LimitKeys {
+impl KeyTable for LimitKeys {
     fn keys() -> Vec<Key> {
         limited().map(|(name, declared)| key(&limit().or(declared.default), name, declared.about)).collect()
     }

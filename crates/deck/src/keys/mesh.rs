@@ -44,9 +44,9 @@ table! {
         /// Size of the last cell over the size of the first along `[x, y]`.
         ratio: Option<Spot<Vec<f64>>> = ratios(2).spot().unless_given("1 in each direction"),
         /// Runs of cells along x, in place of `to` and `cells`.
-        along_x: Vec<Run> = runs().or("[]"),
+        along_x: Vec<RunKeys> = runs().or("[]"),
         /// Runs of cells along y.
-        along_y: Vec<Run> = runs().or("[]"),
+        along_y: Vec<RunKeys> = runs().or("[]"),
         /// Kind of its cells.
         cell: Spot<&'static Cell> = PlaneCell.spot().required(),
     }
@@ -66,9 +66,9 @@ table! {
         /// Size of the last cell over the size of the first along `[radius, angle]`.
         ratio: Option<Spot<Vec<f64>>> = ratios(2).spot().unless_given("1 in each direction"),
         /// Runs of cells along the radius, in place of `to` and `cells`.
-        along_radius: Vec<Run> = runs().or("[]"),
+        along_radius: Vec<RunKeys> = runs().or("[]"),
         /// Runs of cells along the angle.
-        along_angle: Vec<Run> = runs().or("[]"),
+        along_angle: Vec<RunKeys> = runs().or("[]"),
         /// Kind of its cells.
         cell: Spot<&'static Cell> = PlaneCell.spot().required(),
     }
@@ -86,11 +86,11 @@ table! {
         /// Size of the last cell over the size of the first along `[x, y, z]`.
         ratio: Option<Spot<Vec<f64>>> = ratios(3).spot().unless_given("1 in each direction"),
         /// Runs of cells along x, in place of `to` and `cells`.
-        along_x: Vec<Run> = runs().or("[]"),
+        along_x: Vec<RunKeys> = runs().or("[]"),
         /// Runs of cells along y.
-        along_y: Vec<Run> = runs().or("[]"),
+        along_y: Vec<RunKeys> = runs().or("[]"),
         /// Runs of cells along z.
-        along_z: Vec<Run> = runs().or("[]"),
+        along_z: Vec<RunKeys> = runs().or("[]"),
         /// Kind of its cells.
         cell: Spot<&'static Cell> = SolidCell.spot().required(),
     }
@@ -98,7 +98,7 @@ table! {
 
 table! {
     /// Cells in a row, up to a breakpoint.
-    pub struct Run check run {
+    pub struct RunKeys check run {
         /// The breakpoint.
         to: f64 = number(unit::LENGTH, Range::ANY).required(),
         /// Number of cells.
@@ -146,8 +146,8 @@ fn ratios(length: usize) -> impl Form<Value = Vec<f64>> {
     list(number(unit::NONE, Range::POSITIVE), length..=length)
 }
 
-fn runs() -> impl Form<Value = Vec<Run>> {
-    list(table_of::<Run>(), 0..=usize::MAX)
+fn runs() -> impl Form<Value = Vec<RunKeys>> {
+    list(table_of::<RunKeys>(), 0..=usize::MAX)
 }
 
 fn given(mesh: &MeshKeys, reader: &mut Reader) {
@@ -166,7 +166,7 @@ struct Extent<'k> {
     /// Whether `to` and `cells` are given.
     simple: [bool; 2],
     ratio: Option<Place>,
-    along: &'k [(&'static str, &'k [Run])],
+    along: &'k [(&'static str, &'k [RunKeys])],
 }
 
 impl Extent<'_> {
@@ -210,7 +210,7 @@ fn block(part: &Block, reader: &mut Reader) {
     Extent { what: "box", place: part.place, simple, ratio, along }.judge(reader);
 }
 
-fn run(run: &Run, reader: &mut Reader) {
+fn run(run: &RunKeys, reader: &mut Reader) {
     if let Some(ratio) = run.ratio.filter(|_| run.smooth) {
         let what = format!("`{}` says both `smooth` and `ratio`", reader.path());
         reader.report(Diagnostic::error(what).at(ratio.place).help("a smooth run finds its ratio itself; keep one"));

@@ -27,28 +27,28 @@ mod update;
 
 pub use axes::AxesKeys;
 pub use condition::{
-    BodyForce, Components, Displacement, Force, Friction, Gravity, Motion, Pressure, PressureKind, Spring, Temperature,
-    ToolCondition, ToolLoad, Traction,
+    BodyForce, Components, Displacement, Force, Friction, Gravity, MotionKeys, Pressure, PressureKind, Spring,
+    TemperatureKeys, ToolCondition, ToolLoad, Traction,
 };
 pub use contact::{Contact, OverlapWord, Passes, Roles, WearKeys};
 pub use distributing::{DistributingKeys, Weights};
-pub use equation::{Equation, EquationTerm};
+pub use equation::{EquationKeys, EquationTerm};
 pub use initial_stress::InitialStressKeys;
 pub use limits::LimitKeys;
 pub use memory::{MullinsKeys, completed};
-pub use mesh::{Generator, MeshKeys, Run, Selection};
-pub use output::{Output, PrintKeys, PrintedOf};
-pub use path::{Control, Until};
+pub use mesh::{Generator, MeshKeys, RunKeys, Selection};
+pub use output::{OutputKeys, PrintKeys, PrintedOf};
+pub use path::{ControlWord, UntilKeys};
 pub use periodic::Periodic;
 pub use point::{PointCurve, PointDeck, PointStep};
 pub use probe::{PathKeys, ProbeAt, ProbeKeys};
 pub use rigid::RigidKeys;
 pub use slide::{InterfaceDeck, InterfaceStep};
 pub use solid_tool::{Extrude, FacetKeys, Revolve, StlKeys};
-pub use solver::{Solver, Tangent};
-pub use step::{Increments, Step};
-pub use tie::{Tie, TieGap};
-pub use tool::{Segment, ToolKeys};
+pub use solver::{SolverKeys, TangentWord};
+pub use step::{IncrementKeys, StepKeys};
+pub use tie::{TieGap, TieKeys};
+pub use tool::{SegmentKeys, ToolKeys};
 pub use umat::{SolidLaw, UmatKeys, solid_law};
 pub use update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys, integrated};
 
@@ -85,13 +85,13 @@ table! {
         /// Materials: a name, then a law and its numbers.
         material: Vec<(Name, SolidLaw)> = map(defines(Names::Material), solid_law()).required(),
         /// Bodies: a group of cells and what it is made of.
-        body: Vec<(Name, Body)> = map(refers(Names::Cells), table_of()).required(),
+        body: Vec<(Name, BodyKeys)> = map(refers(Names::Cells), table_of()).required(),
         /// Rigid tools.
         tool: Vec<(Name, ToolKeys)> = map(defines(Names::Tool), table_of()).or("{}"),
         /// Surfaces and what they may touch.
         contact: Vec<(Name, Contact)> = map(defines(Names::Contact), table_of()).or("{}"),
         /// Linear equations between displacements, in all steps.
-        equation: Vec<Equation> = list(table_of(), 0..=usize::MAX).or("[]"),
+        equation: Vec<EquationKeys> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// Opposite sides of a periodic cell.
         periodic: Vec<Periodic> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// Groups of nodes that are rigid, called as tools are.
@@ -99,15 +99,15 @@ table! {
         /// Points whose force and moment groups of nodes carry by weights.
         distributing: Vec<(Name, DistributingKeys)> = map(defines(Names::Distributing), table_of()).or("{}"),
         /// Surfaces that are glued.
-        tie: Vec<Tie> = list(table_of(), 0..=usize::MAX).or("[]"),
+        tie: Vec<TieKeys> = list(table_of(), 0..=usize::MAX).or("[]"),
         /// What is done, in order.
-        step: Vec<Step> = step::steps().required(),
+        step: Vec<StepKeys> = step::steps().required(),
         /// How the equations are solved.
-        solver: Solver = table_of().or("{}"),
+        solver: SolverKeys = table_of().or("{}"),
         /// What the figures of the certificate may be; beyond one of them a run is doubtful.
         limits: LimitKeys = table_of().or("{}"),
         /// What is written, and how often.
-        output: Output = table_of().or("{}"),
+        output: OutputKeys = table_of().or("{}"),
         /// Chosen quantities at chosen places, in tables of their own.
         probe: Vec<(Name, ProbeKeys)> = map(defines(Names::Probe), table_of()).or("{}"),
     }
@@ -115,7 +115,7 @@ table! {
 
 table! {
     /// A body.
-    pub struct Body {
+    pub struct BodyKeys {
         /// The material it is made of.
         material: Name = refers(Names::Material).required(),
         /// How the deformation of a cell enters the law.

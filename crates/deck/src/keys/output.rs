@@ -8,7 +8,7 @@ use asperity_results::output::{Export, Keep, Totals};
 
 table! {
     /// What is written, and how often.
-    pub struct Output {
+    pub struct OutputKeys {
         /// A frame of fields every so many increments; the last of a step always.
         every: usize = whole(1..=1_000_000).or("1"),
         /// A checkpoint every so many increments, and at the end of each step.

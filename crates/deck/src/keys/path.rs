@@ -1,6 +1,6 @@
 //! Steps that follow a path of equilibria by its length.
 
-use super::step::Step;
+use super::step::StepKeys;
 use crate::diagnose::Diagnostic;
 use crate::form::{Form, number, refers, table, words};
 use crate::reader::{Name, Reader};
@@ -11,7 +11,7 @@ use asperity_core::declare::{Range, unit};
 
 words! {
     /// What the increments of a step are parts of.
-    pub enum Control {
+    pub enum ControlWord {
         /// Of its time, with which loads and prescribed motion go.
         Time = "time",
         /// Of the length of the path of equilibria; loads and prescribed motion go with a load factor, which is an unknown.
@@ -21,7 +21,7 @@ words! {
 
 table! {
     /// A displacement at which a step ends that follows a path: the mean of a group along one axis.
-    pub struct Until check one_axis {
+    pub struct UntilKeys check one_axis {
         /// The group.
         group: Name = refers(Names::Group).required(),
         /// Along x (r).
@@ -33,7 +33,7 @@ table! {
     }
 }
 
-impl Until {
+impl UntilKeys {
     /// The axis and the displacement along it.
     pub fn along(&self) -> Option<(usize, f64)> {
         let values = [self.x, self.y, self.z.map(|z| z.value)];
@@ -41,7 +41,7 @@ impl Until {
     }
 }
 
-fn one_axis(until: &Until, reader: &mut Reader) {
+fn one_axis(until: &UntilKeys, reader: &mut Reader) {
     let said = [until.x.is_some(), until.y.is_some(), until.z.is_some()].into_iter().filter(|said| *said).count();
     if said != 1 {
         let what = format!("`{}` must say one of `x`, `y`, `z`", reader.path());
@@ -54,10 +54,10 @@ fn one_axis(until: &Until, reader: &mut Reader) {
 const LOADS: [&str; 6] = ["force.", "pressure.", "traction.", "body_force.", "load.", "gravity."];
 
 /// What a step that follows a path needs, and what it cannot do at the same time.
-pub(super) fn follows(step: &Step, reader: &mut Reader) {
+pub(super) fn follows(step: &StepKeys, reader: &mut Reader) {
     let path = reader.path();
     let mut refuse = |what: String, place, help: &str| reader.report(Diagnostic::error(what).at(place).help(help));
-    if step.control.value == Control::Time {
+    if step.control.value == ControlWord::Time {
         if let Some(until) = &step.until {
             let what = format!("`{path}.until` has no use in a step that goes with time");
             refuse(what, until.place, "say `control = \"arc-length\"`, or leave `until` out");

@@ -10,7 +10,7 @@ use crate::schema::Names;
 use crate::source::Spot;
 use asperity_core::declare::{Range, unit};
 use asperity_core::material::Material;
-use asperity_results::point::{Control, Stage};
+use asperity_results::point::{PathControl, Stage};
 use std::sync::Arc;
 
 table! {
@@ -132,9 +132,9 @@ impl PointStep {
     pub fn stage(&self, number: usize) -> Stage {
         let (strain, stress) = (self.strain.all(), self.stress.all());
         let control = |i: usize| match (strain[i], stress[i]) {
-            (Some(strain), _) => Control::Strain(strain),
-            (_, Some(stress)) => Control::Stress(stress),
-            _ => Control::Kept,
+            (Some(strain), _) => PathControl::Strain(strain),
+            (_, Some(stress)) => PathControl::Stress(stress),
+            _ => PathControl::Kept,
         };
         Stage {
             name: self.name.clone().unwrap_or_else(|| format!("step {number}")),

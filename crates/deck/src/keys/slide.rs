@@ -3,7 +3,7 @@
 use super::point::PointCurve;
 use super::update::UpdateKeys;
 use crate::diagnose::Diagnostic;
-use crate::form::{Form, Law, defines, law, list, map, number, table, table_of, text, whole};
+use crate::form::{ChosenLaw, Form, defines, law, list, map, number, table, table_of, text, whole};
 use crate::reader::{Name, Reader};
 use crate::schema::Names;
 use crate::source::Spot;
@@ -19,7 +19,7 @@ table! {
         /// What pictures call it.
         title: String = text("a title").or("\"\""),
         /// Interfaces: a name, then a law and its numbers. Each is driven along the same path.
-        interface: Vec<(Name, Law<Box<dyn Interface>>)> =
+        interface: Vec<(Name, ChosenLaw<Box<dyn Interface>>)> =
             map(defines(Names::Interface), law(interface::laws::ALL)).required(),
         /// Pressure for one unit of penetration.
         penalty: f64 = number(unit::PENALTY, Range::POSITIVE).required(),

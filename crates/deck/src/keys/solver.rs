@@ -8,13 +8,13 @@ use std::sync::Arc;
 
 table! {
     /// How the equations are solved.
-    pub struct Solver {
+    pub struct SolverKeys {
         /// Which matrix Newton's method uses.
         newton: Variant = word().or("\"full\""),
         /// What is factorised when every iteration has a new matrix.
         factors: Factors = word().or("\"auto\""),
         /// Where the derivatives come from.
-        tangent: Tangent = word().or("\"exact\""),
+        tangent: TangentWord = word().or("\"exact\""),
         /// Largest unbalanced force over the reference force of a converged increment.
         tolerance: f64 = number(unit::NONE, Range::above_to(0.0, 0.1)).or("1e-6"),
         /// Most iterations of an attempt; then the increment is cut.
@@ -66,13 +66,13 @@ impl Words for Factors {
     }
 }
 
-impl Solver {
+impl SolverKeys {
     /// The options of the iterations.
     pub fn newton_options(&self) -> NewtonOptions {
         NewtonOptions {
             variant: self.newton,
             factors: self.factors,
-            perturbation: self.tangent == Tangent::Perturbation,
+            perturbation: self.tangent == TangentWord::Perturbation,
             tolerance: self.tolerance,
             iterations: self.iterations,
             piecewise: self.piecewise,
@@ -88,7 +88,7 @@ impl Solver {
 
 words! {
     /// Where the derivatives come from.
-    pub enum Tangent {
+    pub enum TangentWord {
         /// Exact, by dual numbers.
         Exact = "exact",
         /// Differences of perturbed forces, as an independent check.
@@ -99,14 +99,14 @@ words! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::form::Table;
+    use crate::form::KeyTable;
     use crate::reader::Reader;
     use crate::tree::Node;
 
     /// The defaults of a deck and of the library are one.
     #[test]
     fn the_defaults_are_those_of_the_procedure() {
-        let solver = Solver::read(&Node::empty(Default::default()), &mut Reader::default()).unwrap();
+        let solver = SolverKeys::read(&Node::empty(Default::default()), &mut Reader::default()).unwrap();
         assert_eq!(solver.newton_options(), NewtonOptions::default());
     }
 }

@@ -4,10 +4,10 @@
 //! from where it was to the value it says, along its amplitude.
 
 use super::condition::{
-    BodyForce, Displacement, Force, Friction, Gravity, Motion, Pressure, Spring, Temperature, ToolCondition, ToolLoad,
-    Traction,
+    BodyForce, Displacement, Force, Friction, Gravity, MotionKeys, Pressure, Spring, TemperatureKeys, ToolCondition,
+    ToolLoad, Traction,
 };
-use super::path::{Control, Until, follows};
+use super::path::{ControlWord, UntilKeys, follows};
 use crate::diagnose::Diagnostic;
 use crate::form::{Form, list, map, number, refers, table, table_of, text, whole, word};
 use crate::reader::{Name, Reader};
@@ -20,17 +20,17 @@ use std::collections::BTreeSet;
 
 table! {
     /// A step.
-    pub struct Step check conflicts {
+    pub struct StepKeys check conflicts {
         /// What messages and results call it.
         name: Option<Spot<String>> = text("the name of a step").spot().computed("step and its number"),
         /// How long it lasts.
         duration: f64 = number(unit::TIME, Range::POSITIVE).or("1.0"),
         /// How its time is cut into increments.
-        increments: Increments = table_of().or("{}"),
+        increments: IncrementKeys = table_of().or("{}"),
         /// What the increments are parts of: `"arc-length"` follows loads past limit points, as in snap-through.
-        control: Spot<Control> = word().spot().or("\"time\""),
+        control: Spot<ControlWord> = word().spot().or("\"time\""),
         /// Where a step of `control = "arc-length"` ends, whatever the load is there.
-        until: Option<Until> = table_of().unless_given("where the whole load is reached"),
+        until: Option<UntilKeys> = table_of().unless_given("where the whole load is reached"),
         /// Prescribed displacements of groups, from their undeformed place.
         displacement: Vec<(Name, Displacement)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Flat groups of sides that may not move along their normal.
@@ -47,11 +47,11 @@ table! {
         /// otherwise, until a later step says another; zero ends it.
         gravity: Option<Gravity> = table_of().unless_given("none, or that of the step before"),
         /// Temperatures of bodies with an `expansion`, and of nodes of such; of those that name a node the last of a step holds.
-        temperature: Vec<(Name, Temperature)> = map(refers(Names::Group), table_of()).or("{}"),
+        temperature: Vec<(Name, TemperatureKeys)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Springs to the ground at each node of groups.
         spring: Vec<(Name, Spring)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Motions of tools, from their first place.
-        motion: Vec<(Name, Motion)> = map(refers(Names::Tool), table_of()).or("{}"),
+        motion: Vec<(Name, MotionKeys)> = map(refers(Names::Tool), table_of()).or("{}"),
         /// Forces and torques on tools that are free to follow them, and on points whose loads a group carries.
         load: Vec<(Name, ToolLoad)> = map(refers(Names::Loadable), table_of()).or("{}"),
         /// Tools, rigid groups and groups of nodes that stay where they are: whatever led or loaded them ends.
@@ -71,7 +71,7 @@ table! {
 
 table! {
     /// Increments of a step, as fractions of its duration.
-    pub struct Increments check increments {
+    pub struct IncrementKeys check increments {
         /// A fixed number of equal increments; one that does not converge is still cut.
         count: Option<Spot<usize>> = whole(1..=10_000_000).spot().unless_given("sizes chosen as the run goes"),
         /// The first.
@@ -89,7 +89,7 @@ fn fraction() -> impl Form<Value = f64> {
     number(unit::NONE, Range::above_to(0.0, 1.0))
 }
 
-fn increments(increments: &Increments, reader: &mut Reader) {
+fn increments(increments: &IncrementKeys, reader: &mut Reader) {
     match increments.count {
         Some(count) => equal_increments(increments, count, reader),
         None => chosen_increments(increments, reader),
@@ -97,7 +97,7 @@ fn increments(increments: &Increments, reader: &mut Reader) {
 }
 
 /// A count leaves no other size to say, and must itself be allowed.
-fn equal_increments(keys: &Increments, count: Spot<usize>, reader: &mut Reader) {
+fn equal_increments(keys: &IncrementKeys, count: Spot<usize>, reader: &mut Reader) {
     for (key, given) in [("first", keys.first), ("largest", keys.largest)] {
         if let Some(given) = given {
             let what = format!("`{}` says both `count` and `{key}`", reader.path());
@@ -116,7 +116,7 @@ fn equal_increments(keys: &Increments, count: Spot<usize>, reader: &mut Reader) 
 }
 
 /// smallest <= first <= largest, wherever they are given.
-fn chosen_increments(keys: &Increments, reader: &mut Reader) {
+fn chosen_increments(keys: &IncrementKeys, reader: &mut Reader) {
     let smallest = *keys.smallest;
     for (key, given) in [("first", keys.first), ("largest", keys.largest)] {
         if let Some(given) = given.filter(|given| **given < smallest) {
@@ -132,7 +132,7 @@ fn chosen_increments(keys: &Increments, reader: &mut Reader) {
     }
 }
 
-impl Increments {
+impl IncrementKeys {
     /// First and largest increment as fractions of the step.
     pub fn sizes(&self) -> (f64, f64) {
         if let Some(count) = self.count {
@@ -144,7 +144,7 @@ impl Increments {
     }
 }
 
-impl Step {
+impl StepKeys {
     /// All conditions of the step by the names under which a later step may release them.
     pub fn conditions(&self) -> Vec<(String, &Name)> {
         fn of<'a, T>(kind: &str, list: &'a [(Name, T)]) -> Vec<(String, &'a Name)> {
@@ -206,7 +206,7 @@ fn unknown_release(released: &Name, standing: &BTreeSet<String>, what: String) -
 }
 
 /// A tool cannot be moved and loaded along the same direction.
-fn conflicts(step: &Step, reader: &mut Reader) {
+fn conflicts(step: &StepKeys, reader: &mut Reader) {
     follows(step, reader);
     let led = step.motion.iter().map(|(name, _)| name).chain(step.load.iter().map(|(name, _)| name));
     for name in led.filter(|name| step.holds(&name.text)) {
@@ -253,12 +253,12 @@ pub(super) fn steps() -> Steps {
 pub(super) struct Steps;
 
 impl Form for Steps {
-    type Value = Vec<Step>;
+    type Value = Vec<StepKeys>;
     fn schema(&self) -> Schema {
-        list(table_of::<Step>(), 1..=usize::MAX).schema()
+        list(table_of::<StepKeys>(), 1..=usize::MAX).schema()
     }
-    fn read(&self, node: &Node, reader: &mut Reader) -> Option<Vec<Step>> {
-        let steps = list(table_of::<Step>(), 1..=usize::MAX).read(node, reader)?;
+    fn read(&self, node: &Node, reader: &mut Reader) -> Option<Vec<StepKeys>> {
+        let steps = list(table_of::<StepKeys>(), 1..=usize::MAX).read(node, reader)?;
         let before = reader.errors();
         persistence(&steps, reader);
         (reader.errors() == before).then_some(steps)
@@ -266,7 +266,7 @@ impl Form for Steps {
 }
 
 /// Step names differ, and only what an earlier step said is released.
-fn persistence(steps: &[Step], reader: &mut Reader) {
+fn persistence(steps: &[StepKeys], reader: &mut Reader) {
     let mut names = BTreeSet::new();
     let mut standing: BTreeSet<String> = BTreeSet::new();
     for step in steps {

@@ -8,7 +8,7 @@ use asperity_core::declare::{Range, unit};
 
 table! {
     /// A surface glued to another where it is, in all steps.
-    pub struct Tie {
+    pub struct TieKeys {
         /// The group of sides whose nodes follow; best the one with the finer mesh.
         surface: Name = refers(Names::Sides).required(),
         /// The group of sides that they follow.

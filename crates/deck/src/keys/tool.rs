@@ -17,7 +17,7 @@ table! {
     pub struct ToolKeys check tool {
         /// Its profile: segments in the order of travel, each from the end of the one before, with the tool's material
         /// on the left.
-        profile: Option<Spot<Vec<Segment>>> =
+        profile: Option<Spot<Vec<SegmentKeys>>> =
             list(SegmentForm, 1..=usize::MAX).spot().unless_given("another key says its shape"),
         /// Radius of the arcs that round every corner between two straight segments of the profile.
         fillet: Option<Spot<f64>> =
@@ -87,7 +87,7 @@ fn tool(keys: &ToolKeys, reader: &mut Reader) {
 
 /// A segment of a profile: its shape and its nodes.
 #[derive(Debug, Clone)]
-pub struct Segment {
+pub struct SegmentKeys {
     /// Its registered shape.
     pub kind: &'static ShapeKind,
     /// Its nodes.
@@ -103,7 +103,7 @@ fn nodes(kind: &ShapeKind) -> impl Form<Value = Vec<Vec<f64>>> {
 }
 
 impl Form for SegmentForm {
-    type Value = Segment;
+    type Value = SegmentKeys;
     fn schema(&self) -> Schema {
         let key = |kind: &&'static ShapeKind| Key {
             name: kind.key,
@@ -113,12 +113,12 @@ impl Form for SegmentForm {
         };
         Schema::OneOf(shapes::ALL.iter().map(key).collect())
     }
-    fn read(&self, node: &Node, reader: &mut Reader) -> Option<Segment> {
+    fn read(&self, node: &Node, reader: &mut Reader) -> Option<SegmentKeys> {
         let keys: Vec<&str> = shapes::ALL.iter().map(|kind| kind.key).collect();
         let entry = tag(node, &keys, reader)?;
         let kind = shapes::ALL.iter().copied().find(|kind| kind.key == entry.key)?;
         let points = reader.under(kind.key, |reader| nodes(kind).read(&entry.node, reader))?;
         let nodes = points.iter().map(|p| Vec3([p[0], p[1], 0.0])).collect();
-        Some(Segment { kind, nodes, place: node.place })
+        Some(SegmentKeys { kind, nodes, place: node.place })
     }
 }

@@ -1,7 +1,7 @@
 //! Materials of a deck: a law of the registry with its numbers, or a law of a shared library.
 
 use crate::diagnose::Diagnostic;
-use crate::form::{Form, Law, Table, flag, key, law, list, number, table, table_of, tag, text, whole};
+use crate::form::{ChosenLaw, Form, KeyTable, flag, key, law, list, number, table, table_of, tag, text, whole};
 use crate::reader::Reader;
 use crate::schema::Schema;
 use crate::source::{Place, Spot};
@@ -54,7 +54,7 @@ fn lengths(keys: &UmatKeys, reader: &mut Reader) {
 #[derive(Clone)]
 pub enum SolidLaw {
     /// A law of the registry.
-    Own(Law<Box<dyn Material>>),
+    Own(ChosenLaw<Box<dyn Material>>),
     /// A law of a library.
     Umat(UmatKeys),
 }

@@ -7,7 +7,7 @@ mod manual;
 pub use json::{interface_json_schema, json_schema, point_json_schema};
 pub use manual::{interface_manual, manual, path_behind, path_of, point_manual};
 
-use super::form::Table;
+use super::form::KeyTable;
 use super::keys::{Deck, InterfaceDeck, PointDeck};
 use asperity_core::declare::Range;
 

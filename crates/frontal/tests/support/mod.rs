@@ -1,7 +1,7 @@
 //! Matrices for the tests, and a dense LU as the oracle.
 #![allow(dead_code)]
 
-use frontal::{Error, Pattern};
+use frontal::{FrontalError, Pattern};
 
 /// A matrix with its pattern.
 pub struct Matrix {
@@ -143,7 +143,7 @@ impl Matrix {
 }
 
 /// Factorises and solves.
-pub fn solve(matrix: &Matrix, options: &frontal::Options, b: &[f64]) -> Result<Vec<f64>, Error> {
+pub fn solve(matrix: &Matrix, options: &frontal::Options, b: &[f64]) -> Result<Vec<f64>, FrontalError> {
     let symbolic = frontal::Symbolic::analyse(&matrix.pattern, options)?;
     let mut factor = symbolic.new_factor();
     symbolic.factorise(&matrix.values, &mut factor)?;

@@ -6,17 +6,17 @@ mod other;
 mod read;
 
 use crate::read::Reader;
-use crate::source::Block;
+use crate::source::KeywordBlock;
 use std::fmt::Write;
 
 /// What is done with a keyword.
 pub enum Treated {
     /// Nodes and elements: read before all others.
-    Mesh(fn(&mut Reader, &Block)),
+    Mesh(fn(&mut Reader, &KeywordBlock)),
     /// Read.
-    Read(fn(&mut Reader, &Block)),
+    Read(fn(&mut Reader, &KeywordBlock)),
     /// Read after all others, since it names what may stand below it.
-    Late(fn(&mut Reader, &Block)),
+    Late(fn(&mut Reader, &KeywordBlock)),
     /// Part of the structure of the deck itself.
     Structure,
     /// Left out, since the answer does not depend on it; why.
@@ -38,16 +38,16 @@ pub enum Where {
 
 /// A parameter of a keyword.
 #[derive(Debug, Clone, Copy)]
-pub struct Parameter {
+pub struct KeywordParameter {
     /// In capitals.
     pub name: &'static str,
     /// What is done with it.
-    pub treated: Value,
+    pub treated: ParameterUse,
 }
 
 /// What is done with a parameter.
 #[derive(Debug, Clone, Copy)]
-pub enum Value {
+pub enum ParameterUse {
     /// Used, whatever its value.
     Used,
     /// One of these words, or nothing.
@@ -69,35 +69,35 @@ pub struct Keyword {
     /// What is done with it.
     pub treated: Treated,
     /// Its parameters.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'static [KeywordParameter],
     /// What becomes of it, for the manual.
     pub becomes: &'static str,
 }
 
-const fn used(name: &'static str) -> Parameter {
-    Parameter { name, treated: Value::Used }
+const fn used(name: &'static str) -> KeywordParameter {
+    KeywordParameter { name, treated: ParameterUse::Used }
 }
 
-const fn one_of(name: &'static str, words: &'static [&'static str]) -> Parameter {
-    Parameter { name, treated: Value::OneOf(words) }
+const fn one_of(name: &'static str, words: &'static [&'static str]) -> KeywordParameter {
+    KeywordParameter { name, treated: ParameterUse::OneOf(words) }
 }
 
-const fn left(name: &'static str) -> Parameter {
-    Parameter { name, treated: Value::Left }
+const fn left(name: &'static str) -> KeywordParameter {
+    KeywordParameter { name, treated: ParameterUse::Left }
 }
 
-const fn noted(name: &'static str, what: &'static str) -> Parameter {
-    Parameter { name, treated: Value::Noted(what) }
+const fn noted(name: &'static str, what: &'static str) -> KeywordParameter {
+    KeywordParameter { name, treated: ParameterUse::Noted(what) }
 }
 
-const fn refused(name: &'static str, instead: &'static str) -> Parameter {
-    Parameter { name, treated: Value::Refused(instead) }
+const fn refused(name: &'static str, instead: &'static str) -> KeywordParameter {
+    KeywordParameter { name, treated: ParameterUse::Refused(instead) }
 }
 
 const fn of_model(
     name: &'static str,
-    read: fn(&mut Reader, &Block),
-    parameters: &'static [Parameter],
+    read: fn(&mut Reader, &KeywordBlock),
+    parameters: &'static [KeywordParameter],
     becomes: &'static str,
 ) -> Keyword {
     Keyword { name, place: Where::Model, treated: Treated::Read(read), parameters, becomes }
@@ -105,8 +105,8 @@ const fn of_model(
 
 const fn late(
     name: &'static str,
-    read: fn(&mut Reader, &Block),
-    parameters: &'static [Parameter],
+    read: fn(&mut Reader, &KeywordBlock),
+    parameters: &'static [KeywordParameter],
     becomes: &'static str,
 ) -> Keyword {
     Keyword { name, place: Where::Model, treated: Treated::Late(read), parameters, becomes }
@@ -114,14 +114,14 @@ const fn late(
 
 const fn of_step(
     name: &'static str,
-    read: fn(&mut Reader, &Block),
-    parameters: &'static [Parameter],
+    read: fn(&mut Reader, &KeywordBlock),
+    parameters: &'static [KeywordParameter],
     becomes: &'static str,
 ) -> Keyword {
     Keyword { name, place: Where::Step, treated: Treated::Read(read), parameters, becomes }
 }
 
-const fn structure(name: &'static str, parameters: &'static [Parameter], becomes: &'static str) -> Keyword {
+const fn structure(name: &'static str, parameters: &'static [KeywordParameter], becomes: &'static str) -> Keyword {
     Keyword { name, place: Where::Model, treated: Treated::Structure, parameters, becomes }
 }
 
@@ -170,7 +170,7 @@ pub fn manual() -> String {
             let _ = writeln!(text, "| `*{}` | {why} |", keyword.name);
         }
         for parameter in keyword.parameters {
-            if let Value::Noted(what) = parameter.treated {
+            if let ParameterUse::Noted(what) = parameter.treated {
                 let _ = writeln!(text, "| `*{}, {}` | {what} |", keyword.name, parameter.name);
             }
         }
@@ -181,7 +181,7 @@ pub fn manual() -> String {
             let _ = writeln!(text, "| `*{}` | {instead} |", keyword.name);
         }
         for parameter in keyword.parameters {
-            if let Value::Refused(instead) = parameter.treated {
+            if let ParameterUse::Refused(instead) = parameter.treated {
                 let _ = writeln!(text, "| `*{}, {}` | {instead} |", keyword.name, parameter.name);
             }
         }
@@ -190,13 +190,13 @@ pub fn manual() -> String {
 }
 
 /// A parameter that is used, with the words that it may have.
-fn described(parameter: &Parameter) -> Option<String> {
+fn described(parameter: &KeywordParameter) -> Option<String> {
     match parameter.treated {
-        Value::Used => Some(parameter.name.to_string()),
-        Value::OneOf(words) => {
+        ParameterUse::Used => Some(parameter.name.to_string()),
+        ParameterUse::OneOf(words) => {
             let words: Vec<&str> = words.iter().copied().filter(|word| !word.is_empty()).collect();
             Some(format!("{} ({})", parameter.name, words.join(", ")))
         }
-        Value::Left | Value::Noted(_) | Value::Refused(_) => None,
+        ParameterUse::Left | ParameterUse::Noted(_) | ParameterUse::Refused(_) => None,
     }
 }

@@ -1,13 +1,13 @@
 //! Keywords that are read.
 
 use super::{
-    Keyword, Parameter, Treated, Where, late, left, noted, of_model, of_step, one_of, refused, structure, used,
+    Keyword, KeywordParameter, Treated, Where, late, left, noted, of_model, of_step, one_of, refused, structure, used,
 };
 use crate::read::Reader;
-use crate::source::Block;
+use crate::source::KeywordBlock;
 
 const INSTANCES: &str = "list the members, or put the set into the part";
-const COURSE: [Parameter; 2] = [used("AMPLITUDE"), one_of("OP", &["MOD", "NEW"])];
+const COURSE: [KeywordParameter; 2] = [used("AMPLITUDE"), one_of("OP", &["MOD", "NEW"])];
 const DELAY: &str = "give the *AMPLITUDE later times";
 const COMPLEX: &str = "only real, static loads are read; leave it out";
 const TABLE_OF_TEMPERATURE: &str = "give one row of constants";
@@ -15,9 +15,9 @@ const STATIC_ONLY: &str = "only *STATIC steps can be solved";
 const BY_HAND: &str = "the deck of Asperity has laws of this kind: write the material there by hand";
 
 const FILES: &str = "`results.frd`, with all that it holds";
-const FREQUENCY: [Parameter; 2] = [used("FREQUENCY"), used("FREQUENCYF")];
-const TIME_POINTS: Parameter = noted("TIME POINTS", "all increments are written");
-const FILED: &[Parameter] = &[
+const FREQUENCY: [KeywordParameter; 2] = [used("FREQUENCY"), used("FREQUENCYF")];
+const TIME_POINTS: KeywordParameter = noted("TIME POINTS", "all increments are written");
+const FILED: &[KeywordParameter] = &[
     FREQUENCY[0],
     FREQUENCY[1],
     TIME_POINTS,
@@ -32,7 +32,7 @@ const FILED: &[Parameter] = &[
     noted("CONTACT ELEMENT", "contact is written at the nodes of its surfaces"),
     left("SECTION FORCES"),
 ];
-const PRINTED: &[Parameter] = &[
+const PRINTED: &[KeywordParameter] = &[
     FREQUENCY[0],
     FREQUENCY[1],
     used("NSET"),
@@ -48,8 +48,8 @@ const PRINTED: &[Parameter] = &[
 
 const fn output(
     name: &'static str,
-    read: fn(&mut Reader, &Block),
-    parameters: &'static [Parameter],
+    read: fn(&mut Reader, &KeywordBlock),
+    parameters: &'static [KeywordParameter],
     becomes: &'static str,
 ) -> Keyword {
     Keyword { name, place: Where::Anywhere, treated: Treated::Read(read), parameters, becomes }

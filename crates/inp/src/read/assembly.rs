@@ -3,14 +3,14 @@
 use super::Reader;
 use crate::message::suggestion;
 use crate::model::Scope;
-use crate::source::Block;
+use crate::source::KeywordBlock;
 use std::collections::BTreeMap;
 
 impl Reader {
     /// All blocks with the instance that each belongs to: those of a part once for each of its instances.
-    pub(super) fn lay_out<'b>(&mut self, blocks: &'b [Block]) -> Vec<(usize, &'b Block)> {
+    pub(super) fn lay_out<'b>(&mut self, blocks: &'b [KeywordBlock]) -> Vec<(usize, &'b KeywordBlock)> {
         self.model.scopes = vec![Scope::default()];
-        let mut parts: BTreeMap<String, Vec<&Block>> = BTreeMap::new();
+        let mut parts: BTreeMap<String, Vec<&KeywordBlock>> = BTreeMap::new();
         let (mut part, mut instance): (Option<String>, Option<usize>) = (None, None);
         let (mut laid_out, mut used) = (Vec::new(), Vec::new());
         for block in blocks {
@@ -73,7 +73,7 @@ impl Reader {
     }
 
     /// A new instance, placed as its data lines say.
-    fn open_instance(&mut self, block: &Block) -> Option<usize> {
+    fn open_instance(&mut self, block: &KeywordBlock) -> Option<usize> {
         let name = self.required(block, "NAME")?.to_string();
         if self.model.scopes.iter().any(|scope| scope.name.eq_ignore_ascii_case(&name)) {
             self.error(block.place, format!("instance '{name}' is there twice; give each its own name"));

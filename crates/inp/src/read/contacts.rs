@@ -3,19 +3,19 @@
 use super::Reader;
 use super::names::Of;
 use crate::elements::Dialect;
-use crate::message::{Place, suggestion};
+use crate::message::{InputPlace, suggestion};
 use crate::model::{Adjust, Interaction, Pair, Tie};
-use crate::source::Block;
+use crate::source::KeywordBlock;
 
 impl Reader {
     /// `*SURFACE INTERACTION`.
-    pub(crate) fn surface_interaction(&mut self, block: &Block) {
+    pub(crate) fn surface_interaction(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "NAME") else { return };
         self.model.interactions.push(Interaction { name: name.to_string(), ..Interaction::default() });
         self.interaction = Some(self.model.interactions.len() - 1);
     }
 
-    fn of_interaction(&mut self, place: Place, name: &str, change: impl FnOnce(&mut Interaction)) {
+    fn of_interaction(&mut self, place: InputPlace, name: &str, change: impl FnOnce(&mut Interaction)) {
         match self.interaction.and_then(|at| self.model.interactions.get_mut(at)) {
             Some(interaction) => change(interaction),
             None => {
@@ -25,7 +25,7 @@ impl Reader {
     }
 
     /// `*SURFACE BEHAVIOR`.
-    pub(crate) fn surface_behavior(&mut self, block: &Block) {
+    pub(crate) fn surface_behavior(&mut self, block: &KeywordBlock) {
         let kind = block.word("PRESSURE-OVERCLOSURE");
         match kind.as_deref() {
             Some("TIED") => {
@@ -46,7 +46,7 @@ impl Reader {
         }
     }
 
-    fn linear(&mut self, block: &Block) {
+    fn linear(&mut self, block: &KeywordBlock) {
         let Some(line) = self.first_line(block, "the slope of pressure over penetration") else { return };
         let Some(slope) = self.positive(line, 0, "the slope of pressure over penetration") else { return };
         self.real_or(line, 2, "the distance of that tension", 0.0);
@@ -58,13 +58,13 @@ impl Reader {
         self.slope(block.place, slope);
     }
 
-    fn slope(&mut self, place: Place, slope: f64) {
+    fn slope(&mut self, place: InputPlace, slope: f64) {
         self.of_interaction(place, "SURFACE BEHAVIOR", |interaction| interaction.slope = Some(slope));
     }
 
     /// A pressure that begins at a clearance `c0`, is `p0` at none and grows by a power of e: linear with the slope that it has
     /// there. CalculiX' is a hundredth of `p0` at `c0`; Abaqus' is zero there.
-    fn exponential(&mut self, block: &Block) {
+    fn exponential(&mut self, block: &KeywordBlock) {
         let Some(line) = self.first_line(block, "a clearance, and the pressure where there is none") else { return };
         let (Some(clearance), Some(pressure)) = (
             self.positive(line, 0, "the clearance at which surfaces begin to press"),
@@ -89,7 +89,7 @@ impl Reader {
     }
 
     /// A table of pressure over overclosure that is a line from touching on.
-    fn tabular(&mut self, block: &Block) {
+    fn tabular(&mut self, block: &KeywordBlock) {
         if self.first_line(block, "pressures and overclosures").is_none() {
             return;
         }
@@ -135,7 +135,7 @@ impl Reader {
     }
 
     /// `*FRICTION`.
-    pub(crate) fn friction(&mut self, block: &Block) {
+    pub(crate) fn friction(&mut self, block: &KeywordBlock) {
         if self.step.is_some() {
             return self.changed_friction(block);
         }
@@ -176,7 +176,7 @@ impl Reader {
     }
 
     /// `*TIE`.
-    pub(crate) fn tie(&mut self, block: &Block) {
+    pub(crate) fn tie(&mut self, block: &KeywordBlock) {
         if self.first_line(block, "the two surfaces").is_none() {
             return;
         }
@@ -203,7 +203,7 @@ impl Reader {
     }
 
     /// The number of an interaction.
-    pub(super) fn interaction_named(&mut self, place: Place, name: &str) -> Option<usize> {
+    pub(super) fn interaction_named(&mut self, place: InputPlace, name: &str) -> Option<usize> {
         let found = self.model.interactions.iter().position(|one| one.name.eq_ignore_ascii_case(name));
         if found.is_none() {
             let near = suggestion(name, self.model.interactions.iter().map(|one| one.name.as_str()));
@@ -213,7 +213,7 @@ impl Reader {
     }
 
     /// `*CONTACT PAIR`.
-    pub(crate) fn contact_pair(&mut self, block: &Block) {
+    pub(crate) fn contact_pair(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "INTERACTION") else { return };
         let name = name.to_string();
         let Some(interaction) = self.interaction_named(block.place, &name) else { return };
@@ -245,7 +245,7 @@ impl Reader {
     }
 
     /// `*CLEARANCE`: how far the slave of a pair stands off from its master before the first step, whatever the mesh says.
-    pub(crate) fn clearance(&mut self, block: &Block) {
+    pub(crate) fn clearance(&mut self, block: &KeywordBlock) {
         let named = ["SLAVE", "MASTER"].map(|side| self.required(block, side).map(str::to_string));
         let [Some(slave), Some(master)] = named else { return };
         let Some(value) = self.required(block, "VALUE").map(str::to_string) else { return };
@@ -266,7 +266,7 @@ impl Reader {
     }
 
     /// The pairs of surfaces that the lines of a block name, where both are there; a line with one is of that with itself.
-    pub(super) fn surface_pairs(&mut self, block: &Block) -> Vec<(Place, [(usize, String); 2])> {
+    pub(super) fn surface_pairs(&mut self, block: &KeywordBlock) -> Vec<(InputPlace, [(usize, String); 2])> {
         let mut pairs = Vec::new();
         if self.first_line(block, "the two surfaces").is_none() {
             return pairs;

@@ -4,11 +4,11 @@ use super::Reader;
 use super::names::Of;
 use crate::elements::{Dialect, Family};
 use crate::model::{Equation, Rigid, RigidPart};
-use crate::source::{Block, Line};
+use crate::source::{DataLine, KeywordBlock};
 
 impl Reader {
     /// `*MPC` of types PIN and TIE, which let nodes move as one, and BEAM, which makes them rigid with another.
-    pub(crate) fn mpc(&mut self, block: &Block) {
+    pub(crate) fn mpc(&mut self, block: &KeywordBlock) {
         if self.first_line(block, "a type and nodes").is_none() {
             return;
         }
@@ -39,7 +39,7 @@ impl Reader {
     }
 
     /// Nodes that move as one.
-    fn pinned(&mut self, line: &Line, first: &str, second: &str) {
+    fn pinned(&mut self, line: &DataLine, first: &str, second: &str) {
         let (follow, lead) = (self.members(line.place, first, Of::Nodes), self.members(line.place, second, Of::Nodes));
         let (Some(follow), Some(lead)) = (follow, lead) else { return };
         if lead.members.len() != 1 && lead.members.len() != follow.members.len() {
@@ -60,7 +60,7 @@ impl Reader {
     }
 
     /// Nodes that are rigid with a node of no body.
-    fn beam(&mut self, line: &Line, first: &str, second: &str) {
+    fn beam(&mut self, line: &DataLine, first: &str, second: &str) {
         let (Some(follow), Some(node)) =
             (self.members(line.place, first, Of::Nodes), self.one_node(line.place, second))
         else {
@@ -83,7 +83,7 @@ impl Reader {
     }
 
     /// `*KINEMATIC COUPLING`: nodes that go with a node, along the axes that are named.
-    pub(crate) fn kinematic_coupling(&mut self, block: &Block) {
+    pub(crate) fn kinematic_coupling(&mut self, block: &KeywordBlock) {
         let Some(node) = self.required(block, "REF NODE").map(str::to_string) else { return };
         let Some(node) = self.one_node(block.place, &node) else { return };
         if self.first_line(block, "nodes and degrees of freedom").is_none() {
@@ -99,7 +99,7 @@ impl Reader {
     }
 
     /// The axes from one degree of freedom to another, all where none is named.
-    pub(super) fn held_axes(&mut self, line: &Line, at: usize) -> Option<[bool; 3]> {
+    pub(super) fn held_axes(&mut self, line: &DataLine, at: usize) -> Option<[bool; 3]> {
         let given = |at: usize| !line.field(at).is_empty();
         if !given(at) {
             return Some([true; 3]);

@@ -4,11 +4,11 @@
 use super::Reader;
 use super::names::Of;
 use crate::model::Equation;
-use crate::source::{Block, Line};
+use crate::source::{DataLine, KeywordBlock};
 
 impl Reader {
     /// `*EQUATION`.
-    pub(crate) fn equation(&mut self, block: &Block) {
+    pub(crate) fn equation(&mut self, block: &KeywordBlock) {
         let mut lines = block.lines.iter();
         while let Some(line) = lines.next() {
             let field = line.field(0).to_string();
@@ -38,14 +38,14 @@ impl Reader {
     }
 
     /// Nodes, axis and factor of a term.
-    fn term(&mut self, line: &Line, at: usize) -> Option<(Vec<usize>, usize, f64)> {
+    fn term(&mut self, line: &DataLine, at: usize) -> Option<(Vec<usize>, usize, f64)> {
         let name = line.field(at).to_string();
         let nodes = self.members(line.place, &name, Of::Nodes)?.members;
         Some((nodes, self.axis(line, at + 1)?, self.real(line, at + 2, "the factor")?))
     }
 
     /// One equation for each node of the first term.
-    fn related(&mut self, line: &Line, terms: &[(Vec<usize>, usize, f64)]) {
+    fn related(&mut self, line: &DataLine, terms: &[(Vec<usize>, usize, f64)]) {
         let count = terms.first().map_or(0, |term| term.0.len());
         if let Some((nodes, ..)) = terms.iter().find(|term| term.0.len() != 1 && term.0.len() != count) {
             let what = format!(

@@ -2,13 +2,13 @@
 
 use super::Reader;
 use super::names::Of;
-use crate::message::{Place, suggestion};
+use crate::message::{InputPlace, suggestion};
 use crate::model::{Amplitude, Form, Material, Rubber, Section, Stiffness, UserLaw};
-use crate::source::{Block, Line};
+use crate::source::{DataLine, KeywordBlock};
 
 impl Reader {
     /// `*MATERIAL`.
-    pub(crate) fn material(&mut self, block: &Block) {
+    pub(crate) fn material(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "NAME") else { return };
         if self.model.materials.iter().any(|material| material.name.eq_ignore_ascii_case(name)) {
             self.error(block.place, format!("material '{name}' is there twice; give each its own name"));
@@ -18,7 +18,7 @@ impl Reader {
     }
 
     /// Changes the material that a block belongs to.
-    fn of_material(&mut self, place: Place, name: &str, change: impl FnOnce(&mut Material)) {
+    fn of_material(&mut self, place: InputPlace, name: &str, change: impl FnOnce(&mut Material)) {
         match self.material.and_then(|at| self.model.materials.get_mut(at)) {
             Some(material) => change(material),
             None => self.error(place, format!("*{name} belongs to no material; put it below a *MATERIAL")),
@@ -26,9 +26,9 @@ impl Reader {
     }
 
     /// Rows of a table of constants: `count` constants and a temperature; rows that differ are refused.
-    fn constants(&mut self, block: &Block, names: &[&str]) -> Option<Vec<f64>> {
+    fn constants(&mut self, block: &KeywordBlock, names: &[&str]) -> Option<Vec<f64>> {
         let first = self.first_line(block, &names.join(", "))?;
-        let row = |reader: &mut Self, line: &Line| -> Option<Vec<f64>> {
+        let row = |reader: &mut Self, line: &DataLine| -> Option<Vec<f64>> {
             reader.real_or(line, names.len(), "the temperature", 0.0)?;
             names.iter().enumerate().map(|(at, name)| reader.real(line, at, name)).collect()
         };
@@ -43,7 +43,7 @@ impl Reader {
     }
 
     /// So many constants over several lines, and a temperature after them; a second row is refused.
-    fn row(&mut self, block: &Block, count: usize, what: &str) -> Option<Vec<f64>> {
+    fn row(&mut self, block: &KeywordBlock, count: usize, what: &str) -> Option<Vec<f64>> {
         self.first_line(block, what)?;
         let mut numbers = Vec::new();
         for line in &block.lines {
@@ -65,7 +65,7 @@ impl Reader {
     }
 
     /// `*ELASTIC`.
-    pub(crate) fn elastic(&mut self, block: &Block) {
+    pub(crate) fn elastic(&mut self, block: &KeywordBlock) {
         let stiffness = match block.word("TYPE").as_deref() {
             Some("ENGINEERINGCONSTANTS") => {
                 let what = "E1, E2, E3, nu12, nu13, nu23, G12, G13, G23";
@@ -86,7 +86,7 @@ impl Reader {
         }
     }
 
-    fn isotropic(&mut self, block: &Block) {
+    fn isotropic(&mut self, block: &KeywordBlock) {
         let Some(constants) = self.constants(block, &["Young's modulus", "Poisson's ratio"]) else { return };
         let [young, poisson] = [constants[0], constants[1]];
         if young <= 0.0 || poisson <= -1.0 || poisson >= 0.5 {
@@ -99,7 +99,7 @@ impl Reader {
     }
 
     /// `*PLASTIC`.
-    pub(crate) fn plastic(&mut self, block: &Block) {
+    pub(crate) fn plastic(&mut self, block: &KeywordBlock) {
         if self.first_line(block, "yield stress and plastic strain").is_none() {
             return;
         }
@@ -129,7 +129,7 @@ impl Reader {
     }
 
     /// `*POTENTIAL`: Hill's ratios of yield stresses.
-    pub(crate) fn potential(&mut self, block: &Block) {
+    pub(crate) fn potential(&mut self, block: &KeywordBlock) {
         const NAMES: [&str; 6] = ["R11", "R22", "R33", "R12", "R13", "R23"];
         let Some(line) = self.first_line(block, &NAMES.join(", ")) else { return };
         self.real_or(line, 6, "the temperature", 0.0);
@@ -142,7 +142,7 @@ impl Reader {
     }
 
     /// `*USER MATERIAL`: the numbers of a law of the user's own.
-    pub(crate) fn user_material(&mut self, block: &Block) {
+    pub(crate) fn user_material(&mut self, block: &KeywordBlock) {
         let mut properties = Vec::new();
         for line in &block.lines {
             for at in 0..line.fields().len() {
@@ -166,7 +166,7 @@ impl Reader {
     }
 
     /// `*DEPVAR`: how many values a law of the user's own keeps.
-    pub(crate) fn depvar(&mut self, block: &Block) {
+    pub(crate) fn depvar(&mut self, block: &KeywordBlock) {
         let Some(line) = self.first_line(block, "the number of states") else { return };
         let field = line.field(0).to_string();
         let Ok(states) = field.parse::<usize>() else {
@@ -176,7 +176,7 @@ impl Reader {
     }
 
     /// `*HYPERELASTIC`.
-    pub(crate) fn hyperelastic(&mut self, block: &Block) {
+    pub(crate) fn hyperelastic(&mut self, block: &KeywordBlock) {
         let place = block.place;
         let order = match block.value("N").map(str::parse::<usize>) {
             None => 1,
@@ -233,21 +233,21 @@ impl Reader {
     }
 
     /// `*DENSITY`.
-    pub(crate) fn density(&mut self, block: &Block) {
+    pub(crate) fn density(&mut self, block: &KeywordBlock) {
         if let Some(constants) = self.constants(block, &["the density"]) {
             self.of_material(block.place, "DENSITY", |material| material.density = Some(constants[0]));
         }
     }
 
     /// `*EXPANSION`.
-    pub(crate) fn expansion(&mut self, block: &Block) {
+    pub(crate) fn expansion(&mut self, block: &KeywordBlock) {
         if let Some(constants) = self.constants(block, &["the expansion"]) {
             self.of_material(block.place, "EXPANSION", |material| material.expansion = Some(constants[0]));
         }
     }
 
     /// `*SOLID SECTION`.
-    pub(crate) fn solid_section(&mut self, block: &Block) {
+    pub(crate) fn solid_section(&mut self, block: &KeywordBlock) {
         let (Some(set), Some(name)) = (self.required(block, "ELSET"), self.required(block, "MATERIAL")) else { return };
         let Some(target) = self.members(block.place, set, Of::Elements) else { return };
         let known = &self.model.materials;
@@ -269,7 +269,7 @@ impl Reader {
     }
 
     /// `*AMPLITUDE`.
-    pub(crate) fn amplitude(&mut self, block: &Block) {
+    pub(crate) fn amplitude(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "NAME") else { return };
         if self.first_line(block, "pairs of a time and a factor").is_none() {
             return;

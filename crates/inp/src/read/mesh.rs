@@ -3,9 +3,9 @@
 use super::Reader;
 use super::names::Of;
 use crate::elements::{self, Type};
-use crate::message::Place;
+use crate::message::InputPlace;
 use crate::model::{Element, Node, Set, Surface, SurfaceKind};
-use crate::source::{Block, Line};
+use crate::source::{DataLine, KeywordBlock};
 
 /// More members than this of all sets together are taken for sets that copy one another without end.
 const MOST_MEMBERS: usize = 100_000_000;
@@ -15,7 +15,7 @@ const MOST_NUMBER: u64 = 1_000_000_000_000;
 
 impl Reader {
     /// `*NODE`.
-    pub(crate) fn nodes(&mut self, block: &Block) {
+    pub(crate) fn nodes(&mut self, block: &KeywordBlock) {
         let first = self.model.nodes.len();
         for line in &block.lines {
             self.node(line);
@@ -25,7 +25,7 @@ impl Reader {
         }
     }
 
-    fn node(&mut self, line: &Line) -> Option<()> {
+    fn node(&mut self, line: &DataLine) -> Option<()> {
         let label = self.whole(line, 0, "the number of a node")?;
         let mut x = [0.0; 3];
         for (axis, value) in x.iter_mut().enumerate() {
@@ -43,7 +43,7 @@ impl Reader {
         Some(())
     }
 
-    fn whole(&mut self, line: &Line, at: usize, what: &str) -> Option<u64> {
+    fn whole(&mut self, line: &DataLine, at: usize, what: &str) -> Option<u64> {
         let field = line.field(at);
         let number = field.parse::<u64>().ok().filter(|number| (1..=MOST_NUMBER).contains(number));
         if number.is_none() {
@@ -56,7 +56,7 @@ impl Reader {
     }
 
     /// `*ELEMENT`.
-    pub(crate) fn elements(&mut self, block: &Block) {
+    pub(crate) fn elements(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "TYPE") else { return };
         let Some((kind, variant)) = elements::named(name) else {
             let known: Vec<&str> = elements::TYPES.iter().filter(|kind| kind.is_cell()).map(|kind| kind.name).collect();
@@ -109,7 +109,7 @@ impl Reader {
     }
 
     /// What names elements of an unknown type is not told as well.
-    fn unknown_elements(&mut self, block: &Block) {
+    fn unknown_elements(&mut self, block: &KeywordBlock) {
         let labels = block.lines.iter().filter_map(|line| line.field(0).parse::<u64>().ok());
         if let Some(scope) = self.model.scopes.get_mut(self.scope) {
             scope.unknown.extend(labels);
@@ -153,16 +153,16 @@ impl Reader {
     }
 
     /// `*NSET`.
-    pub(crate) fn node_set(&mut self, block: &Block) {
+    pub(crate) fn node_set(&mut self, block: &KeywordBlock) {
         self.set(block, Of::Nodes);
     }
 
     /// `*ELSET`.
-    pub(crate) fn element_set(&mut self, block: &Block) {
+    pub(crate) fn element_set(&mut self, block: &KeywordBlock) {
         self.set(block, Of::Elements);
     }
 
-    fn set(&mut self, block: &Block, of: Of) {
+    fn set(&mut self, block: &KeywordBlock, of: Of) {
         let Some(name) = self.required(block, &block.name) else { return };
         let Some(scope) = self.instance(block.place, block.value("INSTANCE")) else { return };
         let mut members = Vec::new();
@@ -183,7 +183,7 @@ impl Reader {
         self.extend(name, of, members, block.has("INTERNAL"));
     }
 
-    fn listed(&mut self, line: &Line, scope: usize, of: Of) -> Vec<usize> {
+    fn listed(&mut self, line: &DataLine, scope: usize, of: Of) -> Vec<usize> {
         let fields: Vec<String> = line.fields().iter().filter(|f| !f.is_empty()).map(|f| (*f).to_string()).collect();
         let member = |name: &String| match self.split(name) {
             (own, rest) if own == self.scope => (scope, rest.to_string()),
@@ -194,7 +194,7 @@ impl Reader {
     }
 
     /// The members of a range that exist.
-    fn range(&mut self, line: &Line, scope: usize, of: Of) -> Vec<usize> {
+    fn range(&mut self, line: &DataLine, scope: usize, of: Of) -> Vec<usize> {
         let numbers: Result<Vec<u64>, _> = line.fields().iter().map(|field| field.parse::<u64>()).collect();
         let (first, last, step) = match numbers.as_deref() {
             Ok(&[first, last]) if first <= last => (first, last, 1),
@@ -222,14 +222,14 @@ impl Reader {
     }
 
     /// `*SURFACE`.
-    pub(crate) fn surface(&mut self, block: &Block) {
+    pub(crate) fn surface(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "NAME") else { return };
         let kind = match block.word("TYPE").as_deref() {
             None | Some("ELEMENT") => {
                 SurfaceKind::Faces(block.lines.iter().flat_map(|line| self.faces(line)).collect())
             }
             Some("NODE") => {
-                let named: Vec<(Place, String)> = block
+                let named: Vec<(InputPlace, String)> = block
                     .lines
                     .iter()
                     .map(|line| {
@@ -262,7 +262,7 @@ impl Reader {
     }
 
     /// The faces that a line of a surface names.
-    fn faces(&mut self, line: &Line) -> Vec<(usize, Option<usize>, bool)> {
+    fn faces(&mut self, line: &DataLine) -> Vec<(usize, Option<usize>, bool)> {
         let (name, label) = (line.field(0).to_string(), line.field(1));
         if name.is_empty() {
             self.error(line.place, "a line of a surface names an element or a set; mend it");
@@ -281,7 +281,7 @@ impl Reader {
     }
 
     /// The number of a face of an element, and whether its negative side is meant.
-    pub(super) fn face(&mut self, place: Place, element: usize, label: &str) -> Option<(Option<usize>, bool)> {
+    pub(super) fn face(&mut self, place: InputPlace, element: usize, label: &str) -> Option<(Option<usize>, bool)> {
         let found = self.model.elements.get(element)?;
         let count = found.kind.faces.len();
         let rigid = found.kind.family == elements::Family::Rigid;

@@ -13,10 +13,10 @@ mod steps;
 mod systems;
 
 use crate::elements::Dialect;
-use crate::keywords::{self, Treated, Value, Where};
-use crate::message::{Messages, Place, suggestion};
+use crate::keywords::{self, ParameterUse, Treated, Where};
+use crate::message::{InputPlace, Messages, suggestion};
 use crate::model::{Model, Step};
-use crate::source::{Block, Line};
+use crate::source::{DataLine, KeywordBlock};
 
 pub use outputs::PLASTIC;
 pub use systems::along;
@@ -31,16 +31,16 @@ pub struct Reader {
     material: Option<usize>,
     interaction: Option<usize>,
     /// The interaction of the `*CHANGE FRICTION` whose `*FRICTION` is still to come, and where that stands.
-    changing: Option<(usize, Place)>,
+    changing: Option<(usize, InputPlace)>,
     step: Option<usize>,
     /// Where the `*COUPLING` stands whose kind is still to be said.
-    coupling: Option<Place>,
+    coupling: Option<InputPlace>,
     /// Whether that has axes of its own.
     oriented: bool,
 }
 
 /// The model that blocks say.
-pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
+pub fn model(blocks: &[KeywordBlock], messages: &mut Messages) -> Model {
     let mut reader = Reader {
         model: Model::default(),
         messages: std::mem::take(messages),
@@ -82,8 +82,8 @@ pub fn model(blocks: &[Block], messages: &mut Messages) -> Model {
 }
 
 /// Whose deck it is: Abaqus' where it has what CalculiX has not, parts, analytical surfaces, rigid elements.
-fn dialect(blocks: &[Block]) -> Dialect {
-    let foreign = |block: &Block| match block.name.as_str() {
+fn dialect(blocks: &[KeywordBlock]) -> Dialect {
+    let foreign = |block: &KeywordBlock| match block.name.as_str() {
         "PART" | "ASSEMBLY" | "INSTANCE" | "PREPRINT" => true,
         "SURFACE" => matches!(block.word("TYPE").as_deref(), Some("SEGMENTS" | "CYLINDER" | "REVOLUTION")),
         "ELEMENT" => block.word("TYPE").is_some_and(|name| name.starts_with('R')),
@@ -93,16 +93,16 @@ fn dialect(blocks: &[Block]) -> Dialect {
 }
 
 impl Reader {
-    fn error(&mut self, place: Place, text: impl Into<String>) {
+    fn error(&mut self, place: InputPlace, text: impl Into<String>) {
         self.messages.error(place, text);
     }
 
-    fn note(&mut self, place: Place, text: impl Into<String>) {
+    fn note(&mut self, place: InputPlace, text: impl Into<String>) {
         self.messages.note(place, text);
     }
 
     /// What is done with a block; its keyword and parameters are checked against their declarations.
-    fn known(&mut self, block: &Block) -> Option<&'static Treated> {
+    fn known(&mut self, block: &KeywordBlock) -> Option<&'static Treated> {
         let Some(keyword) = keywords::named(&block.name) else {
             let near = suggestion(&block.name, keywords::all().map(|keyword| keyword.name));
             self.error(block.place, format!("there is no keyword *{}{near}", block.name));
@@ -118,7 +118,7 @@ impl Reader {
         Some(&keyword.treated)
     }
 
-    fn check_parameters(&mut self, block: &Block, keyword: &keywords::Keyword) {
+    fn check_parameters(&mut self, block: &KeywordBlock, keyword: &keywords::Keyword) {
         for (name, value) in &block.parameters {
             let Some(parameter) = keyword.parameters.iter().find(|parameter| parameter.name == name) else {
                 let near = suggestion(name, keyword.parameters.iter().map(|parameter| parameter.name));
@@ -126,7 +126,7 @@ impl Reader {
                 continue;
             };
             match parameter.treated {
-                Value::OneOf(words) => {
+                ParameterUse::OneOf(words) => {
                     let word = block.word(name).unwrap_or_default();
                     if !words.iter().any(|known| keywords::same(known, &word)) {
                         let words: Vec<&str> = words.iter().copied().filter(|word| !word.is_empty()).collect();
@@ -138,17 +138,19 @@ impl Reader {
                         self.error(block.place, what);
                     }
                 }
-                Value::Noted(what) => self.note(block.place, format!("*{}, {name} left out: {what}", block.name)),
-                Value::Refused(instead) => {
+                ParameterUse::Noted(what) => {
+                    self.note(block.place, format!("*{}, {name} left out: {what}", block.name))
+                }
+                ParameterUse::Refused(instead) => {
                     self.error(block.place, format!("*{}, {name} cannot be translated; {instead}", block.name));
                 }
-                Value::Used | Value::Left => {}
+                ParameterUse::Used | ParameterUse::Left => {}
             }
         }
     }
 
     /// Whether the blocks stand where they may, and whether the deck is whole.
-    fn finish(&mut self, blocks: &[Block]) {
+    fn finish(&mut self, blocks: &[KeywordBlock]) {
         let (mut within, mut changes) = (false, false);
         for block in blocks {
             // What stands below a keyword of change is refused with it.
@@ -169,13 +171,13 @@ impl Reader {
                 }
             }
         }
-        let last = blocks.last().map_or(Place { file: 0, line: 1 }, |block| block.place);
+        let last = blocks.last().map_or(InputPlace { file: 0, line: 1 }, |block| block.place);
         if within {
             self.error(last, "the deck ends within a step; end it with *END STEP");
         } else if self.model.steps.is_empty() && !(blocks.is_empty() && self.messages.has_errors()) {
             self.error(last, "the deck has no *STEP, so that there is nothing to solve");
         }
-        let idle: Vec<(Place, String)> = self
+        let idle: Vec<(InputPlace, String)> = self
             .model
             .steps
             .iter()
@@ -188,14 +190,14 @@ impl Reader {
     }
 
     /// Whether all that stands below a keyword was read.
-    fn all_read(&mut self, block: &Block) {
+    fn all_read(&mut self, block: &KeywordBlock) {
         // What names elements of an unknown type is not read to its end.
         let unknown = self.model.scopes.iter().any(|scope| !scope.unknown.is_empty());
         if unknown || self.messages.has_error_at(block.place) {
             return;
         }
         // What an error hides was not read either.
-        let whole = block.lines.iter().any(Line::is_read) && !self.messages.has_errors();
+        let whole = block.lines.iter().any(DataLine::is_read) && !self.messages.has_errors();
         for line in &block.lines {
             if let Some((at, field)) = line.unread().filter(|_| !self.messages.has_error_at(line.place)) {
                 let what = format!("*{} does not read field {}, '{}'; take it out", block.name, at + 1, shorten(field));
@@ -207,7 +209,7 @@ impl Reader {
     }
 
     /// A field as a number; none is an error.
-    fn real(&mut self, line: &Line, at: usize, what: &str) -> Option<f64> {
+    fn real(&mut self, line: &DataLine, at: usize, what: &str) -> Option<f64> {
         match line.field(at) {
             "" => {
                 self.error(line.place, format!("{what} is missing; it is field {} of the line", at + 1));
@@ -218,14 +220,14 @@ impl Reader {
     }
 
     /// A field as a number, with a value for an empty one.
-    fn real_or(&mut self, line: &Line, at: usize, what: &str, otherwise: f64) -> Option<f64> {
+    fn real_or(&mut self, line: &DataLine, at: usize, what: &str, otherwise: f64) -> Option<f64> {
         match line.field(at) {
             "" => Some(otherwise),
             field => self.number(line.place, field, what),
         }
     }
 
-    fn number(&mut self, place: Place, field: &str, what: &str) -> Option<f64> {
+    fn number(&mut self, place: InputPlace, field: &str, what: &str) -> Option<f64> {
         let number: Result<f64, _> = field.parse().or_else(|_| field.replace(['d', 'D'], "e").parse());
         match number {
             Ok(number) if number.is_finite() => Some(number),
@@ -241,7 +243,7 @@ impl Reader {
     }
 
     /// A positive number.
-    fn positive(&mut self, line: &Line, at: usize, what: &str) -> Option<f64> {
+    fn positive(&mut self, line: &DataLine, at: usize, what: &str) -> Option<f64> {
         let number = self.real(line, at, what)?;
         if number > 0.0 {
             return Some(number);
@@ -251,7 +253,7 @@ impl Reader {
     }
 
     /// The first line of a block; none is an error.
-    fn first_line<'b>(&mut self, block: &'b Block, what: &str) -> Option<&'b Line> {
+    fn first_line<'b>(&mut self, block: &'b KeywordBlock, what: &str) -> Option<&'b DataLine> {
         if block.lines.is_empty() {
             self.error(block.place, format!("*{} has no data; give {what} on the line below", block.name));
         }
@@ -259,7 +261,7 @@ impl Reader {
     }
 
     /// The value of a parameter that must be there.
-    fn required<'b>(&mut self, block: &'b Block, name: &str) -> Option<&'b str> {
+    fn required<'b>(&mut self, block: &'b KeywordBlock, name: &str) -> Option<&'b str> {
         if block.value(name).is_none() {
             self.error(block.place, format!("*{} names no {name}; write *{0}, {name}=...", block.name));
         }
@@ -267,8 +269,8 @@ impl Reader {
     }
 
     /// `*HEADING`.
-    pub(crate) fn heading(&mut self, block: &Block) {
-        let clean = |line: &Line| line.text().chars().filter(|c| !c.is_control()).collect::<String>();
+    pub(crate) fn heading(&mut self, block: &KeywordBlock) {
+        let clean = |line: &DataLine| line.text().chars().filter(|c| !c.is_control()).collect::<String>();
         self.model.title = block.lines.first().map(clean).unwrap_or_default();
     }
 }

@@ -1,7 +1,7 @@
 //! Names of sets and surfaces, and what they stand for: `TOP`, `PLATE-1.TOP`, `17`, `PLATE-1.17`.
 
 use super::Reader;
-use crate::message::{Place, suggestion};
+use crate::message::{InputPlace, suggestion};
 use crate::model::{Scope, Set, Target};
 
 /// What a name is of.
@@ -44,7 +44,7 @@ impl Reader {
     }
 
     /// The scope of an `INSTANCE` parameter.
-    pub(super) fn instance(&mut self, place: Place, name: Option<&str>) -> Option<usize> {
+    pub(super) fn instance(&mut self, place: InputPlace, name: Option<&str>) -> Option<usize> {
         let Some(name) = name else { return Some(self.scope) };
         let found = self.model.scopes.iter().position(|scope| scope.name.eq_ignore_ascii_case(name));
         if found.is_none() {
@@ -55,13 +55,13 @@ impl Reader {
     }
 
     /// The members that a number or the name of a set stands for.
-    pub(super) fn members(&mut self, place: Place, name: &str, of: Of) -> Option<Target> {
+    pub(super) fn members(&mut self, place: InputPlace, name: &str, of: Of) -> Option<Target> {
         let (scope, rest) = self.split(name);
         self.members_in(place, scope, rest, of).map(|members| Target { name: name.to_string(), members })
     }
 
     /// The same within one scope.
-    pub(super) fn members_in(&mut self, place: Place, scope: usize, name: &str, of: Of) -> Option<Vec<usize>> {
+    pub(super) fn members_in(&mut self, place: InputPlace, scope: usize, name: &str, of: Of) -> Option<Vec<usize>> {
         let found = self.model.scopes.get(scope)?;
         if let Ok(number) = name.parse::<u64>() {
             let member = of.number(found, number);
@@ -92,7 +92,7 @@ impl Reader {
     }
 
     /// The only node that a number or the name of a set stands for.
-    pub(super) fn one_node(&mut self, place: Place, name: &str) -> Option<usize> {
+    pub(super) fn one_node(&mut self, place: InputPlace, name: &str) -> Option<usize> {
         let target = self.members(place, name, Of::Nodes)?;
         match target.members.as_slice() {
             &[node] => Some(node),
@@ -104,7 +104,7 @@ impl Reader {
     }
 
     /// A surface by its name: its scope and its name in capitals.
-    pub(super) fn named_surface(&mut self, place: Place, name: &str) -> Option<(usize, String)> {
+    pub(super) fn named_surface(&mut self, place: InputPlace, name: &str) -> Option<(usize, String)> {
         let (scope, rest) = self.split(name);
         let key = rest.to_ascii_uppercase();
         let surfaces = &self.model.scopes.get(scope)?.surfaces;

@@ -2,9 +2,9 @@
 
 use super::Reader;
 use super::names::Of;
-use crate::message::{Place, suggestion};
+use crate::message::{InputPlace, suggestion};
 use crate::model::{Output, OutputKind, Printed, Totals};
-use crate::source::Block;
+use crate::source::KeywordBlock;
 
 /// What a label asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,19 +106,19 @@ pub const PLASTIC: &str = "equivalent_plastic_strain";
 
 impl Reader {
     /// `*NODE FILE`.
-    pub(crate) fn node_file(&mut self, block: &Block) {
+    pub(crate) fn node_file(&mut self, block: &KeywordBlock) {
         self.file(block, NODES);
     }
     /// `*EL FILE`.
-    pub(crate) fn element_file(&mut self, block: &Block) {
+    pub(crate) fn element_file(&mut self, block: &KeywordBlock) {
         self.file(block, ELEMENTS);
     }
     /// `*CONTACT FILE`.
-    pub(crate) fn contact_file(&mut self, block: &Block) {
+    pub(crate) fn contact_file(&mut self, block: &KeywordBlock) {
         self.file(block, CONTACTS);
     }
     /// `*NODE PRINT`.
-    pub(crate) fn node_print(&mut self, block: &Block) {
+    pub(crate) fn node_print(&mut self, block: &KeywordBlock) {
         let set = block.value("NSET").map(str::to_string);
         let found = set.map(|set| self.members(block.place, &set, Of::Nodes));
         if found.as_ref().is_none_or(Option::is_some) {
@@ -126,7 +126,7 @@ impl Reader {
         }
     }
     /// `*EL PRINT`.
-    pub(crate) fn element_print(&mut self, block: &Block) {
+    pub(crate) fn element_print(&mut self, block: &KeywordBlock) {
         let set = block.value("ELSET").map(str::to_string);
         let found = set.map(|set| self.members(block.place, &set, Of::Elements));
         if found.as_ref().is_none_or(Option::is_some) {
@@ -134,7 +134,7 @@ impl Reader {
         }
     }
     /// `*CONTACT PRINT`.
-    pub(crate) fn contact_print(&mut self, block: &Block) {
+    pub(crate) fn contact_print(&mut self, block: &KeywordBlock) {
         let named = ["SLAVE", "MASTER"].map(|side| block.value(side).map(str::to_string));
         let mut sides = [None, None];
         for (side, name) in sides.iter_mut().zip(named) {
@@ -147,12 +147,12 @@ impl Reader {
         self.print(block, CONTACTS, Printed::Contacts(sides));
     }
 
-    fn file(&mut self, block: &Block, labels: &[(&str, Meant)]) {
+    fn file(&mut self, block: &KeywordBlock, labels: &[(&str, Meant)]) {
         self.quantities(block, labels, true);
         self.output(block, OutputKind::File);
     }
 
-    fn print(&mut self, block: &Block, labels: &[(&str, Meant)], whose: Printed) {
+    fn print(&mut self, block: &KeywordBlock, labels: &[(&str, Meant)], whose: Printed) {
         let quantities = self.quantities(block, labels, false);
         let totals = match block.word("TOTALS").as_deref() {
             Some("YES") => Totals::Yes,
@@ -164,7 +164,7 @@ impl Reader {
         }
     }
 
-    fn output(&mut self, block: &Block, kind: OutputKind) {
+    fn output(&mut self, block: &KeywordBlock, kind: OutputKind) {
         let mut every = 1;
         for name in ["FREQUENCY", "FREQUENCYF"] {
             let Some(text) = block.value(name) else { continue };
@@ -183,8 +183,8 @@ impl Reader {
     }
 
     /// The quantities that the labels of a block ask for; what there is not is told.
-    fn quantities(&mut self, block: &Block, labels: &[(&str, Meant)], filed: bool) -> Vec<&'static str> {
-        let (mut found, mut lost): (Vec<&str>, Vec<(Place, String)>) = (vec![], vec![]);
+    fn quantities(&mut self, block: &KeywordBlock, labels: &[(&str, Meant)], filed: bool) -> Vec<&'static str> {
+        let (mut found, mut lost): (Vec<&str>, Vec<(InputPlace, String)>) = (vec![], vec![]);
         for line in &block.lines {
             for field in line.fields() {
                 let label = field.to_ascii_uppercase();

@@ -4,12 +4,12 @@ use super::Reader;
 use super::names::Of;
 use crate::elements::Family;
 use crate::model::{Profile, Rigid, RigidPart, Segment, Sweep};
-use crate::source::{Block, Line};
+use crate::source::{DataLine, KeywordBlock};
 
 impl Reader {
     /// The profile of a surface of type SEGMENTS, CYLINDER or REVOLUTION. Inside a part the lines of its system may be missing:
     /// then it is that of the part, with the y axis as axis of revolution.
-    pub(super) fn profile(&mut self, block: &Block, kind: &str) -> Option<Profile> {
+    pub(super) fn profile(&mut self, block: &KeywordBlock, kind: &str) -> Option<Profile> {
         let system = block.lines.iter().take_while(|line| self.word(line) != "START").count();
         let wanted = match kind {
             "CYLINDER" => 2,
@@ -51,12 +51,12 @@ impl Reader {
         Some(Profile { segments, fillet, sweep })
     }
 
-    fn word(&self, line: &Line) -> String {
+    fn word(&self, line: &DataLine) -> String {
         line.field(0).to_ascii_uppercase()
     }
 
     /// The segments below START. A profile of the plane is placed with its instance.
-    fn segments(&mut self, lines: &[Line], placed: bool) -> Option<Vec<Segment>> {
+    fn segments(&mut self, lines: &[DataLine], placed: bool) -> Option<Vec<Segment>> {
         let place = |reader: &Self, [x, y]: [f64; 2]| {
             let x = if placed { reader.placed([x, y, 0.0]) } else { [x, y, 0.0] };
             [x[0], x[1]]
@@ -73,7 +73,7 @@ impl Reader {
                 ("START", _) => pair(self, 1)?,
                 ("LINE", Some(from)) => {
                     let to = pair(self, 1)?;
-                    segments.push(Segment::Line([place(self, from), place(self, to)]));
+                    segments.push(Segment::DataLine([place(self, from), place(self, to)]));
                     to
                 }
                 ("CIRCL", Some(from)) => {
@@ -113,7 +113,7 @@ impl Reader {
     }
 
     /// `*RIGID BODY`.
-    pub(crate) fn rigid_body(&mut self, block: &Block) {
+    pub(crate) fn rigid_body(&mut self, block: &KeywordBlock) {
         let place = block.place;
         let Some(node) = self.required(block, "REF NODE").map(str::to_string) else { return };
         let Some(node) = self.one_node(place, &node) else { return };
@@ -155,7 +155,7 @@ impl Reader {
     }
 
     /// `*COUPLING`: a surface that goes with a node, as the block below says.
-    pub(crate) fn coupling(&mut self, block: &Block) {
+    pub(crate) fn coupling(&mut self, block: &KeywordBlock) {
         self.end_coupling();
         let place = block.place;
         let Some(node) = self.required(block, "REF NODE").map(str::to_string) else { return };
@@ -170,7 +170,7 @@ impl Reader {
     }
 
     /// `*KINEMATIC`: along which axes.
-    pub(crate) fn kinematic(&mut self, block: &Block) {
+    pub(crate) fn kinematic(&mut self, block: &KeywordBlock) {
         if self.coupling.take().is_none() {
             return self.error(block.place, "*KINEMATIC stands below no *COUPLING that says what it is about");
         }
@@ -191,7 +191,7 @@ impl Reader {
     }
 
     /// `*DISTRIBUTING`: the surface carries what loads the node.
-    pub(crate) fn distributing(&mut self, block: &Block) {
+    pub(crate) fn distributing(&mut self, block: &KeywordBlock) {
         if self.coupling.take().is_none() {
             return self.error(block.place, "*DISTRIBUTING stands below no *COUPLING that says what it is about");
         }

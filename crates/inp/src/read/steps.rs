@@ -2,13 +2,13 @@
 
 use super::Reader;
 use super::names::Of;
-use crate::message::{Place, suggestion};
+use crate::message::{InputPlace, suggestion};
 use crate::model::{Action, ActionKind, Condition, Course, Path, Step, SurfaceKind, Target};
-use crate::source::{Block, Line};
+use crate::source::{DataLine, KeywordBlock};
 
 impl Reader {
     /// `*STEP`.
-    pub(crate) fn step(&mut self, block: &Block) {
+    pub(crate) fn step(&mut self, block: &KeywordBlock) {
         let number = self.model.steps.len() + 1;
         let name = block.value("NAME").map_or_else(|| format!("step {number}"), str::to_string);
         let large = block.has("NLGEOM") && block.word("NLGEOM").as_deref() != Some("NO");
@@ -26,12 +26,12 @@ impl Reader {
     }
 
     /// `*END STEP`.
-    pub(crate) fn end_step(&mut self, _: &Block) {
+    pub(crate) fn end_step(&mut self, _: &KeywordBlock) {
         self.step = None;
     }
 
     /// `*STATIC`.
-    pub(crate) fn static_step(&mut self, block: &Block) {
+    pub(crate) fn static_step(&mut self, block: &KeywordBlock) {
         let mut given = [None; 4];
         if let Some(line) = block.lines.first() {
             for (at, value) in given.iter_mut().enumerate() {
@@ -58,7 +58,7 @@ impl Reader {
 
     /// Where a step ends that follows a path: behind the times stand the load factor, and a node with its degree of freedom and
     /// displacement.
-    fn path(&mut self, block: &Block) -> Option<Path> {
+    fn path(&mut self, block: &KeywordBlock) -> Option<Path> {
         if block.has("DIRECT") {
             self.error(block.place, "increments of a path adapt their length; leave DIRECT out");
             return None;
@@ -91,7 +91,7 @@ impl Reader {
     }
 
     /// Adds to the present step, or to what holds before the first.
-    fn act(&mut self, place: Place, course: Course, kind: ActionKind) {
+    fn act(&mut self, place: InputPlace, course: Course, kind: ActionKind) {
         let action = Action { place, course, kind };
         match self.step.and_then(|at| self.model.steps.get_mut(at)) {
             Some(step) => step.actions.push(action),
@@ -100,7 +100,7 @@ impl Reader {
     }
 
     /// The amplitude of a block; conditions of its kind end where it says OP=NEW.
-    fn begin(&mut self, block: &Block, condition: Condition) -> Course {
+    fn begin(&mut self, block: &KeywordBlock, condition: Condition) -> Course {
         if block.word("OP").as_deref() == Some("NEW") {
             self.act(block.place, None, ActionKind::Fresh(condition));
         }
@@ -114,7 +114,7 @@ impl Reader {
     }
 
     /// `*BOUNDARY`.
-    pub(crate) fn boundary(&mut self, block: &Block) {
+    pub(crate) fn boundary(&mut self, block: &KeywordBlock) {
         let course = self.begin(block, Condition::Boundary);
         for line in &block.lines {
             let name = line.field(0).to_string();
@@ -127,7 +127,7 @@ impl Reader {
     }
 
     /// The axes that a line of *BOUNDARY holds, and the value.
-    fn led(&mut self, line: &Line) -> Option<(Vec<usize>, f64)> {
+    fn led(&mut self, line: &DataLine) -> Option<(Vec<usize>, f64)> {
         let first = line.field(1).to_ascii_uppercase();
         let symmetry: Option<&[usize]> = match first.as_str() {
             "XSYMM" => Some(&[0, 4, 5]),
@@ -154,7 +154,7 @@ impl Reader {
     }
 
     /// A degree of freedom from 1 to 6, counted from zero.
-    pub(super) fn axis(&mut self, line: &Line, at: usize) -> Option<usize> {
+    pub(super) fn axis(&mut self, line: &DataLine, at: usize) -> Option<usize> {
         let field = line.field(at);
         match field.parse::<usize>() {
             Ok(axis @ 1..=6) => Some(axis - 1),
@@ -175,7 +175,7 @@ impl Reader {
     }
 
     /// `*CLOAD`.
-    pub(crate) fn cload(&mut self, block: &Block) {
+    pub(crate) fn cload(&mut self, block: &KeywordBlock) {
         let course = self.begin(block, Condition::Force);
         for line in &block.lines {
             let name = line.field(0).to_string();
@@ -186,14 +186,14 @@ impl Reader {
     }
 
     /// `*DLOAD`.
-    pub(crate) fn dload(&mut self, block: &Block) {
+    pub(crate) fn dload(&mut self, block: &KeywordBlock) {
         let course = self.begin(block, Condition::Distributed);
         for line in &block.lines {
             self.load(line, course);
         }
     }
 
-    fn load(&mut self, line: &Line, course: Course) -> Option<()> {
+    fn load(&mut self, line: &DataLine, course: Course) -> Option<()> {
         let (name, label) = (line.field(0).to_string(), line.field(1).to_ascii_uppercase());
         let target = match name.as_str() {
             // Abaqus takes the whole model.
@@ -237,7 +237,7 @@ impl Reader {
     }
 
     /// The faces of elements that a label P, P1 to P6 loads.
-    fn pressed(&mut self, place: Place, elements: &[usize], label: &str) -> Option<Vec<(usize, Option<usize>)>> {
+    fn pressed(&mut self, place: InputPlace, elements: &[usize], label: &str) -> Option<Vec<(usize, Option<usize>)>> {
         let Some(number) = label.strip_prefix('P').filter(|number| number.chars().all(|c| c.is_ascii_digit())) else {
             let what = format!(
                 "loads of type '{}' cannot be translated; GRAV, BX, BY, BZ, P and P1 to P6 can",
@@ -255,7 +255,7 @@ impl Reader {
     }
 
     /// `*DSLOAD`.
-    pub(crate) fn dsload(&mut self, block: &Block) {
+    pub(crate) fn dsload(&mut self, block: &KeywordBlock) {
         let course = self.begin(block, Condition::Distributed);
         for line in &block.lines {
             let (name, label) = (line.field(0), line.field(1));
@@ -278,7 +278,7 @@ impl Reader {
     }
 
     /// `*CHANGE FRICTION`: the coefficient stands in the `*FRICTION` below it.
-    pub(crate) fn change_friction(&mut self, block: &Block) {
+    pub(crate) fn change_friction(&mut self, block: &KeywordBlock) {
         self.end_change();
         let Some(name) = self.required(block, "INTERACTION") else { return };
         let name = name.to_string();
@@ -293,7 +293,7 @@ impl Reader {
     }
 
     /// The `*FRICTION` below a `*CHANGE FRICTION`.
-    pub(super) fn changed_friction(&mut self, block: &Block) {
+    pub(super) fn changed_friction(&mut self, block: &KeywordBlock) {
         let Some((interaction, _)) = self.changing.take() else {
             return self.error(block.place, "*FRICTION in a step belongs to a *CHANGE FRICTION; put that above it");
         };
@@ -325,7 +325,7 @@ impl Reader {
     }
 
     /// `*MODEL CHANGE` of contact pairs and elements.
-    pub(crate) fn model_change(&mut self, block: &Block) {
+    pub(crate) fn model_change(&mut self, block: &KeywordBlock) {
         let kind = block.word("TYPE");
         let (add, remove) = (block.has("ADD"), block.has("REMOVE"));
         if add == remove {
@@ -347,7 +347,7 @@ impl Reader {
     }
 
     /// `*MODEL CHANGE, TYPE=ELEMENT`.
-    fn change_elements(&mut self, block: &Block, add: bool) {
+    fn change_elements(&mut self, block: &KeywordBlock, add: bool) {
         if block.word("ADD").is_some_and(|how| how == "WITHSTRAIN") {
             let what =
                 "elements come back without stress in the shape that their nodes have; write ADD, or ADD=STRAIN FREE";
@@ -363,7 +363,7 @@ impl Reader {
     }
 
     /// `*TEMPERATURE`.
-    pub(crate) fn temperature(&mut self, block: &Block) {
+    pub(crate) fn temperature(&mut self, block: &KeywordBlock) {
         let course = self.begin(block, Condition::Temperature);
         for line in &block.lines {
             let name = line.field(0).to_string();
@@ -375,7 +375,7 @@ impl Reader {
     }
 
     /// `*INITIAL CONDITIONS`.
-    pub(crate) fn initial_conditions(&mut self, block: &Block) {
+    pub(crate) fn initial_conditions(&mut self, block: &KeywordBlock) {
         if block.word("TYPE").as_deref() != Some("TEMPERATURE") {
             let what = "only TYPE=TEMPERATURE can be translated; stresses at the beginning are `initial_stress` of a body in the deck of Asperity";
             return self.error(block.place, what);

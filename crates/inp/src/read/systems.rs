@@ -4,12 +4,12 @@
 use super::Reader;
 use super::names::Of;
 use crate::model::{Frame, Orientation};
-use crate::source::Block;
+use crate::source::KeywordBlock;
 use crate::vector::{cross, dot, less, unit};
 
 impl Reader {
     /// `*ORIENTATION`.
-    pub(crate) fn orientation(&mut self, block: &Block) {
+    pub(crate) fn orientation(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "NAME").map(|name| self.full_name(name).to_ascii_uppercase()) else {
             return;
         };
@@ -40,7 +40,7 @@ impl Reader {
     }
 
     /// The axis of an additional turn of *ORIENTATION, from 0 to 2, and its angle in degrees: the second line, if there is one.
-    fn turn(&mut self, block: &Block) -> Option<(usize, f64)> {
+    fn turn(&mut self, block: &KeywordBlock) -> Option<(usize, f64)> {
         let Some(line) = block.lines.get(1) else { return Some((0, 0.0)) };
         let axis = match line.field(0) {
             "" | "1" => 0,
@@ -56,7 +56,7 @@ impl Reader {
     }
 
     /// `*TRANSFORM`.
-    pub(crate) fn transform(&mut self, block: &Block) {
+    pub(crate) fn transform(&mut self, block: &KeywordBlock) {
         let Some(name) = self.required(block, "NSET").map(str::to_string) else { return };
         let Some(target) = self.members(block.place, &name, Of::Nodes) else { return };
         let Some(line) = self.first_line(block, "two points") else { return };

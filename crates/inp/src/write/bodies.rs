@@ -2,7 +2,7 @@
 
 use super::{Writer, list, quoted, rubber};
 use crate::elements::{Family, Formulation};
-use crate::message::{Place, suggestion};
+use crate::message::{InputPlace, suggestion};
 use crate::model::{ActionKind, Material, Model, Orientation, RigidPart, Section, Stiffness, Target, UserLaw};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -358,7 +358,7 @@ impl Writer<'_> {
 }
 
 /// The elements that steps take away and bring back, whether they come back, the number of the step and the place.
-fn changes(model: &Model) -> impl Iterator<Item = (&Target, bool, usize, Place)> {
+fn changes(model: &Model) -> impl Iterator<Item = (&Target, bool, usize, InputPlace)> {
     let steps = model.steps.iter().enumerate();
     let all = steps.flat_map(|(number, step)| step.actions.iter().map(move |action| (number, action)));
     all.filter_map(|(number, action)| match &action.kind {

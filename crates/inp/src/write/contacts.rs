@@ -2,7 +2,7 @@
 
 use super::{Writer, quoted};
 use crate::elements::{Dialect, Family};
-use crate::message::Place;
+use crate::message::InputPlace;
 use crate::model::{Action, ActionKind, Interaction, Pair, SurfaceKind, Tie};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -163,7 +163,7 @@ impl Writer<'_> {
     }
 
     /// The law of an interaction.
-    fn friction(&mut self, (interaction, number): (&Interaction, usize), place: Place) -> String {
+    fn friction(&mut self, (interaction, number): (&Interaction, usize), place: InputPlace) -> String {
         let changes = |action: &Action| matches!(action.kind, ActionKind::Friction(other, _) if other == number);
         let changes = self.model.steps.iter().any(|step| step.actions.iter().any(changes));
         match (interaction.friction, interaction.shear_limit, interaction.decay) {
@@ -188,7 +188,7 @@ impl Writer<'_> {
     }
 
     /// What a surface of a pair is here.
-    pub(super) fn sided(&mut self, place: Place, name: &(usize, String)) -> Option<Sided> {
+    pub(super) fn sided(&mut self, place: InputPlace, name: &(usize, String)) -> Option<Sided> {
         let surface = self.model.surface(name)?;
         let rigid = |element: usize| self.model.elements[element].kind.family == Family::Rigid;
         match &surface.kind {

@@ -1,7 +1,7 @@
 //! How values run within steps: from amplitudes in time to the tables of a deck, which lead from the old value to the new.
 
 use super::Writer;
-use crate::message::Place;
+use crate::message::InputPlace;
 use crate::model::{Amplitude, Course};
 
 /// What a line of the input deck laid on, as long as it holds.
@@ -14,7 +14,7 @@ pub struct Record {
     /// The amplitude.
     pub course: Course,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
     /// The step that said it.
     pub step: usize,
     /// The value at the end of the last step.
@@ -31,7 +31,7 @@ pub struct Item {
     /// Fractions of the step and values; none for a straight line from whatever it was.
     pub course: Option<Vec<[f64; 2]>>,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
 }
 
 /// Pairs of a fraction of the step and a factor.
@@ -141,7 +141,7 @@ mod tests {
             end,
             start: Some(start),
             course: Some(course.to_vec()),
-            place: Place::default(),
+            place: InputPlace::default(),
         };
         assert_eq!(item(1.0, 3.0, &[[0.0, 1.0], [1.0, 3.0]]).factors(), (3.0, None));
         let there_and_back = item(0.0, 0.0, &[[0.0, 0.0], [0.5, -2.0], [1.0, 0.0]]);

@@ -2,7 +2,7 @@
 
 use super::{Writer, quoted};
 use crate::elements::Family;
-use crate::message::Place;
+use crate::message::InputPlace;
 use crate::model::{ActionKind, Condition};
 use crate::read::along;
 
@@ -50,7 +50,7 @@ impl Writer<'_> {
     }
 
     /// Terms: group, axis and factor.
-    fn equation(&mut self, place: Place, terms: &[(String, usize, f64)]) {
+    fn equation(&mut self, place: InputPlace, terms: &[(String, usize, f64)]) {
         let mut text = format!("\n[[equation]]{}\nterms = [\n", self.from(place));
         for (group, axis, factor) in terms {
             text += &format!("    {{ group = {}, axis = \"{}\", factor = {factor:?} }},\n", quoted(group), AXES[*axis]);

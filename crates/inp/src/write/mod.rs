@@ -17,7 +17,7 @@ mod tools;
 mod turned;
 
 use crate::elements::Family;
-use crate::message::{Messages, Place};
+use crate::message::{InputPlace, Messages};
 use crate::model::Model;
 use groups::Groups;
 use std::collections::{BTreeMap, BTreeSet};
@@ -45,7 +45,7 @@ struct Writer<'m> {
     /// Directions along which nodes with axes of their own are led.
     directions: Vec<[f64; 3]>,
     /// Groups of axisymmetric models that are rigid, which hold their radius.
-    rings: Vec<(String, Place)>,
+    rings: Vec<(String, InputPlace)>,
     /// New places of nodes that are moved onto a surface.
     moved: BTreeMap<usize, [f64; 3]>,
     /// Nodes and axes, those of the node's `*TRANSFORM`, that are held or led in each step.
@@ -104,16 +104,16 @@ pub fn deck<'m>(
 }
 
 impl Writer<'_> {
-    fn error(&mut self, place: Place, text: impl Into<String>) {
+    fn error(&mut self, place: InputPlace, text: impl Into<String>) {
         self.messages.error(place, text);
     }
 
-    fn note(&mut self, place: Place, text: impl Into<String>) {
+    fn note(&mut self, place: InputPlace, text: impl Into<String>) {
         self.messages.note(place, text);
     }
 
     /// A comment that names the place of what is written.
-    fn from(&self, place: Place) -> String {
+    fn from(&self, place: InputPlace) -> String {
         format!("  # {}", visible(&self.messages.at(place)))
     }
 

@@ -3,7 +3,7 @@
 use super::contacts::Sided;
 use super::{Writer, list, quoted};
 use crate::elements::Family;
-use crate::message::Place;
+use crate::message::InputPlace;
 use crate::model::{Profile, RigidPart, Segment, SurfaceKind, Sweep};
 
 /// A tool and the node that leads it.
@@ -15,7 +15,7 @@ pub struct Tool {
     /// The rigid body's number.
     pub rigid: usize,
     /// Where it stands.
-    pub place: Place,
+    pub place: InputPlace,
 }
 
 impl Writer<'_> {
@@ -143,7 +143,7 @@ impl Writer<'_> {
 
     /// The shape of an analytical surface. Its outward normal lies on the left of its segments, a tool's material on the left
     /// of its profile: the profile is travelled backwards.
-    fn swept(&mut self, profile: &Profile, place: Place) -> Option<String> {
+    fn swept(&mut self, profile: &Profile, place: InputPlace) -> Option<String> {
         let plane = self.family != Family::Solid;
         if plane != (profile.sweep == Sweep::Plane) {
             let what = if plane {
@@ -161,7 +161,7 @@ impl Writer<'_> {
                 points.join(", ")
             };
             text += &match segment {
-                Segment::Line(ends) => format!("    {{ line = [{}] }},\n", points(ends)),
+                Segment::DataLine(ends) => format!("    {{ line = [{}] }},\n", points(ends)),
                 Segment::Arc(three) => format!("    {{ arc = [{}] }},\n", points(three)),
                 Segment::Parabola(three) => format!("    {{ parabola = [{}] }},\n", points(three)),
             };
@@ -205,7 +205,7 @@ impl Writer<'_> {
     }
 
     /// The shape of rigid elements: a profile in the plane, facets in space.
-    fn facets(&mut self, elements: &[usize], negative: bool, place: Place) -> Option<String> {
+    fn facets(&mut self, elements: &[usize], negative: bool, place: InputPlace) -> Option<String> {
         let model = self.model;
         if self.family != Family::Solid {
             return self.chain(elements, negative, place);
@@ -234,7 +234,7 @@ impl Writer<'_> {
     }
 
     /// Rigid lines, each from the end of the one before. The outward normal lies on the left from the first node to the second.
-    fn chain(&mut self, elements: &[usize], negative: bool, place: Place) -> Option<String> {
+    fn chain(&mut self, elements: &[usize], negative: bool, place: InputPlace) -> Option<String> {
         let ends = |&element: &usize| {
             let nodes = &self.model.elements[element].nodes;
             Some(if negative { [*nodes.first()?, *nodes.get(1)?] } else { [*nodes.get(1)?, *nodes.first()?] })

@@ -64,12 +64,12 @@ impl Writer<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::message::Place;
+    use crate::message::InputPlace;
 
     const FRAME: Frame = [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
 
     fn item(end: f64) -> Item {
-        Item { end, start: Some(0.0), course: None, place: Place::default() }
+        Item { end, start: Some(0.0), course: None, place: InputPlace::default() }
     }
 
     #[test]

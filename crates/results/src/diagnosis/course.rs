@@ -1,6 +1,6 @@
 //! What was seen of a run.
 
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -9,12 +9,12 @@ pub enum End {
     #[default]
     Well,
     /// An increment did not converge, of what.
-    Failed(Kind),
+    Failed(FailureKind),
 }
 
 /// A run.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Course {
+pub struct RunCourse {
     /// How it ended.
     pub ended: End,
     /// Why, in words.
@@ -47,7 +47,7 @@ pub struct Course {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Fault {
     /// What of.
-    pub kind: Kind,
+    pub kind: FailureKind,
     /// In words.
     pub reason: String,
     /// Size of the increment over its step.
@@ -77,18 +77,18 @@ pub struct Doubted {
     pub remedy: String,
 }
 
-impl Course {
+impl RunCourse {
     /// The kind of failure that ended the run.
-    pub fn kind(&self) -> Option<Kind> {
+    pub fn kind(&self) -> Option<FailureKind> {
         if let End::Failed(kind) = self.ended { Some(kind) } else { None }
     }
     /// Part of the failed attempts that are of a kind.
-    pub fn share(&self, kinds: &[Kind]) -> f64 {
+    pub fn share(&self, kinds: &[FailureKind]) -> f64 {
         let count = self.faults.iter().filter(|fault| kinds.contains(&fault.kind)).count();
         count as f64 / self.faults.len().max(1) as f64
     }
     /// The first fault of a kind.
-    pub fn fault(&self, kinds: &[Kind]) -> Option<&Fault> {
+    pub fn fault(&self, kinds: &[FailureKind]) -> Option<&Fault> {
         self.faults.iter().find(|fault| kinds.contains(&fault.kind))
     }
     /// Whether none of the contacts was ever seen to be closed; where no increment was accepted none was.

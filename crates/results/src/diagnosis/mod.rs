@@ -1,5 +1,5 @@
 //! What a run that failed, or whose results are doubtful, most likely suffers from: data in, findings out. [`Facts`] are what
-//! is known of the model before it runs, a [`Course`] is what was seen of the run; each of the rules looks at both and may
+//! is known of the model before it runs, a [`RunCourse`] is what was seen of the run; each of the rules looks at both and may
 //! find a cause, with its evidence and with what to try. The findings are ranked by how strongly they are supported.
 //!
 //! [`oddities`] are the same for a model alone: numbers that hardly belong together, as of mixed units.
@@ -12,7 +12,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use course::{Course, Doubted, End, Fault};
+pub use course::{Doubted, End, Fault, RunCourse};
 pub use facts::{BodyFacts, ContactFacts, Facts, Load, StepFacts, ToolFacts};
 pub use plausible::{Oddity, oddities};
 pub use settings::{Setting, settings};
@@ -41,7 +41,7 @@ const MOST: usize = 4;
 const FAINT: f64 = 0.4;
 
 /// The likely causes, the likeliest first; none for a run that ended well, and always one for a run that did not.
-pub fn diagnose(facts: &Facts, course: &Course) -> Vec<Finding> {
+pub fn diagnose(facts: &Facts, course: &RunCourse) -> Vec<Finding> {
     if course.ended == End::Well && course.doubts.is_empty() {
         return Vec::new();
     }

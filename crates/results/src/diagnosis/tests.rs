@@ -1,5 +1,5 @@
 use super::*;
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 
 /// A steel block on a plate that it touches, pressed by a displacement.
 fn block() -> Facts {
@@ -42,19 +42,19 @@ fn block() -> Facts {
     }
 }
 
-fn failed(kind: Kind, reason: &str) -> Course {
+fn failed(kind: FailureKind, reason: &str) -> RunCourse {
     let fault = Fault { kind, reason: reason.into(), size: 0.1, residual: 0.1, allowed: 1e-6, changes: 0 };
-    Course {
+    RunCourse {
         ended: End::Failed(kind),
         reason: reason.into(),
         faults: vec![fault; 6],
         closed: vec![("sole".into(), true)],
         acceleration: 1.0,
-        ..Course::default()
+        ..RunCourse::default()
     }
 }
 
-fn first(facts: &Facts, course: &Course) -> String {
+fn first(facts: &Facts, course: &RunCourse) -> String {
     let found = diagnose(facts, course);
     assert!(found.iter().all(|finding| (0.0..=1.0).contains(&finding.weight) && !finding.what.is_empty()));
     assert!(found.iter().all(|finding| !finding.evidence.is_empty() && !finding.advice.is_empty()), "{found:?}");
@@ -63,23 +63,23 @@ fn first(facts: &Facts, course: &Course) -> String {
 
 #[test]
 fn nothing_is_found_where_nothing_is_wrong() {
-    assert_eq!(diagnose(&block(), &Course { closed: vec![("sole".into(), true)], ..Course::default() }), []);
+    assert_eq!(diagnose(&block(), &RunCourse { closed: vec![("sole".into(), true)], ..RunCourse::default() }), []);
     assert_eq!(oddities(&block()), []);
 }
 
 #[test]
 fn there_is_always_a_finding_for_a_run_that_failed() {
-    assert_eq!(first(&block(), &failed(Kind::Other, "something else")), "unknown");
+    assert_eq!(first(&block(), &failed(FailureKind::Other, "something else")), "unknown");
 }
 
 #[test]
 fn a_free_body_waits_for_its_contact_or_is_held_by_nothing() {
-    let free = failed(Kind::Free, "body 'block' is free along y: nothing holds it");
+    let free = failed(FailureKind::Free, "body 'block' is free along y: nothing holds it");
     assert_eq!(first(&block(), &free), "free-body");
     let mut facts = block();
     facts.contacts[0].gap = Some(0.2);
     assert_eq!(first(&facts, &free), "not-touching");
-    let lost = Course { increments: 5, ..free };
+    let lost = RunCourse { increments: 5, ..free };
     assert_eq!(first(&facts, &lost), "lost-contact");
 }
 
@@ -88,8 +88,8 @@ fn a_tool_on_the_wrong_side_comes_before_all_that_it_leads_to() {
     let mut facts = block();
     (facts.contacts[0].inside, facts.contacts[0].seeing, facts.contacts[0].gap) = (1.0, 0, None);
     for course in [
-        failed(Kind::Passage, "body 'block' lies 3 cells deep in tool 'plate'"),
-        failed(Kind::Free, "body 'block' is free"),
+        failed(FailureKind::Passage, "body 'block' lies 3 cells deep in tool 'plate'"),
+        failed(FailureKind::Free, "body 'block' is free"),
     ] {
         assert_eq!(first(&facts, &course), "wrong-side");
     }
@@ -97,7 +97,7 @@ fn a_tool_on_the_wrong_side_comes_before_all_that_it_leads_to() {
 
 #[test]
 fn passages_are_told_by_whether_a_contact_knows_of_them() {
-    let course = failed(Kind::Passage, "body 'block' lies 0.30 cells deep in tool 'plate' at (0, 0)");
+    let course = failed(FailureKind::Passage, "body 'block' lies 0.30 cells deep in tool 'plate' at (0, 0)");
     assert_eq!(first(&block(), &course), "passage");
     let facts = Facts { contacts: Vec::new(), ..block() };
     assert_eq!(first(&facts, &course), "missing-contact");
@@ -108,7 +108,7 @@ fn loads_are_measured_by_what_bears_them() {
     let mut facts = block();
     (facts.bodies[0].yield_stress, facts.bodies[0].strength) = (Some(250.0), Some(250.0));
     let load = |stress| Load { name: "pressure.block.top".into(), bodies: vec!["block".into()], stress };
-    let course = failed(Kind::Iterations, "the largest unbalanced force");
+    let course = failed(FailureKind::Iterations, "the largest unbalanced force");
     facts.steps[0].loads = vec![load(1000.0)];
     assert_eq!(first(&facts, &course), "limit-load");
     facts.steps[0].loads = vec![load(1e8)];
@@ -136,7 +136,7 @@ fn of_each_cause_there_is_one_finding_and_the_strongest_comes_first() {
     facts.bodies[0].locks = true;
     facts.bodies[0].bulk_ratio = 1e4;
     let doubt = Doubted { figure: "pressure_oscillation".into(), value: 40.0, limit: 3.0, ..Doubted::default() };
-    let course = Course { doubts: vec![doubt], closed: vec![("sole".into(), true)], ..Course::default() };
+    let course = RunCourse { doubts: vec![doubt], closed: vec![("sole".into(), true)], ..RunCourse::default() };
     let found = diagnose(&facts, &course);
     assert_eq!(found.iter().map(|finding| finding.cause.as_str()).collect::<Vec<_>>(), ["locking"]);
     assert!(found.is_sorted_by(|a, b| a.weight >= b.weight));

@@ -4,9 +4,9 @@ use super::certificate::{Certificate, Limits, Occasion};
 use super::figures::{FIGURES, Figure};
 use super::quantities::{Parts, Source};
 use super::quantity::Frame;
-use super::summary::{Status, Summary};
+use super::summary::{RunStatus, Summary};
 use super::witness::certified;
-use crate::diagnosis::{Course, Doubted, End, Facts, diagnose, settings};
+use crate::diagnosis::{Doubted, End, Facts, RunCourse, diagnose, settings};
 use asperity_core::Error;
 use asperity_core::solid::{Body, Choice};
 use asperity_core::system::Term;
@@ -58,10 +58,10 @@ impl Account {
         self.certificate.observe(frame);
         (self.summary.attempts, self.summary.iterations) = (source.state.attempts, source.state.iterations);
         self.summary.steps = source.state.step;
-        self.summary.status = Status::Running;
+        self.summary.status = RunStatus::Running;
     }
     /// Says in the summary what the run most likely suffers from, if it failed or is doubtful.
-    pub fn diagnose(&mut self, facts: &Facts, course: Course) {
+    pub fn diagnose(&mut self, facts: &Facts, course: RunCourse) {
         let mut course = certified(course, &self.certificate, &self.limits);
         let meant = facts.contacts.iter().any(|contact| !contact.itself);
         self.idle = course.ended == End::Well && meant && course.never_closed();

@@ -3,7 +3,7 @@
 //! mean takes no value at a node beyond the values at the points of the cell: a flow stress is not exceeded.
 
 use asperity_core::Error;
-use asperity_core::mesh::cells::{Cell, MAX_NODES, Rule};
+use asperity_core::mesh::cells::{Cell, MAX_NODES, Quadrature};
 use asperity_core::mesh::{CellView, Mesh};
 use asperity_core::tensor::inverse;
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ impl<'a> NodalMean<'a> {
     pub fn add(
         &mut self,
         cell: usize,
-        rule: &Rule,
+        rule: &Quadrature,
         values: &[f64],
         takes: impl Fn(usize) -> bool,
     ) -> Result<(), Error> {
@@ -79,7 +79,7 @@ fn within(value: f64, others: impl Iterator<Item = f64>) -> f64 {
 const RANK: f64 = 1e-10;
 
 /// Least squares in the shape functions of the corners; the plain mean where the points are too few for them.
-fn extrapolation(kind: &Cell, rule: &Rule) -> Extrapolation {
+fn extrapolation(kind: &Cell, rule: &Quadrature) -> Extrapolation {
     let corners = kind.linear.nodes.len();
     let at_points: Vec<Vec<f64>> = rule.points.iter().map(|&xi| corner_functions(kind, xi)).collect();
     let normal: Vec<Vec<f64>> =

@@ -19,7 +19,7 @@ const LOOK: Duration = Duration::from_millis(5);
 
 /// The right to write into a result directory, as long as it lives.
 #[derive(Debug)]
-pub struct Claim {
+pub struct ResultsClaim {
     _lock: File,
 }
 
@@ -32,7 +32,7 @@ pub enum Others {
     Spare,
 }
 
-impl Claim {
+impl ResultsClaim {
     /// Makes the directory and claims it for the results of `deck`.
     ///
     /// # Errors
@@ -100,11 +100,11 @@ mod tests {
     fn one_at_a_time() {
         let folder = folder();
         let (results, deck) = (folder.path().join("results"), folder.path().join("a.toml"));
-        let first = Claim::take(&results, &deck, Others::Spare).unwrap();
-        let refused = Claim::take(&results, &deck, Others::Replace).unwrap_err().to_string();
+        let first = ResultsClaim::take(&results, &deck, Others::Spare).unwrap();
+        let refused = ResultsClaim::take(&results, &deck, Others::Replace).unwrap_err().to_string();
         assert!(refused.contains("another process is writing"), "{refused}");
         drop(first);
-        Claim::take(&results, &deck, Others::Spare).unwrap();
+        ResultsClaim::take(&results, &deck, Others::Spare).unwrap();
     }
 
     #[test]
@@ -112,11 +112,11 @@ mod tests {
         let folder = folder();
         let [a, b] = ["a.toml", "b.toml"].map(|name| folder.path().join(name));
         let results = folder.path().join("results");
-        drop(Claim::take(&results, &a, Others::Spare).unwrap());
-        let refused = Claim::take(&results, &b, Others::Spare).unwrap_err().to_string();
+        drop(ResultsClaim::take(&results, &a, Others::Spare).unwrap());
+        let refused = ResultsClaim::take(&results, &b, Others::Spare).unwrap_err().to_string();
         assert!(refused.contains("these are results of") && refused.contains("a.toml"), "{refused}");
-        drop(Claim::take(&results, &b, Others::Replace).unwrap());
+        drop(ResultsClaim::take(&results, &b, Others::Replace).unwrap());
         std::fs::remove_file(&b).unwrap();
-        Claim::take(&results, &a, Others::Spare).unwrap();
+        ResultsClaim::take(&results, &a, Others::Spare).unwrap();
     }
 }

@@ -2,7 +2,7 @@
 //! motion; `displacement` moves them ("Warp By Vector").
 
 use super::quantities::Source;
-use super::quantity::{Frame, Number, Place, Quantity};
+use super::quantity::{Frame, Number, Quantity, QuantityPlace};
 use super::vtk::{Cells, DataArray, Grid, Values, vtk_order};
 use asperity_core::Error;
 use asperity_core::mesh::Mesh;
@@ -46,13 +46,14 @@ impl BodyGrid {
     pub fn at(&self, frame: &mut Frame) -> Grid {
         let mut arrays =
             |place, masks: &[DataArray]| frame.take(place).map(array).chain(masks.iter().cloned()).collect();
-        let (point_data, cell_data) = (arrays(Place::Node, &self.point_masks), arrays(Place::Cell, &self.cell_masks));
+        let (point_data, cell_data) =
+            (arrays(QuantityPlace::Node, &self.point_masks), arrays(QuantityPlace::Cell, &self.cell_masks));
         Grid { time: frame.time, points: self.points.clone(), cells: self.cells.clone(), point_data, cell_data }
     }
 }
 
 /// One vertex for each integration point of a place, with the quantities there, which are taken out of the frame.
-pub fn cloud(frame: &mut Frame, place: Place) -> Grid {
+pub fn cloud(frame: &mut Frame, place: QuantityPlace) -> Grid {
     const POSITION: &str = "reference_position";
     let (positions, others): (Vec<_>, Vec<_>) = frame.take(place).partition(|q| q.name == POSITION);
     let points = positions.first().map_or(vec![], |q| q.values.as_chunks().0.to_vec());
@@ -99,7 +100,7 @@ pub fn surfaces(source: &Source, frame: &mut Frame) -> Result<Grid, Error> {
         grid.cells.push(kind.vtk, order.iter().map(|&i| place[nodes[i]]));
     }
     grid.point_data = vec![DataArray::new("displacement", 3, Values::Real(displacement))];
-    grid.cell_data = frame.take(Place::Face).map(array).collect();
+    grid.cell_data = frame.take(QuantityPlace::Face).map(array).collect();
     Ok(grid)
 }
 

@@ -1,6 +1,6 @@
 //! `history.csv`: one row an accepted increment, one column a component of every global quantity of its frame.
 
-use super::quantity::{Frame, Place, Unit};
+use super::quantity::{Frame, QuantityPlace, Unit};
 use super::table::{Columns, Field, Table};
 use super::units::Units;
 use asperity_core::Error;
@@ -30,7 +30,7 @@ pub fn global_columns(frame: &Frame, plane: bool) -> Vec<(String, f64)> {
         let columns = quantity.width.columns(plane).iter();
         columns.map(|&(c, suffix)| (format!("{}{suffix}", quantity.name), quantity.values[c])).collect::<Vec<_>>()
     };
-    frame.at(Place::Global).flat_map(entries).collect()
+    frame.at(QuantityPlace::Global).flat_map(entries).collect()
 }
 
 impl HistoryTable {
@@ -59,7 +59,7 @@ impl HistoryTable {
     fn header(&self, frame: &Frame) -> Vec<String> {
         let named = |name: &str, unit| Units::header(self.units.as_ref(), name, unit);
         let leading = LEADING.iter().map(|&name| named(name, if name == "time" { Unit::Time } else { Unit::One }));
-        let columns = frame.at(Place::Global).flat_map(|quantity| {
+        let columns = frame.at(QuantityPlace::Global).flat_map(|quantity| {
             let columns = quantity.width.columns(self.plane).iter();
             columns.map(|(_, suffix)| named(&format!("{}{suffix}", quantity.name), quantity.unit)).collect::<Vec<_>>()
         });
@@ -103,7 +103,7 @@ mod tests {
         let mut frame = Frame::new(1, increment, 0.1 * increment as f64);
         for name in names {
             let values = vec![1.0, 2.0, increment as f64];
-            frame.push(Quantity::new(*name, Unit::Force, Place::Global, Width::Vector, values)).unwrap();
+            frame.push(Quantity::new(*name, Unit::Force, QuantityPlace::Global, Width::Vector, values)).unwrap();
         }
         frame
     }

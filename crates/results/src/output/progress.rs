@@ -3,7 +3,7 @@
 
 use super::certificate::Occasion;
 use super::file::{self, Durability, write_atomic};
-use super::summary::Status;
+use super::summary::RunStatus;
 use asperity_core::Error;
 use asperity_core::solve::{AttemptRecord, Problem};
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ pub const PROGRESS: &str = "status.json";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
     /// How the run stands, as in `summary.json`.
-    pub status: Status,
+    pub status: RunStatus,
     /// The process that runs.
     pub process: u32,
     /// Name of the step.
@@ -80,7 +80,7 @@ impl Reporter {
     /// The status of a run that begins or goes on.
     pub fn new(directory: &Path, problem: &Problem) -> Self {
         let progress = Progress {
-            status: Status::Running,
+            status: RunStatus::Running,
             process: std::process::id(),
             step: problem.steps.first().map_or_else(String::new, |step| step.name.clone()),
             step_number: 1,

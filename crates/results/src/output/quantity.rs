@@ -7,7 +7,7 @@ use asperity_core::Error;
 
 /// Where the values of a quantity live.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Place {
+pub enum QuantityPlace {
     /// One value a node of the mesh.
     Node,
     /// One value a cell of the mesh.
@@ -81,7 +81,7 @@ pub struct Quantity {
     /// Its dimension.
     pub unit: Unit,
     /// Where it lives.
-    pub place: Place,
+    pub place: QuantityPlace,
     /// What one value is made of.
     pub width: Width,
     /// What kind of number.
@@ -144,19 +144,19 @@ impl Unit {
 
 impl Quantity {
     /// A quantity of real values.
-    pub fn new(name: impl Into<String>, unit: Unit, place: Place, width: Width, values: Vec<f64>) -> Self {
+    pub fn new(name: impl Into<String>, unit: Unit, place: QuantityPlace, width: Width, values: Vec<f64>) -> Self {
         Self { name: name.into(), unit, place, width, number: Number::Real, values }
     }
     /// One number for the whole model.
     pub fn scalar(name: impl Into<String>, unit: Unit, value: f64) -> Self {
-        Self::new(name, unit, Place::Global, Width::Scalar, vec![value])
+        Self::new(name, unit, QuantityPlace::Global, Width::Scalar, vec![value])
     }
     /// A whole number at every place: an index, a count, a code.
-    pub fn integer(name: impl Into<String>, place: Place, values: Vec<f64>) -> Self {
+    pub fn integer(name: impl Into<String>, place: QuantityPlace, values: Vec<f64>) -> Self {
         Self { number: Number::Integer, ..Self::new(name, Unit::One, place, Width::Scalar, values) }
     }
     /// A small code at every place, 0 to 255.
-    pub fn byte(name: impl Into<String>, place: Place, values: Vec<f64>) -> Self {
+    pub fn byte(name: impl Into<String>, place: QuantityPlace, values: Vec<f64>) -> Self {
         Self { number: Number::Byte, ..Self::new(name, Unit::One, place, Width::Scalar, values) }
     }
     /// How many places have a value.
@@ -206,19 +206,19 @@ impl Frame {
         &self.readings
     }
     /// A quantity by place and name.
-    pub fn get(&self, place: Place, name: &str) -> Option<&Quantity> {
+    pub fn get(&self, place: QuantityPlace, name: &str) -> Option<&Quantity> {
         self.at(place).find(|quantity| quantity.name == name)
     }
     /// The quantities of one place, in the order in which they were added.
-    pub fn at(&self, place: Place) -> impl Iterator<Item = &Quantity> {
+    pub fn at(&self, place: QuantityPlace) -> impl Iterator<Item = &Quantity> {
         self.quantities.iter().filter(move |quantity| quantity.place == place)
     }
     /// Takes the quantities of one place out of the frame, in the order in which they were added.
-    pub fn take(&mut self, place: Place) -> impl Iterator<Item = Quantity> {
+    pub fn take(&mut self, place: QuantityPlace) -> impl Iterator<Item = Quantity> {
         self.quantities.extract_if(.., move |quantity| quantity.place == place)
     }
     /// How many places of this kind there are; none when nothing is reported there.
-    pub fn count(&self, place: Place) -> Option<usize> {
+    pub fn count(&self, place: QuantityPlace) -> Option<usize> {
         self.at(place).next().map(Quantity::count)
     }
 }
@@ -230,14 +230,14 @@ mod tests {
     #[test]
     fn a_frame_refuses_what_does_not_fit() {
         let mut frame = Frame::new(1, 1, 0.5);
-        let nodal = |name: &str, n| Quantity::new(name, Unit::Length, Place::Node, Width::Vector, vec![0.0; n]);
+        let nodal = |name: &str, n| Quantity::new(name, Unit::Length, QuantityPlace::Node, Width::Vector, vec![0.0; n]);
         assert!(frame.push(nodal("displacement", 12)).is_ok());
         assert!(frame.push(nodal("displacement", 12)).is_err(), "taken name");
         assert!(frame.push(nodal("reaction", 9)).is_err(), "three nodes instead of four");
         assert!(frame.push(nodal("reaction", 13)).is_err(), "not whole vectors");
         assert!(frame.push(Quantity::scalar("displacement", Unit::Length, 1.0)).is_ok(), "another place, same name");
-        assert_eq!(frame.count(Place::Node), Some(4));
-        assert_eq!(frame.count(Place::Cell), None);
+        assert_eq!(frame.count(QuantityPlace::Node), Some(4));
+        assert_eq!(frame.count(QuantityPlace::Cell), None);
     }
 
     #[test]

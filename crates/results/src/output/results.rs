@@ -29,10 +29,10 @@ use super::options::ResultOptions;
 use super::probe::{Probe, ProbeTable};
 use super::progress::{PROGRESS, Request};
 use super::quantities::{Parts, Source};
-use super::quantity::{Frame, Place};
+use super::quantity::{Frame, QuantityPlace};
 use super::readings::{READINGS, ReadingTable};
 use super::units::Units;
-use super::vtk::{DataArray, Grid, Series, Values};
+use super::vtk::{DataArray, Grid, PvdSeries, Values};
 use asperity_core::Error;
 use asperity_core::system::State;
 use std::path::{Path, PathBuf};
@@ -48,7 +48,7 @@ pub struct Results {
     grid: BodyGrid,
     frames: Mutex<Frames>,
     /// Frames where stability was lost or found again, from the first such on.
-    modes: Option<Series>,
+    modes: Option<PvdSeries>,
     history: HistoryTable,
     readings: ReadingTable,
     probes: Vec<ProbeTable>,
@@ -65,15 +65,15 @@ pub struct Results {
 #[derive(Default)]
 struct Frames {
     fields: Vec<Fields>,
-    series: Vec<Series>,
+    series: Vec<PvdSeries>,
     pending: Option<JoinHandle<Written>>,
 }
 
 /// The series with a frame more, and whether that was written.
-type Written = (Vec<Series>, Result<(), Error>);
+type Written = (Vec<PvdSeries>, Result<(), Error>);
 
 impl Frames {
-    fn new(series: Vec<(Fields, Series)>) -> Mutex<Self> {
+    fn new(series: Vec<(Fields, PvdSeries)>) -> Mutex<Self> {
         let (fields, series) = series.into_iter().unzip();
         Mutex::new(Self { fields, series, pending: None })
     }
@@ -167,7 +167,7 @@ impl Results {
     /// [`Error::File`] when something cannot be written.
     pub fn create(directory: &Path, start: &Source, options: ResultOptions, origin: Origin) -> Result<Self, Error> {
         Self::clear(directory)?;
-        let series = |fields: Fields| Ok((fields, Series::create(directory, fields.name(), options.encoding)?));
+        let series = |fields: Fields| Ok((fields, PvdSeries::create(directory, fields.name(), options.encoding)?));
         let series = fields_of(start.parts, &options).map(series).collect::<Result<_, Error>>()?;
         let plane = start.parts.is_plane();
         let history = HistoryTable::create(directory, plane, options.units.clone());
@@ -209,7 +209,7 @@ impl Results {
         write_checkpoint(&directory.join(CHECKPOINT), &origin, state)?;
         kept::drop_after(directory, Some(state.increment))?;
         let series = |fields: Fields| {
-            let series = Series::resume(directory, fields.name(), options.encoding, state.time)?;
+            let series = PvdSeries::resume(directory, fields.name(), options.encoding, state.time)?;
             Ok((fields, series))
         };
         let series = fields_of(parts, &options).map(series).collect::<Result<_, Error>>()?;
@@ -223,7 +223,7 @@ impl Results {
         let tables = (history, readings, probes, exports);
         let mut results = Self::new((directory, options, origin), parts, (series, tables))?;
         if directory.join(MODES_LIST).exists() {
-            results.modes = Some(Series::resume(directory, MODES, results.options.encoding, state.time)?);
+            results.modes = Some(PvdSeries::resume(directory, MODES, results.options.encoding, state.time)?);
         }
         results.account.resume(certificate, at)?;
         reserve(directory)?;
@@ -233,7 +233,7 @@ impl Results {
     fn new(
         (directory, options, origin): (&Path, ResultOptions, Origin),
         parts: &Parts,
-        (series, (history, readings, probes, exports)): (Vec<(Fields, Series)>, Tables),
+        (series, (history, readings, probes, exports)): (Vec<(Fields, PvdSeries)>, Tables),
     ) -> Result<Self, Error> {
         let mut account = Account::new(parts);
         account.summary.input_hash = Some(origin.input.to_string());
@@ -292,7 +292,7 @@ impl Results {
     /// [`Error::File`] when it cannot be written.
     pub fn mode(&mut self, source: &Source, mode: &[f64]) -> Result<(), Error> {
         if self.modes.is_none() {
-            self.modes = Some(Series::create(&self.directory, MODES, self.options.encoding)?);
+            self.modes = Some(PvdSeries::create(&self.directory, MODES, self.options.encoding)?);
         }
         let mut grid = self.grid.at(&mut source.gather()?);
         grid.point_data.push(DataArray::new("mode", 3, Values::Real(source.nodal_field(mode))));
@@ -353,8 +353,8 @@ impl Results {
                     moved = self.options.export.contains(&Export::Deformed).then(|| deformed(&grid));
                     grid
                 }
-                Fields::Points => cloud(&mut frame, Place::Gauss),
-                Fields::Contacts => cloud(&mut frame, Place::Contact),
+                Fields::Points => cloud(&mut frame, QuantityPlace::Gauss),
+                Fields::Contacts => cloud(&mut frame, QuantityPlace::Contact),
                 Fields::Surfaces => surfaces(source, &mut frame)?,
                 Fields::Tools => tools(source, &frame),
                 Fields::Deformed => moved.take().unwrap_or_default(),
@@ -428,7 +428,7 @@ mod tests {
     use super::super::fixture::Fixture;
     use super::super::input::Kept;
     use super::super::probe::{At, Share, Take};
-    use super::super::summary::{Status, Summary};
+    use super::super::summary::{RunStatus, Summary};
     use super::super::vtk::{read_grid, read_series};
     use super::*;
     use asperity_core::mesh::Space;
@@ -500,7 +500,7 @@ mod tests {
         let frames = read_series(&directory.path().join("bodies.pvd")).unwrap();
         assert_eq!(frames.iter().map(|(time, _)| *time).collect::<Vec<_>>(), [0.0, 2.0, 4.0, 5.0]);
         let summary = Summary::read(&directory.path().join(SUMMARY)).unwrap();
-        assert_eq!((summary.status, summary.increments), (Status::Converged, 5));
+        assert_eq!((summary.status, summary.increments), (RunStatus::Converged, 5));
         assert_eq!(summary.bodies, ["block"]);
         assert_eq!(summary.files[..4], ["bodies.pvd", "points.pvd", "deformed.pvd", "history.csv"]);
         assert_eq!(summary.files[4..7], [READINGS, CHECKPOINT, SUMMARY]);
@@ -523,9 +523,11 @@ mod tests {
         let (bodies, points) = (last("bodies"), last("points"));
         let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         let mut compared = 0;
-        for (place, arrays) in
-            [(Place::Node, &bodies.point_data), (Place::Cell, &bodies.cell_data), (Place::Gauss, &points.point_data)]
-        {
+        for (place, arrays) in [
+            (QuantityPlace::Node, &bodies.point_data),
+            (QuantityPlace::Cell, &bodies.cell_data),
+            (QuantityPlace::Gauss, &points.point_data),
+        ] {
             for quantity in frame.at(place).filter(|q| q.name != "reference_position") {
                 let array = arrays.iter().find(|array| array.name == quantity.name).unwrap();
                 assert_eq!(bits(&array.values.to_real()), bits(&quantity.values), "{}", quantity.name);

@@ -13,7 +13,7 @@ use super::progress::Request;
 use super::quantities::{Parts, Source};
 use super::recorder::{Files, Keeper, Recorder};
 use super::results::{CHECKPOINT, Results, SUMMARY};
-use super::summary::{Status, Summary};
+use super::summary::{RunStatus, Summary};
 use super::witness::Witness;
 use crate::diagnosis::Facts;
 use asperity_core::Error;
@@ -269,8 +269,8 @@ impl Job<'_> {
             return None;
         }
         let mut summary = Summary::read(&self.directory.join(SUMMARY)).ok()?;
-        let ended =
-            matches!(summary.status, Status::Converged | Status::Doubtful) && summary.increments == state.increment;
+        let ended = matches!(summary.status, RunStatus::Converged | RunStatus::Doubtful)
+            && summary.increments == state.increment;
         summary.notes.push("this run had come to its end before; nothing was computed or written".into());
         ended.then_some(summary)
     }

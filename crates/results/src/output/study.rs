@@ -25,7 +25,7 @@ pub struct Ends {
 
 /// One line of the study.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct StudyLine {
     /// The step at whose end it stands.
     pub step: String,
     /// The column of the history.
@@ -89,7 +89,7 @@ pub fn forces(model: &Model, audience: &mut dyn Observer) -> Result<Ends, Error>
 }
 
 /// What two runs say whose penalties differ by the factor `ratio`; `tolerance` is that of the iterations.
-pub fn extrapolate(soft: &Ends, stiff: &Ends, ratio: f64, tolerance: f64) -> Vec<Line> {
+pub fn extrapolate(soft: &Ends, stiff: &Ends, ratio: f64, tolerance: f64) -> Vec<StudyLine> {
     let mut lines = Vec::new();
     for ((step, soft), (_, stiff)) in soft.steps.iter().zip(&stiff.steps) {
         // Forces, moments and motions are measured by the largest of their kind.
@@ -102,7 +102,7 @@ pub fn extrapolate(soft: &Ends, stiff: &Ends, ratio: f64, tolerance: f64) -> Vec
             if stiff.abs() > LITTLE * size {
                 let error = (MARGIN * correction.abs()).max(tolerance * size);
                 let (step, name) = (step.clone(), name.clone());
-                lines.push(Line { step, name, values: [*soft, *stiff], extrapolated: stiff + correction, error });
+                lines.push(StudyLine { step, name, values: [*soft, *stiff], extrapolated: stiff + correction, error });
             }
         }
     }
@@ -116,7 +116,7 @@ fn kind_of(name: &str) -> &'static str {
 }
 
 /// The study as a table: for each step the values with both penalties, the extrapolated one and its error.
-pub fn table(lines: &[Line]) -> String {
+pub fn table(lines: &[StudyLine]) -> String {
     let width = lines.iter().map(|line| line.name.len()).max().unwrap_or(0);
     let (mut text, mut step) = (String::new(), None);
     for line in lines {

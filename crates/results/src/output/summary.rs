@@ -4,7 +4,7 @@
 use super::certificate::{Certificate, Limits, Occasion};
 use super::figures::FIGURES;
 use super::file::{self, Durability, write_atomic};
-use super::quantity::{Frame, Place, Quantity};
+use super::quantity::{Frame, Quantity, QuantityPlace};
 use crate::diagnosis::{Finding, Setting};
 use asperity_core::{Error, machine};
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub const SCHEMA: u32 = 2;
 /// How a run stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Status {
+pub enum RunStatus {
     /// It has begun and not ended; found in the file of a finished process, it was killed.
     Running,
     /// All steps were completed.
@@ -52,7 +52,7 @@ pub struct Summary {
     #[serde(default)]
     pub units: Option<String>,
     /// How the run stands.
-    pub status: Status,
+    pub status: RunStatus,
     /// Why it ended so, in words; null when all steps were completed.
     pub reason: Option<String>,
     /// Hash of deck and mesh, the one that checkpoints carry.
@@ -121,7 +121,7 @@ impl Summary {
             title: title.into(),
             space: space.into(),
             units: None,
-            status: Status::Running,
+            status: RunStatus::Running,
             reason: None,
             input_hash: None,
             threads: 1,
@@ -153,7 +153,7 @@ impl Summary {
     /// Takes the contacts and reactions of an accepted frame.
     pub fn observe(&mut self, frame: &Frame, plane: bool) {
         (self.increments, self.time) = (frame.increment, frame.time);
-        for quantity in frame.at(Place::Global) {
+        for quantity in frame.at(QuantityPlace::Global) {
             let value = value(quantity, plane);
             if let Some(group) = quantity.name.strip_prefix("reaction.") {
                 self.reactions.insert(group.into(), value);
@@ -176,13 +176,13 @@ impl Summary {
     /// Notes how the run ended, and whether its certificate is to be doubted.
     pub fn end(&mut self, outcome: &Result<(), Error>, doubtful: bool) {
         self.status = match outcome {
-            Ok(()) if doubtful => Status::Doubtful,
-            Ok(()) => Status::Converged,
-            Err(Error::NotConverged(_)) => Status::NotConverged,
-            Err(Error::Stopped) => Status::Stopped,
-            Err(Error::Input(_)) => Status::InputError,
-            Err(Error::File { .. } | Error::Write { .. }) => Status::FileError,
-            Err(Error::Internal(_)) => Status::InternalError,
+            Ok(()) if doubtful => RunStatus::Doubtful,
+            Ok(()) => RunStatus::Converged,
+            Err(Error::NotConverged(_)) => RunStatus::NotConverged,
+            Err(Error::Stopped) => RunStatus::Stopped,
+            Err(Error::Input(_)) => RunStatus::InputError,
+            Err(Error::File { .. } | Error::Write { .. }) => RunStatus::FileError,
+            Err(Error::Internal(_)) => RunStatus::InternalError,
         };
         self.reason = outcome.as_ref().err().map(Error::to_string);
         self.peak_memory = machine::usage().map(|usage| usage.peak);
@@ -230,7 +230,8 @@ mod tests {
 
     fn frame() -> Frame {
         let mut frame = Frame::new(1, 3, 0.5);
-        let vector = |name: &str, values| Quantity::new(name, Unit::Force, Place::Global, Width::Vector, values);
+        let vector =
+            |name: &str, values| Quantity::new(name, Unit::Force, QuantityPlace::Global, Width::Vector, values);
         frame.push(vector("reaction.far.end", vec![1.0, 2.0, 3.0])).unwrap();
         frame.push(vector("contact.the.bore.force", vec![4.0, 5.0, 6.0])).unwrap();
         frame.push(Quantity::scalar("contact.the.bore.area", Unit::Area, f64::NAN)).unwrap();
@@ -269,12 +270,12 @@ mod tests {
     fn the_end_says_why() {
         let mut summary = Summary::begin("", "solid");
         summary.end(&Ok(()), false);
-        assert_eq!((summary.status, summary.reason.as_deref()), (Status::Converged, None));
+        assert_eq!((summary.status, summary.reason.as_deref()), (RunStatus::Converged, None));
         assert!(summary.peak_memory.is_none_or(|bytes| bytes > 1 << 16));
         summary.end(&Ok(()), true);
-        assert_eq!((summary.status, summary.reason.as_deref()), (Status::Doubtful, None));
+        assert_eq!((summary.status, summary.reason.as_deref()), (RunStatus::Doubtful, None));
         summary.end(&Err(Error::Stopped), true);
-        assert_eq!(summary.status, Status::Stopped);
+        assert_eq!(summary.status, RunStatus::Stopped);
         assert!(summary.reason.is_some());
     }
 

@@ -1,9 +1,9 @@
 //! What a run shows of itself for a diagnosis: why attempts failed, and whether motion runs away.
 
 use super::certificate::Certificate;
-use crate::diagnosis::{Course, Doubted, End, Fault};
+use crate::diagnosis::{Doubted, End, Fault, RunCourse};
 use crate::output::Limits;
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 use asperity_core::solve::{AttemptRecord, Problem};
 use asperity_core::system::State;
 
@@ -64,11 +64,11 @@ impl Witness {
     }
 
     /// What was seen of a run that ended at `state`, of the kind of failure if it failed, with its reason.
-    pub fn course(&self, (problem, state): (&Problem, &State), ended: Option<(Kind, String)>) -> Course {
+    pub fn course(&self, (problem, state): (&Problem, &State), ended: Option<(FailureKind, String)>) -> RunCourse {
         let (ended, reason) = ended.map_or((End::Well, String::new()), |(kind, reason)| (End::Failed(kind), reason));
         let step = state.step.min(problem.steps.len().saturating_sub(1));
         let duration = problem.steps.get(step).map_or(1.0, |step| step.duration);
-        Course {
+        RunCourse {
             ended,
             reason,
             step,
@@ -83,13 +83,13 @@ impl Witness {
             acceleration: self.acceleration(),
             jumps: state.jumps,
             touching: self.touching,
-            ..Course::default()
+            ..RunCourse::default()
         }
     }
 }
 
 /// Adds what the certificate says.
-pub fn certified(course: Course, certificate: &Certificate, limits: &Limits) -> Course {
+pub fn certified(course: RunCourse, certificate: &Certificate, limits: &Limits) -> RunCourse {
     let doubted = |doubt: super::certificate::Doubt| Doubted {
         figure: doubt.figure.name.into(),
         words: doubt.figure.words.trim().into(),
@@ -99,7 +99,7 @@ pub fn certified(course: Course, certificate: &Certificate, limits: &Limits) -> 
         remedy: doubt.figure.limit.map_or("", |limit| limit.remedy).into(),
     };
     let name = |of: &str| of.trim_start_matches("contact '").trim_end_matches('\'').to_owned();
-    Course {
+    RunCourse {
         doubts: certificate.doubts(limits).into_iter().map(doubted).collect(),
         closed: certificate.each("closed_points").map(|(of, most)| (name(of), most > 0.0)).collect(),
         leap: certificate.figure("leap").unwrap_or(0.0),

@@ -5,7 +5,7 @@ pub const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "xz"];
 
 /// What a stage prescribes of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Control {
+pub enum PathControl {
     /// Its strain goes to this value.
     Strain(f64),
     /// Its stress goes to this value.
@@ -24,10 +24,10 @@ pub struct Stage {
     /// Number of equal increments.
     pub increments: usize,
     /// What is prescribed of each component.
-    pub controls: [Control; 6],
+    pub controls: [PathControl; 6],
 }
 
-impl Control {
+impl PathControl {
     /// The prescribed stress at the end, if a stress is prescribed.
     pub(super) fn stress(self, now: f64) -> Option<f64> {
         match self {

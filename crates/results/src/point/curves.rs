@@ -1,6 +1,6 @@
 //! Which columns are drawn over which.
 
-use super::course::{COMPONENTS, Control, Stage};
+use super::course::{COMPONENTS, PathControl, Stage};
 use super::table::Record;
 use crate::output::figure::Chart;
 
@@ -20,7 +20,7 @@ impl Curve {
     /// stress over time), the change of volume over the same, and the path of mean and equivalent stress.
     pub fn standard(stages: &[Stage]) -> Vec<Self> {
         let driven = |stage: &Stage| {
-            (0..6).find(|&i| matches!(stage.controls[i], Control::Strain(end) if end != 0.0)).map(|i| COMPONENTS[i])
+            (0..6).find(|&i| matches!(stage.controls[i], PathControl::Strain(end) if end != 0.0)).map(|i| COMPONENTS[i])
         };
         let component = stages.iter().find_map(driven);
         let x = component.map_or("time".into(), |c| format!("strain_{c}"));
@@ -83,7 +83,7 @@ fn plain(column: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::course::Control;
+    use super::super::course::PathControl;
     use super::*;
 
     fn record(closure: f64) -> Record {
@@ -101,8 +101,8 @@ mod tests {
 
     #[test]
     fn a_loop_of_stress_has_a_picture_of_its_own() {
-        let mut controls = [Control::Stress(0.0); 6];
-        controls[1] = Control::Strain(0.1);
+        let mut controls = [PathControl::Stress(0.0); 6];
+        controls[1] = PathControl::Strain(0.1);
         let curves = Curve::standard(&[Stage { name: String::new(), duration: 1.0, increments: 1, controls }]);
         assert_eq!((curves[0].file_name().as_str(), curves[0].y.len()), ("stress_yy_over_strain_yy", 1));
         let axes = curves[2].chart("", &[]).axes;

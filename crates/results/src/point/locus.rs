@@ -84,7 +84,7 @@ pub fn yield_surface(name: &str, law: &dyn Interface, penalties: [f64; 2], most:
 mod tests {
     use super::*;
     use asperity_core::interface::Law;
-    use asperity_core::interface::laws::{CamClay, Coulomb, Dilatant, Sticking};
+    use asperity_core::interface::laws::{CamClayInterface, Coulomb, Dilatant, Sticking};
 
     fn rows(law: &dyn Interface) -> Vec<Vec<f64>> {
         yield_surface("a", law, [1e3, 700.0], 200.0).unwrap().rows
@@ -100,7 +100,7 @@ mod tests {
         let bonded = rows(&Law(cone));
         assert!((bonded[0][0] + 5.0).abs() < 1e-6);
         bonded.iter().for_each(|row| assert!((row[1] - (0.6 * row[0] + 4.0)).abs() < 1e-6, "{row:?}"));
-        let ellipse = rows(&Law(CamClay::perfect(0.8, 100.0, 10.0)));
+        let ellipse = rows(&Law(CamClayInterface::perfect(0.8, 100.0, 10.0)));
         for row in &ellipse {
             let f = row[1] * row[1] + 0.64 * (row[0] + 10.0) * (row[0] - 100.0);
             assert!(f.abs() < 1e-3, "{row:?} {f}");

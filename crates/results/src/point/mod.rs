@@ -16,10 +16,10 @@ mod slider;
 mod table;
 mod tangent;
 
-pub use course::{COMPONENTS, Control, Stage};
+pub use course::{COMPONENTS, PathControl, Stage};
 pub use curves::Curve;
 pub use locus::yield_surface;
-pub use probe::Probe;
-pub use slider::{Normal, Slide, Slider, columns as slider_columns, drive};
+pub use probe::MaterialPointDriver;
+pub use slider::{InterfaceDriver, Normal, Slide, columns as slider_columns, drive};
 pub use table::{Record, columns, draw, write};
-pub use tangent::TangentCheck;
+pub use tangent::PointTangentCheck;

@@ -1,8 +1,8 @@
 //! The driven point.
 
-use super::course::{COMPONENTS, Control, Stage};
+use super::course::{COMPONENTS, PathControl, Stage};
 use super::newton::Increment;
-use super::tangent::TangentCheck;
+use super::tangent::PointTangentCheck;
 use asperity_core::material::Material;
 use asperity_core::tensor::Tensor2;
 use asperity_core::{Error, Failure};
@@ -11,7 +11,7 @@ use asperity_core::{Error, Failure};
 const HALVINGS: u32 = 14;
 
 /// A material point: its law, its strains and the state of its law.
-pub struct Probe<'a> {
+pub struct MaterialPointDriver<'a> {
     /// The law.
     pub material: &'a dyn Material,
     /// Strains: logarithms of the stretches, then shears.
@@ -23,7 +23,7 @@ pub struct Probe<'a> {
     /// Energy dissipated so far per undeformed volume.
     pub dissipated: f64,
     /// Compares the tangents of all increments with differences, where it is asked to.
-    pub check: Option<TangentCheck>,
+    pub check: Option<PointTangentCheck>,
     /// Strain rates of the last increment, for the first guess of the next.
     rate: [f64; 6],
     modulus: f64,
@@ -34,7 +34,7 @@ pub(super) fn deformation(e: &[f64; 6]) -> Tensor2 {
     Tensor2([[e[0].exp(), e[3], e[5]], [0.0, e[1].exp(), e[4]], [0.0, 0.0, e[2].exp()]])
 }
 
-impl<'a> Probe<'a> {
+impl<'a> MaterialPointDriver<'a> {
     /// The undeformed point, with a given stress where that of the law is not wanted.
     pub fn new(material: &'a dyn Material, stress: Option<[f64; 6]>) -> Self {
         let mut state = vec![0.0; material.state_len()];
@@ -125,9 +125,9 @@ struct Ends {
 }
 
 impl Ends {
-    fn of(stage: &Stage, probe: &Probe) -> Self {
+    fn of(stage: &Stage, probe: &MaterialPointDriver) -> Self {
         let strain = |i: usize| match stage.controls[i] {
-            Control::Strain(end) => Some([probe.strain[i], end]),
+            PathControl::Strain(end) => Some([probe.strain[i], end]),
             _ => None,
         };
         let stress = |i: usize| stage.controls[i].stress(probe.state[i]).map(|end| [probe.state[i], end]);

@@ -44,7 +44,7 @@ pub struct Slide {
 
 /// A point of an interface: its law and what it has been through.
 #[derive(Clone)]
-pub struct Slider<'a> {
+pub struct InterfaceDriver<'a> {
     law: &'a dyn Interface,
     penalties: [f64; 2],
     /// Penetration, negative for a gap.
@@ -86,9 +86,9 @@ enum Across {
 }
 
 /// A trial end of an increment: its point, the pressure and its slope with penetration.
-type Trial<'a> = (Slider<'a>, f64);
+type Trial<'a> = (InterfaceDriver<'a>, f64);
 
-impl<'a> Slider<'a> {
+impl<'a> InterfaceDriver<'a> {
     /// A point that just does not touch, with the normal and the tangential penalty.
     pub fn new(law: &'a dyn Interface, penalties: [f64; 2]) -> Self {
         let mut vars = vec![0.0; law.variables().iter().map(|variable| variable.len()).sum()];
@@ -306,14 +306,14 @@ pub fn columns(law: &dyn Interface) -> Vec<String> {
 /// Drives a law along a path and records a row at the beginning and at the end of each increment; with what stopped it
 /// where the path cannot be followed to its end.
 pub fn drive(name: &str, law: &dyn Interface, penalties: [f64; 2], stages: &[Slide]) -> (Record, Option<Error>) {
-    let mut slider = Slider::new(law, penalties);
+    let mut slider = InterfaceDriver::new(law, penalties);
     let mut record = Record { name: name.into(), columns: columns(law), rows: vec![slider.row()] };
     let mut follow = |stage| slider.follow(stage, |slider| record.rows.push(slider.row()));
     let stopped = stages.iter().try_for_each(&mut follow).err();
     (record, stopped)
 }
 
-impl Slider<'_> {
+impl InterfaceDriver<'_> {
     fn row(&self) -> Vec<f64> {
         let size = |v: [f64; 2]| v[0].hypot(v[1]);
         let status = self.status.map_or(0.0, |status| f64::from(status as u8));

@@ -1,7 +1,7 @@
 //! What is recorded of a driven point, and its files.
 
 use super::curves::Curve;
-use super::probe::{Probe, named};
+use super::probe::{MaterialPointDriver, named};
 use crate::output::file::{Durability, write_atomic};
 use crate::output::{Field, Table};
 use asperity_core::Error;
@@ -45,7 +45,7 @@ impl Record {
     }
 
     /// Adds a row.
-    pub fn push(&mut self, probe: &Probe) {
+    pub fn push(&mut self, probe: &MaterialPointDriver) {
         let volume: f64 = probe.strain[..3].iter().sum();
         let stored = probe.material.stored_energy(&probe.state) * volume.exp();
         let row = [probe.time].into_iter().chain(probe.strain).chain(probe.state[..6].iter().copied());

@@ -12,7 +12,7 @@ const CLOSE: f64 = 1e-7;
 
 /// What differences say of the tangents of a path.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct TangentCheck {
+pub struct PointTangentCheck {
     /// Largest difference of an entry, as a ratio to the largest entry: from central differences of fourth order, of the
     /// best of several sizes.
     pub worst: f64,
@@ -24,7 +24,7 @@ pub struct TangentCheck {
     pub corners: usize,
 }
 
-impl TangentCheck {
+impl PointTangentCheck {
     /// Compares the tangent of an increment by the deformation `f` from the state `old`, whose end has a time.
     pub(super) fn compare(&mut self, material: &dyn Material, (old, f, dt): (&[f64], &Tensor2, f64), time: f64) {
         let mut new = old.to_vec();

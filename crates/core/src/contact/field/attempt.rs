@@ -18,7 +18,7 @@ use crate::system::{
     Answer, Attempt, Branch, Coordinates, Couplings, History, Instant, Kinks, Local, Stencil, Stencils, Term,
 };
 use crate::tensor::Vec3;
-use crate::{Failure, Kind};
+use crate::{Failure, FailureKind};
 use std::cell::RefCell;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
@@ -233,7 +233,7 @@ impl FieldAttempt<'_> {
         if self.sum(stencil, false, sums).is_none() {
             if stencil.support.through && old[entry::PRESSURE] != 0.0 {
                 let reason = format!("the target came through at {}", contact.name_of(slot));
-                return Err(Failure::new(reason).of(Kind::Passage));
+                return Err(Failure::new(reason).of(FailureKind::Passage));
             }
             leave(&*self.law, old, new);
             return Ok(0);
@@ -308,7 +308,7 @@ impl FieldAttempt<'_> {
         if self.history.slot(slot)[entry::STATUS] == 0.0 && sums.y[0] > 0.25 * depth {
             let (name, deep) = (contact.name_of(slot), sums.y[0]);
             let reason = format!("{name} came to lie {deep:.3e} deep in one increment");
-            return Err(Failure::new(reason).of(Kind::Passage));
+            return Err(Failure::new(reason).of(FailureKind::Passage));
         }
         let FieldTarget::Tool(rigid) = &contact.parts.target else { return Ok(()) };
         let turned = rigid.turned(stencil.motion(), &self.accepted[rigid.unknowns()]);

@@ -13,14 +13,14 @@ mod shear_limited;
 mod sticking;
 mod trial;
 
-pub use cam_clay::CamClay;
+pub use cam_clay::CamClayInterface;
 pub use cone::ConeScheme;
 pub use coulomb::Coulomb;
 pub use decay::{Decay, SlipDependent, StaticKinetic, VelocityDependent, WorkDependent};
 pub use dilatant::Dilatant;
 pub use frictionless::Frictionless;
 pub use oden_pires::OdenPires;
-pub use rate_state::{Course, Evolution, RateState};
+pub use rate_state::{Evolution, RateState, StateCourse};
 pub use shear_limited::{ShearLimited, Transition};
 pub use sticking::Sticking;
 

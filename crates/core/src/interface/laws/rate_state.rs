@@ -9,7 +9,7 @@
 //! Over an increment in which the velocity changes as it does in stick-slip one such step is of first order only, and its
 //! jumps come a tenth too soon. Unless `update` says otherwise an increment is therefore one step of the two-step scheme.
 //! Schemes of second order are made of steps of backward Euler in `ln theta`, which what is exact at constant velocity is
-//! not: by those the state follows that (see [`Course`]).
+//! not: by those the state follows that (see [`StateCourse`]).
 //!
 //! The solution is unique where slip in the increment stays below `a p / (b p / D_c - K_t)`, or everywhere if `K_t` is
 //! above `b p / D_c`; a faster solution is refused, so that the increment is cut.
@@ -73,7 +73,7 @@ pub enum Evolution {
 
 /// How the state is carried over a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Course {
+pub enum StateCourse {
     /// Exactly at a constant velocity.
     Exact,
     /// By backward Euler in the logarithm of the state.
@@ -100,7 +100,7 @@ pub struct RateState {
     /// How the state changes.
     pub law: Evolution,
     /// How a step carries it.
-    pub course: Course,
+    pub course: StateCourse,
 }
 
 /// The equation in `ln(V / V_0)`; data are the size of the trial stress, the pressure and `ln(V_0 theta / D_c)`.
@@ -165,7 +165,7 @@ fn aged_implicitly<T: Scalar>(d: T, c: f64) -> T {
 impl RateState {
     fn of(v: &[f64], law: Evolution) -> Self {
         let [friction, direct, evolution, distance, velocity, state, damping] = std::array::from_fn(|i| v[i]);
-        Self { friction, direct, evolution, distance, velocity, state, damping, law, course: Course::Exact }
+        Self { friction, direct, evolution, distance, velocity, state, damping, law, course: StateCourse::Exact }
     }
 
     fn speed<T: Scalar>(&self, rate: T) -> T {
@@ -183,10 +183,10 @@ impl RateState {
     pub fn state_after<T: Scalar>(&self, rate: T, before: T, dt: f64) -> T {
         let (x, aged) = (self.speed(rate) * (dt / self.distance), self.velocity * dt / self.distance);
         match (self.law, self.course) {
-            (Evolution::Ageing, Course::Exact) => (before.exp() * (-x).exp() + mean_fade(x) * aged).ln(),
-            (Evolution::Slip, Course::Exact) => (rate + before) * (-x).exp() - rate,
-            (Evolution::Ageing, Course::Implicit) => aged_implicitly(before - x, aged),
-            (Evolution::Slip, Course::Implicit) => (before - x * rate) / (x + 1.0),
+            (Evolution::Ageing, StateCourse::Exact) => (before.exp() * (-x).exp() + mean_fade(x) * aged).ln(),
+            (Evolution::Slip, StateCourse::Exact) => (rate + before) * (-x).exp() - rate,
+            (Evolution::Ageing, StateCourse::Implicit) => aged_implicitly(before - x, aged),
+            (Evolution::Slip, StateCourse::Implicit) => (before - x * rate) / (x + 1.0),
         }
     }
 
@@ -229,7 +229,7 @@ impl InterfaceLaw for RateState {
 
     fn updated(&self, update: Update) -> Result<Box<dyn Interface>, String> {
         no_midpoint(update)?;
-        let course = if update.scheme == Scheme::BackwardEuler { Course::Exact } else { Course::Implicit };
+        let course = if update.scheme == Scheme::BackwardEuler { StateCourse::Exact } else { StateCourse::Implicit };
         Ok(Box::new(Law(Integrated { law: Self { course, ..*self }, update })))
     }
 
@@ -266,7 +266,7 @@ mod tests {
         state: 1.0,
         damping: 0.0,
         law: Evolution::Ageing,
-        course: Course::Exact,
+        course: StateCourse::Exact,
     };
 
     #[test]

@@ -8,7 +8,7 @@
 //!
 //! Schemes of second order are made of steps of backward Euler, of which the exponentials are none: by `update` with such
 //! a scheme the pressures are `p = p_n/(1 - v de_v^e/kappa)` and `pc = pc_n/(1 - v de_v^p/(lambda - kappa))`, and `G = r K(p)`
-//! is that of the end (see [`Course`]).
+//! is that of the end (see [`ElasticCourse`]).
 
 use super::elastic::POISSON;
 use super::rate;
@@ -80,7 +80,7 @@ fn build(v: &[f64], shear: Stiffness) -> Result<Box<dyn Material>, String> {
         shear,
         pressure,
         preconsolidation,
-        course: Course::Exact,
+        course: ElasticCourse::Exact,
     }))
 }
 
@@ -95,7 +95,7 @@ pub enum Stiffness {
 
 /// How a step carries the pressures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Course {
+pub enum ElasticCourse {
     /// By their exponentials.
     Exact,
     /// By backward Euler, of which schemes of second order are made.
@@ -118,7 +118,7 @@ pub struct CamClay {
     /// Preconsolidation at the beginning.
     pub preconsolidation: f64,
     /// How a step carries both.
-    pub course: Course,
+    pub course: ElasticCourse,
 }
 
 /// `(exp(x) - 1)/x`, smooth through zero.
@@ -154,8 +154,8 @@ impl<S: Scalar> Step<S> {
         let p = self.p * law.grown(x);
         let double_shear = match (law.shear, law.course) {
             (Stiffness::Constant(shear), _) => S::from(2.0 * shear),
-            (Stiffness::Ratio(ratio), Course::Exact) => self.p * growth(x) * (2.0 * ratio / law.elastic),
-            (Stiffness::Ratio(ratio), Course::Implicit) => p * (2.0 * ratio / law.elastic),
+            (Stiffness::Ratio(ratio), ElasticCourse::Exact) => self.p * growth(x) * (2.0 * ratio / law.elastic),
+            (Stiffness::Ratio(ratio), ElasticCourse::Implicit) => p * (2.0 * ratio / law.elastic),
         };
         (p, double_shear)
     }
@@ -179,9 +179,9 @@ impl CamClay {
     /// A pressure after the compaction `x`, both as ratios. By backward Euler there is none beyond `x = 1`.
     fn grown<S: Scalar>(&self, x: S) -> S {
         match self.course {
-            Course::Exact => x.exp(),
-            Course::Implicit if x.re() < 1.0 => (-x + 1.0).recip(),
-            Course::Implicit => S::from(f64::NAN),
+            ElasticCourse::Exact => x.exp(),
+            ElasticCourse::Implicit if x.re() < 1.0 => (-x + 1.0).recip(),
+            ElasticCourse::Implicit => S::from(f64::NAN),
         }
     }
 }
@@ -213,7 +213,8 @@ impl RateLaw for CamClay {
     }
 
     fn updated(&self, update: Update) -> Box<dyn Material> {
-        let course = if update.scheme == Scheme::BackwardEuler { Course::Exact } else { Course::Implicit };
+        let course =
+            if update.scheme == Scheme::BackwardEuler { ElasticCourse::Exact } else { ElasticCourse::Implicit };
         Box::new(Rate(Integrated { law: Self { course, ..*self }, update }))
     }
 

@@ -2,22 +2,22 @@
 //! the bottom, of the top, of the uprights, then the middles of the faces in the order of the face list, then the centre.
 
 use super::rules::{X1, X2, X3, bubble, hat, lagrange, prism_points, prism_weights, product};
-use super::{Cell, Face, QUAD4, QUAD8, QUAD9, Rule, quad};
+use super::{Cell, Face, QUAD4, QUAD8, QUAD9, Quadrature, quad};
 
 /// One point.
-pub static HEX_P1: Rule = Rule {
+pub static HEX_P1: Quadrature = Quadrature {
     degree: 1,
     points: &prism_points::<1, 1>(&quad::GAUSS1X1, &X1),
     weights: &prism_weights::<1, 1>(&quad::GAUSS1X1, &X1),
 };
 /// Two points along each direction, x running fastest.
-pub static HEX_P8: Rule = Rule {
+pub static HEX_P8: Quadrature = Quadrature {
     degree: 3,
     points: &prism_points::<4, 8>(&quad::GAUSS2X2, &X2),
     weights: &prism_weights::<4, 8>(&quad::GAUSS2X2, &X2),
 };
 /// Three points along each direction, x running fastest.
-pub static HEX_P27: Rule = Rule {
+pub static HEX_P27: Quadrature = Quadrature {
     degree: 5,
     points: &prism_points::<9, 27>(&quad::GAUSS3X3, &X3),
     weights: &prism_weights::<9, 27>(&quad::GAUSS3X3, &X3),

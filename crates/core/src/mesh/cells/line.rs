@@ -1,14 +1,14 @@
 //! Lines of first and second degree: the edges of plane cells. Reference interval `[-1, 1]`.
 
 use super::rules::{X1, X2, X3, lagrange, line_points, line_weights};
-use super::{Cell, Rule};
+use super::{Cell, Quadrature};
 
 /// One Gauss point.
-pub static GAUSS1: Rule = Rule { degree: 1, points: &line_points(&X1), weights: &line_weights(&X1) };
+pub static GAUSS1: Quadrature = Quadrature { degree: 1, points: &line_points(&X1), weights: &line_weights(&X1) };
 /// Two Gauss points.
-pub static GAUSS2: Rule = Rule { degree: 3, points: &line_points(&X2), weights: &line_weights(&X2) };
+pub static GAUSS2: Quadrature = Quadrature { degree: 3, points: &line_points(&X2), weights: &line_weights(&X2) };
 /// Three Gauss points.
-pub static GAUSS3: Rule = Rule { degree: 5, points: &line_points(&X3), weights: &line_weights(&X3) };
+pub static GAUSS3: Quadrature = Quadrature { degree: 5, points: &line_points(&X3), weights: &line_weights(&X3) };
 
 /// Two nodes, first degree.
 pub static LINE2: Cell = Cell {

@@ -44,11 +44,11 @@ pub struct Cell {
     /// the right-hand rule).
     pub faces: &'static [Face],
     /// Quadrature that integrates the stiffness of an undistorted cell exactly.
-    pub full: &'static Rule,
+    pub full: &'static Quadrature,
     /// Quadrature with fewer points, as programs of the field call it; absent where that is meaningless.
-    pub reduced: Option<&'static Rule>,
+    pub reduced: Option<&'static Quadrature>,
     /// Quadratures for surfaces with 1, 2 and 3 points an edge; empty for cells that are never a face.
-    pub gauss: [Option<&'static Rule>; 3],
+    pub gauss: [Option<&'static Quadrature>; 3],
     /// VTK cell type.
     pub vtk: u8,
 }
@@ -62,7 +62,7 @@ pub struct Face {
 }
 
 /// A quadrature rule: points in reference coordinates and weights that sum to the reference measure.
-pub struct Rule {
+pub struct Quadrature {
     /// Polynomials up to this total degree are integrated exactly.
     pub degree: usize,
     /// Points.

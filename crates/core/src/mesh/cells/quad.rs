@@ -1,17 +1,17 @@
 //! Quadrilaterals on `[-1, 1]^2`: corners counter-clockwise, then mid-sides in the same turn, then the centre.
 
 use super::rules::{X1, X2, X3, bubble, hat, lagrange, square_points, square_weights};
-use super::{Cell, Face, LINE2, LINE3, Rule};
+use super::{Cell, Face, LINE2, LINE3, Quadrature};
 
 /// One point.
-pub static GAUSS1X1: Rule =
-    Rule { degree: 1, points: &square_points::<1, 1>(&X1), weights: &square_weights::<1, 1>(&X1) };
+pub static GAUSS1X1: Quadrature =
+    Quadrature { degree: 1, points: &square_points::<1, 1>(&X1), weights: &square_weights::<1, 1>(&X1) };
 /// Two by two points, x running fastest.
-pub static GAUSS2X2: Rule =
-    Rule { degree: 3, points: &square_points::<2, 4>(&X2), weights: &square_weights::<2, 4>(&X2) };
+pub static GAUSS2X2: Quadrature =
+    Quadrature { degree: 3, points: &square_points::<2, 4>(&X2), weights: &square_weights::<2, 4>(&X2) };
 /// Three by three points, x running fastest.
-pub static GAUSS3X3: Rule =
-    Rule { degree: 5, points: &square_points::<3, 9>(&X3), weights: &square_weights::<3, 9>(&X3) };
+pub static GAUSS3X3: Quadrature =
+    Quadrature { degree: 5, points: &square_points::<3, 9>(&X3), weights: &square_weights::<3, 9>(&X3) };
 
 const NODES: [[f64; 3]; 9] = [
     [-1.0, -1.0, 0.0],

@@ -1,7 +1,7 @@
 //! What the cells share: Gauss points of the interval, their products, and the one-dimensional factors of shape
 //! functions.
 
-use super::Rule;
+use super::Quadrature;
 
 /// Gauss points and weights of the interval `[-1, 1]`.
 pub(super) type Gauss<const N: usize> = [[f64; 2]; N];
@@ -58,7 +58,10 @@ pub(super) const fn square_weights<const N: usize, const M: usize>(x: &Gauss<N>)
 }
 
 /// Points of the product of a plane rule of `N` points (running fastest) with a rule on the line. `M` is their product.
-pub(super) const fn prism_points<const N: usize, const M: usize>(plane: &Rule, line: &[[f64; 2]]) -> [[f64; 3]; M] {
+pub(super) const fn prism_points<const N: usize, const M: usize>(
+    plane: &Quadrature,
+    line: &[[f64; 2]],
+) -> [[f64; 3]; M] {
     let mut points = [[0.0; 3]; M];
     let mut i = 0;
     while i < M {
@@ -70,7 +73,7 @@ pub(super) const fn prism_points<const N: usize, const M: usize>(plane: &Rule, l
 }
 
 /// Weights of the product of a plane rule with a rule on the line.
-pub(super) const fn prism_weights<const N: usize, const M: usize>(plane: &Rule, line: &[[f64; 2]]) -> [f64; M] {
+pub(super) const fn prism_weights<const N: usize, const M: usize>(plane: &Quadrature, line: &[[f64; 2]]) -> [f64; M] {
     let mut weights = [0.0; M];
     let mut i = 0;
     while i < M {

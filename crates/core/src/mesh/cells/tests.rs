@@ -41,7 +41,7 @@ fn inside(cell: &Cell) -> impl Iterator<Item = [f64; 3]> {
     oracle(cell).into_iter().step_by(5).map(|(xi, _)| xi)
 }
 
-fn rules(cell: &Cell) -> impl Iterator<Item = &'static Rule> {
+fn rules(cell: &Cell) -> impl Iterator<Item = &'static Quadrature> {
     [Some(cell.full), cell.reduced].into_iter().chain(cell.gauss).flatten()
 }
 

@@ -1,17 +1,17 @@
 //! Tetrahedra on `r, s, t >= 0, r + s + t <= 1`: corners, then mid-edges of the base in turn, then those that rise to
 //! the apex.
 
-use super::{Cell, Face, Rule, TRI3, TRI6};
+use super::{Cell, Face, Quadrature, TRI3, TRI6};
 
 const A: f64 = 0.138_196_601_125_010_5;
 const B: f64 = 1.0 - 3.0 * A;
 const W: f64 = 1.0 / 24.0;
 
 /// The centroid.
-pub static TET_P1: Rule = Rule { degree: 1, points: &[[0.25, 0.25, 0.25]], weights: &[1.0 / 6.0] };
+pub static TET_P1: Quadrature = Quadrature { degree: 1, points: &[[0.25, 0.25, 0.25]], weights: &[1.0 / 6.0] };
 /// Four points, `(5 - sqrt(5)) / 20` from three of the faces.
-pub static TET_P4: Rule =
-    Rule { degree: 2, points: &[[A, A, A], [B, A, A], [A, B, A], [A, A, B]], weights: &[W, W, W, W] };
+pub static TET_P4: Quadrature =
+    Quadrature { degree: 2, points: &[[A, A, A], [B, A, A], [A, B, A], [A, A, B]], weights: &[W, W, W, W] };
 
 const NODES: [[f64; 3]; 10] = [
     [0.0, 0.0, 0.0],

@@ -4,7 +4,7 @@
 //! its positions are `(8 - sqrt(10) +- sqrt(38 - 44 sqrt(2/5))) / 18`.
 
 use super::rules::area_coordinates;
-use super::{Cell, Face, LINE2, LINE3, Rule};
+use super::{Cell, Face, LINE2, LINE3, Quadrature};
 
 const T: f64 = 1.0 / 3.0;
 const S: f64 = 1.0 / 6.0;
@@ -14,12 +14,15 @@ const WA: f64 = 0.111_690_794_839_005_73;
 const WB: f64 = 0.054_975_871_827_660_93;
 
 /// The centroid.
-pub static TRI_P1: Rule = Rule { degree: 1, points: &[[T, T, 0.0]], weights: &[0.5] };
+pub static TRI_P1: Quadrature = Quadrature { degree: 1, points: &[[T, T, 0.0]], weights: &[0.5] };
 /// Three points inside.
-pub static TRI_P3: Rule =
-    Rule { degree: 2, points: &[[S, S, 0.0], [1.0 - 2.0 * S, S, 0.0], [S, 1.0 - 2.0 * S, 0.0]], weights: &[S, S, S] };
+pub static TRI_P3: Quadrature = Quadrature {
+    degree: 2,
+    points: &[[S, S, 0.0], [1.0 - 2.0 * S, S, 0.0], [S, 1.0 - 2.0 * S, 0.0]],
+    weights: &[S, S, S],
+};
 /// Six points inside.
-pub static TRI_P6: Rule = Rule {
+pub static TRI_P6: Quadrature = Quadrature {
     degree: 4,
     points: &[
         [A, A, 0.0],

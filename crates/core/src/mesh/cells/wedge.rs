@@ -2,28 +2,28 @@
 //! seen from above, corners of the top, mid-edges of the bottom, of the top, of the uprights.
 
 use super::rules::{X2, X3, area_coordinates, bubble, hat, prism_points, prism_weights};
-use super::{Cell, Face, QUAD4, QUAD8, Rule, TRI3, TRI6, tri};
+use super::{Cell, Face, QUAD4, QUAD8, Quadrature, TRI3, TRI6, tri};
 
 /// The centroid of the triangle times two Gauss points.
-pub static WEDGE_P2: Rule = Rule {
+pub static WEDGE_P2: Quadrature = Quadrature {
     degree: 1,
     points: &prism_points::<1, 2>(&tri::TRI_P1, &X2),
     weights: &prism_weights::<1, 2>(&tri::TRI_P1, &X2),
 };
 /// Three points of the triangle times two Gauss points.
-pub static WEDGE_P6: Rule = Rule {
+pub static WEDGE_P6: Quadrature = Quadrature {
     degree: 2,
     points: &prism_points::<3, 6>(&tri::TRI_P3, &X2),
     weights: &prism_weights::<3, 6>(&tri::TRI_P3, &X2),
 };
 /// Three points of the triangle times three Gauss points.
-pub static WEDGE_P9: Rule = Rule {
+pub static WEDGE_P9: Quadrature = Quadrature {
     degree: 2,
     points: &prism_points::<3, 9>(&tri::TRI_P3, &X3),
     weights: &prism_weights::<3, 9>(&tri::TRI_P3, &X3),
 };
 /// Six points of the triangle times three Gauss points.
-pub static WEDGE_P18: Rule = Rule {
+pub static WEDGE_P18: Quadrature = Quadrature {
     degree: 4,
     points: &prism_points::<6, 18>(&tri::TRI_P6, &X3),
     weights: &prism_weights::<6, 18>(&tri::TRI_P6, &X3),

@@ -17,7 +17,7 @@ mod tiling;
 pub use annulus::Annulus;
 pub use block::Block;
 pub use rectangle::Rectangle;
-pub use spacing::{Grade, Run, Spacing};
+pub use spacing::{Grade, Spacing, SpacingRun};
 
 #[cfg(test)]
 mod tests;

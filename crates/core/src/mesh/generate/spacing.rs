@@ -14,12 +14,12 @@ pub struct Spacing {
     /// Where the first cell begins, a length (degrees along an arc).
     pub from: f64,
     /// The runs, in order; their ends increase.
-    pub runs: Vec<Run>,
+    pub runs: Vec<SpacingRun>,
 }
 
 /// Cells up to a breakpoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Run {
+pub struct SpacingRun {
     /// The breakpoint, in the units of [`Spacing::from`].
     pub to: f64,
     /// Number of cells, at least one.
@@ -63,7 +63,7 @@ impl Spacing {
     }
     /// Adds a run of cells up to a breakpoint.
     pub fn run(mut self, to: f64, cells: usize, grade: Grade) -> Self {
-        self.runs.push(Run { to, cells, grade });
+        self.runs.push(SpacingRun { to, cells, grade });
         self
     }
     /// Number of cells.
@@ -127,7 +127,7 @@ impl Spacing {
 }
 
 /// Appends the stations of one geometric series; the last is the breakpoint itself.
-fn push_series(stations: &mut Vec<f64>, from: f64, run: &Run, growth: f64) {
+fn push_series(stations: &mut Vec<f64>, from: f64, run: &SpacingRun, growth: f64) {
     let sizes: Vec<f64> = (0..run.cells).map(|i| growth.powi(i as i32)).collect();
     let total: f64 = sizes.iter().sum();
     let mut sum = 0.0;

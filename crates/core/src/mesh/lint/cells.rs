@@ -1,6 +1,6 @@
 //! Cells one by one: which way round they are, whether they have volume, whether a node stands in them twice.
 
-use super::{Finding, Kind, Severity};
+use super::{LintFinding, LintKind, LintSeverity};
 use crate::mesh::{Mesh, Side};
 use rayon::prelude::*;
 
@@ -17,24 +17,24 @@ enum State {
     Unknown,
 }
 
-pub(super) fn check(mesh: &Mesh) -> Vec<Finding> {
+pub(super) fn check(mesh: &Mesh) -> Vec<LintFinding> {
     let states = states(mesh);
     let which = |state| (0..states.len()).filter(|&cell| states[cell] == state).collect::<Vec<_>>();
     let turn =
         "wrong way round (clockwise in the plane, inside out in space): their nodes must be listed the other way";
-    let found = |kind, state, says: &str| Finding::of_cells(kind, Severity::Error, mesh, which(state), says);
-    let none = Finding {
-        kind: Kind::NoCells,
-        severity: Severity::Error,
+    let found = |kind, state, says: &str| LintFinding::of_cells(kind, LintSeverity::Error, mesh, which(state), says);
+    let none = LintFinding {
+        kind: LintKind::NoCells,
+        severity: LintSeverity::Error,
         cells: vec![],
         nodes: vec![],
         text: "the mesh has no cells; save the plane or solid elements too".into(),
     };
     [
         (mesh.cell_count() == 0).then_some(none),
-        found(Kind::Reversed, State::Reversed, turn),
-        found(Kind::Inverted, State::Inverted, "folded: the Jacobian changes its sign inside; mend the mesh there"),
-        found(Kind::Flat, State::Flat, "without area or volume; remove them or mend the mesh there"),
+        found(LintKind::Reversed, State::Reversed, turn),
+        found(LintKind::Inverted, State::Inverted, "folded: the Jacobian changes its sign inside; mend the mesh there"),
+        found(LintKind::Flat, State::Flat, "without area or volume; remove them or mend the mesh there"),
         repeated_nodes(mesh),
     ]
     .into_iter()
@@ -66,7 +66,7 @@ fn state(mesh: &Mesh, cell: usize) -> State {
     }
 }
 
-fn repeated_nodes(mesh: &Mesh) -> Option<Finding> {
+fn repeated_nodes(mesh: &Mesh) -> Option<LintFinding> {
     let repeats = |&cell: &usize| {
         let nodes = mesh.cell(cell).nodes;
         (1..nodes.len()).any(|i| nodes[..i].contains(&nodes[i]))
@@ -74,11 +74,11 @@ fn repeated_nodes(mesh: &Mesh) -> Option<Finding> {
     let cells = (0..mesh.cell_count()).filter(repeats).collect();
     let says = "with the same node at two corners: collapsed cells are stiff and inaccurate; use triangles, \
                 tetrahedra or wedges";
-    Finding::of_cells(Kind::RepeatedNode, Severity::Warning, mesh, cells, says)
+    LintFinding::of_cells(LintKind::RepeatedNode, LintSeverity::Warning, mesh, cells, says)
 }
 
 /// Turns the reversed cells around; a face keeps its nodes but changes its place in the cell.
-pub(super) fn orient(mesh: &mut Mesh) -> Option<Finding> {
+pub(super) fn orient(mesh: &mut Mesh) -> Option<LintFinding> {
     let states = states(mesh);
     let reversed: Vec<usize> = (0..states.len()).filter(|&cell| states[cell] == State::Reversed).collect();
     for &cell in &reversed {
@@ -99,5 +99,5 @@ pub(super) fn orient(mesh: &mut Mesh) -> Option<Finding> {
         group.tidy();
     }
     let says = "ran the wrong way round (clockwise in the plane) and have been turned around";
-    Finding::of_cells(Kind::Reversed, Severity::Note, mesh, reversed, says)
+    LintFinding::of_cells(LintKind::Reversed, LintSeverity::Note, mesh, reversed, says)
 }

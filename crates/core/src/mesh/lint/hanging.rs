@@ -1,6 +1,6 @@
 //! Nodes that hang: inside an edge or face of a neighbour that does not have them, so that the two gape under load.
 
-use super::{Finding, Kind, Severity, words};
+use super::{LintFinding, LintKind, LintSeverity, words};
 use crate::mesh::{Faces, Mesh, Side};
 use crate::tensor::Vec3;
 use std::collections::HashMap;
@@ -9,7 +9,7 @@ use std::collections::HashMap;
 const ON: f64 = 1e-6;
 
 /// Nodes of one body that hang; `same` says whether two cells belong to one.
-pub(super) fn check(mesh: &Mesh, faces: &Faces, same: impl Fn(usize, usize) -> bool) -> Option<Finding> {
+pub(super) fn check(mesh: &Mesh, faces: &Faces, same: impl Fn(usize, usize) -> bool) -> Option<LintFinding> {
     let outer = faces.outer();
     let shapes: Vec<Vec<usize>> = outer.iter().map(|&side| corners(mesh, side)).collect();
     let sizes: Vec<f64> = shapes.iter().map(|shape| reach(mesh, shape)).collect();
@@ -62,7 +62,13 @@ pub(super) fn check(mesh: &Mesh, faces: &Faces, same: impl Fn(usize, usize) -> b
         words::count(nodes.len(), "node") + " lie",
         words::nodes(mesh, &nodes)
     );
-    (!nodes.is_empty()).then_some(Finding { kind: Kind::Hanging, severity: Severity::Warning, cells, nodes, text })
+    (!nodes.is_empty()).then_some(LintFinding {
+        kind: LintKind::Hanging,
+        severity: LintSeverity::Warning,
+        cells,
+        nodes,
+        text,
+    })
 }
 
 fn corners(mesh: &Mesh, side: Side) -> Vec<usize> {

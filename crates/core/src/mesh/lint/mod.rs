@@ -16,11 +16,11 @@ use super::Mesh;
 
 /// One thing found wrong, or worth knowing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
+pub struct LintFinding {
     /// What it is.
-    pub kind: Kind,
+    pub kind: LintKind,
     /// How bad it is.
-    pub severity: Severity,
+    pub severity: LintSeverity,
     /// The cells concerned, as indices into the mesh.
     pub cells: Vec<usize>,
     /// The nodes concerned, as indices into the mesh.
@@ -31,7 +31,7 @@ pub struct Finding {
 
 /// What a finding is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Kind {
+pub enum LintKind {
     /// A mesh without cells.
     NoCells,
     /// Coordinates that are not finite numbers.
@@ -70,7 +70,7 @@ pub enum Kind {
 
 /// How bad a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Severity {
+pub enum LintSeverity {
     /// Worth knowing.
     Note,
     /// Most likely not meant.
@@ -80,12 +80,12 @@ pub enum Severity {
 }
 
 /// Everything found in a mesh, the gravest first.
-pub fn check(mesh: &Mesh) -> Vec<Finding> {
+pub fn check(mesh: &Mesh) -> Vec<LintFinding> {
     let mut findings = nodes::check(mesh);
     findings.extend(cells::check(mesh));
     findings.extend(sides::check(mesh));
     findings.extend(groups::check(mesh));
-    if findings.iter().all(|finding| finding.severity < Severity::Error) {
+    if findings.iter().all(|finding| finding.severity < LintSeverity::Error) {
         findings.extend(sides::hanging(mesh));
     }
     findings.sort_by_key(|finding| (std::cmp::Reverse(finding.severity), finding.kind));
@@ -95,7 +95,7 @@ pub fn check(mesh: &Mesh) -> Vec<Finding> {
 impl Mesh {
     /// Turns around the cells whose nodes run the wrong way (clockwise in the plane), and reports them. The groups
     /// keep their sides.
-    pub fn orient(&mut self) -> Option<Finding> {
+    pub fn orient(&mut self) -> Option<LintFinding> {
         cells::orient(self)
     }
 }

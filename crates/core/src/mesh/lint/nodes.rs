@@ -1,9 +1,9 @@
 //! Nodes one by one: whether they are numbers, lie in the plane, and are used.
 
-use super::{Finding, Kind, Severity};
+use super::{LintFinding, LintKind, LintSeverity};
 use crate::mesh::Mesh;
 
-pub(super) fn check(mesh: &Mesh) -> Vec<Finding> {
+pub(super) fn check(mesh: &Mesh) -> Vec<LintFinding> {
     let which = |test: &dyn Fn(usize) -> bool| (0..mesh.points.len()).filter(|&node| test(node)).collect::<Vec<_>>();
     let lost = which(&|node| !mesh.points[node].is_finite());
     let off = match mesh.dimension() {
@@ -12,16 +12,16 @@ pub(super) fn check(mesh: &Mesh) -> Vec<Finding> {
     };
     let adjacency = mesh.adjacency();
     let unused = which(&|node| adjacency.cells(node).is_empty());
-    let finding = |kind, severity, nodes, says: &str| Finding::of_nodes(kind, severity, mesh, nodes, says);
+    let finding = |kind, severity, nodes, says: &str| LintFinding::of_nodes(kind, severity, mesh, nodes, says);
     [
-        finding(Kind::NotFinite, Severity::Error, lost, "with a coordinate that is not a finite number"),
+        finding(LintKind::NotFinite, LintSeverity::Error, lost, "with a coordinate that is not a finite number"),
         finding(
-            Kind::NotPlane,
-            Severity::Error,
+            LintKind::NotPlane,
+            LintSeverity::Error,
             off,
             "off the plane z = 0, though all cells are plane ones; draw the part in x and y, or save its solid cells",
         ),
-        finding(Kind::Unused, Severity::Note, unused, "used by no cell; they take no part in the computation"),
+        finding(LintKind::Unused, LintSeverity::Note, unused, "used by no cell; they take no part in the computation"),
     ]
     .into_iter()
     .flatten()

@@ -1,23 +1,23 @@
 //! Neighbours: cracks and touching bodies, nodes that coincide, faces that do not fit or are shared too often.
 
 use super::coincident::representatives;
-use super::{Finding, Kind, Severity, hanging, words};
+use super::{LintFinding, LintKind, LintSeverity, hanging, words};
 use crate::mesh::{Faces, Mesh, Side};
 
-pub(super) fn check(mesh: &Mesh) -> Vec<Finding> {
+pub(super) fn check(mesh: &Mesh) -> Vec<LintFinding> {
     let first = representatives(mesh);
     let faces = Faces::of(mesh, 0..mesh.cell_count());
     let pairs = open_pairs(mesh, &faces, &first);
     let bodies = Bodies::of(mesh);
     let (cracks, touching): (Vec<_>, Vec<_>) = pairs.iter().partition(|[one, other]| bodies.same(one.cell, other.cell));
-    let mut findings: Vec<Finding> = [crack(mesh, cracks), touch(mesh, touching)].into_iter().flatten().collect();
+    let mut findings: Vec<LintFinding> = [crack(mesh, cracks), touch(mesh, touching)].into_iter().flatten().collect();
     findings.extend(duplicates(mesh, &first, &pairs, &bodies));
     findings.extend(misfits(mesh, &faces));
     findings
 }
 
 /// Nodes that hang, of a mesh whose cells are sound.
-pub(super) fn hanging(mesh: &Mesh) -> Option<Finding> {
+pub(super) fn hanging(mesh: &Mesh) -> Option<LintFinding> {
     let bodies = Bodies::of(mesh);
     hanging::check(mesh, &Faces::of(mesh, 0..mesh.cell_count()), |one, other| bodies.joined(one, other))
 }
@@ -52,7 +52,7 @@ fn members(mesh: &Mesh, pairs: &[&[Side; 2]]) -> (Vec<usize>, Vec<usize>) {
     (cells, nodes)
 }
 
-fn crack(mesh: &Mesh, pairs: Vec<&[Side; 2]>) -> Option<Finding> {
+fn crack(mesh: &Mesh, pairs: Vec<&[Side; 2]>) -> Option<LintFinding> {
     let (cells, nodes) = members(mesh, &pairs);
     let text = format!(
         "a crack runs through a body: {} lie on one another but are not joined, at {}; merge the nodes unless the \
@@ -60,23 +60,23 @@ fn crack(mesh: &Mesh, pairs: Vec<&[Side; 2]>) -> Option<Finding> {
         words::count(pairs.len(), "pair") + " of faces",
         words::nodes(mesh, &nodes)
     );
-    let finding = Finding { kind: Kind::Crack, severity: Severity::Warning, cells, nodes, text };
+    let finding = LintFinding { kind: LintKind::Crack, severity: LintSeverity::Warning, cells, nodes, text };
     (!pairs.is_empty()).then_some(finding)
 }
 
-fn touch(mesh: &Mesh, pairs: Vec<&[Side; 2]>) -> Option<Finding> {
+fn touch(mesh: &Mesh, pairs: Vec<&[Side; 2]>) -> Option<LintFinding> {
     let (cells, nodes) = members(mesh, &pairs);
     let text = format!(
         "separate bodies touch with {} on one another, at {}; only contact can hold them apart",
         words::count(pairs.len(), "pair") + " of faces",
         words::nodes(mesh, &nodes)
     );
-    let finding = Finding { kind: Kind::Touching, severity: Severity::Note, cells, nodes, text };
+    let finding = LintFinding { kind: LintKind::Touching, severity: LintSeverity::Note, cells, nodes, text };
     (!pairs.is_empty()).then_some(finding)
 }
 
 /// Coincident nodes that no pair of faces explains.
-fn duplicates(mesh: &Mesh, first: &[usize], pairs: &[[Side; 2]], bodies: &Bodies) -> Vec<Finding> {
+fn duplicates(mesh: &Mesh, first: &[usize], pairs: &[[Side; 2]], bodies: &Bodies) -> Vec<LintFinding> {
     let explained = members(mesh, &pairs.iter().collect::<Vec<_>>()).1;
     let free = |node: &usize| first[*node] != *node && explained.binary_search(node).is_err();
     let adjacency = mesh.adjacency();
@@ -87,15 +87,18 @@ fn duplicates(mesh: &Mesh, first: &[usize], pairs: &[[Side; 2]], bodies: &Bodies
         let pair = |&node: &usize| format!("{} = {}", mesh.node_number(first[node]), mesh.node_number(node));
         let text = format!("{} at the same place {says}", words::listed("node", nodes.iter().map(pair)));
         let nodes: Vec<usize> = nodes.iter().flat_map(|&node| [first[node], node]).collect();
-        (!nodes.is_empty()).then_some(Finding { kind: Kind::Duplicate, severity, cells: vec![], nodes, text })
+        (!nodes.is_empty()).then_some(LintFinding { kind: LintKind::Duplicate, severity, cells: vec![], nodes, text })
     };
     let merge = "in one body; merge them unless they are meant to part";
     let apart = "in separate bodies; only contact can hold them apart";
-    [finding(inside, Severity::Warning, merge), finding(between, Severity::Note, apart)].into_iter().flatten().collect()
+    [finding(inside, LintSeverity::Warning, merge), finding(between, LintSeverity::Note, apart)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Faces that share corners and yet do not join: other mid-side nodes, the same cell twice, more than two cells.
-fn misfits(mesh: &Mesh, faces: &Faces) -> Vec<Finding> {
+fn misfits(mesh: &Mesh, faces: &Faces) -> Vec<LintFinding> {
     let (mut mismatched, mut overlap, mut repeated) = (vec![], vec![], vec![]);
     for run in faces.runs().filter(|run| run.len() > 1) {
         let cells = || run.iter().map(|entry| entry.1.cell);
@@ -111,14 +114,14 @@ fn misfits(mesh: &Mesh, faces: &Faces) -> Vec<Finding> {
         cells.sort_unstable();
         cells.dedup();
     });
-    let finding = |kind, cells, says: &str| Finding::of_cells(kind, Severity::Error, mesh, cells, says);
+    let finding = |kind, cells, says: &str| LintFinding::of_cells(kind, LintSeverity::Error, mesh, cells, says);
     let gap =
         "sharing the corners of a face but not its mid-side nodes: the face would gape; mesh both with one degree";
     let twice = "with the same corners as another cell: the mesh is there twice; remove one";
     [
-        finding(Kind::Mismatched, mismatched, gap),
-        finding(Kind::RepeatedCell, repeated, twice),
-        finding(Kind::Overlap, overlap, "sharing one face with more than one other cell: the mesh overlaps itself"),
+        finding(LintKind::Mismatched, mismatched, gap),
+        finding(LintKind::RepeatedCell, repeated, twice),
+        finding(LintKind::Overlap, overlap, "sharing one face with more than one other cell: the mesh overlaps itself"),
     ]
     .into_iter()
     .flatten()

@@ -1,6 +1,6 @@
 //! The words of findings.
 
-use super::{Finding, Kind, Severity};
+use super::{LintFinding, LintKind, LintSeverity};
 use crate::mesh::Mesh;
 
 /// How many numbers a sentence lists before it says "and so many more".
@@ -30,28 +30,28 @@ pub(super) fn listed(noun: &str, items: impl ExactSizeIterator<Item = String>) -
     format!("{noun}{plural} {shown}{rest}")
 }
 
-impl Finding {
+impl LintFinding {
     /// A finding about cells; none if there are none. The sentence begins with their numbers.
     pub(super) fn of_cells(
-        kind: Kind,
-        severity: Severity,
+        kind: LintKind,
+        severity: LintSeverity,
         mesh: &Mesh,
         cells: Vec<usize>,
         says: &str,
-    ) -> Option<Finding> {
+    ) -> Option<LintFinding> {
         let text = format!("{} {says}", self::cells(mesh, &cells));
-        (!cells.is_empty()).then_some(Finding { kind, severity, cells, nodes: vec![], text })
+        (!cells.is_empty()).then_some(LintFinding { kind, severity, cells, nodes: vec![], text })
     }
 
     /// A finding about nodes; none if there are none. The sentence begins with their numbers.
     pub(super) fn of_nodes(
-        kind: Kind,
-        severity: Severity,
+        kind: LintKind,
+        severity: LintSeverity,
         mesh: &Mesh,
         nodes: Vec<usize>,
         says: &str,
-    ) -> Option<Finding> {
+    ) -> Option<LintFinding> {
         let text = format!("{} {says}", self::nodes(mesh, &nodes));
-        (!nodes.is_empty()).then_some(Finding { kind, severity, cells: vec![], nodes, text })
+        (!nodes.is_empty()).then_some(LintFinding { kind, severity, cells: vec![], nodes, text })
     }
 }

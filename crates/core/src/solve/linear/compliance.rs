@@ -2,11 +2,11 @@
 //!
 //! Column `p` is `K0^-1 e_p` at the unknowns near contact, found when it is first asked for and kept as long as the factor of `K0`.
 //! Near contact the matrix jumps, elsewhere it changes little; with the columns of the unknowns of closed points at hand the factor
-//! is put right for the jumps (see [`frontal::Change`]), and so is what the columns say.
+//! is put right for the jumps (see [`frontal::LowRankChange`]), and so is what the columns say.
 
 use super::{LinearError, LinearSolver};
 use crate::system::Near;
-use frontal::{Change, Sparse, subtract_product};
+use frontal::{LowRankChange, Sparse, subtract_product};
 use pulp::Arch;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,7 +22,7 @@ pub(super) struct ContactCompliance {
     /// Loads that were solved for instead of columns since the factor was made.
     loads: usize,
     /// Unknowns whose rows have changed, and how.
-    pub change: Option<(Vec<usize>, Change)>,
+    pub change: Option<(Vec<usize>, LowRankChange)>,
     /// Whether the factor is to serve for more than one matrix.
     stays: bool,
 }
@@ -125,7 +125,7 @@ impl ContactCompliance {
     /// Turns `width` motions by the factorised matrix into those by the changed one, at the places `wanted`.
     fn put_right(
         &self,
-        (unknowns, change): (&[usize], &Change),
+        (unknowns, change): (&[usize], &LowRankChange),
         (motions, width): (&[f64], usize),
         (right, wanted): (&mut [f64], &[usize]),
     ) {

@@ -5,7 +5,7 @@ use super::demand::{single, too_much};
 use super::{Factored, LinearError, LinearSolver, Unknowns};
 use crate::machine::room;
 use crate::system::Csr;
-use frontal::{Change, Direct, Options, Pattern, Policy, Reuse, Symbolic, Work};
+use frontal::{Direct, LowRankChange, Options, Pattern, Policy, Reuse, Symbolic, Work};
 
 /// What is factorised when every iteration has a matrix of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -86,15 +86,15 @@ impl Frontal {
     }
 }
 
-fn translate(error: frontal::Error) -> LinearError {
+fn translate(error: frontal::FrontalError) -> LinearError {
     match error {
-        frontal::Error::Singular(singular) => {
+        frontal::FrontalError::Singular(singular) => {
             LinearError::Singular(singular.null_vectors.into_iter().map(|v| v.entries).collect())
         }
-        frontal::Error::Inaccurate { backward_error, .. } => {
+        frontal::FrontalError::Inaccurate { backward_error, .. } => {
             LinearError::Inaccurate(format!("the matrix is nearly singular: a backward error of {backward_error:.1e}"))
         }
-        frontal::Error::NotFinite { .. } => LinearError::NotFinite("the stiffness is not finite".into()),
+        frontal::FrontalError::NotFinite { .. } => LinearError::NotFinite("the stiffness is not finite".into()),
         other => LinearError::Other(other.to_string()),
     }
 }
@@ -136,11 +136,11 @@ impl LinearSolver for Frontal {
     fn factorise(&mut self, values: &[f64]) -> Result<Factored, LinearError> {
         let symmetric = self.direct()?.symbolic().pattern().is_symmetric(values, SYMMETRIC);
         if !symmetric && values.iter().any(|value| !value.is_finite()) {
-            return Err(translate(frontal::Error::NotFinite { row: 0, column: 0 }));
+            return Err(translate(frontal::FrontalError::NotFinite { row: 0, column: 0 }));
         }
         self.expect(symmetric)?;
         match self.direct()?.factorise(values) {
-            Err(frontal::Error::Unstable) => {
+            Err(frontal::FrontalError::Unstable) => {
                 self.expect(false)?;
                 self.direct()?.factorise(values)
             }
@@ -161,7 +161,7 @@ impl LinearSolver for Frontal {
     }
 
     /// In single precision where that spoils little.
-    fn precondition(&mut self, change: Option<&Change>, x: &mut [f64]) -> Result<(), LinearError> {
+    fn precondition(&mut self, change: Option<&LowRankChange>, x: &mut [f64]) -> Result<(), LinearError> {
         self.preconditioner()?.precondition(change, x).map_err(translate)
     }
 

@@ -4,7 +4,7 @@
 use super::super::constants::low_rank::{CHANGED, MOST};
 use super::LinearError;
 use super::compliance::{ContactCompliance, Engine, add_multiple};
-use frontal::{Change, Sparse};
+use frontal::{LowRankChange, Sparse};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A matrix by rows.
@@ -33,7 +33,7 @@ impl ContactCompliance {
         [now, then]: [Rows; 2],
         closed: &BTreeSet<usize>,
         engine: Engine,
-    ) -> Result<Option<Change>, LinearError> {
+    ) -> Result<Option<LowRankChange>, LinearError> {
         self.change = None;
         let mut near: Vec<usize> = self.closed.union(closed).copied().collect();
         near.retain(|unknown| self.at.binary_search(unknown).is_ok());
@@ -49,7 +49,7 @@ impl ContactCompliance {
         let unknowns: Vec<usize> = unknowns.into_iter().collect();
         let forces = unknowns.iter().map(|&unknown| vec![(unknown, 1.0)]).collect();
         let capacitance = self.capacitance(&rows, &unknowns);
-        let change = Change::new(forces, rows, capacitance);
+        let change = LowRankChange::new(forces, rows, capacitance);
         self.change = change.clone().map(|change| (unknowns, change));
         Ok(change)
     }

@@ -18,8 +18,8 @@ pub use system::SolverCounts;
 pub(super) use system::{JumpSites, LinearSystem, Unsolved};
 
 use crate::system::{Csr, Dofs};
-use crate::{Failure, Kind};
-use ::frontal::{Change, Signs, Work};
+use crate::{Failure, FailureKind};
+use ::frontal::{LowRankChange, PivotSigns, Work};
 use std::fmt;
 
 /// Why a linear system was not solved.
@@ -53,9 +53,9 @@ impl From<&LinearError> for Failure {
     /// Why an attempt fails of it, where a smaller increment may help.
     fn from(error: &LinearError) -> Self {
         let kind = match error {
-            LinearError::Singular(_) | LinearError::Inaccurate(_) => Kind::Singular,
-            LinearError::NotFinite(_) => Kind::NotFinite,
-            LinearError::Memory(_) | LinearError::Input(_) | LinearError::Other(_) => Kind::Other,
+            LinearError::Singular(_) | LinearError::Inaccurate(_) => FailureKind::Singular,
+            LinearError::NotFinite(_) => FailureKind::NotFinite,
+            LinearError::Memory(_) | LinearError::Input(_) | LinearError::Other(_) => FailureKind::Other,
         };
         Failure::new(error.to_string()).of(kind)
     }
@@ -96,7 +96,7 @@ impl Unknowns<'_> {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Factored {
     /// What the signs of the pivots say of the matrix, where they are known.
-    pub signs: Option<Signs>,
+    pub signs: Option<PivotSigns>,
     /// What the factor took and a solution with it takes, as predicted and not by a clock; a factor of which that is not known
     /// preconditions no other matrix.
     pub work: Option<Work>,
@@ -131,7 +131,7 @@ pub trait LinearSolver: Send {
     ///
     /// # Errors
     /// When nothing is factorised.
-    fn precondition(&mut self, change: Option<&Change>, x: &mut [f64]) -> Result<(), LinearError> {
+    fn precondition(&mut self, change: Option<&LowRankChange>, x: &mut [f64]) -> Result<(), LinearError> {
         self.substitute(x)?;
         let Some(change) = change else { return Ok(()) };
         let mut pushed = vec![0.0; x.len()];

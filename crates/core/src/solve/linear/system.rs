@@ -10,7 +10,7 @@ use super::low_rank::Rows;
 use super::{Factored, LinearError, LinearSolver, Unknowns};
 use crate::Failure;
 use crate::system::{Csr, Dofs, Factorised, Preconditioner};
-use frontal::{Pattern, Policy, Recycler, Scaling, Signs, Work};
+use frontal::{Pattern, PivotSigns, Policy, Recycler, Scaling, Work};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -47,10 +47,10 @@ impl From<Failure> for Unsolved {
     }
 }
 
-impl From<frontal::Error> for LinearError {
-    fn from(error: frontal::Error) -> Self {
+impl From<frontal::FrontalError> for LinearError {
+    fn from(error: frontal::FrontalError) -> Self {
         match error {
-            frontal::Error::NotFinite { .. } => Self::NotFinite("the stiffness is not finite".into()),
+            frontal::FrontalError::NotFinite { .. } => Self::NotFinite("the stiffness is not finite".into()),
             other => Self::Other(other.to_string()),
         }
     }
@@ -226,7 +226,7 @@ impl LinearSystem {
     }
 
     /// What the signs of the pivots say of the matrix that was factorised last, where they are known.
-    pub fn signs(&self) -> Option<Signs> {
+    pub fn signs(&self) -> Option<PivotSigns> {
         self.factored.signs
     }
 

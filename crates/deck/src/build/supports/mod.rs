@@ -12,7 +12,7 @@ mod tools;
 
 use super::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{Components, Displacement, Step};
+use crate::keys::{Components, Displacement, StepKeys};
 use crate::reader::Name;
 use asperity_core::mesh::{Mesh, ROUNDING, Space, flat_normal, unit};
 use asperity_core::solve::{Course, Prescribed};
@@ -48,7 +48,7 @@ impl Builder<'_> {
     }
 
     /// A load along which all its nodes are held or led moves nothing: one of the two is a slip.
-    fn look_for_idle_loads(&mut self, step: &Step, constraints: &Constraints) {
+    fn look_for_idle_loads(&mut self, step: &StepKeys, constraints: &Constraints) {
         let (deck, rigid, dimension) = (self.deck, self.rigid_nodes(), self.site.space.dimension());
         let forces = step.force.iter().map(|(name, force)| ("force", name, name, force.components()));
         let tractions = step.traction.iter().map(|(name, load)| ("traction", name, name, load.components()));
@@ -180,7 +180,7 @@ impl Builder<'_> {
     }
 
     /// What a step says.
-    fn claim(&mut self, step: &Step, claims: &mut Claims) {
+    fn claim(&mut self, step: &StepKeys, claims: &mut Claims) {
         for released in &step.release {
             if let Some(name) = released.text.strip_prefix("hold.").filter(|name| self.leader(name).is_some()) {
                 let what = format!("`{name}` stays where it is until it is moved or loaded");

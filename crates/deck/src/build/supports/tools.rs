@@ -3,19 +3,19 @@
 use super::claim::{Claim, Claims, What};
 use crate::build::Builder;
 use crate::diagnose::Diagnostic;
-use crate::keys::{Step, ToolCondition};
+use crate::keys::{StepKeys, ToolCondition};
 use crate::reader::Name;
 use asperity_core::amplitude::Amplitude;
 use asperity_core::solve::Course;
 
 impl Builder<'_> {
     /// The steps before one.
-    fn before(&self, step: &Step) -> impl DoubleEndedIterator<Item = &Step> {
+    fn before(&self, step: &StepKeys) -> impl DoubleEndedIterator<Item = &StepKeys> {
         let number = self.deck.step.iter().position(|other| std::ptr::eq(other, step)).unwrap_or(0);
         self.deck.step[..number].iter()
     }
 
-    pub(super) fn release(&self, step: &Step, claims: &mut Claims) {
+    pub(super) fn release(&self, step: &StepKeys, claims: &mut Claims) {
         claims.retain(|(by, _), _| by.is_empty() || by.starts_with("motion.") || !step.releases_path(by));
         // A tool that is released from its motion is free along it.
         for name in self.leaders().filter(|name| step.releases("motion", &name.text)) {
@@ -61,12 +61,12 @@ impl Builder<'_> {
     }
 
     /// Whether an earlier step loads a tool along one of its unknowns, and nothing has ended that.
-    fn is_loaded(&self, step: &Step, name: &Name, i: usize) -> bool {
-        let loads = |step: &Step| {
+    fn is_loaded(&self, step: &StepKeys, name: &Name, i: usize) -> bool {
+        let loads = |step: &StepKeys| {
             let said = step.load.iter().find(|(other, _)| other.text == name.text);
             said.is_some_and(|(_, keys)| if self.plane() { keys.plane()[i] } else { keys.space()[i] }.is_some())
         };
-        let moves = |step: &Step| {
+        let moves = |step: &StepKeys| {
             let said = step.motion.iter().find(|(other, _)| other.text == name.text);
             said.is_some_and(|(_, keys)| if self.plane() { keys.plane()[i] } else { keys.space()[i] }.is_some())
         };
@@ -82,7 +82,7 @@ impl Builder<'_> {
 
     pub(super) fn move_tool(
         &mut self,
-        (step, name): (&Step, &Name),
+        (step, name): (&StepKeys, &Name),
         to: &[Option<f64>],
         amplitude: &Amplitude,
         claims: &mut Claims,

@@ -1,18 +1,18 @@
 //! What holds nothing: bodies that are free, not held yet, or held no more.
 
 use super::super::Finding;
-use super::super::course::{Course, End};
+use super::super::course::{End, RunCourse};
 use super::super::facts::{BodyFacts, ContactFacts, Facts};
 use super::{OPEN, finding, is_wrong};
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 
-fn at_start(course: &Course) -> bool {
+fn at_start(course: &RunCourse) -> bool {
     course.increments == 0 && course.step == 0
 }
 
 /// A body that only contacts are to hold, and those are open.
-pub(super) fn not_touching(facts: &Facts, course: &Course) -> Option<Finding> {
-    if !at_start(course) || course.kind() != Some(Kind::Free) {
+pub(super) fn not_touching(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    if !at_start(course) || course.kind() != Some(FailureKind::Free) {
         return None;
     }
     let (body, contact) = waiting(facts, course)?;
@@ -35,7 +35,7 @@ pub(super) fn not_touching(facts: &Facts, course: &Course) -> Option<Finding> {
 }
 
 /// What began apart from what is to hold it, and was thrown onto it by its load.
-pub(super) fn thrown(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn thrown(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let loaded = facts.steps.iter().any(|step| !step.loads.is_empty());
     let open = facts.contacts.iter().find(|contact| contact.gap.is_none_or(|gap| gap > OPEN * contact.edge))?;
     let missing = course.doubt(&["energy_balance"]).is_some();
@@ -55,7 +55,7 @@ pub(super) fn thrown(facts: &Facts, course: &Course) -> Option<Finding> {
 }
 
 /// A free body and the open contact that is to hold it.
-fn waiting<'a>(facts: &'a Facts, course: &'a Course) -> Option<(&'a BodyFacts, &'a ContactFacts)> {
+fn waiting<'a>(facts: &'a Facts, course: &'a RunCourse) -> Option<(&'a BodyFacts, &'a ContactFacts)> {
     facts.bodies_in(&course.reason).find_map(|body| {
         let mut own = facts.contacts.iter().filter(|contact| contact.bodies.contains(&body.name)).peekable();
         own.peek()?;
@@ -64,8 +64,10 @@ fn waiting<'a>(facts: &'a Facts, course: &'a Course) -> Option<(&'a BodyFacts, &
     })
 }
 
-pub(super) fn free_body(facts: &Facts, course: &Course) -> Option<Finding> {
-    if course.kind() != Some(Kind::Free) || course.increments > 0 && course.closed.iter().any(|(_, closed)| *closed) {
+pub(super) fn free_body(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    if course.kind() != Some(FailureKind::Free)
+        || course.increments > 0 && course.closed.iter().any(|(_, closed)| *closed)
+    {
         return None;
     }
     let names: Vec<&str> = facts.bodies_in(&course.reason).map(|body| body.name.as_str()).collect();
@@ -87,8 +89,8 @@ pub(super) fn free_body(facts: &Facts, course: &Course) -> Option<Finding> {
 }
 
 /// A body that only friction is to hold along some axes, which does not.
-pub(super) fn slides(facts: &Facts, course: &Course) -> Option<Finding> {
-    let free = [Kind::Free, Kind::Singular, Kind::Hourglass];
+pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let free = [FailureKind::Free, FailureKind::Singular, FailureKind::Hourglass];
     let free = course.kind().is_some_and(|kind| free.contains(&kind)) || course.share(&free) > 0.3;
     let adrift = |body: &BodyFacts| !body.held && course.never_closed();
     let body = facts.bodies.iter().find(|body| !body.unheld.is_empty() && (free || adrift(body)))?;
@@ -121,9 +123,9 @@ pub(super) fn slides(facts: &Facts, course: &Course) -> Option<Finding> {
 }
 
 /// A body that slides without resistance on what touches it: the matrix is singular but for rounding.
-pub(super) fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn slides_freely(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let body = facts.bodies.iter().find(|body| !body.unheld.is_empty())?;
-    let singular = course.kind() == Some(Kind::Singular) || course.share(&[Kind::Singular]) > 0.3;
+    let singular = course.kind() == Some(FailureKind::Singular) || course.share(&[FailureKind::Singular]) > 0.3;
     let adrift = !body.held && course.never_closed() && !facts.contacts.iter().any(|contact| is_wrong(facts, contact));
     (course.kind().is_some() && (singular || adrift)).then(|| {
         let slides =
@@ -143,11 +145,11 @@ pub(super) fn slides_freely(facts: &Facts, course: &Course) -> Option<Finding> {
     })
 }
 
-pub(super) fn hourglass(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn hourglass(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let soft = facts.bodies.iter().filter(|body| body.hourglass).map(|body| body.name.as_str()).collect::<Vec<_>>();
-    let of_kind = course.kind() == Some(Kind::Hourglass);
+    let of_kind = course.kind() == Some(FailureKind::Hourglass);
     let doubted = course.doubt(&["hourglass"]).is_some();
-    if soft.is_empty() || !of_kind && !doubted && course.share(&[Kind::Hourglass, Kind::Singular]) < 0.3 {
+    if soft.is_empty() || !of_kind && !doubted && course.share(&[FailureKind::Hourglass, FailureKind::Singular]) < 0.3 {
         return None;
     }
     Some(
@@ -165,9 +167,9 @@ pub(super) fn hourglass(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
-pub(super) fn lost_contact(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn lost_contact(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let closed = course.closed.iter().any(|(_, closed)| *closed);
-    let free = course.kind() == Some(Kind::Free) && course.increments > 0;
+    let free = course.kind() == Some(FailureKind::Free) && course.increments > 0;
     let adrift = facts.bodies.iter().find(|body| !body.held && !body.unheld.is_empty());
     let adrift = adrift.filter(|_| course.ended == End::Well && course.touching == 0);
     (closed && (free || adrift.is_some())).then(|| {

@@ -7,12 +7,12 @@ mod strength;
 mod touch;
 
 use super::Finding;
-use super::course::{Course, End};
+use super::course::{End, RunCourse};
 use super::facts::{ContactFacts, Facts, ToolFacts};
 use super::plausible::oddities;
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 
-type Rule = fn(&Facts, &Course) -> Option<Finding>;
+type Rule = fn(&Facts, &RunCourse) -> Option<Finding>;
 
 /// All rules.
 pub static ALL: &[Rule] = &[
@@ -68,7 +68,7 @@ impl Finding {
 }
 
 /// When no rule speaks.
-pub fn unknown(course: &Course) -> Finding {
+pub fn unknown(course: &RunCourse) -> Finding {
     finding("unknown", 0.1, "no single cause stands out")
         .shown(&course.reason)
         .try_to(&[
@@ -81,7 +81,7 @@ pub fn unknown(course: &Course) -> Finding {
 /// Weight from which on an oddity outweighs what it leads to.
 const CERTAIN: f64 = 0.6;
 
-fn units(facts: &Facts, course: &Course) -> Option<Finding> {
+fn units(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let found = oddities(facts);
     let worst = found.iter().map(|oddity| oddity.weight).fold(0.0, f64::max);
     if found.is_empty() || (course.ended == End::Well && worst < CERTAIN) {
@@ -99,10 +99,10 @@ fn units(facts: &Facts, course: &Course) -> Option<Finding> {
 }
 
 /// Faces and nodes that lie on one another and are not joined: what they part is free, or runs into itself.
-fn seams(facts: &Facts, course: &Course) -> Option<Finding> {
-    let kinds = [Kind::Free, Kind::Singular, Kind::Hourglass];
+fn seams(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let kinds = [FailureKind::Free, FailureKind::Singular, FailureKind::Hourglass];
     let parted = course.kind().is_some_and(|kind| kinds.contains(&kind)) || course.share(&kinds) > 0.3;
-    let itself = course.fault(&[Kind::Passage]).is_some_and(|fault| fault.reason.contains("in itself"));
+    let itself = course.fault(&[FailureKind::Passage]).is_some_and(|fault| fault.reason.contains("in itself"));
     // Bodies that only touch are meant to where a contact is between them.
     let meant = |seam: &&String| !facts.contacts.is_empty() && seam.starts_with("separate bodies");
     let seam = facts.seams.iter().find(|seam| !meant(seam)).filter(|_| parted || itself)?;
@@ -133,7 +133,7 @@ fn is_wrong(facts: &Facts, contact: &ContactFacts) -> bool {
 const OPEN: f64 = 1e-6;
 
 /// Whatever figure is beyond its limit and no other rule explains.
-fn accuracy(_: &Facts, course: &Course) -> Option<Finding> {
+fn accuracy(_: &Facts, course: &RunCourse) -> Option<Finding> {
     let figures = course.doubts.iter().filter(|doubt| doubt.figure != "closed_points");
     let worst = figures.max_by(|a, b| (a.value / a.limit).total_cmp(&(b.value / b.limit)))?;
     let cause = match worst.figure.as_str() {

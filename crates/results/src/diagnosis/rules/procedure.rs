@@ -1,15 +1,15 @@
 //! What the deck says of the solution and that stands in its way.
 
 use super::super::Finding;
-use super::super::course::Course;
+use super::super::course::RunCourse;
 use super::super::facts::Facts;
 use super::finding;
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 
 /// A tolerance that rounding does not allow.
 const TIGHT: f64 = 1e-10;
 
-pub(super) fn tolerance(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn tolerance(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let loose = course.doubt(&["equilibrium_error"]);
     if let Some(doubt) = loose.filter(|_| facts.tolerance > 1e-4) {
         return Some(
@@ -18,8 +18,8 @@ pub(super) fn tolerance(facts: &Facts, course: &Course) -> Option<Finding> {
                 .try_to(&["leave `solver.tolerance` out: 1e-6"]),
         );
     }
-    let near = course.faults.iter().find(|fault| fault.kind == Kind::Iterations && fault.residual < 1e-7);
-    let near = near.filter(|_| course.kind() == Some(Kind::Iterations) && facts.tolerance < TIGHT)?;
+    let near = course.faults.iter().find(|fault| fault.kind == FailureKind::Iterations && fault.residual < 1e-7);
+    let near = near.filter(|_| course.kind() == Some(FailureKind::Iterations) && facts.tolerance < TIGHT)?;
     Some(
         finding("tolerance", 0.9, "the tolerance of the iterations is tighter than rounding allows")
             .shown(format!(
@@ -30,8 +30,8 @@ pub(super) fn tolerance(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
-pub(super) fn few_iterations(facts: &Facts, course: &Course) -> Option<Finding> {
-    let stopped = course.share(&[Kind::Iterations, Kind::Cycle]) > 0.5 && course.kind().is_some();
+pub(super) fn few_iterations(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let stopped = course.share(&[FailureKind::Iterations, FailureKind::Cycle]) > 0.5 && course.kind().is_some();
     (stopped && facts.iterations < 8).then(|| {
         finding("few-iterations", 0.9, "the iterations are given up before they can converge")
             .shown(format!("`solver.iterations` allows {}", facts.iterations))
@@ -39,8 +39,8 @@ pub(super) fn few_iterations(facts: &Facts, course: &Course) -> Option<Finding> 
     })
 }
 
-pub(super) fn switched_off(facts: &Facts, course: &Course) -> Option<Finding> {
-    let kinds = [Kind::Iterations, Kind::Cycle, Kind::NotFinite];
+pub(super) fn switched_off(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let kinds = [FailureKind::Iterations, FailureKind::Cycle, FailureKind::NotFinite];
     (!facts.switched_off.is_empty() && course.kind().is_some_and(|kind| kinds.contains(&kind))).then(|| {
         finding("procedure", 0.65, "parts of the procedure that help here are switched off")
             .shown(facts.switched_off.join(", "))
@@ -48,10 +48,10 @@ pub(super) fn switched_off(facts: &Facts, course: &Course) -> Option<Finding> {
     })
 }
 
-pub(super) fn smallest(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn smallest(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let step = facts.steps.get(course.step)?;
     let few = course.faults.len() <= 3 && !course.faults.is_empty();
-    let cuts = matches!(course.kind(), Some(kind) if ![Kind::Free, Kind::Hourglass, Kind::TooMany].contains(&kind));
+    let cuts = matches!(course.kind(), Some(kind) if ![FailureKind::Free, FailureKind::Hourglass, FailureKind::TooMany].contains(&kind));
     (cuts && few && step.smallest > 0.002).then(|| {
         finding("smallest-increment", 0.75, "increments may not become small enough")
             .shown(format!(
@@ -63,8 +63,8 @@ pub(super) fn smallest(facts: &Facts, course: &Course) -> Option<Finding> {
     })
 }
 
-pub(super) fn too_many(_: &Facts, course: &Course) -> Option<Finding> {
-    (course.kind() == Some(Kind::TooMany)).then(|| {
+pub(super) fn too_many(_: &Facts, course: &RunCourse) -> Option<Finding> {
+    (course.kind() == Some(FailureKind::TooMany)).then(|| {
         finding("increments-used-up", 0.9, "the step has used up the increments that it may take")
             .shown(&course.reason)
             .shown(format!("{} attempts were cut before", course.cuts))

@@ -1,20 +1,29 @@
 //! What bodies bear: loads beyond it, cells that are crushed or lock, laws without an answer.
 
 use super::super::Finding;
-use super::super::course::{Course, End};
+use super::super::course::{End, RunCourse};
 use super::super::facts::{BodyFacts, Facts};
 use super::finding;
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 
 /// Motion per time over that at the beginning that tells of a load that meets its limit.
 const RUNS_AWAY: f64 = 4.0;
 /// Stress of a load over the stress that a body bears.
 const BEYOND: f64 = 1.0;
 
-pub(super) fn limit_load(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn limit_load(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let step = facts.steps.get(course.step)?;
-    let kinds = [Kind::Iterations, Kind::NotFinite, Kind::Inverted, Kind::Material, Kind::Singular, Kind::Passage];
-    let failed = course.kind().is_some_and(|kind| kinds.contains(&kind) || kind == Kind::Other || kind == Kind::Cycle);
+    let kinds = [
+        FailureKind::Iterations,
+        FailureKind::NotFinite,
+        FailureKind::Inverted,
+        FailureKind::Material,
+        FailureKind::Singular,
+        FailureKind::Passage,
+    ];
+    let failed = course
+        .kind()
+        .is_some_and(|kind| kinds.contains(&kind) || kind == FailureKind::Other || kind == FailureKind::Cycle);
     let leapt = course.ended == End::Well && (course.leap > 0.0 || course.jumps > 0) && !course.doubts.is_empty();
     if step.loads.is_empty() || !(failed || leapt) {
         return None;
@@ -68,7 +77,7 @@ pub(super) fn limit_load(facts: &Facts, course: &Course) -> Option<Finding> {
 }
 
 /// A soil without cohesion bears nothing where nothing confines it.
-pub(super) fn no_strength(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn no_strength(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let weak = |body: &&BodyFacts| !body.prestressed && body.number("cohesion") == Some(0.0);
     let body = facts.bodies.iter().find(weak)?;
     let early = course.kind().is_some() && course.part < 0.05;
@@ -90,7 +99,7 @@ pub(super) fn no_strength(facts: &Facts, course: &Course) -> Option<Finding> {
 /// Part of the distance of two ends of a body that prescribed motions leave, at the least, where it can bear them.
 const CRUSHED: f64 = 0.2;
 
-pub(super) fn crushed(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn crushed(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let body = facts.bodies.iter().find(|body| body.left < CRUSHED)?;
     course.kind()?;
     Some(
@@ -112,9 +121,9 @@ pub(super) fn crushed(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
-pub(super) fn inverted(facts: &Facts, course: &Course) -> Option<Finding> {
-    let share = course.share(&[Kind::Inverted]);
-    let fault = course.fault(&[Kind::Inverted])?;
+pub(super) fn inverted(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let share = course.share(&[FailureKind::Inverted]);
+    let fault = course.fault(&[FailureKind::Inverted])?;
     let step = facts.steps.get(course.step)?;
     (share > 0.25 && course.kind().is_some()).then(|| {
         let cell = facts.bodies.iter().map(|body| body.cell).fold(f64::INFINITY, f64::min);
@@ -134,7 +143,7 @@ pub(super) fn inverted(facts: &Facts, course: &Course) -> Option<Finding> {
     })
 }
 
-pub(super) fn locking(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn locking(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let doubt = course.doubt(&["pressure_oscillation"]);
     let stiff = |body: &&BodyFacts| body.locks && (body.bulk_ratio > 20.0 || body.strength.is_some());
     let body = facts.bodies.iter().find(stiff)?;
@@ -159,9 +168,9 @@ pub(super) fn locking(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
-pub(super) fn law(_: &Facts, course: &Course) -> Option<Finding> {
-    let share = course.share(&[Kind::Material]);
-    let fault = course.fault(&[Kind::Material])?;
+pub(super) fn law(_: &Facts, course: &RunCourse) -> Option<Finding> {
+    let share = course.share(&[FailureKind::Material]);
+    let fault = course.fault(&[FailureKind::Material])?;
     (share > 0.3 && course.kind().is_some()).then(|| {
         finding("material-law", 0.55 + 0.25 * share, "the law of a material finds no stress")
             .shown(&fault.reason)

@@ -1,12 +1,12 @@
 //! Contacts: wrong sides, none at all, missing ones, ones that something passes through, penalties and cycles.
 
 use super::super::Finding;
-use super::super::course::{Course, End};
+use super::super::course::{End, RunCourse};
 use super::super::facts::{BodyFacts, ContactFacts, Facts};
 use super::{OPEN, finding, is_wrong};
-use asperity_core::Kind;
+use asperity_core::FailureKind;
 
-pub(super) fn wrong_side(facts: &Facts, _: &Course) -> Option<Finding> {
+pub(super) fn wrong_side(facts: &Facts, _: &RunCourse) -> Option<Finding> {
     let contact = facts.contacts.iter().find(|contact| is_wrong(facts, contact))?;
     let tool = contact.tool.as_deref().unwrap_or_default();
     Some(
@@ -28,7 +28,7 @@ pub(super) fn wrong_side(facts: &Facts, _: &Course) -> Option<Finding> {
 /// Penetration over the length of an edge before anything moves that is no accident.
 const DEEP: f64 = 0.3;
 
-pub(super) fn initial_overlap(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn initial_overlap(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let deep = |contact: &&ContactFacts| {
         contact.gap.is_some_and(|gap| -gap > DEEP * contact.edge) && !is_wrong(facts, contact)
     };
@@ -49,7 +49,7 @@ pub(super) fn initial_overlap(facts: &Facts, course: &Course) -> Option<Finding>
     )
 }
 
-pub(super) fn no_contact(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn no_contact(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     if facts.contacts.is_empty()
         || !course.never_closed()
         // Before the first accepted increment nothing is known of what touches from the start.
@@ -59,7 +59,7 @@ pub(super) fn no_contact(facts: &Facts, course: &Course) -> Option<Finding> {
         return None;
     }
     let unseen: Vec<&str> = facts.contacts.iter().filter(|c| c.seeing == 0).map(|c| c.name.as_str()).collect();
-    let missed = course.share(&[Kind::Passage]) > 0.3;
+    let missed = course.share(&[FailureKind::Passage]) > 0.3;
     let weight = match course.ended {
         End::Well => 0.9,
         End::Failed(_) if unseen.len() == facts.contacts.len() => 0.91,
@@ -84,11 +84,11 @@ pub(super) fn no_contact(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
-pub(super) fn missing_contact(facts: &Facts, course: &Course) -> Option<Finding> {
-    let fault = course.fault(&[Kind::Passage]);
+pub(super) fn missing_contact(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let fault = course.fault(&[FailureKind::Passage]);
     let doubt = course.doubt(&["interpenetration"]);
     let (text, weight) = match (fault, doubt) {
-        (Some(fault), _) if course.share(&[Kind::Passage]) > 0.3 => (fault.reason.as_str(), 0.88),
+        (Some(fault), _) if course.share(&[FailureKind::Passage]) > 0.3 => (fault.reason.as_str(), 0.88),
         (_, Some(doubt)) => (doubt.place.as_str(), 0.85),
         _ => return None,
     };
@@ -117,9 +117,9 @@ pub(super) fn missing_contact(facts: &Facts, course: &Course) -> Option<Finding>
     )
 }
 
-pub(super) fn passage(facts: &Facts, course: &Course) -> Option<Finding> {
-    let share = course.share(&[Kind::Passage]);
-    let fault = course.fault(&[Kind::Passage])?;
+pub(super) fn passage(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let share = course.share(&[FailureKind::Passage]);
+    let fault = course.fault(&[FailureKind::Passage])?;
     let step = facts.steps.get(course.step)?;
     (share > 0.3).then(|| {
         finding("passage", 0.5 + 0.2 * share, "one part goes through another, or lies too deep in it")
@@ -137,13 +137,19 @@ pub(super) fn passage(facts: &Facts, course: &Course) -> Option<Finding> {
 const STIFF: f64 = 300.0;
 const SOFT: f64 = 0.02;
 
-pub(super) fn penalty(facts: &Facts, course: &Course) -> Option<Finding> {
+pub(super) fn penalty(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let ratio = |contact: &ContactFacts| contact.penalty.filter(|ratio| *ratio > STIFF || *ratio < SOFT);
     let contact = facts.contacts.iter().find(|contact| ratio(contact).is_some())?;
     let ratio = ratio(contact)?;
     let deep = course.doubt(&["max_penetration_relative", "sampled_penetration", "interpenetration"]);
-    let kinds = [Kind::Iterations, Kind::Cycle, Kind::Singular, Kind::NotFinite, Kind::Other];
-    let passes = course.share(&[Kind::Passage]) > 0.3;
+    let kinds = [
+        FailureKind::Iterations,
+        FailureKind::Cycle,
+        FailureKind::Singular,
+        FailureKind::NotFinite,
+        FailureKind::Other,
+    ];
+    let passes = course.share(&[FailureKind::Passage]) > 0.3;
     let weight = match (ratio > STIFF, course.kind()) {
         (true, Some(kind)) if kinds.contains(&kind) => 0.9,
         (true, _) => 0.5,
@@ -162,12 +168,12 @@ pub(super) fn penalty(facts: &Facts, course: &Course) -> Option<Finding> {
     )
 }
 
-pub(super) fn cycle(facts: &Facts, course: &Course) -> Option<Finding> {
-    let share = course.share(&[Kind::Cycle]);
-    let changing = course.faults.iter().filter(|fault| fault.kind == Kind::Iterations && fault.changes > 0).count()
-        as f64
-        / course.faults.len().max(1) as f64;
-    let fault = course.fault(&[Kind::Cycle]).or_else(|| course.faults.iter().find(|fault| fault.changes > 0))?;
+pub(super) fn cycle(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let share = course.share(&[FailureKind::Cycle]);
+    let changing =
+        course.faults.iter().filter(|fault| fault.kind == FailureKind::Iterations && fault.changes > 0).count() as f64
+            / course.faults.len().max(1) as f64;
+    let fault = course.fault(&[FailureKind::Cycle]).or_else(|| course.faults.iter().find(|fault| fault.changes > 0))?;
     (share > 0.2 || changing > 0.5).then(|| {
         let friction = facts.contacts.iter().filter_map(|contact| contact.friction).fold(0.0, f64::max);
         finding("contact-cycle", (0.55 + 0.3 * share).max(0.5 * changing), "contact points change their state to and fro")
@@ -181,18 +187,18 @@ pub(super) fn cycle(facts: &Facts, course: &Course) -> Option<Finding> {
     })
 }
 
-pub(super) fn turn(_: &Facts, course: &Course) -> Option<Finding> {
-    let fault = course.fault(&[Kind::Turn])?;
-    (course.share(&[Kind::Turn]) > 0.3).then(|| {
+pub(super) fn turn(_: &Facts, course: &RunCourse) -> Option<Finding> {
+    let fault = course.fault(&[FailureKind::Turn])?;
+    (course.share(&[FailureKind::Turn]) > 0.3).then(|| {
         finding("large-rotation", 0.85, "a tool turns too far in one increment")
             .shown(&fault.reason)
             .try_to(&["more increments: `increments.count`, or a smaller `increments.largest`"])
     })
 }
 
-pub(super) fn multipliers(_: &Facts, course: &Course) -> Option<Finding> {
-    let fault = course.fault(&[Kind::Multipliers])?;
-    (course.share(&[Kind::Multipliers]) > 0.3).then(|| {
+pub(super) fn multipliers(_: &Facts, course: &RunCourse) -> Option<Finding> {
+    let fault = course.fault(&[FailureKind::Multipliers])?;
+    (course.share(&[FailureKind::Multipliers]) > 0.3).then(|| {
         finding("augmentation", 0.85, "multipliers do not take out the penetration that `augmentation` asks for")
             .shown(&fault.reason)
             .try_to(&[

@@ -2,7 +2,7 @@
 //! Source of the format: G. Dhondt, K. Wittig, "CalculiX GraphiX user's manual", section "Result format".
 
 use super::growing::Growing;
-use crate::output::{Frame, Place, Quantity};
+use crate::output::{Frame, Quantity, QuantityPlace};
 use asperity_core::Error;
 use asperity_core::mesh::{Cell, Mesh};
 use std::collections::BTreeSet;
@@ -185,7 +185,7 @@ impl Frd {
 
     /// A block of values; none where the model has no such quantity. Nodes without a value are left out.
     fn block(&self, block: &Block, frame: &Frame) -> Option<String> {
-        let from: Option<Vec<&Quantity>> = block.from.iter().map(|name| frame.get(Place::Node, name)).collect();
+        let from: Option<Vec<&Quantity>> = block.from.iter().map(|name| frame.get(QuantityPlace::Node, name)).collect();
         let from = from?;
         let values = |node: usize| -> Vec<f64> {
             let all: Vec<f64> = from.iter().flat_map(|quantity| quantity.at(node)).copied().collect();

@@ -4,7 +4,7 @@
 use super::frd::{distinct, fortran};
 use super::growing::Growing;
 use crate::output::quantities::Source;
-use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Unit, Width};
 use asperity_core::Error;
 use std::fmt::Write;
 use std::path::Path;
@@ -50,11 +50,11 @@ pub enum Totals {
 
 impl Whose {
     /// Where the quantities live.
-    pub fn place(&self) -> Place {
+    pub fn place(&self) -> QuantityPlace {
         match self {
-            Self::Nodes(_) => Place::Node,
-            Self::Cells(_) => Place::Gauss,
-            Self::Contact(_) => Place::Contact,
+            Self::Nodes(_) => QuantityPlace::Node,
+            Self::Cells(_) => QuantityPlace::Gauss,
+            Self::Contact(_) => QuantityPlace::Contact,
         }
     }
     fn name(&self) -> &str {
@@ -119,7 +119,7 @@ fn rows(source: &Source, frame: &Frame, whose: &Whose) -> Vec<(usize, String)> {
         Whose::Cells(name) => {
             let numbers = distinct(mesh.cell_count(), |cell| mesh.cell_number(cell));
             let wanted = mesh.groups.get(name).map_or(&[][..], |group| &group.cells);
-            let cells = frame.get(Place::Gauss, "cell").map_or(&[][..], |quantity| &quantity.values);
+            let cells = frame.get(QuantityPlace::Gauss, "cell").map_or(&[][..], |quantity| &quantity.values);
             let (mut before, mut point, mut found) = (None, 0, Vec::new());
             for (place, &cell) in cells.iter().enumerate() {
                 point = if before == Some(cell as usize) { point + 1 } else { 1 };
@@ -132,7 +132,7 @@ fn rows(source: &Source, frame: &Frame, whose: &Whose) -> Vec<(usize, String)> {
         }
         Whose::Contact(name) => {
             let number = source.parts.contacts.iter().position(|(_, own, _)| own == name);
-            let all = frame.get(Place::Contact, "contact").map_or(&[][..], |quantity| &quantity.values);
+            let all = frame.get(QuantityPlace::Contact, "contact").map_or(&[][..], |quantity| &quantity.values);
             let own = all.iter().enumerate().filter(|(_, contact)| Some(**contact as usize) == number);
             own.enumerate().map(|(i, (place, _))| (place, format!("{:>10}", i + 1))).collect()
         }

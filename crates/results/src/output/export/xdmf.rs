@@ -4,7 +4,7 @@
 
 use super::growing::Growing;
 use crate::output::vtk::{escape, vtk_order};
-use crate::output::{Frame, Place, Quantity, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Width};
 use asperity_core::Error;
 use asperity_core::mesh::Mesh;
 use std::fmt::Write;
@@ -162,8 +162,8 @@ impl Xdmf {
                 }
             }
         }
-        text.extend(frame.at(Place::Node).map(|quantity| attribute(quantity, "Node")));
-        text.extend(frame.at(Place::Cell).map(|quantity| attribute(quantity, "Cell")));
+        text.extend(frame.at(QuantityPlace::Node).map(|quantity| attribute(quantity, "Node")));
+        text.extend(frame.at(QuantityPlace::Cell).map(|quantity| attribute(quantity, "Cell")));
         self.file.push(&(text + "</Grid>\n"))
     }
 }

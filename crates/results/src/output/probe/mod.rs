@@ -6,10 +6,10 @@ mod place;
 mod table;
 
 pub use pick::{Pick, names};
-pub use place::{Share, Spot, shares, spot};
+pub use place::{ProbeSpot, Share, shares, spot};
 pub use table::ProbeTable;
 
-use super::{Frame, Place};
+use super::{Frame, QuantityPlace};
 
 /// What is read where.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,9 +28,9 @@ pub enum At {
     /// At nodes, with their shares: a mean and whatever else is asked of them.
     Nodes(Vec<Share>, Vec<Take>),
     /// At a point, by the nodes of the cell that it lies in.
-    Point(Spot),
+    Point(ProbeSpot),
     /// At points along a line, each with its distance from the first.
-    Path(Vec<(f64, Spot)>),
+    Path(Vec<(f64, ProbeSpot)>),
 }
 
 /// What is taken of the values of a group.
@@ -90,6 +90,6 @@ impl Probe {
     }
     /// The values of a quantity at the nodes, one after another.
     fn values(frame: &Frame, pick: &Pick) -> Option<Vec<f64>> {
-        frame.get(Place::Node, &pick.quantity).map(|quantity| quantity.values.clone())
+        frame.get(QuantityPlace::Node, &pick.quantity).map(|quantity| quantity.values.clone())
     }
 }

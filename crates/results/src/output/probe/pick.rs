@@ -1,6 +1,6 @@
 //! The words for a quantity at nodes: its name, and one component or invariant of it.
 
-use crate::output::{Frame, Place, Unit, Width};
+use crate::output::{Frame, QuantityPlace, Unit, Width};
 use asperity_core::declare::nearest;
 use asperity_core::tensor::{Tensor2, principal};
 
@@ -44,7 +44,7 @@ const INVARIANTS: [(&str, Part); 5] = [
 
 /// The quantities at the nodes of frames like this one.
 pub fn names(frame: &Frame) -> impl Iterator<Item = &str> {
-    frame.at(Place::Node).map(|quantity| quantity.name.as_str())
+    frame.at(QuantityPlace::Node).map(|quantity| quantity.name.as_str())
 }
 
 /// The words for the numbers of a value.
@@ -66,8 +66,8 @@ impl Pick {
     /// In words, with the nearest name.
     pub fn new(text: &str, frame: &Frame, plane: bool) -> Result<Self, String> {
         let find = |name: &str| {
-            let exact = frame.get(Place::Node, name);
-            exact.or_else(|| frame.get(Place::Node, &format!("{name}{MEANS}")))
+            let exact = frame.get(QuantityPlace::Node, name);
+            exact.or_else(|| frame.get(QuantityPlace::Node, &format!("{name}{MEANS}")))
         };
         let picked = |name: &str, columns| {
             find(name).map(|found| Self { quantity: found.name.clone(), unit: found.unit, columns, width: found.width })
@@ -143,7 +143,7 @@ mod tests {
     fn frame() -> Frame {
         let mut frame = Frame::new(1, 1, 1.0);
         let mut push = |name, unit, width, values| {
-            frame.push(Quantity::new(name, unit, Place::Node, width, values)).unwrap();
+            frame.push(Quantity::new(name, unit, QuantityPlace::Node, width, values)).unwrap();
         };
         push("displacement", Unit::Length, Width::Vector, vec![3.0, 4.0, 0.0]);
         push("cauchy_stress_averaged", Unit::Stress, Width::Symmetric, vec![1.0, 1.0, 4.0, 2.0, 0.0, 0.0]);
@@ -155,7 +155,7 @@ mod tests {
         let frame = frame();
         let read = |text: &str| {
             let pick = Pick::new(text, &frame, true).unwrap();
-            let value = frame.get(Place::Node, &pick.quantity).unwrap().at(0);
+            let value = frame.get(QuantityPlace::Node, &pick.quantity).unwrap().at(0);
             pick.columns.iter().map(|(_, part)| part.of(value, pick.unit)).collect::<Vec<_>>()
         };
         assert_eq!(read("displacement"), [3.0, 4.0]);

@@ -15,7 +15,7 @@ pub struct Share {
 
 /// A point of a body: where it lies before any motion, and the nodes that carry it with their shape functions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spot {
+pub struct ProbeSpot {
     /// Position before any motion.
     pub point: Vec3,
     /// Nodes with their shape functions there.
@@ -60,8 +60,8 @@ const STEPS: usize = 30;
 const MARGIN: f64 = 1e-6;
 
 /// The point of a body at `point` before any motion; none where there is no material.
-pub fn spot(mesh: &Mesh, cells: impl Iterator<Item = usize>, point: Vec3) -> Option<Spot> {
-    let mut best: Option<(f64, Spot)> = None;
+pub fn spot(mesh: &Mesh, cells: impl Iterator<Item = usize>, point: Vec3) -> Option<ProbeSpot> {
+    let mut best: Option<(f64, ProbeSpot)> = None;
     for view in cells.map(|cell| mesh.cell(cell)) {
         let corners = || view.nodes.iter().map(|&node| mesh.points[node]);
         let apart = (0..3).any(|axis| {
@@ -80,7 +80,7 @@ pub fn spot(mesh: &Mesh, cells: impl Iterator<Item = usize>, point: Vec3) -> Opt
             let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
             (view.kind.shape)(xi, &mut n, &mut dn);
             let nodes = view.nodes.iter().copied().zip(n).filter(|(_, n)| n.abs() > 1e-14).collect();
-            best = Some((outside, Spot { point, nodes }));
+            best = Some((outside, ProbeSpot { point, nodes }));
         }
     }
     best.map(|(_, spot)| spot)

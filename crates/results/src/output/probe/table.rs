@@ -1,9 +1,9 @@
 //! `probe.NAME.csv`: what a probe reads, a row an increment, and along a path a row a point.
 
-use super::{At, Pick, Probe, Spot};
+use super::{At, Pick, Probe, ProbeSpot};
 use crate::output::table::{Columns, Field, Table};
 use crate::output::units::Units;
-use crate::output::{Frame, Place, Unit};
+use crate::output::{Frame, QuantityPlace, Unit};
 use asperity_core::Error;
 use asperity_core::tensor::Vec3;
 use std::path::Path;
@@ -98,9 +98,9 @@ impl ProbeTable {
     }
 
     /// Where a point is now, and what is read there.
-    fn read(&self, spot: &Spot, values: &[Vec<f64>], frame: &Frame) -> Vec<Field> {
+    fn read(&self, spot: &ProbeSpot, values: &[Vec<f64>], frame: &Frame) -> Vec<Field> {
         let mut now = spot.point;
-        if let Some(moved) = frame.get(Place::Node, "displacement") {
+        if let Some(moved) = frame.get(QuantityPlace::Node, "displacement") {
             now += spot.nodes.iter().fold(Vec3::zero(), |sum, &(node, n)| sum + Vec3(moved.vector(node)) * n);
         }
         let axes = if self.plane { 2 } else { 3 };

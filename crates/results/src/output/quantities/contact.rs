@@ -3,7 +3,7 @@
 
 use super::energy::of_bodies;
 use super::{Source, Touching, surface};
-use crate::output::{Frame, Place, Quantity, Reading, Unit, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Reading, Unit, Width};
 use asperity_core::Error;
 use asperity_core::contact::{ContactRecord, PointStatus, second_name};
 use asperity_core::declare::Variable;
@@ -148,21 +148,21 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     let records = || all.iter().flat_map(|seen| &seen.records);
     let vector = |name: &str, unit, of: &dyn Fn(&ContactRecord) -> Vec3| {
         let values = records().flat_map(|record| of(record).0).collect();
-        Quantity::new(name, unit, Place::Contact, Width::Vector, values)
+        Quantity::new(name, unit, QuantityPlace::Contact, Width::Vector, values)
     };
     let scalar = |name: &str, unit, of: &dyn Fn(&ContactRecord) -> f64| {
-        Quantity::new(name, unit, Place::Contact, Width::Scalar, records().map(of).collect())
+        Quantity::new(name, unit, QuantityPlace::Contact, Width::Scalar, records().map(of).collect())
     };
     let reference = || all.iter().flat_map(|seen| &seen.reference);
     let moved = records().zip(reference()).flat_map(|(record, before)| (record.position - *before).0).collect();
     let before = reference().flat_map(|x| x.0).collect();
     let number = all.iter().enumerate().flat_map(|(i, seen)| seen.records.iter().map(move |_| i as f64)).collect();
-    let length = |name: &str, values| Quantity::new(name, Unit::Length, Place::Contact, Width::Vector, values);
+    let length = |name: &str, values| Quantity::new(name, Unit::Length, QuantityPlace::Contact, Width::Vector, values);
     frame.push(length("reference_position", before))?;
     frame.push(length("displacement", moved))?;
-    frame.push(Quantity::integer("contact", Place::Contact, number))?;
+    frame.push(Quantity::integer("contact", QuantityPlace::Contact, number))?;
     let status = records().map(|record| f64::from(record.status as u8)).collect();
-    frame.push(Quantity::byte("contact_status", Place::Contact, status))?;
+    frame.push(Quantity::byte("contact_status", QuantityPlace::Contact, status))?;
     frame.push(scalar("contact_pressure", Unit::Stress, &|r| r.pressure))?;
     frame.push(vector("contact_traction", Unit::Stress, &ContactRecord::traction))?;
     frame.push(scalar("contact_gap", Unit::Length, &|r| -r.penetration))?;
@@ -171,7 +171,7 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
     frame.push(scalar("contact_heat", Unit::EnergyDensity, &|r| r.dissipated))?;
     frame.push(scalar("contact_rubbing", Unit::EnergyDensity, &|r| r.rubbed))?;
     if let Some(wear) = wear_of(all) {
-        frame.push(Quantity::new("contact_wear", Unit::Length, Place::Contact, Width::Scalar, wear))?;
+        frame.push(Quantity::new("contact_wear", Unit::Length, QuantityPlace::Contact, Width::Scalar, wear))?;
     }
     variables(all).into_iter().try_for_each(|variable| frame.push(values_of(variable, all)))?;
     frame.push(scalar("contact_area", Unit::Area, &|r| r.area))?;
@@ -209,7 +209,7 @@ fn values_of(variable: &Variable, all: &[Seen]) -> Quantity {
         seen.records.iter().map(move |record| place.map_or(f64::NAN, |place| record.vars[place]))
     };
     let values = all.iter().flat_map(of).collect();
-    Quantity::new(format!("contact_{}", variable.name), Unit::One, Place::Contact, Width::Scalar, values)
+    Quantity::new(format!("contact_{}", variable.name), Unit::One, QuantityPlace::Contact, Width::Scalar, values)
 }
 
 fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(), Error> {
@@ -248,7 +248,7 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     frame.certify(seen.reading("rejected_false_contacts", refused));
     let name = |what: &str| format!("contact.{}.{what}", seen.name);
     for (what, unit, width, value) in vectors {
-        frame.push(Quantity::new(name(what), unit, Place::Global, width, value.0.to_vec()))?;
+        frame.push(Quantity::new(name(what), unit, QuantityPlace::Global, width, value.0.to_vec()))?;
     }
     scalars.into_iter().try_for_each(|(what, unit, value)| frame.push(Quantity::scalar(name(what), unit, value)))?;
     let (u, history) = (&source.state.u, seen.history);

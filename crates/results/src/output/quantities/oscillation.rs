@@ -1,14 +1,14 @@
 //! How far pressures jump from point to point: cells that cannot keep their volume and deform lock, and their pressures alternate.
 
 use super::Source;
-use crate::output::{Frame, Place, Reading};
+use crate::output::{Frame, QuantityPlace, Reading};
 use asperity_core::Error;
 use asperity_core::system::Term;
 
 /// For each body the root mean square distance of the pressure at its points from the mean of the nodal means of their cell, over
 /// that of von Mises' stress, both by volume. A smooth field changes little over a cell.
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
-    let nodal = frame.at(Place::Node).find(|quantity| quantity.name == "cauchy_stress_averaged");
+    let nodal = frame.at(QuantityPlace::Node).find(|quantity| quantity.name == "cauchy_stress_averaged");
     let Some(nodal) = nodal.map(|quantity| quantity.values.clone()) else { return Ok(()) };
     for (term, body) in &source.parts.bodies {
         let (mut apart, mut scale) = (0.0, 0.0);

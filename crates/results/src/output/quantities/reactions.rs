@@ -1,13 +1,14 @@
 //! Reactions of the groups that something holds or moves, and how far these have moved, and others that are watched.
 
 use super::Source;
-use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Unit, Width};
 use asperity_core::Error;
 
 pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
     let reactions = source.borne();
-    let vector =
-        |name: String, unit, values: [f64; 3]| Quantity::new(name, unit, Place::Global, Width::Vector, values.to_vec());
+    let vector = |name: String, unit, values: [f64; 3]| {
+        Quantity::new(name, unit, QuantityPlace::Global, Width::Vector, values.to_vec())
+    };
     let sum = |nodes: &[usize], of: &dyn Fn(usize) -> [f64; 3]| {
         nodes.iter().fold([0.0; 3], |sum, &node| std::array::from_fn(|a| sum[a] + of(node)[a]))
     };

@@ -3,7 +3,7 @@
 
 use super::Source;
 use crate::output::average::NodalMean;
-use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Unit, Width};
 use asperity_core::Error;
 use asperity_core::material::{Variable, VariableKind};
 
@@ -36,14 +36,15 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
             }
         }
     }
-    frame.push(Quantity::new(STRAIN, Unit::One, Place::Gauss, Width::Symmetric, all))?;
-    let nodal =
-        |name: &str, unit, width, values| Quantity::new(format!("{name}_averaged"), unit, Place::Node, width, values);
+    frame.push(Quantity::new(STRAIN, Unit::One, QuantityPlace::Gauss, Width::Symmetric, all))?;
+    let nodal = |name: &str, unit, width, values| {
+        Quantity::new(format!("{name}_averaged"), unit, QuantityPlace::Node, width, values)
+    };
     frame.push(nodal(STRAIN, Unit::One, Width::Symmetric, mean.finish()))?;
     for (name, mean) in variables {
         frame.push(nodal(name, Unit::One, Width::Scalar, mean.finish()))?;
     }
-    let values = |name: &str| frame.get(Place::Node, name).map(|quantity| quantity.values.as_slice());
+    let values = |name: &str| frame.get(QuantityPlace::Node, name).map(|quantity| quantity.values.as_slice());
     let (Some(stress), Some(equivalent)) = (values("cauchy_stress_averaged"), values("von_mises_averaged")) else {
         return Err(Error::Internal("stress is reported after what follows from it".into()));
     };

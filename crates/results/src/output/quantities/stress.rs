@@ -3,7 +3,7 @@
 
 use super::Source;
 use crate::output::average::NodalMean;
-use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Unit, Width};
 use asperity_core::Error;
 use asperity_core::material::{Variable, VariableKind};
 use asperity_core::solid::{Body, PointRecord};
@@ -27,17 +27,17 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
 }
 
 fn report_points(source: &Source, points: &[Point], frame: &mut Frame) -> Result<(), Error> {
-    let gauss = |name: &str, unit, width, values| Quantity::new(name, unit, Place::Gauss, width, values);
+    let gauss = |name: &str, unit, width, values| Quantity::new(name, unit, QuantityPlace::Gauss, width, values);
     let vector = |of: fn(&PointRecord) -> [f64; 3]| gathered(points, |p| of(&p.record));
     let number = |of: &dyn Fn(&Point) -> usize| points.iter().map(|p| of(p) as f64).collect::<Vec<_>>();
     frame.push(gauss("reference_position", Unit::Length, Width::Vector, vector(|r| r.reference.0)))?;
     frame.push(gauss("displacement", Unit::Length, Width::Vector, vector(|r| (r.position - r.reference).0)))?;
     frame.push(gauss("volume", Unit::Volume, Width::Scalar, points.iter().map(|p| p.record.volume).collect()))?;
-    frame.push(Quantity::integer("cell", Place::Gauss, number(&|p| p.record.cell)))?;
-    frame.push(Quantity::integer("body", Place::Gauss, number(&|p| p.body)))?;
+    frame.push(Quantity::integer("cell", QuantityPlace::Gauss, number(&|p| p.record.cell)))?;
+    frame.push(Quantity::integer("body", QuantityPlace::Gauss, number(&|p| p.body)))?;
     let stress = gathered(points, |p| std::array::from_fn::<_, 6, _>(|i| p.record.state[i]));
     let equivalent = equivalents(&stress);
-    push_stress(frame, Place::Gauss, "", (stress, equivalent))?;
+    push_stress(frame, QuantityPlace::Gauss, "", (stress, equivalent))?;
     variables(source).into_iter().try_for_each(|variable| frame.push(values_of(variable, source, points)))
 }
 
@@ -75,7 +75,7 @@ fn values_of(variable: Variable, source: &Source, points: &[Point]) -> Quantity 
             None => values.extend(std::iter::repeat_n(f64::NAN, width.size())),
         }
     }
-    Quantity::new(variable.name, Unit::One, Place::Gauss, width, values)
+    Quantity::new(variable.name, Unit::One, QuantityPlace::Gauss, width, values)
 }
 
 /// Means over the volume of each cell; cells of no body have none.
@@ -91,9 +91,9 @@ fn report_cells(source: &Source, points: &[Point], frame: &mut Frame) -> Result<
     }
     let means: Vec<f64> = sums.iter().zip(&volumes).flat_map(|(sum, volume)| sum.map(|s| s / volume)).collect();
     let equivalent = equivalents(&means);
-    frame.push(Quantity::integer("body", Place::Cell, body))?;
-    frame.push(Quantity::integer("material", Place::Cell, material))?;
-    push_stress(frame, Place::Cell, "", (means, equivalent))
+    frame.push(Quantity::integer("body", QuantityPlace::Cell, body))?;
+    frame.push(Quantity::integer("material", QuantityPlace::Cell, material))?;
+    push_stress(frame, QuantityPlace::Cell, "", (means, equivalent))
 }
 
 fn report_nodes(source: &Source, frame: &mut Frame) -> Result<(), Error> {
@@ -114,7 +114,7 @@ fn report_nodes(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         }
     }
     // Not that of the mean stress: extrapolated components would leave the yield surface.
-    push_stress(frame, Place::Node, "_averaged", (mean.finish(), equivalent.finish()))
+    push_stress(frame, QuantityPlace::Node, "_averaged", (mean.finish(), equivalent.finish()))
 }
 
 fn equivalents(stress: &[f64]) -> Vec<f64> {
@@ -123,7 +123,7 @@ fn equivalents(stress: &[f64]) -> Vec<f64> {
 
 fn push_stress(
     frame: &mut Frame,
-    place: Place,
+    place: QuantityPlace,
     suffix: &str,
     (stress, equivalent): (Vec<f64>, Vec<f64>),
 ) -> Result<(), Error> {

@@ -5,7 +5,7 @@
 
 use super::Touching;
 use super::touching::Stand;
-use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Unit, Width};
 use asperity_core::Error;
 use asperity_core::contact::{ContactRecord, PointStatus};
 use asperity_core::mesh::Mesh;
@@ -124,22 +124,22 @@ pub(super) fn report(mesh: &Mesh, all: &[(Touching, &[ContactRecord])], frame: &
         means.iter().map(|mean| mean.as_ref().map_or(f64::NAN, of)).collect()
     };
     let status = |mean: &Mean| f64::from(mean.status);
-    frame.push(Quantity::integer("contact", Place::Face, number))?;
+    frame.push(Quantity::integer("contact", QuantityPlace::Face, number))?;
     // A face of which nothing is said is open.
     let open = values(&faces, &status).into_iter().map(|status| if status.is_nan() { 0.0 } else { status }).collect();
-    frame.push(Quantity::byte("contact_status", Place::Face, open))?;
+    frame.push(Quantity::byte("contact_status", QuantityPlace::Face, open))?;
     let shear = faces.iter().flat_map(|mean| mean.map_or([f64::NAN; 3], |mean| mean.shear.0)).collect();
-    frame.push(Quantity::new("contact_shear", Unit::Stress, Place::Face, Width::Vector, shear))?;
+    frame.push(Quantity::new("contact_shear", Unit::Stress, QuantityPlace::Face, Width::Vector, shear))?;
     let mut push = |name: &str, unit, of: &dyn Fn(&Mean) -> f64| {
         let scalar = |name: String, place, values| Quantity::new(name, unit, place, Width::Scalar, values);
-        frame.push(scalar(name.to_owned(), Place::Face, values(&faces, of)))?;
-        frame.push(scalar(format!("{name}_averaged"), Place::Node, values(&nodes, of)))
+        frame.push(scalar(name.to_owned(), QuantityPlace::Face, values(&faces, of)))?;
+        frame.push(scalar(format!("{name}_averaged"), QuantityPlace::Node, values(&nodes, of)))
     };
     push("contact_pressure", Unit::Stress, &|mean| mean.pressure)?;
     push("contact_gap", Unit::Length, &|mean| mean.gap)?;
     push("contact_slip", Unit::Length, &|mean| mean.slip)?;
     let mut nodal = |name: &str, unit, of: &dyn Fn(&Mean) -> f64| {
-        frame.push(Quantity::new(name, unit, Place::Node, Width::Scalar, values(&nodes, of)))
+        frame.push(Quantity::new(name, unit, QuantityPlace::Node, Width::Scalar, values(&nodes, of)))
     };
     nodal("contact_shear_averaged", Unit::Stress, &|mean| mean.shear.norm())?;
     nodal("contact_status_averaged", Unit::One, &status)

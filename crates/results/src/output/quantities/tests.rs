@@ -3,7 +3,7 @@
 
 use super::Source;
 use crate::output::fixture::Fixture;
-use crate::output::{Frame, Place};
+use crate::output::{Frame, QuantityPlace};
 use asperity_core::mesh::{Mesh, Space};
 use asperity_core::solid::{BodyOptions, Formulation, Integration, Strain};
 
@@ -21,11 +21,11 @@ fn works(frame: &Frame, mesh: &Mesh, (space, strain): (Space, Strain), gradient:
     let part = if strain == Strain::Finite { 1.0 } else { 0.0 };
     let moved = |x: [f64; 3], u: [f64; 3]| std::array::from_fn(|a| x[a] + part * u[a]);
     let get = |place, name: &str| frame.get(place, name).unwrap();
-    let (u, force) = (get(Place::Node, "displacement"), get(Place::Node, "reaction"));
+    let (u, force) = (get(QuantityPlace::Node, "displacement"), get(QuantityPlace::Node, "reaction"));
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let outer = (0..mesh.points.len()).map(|n| dot(force.vector(n), v(moved(mesh.points[n].0, u.vector(n))))).sum();
-    let (x, u) = (get(Place::Gauss, "reference_position"), get(Place::Gauss, "displacement"));
-    let (stress, volume) = (get(Place::Gauss, "cauchy_stress"), get(Place::Gauss, "volume"));
+    let (x, u) = (get(QuantityPlace::Gauss, "reference_position"), get(QuantityPlace::Gauss, "displacement"));
+    let (stress, volume) = (get(QuantityPlace::Gauss, "cauchy_stress"), get(QuantityPlace::Gauss, "volume"));
     let inner = |p: usize| {
         let x = moved(x.vector(p), u.vector(p));
         let mut g = gradient;
@@ -70,14 +70,14 @@ fn the_frame_is_whole() {
     let (frame, mesh) =
         frame(Space::PlaneStress, BodyOptions { integration: Integration::Reduced, ..BodyOptions::default() });
     assert_eq!((frame.step, frame.increment, frame.time), (1, 1, 1.0));
-    assert_eq!(frame.count(Place::Node), Some(mesh.points.len()));
-    assert_eq!(frame.count(Place::Gauss), Some(4 * mesh.cell_count()));
-    let stress = frame.get(Place::Node, "cauchy_stress_averaged").unwrap();
+    assert_eq!(frame.count(QuantityPlace::Node), Some(mesh.points.len()));
+    assert_eq!(frame.count(QuantityPlace::Gauss), Some(4 * mesh.cell_count()));
+    let stress = frame.get(QuantityPlace::Node, "cauchy_stress_averaged").unwrap();
     assert!(stress.values.iter().all(|x| x.is_finite()));
     assert!(stress.values.iter().skip(2).step_by(6).all(|zz| zz.abs() < 1e-9), "no stress across the plane");
-    let reaction = frame.get(Place::Global, "reaction.all").unwrap();
+    let reaction = frame.get(QuantityPlace::Global, "reaction.all").unwrap();
     assert!(reaction.values.iter().all(|f| f.abs() < 1e-10), "stress alone moves nothing as a whole");
-    let strain = frame.get(Place::Global, "energy.strain").unwrap().values[0];
-    let missing = frame.get(Place::Global, "energy.missing").unwrap().values[0];
+    let strain = frame.get(QuantityPlace::Global, "energy.strain").unwrap().values[0];
+    let missing = frame.get(QuantityPlace::Global, "energy.missing").unwrap().values[0];
     assert!(strain > 0.0 && missing == -strain, "no work was said to come from outside");
 }

@@ -1,7 +1,7 @@
 //! Motion of the rigid tools and what holds them.
 
 use super::Source;
-use crate::output::{Frame, Place, Quantity, Unit, Width};
+use crate::output::{Frame, Quantity, QuantityPlace, Unit, Width};
 use asperity_core::Error;
 use asperity_core::tensor::Vec3;
 
@@ -17,7 +17,7 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
             |of: &dyn Fn(usize) -> f64| padded((0..rotations).map(|a| of(first + dofs.per_node() + a)), 3 - rotations);
         let mut push = |what: &str, unit, width, values: [f64; 3]| {
             let name = format!("tool.{tool}.{what}");
-            frame.push(Quantity::new(name, unit, Place::Global, width, values.to_vec()))
+            frame.push(Quantity::new(name, unit, QuantityPlace::Global, width, values.to_vec()))
         };
         push("translation", Unit::Length, Width::Vector, translation(&moved))?;
         push("rotation", Unit::Angle, Width::Axial, rotation(&|dof| moved(dof).to_degrees()))?;

@@ -14,7 +14,7 @@ mod write;
 pub use array::{DataArray, Values};
 pub use grid::{Cells, Grid};
 pub use order::{from_vtk, vtk_order};
-pub use pvd::{Series, read_series};
+pub use pvd::{PvdSeries, read_series};
 pub use read::read_grid;
 pub use write::Encoding;
 pub(super) use write::escape;

@@ -10,14 +10,14 @@ use std::path::{Path, PathBuf};
 
 /// Writes the frames of one kind of grid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub struct PvdSeries {
     directory: PathBuf,
     name: String,
     encoding: Encoding,
     frames: Vec<(f64, String)>,
 }
 
-impl Series {
+impl PvdSeries {
     /// Begins a series in a directory; no file is written before the first frame. Frames of an earlier run are removed.
     ///
     /// # Errors

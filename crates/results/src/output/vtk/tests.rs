@@ -101,7 +101,7 @@ fn an_array_that_does_not_fit_is_refused() {
 #[test]
 fn a_series_lists_its_frames_and_resumes() {
     let directory = tempfile::tempdir().unwrap();
-    let mut series = Series::create(directory.path(), "bodies", Encoding::default()).unwrap();
+    let mut series = PvdSeries::create(directory.path(), "bodies", Encoding::default()).unwrap();
     let mut grid = sample();
     for time in [0.0, 0.1, 1.0 / 3.0] {
         grid.time = time;
@@ -112,9 +112,9 @@ fn a_series_lists_its_frames_and_resumes() {
     }
     let frames = || std::fs::read_dir(directory.path().join("bodies")).unwrap().count();
     std::fs::write(directory.path().join("bodies/notes.txt"), "the user's own").unwrap();
-    let resumed = Series::resume(directory.path(), "bodies", Encoding::default(), 0.1).unwrap();
+    let resumed = PvdSeries::resume(directory.path(), "bodies", Encoding::default(), 0.1).unwrap();
     assert_eq!((resumed.len(), read_series(&resumed.path()).unwrap().len(), frames()), (2, 2, 3));
-    Series::create(directory.path(), "bodies", Encoding::default()).unwrap();
+    PvdSeries::create(directory.path(), "bodies", Encoding::default()).unwrap();
     assert_eq!(frames(), 1, "only the user's own file is left");
 }
 

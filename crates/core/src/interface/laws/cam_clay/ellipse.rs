@@ -3,7 +3,7 @@
 //! on `1 / S - 1 / (M r)` climbs to the root from below (the secular equation). An ellipse that hardens has its growth
 //! for a second unknown.
 
-use super::CamClay;
+use super::CamClayInterface;
 use crate::Failure;
 use crate::integrate::{System, solve};
 use crate::tensor::Scalar;
@@ -18,7 +18,7 @@ fn failed() -> Failure {
 #[derive(Debug, Clone, Copy)]
 pub struct Shape<'a> {
     /// The law.
-    pub law: &'a CamClay,
+    pub law: &'a CamClayInterface,
     /// Tangential penalty over the normal one.
     pub ratio: f64,
     /// Normal penalty.
@@ -182,7 +182,7 @@ mod tests {
     fn returns(count: usize) -> (usize, f64) {
         let (mut random, mut most, mut sum, mut outside) = (Random(1), 0, 0, 0);
         while outside < count {
-            let law = CamClay::perfect(random.decades(0.7), 1.0, random.next());
+            let law = CamClayInterface::perfect(random.decades(0.7), 1.0, random.next());
             let shape = Shape { law: &law, ratio: random.decades(3.0), penalty: 1.0, tension: law.tension };
             let trial = [random.decades(6.0), random.decades(6.0) * (2.0 * random.next() - 1.0)];
             let here = shape.end(0.0, 1.0, trial);

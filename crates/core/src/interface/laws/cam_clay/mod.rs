@@ -64,7 +64,7 @@ pub(super) const ENTRY: Entry<Box<dyn Interface>> = Entry {
     pairs: None,
     build: |v| {
         let [slope, preconsolidation, tension, hardening, least, reset] = std::array::from_fn(|i| v[i]);
-        Ok(law(CamClay { slope, preconsolidation, tension, hardening, least, reset }))
+        Ok(law(CamClayInterface { slope, preconsolidation, tension, hardening, least, reset }))
     },
 };
 
@@ -76,12 +76,12 @@ pub(super) const PRINTED: Entry<Box<dyn Interface>> = Entry {
         needed("a", "pressure at which the ellipse ends", unit::STRESS),
     ],
     pairs: None,
-    build: |v| Ok(law(CamClay::perfect(v[0].sqrt(), v[1], 0.0))),
+    build: |v| Ok(law(CamClayInterface::perfect(v[0].sqrt(), v[1], 0.0))),
 };
 
 /// The law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CamClay {
+pub struct CamClayInterface {
     /// Ratio `M` of shear to pressure in the critical state.
     pub slope: f64,
     /// First preconsolidation `p_c0`.
@@ -100,14 +100,14 @@ pub struct CamClay {
 const BROKEN: usize = 0;
 const CLOSURE: usize = 1;
 
-impl CamClay {
+impl CamClayInterface {
     /// An ellipse of a fixed size.
     pub fn perfect(slope: f64, preconsolidation: f64, tension: f64) -> Self {
         Self { slope, preconsolidation, tension, hardening: 0.0, least: 1.0, reset: 0.0 }
     }
 }
 
-impl InterfaceLaw for CamClay {
+impl InterfaceLaw for CamClayInterface {
     const VARIABLES: &'static [Variable] = &[
         Variable { name: "bond_broken", kind: VariableKind::Scalar },
         Variable { name: "closure", kind: VariableKind::Scalar },
@@ -166,7 +166,7 @@ mod tests {
     /// dilation, from the wet one by closure.
     #[test]
     fn slip_leads_to_the_critical_state() {
-        let law = CamClay::perfect(0.8, 100.0, 0.0);
+        let law = CamClayInterface::perfect(0.8, 100.0, 0.0);
         for penetration in [0.02, 0.09] {
             let (mut vars, mut shear, mut last) = ([0.0; 2], [0.0; 2], 0.0);
             for _ in 0..400 {
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn the_constants_of_the_paper_make_the_same_ellipse() {
         let law = (PRINTED.build)(&[0.64, 100.0]).unwrap();
-        let other = CamClay::perfect(0.8, 100.0, 0.0);
+        let other = CamClayInterface::perfect(0.8, 100.0, 0.0);
         let vars = [0.0; 2];
         let a = law.respond([0.03, 0.1, 0.0], &past(&vars), &mut vars.clone()).unwrap();
         let b = Law(other).respond([0.03, 0.1, 0.0], &past(&vars), &mut vars.clone()).unwrap();
@@ -197,7 +197,7 @@ mod tests {
     /// On the surface that belongs to its closure, normal to it.
     #[test]
     fn a_hardening_ellipse_is_consistent() {
-        let law = CamClay { hardening: 0.05, least: 0.1, ..CamClay::perfect(0.8, 100.0, 5.0) };
+        let law = CamClayInterface { hardening: 0.05, least: 0.1, ..CamClayInterface::perfect(0.8, 100.0, 5.0) };
         for (penetration, slip) in [(0.02, 0.1), (0.09, 0.1), (0.3, 0.0), (0.2, 1.0), (-0.001, 0.4)] {
             let old = [0.0; 2];
             let mut vars = old;
@@ -221,7 +221,8 @@ mod tests {
         for _ in 0..20_000 {
             let (hardening, least) = (random.decades(2.0), 0.05 + 0.95 * random.next());
             let tension = if random.next() < 0.5 { 0.0 } else { random.next() };
-            let law = CamClay { hardening, least, ..CamClay::perfect(random.decades(0.5), 1.0, tension) };
+            let law =
+                CamClayInterface { hardening, least, ..CamClayInterface::perfect(random.decades(0.5), 1.0, tension) };
             let (old, penalty) = ([0.0, (random.next() - 0.5) * hardening], random.decades(2.0));
             let past = Past { penalty, tangential_penalty: penalty * random.decades(1.0), ..past(&old) };
             let motion = Motion {

@@ -33,9 +33,8 @@ impl Overlap {
     /// contact is there again, if it was not from the start.
     pub fn begin(&self, values: &mut [f64], least: f64, added: Option<[f64; 2]>) {
         let during = match (self, added) {
-            (Self::Keep, None) => return,
             // It presses from the next increment on, whose work it then is.
-            (Self::Keep, Some([since, _])) => [since; 2],
+            (Self::Keep, added) => [added.map_or(0.0, |[since, _]| since); 2],
             (Self::Ramp(time), None) => [0.0, *time],
             (_, added) => added.unwrap_or_default(),
         };
@@ -102,6 +101,10 @@ mod tests {
             assert_eq!(values[entry::OVERLAP], 0.2);
             assert_eq!(overlap.settled(&values, at), settled);
         }
+        let mut values = vec![0.0; entry::COUNT];
+        values[entry::PENETRATION] = 0.2;
+        Overlap::Keep.begin(&mut values, 0.1, None);
+        assert_eq!(Overlap::Keep.settled(&values, Instant { time: 1.0, dt: 1.0, ..at }), [0.0, 1.0]);
     }
 
     #[test]

@@ -1,5 +1,9 @@
 //! Every deck of the corpus, broken in every line: what is wrong is told with file and line, and nothing panics.
 
+#[path = "../../asperity/tests/support/damage.rs"]
+mod damage;
+
+use damage::{Dice, damage};
 use std::path::{Path, PathBuf};
 
 fn decks() -> Vec<PathBuf> {
@@ -259,4 +263,49 @@ fn all_faults_at_once() {
         let place = format!("deck.inp:{line}: ");
         assert!(found.iter().any(|error| error.contains(&place) && error.contains(said)), "{said}: {found:#?}");
     }
+}
+
+const WORDS: &[&str] = &[
+    "*",
+    "**",
+    ",",
+    ",,",
+    "=",
+    "\n",
+    "nan",
+    "-inf",
+    "1e999",
+    "-1",
+    "0",
+    "99999999999",
+    "1.D+5",
+    "\u{0}",
+    "\u{e9}",
+    "\u{1f980}",
+    "*STEP\n",
+    "*END STEP\n",
+    "*INCLUDE, INPUT=deck.inp\n",
+    "*NODE\n",
+    "*PART, NAME=A\n",
+    "GENERATE",
+    "*EQUATION\n2\n",
+];
+
+/// Decks with random damage are translated or refused, each message with its place, and nothing panics.
+#[test]
+fn damaged_decks_are_translated_or_refused() {
+    let (folder, mut dice) = (folder(), Dice(0x9e37_79b9_7f4a_7c15));
+    let decks: Vec<Vec<u8>> = decks().iter().map(|deck| std::fs::read(deck).unwrap()).collect();
+    let (mut translated, mut refused) = (0, 0);
+    for round in 0..10_000 {
+        let mut bytes = decks[round % decks.len()].clone();
+        for _ in 0..=dice.roll(3) {
+            damage(&mut bytes, WORDS, &mut dice);
+        }
+        match errors(folder.path(), &String::from_utf8_lossy(&bytes)).is_empty() {
+            true => translated += 1,
+            false => refused += 1,
+        }
+    }
+    assert!(translated > 500 && refused > 4000, "{translated} translated, {refused} refused");
 }

@@ -31,6 +31,10 @@ pub struct RunCourse {
     pub faults: Vec<Fault>,
     /// Contact points that were closed in the last accepted increment.
     pub touching: usize,
+    /// Those of them that did not slip.
+    pub sticking: usize,
+    /// What was held still first since nothing held it any more, in words, and from when on.
+    pub adrift: Option<(String, f64)>,
     /// For each contact whether it ever closed.
     pub closed: Vec<(String, bool)>,
     /// Motion per time of the last accepted increments over that of the first ones of their step.

@@ -116,6 +116,21 @@ fn loads_are_measured_by_what_bears_them() {
 }
 
 #[test]
+fn what_held_at_first_and_lets_go_later_is_named() {
+    let mut facts = block();
+    facts.steps[0].loads = vec![Load { name: "force.block.left".into(), bodies: vec!["block".into()], stress: 1.0 }];
+    let course =
+        RunCourse { increments: 9, part: 0.4, ..failed(FailureKind::Iterations, "the largest unbalanced force") };
+    let adrift = Some(("body 'block' is free along x".to_owned(), 0.4));
+    let slipping = RunCourse { touching: 7, ..course.clone() };
+    assert_eq!(first(&facts, &slipping), "slides");
+    assert_ne!(first(&facts, &RunCourse { sticking: 1, ..slipping.clone() }), "slides");
+    let found = diagnose(&facts, &RunCourse { adrift: adrift.clone(), ..slipping });
+    assert!(found[0].evidence.iter().any(|line| line.contains("free along x from time 0.4")), "{found:?}");
+    assert_eq!(first(&facts, &RunCourse { adrift, ..course }), "lost-contact");
+}
+
+#[test]
 fn numbers_that_hardly_belong_together_are_odd() {
     let odd = |change: &dyn Fn(&mut Facts)| {
         let mut facts = block();

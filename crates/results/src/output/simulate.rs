@@ -15,7 +15,7 @@ use super::recorder::{Files, Keeper, Recorder};
 use super::results::{CHECKPOINT, Results, SUMMARY};
 use super::summary::{RunStatus, Summary};
 use super::witness::Witness;
-use crate::diagnosis::Facts;
+use crate::diagnosis::{Facts, RunCourse};
 use asperity_core::Error;
 use asperity_core::model::Model;
 use asperity_core::solve::{AttemptRecord, Observer, Run};
@@ -195,7 +195,8 @@ impl<'m> Simulation<'m> {
         closing::close(account, self.model, &self.run, self.spent.as_secs_f64());
         if matches!(ended, Ok(()) | Err(Error::NotConverged(_))) {
             let failed = ended.as_ref().err().map(|reason| (self.run.ended, reason.to_string()));
-            account.diagnose(facts, self.witness.course((&self.model.problem, state), failed));
+            let course = self.witness.course((&self.model.problem, state), failed);
+            account.diagnose(facts, RunCourse { adrift: self.run.first_held.clone(), ..course });
         }
         match &mut self.keeper {
             Keeper::Memory(account) => account.end(&ended),

@@ -20,6 +20,8 @@ pub struct Witness {
     step: usize,
     /// Contact points that stick or slip in the last accepted increment.
     touching: usize,
+    /// Those of them that stick.
+    sticking: usize,
 }
 
 impl Witness {
@@ -44,9 +46,9 @@ impl Witness {
         if record.step != self.step {
             (self.step, self.speeds) = (record.step, Vec::new());
         }
-        self.touching = record.iterations.last().map_or(0, |last| {
+        (self.touching, self.sticking) = record.iterations.last().map_or((0, 0), |last| {
             let [_, stick, slip] = problem.points_by_status(last);
-            stick + slip
+            (stick + slip, stick)
         });
         let nodes = problem.dofs.nodes() * problem.dofs.per_node();
         let moved = state.last_change[..nodes].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -83,6 +85,7 @@ impl Witness {
             acceleration: self.acceleration(),
             jumps: state.jumps,
             touching: self.touching,
+            sticking: self.sticking,
             ..RunCourse::default()
         }
     }

@@ -88,6 +88,40 @@ pub(super) fn free_body(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     )
 }
 
+/// Everything that touches slips, under loads that are far from what the bodies bear.
+pub(super) fn slips_everywhere(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    let step = facts.steps.get(course.step).filter(|step| !step.loads.is_empty())?;
+    let kinds =
+        [FailureKind::Free, FailureKind::Iterations, FailureKind::Singular, FailureKind::Cycle, FailureKind::Passage];
+    let failed = course.kind().is_some_and(|kind| kinds.contains(&kind) || kind == FailureKind::Other);
+    if !failed || course.increments == 0 || course.touching == 0 || course.sticking > 0 {
+        return None;
+    }
+    let contact = facts.contacts.iter().find(|contact| course.closed(&contact.name) && !is_wrong(facts, contact))?;
+    let friction = contact.friction.unwrap_or(0.0);
+    let body = facts.bodies.iter().find(|body| contact.bodies.contains(&body.name))?;
+    Some(
+        finding("slides", if course.adrift.is_some() { 0.88 } else { 0.83 }, "what touches slips everywhere: friction is at its limit")
+            .shown(format!(
+                "in the last increment all {} closed points slip and none sticks; contact '{}' of body '{}' has a coefficient of \
+                 friction of {friction}",
+                course.touching, contact.name, body.name
+            ))
+            .shown(adrift(course))
+            .shown(format!("step `{}` is driven by loads", step.name))
+            .try_to(&[
+                "a support against the motion along the surface, or weak springs (`spring`)",
+                "more friction, more of the load that presses, or less of the one that makes it slide",
+                "prescribe the displacement in place of the load: its reaction then shows what friction bears",
+            ]),
+    )
+}
+
+/// What was held still, in words.
+fn adrift(course: &RunCourse) -> String {
+    course.adrift.as_ref().map_or(String::new(), |(what, time)| format!("{what} from time {time:.4} on"))
+}
+
 /// A body that only friction is to hold along some axes, which does not.
 pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let free = [FailureKind::Free, FailureKind::Singular, FailureKind::Hourglass];
@@ -172,9 +206,12 @@ pub(super) fn lost_contact(facts: &Facts, course: &RunCourse) -> Option<Finding>
     let free = course.kind() == Some(FailureKind::Free) && course.increments > 0;
     let adrift = facts.bodies.iter().find(|body| !body.held && !body.unheld.is_empty());
     let adrift = adrift.filter(|_| course.ended == End::Well && course.touching == 0);
-    (closed && (free || adrift.is_some())).then(|| {
+    // Something was held still, and nothing touches any more.
+    let let_go = course.kind().is_some() && course.touching == 0 && course.adrift.is_some();
+    (closed && (free || adrift.is_some() || let_go)).then(|| {
         finding("lost-contact", 0.9, "a body lost the contact that held it")
             .shown(&course.reason)
+            .shown(self::adrift(course))
             .shown(adrift.map_or(String::new(), |body| {
                 format!("at the end no contact is closed, and no support holds body '{}'", body.name)
             }))

@@ -20,10 +20,12 @@ pub static ALL: &[Rule] = &[
     touch::wrong_side,
     seams,
     touch::initial_overlap,
+    touch::unseen_overlap,
     held::not_touching,
     held::thrown,
     held::free_body,
     held::slides,
+    held::slips_everywhere,
     held::slides_freely,
     held::hourglass,
     held::lost_contact,
@@ -146,7 +148,8 @@ fn accuracy(_: &Facts, course: &RunCourse) -> Option<Finding> {
     };
     let what = format!("{} is beyond what can be trusted", worst.words.trim());
     Some(
-        finding(cause, 0.6, what)
+        // A run that stopped did so of something else.
+        finding(cause, if course.kind().is_some() { 0.4 } else { 0.6 }, what)
             .shown(format!("{:.2e}{}, with a limit of {}", worst.value, worst.place, worst.limit))
             .try_to(&[&worst.remedy]),
     )

@@ -171,7 +171,7 @@ pub(super) fn locking(facts: &Facts, course: &RunCourse) -> Option<Finding> {
 pub(super) fn law(_: &Facts, course: &RunCourse) -> Option<Finding> {
     let share = course.share(&[FailureKind::Material]);
     let fault = course.fault(&[FailureKind::Material])?;
-    (share > 0.3 && course.kind().is_some()).then(|| {
+    (share > 0.1 && course.kind().is_some()).then(|| {
         finding("material-law", 0.55 + 0.25 * share, "the law of a material finds no stress")
             .shown(&fault.reason)
             .try_to(&[

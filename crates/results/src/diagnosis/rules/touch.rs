@@ -28,6 +28,37 @@ pub(super) fn wrong_side(facts: &Facts, _: &RunCourse) -> Option<Finding> {
 /// Penetration over the length of an edge before anything moves that is no accident.
 const DEEP: f64 = 0.3;
 
+/// Two bodies that are to touch lie in each other where no contact point looks, though they were not moved by as much as their
+/// surfaces are apart.
+pub(super) fn unseen_overlap(facts: &Facts, course: &RunCourse) -> Option<Finding> {
+    if course.kind() != Some(FailureKind::Passage) || !course.never_closed() {
+        return None;
+    }
+    let lies = |reason: &str| reason.contains(" deep in ");
+    let fault = course.faults.iter().rev().find(|fault| fault.kind == FailureKind::Passage && lies(&fault.reason))?;
+    let bodies: Vec<&str> = facts.bodies_in(&fault.reason).map(|body| body.name.as_str()).collect();
+    let steps = facts.steps.iter().take(course.step + 1).enumerate();
+    let part = |i: usize| if i == course.step { course.part } else { 1.0 };
+    let moved: f64 = steps.map(|(i, step)| part(i) * (step.moved + step.driven)).sum();
+    let contact = facts.contacts.iter().find(|contact| {
+        let theirs = |name: &&str| contact.bodies.iter().any(|own| own == name);
+        bodies.len() > 1 && bodies.iter().all(theirs) && contact.distance > moved
+    })?;
+    Some(
+        finding(
+            "initial-overlap",
+            0.92,
+            format!("the two sides of contact '{}' lie in each other before anything moves", contact.name),
+        )
+        .shown(&fault.reason)
+        .shown(format!(
+            "{moved:.3e} was moved, and the surfaces of the contact, which face away from each other, are {:.3e} apart",
+            contact.distance
+        ))
+        .try_to(&["move the parts apart in the mesh"]),
+    )
+}
+
 pub(super) fn initial_overlap(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let deep = |contact: &&ContactFacts| {
         contact.gap.is_some_and(|gap| -gap > DEEP * contact.edge) && !is_wrong(facts, contact)

@@ -216,3 +216,29 @@ fn mistakes_of_probes_are_told_where_they_stand() {
         assert!(found.contains(said), "{set}: {found}");
     }
 }
+
+/// Where bodies overlap a point is read in the first of them, and the user is told.
+#[test]
+fn a_point_of_two_bodies_is_told() {
+    const FIT: &str = r#"
+version = 1
+space = "axisymmetric"
+mesh.part.shaft.rectangle = { from = [0.0, 0.0], to = [20.02, 10.0], cells = [4, 2], cell = "quad8" }
+mesh.part.ring.rectangle = { from = [20.0, 0.0], to = [40.0, 10.0], cells = [4, 2], cell = "quad8" }
+material.steel.elastic = { young = 210e3, poisson = 0.3 }
+body.shaft.material = "steel"
+body.ring.material = "steel"
+contact.fit = { surface = "ring.left", target = "shaft.right", overlap = "ramp", law.frictionless = {} }
+probe.bore = { at.point = [20.01, 5.0], quantities = ["cauchy_stress.zz"] }
+probe.inside = { at.point = [21.0, 5.0], quantities = ["cauchy_stress.zz"] }
+probe.line = { at.path = { from = [19.0, 5.0], to = [21.0, 5.0], points = 201 }, quantities = ["cauchy_stress.zz"] }
+[[step]]
+displacement."shaft.bottom" = { y = 0.0 }
+displacement."ring.bottom" = { y = 0.0 }
+"#;
+    let made = asperity::deck::read(FIT, "fit.toml", ".".as_ref(), &[]).and_then(asperity::deck::build);
+    let made = made.unwrap_or_else(|found| panic!("{}", found.render(false)));
+    let told: Vec<_> = made.diagnostics.list.iter().filter(|d| d.what.contains("the probe reads `")).collect();
+    assert_eq!(told.len(), 2, "{}", made.diagnostics.render(false));
+    assert!(told.iter().all(|d| d.what.contains("lies in `shaft` and `ring`")), "{}", told[0].what);
+}

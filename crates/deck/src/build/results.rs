@@ -6,6 +6,8 @@ use crate::source::Spot;
 use asperity_core::declare::nearest;
 use asperity_core::mesh::Mesh;
 use asperity_core::model::Model;
+use asperity_core::solid::Body;
+use asperity_core::system::Term;
 use asperity_core::tensor::Vec3;
 use asperity_results::output::probe::{At, Share, Take, shares, spot};
 use asperity_results::output::{Frame, Parts, Printed, Probe, ResultOptions, Source, Units, Whose};
@@ -85,6 +87,7 @@ fn place(model: &Model, keys: &ProbeKeys, found: &mut Vec<Diagnostic>) -> Option
                 found
                     .push(Diagnostic::error("there is no material at this point").at(point.place).help(near(model, x)));
             }
+            found.extend(several(model, x).map(|warning| warning.at(point.place)));
             spot.map(At::Point)
         }
         ProbeAt::Path(keys) => path(model, keys, found),
@@ -95,9 +98,13 @@ fn path(model: &Model, keys: &PathKeys, found: &mut Vec<Diagnostic>) -> Option<A
     let (from, to) = (coordinates(model, &keys.from, found), coordinates(model, &keys.to, found));
     let (from, to) = (from?, to?);
     let mut spots = Vec::new();
-    for i in 0..keys.points {
+    let at = |i: usize| {
         let part = i as f64 / (keys.points - 1) as f64;
-        let x = from * (1.0 - part) + to * part;
+        from * (1.0 - part) + to * part
+    };
+    found.extend((0..keys.points).find_map(|i| several(model, at(i))).map(|warning| warning.at(keys.place)));
+    for i in 0..keys.points {
+        let x = at(i);
         match spot(&model.mesh, cells(model), x) {
             Some(spot) => spots.push(((x - from).norm(), spot)),
             None => {
@@ -109,6 +116,17 @@ fn path(model: &Model, keys: &PathKeys, found: &mut Vec<Diagnostic>) -> Option<A
         }
     }
     Some(At::Path(spots))
+}
+
+/// What to say of a point that lies in several bodies, of which the first is read.
+fn several(model: &Model, x: Vec3) -> Option<Diagnostic> {
+    let holds = |body: &Body| spot(&model.mesh, body.cells().iter().copied(), x).is_some();
+    let names: Vec<_> = model.bodies.iter().filter(|(body, _)| holds(body)).map(|(body, _)| body.name()).collect();
+    (names.len() > 1).then(|| {
+        let all = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" and ");
+        let what = format!("the point at {} lies in {all}, and the probe reads `{}`", words(model, x), names[0]);
+        Diagnostic::warning(what).help("a point inside one of them, or `at.node`, `at.group` of one")
+    })
 }
 
 /// The cells of all bodies.

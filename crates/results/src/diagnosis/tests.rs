@@ -125,9 +125,11 @@ fn what_held_at_first_and_lets_go_later_is_named() {
     let slipping = RunCourse { touching: 7, ..course.clone() };
     assert_eq!(first(&facts, &slipping), "slides");
     assert_ne!(first(&facts, &RunCourse { sticking: 1, ..slipping.clone() }), "slides");
-    let found = diagnose(&facts, &RunCourse { adrift: adrift.clone(), ..slipping });
+    let found = diagnose(&facts, &RunCourse { adrift: adrift.clone(), ..slipping.clone() });
     assert!(found[0].evidence.iter().any(|line| line.contains("free along x from time 0.4")), "{found:?}");
     assert_eq!(first(&facts, &RunCourse { adrift, ..course }), "lost-contact");
+    facts.contacts[0].friction = None;
+    assert_ne!(first(&facts, &slipping), "slides");
 }
 
 #[test]

@@ -97,7 +97,11 @@ pub(super) fn slips_everywhere(facts: &Facts, course: &RunCourse) -> Option<Find
     if !failed || course.increments == 0 || course.touching == 0 || course.sticking > 0 {
         return None;
     }
-    let contact = facts.contacts.iter().find(|contact| course.closed(&contact.name) && !is_wrong(facts, contact))?;
+    // Without friction all points slip, and that says nothing of a body that is held.
+    let tells =
+        |contact: &&ContactFacts| course.adrift.is_some() || contact.friction.is_some_and(|friction| friction > 0.0);
+    let mut closed = facts.contacts.iter().filter(|contact| course.closed(&contact.name) && !is_wrong(facts, contact));
+    let contact = closed.find(tells)?;
     let friction = contact.friction.unwrap_or(0.0);
     let body = facts.bodies.iter().find(|body| contact.bodies.contains(&body.name))?;
     Some(

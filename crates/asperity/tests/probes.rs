@@ -229,7 +229,8 @@ material.steel.elastic = { young = 210e3, poisson = 0.3 }
 body.shaft.material = "steel"
 body.ring.material = "steel"
 contact.fit = { surface = "ring.left", target = "shaft.right", overlap = "ramp", law.frictionless = {} }
-probe.bore = { at.point = [20.01, 5.0], quantities = ["cauchy_stress.zz"] }
+probe.bore = { at.point = [20.002, 4.0], quantities = ["cauchy_stress.zz"] }
+probe.skin = { at.point = [20.018, 4.0], quantities = ["cauchy_stress.zz"] }
 probe.inside = { at.point = [21.0, 5.0], quantities = ["cauchy_stress.zz"] }
 probe.line = { at.path = { from = [19.0, 5.0], to = [21.0, 5.0], points = 201 }, quantities = ["cauchy_stress.zz"] }
 [[step]]
@@ -239,6 +240,13 @@ displacement."ring.bottom" = { y = 0.0 }
     let made = asperity::deck::read(FIT, "fit.toml", ".".as_ref(), &[]).and_then(asperity::deck::build);
     let made = made.unwrap_or_else(|found| panic!("{}", found.render(false)));
     let told: Vec<_> = made.diagnostics.list.iter().filter(|d| d.what.contains("the probe reads `")).collect();
-    assert_eq!(told.len(), 2, "{}", made.diagnostics.render(false));
+    assert_eq!(told.len(), 3, "{}", made.diagnostics.render(false));
     assert!(told.iter().all(|d| d.what.contains("lies in `shaft` and `ring`")), "{}", told[0].what);
+    // That body is read in which the point lies deeper: the stress is that of compression in the shaft, of tension in the ring.
+    let reads =
+        |at: &str| told.iter().find(|d| d.what.contains(at)).unwrap().what.rsplit(' ').next().unwrap().to_owned();
+    assert_eq!([reads("20.002"), reads("20.018")], ["`shaft`", "`ring`"]);
+    let folder = results(FIT, &[]);
+    let [bore, skin] = ["bore", "skin"].map(|probe| last(&folder, probe, "cauchy_stress.zz"));
+    assert!(bore < -10.0 && skin > 10.0, "{bore} in the shaft, {skin} in the ring");
 }

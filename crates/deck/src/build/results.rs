@@ -9,8 +9,9 @@ use asperity_core::model::Model;
 use asperity_core::solid::Body;
 use asperity_core::system::Term;
 use asperity_core::tensor::Vec3;
-use asperity_results::output::probe::{At, Share, Take, shares, spot};
+use asperity_results::output::probe::{At, ProbeSpot, Share, Take, shares, spot};
 use asperity_results::output::{Frame, Parts, Printed, Probe, ResultOptions, Source, Units, Whose};
+use std::sync::Arc;
 
 /// The options of the results of a model, and what is wrong with them.
 pub fn results(deck: &Deck, model: &Model) -> (ResultOptions, Vec<Diagnostic>) {
@@ -82,13 +83,13 @@ fn place(model: &Model, keys: &ProbeKeys, found: &mut Vec<Diagnostic>) -> Option
         }
         ProbeAt::Point(point) => {
             let x = coordinates(model, point, found)?;
-            let spot = spot(mesh, cells(model), x);
-            if spot.is_none() {
+            let Some(spot) = spot(mesh, cells(model), x) else {
                 found
                     .push(Diagnostic::error("there is no material at this point").at(point.place).help(near(model, x)));
-            }
-            found.extend(several(model, x).map(|warning| warning.at(point.place)));
-            spot.map(At::Point)
+                return None;
+            };
+            found.extend(several(model, &spot).map(|warning| warning.at(point.place)));
+            Some(At::Point(spot))
         }
         ProbeAt::Path(keys) => path(model, keys, found),
     }
@@ -98,13 +99,9 @@ fn path(model: &Model, keys: &PathKeys, found: &mut Vec<Diagnostic>) -> Option<A
     let (from, to) = (coordinates(model, &keys.from, found), coordinates(model, &keys.to, found));
     let (from, to) = (from?, to?);
     let mut spots = Vec::new();
-    let at = |i: usize| {
-        let part = i as f64 / (keys.points - 1) as f64;
-        from * (1.0 - part) + to * part
-    };
-    found.extend((0..keys.points).find_map(|i| several(model, at(i))).map(|warning| warning.at(keys.place)));
     for i in 0..keys.points {
-        let x = at(i);
+        let part = i as f64 / (keys.points - 1) as f64;
+        let x = from * (1.0 - part) + to * part;
         match spot(&model.mesh, cells(model), x) {
             Some(spot) => spots.push(((x - from).norm(), spot)),
             None => {
@@ -115,16 +112,22 @@ fn path(model: &Model, keys: &PathKeys, found: &mut Vec<Diagnostic>) -> Option<A
             }
         }
     }
+    let shared = spots.iter().find_map(|(_, spot)| several(model, spot));
+    found.extend(shared.map(|warning| warning.at(keys.place)));
     Some(At::Path(spots))
 }
 
-/// What to say of a point that lies in several bodies, of which the first is read.
-fn several(model: &Model, x: Vec3) -> Option<Diagnostic> {
-    let holds = |body: &Body| spot(&model.mesh, body.cells().iter().copied(), x).is_some();
-    let names: Vec<_> = model.bodies.iter().filter(|(body, _)| holds(body)).map(|(body, _)| body.name()).collect();
+/// What to say of a point that lies in several bodies, of which one is read.
+fn several(model: &Model, read: &ProbeSpot) -> Option<Diagnostic> {
+    let within = |(body, _): &(Arc<Body>, usize)| {
+        let spot = spot(&model.mesh, body.cells().iter().copied(), read.point)?;
+        Some((body.name().to_owned(), spot == *read))
+    };
+    let names: Vec<_> = model.bodies.iter().filter_map(within).collect();
+    let (own, _) = names.iter().find(|(_, own)| *own)?;
     (names.len() > 1).then(|| {
-        let all = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" and ");
-        let what = format!("the point at {} lies in {all}, and the probe reads `{}`", words(model, x), names[0]);
+        let all = names.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(" and ");
+        let what = format!("the point at {} lies in {all}, and the probe reads `{own}`", words(model, read.point));
         Diagnostic::warning(what).help("a point inside one of them, or `at.node`, `at.group` of one")
     })
 }

@@ -1,10 +1,14 @@
 //! What stands behind the surfaces of contacts: the stiffness that a default penalty follows, the boundary, the better side.
 
-use crate::contact::field::FieldSurface;
+use crate::contact::field::{FieldSurface, FieldTarget};
 use crate::contact::{Backing, Plate, plates};
-use crate::mesh::{Mesh, Side, flat_normal};
+use crate::mesh::{Mesh, Side, Space, flat_normal};
 use crate::solid::Body;
+use crate::system::Dofs;
+use crate::tool::ProfileTool;
+use crate::tool::space::SpaceTool;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Elastic slip under the friction that the pressure allows, over the length of an edge or face, where nothing is said.
 pub const ELASTIC_SLIP: f64 = 0.005;
@@ -66,10 +70,47 @@ const ALIKE: f64 = 1.2;
 /// Facets that stand off a smooth surface by more than this part of their size are those of a curve.
 const CURVED: f64 = 1e-3;
 
+/// A tool as what a contact may touch, of those of the plane or of space.
+pub fn tool_target(
+    (plane, solid): (&[Arc<ProfileTool>], &[Arc<SpaceTool>]),
+    number: usize,
+    dofs: &Dofs,
+) -> Option<FieldTarget> {
+    let of_plane = plane.get(number).map(|tool| FieldTarget::tool(tool.clone(), number, dofs));
+    of_plane.or_else(|| solid.get(number).map(|tool| FieldTarget::solid_tool(tool.clone(), number, dofs)))
+}
+
+/// Which of two surfaces carries the field of their contact.
+pub struct FieldSides<'a> {
+    /// Those that carry it.
+    pub carrier: &'a [Side],
+    /// The others.
+    pub target: FieldTarget,
+    /// Whether both are the same: a surface that touches itself.
+    pub itself: bool,
+    /// Whether the carrier is what the user calls the target.
+    pub swapped: bool,
+}
+
+impl<'a> FieldSides<'a> {
+    /// The better side of a surface and its target, or the surface where they may not be swapped.
+    pub fn new(
+        [surface, target]: [&'a [Side]; 2],
+        may_swap: bool,
+        (mesh, space, thickness): (&Mesh, Space, f64),
+    ) -> Self {
+        let whole = |sides: &[Side]| FieldSurface::whole(mesh, sides, space, thickness);
+        let itself = target == surface;
+        let swapped = !itself && may_swap && suits_better(&whole(target), &whole(surface), mesh);
+        let (carrier, other) = if swapped { (target, surface) } else { (surface, target) };
+        Self { carrier, target: FieldTarget::faces(whole(other), mesh), itself, swapped }
+    }
+}
+
 /// Whether `other` is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
 /// facets the other side cannot all follow; else the finer, since a coarse field on a fine target misses what lies between its
 /// nodes.
-pub fn suits_better(other: &FieldSurface, surface: &FieldSurface, mesh: &Mesh) -> bool {
+fn suits_better(other: &FieldSurface, surface: &FieldSurface, mesh: &Mesh) -> bool {
     let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
     if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
 }

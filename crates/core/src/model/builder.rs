@@ -1,10 +1,10 @@
 //! A model in code: names and values; numbers of unknowns, defaults and checks follow.
 
-use super::behind::{ELASTIC_SLIP, backings, boundary_behind, suits_better};
+use super::behind::{ELASTIC_SLIP, FieldSides, backings, boundary_behind, tool_target};
 use super::model::{Model, ModelParts};
 use crate::Error;
 use crate::amplitude::Amplitude;
-use crate::contact::field::{FieldContact, FieldParts, FieldSurface, FieldTarget};
+use crate::contact::field::{FieldContact, FieldParts, FieldSurface};
 use crate::contact::{Augmentation, Backing, ContactForm, ContactOptions, LoadedSides, Overlap, default_penalty};
 use crate::declare::nearest;
 use crate::interface::Rule;
@@ -16,7 +16,7 @@ use crate::solve::{Course, Increments, NewtonOptions, Prescribed, Step};
 use crate::system::{Constraints, Dofs, Term};
 use crate::tool::space::SpaceTool;
 use crate::tool::{FindingSeverity, ProfileTool};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Makes a load where the numbering of the unknowns is known.
@@ -313,23 +313,20 @@ impl Names<'_> {
         let dofs = &self.site.dofs;
         // Tools rest where nothing is said of them.
         let tools = dofs.tool(0)..dofs.count();
-        let mut standing: BTreeMap<usize, f64> = tools.map(|dof| (dof, 0.0)).collect();
+        let mut standing: BTreeSet<usize> = tools.collect();
         let mut made = Vec::new();
         for step in steps {
-            let mut courses: BTreeMap<usize, Course> = standing.keys().map(|&dof| (dof, Course::Hold)).collect();
-            let mut said = BTreeMap::new();
+            let mut courses: BTreeMap<usize, Course> = standing.iter().map(|&dof| (dof, Course::Hold)).collect();
+            let mut said = BTreeMap::<usize, f64>::new();
             for motion in &step.motions {
-                for (dof, to) in self.unknowns(motion, found) {
-                    if said.insert(dof, to).is_some_and(|other| other != to) {
-                        let place = dofs.describe(dof);
-                        found.push(format!(
-                            "step '{}': two displacements of {place:?} contradict each other",
-                            step.name
-                        ));
-                    }
-                    courses.insert(dof, Course::To(to, Amplitude::ramp()));
-                    standing.insert(dof, to);
+                let unknowns = self.unknowns(motion, found);
+                if unknowns.iter().any(|(dof, to)| said.get(dof).is_some_and(|other| other != to)) {
+                    let (name, what) = (&step.name, &motion.0);
+                    found.push(format!("step '{name}': displacements of '{what}' and before it contradict each other"));
                 }
+                said.extend(unknowns.iter().copied());
+                standing.extend(unknowns.iter().map(|(dof, _)| dof));
+                courses.extend(unknowns.into_iter().map(|(dof, to)| (dof, Course::To(to, Amplitude::ramp()))));
             }
             if !(step.duration > 0.0 && step.duration.is_finite()) {
                 found.push(format!("step '{}': its duration is not positive", step.name));
@@ -361,22 +358,14 @@ impl Names<'_> {
         let tool = self.tool(&contact.target);
         let others = if tool.is_none() { sides(&contact.target, found) } else { None };
         let surface = surface.filter(|_| tool.is_some() || others.is_some())?;
-        let whole = |sides: &[Side]| FieldSurface::whole(mesh, sides, *space, *thickness);
-        let (mut carrier, mut itself, mut swapped) = (surface, false, false);
-        let target = match others {
-            Some(others) => {
-                itself = others == surface;
-                swapped = !itself && suits_better(&whole(others), &whole(surface), mesh);
-                carrier = if swapped { others } else { surface };
-                FieldTarget::faces(whole(if swapped { surface } else { others }), mesh)
-            }
-            None => {
-                match (tool.and_then(|tool| self.tools.get(tool)), tool.and_then(|tool| self.solid_tools.get(tool))) {
-                    (Some(shape), _) => FieldTarget::tool(shape.clone(), tool?, dofs),
-                    (_, Some(shape)) => FieldTarget::solid_tool(shape.clone(), tool?, dofs),
-                    (None, None) => return None,
-                }
-            }
+        let FieldSides { carrier, target, itself, swapped } = match others {
+            Some(others) => FieldSides::new([surface, others], true, (mesh, *space, *thickness)),
+            None => FieldSides {
+                carrier: surface,
+                target: tool_target((self.tools, self.solid_tools), tool?, dofs)?,
+                itself: false,
+                swapped: false,
+            },
         };
         let surfaces: Vec<&[Side]> = std::iter::once(surface).chain(others).collect();
         let computed = || default_penalty((mesh, *space), &surfaces, |cell| backings[cell]);

@@ -7,6 +7,6 @@ mod builder;
 #[allow(clippy::module_inception)] // the room and the type it is about share the field's word
 mod model;
 
-pub use behind::{ELASTIC_SLIP, backings, boundary_behind, suits_better};
+pub use behind::{ELASTIC_SLIP, FieldSides, backings, boundary_behind, tool_target};
 pub use builder::{ContactBuilder, ModelBuilder, StepBuilder};
 pub use model::{Model, ModelParts, RigidGroup};

@@ -35,11 +35,7 @@ pub(super) struct Tools<'a> {
 impl Tools<'_> {
     /// A tool as what a contact may touch.
     pub(super) fn target(&self, number: usize, dofs: &Dofs) -> Option<FieldTarget> {
-        match (self.plane.get(number), self.solid.get(number)) {
-            (Some(tool), _) => Some(FieldTarget::tool(tool.clone(), number, dofs)),
-            (_, Some(tool)) => Some(FieldTarget::solid_tool(tool.clone(), number, dofs)),
-            (None, None) => None,
-        }
+        model::tool_target((self.plane, self.solid), number, dofs)
     }
 }
 

@@ -5,10 +5,9 @@ use super::contacts::{Opposite, Tools, backings, boundary_behind};
 use crate::keys::{self, Roles};
 use crate::reader::Name;
 use crate::source::Place;
-use asperity_core::contact::field::{FieldContact, FieldParts, FieldSurface, FieldTarget};
+use asperity_core::contact::field::{FieldContact, FieldParts, FieldSurface};
 use asperity_core::contact::{Backing, ContactForm};
-use asperity_core::mesh::Side;
-use asperity_core::model::suits_better;
+use asperity_core::model::FieldSides;
 use asperity_core::solid::Body;
 
 impl Builder<'_> {
@@ -58,19 +57,17 @@ impl Builder<'_> {
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }
-        let whole = |sides: &[Side]| FieldSurface::whole(&mesh, sides, space, self.site.thickness);
-        let carrier = |sides: &[Side]| FieldSurface::new(&mesh, sides, space, self.site.thickness);
-        let (mut sides, mut swapped, mut itself) = (surface, false, false);
-        let target = match opposite {
-            Opposite::Tool(number) => tools.target(number, &dofs)?,
+        let FieldSides { carrier: sides, target, itself, swapped } = match opposite {
+            Opposite::Tool(number) => {
+                let target = tools.target(number, &dofs)?;
+                FieldSides { carrier: surface, target, itself: false, swapped: false }
+            }
             Opposite::Sides(others) => {
-                itself = others == surface;
-                swapped = !itself && keys.roles == Roles::Auto && suits_better(&whole(others), &whole(surface), &mesh);
-                sides = if swapped { others } else { surface };
-                FieldTarget::faces(whole(if swapped { surface } else { others }), &mesh)
+                let may_swap = keys.roles == Roles::Auto;
+                FieldSides::new([surface, others], may_swap, (&mesh, space, self.site.thickness))
             }
         };
-        let carrier = carrier(sides);
+        let carrier = FieldSurface::new(&mesh, sides, space, self.site.thickness);
         let pieces = target.as_tool().map_or(1, |rigid| rigid.pieces());
         if carrier.nodes.len().saturating_mul(pieces) > MOST {
             let what = format!(

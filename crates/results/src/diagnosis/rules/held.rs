@@ -91,10 +91,19 @@ pub(super) fn free_body(facts: &Facts, course: &RunCourse) -> Option<Finding> {
 /// Everything that touches slips, under loads that are far from what the bodies bear.
 pub(super) fn slips_everywhere(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let step = facts.steps.get(course.step).filter(|step| !step.loads.is_empty())?;
-    let kinds =
-        [FailureKind::Free, FailureKind::Iterations, FailureKind::Singular, FailureKind::Cycle, FailureKind::Passage];
-    let failed = course.kind().is_some_and(|kind| kinds.contains(&kind) || kind == FailureKind::Other);
-    if !failed || course.increments == 0 || course.touching == 0 || course.sticking > 0 {
+    let kinds = [
+        FailureKind::Free,
+        FailureKind::Iterations,
+        FailureKind::Singular,
+        FailureKind::Cycle,
+        FailureKind::Passage,
+        FailureKind::Other,
+    ];
+    if !course.kind().is_some_and(|kind| kinds.contains(&kind))
+        || course.increments == 0
+        || course.touching == 0
+        || course.sticking > 0
+    {
         return None;
     }
     // Without friction all points slip, and that says nothing of a body that is held.
@@ -111,7 +120,7 @@ pub(super) fn slips_everywhere(facts: &Facts, course: &RunCourse) -> Option<Find
                  friction of {friction}",
                 course.touching, contact.name, body.name
             ))
-            .shown(adrift(course))
+            .shown(held_still(course))
             .shown(format!("step `{}` is driven by loads", step.name))
             .try_to(&[
                 "a support against the motion along the surface, or weak springs (`spring`)",
@@ -122,7 +131,7 @@ pub(super) fn slips_everywhere(facts: &Facts, course: &RunCourse) -> Option<Find
 }
 
 /// What was held still, in words.
-fn adrift(course: &RunCourse) -> String {
+fn held_still(course: &RunCourse) -> String {
     course.adrift.as_ref().map_or(String::new(), |(what, time)| format!("{what} from time {time:.4} on"))
 }
 
@@ -215,7 +224,7 @@ pub(super) fn lost_contact(facts: &Facts, course: &RunCourse) -> Option<Finding>
     (closed && (free || adrift.is_some() || let_go)).then(|| {
         finding("lost-contact", 0.9, "a body lost the contact that held it")
             .shown(&course.reason)
-            .shown(self::adrift(course))
+            .shown(held_still(course))
             .shown(adrift.map_or(String::new(), |body| {
                 format!("at the end no contact is closed, and no support holds body '{}'", body.name)
             }))

@@ -100,6 +100,22 @@ increments = { count = 10 }
 motion.press = { y = 1.0 }
 "#;
 
+/// A block whose sides roll onto the plate that presses it; its contact ends at the corner.
+const ROLLED: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.0, 0.0], to = [4.0, 2.0], cells = [16, 8], cell = "quad8" }
+group.around = { of = "block.top", with = ["block.left", "block.right"] }
+material.rubber.neo_hookean = { shear = 1.0, bulk = 10.0 }
+body.block = { material = "rubber" }
+tool.plate.profile = [{ line = [[-20.0, 2.0], [20.0, 2.0]] }]
+contact.top = { surface = "block.top", target = "plate", law.coulomb = { friction = 0.3 } }
+[[step]]
+increments = { count = 5 }
+displacement."block.bottom" = { x = 0.0, y = 0.0 }
+motion.plate = { y = -0.4 }
+"#;
+
 struct Run {
     folder: tempfile::TempDir,
     output: Output,
@@ -178,6 +194,20 @@ fn forces_of_two_sides_that_differ() {
     Run::of(STACKED, &["limits.reaction_balance=0.01"]).doubts(&["reaction_balance"], "");
     let one = Run::of(STACKED, &["contact.joint.passes=one"]);
     assert_eq!(one.code(), 0, "{}", one.notes());
+}
+
+/// The corner folds into the plate, .43 of a cell deep, behind a mean penetration of a tenth of a cell; with the sides in its
+/// surface the contact holds them out.
+#[test]
+fn a_corner_that_folds_into_a_tool() {
+    let run = Run::of(ROLLED, &[]);
+    run.doubts(&["interpenetration"], "body 'block' in tool 'plate'");
+    assert!(run.notes().contains("one that goes round the corner"), "{}", run.notes());
+    let figure = |run: &Run, name: &str| run.summary["certificate"][name].as_f64().unwrap();
+    assert!(figure(&run, "node_depth") > 2.0 * figure(&run, "max_penetration_relative"));
+    let around = Run::of(ROLLED, &["contact.top.surface=around"]);
+    assert_eq!(around.code(), 0, "{}", around.notes());
+    assert!(figure(&around, "node_depth") < 0.1 && figure(&around, "interpenetration") < 0.05);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use crate::system::{Dofs, History, Interpenetration};
 use crate::tensor::Vec3;
 use crate::{Failure, FailureKind};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
 /// What a contact claims, in the words of the audit.
@@ -67,8 +67,8 @@ pub(super) struct Prepared {
     pub(super) initial: Vec<f64>,
     /// For each pair whether a contact knows of it.
     known: Vec<bool>,
-    /// For each tool the nodes that contacts bear on it.
-    borne: Vec<BTreeSet<usize>>,
+    /// For each pair of a contact the nodes of its sides that the contact bears.
+    borne: BTreeMap<usize, BTreeSet<usize>>,
 }
 
 /// What a whole may lie in.
@@ -90,6 +90,10 @@ pub(super) struct Found {
     /// What the shape of the two sides explains.
     pub(super) sagitta: f64,
     pub(super) size: f64,
+    /// Length of the longest side at a node; none for points of tools.
+    length: Option<f64>,
+    /// Whether a contact bears it, whose penetration explains a part of its depth.
+    borne: bool,
     place: Vec3,
     pub(super) manner: Manner,
 }
@@ -101,8 +105,8 @@ pub(super) enum Manner {
     Deep,
     /// It came through.
     Through,
-    /// It belongs to a side that no contact bears and that has folded behind an open profile: told, and not refused.
-    Folded,
+    /// It lies behind an open profile that a contact presses against: told, and not refused.
+    Behind,
 }
 
 /// The worst so far, and how bad it is.
@@ -129,7 +133,8 @@ impl Audit {
     }
 
     /// What of the state at `u`, with histories of the terms and those that are idle, lies where it must not, or came through something on the way
-    /// from the accepted unknowns; bodies are looked at between too where that way was `straight`.
+    /// from the accepted unknowns; bodies are looked at between too where that way was `straight`. First what nothing explains, over
+    /// the size of the cell, then the deepest node of all that contacts bear, over the length of its sides.
     ///
     /// # Errors
     /// A [`Failure`] when the interpenetration exceeds the limit.
@@ -138,7 +143,7 @@ impl Audit {
         [accepted, u]: [&[f64]; 2],
         (histories, idle): (&[History], &[usize]),
         straight: bool,
-    ) -> Result<Interpenetration, Failure> {
+    ) -> Result<[Interpenetration; 2], Failure> {
         let prepared = self.prepared();
         let mut reported = vec![0.0_f64; prepared.initial.len()];
         let claimed = || self.subject.claims.iter().map(|claim| claim.term).zip(&prepared.claimed);
@@ -209,17 +214,18 @@ impl Prepared {
             nodes.filter(|node| whole[**node] != usize::MAX).for_each(|&node| _ = bodies[whole[node]].insert(body));
         }
         let pairs = surfaces.len() * (surfaces.len() + tools.len() + 1);
-        let mut borne = vec![BTreeSet::new(); tools.len()];
-        for claim in &subject.claims {
-            if let Err(tool) = claim.target {
-                borne[tool].extend(&claim.surface);
-            }
-        }
         let (initial, known) = (vec![0.0; pairs], vec![false; pairs]);
-        let mut prepared = Self { surfaces, bodies, tools, claimed: Vec::new(), initial, known, borne };
-        prepared.claimed = subject.claims.iter().map(|claim| prepared.pairs_of(claim, &whole)).collect();
-        let known: Vec<usize> = prepared.claimed.iter().flatten().copied().collect();
-        known.into_iter().for_each(|pair| prepared.known[pair] = true);
+        let mut prepared =
+            Self { surfaces, bodies, tools, claimed: Vec::new(), initial, known, borne: BTreeMap::new() };
+        for claim in &subject.claims {
+            let pairs = prepared.pairs_of(claim, &whole);
+            for &pair in &pairs {
+                prepared.known[pair] = true;
+                let sides = claim.surface.iter().chain(claim.target.as_ref().into_iter().flatten());
+                prepared.borne.entry(pair).or_default().extend(sides);
+            }
+            prepared.claimed.push(pairs);
+        }
         prepared
     }
 
@@ -232,6 +238,11 @@ impl Prepared {
             Other::Axis => (own, wholes + self.tools.len()),
         };
         own * (wholes + self.tools.len() + 1) + other
+    }
+
+    /// Whether a contact of the pair bears a vertex.
+    fn bears(&self, pair: usize, surface: &Surface, vertex: usize) -> bool {
+        self.borne.get(&pair).is_some_and(|nodes| surface.lies_among(vertex, nodes))
     }
 
     /// All pairs of a whole.
@@ -335,7 +346,9 @@ impl Look<'_> {
                 let size = a.size_at(vertex).min(b.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), b.surface.body_of(piece)];
                 let other = Other::Whole(other);
-                found(Found { own, other, bodies, depth, sagitta, size, place: to, manner });
+                let borne = self.prepared.bears(self.prepared.pair(own, other), a.surface, vertex);
+                let length = Some(a.length_at(vertex));
+                found(Found { own, other, bodies, depth, sagitta, size, length, borne, place: to, manner });
             };
             if meet(&[to, to], &b.bounds)
                 && let Some(deep) = b.depth(to)
@@ -361,7 +374,9 @@ impl Look<'_> {
                 let size = a.size_at(vertex).min(a.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), a.surface.body_of(piece)];
                 let other = Other::Whole(own);
-                found(Found { own, other, bodies, depth, sagitta, size, place, manner });
+                let borne = self.prepared.bears(self.prepared.pair(own, other), a.surface, vertex);
+                let length = Some(a.length_at(vertex));
+                found(Found { own, other, bodies, depth, sagitta, size, length, borne, place, manner });
             };
             if is_inside(&a.tree, a.bounds, (place, normal), &|piece| !a.surface.touches(vertex, piece)) {
                 let facing = |piece: usize| far(piece) && a.normals[piece].dot(normal) < 0.0;
@@ -386,8 +401,9 @@ impl Look<'_> {
         for (vertex, &place) in a.now.iter().enumerate().filter(|(_, x)| x[0] < 0.0) {
             let body = a.surface.body_at(vertex);
             let size = a.size_at(vertex);
-            let (other, bodies) = (Other::Axis, [body, body]);
-            found(Found { own, other, bodies, depth: -place[0], sagitta: 0.0, size, place, manner: Manner::Deep });
+            let (depth, manner) = (-place[0], Manner::Deep);
+            let (other, bodies, sagitta, length, borne) = (Other::Axis, [body, body], 0.0, None, false);
+            found(Found { own, other, bodies, depth, sagitta, size, length, borne, place, manner });
         }
     }
 
@@ -404,25 +420,25 @@ impl Look<'_> {
         for (vertex, &place) in a.now.iter().enumerate() {
             let (size, sagitta) = (a.size_at(vertex), a.sagitta_at(vertex) + tool.sagitta);
             let body = a.surface.body_at(vertex);
-            let borne = a.surface.lies_among(vertex, &self.prepared.borne[number]);
-            let folded = !tool.closed && self.prepared.known[pair] && !borne;
+            let borne = self.prepared.bears(pair, a.surface, vertex);
+            let length = Some(a.length_at(vertex));
             let mut report = |depth: f64, bulge: f64, manner: Manner| {
                 let sagitta = sagitta + bulge;
-                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place, manner });
+                found(Found { own, other, bodies: [body, body], depth, sagitta, size, length, borne, place, manner });
             };
             let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
             let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
             let here = path[steps];
-            // Behind an open profile lies what no box about it holds; a contact looks there itself for the points that it bears.
-            let unseen = !tool.closed && !borne;
-            let behind = Vec3([if unseen { size } else { 0.0 }; 3]);
+            // Behind an open profile lies what no box about it holds.
+            let behind = Vec3([if tool.closed { 0.0 } else { size }; 3]);
             if meet(&[here - behind, here + behind], &tool.bounds)
                 && let Some(deep) = tool.depth(here, size)
             {
                 // Only a contact bears points, and lies in the tool between them.
                 let bears = self.prepared.known[pair];
                 let bulge = if bears { tool.bulge(here, deep.piece, a.length_at(vertex)) } else { 0.0 };
-                report(deep.depth, bulge, if folded { Manner::Folded } else { Manner::Deep });
+                let manner = if bears && !tool.closed { Manner::Behind } else { Manner::Deep };
+                report(deep.depth, bulge, manner);
             }
             self.through_tool(&path, tool, self.near(own, other, size, sagitta), &mut report);
             if let Some(depth) = grazed(&path, tool, size) {
@@ -461,7 +477,8 @@ impl Look<'_> {
                 let bears = f64::from(u8::from(self.prepared.known[self.prepared.pair(own, other)]));
                 let nose = bears * (curvature * length * length / 8.0).min(0.5 * length);
                 let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
-                found(Found { own, other, bodies: [body, body], depth, sagitta, size, place: here, manner });
+                let (bodies, length, borne, place) = ([body, body], None, true, here);
+                found(Found { own, other, bodies, depth, sagitta, size, length, borne, place, manner });
             };
             if meet(&[here, here], &a.bounds)
                 && let Some(deep) = a.depth(here)
@@ -477,27 +494,33 @@ impl Look<'_> {
         }
     }
 
-    /// The worst of all, refused where it exceeds the limit and was not there before any motion.
-    fn verdict(&self) -> Result<Interpenetration, Failure> {
-        let (mut worst, mut refused): (Worst, Worst) = (None, None);
+    /// The worst of all, refused where it exceeds the limit and was not there before any motion; then the deepest node.
+    fn verdict(&self) -> Result<[Interpenetration; 2], Failure> {
+        let (mut worst, mut refused, mut deepest): (Worst, Worst, Worst) = (None, None, None);
         self.find(&mut |found| {
             let pair = self.prepared.pair(found.own, found.other);
-            let initial = self.prepared.initial[pair];
+            let (initial, reported) = (self.prepared.initial[pair], self.reported[pair]);
             let known = if self.prepared.known[pair] { initial } else { 0.0 };
-            let beyond = |excused: f64| (found.depth - found.sagitta - self.reported[pair] - excused) / found.size;
-            keep(&mut worst, (beyond(known), found));
+            let beyond = |excused: f64| (found.depth - found.sagitta - excused) / found.size;
+            // What a contact reports is the penetration of what it bears, and excuses nothing beside that.
+            let told = if found.borne || reported.is_infinite() { reported } else { 0.0 };
+            keep(&mut worst, (beyond(told + known), found));
+            if let Some(length) = found.length.filter(|_| found.borne && found.manner != Manner::Through) {
+                keep(&mut deepest, ((found.depth - initial) / length, found));
+            }
             // What came through came through, whatever is left between the points of a contact.
             let limit = if found.manner == Manner::Through { self.subject.limit } else { self.limit(pair) };
-            if found.manner != Manner::Folded {
-                keep(&mut refused, (beyond(initial) / limit, found));
+            if found.manner != Manner::Behind {
+                keep(&mut refused, (beyond(reported + initial) / limit, found));
             }
         });
-        match refused.filter(|(part, _)| *part > 1.0) {
-            Some((_, found)) => Err(self.refusal(&found)),
-            None => Ok(worst
-                .filter(|(part, _)| *part > 0.0)
-                .map_or_else(Interpenetration::default, |(part, found)| self.describe(part, &found))),
+        if let Some((_, found)) = refused.filter(|(part, _)| *part > 1.0) {
+            return Err(self.refusal(&found));
         }
+        Ok([worst, deepest].map(|worst| match worst.filter(|(part, _)| *part > 0.0) {
+            Some((part, found)) => self.describe(part, &found),
+            None => Interpenetration::default(),
+        }))
     }
 
     fn names(&self, found: &Found) -> [String; 2] {
@@ -512,7 +535,7 @@ impl Look<'_> {
 
     fn describe(&self, part: f64, found: &Found) -> Interpenetration {
         Interpenetration {
-            relative: part.max(0.0),
+            relative: part,
             depth: found.depth,
             place: found.place.0,
             pair: self.names(found),

@@ -226,8 +226,8 @@ impl<'a> Run<'a> {
 
     /// Looks whether anything lies in anything in a converged state, or came through something on the way to it.
     /// What sprang free did not go `straight`.
-    fn audit(&mut self, converged: &Converged, straight: bool) -> Result<Interpenetration, Failure> {
-        let Some(audit) = &self.problem.audit else { return Ok(Interpenetration::default()) };
+    fn audit(&mut self, converged: &Converged, straight: bool) -> Result<[Interpenetration; 2], Failure> {
+        let Some(audit) = &self.problem.audit else { return Ok(Default::default()) };
         let begun = Instant::now();
         let idle = self.problem.steps.get(self.state.step).map_or(&[][..], |step| &step.idle);
         let found = audit.check([&self.state.u, &converged.u], (&converged.evaluation.histories, idle), straight);
@@ -236,8 +236,10 @@ impl<'a> Run<'a> {
     }
 
     /// Keeps what the audit found in the accepted increment.
-    fn note(&mut self, found: Interpenetration) {
-        let found = Interpenetration { increment: self.state.increment, ..found };
+    fn note(&mut self, found: [Interpenetration; 2]) {
+        let increment = self.state.increment;
+        let [found, deepest] = found.map(|found| Interpenetration { increment, ..found });
+        self.state.deepest_node = deepest;
         if found.relative > self.state.worst_interpenetration.relative {
             self.state.worst_interpenetration = found.clone();
         }

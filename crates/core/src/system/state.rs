@@ -61,11 +61,10 @@ impl Energies {
     }
 }
 
-/// How far a body lies in another, in itself or in a tool, beyond what contacts report and what the facets of curved
-/// boundaries explain.
+/// How far a body lies in another, in itself or in a tool.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Interpenetration {
-    /// The depth that nothing explains, over the size of the cell.
+    /// The depth that counts, over a size of the mesh.
     pub relative: f64,
     /// The whole depth, a length.
     pub depth: f64,
@@ -162,6 +161,8 @@ pub struct State {
     pub interpenetration: Interpenetration,
     /// The worst that it found in any.
     pub worst_interpenetration: Interpenetration,
+    /// The deepest node in the last increment of all that contacts bear, over the length of its sides.
+    pub deepest_node: Interpenetration,
     /// Unknowns at the beginning of the step, from which prescribed values ramp.
     pub step_start: Vec<f64>,
     /// Forces of all internal terms on all unknowns: reactions and applied loads together.

@@ -67,11 +67,17 @@ pub static FIGURES: &[Figure] = &[
         "Largest penetration found along rays between the contact points, over the length of the edge or face there.",
         "a finer surface, more points (`gauss`), or the finer side as the surface",
     ),
+    largest("node_depth", "  of a single node").limited(
+        "0.5",
+        "Largest depth of a node of a contact's sides in what it is pressed against, less what overlapped before any motion, over the \
+         length of the longest edge or face there. Found by the audit; the penetration of a contact field is a mean around a node.",
+        "a stiffer `penalty`, a finer surface, or one that goes round the corner of the body",
+    ),
     largest("interpenetration", "interpenetration that nothing explains").limited(
         "0.1",
         "Depth to which a body lies in another, in itself, in a tool or beyond the axis, beyond what contacts report, what curved \
          sides explain and what overlapped between two sides of a contact before any motion, over the size of the cell.",
-        "a finer surface, more points (`gauss`), a stiffer `penalty`, or a contact where none is declared",
+        "a finer surface, one that goes round the corner of the body, a stiffer `penalty`, or a contact where none is declared",
     ),
     largest("pressure_oscillation", "jumps of the pressure in cells").limited(
         "3.0",

@@ -48,8 +48,10 @@ pub mod entry {
     pub const SINCE: usize = 19;
     /// and the time at which nothing is left of it.
     pub const UNTIL: usize = 20;
+    /// Pressure at the beginning of the last increment.
+    pub const PRESSURE_BEFORE: usize = 21;
     /// Number of these values.
-    pub const COUNT: usize = 21;
+    pub const COUNT: usize = 22;
 }
 
 /// What is said of an overlap.
@@ -64,6 +66,7 @@ pub fn stresses(values: &[f64]) -> Coordinates {
 pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]) {
     new[OVERLAP].copy_from_slice(&old[OVERLAP]);
     new[entry::PRESSURE] = response.pressure();
+    new[entry::PRESSURE_BEFORE] = old[entry::PRESSURE];
     [new[entry::SHEAR], new[entry::SHEAR2]] = response.shear();
     new[entry::SLIP] = old[entry::SLIP] + slip[0];
     new[entry::SLIP2] = old[entry::SLIP2] + slip[1];

@@ -348,7 +348,7 @@ impl<'a> Newton<'a> {
             observer.iteration(record, &line);
             record.iterations.push(line);
             sequence.count += 1;
-            if missing.is_none() && self.reaches(goal, &norms, sequence, u)? {
+            if missing.is_none() && !self.holds() && self.reaches(goal, &norms, sequence, u)? {
                 return Ok(Some(norms));
             }
             if !norms.ratio.is_finite() {
@@ -387,6 +387,7 @@ impl<'a> Newton<'a> {
             let tangent = if main { self.wanted(&norms, sequence.ratio) } else { self.tangent() };
             (sequence.factorised, sequence.ratio) = (step.factorised, norms.ratio);
             let from = u.clone();
+            self.hold(false);
             sequence.taken = match self.path {
                 Some(_) => self.advance_on_path(u, (&step, tangent))?,
                 None => self.advance(u, (&step, tangent), missing.as_deref())?,

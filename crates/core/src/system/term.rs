@@ -234,6 +234,12 @@ pub trait Attempt: Send + Sync {
     fn augment(&mut self, _u: &[f64], _new: &mut History) -> Result<bool, Failure> {
         Ok(false)
     }
+    /// Whether from now on stencils that were closed are held so, their law extended along its tangent where they open.
+    fn hold(&self, _hold: bool) {}
+    /// Whether that held any which is open.
+    fn holds(&self) -> bool {
+        false
+    }
     /// Stresses of a stencil that bends in the accepted state.
     fn before(&self, _stencil: usize) -> Coordinates {
         Coordinates::default()

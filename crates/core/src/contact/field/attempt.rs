@@ -20,6 +20,7 @@ use crate::system::{
 use crate::tensor::Vec3;
 use crate::{Failure, FailureKind};
 use std::cell::RefCell;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 thread_local! {
@@ -62,6 +63,12 @@ pub struct FieldAttempt<'a> {
     pub linear: Vec<Mutex<Linear>>,
     /// Gap from which on a node is too far away to close in the next iteration.
     pub far: f64,
+    /// Length of the increment over that of the last; zero without one.
+    pub part: f64,
+    /// Whether this is the first guess, which holds nodes closed,
+    pub hold: AtomicBool,
+    /// and whether it held any that is open there.
+    pub held: AtomicBool,
 }
 
 impl FieldAttempt<'_> {
@@ -178,6 +185,19 @@ impl FieldAttempt<'_> {
         self.shift(slot)[0] + options.overlap.recession(options.wear, self.history.slot(slot), self.at)
     }
 
+    /// How much deeper an open node must lie for the law to answer as for a closed one, where the first guess holds it closed: it was
+    /// closed, and its pressure, carried on as the unknowns are, still presses.
+    fn lift(&self, slot: usize, past: &Past, y: [f64; COUNT]) -> f64 {
+        let old = self.history.slot(slot);
+        let pressure = old[entry::PRESSURE] + self.part * (old[entry::PRESSURE] - old[entry::PRESSURE_BEFORE]);
+        let held = self.hold.load(Ordering::Relaxed) && old[entry::STATUS] > 0.0 && pressure > 0.0;
+        if !held || y[0] > self.law.opens(past, [y[1], y[2]]) + self.contact.least {
+            return 0.0;
+        }
+        self.held.store(true, Ordering::Relaxed);
+        past.penetration + self.contact.least - y[0]
+    }
+
     fn shift(&self, slot: usize) -> [f64; COUNT] {
         self.shifts.get(slot).copied().unwrap_or_default()
     }
@@ -245,6 +265,8 @@ impl FieldAttempt<'_> {
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let seen = sums.y[0] + self.closure(slot);
         let slip = [sums.y[1], sums.y[2]];
+        let lift = self.lift(slot, &past, [seen, slip[0], slip[1]]);
+        let seen = seen + lift;
         if seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
             self.account(slot, (sums.area, stretch), Carried::default(), local);
@@ -263,7 +285,11 @@ impl FieldAttempt<'_> {
         }
         stencil.find_forces(sums);
         let n = local.force.len();
-        let t = response.stress;
+        let mut t = response.stress;
+        if lift > 0.0 {
+            let y = [seen, sums.y[1], sums.y[2], 0.0];
+            t.copy_from_slice(&extended(answer(law, &past, contact.least, &y)?, lift).stress[..COUNT]);
+        }
         for (c, t) in t.iter().enumerate() {
             let unit = &sums.forces[c * n..(c + 1) * n];
             local.force.iter_mut().zip(unit).for_each(|(force, unit)| *force += stretch * t * unit);
@@ -276,7 +302,7 @@ impl FieldAttempt<'_> {
             stencil.add_geometric(acting, stretch, sums, &mut local.tangent);
             let slopes = self.stretch_slopes((slot, stretch), y)?;
             add_stretching(&slopes, &stretching, sums, &mut local.tangent);
-            let y = [seen, sums.y[1], sums.y[2]];
+            let y = [seen - lift, sums.y[1], sums.y[2]];
             self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.u, y, stretch, sums);
         }
         let carried =
@@ -362,6 +388,12 @@ fn add_stretching(slopes: &[f64; COUNT], stretching: &[f64], sums: &NodeSums, ta
     }
 }
 
+/// The answer of a closed node, carried on along its tangent to a penetration that is less by `lift`.
+fn extended(mut answer: Answer, lift: f64) -> Answer {
+    answer.stress.iter_mut().zip(&answer.slopes).for_each(|(stress, slopes)| *stress -= slopes[0] * lift);
+    answer
+}
+
 /// Adds `factor H C G`.
 fn add_material(slopes: &[Coordinates; 4], factor: f64, sums: &NodeSums, tangent: &mut [f64]) {
     let n = sums.gradients.len() / COUNT;
@@ -437,7 +469,18 @@ impl Attempt for FieldAttempt<'_> {
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner)[stencil].stretch;
-        answer(&*self.law, &self.past(stencil, stretch), self.contact.least, y)
+        let past = self.past(stencil, stretch);
+        let lift = self.lift(stencil, &past, [y[0], y[1], y[2]]);
+        Ok(extended(answer(&*self.law, &past, self.contact.least, &[y[0] + lift, y[1], y[2], y[3]])?, lift))
+    }
+
+    fn hold(&self, hold: bool) {
+        self.hold.store(hold, Ordering::Relaxed);
+        self.held.store(false, Ordering::Relaxed);
+    }
+
+    fn holds(&self) -> bool {
+        self.held.load(Ordering::Relaxed)
     }
 
     fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {

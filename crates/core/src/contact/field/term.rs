@@ -9,6 +9,7 @@ use crate::contact::increment::{ahead, reach};
 use crate::contact::record::entry;
 use crate::interface::Interface;
 use crate::system::{Attempt, History, Instant, State, Term};
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, RwLock};
 
 impl FieldContact {
@@ -104,6 +105,9 @@ impl Term for FieldContact {
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
             far: reach(self.longest, &accepted.last_change),
+            part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
+            hold: AtomicBool::default(),
+            held: AtomicBool::default(),
         }))
     }
 

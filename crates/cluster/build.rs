@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 const FUNCTIONS: [&str; 7] = [
-    "MPI_(Init_thread|Finalize|Abort|Comm_(dup|rank|size)|Allgatherv|Ibarrier|Test|Get_library_version)",
+    "MPI_(Init_thread|Finalize|Abort|Comm_(dup|rank|size)|Allgatherv|Gatherv|Ibarrier|Test|Get_library_version)",
     "Petsc(InitializeNoArguments|Finalize|GetVersionNumber|ErrorMessage|PushErrorHandler|ReturnErrorHandler|GlobalMinMaxInt)",
     "PetscDataType(GetSize|ToMPIDataType)|PetscOptions(SetValue|InsertString|LeftGet|LeftRestore)|PetscObjectTypeCompare",
     "Vec(CreateMPIWithArray|SetBlockSize|Destroy|GetArray|RestoreArray)",

@@ -2,9 +2,9 @@
 
 use crate::petsc::{KSP, Mat, Owned, Result, Vector, checked, ffi, int, text};
 use crate::ranks::{Ranks, Rendezvous, start};
-use crate::rows::{Entries, Rows};
+use crate::rows::{Rows, with_held};
 use asperity_core::solve::{Factored, LinearError, LinearSolver, Problem, Unknowns};
-use asperity_core::system::Csr;
+use asperity_core::system::{Csr, Shares};
 use frontal::Work;
 use std::cell::Cell;
 use std::os::raw::c_int;
@@ -37,7 +37,7 @@ const DECIDE: ffi::PetscInt = -1;
 /// Loads that are solved for together.
 const TOGETHER: usize = 32;
 
-/// A linear solver whose matrices are spread over all ranks; each rank gives the same matrix and gets the same solution.
+/// A linear solver whose matrices are spread over all ranks; each rank gives its own rows, and gets the same solution.
 pub struct Petsc {
     ranks: Result<&'static Ranks>,
     options: Option<Arc<str>>,
@@ -50,9 +50,12 @@ pub struct Petsc {
 /// A pattern with what PETSc made for it.
 struct System {
     ranks: &'static Ranks,
+    shares: Shares,
     rows: Rows,
     lengths: Vec<c_int>,
-    entries: Entries,
+    /// Entries that hold places without an unknown.
+    held: Vec<usize>,
+    /// This rank's rows.
     pattern: Csr,
     values: Vec<f64>,
     /// One over the root of the largest entry of each row: `S A S` has rows and columns of one size.
@@ -91,13 +94,14 @@ impl Petsc {
         // What was there goes first.
         self.system = None;
         let ranks = self.ranks.clone()?;
-        ranks.agree(Rendezvous::Pattern, &[pattern.rows() as f64, pattern.columns.len() as f64])?;
+        ranks.agree(Rendezvous::Pattern, &[pattern.rows() as f64])?;
         if !std::mem::replace(&mut self.told, true) {
             let words = text(self.options.as_deref().unwrap_or(DIRECT));
             // SAFETY: it takes a copy of the words.
             checked(unsafe { ffi::PetscOptionsInsertString(ptr::null_mut(), words.as_ptr()) })?;
         }
-        let rows = Rows::new(unknowns, pattern, (ranks.rank(), ranks.size()));
+        let shares = Shares::new(crate::others(), unknowns.dofs, unknowns.free);
+        let rows = Rows::new(unknowns, &shares);
         let places = self.places.as_ref().map(|nodes| {
             let mut own = vec![0.0; rows.own().len()];
             for (&place, &dof) in rows.places.iter().zip(unknowns.free).filter(|(place, _)| rows.own().contains(place))
@@ -107,7 +111,7 @@ impl Petsc {
             }
             own
         });
-        self.system = Some(System::new(ranks, rows, pattern, places.as_deref())?);
+        self.system = Some(System::new(ranks, (shares, rows), pattern, places.as_deref())?);
         Ok(())
     }
 
@@ -150,18 +154,25 @@ impl Petsc {
 }
 
 impl System {
-    fn new(ranks: &'static Ranks, rows: Rows, pattern: &Csr, places: Option<&[f64]>) -> Result<Self> {
+    fn new(
+        ranks: &'static Ranks,
+        (shares, rows): (Shares, Rows),
+        pattern: &Csr,
+        places: Option<&[f64]>,
+    ) -> Result<Self> {
         let entries = rows.entries(pattern)?;
         let (own, all, block) = (int(rows.own().len())?, int(rows.count())?, int(rows.block)?);
         // SAFETY: the lists are those of the rows that the sizes say, and are copied; what is written is taken as ours.
         unsafe {
             let world = ffi::PETSC_COMM_WORLD;
-            let (starts, columns, values) = (&entries.starts, &entries.columns, &entries.values);
-            let [starts, columns] = [starts, columns].map(|list| list.as_ptr());
+            let [starts, columns] = [&entries.starts, &entries.columns].map(|list| list.as_ptr());
+            let zeros = vec![0.0; entries.columns.len()];
             let make = |raw: *mut Mat| {
-                ffi::MatCreateMPIAIJWithArrays(world, own, own, all, all, starts, columns, values.as_ptr(), raw)
+                ffi::MatCreateMPIAIJWithArrays(world, own, own, all, all, starts, columns, zeros.as_ptr(), raw)
             };
             let matrix = Owned::made(make, ffi::MatDestroy)?;
+            drop(zeros);
+            let held = entries.held;
             checked(ffi::MatSetBlockSize(matrix.raw, block))?;
             if let Some(places) = places {
                 rigid_motions(&matrix, places, all)?;
@@ -183,9 +194,10 @@ impl System {
             let (direct, factorised) = (direct != 0, false);
             Ok(Self {
                 ranks,
+                shares,
                 rows,
                 lengths,
-                entries,
+                held,
                 pattern,
                 values,
                 scale,
@@ -202,12 +214,13 @@ impl System {
 
     /// Makes the factor or preconditioner of values; says whether it has one.
     fn set_up(&mut self, values: &[f64]) -> std::result::Result<bool, LinearError> {
-        let held = values.iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(f64::MIN_POSITIVE);
-        self.entries.fill(values, held);
+        let mut held = [values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))];
+        self.shares.largest(&mut held).map_err(LinearError::Input)?;
+        let values = with_held(values, &self.held, held[0]);
         let (mut reason, mut conditioner, mut failed) = (0, ptr::null_mut(), 0);
         // SAFETY: the values are those of the pattern that the matrix was made with.
         let made = unsafe {
-            checked(ffi::MatUpdateMPIAIJWithArray(self.matrix.raw, self.entries.values.as_ptr()))
+            checked(ffi::MatUpdateMPIAIJWithArray(self.matrix.raw, values.as_ptr()))
                 .and_then(|()| checked(ffi::KSPSetOperators(self.solver.raw, self.matrix.raw, self.matrix.raw)))
                 .and_then(|()| checked(ffi::KSPSetUp(self.solver.raw)))
                 .and_then(|()| checked(ffi::KSPGetConvergedReason(self.solver.raw, &mut reason)))
@@ -267,9 +280,10 @@ impl System {
     }
 
     /// `b - A x`, and its componentwise backward error: the largest part of `|A| |x| + |b|` that it is.
-    fn residual(&self, x: &[f64], b: &[f64]) -> (Vec<f64>, f64) {
+    fn residual(&self, x: &[f64], b: &[f64]) -> std::result::Result<(Vec<f64>, f64), LinearError> {
         let mut error = 0.0_f64;
-        let residual = (0..b.len()).map(|row| {
+        let mut residual = vec![0.0; b.len()];
+        for row in self.shares.own() {
             let entries = self.pattern.starts[row]..self.pattern.starts[row + 1];
             let (mut left, mut size) = (b[row], b[row].abs());
             for (&column, &value) in self.pattern.columns[entries.clone()].iter().zip(&self.values[entries]) {
@@ -278,9 +292,11 @@ impl System {
             }
             let part = if left == 0.0 { 0.0 } else { left.abs() / size };
             error = if part.is_nan() { f64::INFINITY } else { error.max(part) };
-            left
-        });
-        (residual.collect(), error)
+            residual[row] = left;
+        }
+        let mut errors = [error];
+        let told = self.shares.complete(&mut residual).and_then(|()| self.shares.largest(&mut errors));
+        told.map(|()| (residual, errors[0])).map_err(LinearError::Input)
     }
 
     /// Solves, and refines what a factor says until it is as good as can be.
@@ -288,14 +304,14 @@ impl System {
         let mut x = b.to_vec();
         self.apply(&mut x)?;
         if self.direct {
-            let (mut left, mut error) = self.residual(&x, b);
+            let (mut left, mut error) = self.residual(&x, b)?;
             for _ in 0..REFINEMENTS {
                 if error <= GOOD {
                     break;
                 }
                 self.apply(&mut left)?;
                 let better: Vec<f64> = x.iter().zip(&left).map(|(x, more)| x + more).collect();
-                let (rest, now) = self.residual(&better, b);
+                let (rest, now) = self.residual(&better, b)?;
                 if now >= error {
                     break;
                 }
@@ -351,7 +367,7 @@ impl System {
                     break 'motions;
                 }
                 x.iter_mut().for_each(|x| *x /= size);
-                if self.shrinks(&x) <= SINGULAR {
+                if self.shrinks(&x)? <= SINGULAR {
                     found.push(x);
                     continue 'motions;
                 }
@@ -367,14 +383,14 @@ impl System {
     }
 
     /// Size of `S A S x` for a unit vector.
-    fn shrinks(&self, x: &[f64]) -> f64 {
+    fn shrinks(&self, x: &[f64]) -> std::result::Result<f64, LinearError> {
         let x: Vec<f64> = x.iter().zip(&self.scale).map(|(x, s)| x * s).collect();
-        let (left, _) = self.residual(&x, &vec![0.0; x.len()]);
-        left.iter().zip(&self.scale).map(|(left, s)| (left * s).powi(2)).sum::<f64>().sqrt()
+        let (left, _) = self.residual(&x, &vec![0.0; x.len()])?;
+        Ok(left.iter().zip(&self.scale).map(|(left, s)| (left * s).powi(2)).sum::<f64>().sqrt())
     }
 
     /// Takes up a matrix and its scale.
-    fn take(&mut self, values: &[f64]) {
+    fn take(&mut self, values: &[f64]) -> std::result::Result<(), LinearError> {
         self.values.clear();
         self.values.extend_from_slice(values);
         for (row, scale) in self.scale.iter_mut().enumerate() {
@@ -382,20 +398,23 @@ impl System {
             let largest = entries.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             *scale = if largest > 0.0 { largest.sqrt().recip() } else { 1.0 };
         }
+        self.shares.complete(&mut self.scale).map_err(LinearError::Input)
     }
 
     /// The values with a little more on the diagonal.
     fn shifted(&self) -> Vec<f64> {
         let mut shifted = self.values.clone();
-        for (&entry, scale) in self.pattern.diagonal.iter().zip(&self.scale) {
-            shifted[entry] += SHIFT / (scale * scale);
+        for (row, scale) in self.scale.iter().enumerate() {
+            if let Some(entry) = self.pattern.diagonal(row) {
+                shifted[entry] += SHIFT / (scale * scale);
+            }
         }
         shifted
     }
 
     /// Makes the factor, and sees to it that the matrix has an inverse.
     fn factorise(&mut self, values: &[f64]) -> std::result::Result<(), LinearError> {
-        self.take(values);
+        self.take(values)?;
         let factorised = self.set_up(values)? || self.direct && self.set_up(&self.shifted())?;
         if !factorised {
             return Err(LinearError::Inaccurate("PETSc finds no preconditioner of the matrix".into()));
@@ -484,8 +503,8 @@ impl LinearSolver for Petsc {
     fn factorise(&mut self, values: &[f64]) -> std::result::Result<Factored, LinearError> {
         let system = self.system()?;
         system.factorised = false;
-        system.ranks.agree(Rendezvous::Matrix, values).map_err(LinearError::Input)?;
-        if values.iter().any(|value| !value.is_finite()) {
+        system.ranks.agree(Rendezvous::Matrix, &[]).map_err(LinearError::Input)?;
+        if system.shares.any(values.iter().any(|value| !value.is_finite())).map_err(LinearError::Input)? {
             return Err(LinearError::NotFinite("the stiffness is not finite".into()));
         }
         system.factorise(values)?;

@@ -1,6 +1,7 @@
 //! The ranks of a run: how they begin, agree and end together.
 
 use crate::petsc::{checked, ffi, text};
+use asperity_core::system::Communicator;
 use std::ffi::{CStr, c_char, c_int};
 use std::mem::{MaybeUninit, size_of};
 use std::ptr;
@@ -24,6 +25,8 @@ pub(crate) enum Rendezvous {
     Matrix,
     Forces,
     Loads,
+    Trial,
+    Pieces,
 }
 
 /// The ranks that run together.
@@ -141,12 +144,10 @@ impl Ranks {
 
     /// Puts together the pieces that the ranks hold of a vector, of these lengths.
     pub(crate) fn gather(&self, piece: &[f64], lengths: &[c_int], whole: &mut [f64]) -> Result<(), String> {
-        let starts = lengths.iter().scan(0, |next, length| Some(std::mem::replace(next, *next + length)));
-        let (starts, mut kind) = (starts.collect::<Vec<_>>(), MaybeUninit::uninit());
+        let starts: Vec<c_int> = starts(lengths).iter().map(|start| *start as c_int).collect();
+        let (kind, to) = (doubles()?, whole.as_mut_ptr().cast());
         // SAFETY: the lengths are those of the pieces, and their sum that of the whole.
         unsafe {
-            checked(ffi::PetscDataTypeToMPIDataType(ffi::PetscDataType_PETSC_DOUBLE, kind.as_mut_ptr()))?;
-            let (kind, to) = (kind.assume_init(), whole.as_mut_ptr().cast());
             let (mine, all) = (lengths[self.rank], lengths.as_ptr());
             ffi::MPI_Allgatherv(
                 piece.as_ptr().cast(),
@@ -160,6 +161,17 @@ impl Ranks {
             );
         }
         Ok(())
+    }
+
+    /// How long the pieces of all ranks are, of which all are to come together.
+    fn lengths(&self, piece: &[f64]) -> Result<Vec<c_int>, String> {
+        self.agree(Rendezvous::Pieces, &[])?;
+        let mut lengths = vec![0.0; self.size];
+        self.gather(&[piece.len() as f64], &vec![1; self.size], &mut lengths)?;
+        if lengths.iter().sum::<f64>() > f64::from(c_int::MAX) {
+            return Err("the ranks have more to tell each other than this MPI counts".into());
+        }
+        Ok(lengths.iter().map(|length| *length as c_int).collect())
     }
 
     /// Lets the others know that this rank has come to its end, whatever that is.
@@ -206,6 +218,57 @@ impl Ranks {
             ffi::PetscFinalize();
             ffi::MPI_Finalize();
         }
+    }
+}
+
+impl Communicator for Ranks {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+    fn size(&self) -> usize {
+        self.size
+    }
+    fn agree(&self, numbers: &[f64]) -> Result<(), String> {
+        Self::agree(self, Rendezvous::Trial, numbers)
+    }
+    fn gather(&self, piece: &[f64]) -> Result<(Vec<f64>, Vec<usize>), String> {
+        let lengths = self.lengths(piece)?;
+        let starts = starts(&lengths);
+        let mut whole = vec![0.0; starts[self.size]];
+        Self::gather(self, piece, &lengths, &mut whole)?;
+        Ok((whole, starts))
+    }
+    fn collect(&self, piece: &[f64]) -> Result<Vec<f64>, String> {
+        let lengths = self.lengths(piece)?;
+        let (starts, first) = (starts(&lengths), self.rank == 0);
+        let mut whole = vec![0.0; if first { starts[self.size] } else { 0 }];
+        let starts: Vec<c_int> = starts.iter().map(|start| *start as c_int).collect();
+        // SAFETY: the lengths are those of the pieces, and on the first rank their sum is that of the whole.
+        unsafe {
+            let (kind, from, to) = (doubles()?, piece.as_ptr().cast(), whole.as_mut_ptr().cast());
+            let (mine, all, starts) = (lengths[self.rank], lengths.as_ptr(), starts.as_ptr());
+            ffi::MPI_Gatherv(from, mine, kind, to, all, starts, kind, 0, ffi::PETSC_COMM_WORLD);
+        }
+        Ok(whole)
+    }
+}
+
+/// Where pieces of these lengths begin, one behind the other, and the last ends.
+fn starts(lengths: &[c_int]) -> Vec<usize> {
+    let ends = lengths.iter().scan(0, |end, length| {
+        *end += *length as usize;
+        Some(*end)
+    });
+    std::iter::once(0).chain(ends).collect()
+}
+
+/// What MPI calls a number of double precision.
+fn doubles() -> Result<ffi::MPI_Datatype, String> {
+    let mut kind = MaybeUninit::uninit();
+    // SAFETY: the call writes it.
+    unsafe {
+        checked(ffi::PetscDataTypeToMPIDataType(ffi::PetscDataType_PETSC_DOUBLE, kind.as_mut_ptr()))?;
+        Ok(kind.assume_init())
     }
 }
 

@@ -1,11 +1,11 @@
 //! Who owns which rows of a matrix, and the rows of one rank as PETSc takes them.
 //!
 //! Unknowns stand in blocks of as many as a node has, so that multigrid knows the motions of a node as such; a place whose
-//! unknown is prescribed is held by a row of its own. Each rank owns a run of blocks, with as many entries as the others.
+//! unknown is prescribed is held by a row of its own. Each rank owns the blocks of the unknowns that it owns.
 
 use crate::petsc::{PetscInt, Result, int};
 use asperity_core::solve::Unknowns;
-use asperity_core::system::Csr;
+use asperity_core::system::{Csr, Shares};
 use std::ops::Range;
 use std::os::raw::c_int;
 
@@ -26,19 +26,17 @@ pub struct Entries {
     pub starts: Vec<PetscInt>,
     /// The place of each entry.
     pub columns: Vec<PetscInt>,
-    /// Which value of the matrix each is; none where a place is held.
-    from: Vec<Option<usize>>,
-    /// The values.
-    pub values: Vec<f64>,
+    /// Which of them hold places without an unknown; the others are those of the matrix.
+    pub held: Vec<usize>,
 }
 
 impl Rows {
-    /// Places for unknowns, shared out by the entries of a pattern.
-    pub fn new(unknowns: &Unknowns, pattern: &Csr, (rank, size): (usize, usize)) -> Self {
+    /// Places for unknowns, of each rank for its share.
+    pub fn new(unknowns: &Unknowns, shares: &Shares) -> Self {
         let block = unknowns.dofs.per_node();
         let (mut places, mut next, mut of) = (Vec::with_capacity(unknowns.free.len()), 0, None);
         for &dof in unknowns.free {
-            let first = unknowns.first_of_owner(dof);
+            let first = unknowns.dofs.first_of_owner(dof);
             if of.is_some_and(|(before, _)| before != first) {
                 next = end_of_block(&places, block);
             }
@@ -47,16 +45,9 @@ impl Rows {
             places.push(begin + dof - first);
         }
         let end = end_of_block(&places, block);
-        let entries = pattern.columns.len();
-        // The first block that begins at or behind a share of the entries.
-        let start = |share: usize| {
-            let row = pattern.starts.partition_point(|&start| start * size < entries * share).min(places.len());
-            places.get(row).map_or(end, |place| place / block * block)
-        };
-        let mut starts: Vec<usize> = (0..size).map(start).collect();
-        starts.push(end);
-        starts[0] = 0;
-        Self { block, places, starts, rank }
+        let start = |row: &usize| places.get(*row).map_or(end, |place| place / block * block);
+        let starts = shares.rows().iter().map(start).collect();
+        Self { block, places, starts, rank: shares.rank() }
     }
 
     /// How many places there are.
@@ -80,33 +71,35 @@ impl Rows {
     /// The rows of this rank.
     pub fn entries(&self, pattern: &Csr) -> Result<Entries> {
         let own = self.own();
-        let (mut starts, mut columns, mut from) = (vec![0], Vec::new(), Vec::new());
+        let (mut starts, mut columns, mut held) = (vec![0], Vec::with_capacity(pattern.columns.len()), Vec::new());
         let mut unknown = self.places.partition_point(|&place| place < own.start);
         for place in own {
             if self.places.get(unknown) == Some(&place) {
-                let range = pattern.starts[unknown]..pattern.starts[unknown + 1];
-                for entry in range {
-                    columns.push(int(self.places[pattern.columns[entry]])?);
-                    from.push(Some(entry));
+                for &column in pattern.row(unknown) {
+                    columns.push(int(self.places[column])?);
                 }
                 unknown += 1;
             } else {
+                held.push(columns.len());
                 columns.push(int(place)?);
-                from.push(None);
             }
             starts.push(int(columns.len())?);
         }
-        let values = vec![0.0; from.len()];
-        Ok(Entries { starts, columns, from, values })
+        Ok(Entries { starts, columns, held })
     }
 }
 
-impl Entries {
-    /// Takes up the values of a matrix, and what places without an unknown are held by.
-    pub fn fill(&mut self, values: &[f64], held: f64) {
-        let pairs = self.values.iter_mut().zip(&self.from);
-        pairs.for_each(|(value, from)| *value = from.map_or(held, |entry| values[entry]));
+/// The values of a matrix, with those by which places without an unknown are held where they stand among them.
+pub fn with_held(values: &[f64], places: &[usize], held: f64) -> Vec<f64> {
+    let (mut all, mut rest) = (Vec::with_capacity(values.len() + places.len()), values);
+    for &place in places {
+        let (before, behind) = rest.split_at(place - all.len());
+        all.extend_from_slice(before);
+        all.push(held);
+        rest = behind;
     }
+    all.extend_from_slice(rest);
+    all
 }
 
 /// The first place behind the block of the last one.
@@ -117,8 +110,31 @@ fn end_of_block(places: &[usize], block: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_core::system::Dofs;
+    use asperity_core::system::{Communicator, Dofs};
     use std::sync::Arc;
+
+    /// One of two ranks that have nothing to tell.
+    struct One(usize);
+
+    static PAIR: [One; 2] = [One(0), One(1)];
+
+    impl Communicator for One {
+        fn rank(&self) -> usize {
+            self.0
+        }
+        fn size(&self) -> usize {
+            2
+        }
+        fn agree(&self, _: &[f64]) -> Result<()> {
+            Ok(())
+        }
+        fn gather(&self, piece: &[f64]) -> Result<(Vec<f64>, Vec<usize>)> {
+            Ok((piece.to_vec(), vec![0, piece.len()]))
+        }
+        fn collect(&self, piece: &[f64]) -> Result<Vec<f64>> {
+            Ok(piece.to_vec())
+        }
+    }
 
     #[test]
     fn unknowns_stand_in_blocks_and_every_rank_has_its_own() {
@@ -127,11 +143,14 @@ mod tests {
         let free = [0, 2, 6, 7, 8, 9, 13];
         let full = Csr::new(Arc::new((0..=7).map(|row| 7 * row).collect()), Arc::new((0..49).map(|k| k % 7).collect()));
         let unknowns = Unknowns { dofs: &dofs, free: &free };
-        let rows = |rank| Rows::new(&unknowns, &full, (rank, 2));
+        let shares = [0, 1].map(|rank| Shares::new(Some(&PAIR[rank]), &dofs, &free));
+        let rows = |rank: usize| Rows::new(&unknowns, &shares[rank]);
         assert_eq!(rows(0).places, [0, 2, 3, 4, 5, 6, 10]);
         assert_eq!((rows(0).own(), rows(1).own(), rows(0).count()), (0..3, 3..12, 12));
-        let entries = rows(0).entries(&full).unwrap();
+        let entries = rows(0).entries(&full.rows_only(shares[0].own()).0).unwrap();
         assert_eq!((entries.starts, entries.columns[7]), (vec![0, 7, 8, 15], 1));
+        assert_eq!(entries.held, [7]);
         assert_eq!(rows(1).shares(&[0, 2, 3, 6]), [2, 2]);
+        assert_eq!(with_held(&[1.0, 2.0, 3.0], &[0, 3], 9.0), [9.0, 1.0, 2.0, 9.0, 3.0]);
     }
 }

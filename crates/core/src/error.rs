@@ -114,6 +114,28 @@ pub enum FailureKind {
     Multipliers,
     /// The step has used up its increments.
     TooMany,
+    /// Ranks that run together have come to different things.
+    Apart,
+}
+
+impl FailureKind {
+    /// All kinds, in this order.
+    pub(crate) const ALL: [Self; 14] = [
+        Self::Other,
+        Self::Free,
+        Self::Hourglass,
+        Self::Inverted,
+        Self::Material,
+        Self::Iterations,
+        Self::Cycle,
+        Self::NotFinite,
+        Self::Singular,
+        Self::Passage,
+        Self::Turn,
+        Self::Multipliers,
+        Self::TooMany,
+        Self::Apart,
+    ];
 }
 
 impl Failure {

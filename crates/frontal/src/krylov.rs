@@ -49,19 +49,22 @@ impl Factor {
         self.check_ready()?;
         let pattern = &self.symbolic.pattern;
         let precondition = |x: &mut [f64]| self.halves().apply_inverse(None, x);
-        let system = Scaled::new((pattern, values), &self.scaling, precondition)?;
+        let system = Scaled::new((pattern, values), &self.scaling, (precondition, |_: &mut [f64]| Ok(())))?;
         solve_recycling(system, rhs, krylov, (&mut Outer::default(), true))
     }
 }
 
 /// Solves in place beginning in the space of the directions of earlier solutions, with the `same` matrix or with another; its own
 /// are added to them.
-pub(crate) fn solve_recycling<P: FnMut(&mut [f64]) -> Result<(), E>, E: From<FrontalError>>(
-    mut system: Scaled<'_, P, E>,
+pub(crate) fn solve_recycling<P: FnMut(&mut [f64]) -> Result<(), E>, C, E: From<FrontalError>>(
+    mut system: Scaled<'_, P, C, E>,
     rhs: &mut [f64],
     krylov: &Krylov,
     (outer, same): (&mut Outer, bool),
-) -> Result<Convergence, E> {
+) -> Result<Convergence, E>
+where
+    C: FnMut(&mut [f64]) -> Result<(), E>,
+{
     let pattern = system.matrix.0;
     check_length("rhs", pattern.len(), rhs.len())?;
     if pattern.len() == 0 {
@@ -91,35 +94,49 @@ pub(crate) trait System {
 }
 
 /// An equilibrated matrix with what preconditions the matrix itself.
-pub(crate) struct Scaled<'a, P, E> {
+pub(crate) struct Scaled<'a, P, C, E> {
     matrix: (&'a Pattern, &'a [f64]),
     scaling: &'a Scaling,
     precondition: P,
+    /// Completes a product of which there are some rows.
+    complete: C,
     scaled: Vec<f64>,
-    /// What the preconditioner failed of.
+    /// What one of both failed of.
     failure: Option<E>,
 }
 
-impl<'a, P, E> Scaled<'a, P, E> {
+impl<'a, P, C, E> Scaled<'a, P, C, E> {
     /// The matrix with these factors of rows and columns.
     ///
     /// # Errors
     /// [`FrontalError::WrongLength`], [`FrontalError::NotFinite`].
-    pub fn new(matrix: (&'a Pattern, &'a [f64]), scaling: &'a Scaling, precondition: P) -> Result<Self, FrontalError> {
+    pub fn new(
+        matrix: (&'a Pattern, &'a [f64]),
+        scaling: &'a Scaling,
+        (precondition, complete): (P, C),
+    ) -> Result<Self, FrontalError> {
         let (pattern, values) = matrix;
         check_length("values", pattern.nonzeros(), values.len())?;
         check_length("factors", pattern.len(), scaling.rows.len())?;
         pattern.check_finite(values)?;
-        Ok(Scaled { matrix, scaling, precondition, scaled: vec![0.0; pattern.len()], failure: None })
+        Ok(Scaled { matrix, scaling, precondition, complete, scaled: vec![0.0; pattern.len()], failure: None })
     }
 }
 
-impl<P: FnMut(&mut [f64]) -> Result<(), E>, E> System for Scaled<'_, P, E> {
+impl<P, C, E> System for Scaled<'_, P, C, E>
+where
+    P: FnMut(&mut [f64]) -> Result<(), E>,
+    C: FnMut(&mut [f64]) -> Result<(), E>,
+{
     fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
         self.scaled.copy_from_slice(x);
         scale(&mut self.scaled, &self.scaling.columns);
         let (pattern, values) = self.matrix;
         multiply(pattern, values, &self.scaled, y);
+        if let Err(failure) = (self.complete)(y) {
+            y.fill(f64::NAN);
+            self.failure = Some(failure);
+        }
         scale(y, &self.scaling.rows);
     }
 

@@ -202,14 +202,18 @@ impl Recycler {
     /// right-hand side, as in [`Krylov::tolerance`], in the scale of the matrix that was factorised; `None`, with `rhs` as it was,
     /// if the policy has the matrix factorised, or if that took too many iterations. Of the `same` matrix as in the last call more
     /// is known: both together may take as many iterations as one alone. `precondition` does `x <- (A0 + change)^-1 x` with the
-    /// matrix `A0` that was factorised.
+    /// matrix `A0` that was factorised; `complete` completes products of a matrix of which this process has only some rows, the others
+    /// empty.
     ///
     /// # Errors
-    /// [`FrontalError::WrongLength`], [`FrontalError::NotFinite`]; those of `precondition`.
+    /// [`FrontalError::WrongLength`], [`FrontalError::NotFinite`]; those of `precondition` and `complete`.
     pub fn iterate<E: From<FrontalError>>(
         &mut self,
         ((pattern, values), scaling, same): ((&Pattern, &[f64]), &Scaling, bool),
-        mut precondition: impl FnMut(Option<&LowRankChange>, &mut [f64]) -> Result<(), E>,
+        (mut precondition, complete): (
+            impl FnMut(Option<&LowRankChange>, &mut [f64]) -> Result<(), E>,
+            impl FnMut(&mut [f64]) -> Result<(), E>,
+        ),
         rhs: &mut [f64],
         tolerance: f64,
     ) -> Result<Option<Convergence>, E> {
@@ -231,7 +235,8 @@ impl Recycler {
         let mut x = rhs.to_vec();
         let krylov = Krylov { tolerance, iterations, restart: iterations };
         let change = self.change.as_ref();
-        let system = Scaled::new((pattern, values), scaling, |x: &mut [f64]| precondition(change, x))?;
+        let precondition = |x: &mut [f64]| precondition(change, x);
+        let system = Scaled::new((pattern, values), scaling, (precondition, complete))?;
         let convergence = solve_recycling(system, &mut x, &krylov, (&mut self.outer, same))?;
         let Service { iterations, latest, .. } = &mut self.service;
         for count in [&mut self.counts.iterations, &mut self.spent, iterations, latest] {
@@ -379,7 +384,8 @@ impl Solver {
         }
         let (direct, pattern) = (&self.direct, self.other.as_ref().unwrap_or(self.direct.symbolic().pattern()));
         let system = ((pattern, values), &direct.factor().scaling, same);
-        self.recycler.iterate(system, |change, x| direct.precondition(change, x), rhs, tolerance)
+        let precondition = |change: Option<&LowRankChange>, x: &mut [f64]| direct.precondition(change, x);
+        self.recycler.iterate(system, (precondition, |_: &mut [f64]| Ok(())), rhs, tolerance)
     }
 
     /// Factorises.

@@ -23,22 +23,49 @@ impl Scaling {
         scaling
     }
 
+    /// The same where this process has only some of the rows, the others empty: `largest` replaces each of some numbers by the largest
+    /// of all processes.
+    ///
+    /// # Errors
+    /// Those of `largest`.
+    pub fn of_rows<E>(
+        pattern: &Pattern,
+        values: &[f64],
+        largest: impl FnMut(&mut [f64]) -> Result<(), E>,
+    ) -> Result<Self, E> {
+        let mut scaling = Self::identity(pattern.len());
+        scaling.sweep(pattern, values, largest)?;
+        Ok(scaling)
+    }
+
     pub(crate) fn identity(n: usize) -> Self {
         Scaling { rows: vec![1.0; n], columns: vec![1.0; n], row_norms: vec![0.0; n], column_norms: vec![0.0; n] }
     }
 
     /// Ruiz's iteration in the largest-value norm (CERFACS report TR/PA/01/35, 2001).
     pub(crate) fn equilibrate(&mut self, pattern: &Pattern, values: &[f64]) {
+        let Ok(()) = self.sweep(pattern, values, |_| Ok::<_, std::convert::Infallible>(()));
+    }
+
+    fn sweep<E>(
+        &mut self,
+        pattern: &Pattern,
+        values: &[f64],
+        mut largest: impl FnMut(&mut [f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
         self.rows.fill(1.0);
         self.columns.fill(1.0);
         for _ in 0..SWEEPS {
             self.measure(pattern, values);
+            largest(&mut self.row_norms)?;
+            largest(&mut self.column_norms)?;
             let moved = update(&mut self.rows, &self.row_norms) | update(&mut self.columns, &self.column_norms);
             // What one sweep leaves as it is, the next one would too.
             if !moved {
                 break;
             }
         }
+        Ok(())
     }
 
     /// Writes the scaled values and returns the largest of them.

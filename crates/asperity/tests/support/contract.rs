@@ -54,7 +54,7 @@ impl Grid {
         let rows = unknowns.iter().map(|&row| {
             let entries = self.pattern.starts[row]..self.pattern.starts[row + 1];
             let changed = |at: usize| {
-                let more = 3.0 * self.values[at].abs() + if at == self.pattern.diagonal[row] { 5.0 } else { 0.0 };
+                let more = 3.0 * self.values[at].abs() + if self.pattern.diagonal(row) == Some(at) { 5.0 } else { 0.0 };
                 values[at] += more;
                 (self.pattern.columns[at], more)
             };

@@ -24,7 +24,8 @@ impl Newton<'_> {
     pub(super) fn regularise(&mut self, motions: &[Vec<f64>]) {
         self.regularised = self.name_motions(motions);
         let small = SMALL * EASED.powi(self.steady.min(MOST_EASED)) * self.stiffness;
-        for &place in &self.memory.workspace.pattern().diagonal {
+        let pattern = self.memory.workspace.pattern();
+        for place in (0..pattern.rows()).filter_map(|row| pattern.diagonal(row)) {
             self.evaluation.values[place] += small;
         }
     }

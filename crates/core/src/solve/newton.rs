@@ -13,7 +13,7 @@ use super::relax::PseudoTime;
 use super::schedule::Step;
 use super::semismooth::MipStress;
 use super::step::forcing;
-use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace};
+use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace, apart};
 use crate::{Error, Failure, FailureKind};
 use std::sync::Arc;
 use std::time::Duration;
@@ -141,7 +141,7 @@ pub enum SolveError {
 
 impl From<Failure> for SolveError {
     fn from(failure: Failure) -> Self {
-        Self::Failure(failure)
+        if failure.kind == FailureKind::Apart { Self::End(failure) } else { Self::Failure(failure) }
     }
 }
 
@@ -334,7 +334,7 @@ impl<'a> Newton<'a> {
         loop {
             let iteration = sequence.count;
             if self.medium.is_none() {
-                self.refresh_stiffness();
+                self.refresh_stiffness()?;
             }
             let norms = self.measure();
             if iteration == 0 {
@@ -416,9 +416,11 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// Lets the terms improve what they hold besides the unknowns, and evaluates anew if any did.
+    /// Completes the histories of an iterate that has converged, lets the terms improve what they hold besides the unknowns, and
+    /// evaluates anew if any did.
     pub(super) fn augment(&mut self, u: &[f64]) -> Result<bool, Failure> {
         let (mut again, histories) = (false, &mut self.evaluation.histories);
+        self.memory.workspace.share_histories(histories)?;
         for (attempt, new) in self.assembly.attempts.iter_mut().zip(histories) {
             again |= attempt.augment(u, new)?;
         }
@@ -486,22 +488,24 @@ impl<'a> Newton<'a> {
 
     /// Largest diagonal entry of a displacement, and the largest coefficient of one in each equation, where the matrix was
     /// found.
-    pub(super) fn refresh_stiffness(&mut self) {
-        let pattern = self.memory.workspace.pattern();
+    pub(super) fn refresh_stiffness(&mut self) -> Result<(), Failure> {
+        let (pattern, shares) = (self.memory.workspace.pattern(), self.memory.workspace.shares());
         if !self.linearised {
-            return;
+            return Ok(());
         }
-        let free = self.step.constraints.free().iter().enumerate();
-        let displacements = free.filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
-        let diagonal = displacements.map(|(row, _)| pattern.diagonal[row]);
-        self.stiffness = diagonal.map(|place| self.evaluation.values[place].abs()).fold(0.0, f64::max);
         let (free, values) = (self.step.constraints.free(), &self.evaluation.values);
+        let displacements = free.iter().enumerate().filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
+        let diagonal = displacements.filter_map(|(row, _)| pattern.diagonal(row));
+        let mut stiffness = [diagonal.map(|place| values[place].abs()).fold(0.0, f64::max)];
+        shares.largest(&mut stiffness).map_err(apart)?;
+        [self.stiffness] = stiffness;
         self.coefficients.clear();
         self.coefficients.extend((0..free.len()).map(|row| {
             let places = pattern.starts[row]..pattern.starts[row + 1];
             let displacements = places.filter(|&place| !self.problem.dofs.is_rotation(free[pattern.columns[place]]));
             displacements.map(|place| values[place].abs()).fold(0.0, f64::max)
         }));
+        shares.complete(&mut self.coefficients).map_err(apart)
     }
 
     fn describe(&self, iteration: usize, norms: &Norms, sequence: &Sequence) -> IterationRecord {

@@ -13,8 +13,8 @@ use super::constants::path::{AHEAD, LENGTH, LOAD, REACHED, SHORTEST};
 use super::newton::{Newton, SolveError};
 use super::schedule::{ArcLength, Until};
 use super::step::NewtonStep;
-use crate::Failure;
-use crate::system::{Evaluation, Role, Tangent};
+use crate::system::{Evaluation, Role, Tangent, apart};
+use crate::{Failure, FailureKind};
 
 /// The equation of the load factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,9 +32,9 @@ enum Bound {
 #[derive(Debug, Clone, Copy)]
 struct Spring {
     dof: usize,
-    /// Its number among the free unknowns, and its place on the diagonal.
+    /// Its number among the free unknowns, and its place on the diagonal, if this rank has that.
     row: usize,
-    place: usize,
+    place: Option<usize>,
     stiffness: f64,
 }
 
@@ -211,8 +211,8 @@ impl<'a> Newton<'a> {
         }
         let mut rhs: Vec<f64> = self.residual.iter().map(|r| -r).collect();
         self.memory.workspace.kinks(&self.assembly, u, &mut self.memory.kinks)?;
-        let spring = self.spring();
-        let place = spring.map(|spring| (spring.place, self.evaluation.values[spring.place]));
+        let spring = self.spring()?;
+        let place = spring.and_then(|spring| spring.place).map(|place| (place, self.evaluation.values[place]));
         if let (Some(spring), Some((place, value))) = (&spring, place) {
             self.evaluation.values[place] = value + spring.stiffness;
         }
@@ -249,13 +249,16 @@ impl<'a> Newton<'a> {
     }
 
     /// The spring that holds what moved most in the last increment.
-    fn spring(&self) -> Option<Spring> {
+    fn spring(&self) -> Result<Option<Spring>, Failure> {
         let (free, last) = (self.step.constraints.free(), &self.state.last_change);
         let nodes = self.problem.dofs.node(self.problem.dofs.nodes());
         let among = free.iter().enumerate().filter(|(_, dof)| **dof < nodes && self.state.last_dt > 0.0);
-        let (row, &dof) = among.max_by(|a, b| last[*a.1].abs().total_cmp(&last[*b.1].abs()))?;
-        let place = self.memory.workspace.pattern().diagonal[row];
-        Some(Spring { dof, row, place, stiffness: self.evaluation.values[place].abs() })
+        let most = among.max_by(|a, b| last[*a.1].abs().total_cmp(&last[*b.1].abs()));
+        let Some((row, &dof)) = most else { return Ok(None) };
+        let place = self.memory.workspace.pattern().diagonal(row);
+        let mut stiffness = [place.map_or(0.0, |place| self.evaluation.values[place].abs())];
+        self.memory.workspace.shares().largest(&mut stiffness).map_err(apart)?;
+        Ok(Some(Spring { dof, row, place, stiffness: stiffness[0] }))
     }
 
     /// Solves for unbalanced forces, load, and the force of the spring over the motion of its unknown; whether a matrix was
@@ -336,7 +339,7 @@ impl<'a> Newton<'a> {
             let evaluated = self.load_to(factor + part * motion.load).and_then(|()| self.evaluate_on_path(u, tangent));
             match evaluated {
                 Ok(()) => return Ok(part * motion.part),
-                Err(failure) if part <= SHORTEST => return Err(failure),
+                Err(failure) if part <= SHORTEST || failure.kind == FailureKind::Apart => return Err(failure),
                 Err(_) => part *= 0.5,
             }
         }

@@ -11,7 +11,8 @@
 
 use super::constants::predictor::ROUNDING;
 use super::newton::{Iterate, Newton, SolveError};
-use crate::Failure;
+use crate::system::apart;
+use crate::{Failure, FailureKind};
 
 impl Newton<'_> {
     /// First guess, evaluated, and what the prescribed unknowns still miss there: the motion of the last increment carried on; the
@@ -22,8 +23,10 @@ impl Newton<'_> {
             let part = self.at.dt / state.last_dt;
             let carried = state.u.iter().zip(&state.last_change).map(|(u, d)| u + part * d).collect();
             self.hold(true);
-            if let Ok(guess) = self.begin(carried) {
-                return Ok(guess);
+            match self.begin(carried) {
+                Err(failure) if failure.kind != FailureKind::Apart => self.hold(false),
+                begun => return Ok(begun?),
+            }
             }
             self.hold(false);
         }
@@ -31,13 +34,18 @@ impl Newton<'_> {
     }
 
     /// Whether from now on contact points that were closed are held so.
-    pub(super) fn hold(&self, hold: bool) {
+    pub(super) fn hold(&mut self, hold: bool) {
+        self.holding = hold;
         self.assembly.attempts.iter().for_each(|attempt| attempt.hold(hold));
     }
 
-    /// Whether that held any which is open: there is no equilibrium then yet.
-    pub(super) fn holds(&self) -> bool {
-        self.assembly.attempts.iter().any(|attempt| attempt.holds())
+    /// Whether that holds any which is open, on any rank: there is no equilibrium then yet.
+    pub(super) fn holds(&self) -> Result<bool, Failure> {
+        let mut held = [f64::from(self.assembly.attempts.iter().any(|attempt| attempt.holds()))];
+        if self.holding {
+            self.memory.workspace.shares().largest(&mut held).map_err(apart)?;
+        }
+        Ok(held[0] > 0.0)
     }
 
     /// A first guess at `u`.

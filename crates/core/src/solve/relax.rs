@@ -11,6 +11,7 @@ use super::constants::relaxation::{BACK, ENOUGH, FAST, FEW, ITERATIONS, MOST, SE
 use super::newton::{Converged, Goal, Iterate, Newton, Sequence, SolveError};
 use super::observer::{AttemptRecord, Observer};
 use crate::Failure;
+use crate::system::apart;
 
 /// One implicit Euler step through a viscous medium.
 #[derive(Debug, Clone)]
@@ -36,8 +37,8 @@ impl Newton<'_> {
         for (row, (&dof, anchor)) in self.step.constraints.free().iter().zip(&medium.anchor).enumerate() {
             let c = medium.at(self.problem.dofs.is_rotation(dof), size);
             self.residual[row] += c * (u[dof] - anchor);
-            if matrix {
-                self.evaluation.values[pattern.diagonal[row]] += c;
+            if let Some(place) = pattern.diagonal(row).filter(|_| matrix) {
+                self.evaluation.values[place] += c;
             }
         }
     }
@@ -46,7 +47,7 @@ impl Newton<'_> {
     pub fn relax(mut self, record: &mut AttemptRecord, observer: &mut dyn Observer) -> Result<Converged, SolveError> {
         let mut at = self.begin(self.state.u.clone())?;
         self.begin_sequence();
-        let (mut coefficient, mut failed, mut spent) = (START * self.mean_stiffness(), false, 0);
+        let (mut coefficient, mut failed, mut spent) = (START * self.mean_stiffness()?, false, 0);
         while spent < MOST {
             let mut trial = at.clone();
             let taken = match self.implicit_step(coefficient, &mut trial, (&mut *record, &mut *observer), &mut spent) {
@@ -69,7 +70,7 @@ impl Newton<'_> {
             }
             failed = taken.is_none();
             self.evaluate(&at.0, at.1.as_deref(), self.tangent())?;
-            self.refresh_stiffness();
+            self.refresh_stiffness()?;
             let balanced = at.1.is_none() && self.measure().converged();
             if balanced && self.settles(&mut at, (&mut *record, &mut *observer), &mut spent)? {
                 let norms = self.measure();
@@ -122,12 +123,16 @@ impl Newton<'_> {
     }
 
     /// Mean diagonal entry of a displacement.
-    fn mean_stiffness(&self) -> f64 {
+    fn mean_stiffness(&self) -> Result<f64, Failure> {
         let pattern = self.memory.workspace.pattern();
         let free = self.step.constraints.free().iter().enumerate();
         let places = free.filter(|(_, dof)| !self.problem.dofs.is_rotation(**dof));
-        let places: Vec<usize> = places.map(|(row, _)| pattern.diagonal[row]).collect();
-        let sum: f64 = places.iter().map(|&place| self.evaluation.values[place].abs()).sum();
-        sum / places.len().max(1) as f64
+        let rows: Vec<usize> = places.map(|(row, _)| row).collect();
+        let mut diagonal: Vec<f64> = (0..pattern.rows())
+            .map(|row| pattern.diagonal(row).map_or(0.0, |place| self.evaluation.values[place]))
+            .collect();
+        self.memory.workspace.shares().complete(&mut diagonal).map_err(apart)?;
+        let sum: f64 = rows.iter().map(|&row| diagonal[row].abs()).sum();
+        Ok(sum / rows.len().max(1) as f64)
     }
 }

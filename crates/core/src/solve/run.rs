@@ -1,7 +1,7 @@
 //! Steps and increments: the loop around the attempts.
 
 use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
-use super::linear::{LinearSolver, LinearSystem, SolverCounts};
+use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{Converged, Memory, Newton, SolveError};
 use super::observer::{AttemptRecord, Observer};
 use super::path::Reached;
@@ -10,7 +10,7 @@ use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
 use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability};
-use crate::system::{Caution, Energies, Interpenetration, State};
+use crate::system::{Caution, Energies, Interpenetration, State, Workspace};
 use crate::{Error, Failure, FailureKind};
 use std::time::{Duration, Instant};
 
@@ -64,7 +64,7 @@ impl<'a> Run<'a> {
         Self {
             problem,
             state,
-            memory: Memory::default(),
+            memory: Memory { workspace: Workspace::of(engine::others()), ..Memory::default() },
             audited: Duration::ZERO,
             stability: Stability::default(),
             first_held: None,
@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
                     }
                     observer.attempt(&record);
                     self.state.caution = caution;
-                    self.accept(step, (&record, wanted), converged);
+                    self.accept(step, (&record, wanted), converged)?;
                     self.note(found);
                     return Ok(record);
                 }
@@ -308,12 +308,17 @@ impl<'a> Run<'a> {
         Ok(converged)
     }
 
-    fn accept(&mut self, step: &Step, (record, wanted): (&AttemptRecord, f64), mut converged: Converged) {
+    fn accept(
+        &mut self,
+        step: &Step,
+        (record, wanted): (&AttemptRecord, f64),
+        mut converged: Converged,
+    ) -> Result<(), Error> {
         let (before, taken, forces) = (balance(&self.state), taken(&self.state), self.state.internal.clone());
         let moved_before = self.moved();
         let (last_dt, reached) = (self.state.last_dt, converged.reached.take());
         let converged_freely = converged.held.is_empty();
-        self.commit(converged);
+        self.commit(converged)?;
         let moved = self.moved();
         if reached.is_none() && !record.relaxed && converged_freely {
             self.look_for_snap(record, &forces, taken);
@@ -355,6 +360,7 @@ impl<'a> Run<'a> {
         if ends {
             self.begin_next_step();
         }
+        Ok(())
     }
 
     /// Notes an accepted increment that set energy free, more than rounding.
@@ -374,7 +380,8 @@ impl<'a> Run<'a> {
     }
 
     /// Makes a converged evaluation the state.
-    fn commit(&mut self, converged: Converged) {
+    fn commit(&mut self, converged: Converged) -> Result<(), Error> {
+        let preconditioner = self.system.snapshot().map_err(|error| Error::Input(error.to_string()))?;
         let (state, mut evaluation) = (&mut self.state, converged.evaluation);
         for (i, (change, u)) in state.last_change.iter_mut().zip(&converged.u).enumerate() {
             *change = u - state.u[i];
@@ -400,10 +407,11 @@ impl<'a> Run<'a> {
         }
         state.leaving = evaluation.apart.drain(..).map(|(term, forces)| (term, added(forces))).collect();
         self.memory.spare = Some(evaluation);
-        state.preconditioner = self.system.snapshot();
+        state.preconditioner = preconditioner;
         for (past, now) in state.in_play.iter_mut().zip(converged.in_play) {
             *past = past.max(now);
         }
+        Ok(())
     }
 
     fn begin_next_step(&mut self) {

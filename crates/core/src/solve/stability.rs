@@ -123,7 +123,11 @@ impl Stability {
             return false;
         }
         let x = &softest.mode;
-        let image = pattern.times(look.values, x);
+        let shares = look.memory.workspace.shares();
+        let mut image = pattern.times(look.values, x);
+        if shares.complete(&mut image).is_err() {
+            return false;
+        }
         let quotient = dot(x, &image);
         let mut way: Vec<f64> = image.iter().zip(x).map(|(image, x)| image - quotient * x).collect();
         if !look.system.substitute(&mut way) {
@@ -137,7 +141,10 @@ impl Stability {
         }
         scale(&mut way, 1.0 / length);
         // The lesser eigenvector of the matrix on the plane of both.
-        let moved = pattern.times(look.values, &way);
+        let mut moved = pattern.times(look.values, &way);
+        if shares.complete(&mut moved).is_err() {
+            return false;
+        }
         let (mixed, other) = (0.5 * (dot(x, &moved) + dot(&way, &image)), dot(&way, &moved));
         let (mean, half) = (0.5 * (quotient + other), 0.5 * (other - quotient));
         let least = mean - half.hypot(mixed);

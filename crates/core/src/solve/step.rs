@@ -4,8 +4,8 @@ use super::constants::steps::{ENOUGH, FAR, GOOD, LOOSEST, SHORTEST, TIGHTEST, TU
 use super::linear::{LinearError, Unsolved};
 use super::newton::{Newton, SolveError, Variant};
 use super::semismooth::{self, ContactSystem, Linearised};
-use crate::Failure;
 use crate::system::Tangent;
+use crate::{Failure, FailureKind};
 use std::time::Instant;
 
 /// A step.
@@ -167,7 +167,7 @@ impl Newton<'_> {
             let tangent = if missing.is_some() { self.tangent() } else { tangent };
             match self.evaluate(u, missing.as_deref(), tangent) {
                 Ok(()) => break,
-                Err(failure) if part <= SHORTEST => return Err(failure),
+                Err(failure) if part <= SHORTEST || failure.kind == FailureKind::Apart => return Err(failure),
                 Err(_) => part *= 0.5,
             }
         }

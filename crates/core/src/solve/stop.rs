@@ -22,8 +22,8 @@ impl Newton<'_> {
             let (load, Row::Free(row)) = (self.evaluation.load[dof], self.step.constraints.row(dof)) else { continue };
             let [force, stiffness] = stop(load, u[dof] - self.state.u[dof], self.problem.cell_size);
             self.evaluation.internal[dof] += force;
-            if matrix {
-                self.evaluation.values[self.memory.workspace.pattern().diagonal[*row]] += stiffness;
+            if let Some(place) = self.memory.workspace.pattern().diagonal(*row).filter(|_| matrix) {
+                self.evaluation.values[place] += stiffness;
             }
         }
     }

@@ -5,10 +5,13 @@
 
 use super::band::Frame;
 use super::chunk::{CHUNK, Chunk, Pass, lanes};
+use super::parcel::{Parcel, Parcels, share_histories};
+use super::shares::{Shares, apart};
 use super::sink::{Miss, Round, Sink};
 use super::structure::Structure;
 use super::{
-    Attempt, Branch, Constraints, Coordinates, Csr, Dofs, Energies, History, Kinks, Role, State, Stencils, Term,
+    Attempt, Branch, Communicator, Constraints, Coordinates, Csr, Dofs, Energies, History, Kinks, Role, State,
+    Stencils, Term,
 };
 use crate::Failure;
 use rayon::prelude::*;
@@ -58,7 +61,8 @@ pub struct Evaluation {
     pub apart: Vec<(usize, Vec<(usize, f64)>)>,
     /// Matrix values in the order of the pattern; meaningful when the tangent was wanted.
     pub values: Vec<f64>,
-    /// History of each term at the trial state.
+    /// History of each term at the trial state; where several ranks evaluate, that of their own chunks until they
+    /// [share](Workspace::share_histories) it.
     pub histories: Vec<History>,
     /// Energy stored in each term now, and over the increment what it dissipated, heat supplied, and a rate law left over.
     pub energies: Vec<Energies>,
@@ -83,6 +87,7 @@ pub struct Assembly<'a> {
 /// Memory that lives through the run: pattern, places in it, chunk buffers.
 #[derive(Debug, Default)]
 pub struct Workspace {
+    shares: Shares,
     structure: Structure,
     stencils: Vec<Stencils>,
     chunks: Vec<Chunk>,
@@ -94,7 +99,15 @@ pub struct Workspace {
 const ROUND: [usize; 2] = [4, 64];
 
 impl Workspace {
-    /// The pattern of the matrix.
+    /// A workspace of one of several ranks, if they are, that evaluate together.
+    pub fn of(with: Option<&'static dyn Communicator>) -> Self {
+        Self { shares: Shares::new(with, &Dofs::new(2, 0, 0), &[]), ..Self::default() }
+    }
+    /// Who owns what.
+    pub fn shares(&self) -> &Shares {
+        &self.shares
+    }
+    /// The pattern of the matrix, or of the rows of this rank.
     pub fn pattern(&self) -> &Csr {
         self.structure.pattern()
     }
@@ -148,7 +161,8 @@ impl Workspace {
     /// A [`Failure`] of a search at the accepted state.
     pub fn prepare(&mut self, assembly: &Assembly, accepted: &State) -> Result<(), Failure> {
         self.list_stencils(assembly, accepted)?;
-        self.structure.prepare(assembly, &self.stencils);
+        self.shares = Shares::new(self.shares.with(), assembly.dofs, assembly.constraints.free());
+        self.structure.prepare(assembly, &self.stencils, self.shares.own());
         Ok(())
     }
 
@@ -188,19 +202,71 @@ impl Workspace {
         loop {
             out.clear(assembly.dofs.count(), self.pattern().columns.len(), trial.tangent);
             out.apart.clear();
-            let mut miss = false;
-            for t in 0..assembly.terms.len() {
-                match self.evaluate_term(assembly, t, trial, out)? {
-                    Ok(()) => {}
-                    Err(Miss) => miss = true,
+            let evaluated = match self.shares.with() {
+                None => self.evaluate_alone(assembly, trial, out)?,
+                Some(with) => self.evaluate_together(assembly, trial, out, with)?,
+            };
+            match evaluated {
+                Ok(()) => return Ok(()),
+                Err(Miss) => {
+                    self.enlarged += 1;
+                    self.structure.enlarge(assembly, &self.stencils);
                 }
             }
-            if !miss {
-                return Ok(());
-            }
-            self.enlarged += 1;
-            self.structure.enlarge(assembly, &self.stencils);
         }
+    }
+
+    fn evaluate_alone(
+        &mut self,
+        assembly: &Assembly,
+        trial: &Trial,
+        out: &mut Evaluation,
+    ) -> Result<Result<(), Miss>, Failure> {
+        let mut result = Ok(());
+        for t in 0..assembly.terms.len() {
+            let part = self.evaluate_term((assembly, t, trial), out, None);
+            result = part.map_err(|(_, failure)| failure)?.and(result);
+        }
+        Ok(result)
+    }
+
+    fn evaluate_together(
+        &mut self,
+        assembly: &Assembly,
+        trial: &Trial,
+        out: &mut Evaluation,
+        with: &dyn Communicator,
+    ) -> Result<Result<(), Miss>, Failure> {
+        with.agree(trial.u).map_err(apart)?;
+        let mut parcel = Parcel::default();
+        for t in 0..assembly.terms.len() {
+            match self.evaluate_term((assembly, t, trial), out, Some(&mut parcel)) {
+                Ok(Ok(())) => {}
+                Ok(Err(Miss)) => parcel.miss(),
+                Err(failed) => {
+                    parcel.fail(t, failed);
+                    break;
+                }
+            }
+        }
+        let mut parcels = match parcel.exchange(with)? {
+            Ok(parcels) => parcels,
+            Err(Miss) => return Ok(Err(Miss)),
+        };
+        for t in 0..assembly.terms.len() {
+            self.receive((assembly, t, trial), out, &mut parcels);
+        }
+        Ok(Ok(()))
+    }
+
+    /// Completes new histories of which each rank has those of its own chunks.
+    ///
+    /// # Errors
+    /// A [`Failure`] where ranks have come apart.
+    pub fn share_histories(&self, histories: &mut [History]) -> Result<(), Failure> {
+        let Some(with) = self.shares.with() else { return Ok(()) };
+        let owner = |term: usize, first: usize| self.stencils[term].owner(first, &self.shares);
+        share_histories(with, &self.stencils, histories, owner).map_err(apart)
     }
 
     /// Adds up the forces of the loads alone at `u`, where the terms were evaluated last.
@@ -213,42 +279,45 @@ impl Workspace {
         let trial = Trial { u, missing: None, tangent: Tangent::None, acting: &[] };
         for t in (0..assembly.terms.len()).filter(|&t| assembly.terms[t].role() == Role::Load) {
             // Nothing can miss a matrix that is not found.
-            let _ = self.evaluate_term(assembly, t, &trial, out)?;
+            let evaluated = self.evaluate_term((assembly, t, &trial), out, None);
+            let _ = evaluated.map_err(|(_, failure)| failure)?;
         }
         Ok(())
     }
 
+    /// Evaluates a term and adds up what it comes to; among several ranks its matrix, and what there is else into a parcel.
     fn evaluate_term(
         &mut self,
-        assembly: &Assembly,
-        t: usize,
-        trial: &Trial,
+        of: (&Assembly, usize, &Trial),
         out: &mut Evaluation,
-    ) -> Result<Result<(), Miss>, Failure> {
-        let mut history = std::mem::take(&mut out.histories[t]);
-        let result = self.evaluate_rounds(assembly, t, trial, (&mut history, out));
-        out.histories[t] = history;
+        parcel: Option<&mut Parcel>,
+    ) -> Result<Result<(), Miss>, (usize, Failure)> {
+        let term = of.1;
+        let mut history = std::mem::take(&mut out.histories[term]);
+        let result = self.evaluate_rounds(of, (&mut history, out), parcel);
+        out.histories[term] = history;
         result
     }
 
     fn evaluate_rounds(
         &mut self,
-        assembly: &Assembly,
-        t: usize,
-        trial: &Trial,
+        (assembly, t, trial): (&Assembly, usize, &Trial),
         (history, out): (&mut History, &mut Evaluation),
-    ) -> Result<Result<(), Miss>, Failure> {
-        let (stencils, dofs) = (&self.stencils[t], assembly.dofs);
-        let pass = Pass { attempt: assembly.attempts[t].as_ref(), term: t, stencils, dofs, trial };
+        mut parcel: Option<&mut Parcel>,
+    ) -> Result<Result<(), Miss>, (usize, Failure)> {
+        let alone = Shares::new(None, assembly.dofs, assembly.constraints.free());
+        let shares = if parcel.is_some() { &self.shares } else { &alone };
+        let (stencils, dofs, constraints) = (&self.stencils[t], assembly.dofs, assembly.constraints);
+        let attempt = assembly.attempts[t].as_ref();
+        let pass = Pass { attempt, term: t, stencils, dofs, constraints, shares, trial };
         let (pattern, places) = (self.structure.pattern(), self.structure.places(t));
         let role = assembly.terms[t].role();
         let sign = if role == Role::Load { -1.0 } else { 1.0 };
-        let frame = Frame { constraints: assembly.constraints, pattern, places, sign };
-        let apart = assembly.apart.contains(&t);
-        if apart {
-            out.apart.push((t, Vec::new()));
+        let frame = Frame { constraints, pattern, places, shares, sign };
+        let mut sink = Sink::new((out, t), role);
+        if parcel.is_none() {
+            sink.begin(assembly.apart.contains(&t));
         }
-        let mut sink = Sink::new((out, t), (trial, role), frame).apart(apart);
         let (mut result, count) = (Ok(()), stencils.list.len());
         let round = CHUNK * ROUND[usize::from(rayon::current_num_threads() > 1)];
         for first in (0..count).step_by(round) {
@@ -259,12 +328,42 @@ impl Workspace {
             }
             let chunks = &mut self.chunks[..number];
             chunks.par_iter_mut().zip(lanes(history, first..end)).for_each(|(chunk, lane)| chunk.run(&pass, lane));
-            if let Some(failure) = chunks.iter_mut().find_map(|chunk| chunk.failure.take()) {
-                return Err(failure);
+            if let Some(failed) = chunks.iter_mut().find_map(|chunk| chunk.failure.take()) {
+                return Err(failed);
             }
-            result = sink.scatter(&Round { chunks, stencils, first }).and(result);
+            let round = Round { chunks, stencils, first };
+            // At once, while the threads that evaluated the round are still awake.
+            if trial.tangent != Tangent::None {
+                result = sink.add_matrices(&frame, &round).and(result);
+            }
+            match &mut parcel {
+                None => sink.scatter(&round),
+                Some(parcel) => {
+                    let own = round.parts().filter(|(_, numbers)| pass.owns(numbers.start));
+                    own.for_each(|(chunk, _)| parcel.add(chunk));
+                }
+            }
         }
         Ok(result)
+    }
+
+    /// Adds up what ranks have told of a term.
+    fn receive(
+        &mut self,
+        (assembly, t, trial): (&Assembly, usize, &Trial),
+        out: &mut Evaluation,
+        parcels: &mut Parcels,
+    ) {
+        let stencils = &self.stencils[t];
+        let carried = trial.missing.is_some() && trial.tangent != Tangent::None;
+        let mut sink = Sink::new((out, t), assembly.terms[t].role());
+        sink.begin(assembly.apart.contains(&t));
+        let (mut chunk, count) = (Chunk::default(), stencils.list.len());
+        for first in (0..count).step_by(CHUNK) {
+            let range = first..(first + CHUNK).min(count);
+            parcels.read(stencils.owner(first, &self.shares), (stencils, range), carried, &mut chunk);
+            sink.scatter(&Round { chunks: std::slice::from_ref(&chunk), stencils, first });
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 
 use super::places::{Places, Run};
 use super::sink::{Miss, Round, take};
-use super::{Constraints, Csr, Row};
+use super::{Constraints, Csr, Row, Shares};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -16,6 +16,8 @@ pub struct Frame<'a> {
     pub pattern: &'a Csr,
     /// Places of the stencils, where they are known.
     pub places: Option<&'a Places>,
+    /// What of the matrix this rank owns.
+    pub shares: &'a Shares,
     /// Plus or minus one.
     pub sign: f64,
 }
@@ -29,6 +31,11 @@ struct Band<'a> {
 }
 
 impl Frame<'_> {
+    /// Whether the matrix of a stencil of these unknowns has rows of this rank.
+    pub fn has(&self, dofs: &[usize]) -> bool {
+        self.shares.has(self.constraints, dofs)
+    }
+
     /// Adds the matrices of a round to the values of the pattern.
     pub fn add(&self, round: &Round, values: &mut [f64]) -> Result<(), Miss> {
         let mut bands = self.bands(values, rayon::current_num_threads().min(round.chunks.len()));
@@ -40,10 +47,10 @@ impl Frame<'_> {
 
     /// Cuts the values into so many bands of about as many entries.
     fn bands<'a>(&self, mut values: &'a mut [f64], count: usize) -> Vec<Band<'a>> {
-        let (starts, entries) = (&self.pattern.starts, values.len());
-        let (mut bands, mut first) = (Vec::with_capacity(count), 0);
+        let (starts, entries, own) = (&self.pattern.starts, values.len(), self.shares.own());
+        let (mut bands, mut first) = (Vec::with_capacity(count), own.start);
         for number in 1..=count {
-            let end = starts.partition_point(|&start| start < entries * number / count).min(self.pattern.rows());
+            let end = starts.partition_point(|&start| start < entries * number / count).clamp(first, own.end);
             let (band, rest) = values.split_at_mut(starts[end] - starts[first]);
             bands.push(Band { rows: first..end, values: band, offsets: Vec::new() });
             (values, first) = (rest, end);
@@ -59,9 +66,12 @@ impl Band<'_> {
             let mut rest = chunk.tangents.as_slice();
             for index in stencils {
                 let dofs = round.stencils.dofs(&round.stencils.list[index]);
+                if !by.has(dofs) {
+                    continue;
+                }
                 let matrix = take(&mut rest, dofs.len() * dofs.len());
                 match by.places.and_then(|places| places.of(index)) {
-                    Some(runs) => self.add_runs(by, runs, dofs.len(), matrix),
+                    Some(runs) => self.add_runs(by, runs, matrix),
                     None => result = self.add_long_way(by, dofs, matrix).and(result),
                 }
             }
@@ -69,10 +79,12 @@ impl Band<'_> {
         result
     }
 
-    /// Adds a matrix of `n` rows whose entries stand in runs.
-    fn add_runs(&mut self, by: &Frame, (runs, offsets): (&[Run], &[u32]), n: usize, matrix: &[f64]) {
+    /// Adds a matrix whose entries stand in runs.
+    fn add_runs(&mut self, by: &Frame, (runs, offsets): (&[Run], &[u32]), matrix: &[f64]) {
+        let (own, n) = (by.shares.own(), matrix.len().isqrt());
         let (starts, first) = (&by.pattern.starts, by.pattern.starts[self.rows.start]);
-        let rows = runs.iter().flat_map(|run| run.unknowns()).zip(offsets.chunks_exact(runs.len().max(1)));
+        let there = runs.iter().flat_map(|run| run.unknowns()).filter(|(_, row)| own.contains(row));
+        let rows = there.zip(offsets.chunks_exact(runs.len().max(1)));
         for ((k, row), offsets) in rows.filter(|((_, row), _)| self.rows.contains(row)) {
             let values = &mut self.values[starts[row] - first..starts[row + 1] - first];
             let entries = &matrix[k * n..(k + 1) * n];

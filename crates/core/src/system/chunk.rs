@@ -1,27 +1,29 @@
 //! Chunks of stencils: what one thread evaluates at a time, with the lane of history that it writes.
 
 use super::check::perturb;
-use super::{Attempt, Branch, Dofs, Energies, History, Local, Stencils, Tangent, Trial};
+use super::{Attempt, Branch, Constraints, Dofs, Energies, History, Local, Shares, Stencils, Tangent, Trial};
 use crate::Failure;
 use std::ops::Range;
 
 /// Stencils a chunk holds; fixed, so that results do not depend on the number of threads.
 pub const CHUNK: usize = 32;
 
-/// Results of the stencils of one chunk.
+/// Results of the stencils of one chunk: all of them on the rank that owns it, elsewhere nothing but tangents.
 #[derive(Debug, Default)]
 pub struct Chunk {
     local: Local,
     /// Forces of all stencils, one after another.
     pub forces: Vec<f64>,
-    /// Tangents of all stencils, one after another.
+    /// What motion that is missing adds to them, where it is.
+    pub carried: Vec<f64>,
+    /// Tangents of the stencils that have rows of this rank, one after another.
     pub tangents: Vec<f64>,
     /// Branch and discrete choice of each stencil.
     pub branches: Vec<(Branch, u32)>,
     /// Sum of their energies.
     pub energies: Energies,
-    /// Why the chunk ends early, if it does.
-    pub failure: Option<Failure>,
+    /// The stencil at which the chunk ends early, if it does, and why.
+    pub failure: Option<(usize, Failure)>,
 }
 
 /// What all chunks of a term share.
@@ -34,8 +36,23 @@ pub struct Pass<'a> {
     pub stencils: &'a Stencils,
     /// Numbering.
     pub dofs: &'a Dofs,
+    /// How unknowns follow from the free ones.
+    pub constraints: &'a Constraints,
+    /// Who owns what.
+    pub shares: &'a Shares,
     /// Where it is evaluated.
     pub trial: &'a Trial<'a>,
+}
+
+impl Pass<'_> {
+    /// Whether this rank owns the chunk that begins with a stencil.
+    pub fn owns(&self, first: usize) -> bool {
+        self.stencils.owner(first, self.shares) == self.shares.rank()
+    }
+    /// Whether the tangent of a stencil of these unknowns is to be added here.
+    fn adds(&self, dofs: &[usize]) -> bool {
+        self.trial.tangent != Tangent::None && self.shares.has(self.constraints, dofs)
+    }
 }
 
 /// New history of the stencils of one chunk.
@@ -71,15 +88,26 @@ impl Chunk {
     /// Evaluates the stencils of a lane.
     pub fn run(&mut self, pass: &Pass, mut lane: Lane) {
         self.forces.clear();
+        self.carried.clear();
         self.tangents.clear();
         self.branches.clear();
         self.energies = Energies::default();
-        self.failure = lane.stencils.clone().try_for_each(|index| self.evaluate(index, pass, lane.slot(index))).err();
+        let owns = pass.owns(lane.stencils.start);
+        let failed = lane.stencils.clone().find_map(|index| {
+            let evaluated = self.evaluate(index, (pass, owns), lane.slot(index));
+            evaluated.err().map(|failure| (index, failure))
+        });
+        self.failure = failed;
     }
 
-    fn evaluate(&mut self, index: usize, pass: &Pass, new: &mut [f64]) -> Result<(), Failure> {
+    fn evaluate(&mut self, index: usize, (pass, owns): (&Pass, bool), new: &mut [f64]) -> Result<(), Failure> {
         let (stencil, tangent) = (&pass.stencils.list[index], pass.trial.tangent);
         let (dofs, local) = (pass.stencils.dofs(stencil), &mut self.local);
+        let adds = pass.adds(dofs);
+        if !owns && !adds {
+            return Ok(());
+        }
+        let before = self.tangents.len();
         local.u.clear();
         local.u.extend(dofs.iter().map(|&dof| pass.trial.u[dof]));
         if let Tangent::Perturbation(step) = tangent {
@@ -91,11 +119,22 @@ impl Chunk {
         local.acting = pass.trial.acting.get(pass.term).and_then(|acting| acting.get(index)).copied();
         local.reset(stencil.len);
         let branch = pass.attempt.evaluate(index, stencil, new, local)?;
-        self.branches.push((branch, stencil.choice));
-        self.forces.extend_from_slice(&local.force);
         if local.wants_tangent {
             self.tangents.extend_from_slice(&local.tangent);
         }
+        if let Some(missing) = pass.trial.missing.filter(|_| owns && tangent != Tangent::None) {
+            let rows = self.tangents[before..].chunks_exact(dofs.len().max(1));
+            let force = |row: &[f64]| row.iter().zip(dofs).map(|(k, &other)| k * missing[other]).sum::<f64>();
+            self.carried.extend(rows.map(force));
+        }
+        if !adds {
+            self.tangents.truncate(before);
+        }
+        if !owns {
+            return Ok(());
+        }
+        self.branches.push((branch, stencil.choice));
+        self.forces.extend_from_slice(&local.force);
         self.energies.stored += local.stored;
         self.energies.dissipated += local.dissipated;
         self.energies.supplied += local.supplied;

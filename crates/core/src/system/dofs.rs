@@ -53,6 +53,13 @@ impl Dofs {
     pub fn tool(&self, tool: usize) -> usize {
         self.per_node * self.nodes + self.per_tool() * tool
     }
+    /// First unknown of the node or tool that has this one.
+    pub fn first_of_owner(&self, dof: usize) -> usize {
+        match dof.checked_sub(self.tool(0)) {
+            None => dof / self.per_node * self.per_node,
+            Some(beyond) => self.tool(beyond / self.per_tool()),
+        }
+    }
     /// What unknown number `dof` is.
     pub fn describe(&self, dof: usize) -> Unknown {
         let first_tool = self.per_node * self.nodes;

@@ -1,6 +1,7 @@
 //! Which free unknowns couple: the sparsity pattern, in compressed rows.
 
 use super::{Constraints, Stencils};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Groups of unknowns, each of which couples within itself.
@@ -31,15 +32,16 @@ impl Couplings {
     }
 }
 
-/// A structurally symmetric pattern with a full diagonal; columns ascend in each row.
+/// A structurally symmetric pattern with a full diagonal, or the rows of it that one rank owns, of which the others are empty then;
+/// columns ascend in each row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Csr {
     /// Row `i` holds `columns[starts[i]..starts[i + 1]]`.
     pub starts: Arc<Vec<usize>>,
     /// Columns of all rows.
     pub columns: Arc<Vec<usize>>,
-    /// Place of the entry on the diagonal, row by row.
-    pub diagonal: Vec<usize>,
+    /// Place of the entry on the diagonal, row by row, or that behind the entries before it.
+    diagonal: Vec<usize>,
 }
 
 impl Csr {
@@ -55,14 +57,28 @@ impl Csr {
             |row: usize| (self.starts[row]..self.starts[row + 1]).map(|at| values[at] * x[self.columns[at]]).sum();
         (0..x.len()).map(row).collect()
     }
-    /// The pattern of `groups` after elimination of the constrained unknowns.
-    pub fn build(constraints: &Constraints, groups: &Couplings) -> Self {
-        Self::of(constraints.free_count(), &Reduced::new(constraints, groups))
+    /// The pattern of `groups` after elimination of the constrained unknowns, or its rows `own`.
+    pub fn build(constraints: &Constraints, groups: &Couplings, own: Range<usize>) -> Self {
+        Self::of_rows(constraints.free_count(), own, &Reduced::new(constraints, groups))
     }
     /// The pattern of `n` numbers that couple within groups.
     pub fn of(n: usize, reduced: &Reduced) -> Self {
-        let [starts, columns] = [n + 1, n].map(|count| Arc::new((0..count).collect()));
-        Self::new(starts, columns).joined(reduced, Vec::new())
+        Self::of_rows(n, 0..n, reduced)
+    }
+    fn of_rows(n: usize, own: Range<usize>, reduced: &Reduced) -> Self {
+        let starts = (0..=n).map(|row| row.clamp(own.start, own.end) - own.start).collect();
+        Self::new(Arc::new(starts), Arc::new(own.collect())).joined(reduced, Vec::new())
+    }
+    /// Some rows of this pattern, the others empty, and where their entries stand among all.
+    pub fn rows_only(&self, rows: Range<usize>) -> (Self, Range<usize>) {
+        let entries = self.starts[rows.start]..self.starts[rows.end];
+        let starts =
+            self.starts.iter().map(|start| (*start).clamp(entries.start, entries.end) - entries.start).collect();
+        (Self::new(Arc::new(starts), Arc::new(self.columns[entries.clone()].to_vec())), entries)
+    }
+    /// Place of the entry on the diagonal of a row; none where another rank owns that.
+    pub fn diagonal(&self, row: usize) -> Option<usize> {
+        (!self.row(row).is_empty()).then(|| self.diagonal[row])
     }
     /// This pattern and that of `groups` in one, whose columns are written over `memory`.
     pub fn with(&self, constraints: &Constraints, groups: &Couplings, memory: Vec<usize>) -> Self {
@@ -78,7 +94,8 @@ impl Csr {
         for row in 0..n {
             let (begin, own) = (columns.len(), self.row(row));
             columns.extend_from_slice(own);
-            let groups = &members[member_starts[row]..member_starts[row + 1]];
+            // Rows of others are empty.
+            let groups = if own.is_empty() { &[] } else { &members[member_starts[row]..member_starts[row + 1]] };
             if !groups.is_empty() {
                 own.iter().for_each(|&column| marker[column] = row);
             }

@@ -31,14 +31,16 @@ pub struct Places {
     /// The runs of each stencil and the first of its offsets; none where a combined unknown takes part.
     stencils: Vec<Option<(Range<usize>, usize)>>,
     runs: Vec<Run>,
-    /// Place in the row of the first unknown of every run, for every free unknown of every stencil.
+    /// Place in the row of the first unknown of every run, for every free unknown of every stencil whose row is there.
     offsets: Vec<u32>,
+    /// The rows that are.
+    own: Range<usize>,
 }
 
 impl Places {
-    /// The runs of the given stencils, whose offsets are yet to be [found](Self::find).
-    pub fn new(constraints: &Constraints, stencils: &Stencils) -> Self {
-        let mut places = Self::default();
+    /// The runs of the given stencils, whose offsets in the rows `own` are yet to be [found](Self::find).
+    pub fn new(constraints: &Constraints, stencils: &Stencils, own: Range<usize>) -> Self {
+        let mut places = Self { own, ..Self::default() };
         for stencil in &stencils.list {
             let dofs = stencils.dofs(stencil);
             if dofs.iter().any(|&dof| matches!(constraints.row(dof), Row::Combined(_))) {
@@ -48,7 +50,7 @@ impl Places {
             let (begin, offsets) = (places.runs.len(), places.offsets.len());
             places.append_runs(constraints, dofs);
             let runs = &places.runs[begin..];
-            let rows: usize = runs.iter().map(|run| run.len).sum();
+            let rows = runs.iter().flat_map(|run| run.unknowns()).filter(|(_, row)| places.own.contains(row)).count();
             places.offsets.resize(offsets + rows * runs.len(), 0);
             places.stencils.push(Some((begin..places.runs.len(), offsets)));
         }
@@ -71,7 +73,8 @@ impl Places {
         let mut rest = self.offsets.as_mut_slice();
         for (runs, _) in self.stencils.iter().flatten() {
             let runs = &self.runs[runs.clone()];
-            for (_, row) in runs.iter().flat_map(|run| run.unknowns()) {
+            let own = runs.iter().flat_map(|run| run.unknowns()).filter(|(_, row)| self.own.contains(row));
+            for (_, row) in own {
                 let (here, behind) = rest.split_at_mut(runs.len());
                 rest = behind;
                 if wanted(row) {
@@ -81,7 +84,7 @@ impl Places {
         }
     }
 
-    /// The runs of a stencil, and their offsets row by row.
+    /// The runs of a stencil, and their offsets row by row of those that are there.
     pub fn of(&self, stencil: usize) -> Option<(&[Run], &[u32])> {
         let (runs, offsets) = self.stencils.get(stencil)?.clone()?;
         Some((&self.runs[runs], &self.offsets[offsets..]))

@@ -2,7 +2,7 @@
 
 use super::band::Frame;
 use super::chunk::{CHUNK, Chunk};
-use super::{Evaluation, Role, Stencils, Tangent, Trial};
+use super::{Evaluation, Role, Stencils};
 use std::ops::Range;
 
 /// The pattern lacks an entry that a stencil needs.
@@ -31,44 +31,43 @@ impl Round<'_> {
 pub struct Sink<'a> {
     out: &'a mut Evaluation,
     term: usize,
-    trial: &'a Trial<'a>,
     role: Role,
-    frame: Frame<'a>,
+    sign: f64,
     apart: bool,
 }
 
 impl<'a> Sink<'a> {
     /// A sink for term number `term`.
-    pub fn new(
-        (out, term): (&'a mut Evaluation, usize),
-        (trial, role): (&'a Trial<'a>, Role),
-        frame: Frame<'a>,
-    ) -> Self {
-        Self { out, term, trial, role, frame, apart: false }
+    pub fn new((out, term): (&'a mut Evaluation, usize), role: Role) -> Self {
+        Self { out, term, role, sign: if role == Role::Load { -1.0 } else { 1.0 }, apart: false }
     }
 
-    /// The same for a term whose forces are asked for apart too.
-    pub fn apart(self, apart: bool) -> Self {
-        Self { apart, ..self }
+    /// Begins to add forces, which may be asked for apart too.
+    pub fn begin(&mut self, apart: bool) {
+        self.apart = apart;
+        if apart {
+            self.out.apart.push((self.term, Vec::new()));
+        }
     }
 
-    /// Adds the results of a round; the sink's order is that of the calls.
-    pub fn scatter(&mut self, round: &Round) -> Result<(), Miss> {
-        let wanted = self.trial.tangent != Tangent::None;
-        // At once, while the threads that evaluated the round are still awake.
-        let result = if wanted { self.frame.add(round, &mut self.out.values) } else { Ok(()) };
+    /// Adds the matrices of a round.
+    pub fn add_matrices(&mut self, frame: &Frame, round: &Round) -> Result<(), Miss> {
+        frame.add(round, &mut self.out.values)
+    }
+
+    /// Adds the other results of a round; the sink's order is that of the calls.
+    pub fn scatter(&mut self, round: &Round) {
         for (chunk, numbers) in round.parts() {
-            let (mut forces, mut matrices) = (chunk.forces.as_slice(), chunk.tangents.as_slice());
+            let (mut forces, mut carried) = (chunk.forces.as_slice(), chunk.carried.as_slice());
             for stencil in &round.stencils.list[numbers] {
                 let dofs = round.stencils.dofs(stencil);
                 self.add_forces(dofs, take(&mut forces, stencil.len));
-                if let Some(missing) = self.trial.missing.filter(|_| wanted) {
-                    self.carry(dofs, take(&mut matrices, stencil.len * stencil.len), missing);
+                if !carried.is_empty() {
+                    self.carry(dofs, take(&mut carried, stencil.len));
                 }
             }
             self.account(chunk);
         }
-        result
     }
 
     fn account(&mut self, chunk: &Chunk) {
@@ -92,11 +91,8 @@ impl<'a> Sink<'a> {
         }
     }
 
-    fn carry(&mut self, dofs: &[usize], matrix: &[f64], missing: &[f64]) {
-        for (row, &dof) in matrix.chunks_exact(dofs.len().max(1)).zip(dofs) {
-            let force: f64 = row.iter().zip(dofs).map(|(k, &other)| k * missing[other]).sum();
-            self.out.carried[dof] += self.frame.sign * force;
-        }
+    fn carry(&mut self, dofs: &[usize], forces: &[f64]) {
+        dofs.iter().zip(forces).for_each(|(&dof, force)| self.out.carried[dof] += self.sign * force);
     }
 }
 

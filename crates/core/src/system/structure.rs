@@ -5,6 +5,7 @@
 
 use super::places::Places;
 use super::{Assembly, Constraints, Couplings, Csr, Stencils};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Pattern and places, and what they follow from.
@@ -36,8 +37,8 @@ impl Structure {
         self.places.get(term)?.as_ref()
     }
 
-    /// Makes the pattern of the stencils of all terms and of what they reach.
-    pub fn prepare(&mut self, assembly: &Assembly, stencils: &[Stencils]) {
+    /// Makes the pattern of the stencils of all terms and of what they reach, in the rows `own`.
+    pub fn prepare(&mut self, assembly: &Assembly, stencils: &[Stencils], own: Range<usize>) {
         let [mut fixed, mut moving] = [Couplings::default(), Couplings::default()];
         for (attempt, stencils) in assembly.attempts.iter().zip(stencils) {
             let couplings = if attempt.is_fixed() { &mut fixed } else { &mut moving };
@@ -46,7 +47,7 @@ impl Structure {
         }
         if fixed != self.fixed || self.constraints.as_ref() != Some(assembly.constraints) {
             (self.fixed, self.moving) = (fixed, moving);
-            self.rebuild(assembly, stencils);
+            self.rebuild(assembly, stencils, own);
         } else if moving != self.moving {
             self.moving = moving;
             self.add_moving(assembly.constraints);
@@ -60,12 +61,12 @@ impl Structure {
         self.add_moving(assembly.constraints);
     }
 
-    fn rebuild(&mut self, assembly: &Assembly, stencils: &[Stencils]) {
+    fn rebuild(&mut self, assembly: &Assembly, stencils: &[Stencils], own: Range<usize>) {
         let constraints = assembly.constraints;
         self.constraints = Some(constraints.clone());
-        (self.base, self.whole) = (Csr::build(constraints, &self.fixed), None);
+        (self.base, self.whole) = (Csr::build(constraints, &self.fixed, own.clone()), None);
         let attempts = assembly.attempts.iter().zip(stencils);
-        let places = attempts.map(|(attempt, s)| attempt.is_fixed().then(|| Places::new(constraints, s)));
+        let places = attempts.map(|(attempt, s)| attempt.is_fixed().then(|| Places::new(constraints, s, own.clone())));
         self.places = places.collect();
         self.places.iter_mut().flatten().for_each(|places| places.find(&self.base, |_| true));
         self.add_moving(constraints);
@@ -218,7 +219,7 @@ mod tests {
             if at == 0 || workspace.enlarged() > before {
                 assert_eq!(found, sum.keys().copied().collect::<Vec<_>>());
             }
-            assert!(pattern.diagonal.iter().enumerate().all(|(i, &place)| found[place] == (i, i)));
+            assert!((0..pattern.rows()).all(|i| pattern.diagonal(i).is_some_and(|place| found[place] == (i, i))));
             assert_eq!(evaluation.values, found.iter().map(|entry| sum[entry]).collect::<Vec<_>>());
         }
     }

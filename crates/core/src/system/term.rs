@@ -1,6 +1,6 @@
 //! What equilibrium is a sum of.
 
-use super::{Answer, Coordinates, Couplings, History, Kinks, State};
+use super::{Answer, Coordinates, Couplings, History, Kinks, Shares, State};
 use crate::Failure;
 
 /// Whether a term resists (a body, a contact, a spring) or acts from outside (a load).
@@ -68,6 +68,11 @@ impl Stencils {
     /// Adds a stencil with the choices of another, whose unknowns already stand in [`dofs`](Self::dofs) from `start` on.
     pub fn close(&mut self, start: usize, stencil: Stencil) {
         self.list.push(Stencil { start, len: self.dofs.len() - start, ..stencil });
+    }
+    /// The rank that owns the chunk which begins with a stencil: that of the first unknown from there on, the first rank where there
+    /// is none.
+    pub fn owner(&self, first: usize, shares: &Shares) -> usize {
+        self.dofs.get(self.list[first].start).map_or(0, |&dof| shares.owner(dof))
     }
     /// Unknowns of a stencil.
     pub fn dofs(&self, stencil: &Stencil) -> &[usize] {

@@ -4,6 +4,7 @@
 use super::super::constants::low_rank::{CHANGED, MOST};
 use super::LinearError;
 use super::compliance::{ContactCompliance, Engine, add_multiple};
+use crate::system::Shares;
 use frontal::{LowRankChange, Sparse};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -31,17 +32,20 @@ impl ContactCompliance {
     pub fn low_rank_update(
         &mut self,
         [now, then]: [Rows; 2],
+        shares: &Shares,
         closed: &BTreeSet<usize>,
         engine: Engine,
     ) -> Result<Option<LowRankChange>, LinearError> {
         self.change = None;
         let mut near: Vec<usize> = self.closed.union(closed).copied().collect();
         near.retain(|unknown| self.at.binary_search(unknown).is_ok());
-        let changed = near.iter().filter_map(|&row| {
+        let own = shares.own();
+        let changed = near.iter().filter(|row| own.contains(row)).filter_map(|&row| {
             let change = difference(now.row(row), then.row(row), &near)?;
             Some((row, change))
         });
-        let (unknowns, rows): (BTreeSet<usize>, Vec<Sparse>) = changed.unzip();
+        let changed = of_all_ranks(shares, changed.collect())?;
+        let (unknowns, rows): (BTreeSet<usize>, Vec<Sparse>) = changed.into_iter().unzip();
         if unknowns.is_empty() || unknowns.len() > MOST {
             return Ok(None);
         }
@@ -69,6 +73,24 @@ impl ContactCompliance {
         }
         entries
     }
+}
+
+/// Rows with their numbers, those of all ranks from those of each.
+fn of_all_ranks(shares: &Shares, own: Vec<(usize, Sparse)>) -> Result<Vec<(usize, Sparse)>, LinearError> {
+    let Some(with) = shares.with() else { return Ok(own) };
+    let mut piece = Vec::new();
+    for (number, row) in own {
+        piece.extend([number as f64, row.len() as f64]);
+        piece.extend(row.into_iter().flat_map(|(column, value)| [column as f64, value]));
+    }
+    let (all, _) = with.gather(&piece).map_err(LinearError::Input)?;
+    let (mut rows, mut rest) = (Vec::new(), all.as_slice());
+    while let [number, length, behind @ ..] = rest {
+        let (row, next) = behind.split_at(2 * *length as usize);
+        rows.push((*number as usize, row.chunks_exact(2).map(|pair| (pair[0] as usize, pair[1])).collect()));
+        rest = next;
+    }
+    Ok(rows)
 }
 
 /// What has changed of a row among these unknowns, if that is much; all are in ascending order.

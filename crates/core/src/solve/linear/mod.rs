@@ -71,19 +71,11 @@ pub struct Unknowns<'a> {
 }
 
 impl Unknowns<'_> {
-    /// The first unknown, free or not, of the node or tool that has this one.
-    pub fn first_of_owner(&self, dof: usize) -> usize {
-        match dof.checked_sub(self.dofs.tool(0)) {
-            None => dof / self.dofs.per_node() * self.dofs.per_node(),
-            Some(beyond) => self.dofs.tool(beyond / self.dofs.per_tool()),
-        }
-    }
-
     /// For each free unknown, its node or tool, numbered as they come.
     pub fn owners(&self) -> Vec<usize> {
         let (mut number, mut last) = (0, None);
         let number = |&dof: &usize| {
-            let owner = self.first_of_owner(dof);
+            let owner = self.dofs.first_of_owner(dof);
             number += usize::from(last.is_some_and(|last| last != owner));
             last = Some(owner);
             number

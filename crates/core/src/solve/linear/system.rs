@@ -7,10 +7,10 @@
 
 use super::compliance::ContactCompliance;
 use super::low_rank::Rows;
-use super::{Factored, LinearError, LinearSolver, Unknowns};
+use super::{Factored, LinearError, LinearSolver, Unknowns, engine};
 use crate::Failure;
-use crate::system::{Csr, Dofs, Factorised, Preconditioner};
-use frontal::{Pattern, PivotSigns, Policy, Recycler, Scaling, Work};
+use crate::system::{Csr, Dofs, Factorised, Preconditioner, Shares};
+use frontal::{LowRankChange, Pattern, PivotSigns, Policy, Recycler, Scaling, Work};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -87,9 +87,11 @@ impl SolverCounts {
     }
 }
 
-/// An engine with what saves factorisations.
+/// An engine with what saves factorisations. Where several ranks run together each has its own rows of the matrices, and whole
+/// vectors.
 pub struct LinearSystem {
     engine: Box<dyn LinearSolver>,
+    shares: Shares,
     recycler: Recycler,
     dofs: Dofs,
     /// Pattern and unknowns of the matrices to come, and the number that tells patterns apart; that of the one that the engine knows.
@@ -97,8 +99,10 @@ pub struct LinearSystem {
     free: Vec<usize>,
     number: usize,
     analysed: usize,
-    /// The matrix that was factorised last, where it may precondition others, and its factors of rows and columns.
+    /// The matrix that was factorised last, where it may precondition others, and its factors of rows and columns. Of one that the
+    /// accepted state holds the first rank has all rows.
     held: Option<Arc<Factorised>>,
+    collected: bool,
     scaling: Option<Scaling>,
     factored: Factored,
     /// Whether the matrix at hand is the one that was factorised.
@@ -112,6 +116,7 @@ impl LinearSystem {
     pub fn new(engine: Box<dyn LinearSolver>, policy: Policy, dofs: Dofs) -> Self {
         Self {
             engine,
+            shares: Shares::new(engine::others(), &dofs, &[]),
             recycler: Recycler::new(policy),
             dofs,
             pattern: Csr::new(Arc::new(vec![0]), Arc::default()),
@@ -119,6 +124,7 @@ impl LinearSystem {
             number: 0,
             analysed: 0,
             held: None,
+            collected: false,
             scaling: None,
             factored: Factored::default(),
             direct: false,
@@ -138,6 +144,7 @@ impl LinearSystem {
             self.recycler.refuse();
             self.compliance = ContactCompliance::default();
             self.free = free.to_vec();
+            self.shares = Shares::new(self.shares.with(), &self.dofs, free);
         }
         self.recycler.change(None);
         (self.number, self.pattern) = (number, pattern.clone());
@@ -193,10 +200,32 @@ impl LinearSystem {
         motions
     }
 
-    /// What the next increment begins with: the matrix whose factor there is, if that is to serve on.
-    pub fn snapshot(&self) -> Option<Preconditioner> {
-        let (service, matrix) = (self.recycler.service()?, self.held.clone()?);
-        Some(Preconditioner { matrix, service, near: self.compliance.near() })
+    /// What the next increment begins with: the matrix whose factor there is, if that is to serve on. On the first rank it is whole.
+    ///
+    /// # Errors
+    /// That ranks have come apart.
+    pub fn snapshot(&mut self) -> Result<Option<Preconditioner>, LinearError> {
+        let (Some(service), Some(held)) = (self.recycler.service(), &mut self.held) else { return Ok(None) };
+        if let Some(with) = self.shares.with().filter(|_| !self.collected) {
+            let collect = |numbers: &mut dyn Iterator<Item = f64>| {
+                with.collect(&numbers.collect::<Vec<_>>()).map_err(LinearError::Input)
+            };
+            let own = self.shares.own();
+            let lengths = collect(&mut own.map(|row| (held.starts[row + 1] - held.starts[row]) as f64))?;
+            let columns = collect(&mut held.columns.iter().map(|&column| column as f64))?;
+            let values = collect(&mut held.values.iter().copied())?;
+            self.collected = true;
+            if with.rank() == 0 {
+                let ends = lengths.iter().scan(0, |end, length| {
+                    *end += *length as usize;
+                    Some(*end)
+                });
+                let starts = Arc::new(std::iter::once(0).chain(ends).collect());
+                let columns = Arc::new(columns.into_iter().map(|column| column as usize).collect());
+                *held = Arc::new(Factorised { free: self.free.clone(), starts, columns, values });
+            }
+        }
+        Ok(Some(Preconditioner { matrix: held.clone(), service, near: self.compliance.near() }))
     }
 
     /// Begins a sequence of matrices over these free unknowns with what was there when the state was accepted.
@@ -248,6 +277,7 @@ impl LinearSystem {
             self.counts.analyses += 1;
         }
         (self.held, self.scaling, self.factored, self.direct) = (None, None, Factored::default(), false);
+        self.collected = false;
         self.recycler.forget();
         self.counts.factorisations += 1;
         self.factored = self.engine.factorise(values)?;
@@ -288,7 +318,7 @@ impl LinearSystem {
         let then = Rows { starts: &held.starts, columns: &held.columns, values: &held.values };
         self.compliance.cover(&sites.near(false));
         let engine = (self.engine.as_mut(), self.free.len());
-        let change = self.compliance.low_rank_update([now, then], &closed, engine)?;
+        let change = self.compliance.low_rank_update([now, then], &self.shares, &closed, engine)?;
         self.recycler.change(change);
         self.counts.complying += begun.elapsed();
         Ok(())
@@ -305,12 +335,22 @@ impl LinearSystem {
         let begun = Instant::now();
         let of =
             |starts: &Arc<Vec<usize>>, columns: &Arc<Vec<usize>>| Pattern::trusted(starts.clone(), columns.clone());
-        let scaling = &*self.scaling.get_or_insert_with(|| Scaling::of(&of(&held.starts, &held.columns), &held.values));
+        let shares = &self.shares;
+        if shares.any(values.iter().any(|value| !value.is_finite())).map_err(LinearError::Input)? {
+            return Err(LinearError::NotFinite("the stiffness is not finite".into()));
+        }
+        if self.scaling.is_none() {
+            let largest = |x: &mut [f64]| shares.largest(x).map_err(LinearError::Input);
+            self.scaling = Some(Scaling::of_rows(&of(&held.starts, &held.columns), &held.values, largest)?);
+        }
+        let Some(scaling) = &self.scaling else { return Ok(false) };
         // Each increment has its own, made by the same rules as the first.
         let pattern = of(&self.pattern.starts, &self.pattern.columns);
         let engine = &mut self.engine;
         let system = ((&pattern, values), scaling, same);
-        let solved = self.recycler.iterate(system, |change, x| engine.precondition(change, x), rhs, tolerance);
+        let precondition = |change: Option<&LowRankChange>, x: &mut [f64]| engine.precondition(change, x);
+        let complete = |x: &mut [f64]| shares.complete(x).map_err(LinearError::Input);
+        let solved = self.recycler.iterate(system, (precondition, complete), rhs, tolerance);
         self.counts.solving += begun.elapsed();
         let solved: bool = solved?.is_some();
         self.counts.iterative += usize::from(solved);
@@ -334,12 +374,19 @@ impl LinearSystem {
 
     fn factorise_again(&mut self, matrix: &Arc<Factorised>) -> Result<(), LinearError> {
         // Neither is that of the matrices to come, as far as is known.
-        (self.analysed, self.number, self.pattern) = (0, NONE, matrix.pattern());
         self.free.clone_from(&matrix.free);
-        self.factorise(&matrix.values)?;
+        self.shares = Shares::new(self.shares.with(), &self.dofs, &self.free);
+        let (pattern, mut entries) = (matrix.pattern(), 0..matrix.values.len());
+        (self.analysed, self.number, self.pattern) = (0, NONE, pattern);
+        if self.shares.with().is_some() {
+            // From a checkpoint all rows are there.
+            (self.pattern, entries) = self.pattern.rows_only(self.shares.own());
+        }
+        self.factorise(&matrix.values[entries])?;
         self.number = 0;
         self.analysed = 0;
         self.held = Some(matrix.clone());
+        self.collected = true;
         Ok(())
     }
 }

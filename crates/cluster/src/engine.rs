@@ -12,7 +12,11 @@ use std::ptr;
 use std::sync::Arc;
 
 /// The options of PETSc where a deck says none: every matrix factorised by MUMPS.
-pub const DIRECT: &str = "-ksp_type preonly -pc_type lu -pc_factor_mat_solver_type mumps -mat_mumps_icntl_14 60";
+pub const DIRECT: &str = "-ksp_type preonly -pc_type lu -pc_factor_mat_solver_type mumps -mat_mumps_icntl_14 10";
+
+/// Hundredths of its workspace that MUMPS gets then beyond what it foresees, where those before were too few: what is not used is
+/// taken all the same.
+const MORE: [&str; 2] = ["60", "200"];
 
 /// Part of the right-hand side that an iterative solution may leave where the options say nothing else, and its iterations.
 const LEFT: f64 = 1e-8;
@@ -61,6 +65,8 @@ struct System {
     /// One over the root of the largest entry of each row: `S A S` has rows and columns of one size.
     scale: Vec<f64>,
     direct: bool,
+    /// Workspace that may still be tried.
+    more: std::slice::Iter<'static, &'static str>,
     factorised: bool,
     right: Owned<ffi::_p_Vec>,
     solution: Owned<ffi::_p_Vec>,
@@ -112,6 +118,9 @@ impl Petsc {
             own
         });
         self.system = Some(System::new(ranks, (shares, rows), pattern, places.as_deref())?);
+        if let (None, Some(system)) = (&self.options, &mut self.system) {
+            system.more = MORE.iter();
+        }
         Ok(())
     }
 
@@ -191,7 +200,7 @@ impl System {
             let [right, solution] = [Owned::made(vector, ffi::VecDestroy)?, Owned::made(vector, ffi::VecDestroy)?];
             let (lengths, pattern, scale) = (rows.lengths(), pattern.clone(), vec![1.0; pattern.rows()]);
             let (values, iterations) = (Vec::new(), Cell::new(0));
-            let (direct, factorised) = (direct != 0, false);
+            let (direct, factorised, more) = (direct != 0, false, [].iter());
             Ok(Self {
                 ranks,
                 shares,
@@ -202,6 +211,7 @@ impl System {
                 values,
                 scale,
                 direct,
+                more,
                 factorised,
                 right,
                 solution,
@@ -216,11 +226,14 @@ impl System {
     fn set_up(&mut self, values: &[f64]) -> std::result::Result<bool, LinearError> {
         let mut held = [values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))];
         self.shares.largest(&mut held).map_err(LinearError::Input)?;
-        let values = with_held(values, &self.held, held[0]);
+        let all = with_held(values, &self.held, held[0]);
+        // SAFETY: the values are those of the pattern that the matrix was made with, and are copied.
+        let updated = checked(unsafe { ffi::MatUpdateMPIAIJWithArray(self.matrix.raw, all.as_ptr()) });
+        drop(all);
         let (mut reason, mut conditioner, mut failed) = (0, ptr::null_mut(), 0);
-        // SAFETY: the values are those of the pattern that the matrix was made with.
+        // SAFETY: objects of ours.
         let made = unsafe {
-            checked(ffi::MatUpdateMPIAIJWithArray(self.matrix.raw, values.as_ptr()))
+            updated
                 .and_then(|()| checked(ffi::KSPSetOperators(self.solver.raw, self.matrix.raw, self.matrix.raw)))
                 .and_then(|()| checked(ffi::KSPSetUp(self.solver.raw)))
                 .and_then(|()| checked(ffi::KSPGetConvergedReason(self.solver.raw, &mut reason)))
@@ -229,23 +242,25 @@ impl System {
         };
         made.map_err(LinearError::Input)?;
         if failed != ffi::PCFailedReason_PC_NOERROR {
-            // What once failed is not tried again as it is.
+            // What once failed is not tried again as it is, nor taken for the factor of the next values.
             // SAFETY: the solver is ours.
             checked(unsafe { ffi::KSPReset(self.solver.raw) }).map_err(LinearError::Other)?;
         }
         match failed {
             ffi::PCFailedReason_PC_NOERROR => Ok(true),
+            ffi::PCFailedReason_PC_FACTOR_OUTMEMORY if self.more.len() > 0 => {
+                let (name, more) = (text("-mat_mumps_icntl_14"), text(self.more.next().copied().unwrap_or_default()));
+                // SAFETY: PETSc takes copies of the words.
+                let set = unsafe { ffi::PetscOptionsSetValue(ptr::null_mut(), name.as_ptr(), more.as_ptr()) };
+                checked(set).map_err(LinearError::Other)?;
+                self.set_up(values)
+            }
             ffi::PCFailedReason_PC_FACTOR_OUTMEMORY => Err(LinearError::Memory(
                 "the factor does not fit into the memory of the ranks; more ranks on more machines, an iterative `solver.petsc`, or \
                  where MUMPS only guessed too little, `-mat_mumps_icntl_14 200`"
                     .into(),
             )),
-            _ => {
-                // What failed would be taken for the factor of the next values.
-                // SAFETY: a solver of ours.
-                checked(unsafe { ffi::KSPReset(self.solver.raw) }).map_err(LinearError::Other)?;
-                Ok(false)
-            }
+            _ => Ok(false),
         }
     }
 
@@ -601,4 +616,30 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// Size of a scattered vector of so many numbers: those of a uniform distribution over one.
 fn norm_of_scatter(count: usize) -> f64 {
     (count as f64 / 12.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_core::system::Dofs;
+
+    #[test]
+    fn a_workspace_that_is_too_small_is_made_larger() {
+        let n = 300;
+        let (dofs, free): (Dofs, Vec<usize>) = (Dofs::new(2, n / 2, 0), (0..n).collect());
+        let (starts, columns) = ((0..=n).map(|row| n * row).collect(), (0..n * n).map(|k| k % n).collect());
+        let pattern = Csr::new(Arc::new(starts), Arc::new(columns));
+        let values: Vec<f64> = (0..n * n).map(|k| if k % (n + 1) == 0 { n as f64 } else { (k as f64).sin() }).collect();
+        let mut petsc = Petsc::with(None);
+        petsc.set_pattern(&pattern, Unknowns { dofs: &dofs, free: &free }).unwrap();
+        let [name, less] = ["-mat_mumps_icntl_14", "-90"].map(text);
+        // SAFETY: PETSc takes copies of the words.
+        checked(unsafe { ffi::PetscOptionsSetValue(ptr::null_mut(), name.as_ptr(), less.as_ptr()) }).unwrap();
+        petsc.factorise(&values).unwrap();
+        assert!(petsc.system.as_ref().is_some_and(|system| system.more.len() < MORE.len()));
+        let expected: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
+        let mut x = pattern.times(&values, &expected);
+        petsc.solve(&mut x).unwrap();
+        assert!(x.iter().zip(&expected).all(|(x, expected)| (x - expected).abs() < 1e-10));
+    }
 }

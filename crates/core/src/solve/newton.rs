@@ -181,6 +181,8 @@ pub struct Newton<'a> {
     pub(super) regularised: Vec<String>,
     /// Iterations in a row over which no contact changed.
     pub(super) steady: i32,
+    /// Whether contact points that were closed are held so.
+    pub(super) holding: bool,
     /// The implicit step through a viscous medium that is being made.
     pub(super) medium: Option<PseudoTime>,
     /// The path that the step follows.
@@ -275,6 +277,7 @@ impl<'a> Newton<'a> {
             bound: SLOPE,
             regularised: Vec::new(),
             steady: 0,
+            holding: false,
             medium: None,
             path: None,
         })
@@ -348,7 +351,7 @@ impl<'a> Newton<'a> {
             observer.iteration(record, &line);
             record.iterations.push(line);
             sequence.count += 1;
-            if missing.is_none() && !self.holds() && self.reaches(goal, &norms, sequence, u)? {
+            if missing.is_none() && !self.holds()? && self.reaches(goal, &norms, sequence, u)? {
                 return Ok(Some(norms));
             }
             if !norms.ratio.is_finite() {

@@ -27,8 +27,6 @@ impl Newton<'_> {
                 Err(failure) if failure.kind != FailureKind::Apart => self.hold(false),
                 begun => return Ok(begun?),
             }
-            }
-            self.hold(false);
         }
         Ok(self.begin(state.u.clone())?)
     }

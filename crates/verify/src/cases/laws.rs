@@ -22,8 +22,11 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         }
     }
     measured.push(("ratchetting".into(), ratchetting(bench)?));
-    let [slow, fast] = rate_jump(bench)?;
-    measured.extend([("slow".into(), slow), ("fast".into(), fast), ("relaxed".into(), relaxation(bench)?)]);
+    measured.extend(three_back_stresses(bench)?);
+    for (name, [slow, fast]) in [("", rate_jump(bench, None)?), ("warm_", rate_jump(bench, Some([0.4, 1.2]))?)] {
+        measured.extend([(format!("{name}slow"), slow), (format!("{name}fast"), fast)]);
+    }
+    measured.push(("relaxed".into(), relaxation(bench)?));
     let [softened, beyond] = loops(bench)?;
     measured.extend([("softened".into(), softened), ("beyond".into(), beyond)]);
     Ok(measured)
@@ -59,16 +62,88 @@ fn ratchetting(bench: &Bench) -> Result<f64, Error> {
     Ok((ends[4] - ends[2]) / step)
 }
 
-/// Force of the bar at the end of both steps over that of the flow stress on its present area.
-fn rate_jump(bench: &Bench) -> Result<[f64; 2], Error> {
-    let mut found = [f64::NAN; 2];
-    bench.follow("rate_jump.toml", &[], |model, state| {
+/// The alloy of `ratchetting_three.toml` in uniaxial stress. Between two turns each back stress is an exponential of the plastic strain,
+/// so that a path of stresses takes the root of one equation for each of its ends.
+#[derive(Default)]
+struct Alloy {
+    back: [f64; 3],
+    /// Plastic strain, and its sum without sign.
+    plastic: f64,
+    spent: f64,
+}
+
+impl Alloy {
+    const YOUNG: f64 = 71e3;
+    const KINEMATIC: [[f64; 2]; 3] = [[4735.0, 299.0], [1511.0, 291.0], [1554.0, 22.0]];
+
+    fn back_after(&self, flow: f64, sign: f64) -> [f64; 3] {
+        std::array::from_fn(|i| {
+            let [c, gamma] = Self::KINEMATIC[i];
+            let end = sign * c / gamma;
+            end + (self.back[i] - end) * (-gamma * flow).exp()
+        })
+    }
+
+    /// Loads to a stress beyond which it turns; the strain there.
+    fn load(&mut self, stress: f64) -> f64 {
+        let sign = stress.signum();
+        let over = |flow: f64| {
+            let back: f64 = self.back_after(flow, sign).iter().sum();
+            sign * (stress - back) - 410.0 - 150.0 * (1.0 - (-11.0 * (self.spent + flow)).exp())
+        };
+        let (mut low, mut high) = (0.0, if over(0.0) > 0.0 { 0.5 } else { 0.0 });
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if over(middle) > 0.0 { low = middle } else { high = middle }
+        }
+        self.back = self.back_after(high, sign);
+        (self.plastic, self.spent) = (self.plastic + sign * high, self.spent + high);
+        self.plastic + stress / Self::YOUNG
+    }
+}
+
+/// Ten cycles between two stresses: what the strains at the turns differ by from those of the independent integration, the most of
+/// them over the most strain, and the strain that is left at the last two turns.
+fn three_back_stresses(bench: &Bench) -> Result<Measured, Error> {
+    let each = bench.pick(40, 120);
+    let sets = [format!("step.1.increments.count={}", 20 * each)];
+    let mut turns = Vec::new();
+    bench.follow("ratchetting_three.toml", &sets, |model, state| {
+        let top = model.problem.dofs.node(model.mesh.groups["bar.top"].nodes[0]) + 1;
+        if state.increment > 0 && state.increment % each == 0 {
+            turns.push(state.u[top].ln_1p());
+        }
+    })?;
+    let (mut alloy, mut apart, mut most) = (Alloy::default(), 0.0_f64, 0.0_f64);
+    for (i, turn) in turns.iter().enumerate() {
+        let exact = alloy.load(if i % 2 == 0 { 520.0 } else { -480.0 });
+        (apart, most) = (apart.max((turn - exact).abs()), most.max(exact));
+    }
+    let last = |before: usize| turns.len().checked_sub(before).map_or(f64::NAN, |i| turns[i]);
+    Ok(vec![
+        ("three_back_stresses".into(), apart / most),
+        ("three_peak".into(), last(2)),
+        ("three_valley".into(), last(1)),
+    ])
+}
+
+/// Force of the bar at the end of both steps over that of the flow stress on its present area, at the temperature of the room or at
+/// a homologous one with its exponent.
+fn rate_jump(bench: &Bench, warm: Option<[f64; 2]>) -> Result<[f64; 2], Error> {
+    let (mut found, mut sets, mut left) = ([f64::NAN; 2], Vec::new(), 1.0);
+    if let Some([temperature, exponent]) = warm {
+        let steel = "material.steel.von_mises_johnson_cook";
+        sets.push(format!("{steel}.homologous_temperature={temperature:?}"));
+        sets.push(format!("{steel}.softening_exponent={exponent:?}"));
+        left -= temperature.powf(exponent);
+    }
+    bench.follow("rate_jump.toml", &sets, |model, state| {
         let force = reaction(model, state, "bar.top")[1];
         let step = usize::from(state.time > 0.0500001);
         let (strain, speed) = [(0.1_f64, 0.105_170_918 / 0.05), (0.12, 0.022_325_933_5 / 1e-4)][step];
         let stress = force * strain.exp() / PI;
         let flow = 350.0 + 275.0 * (strain - stress / 200e3).powf(0.36);
-        found[step] = stress / (flow * (1.0 + 0.05 * (speed / strain.exp()).ln()));
+        found[step] = stress / (flow * left * (1.0 + 0.05 * (speed / strain.exp()).ln()));
     })?;
     Ok(found)
 }

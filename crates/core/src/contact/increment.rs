@@ -1,7 +1,6 @@
-//! What contacts of both forms know of an increment: where the last one leads, how far a target is seen, how far a point may
+//! What contacts of both forms know of an increment: how far a target is seen, how far a point may
 //! come and a tool turn, and for which part of it a point is in contact.
 
-use crate::system::State;
 use crate::tensor::Scalar;
 use crate::{Failure, FailureKind};
 use std::f64::consts::FRAC_PI_2;
@@ -9,12 +8,6 @@ use std::f64::consts::FRAC_PI_2;
 /// A point counts as closed from this part of the shortest edge on. One depth for all points: a flat surface
 /// under uniform pressure then stays flat.
 pub const CLOSED: f64 = 1e-10;
-
-/// Unknowns that the last increment, carried on over `dt`, leads to.
-pub fn ahead(accepted: &State, dt: f64) -> Vec<f64> {
-    let part = if accepted.last_dt > 0.0 { dt / accepted.last_dt } else { 0.0 };
-    accepted.u.iter().zip(&accepted.last_change).map(|(u, change)| u + part * change).collect()
-}
 
 /// The largest gap at which faces no longer than `longest` are seen in the increment after `last_change`: their unknowns would
 /// couple for nothing beyond an edge's length and twice the motion of the last increment.

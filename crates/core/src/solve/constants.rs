@@ -98,6 +98,9 @@ pub mod path {
 pub mod predictor {
     /// Below this part of the increment's prescribed motion, what the predictor misses is rounding.
     pub const ROUNDING: f64 = 1e-12;
+    /// A motion is smooth whose parabola would have missed the last increment by less than this part of what a straight line missed
+    /// it by, at the node where that is most: where contact changes it is more, in smooth motion a tenth to a third.
+    pub const SMOOTH: f64 = 0.5;
 }
 
 /// Iterations that wander.

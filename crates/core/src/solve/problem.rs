@@ -84,7 +84,8 @@ impl Problem {
         let same_slots = |(a, b): (&History, &History)| a.starts == b.starts && a.data.len() == b.data.len();
         let same_histories =
             own.histories.len() == state.histories.len() && own.histories.iter().zip(&state.histories).all(same_slots);
-        if lengths(&own) != lengths(state) || !same_histories || own.energies.len() != state.energies.len() {
+        let bent = state.bend.is_empty() || state.bend.len() == state.u.len();
+        if lengths(&own) != lengths(state) || !bent || !same_histories || own.energies.len() != state.energies.len() {
             return Err("this state belongs to another model".into());
         }
         let of_terms = |(term, forces): &(usize, Vec<(usize, f64)>)| {

@@ -5,6 +5,7 @@ use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{Converged, Memory, Newton, SolveError};
 use super::observer::{AttemptRecord, Observer};
 use super::path::Reached;
+use super::predict::learn;
 use super::problem::{Problem, largest};
 use super::rigid::free_motions;
 use super::schedule::{SMALLEST, Step};
@@ -318,7 +319,7 @@ impl<'a> Run<'a> {
         let moved_before = self.moved();
         let (last_dt, reached) = (self.state.last_dt, converged.reached.take());
         let converged_freely = converged.held.is_empty();
-        self.commit(converged)?;
+        self.commit(converged, record.dt)?;
         let moved = self.moved();
         if reached.is_none() && !record.relaxed && converged_freely {
             self.look_for_snap(record, &forces, taken);
@@ -327,7 +328,6 @@ impl<'a> Run<'a> {
         let expected = if last_dt > 0.0 { moved_before * dt / last_dt } else { 0.0 };
         let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
         state.leap = leap([expected, driven, moved], self.problem.size);
-        state.last_dt = dt;
         if !record.relaxed {
             state.next_dt = state.caution.hold(dt, step.after(dt, wanted, record.first_solutions()));
             state.caution.proven = dt;
@@ -380,12 +380,12 @@ impl<'a> Run<'a> {
     }
 
     /// Makes a converged evaluation the state.
-    fn commit(&mut self, converged: Converged) -> Result<(), Error> {
+    fn commit(&mut self, converged: Converged, dt: f64) -> Result<(), Error> {
         let preconditioner = self.system.snapshot().map_err(|error| Error::Input(error.to_string()))?;
         let (state, mut evaluation) = (&mut self.state, converged.evaluation);
-        for (i, (change, u)) in state.last_change.iter_mut().zip(&converged.u).enumerate() {
-            *change = u - state.u[i];
-            state.external_work += 0.5 * (state.internal[i] + evaluation.internal[i]) * *change;
+        learn(state, &converged.u, dt, self.problem.dofs.nodes() * self.problem.dofs.per_node());
+        for (i, change) in state.last_change.iter().enumerate() {
+            state.external_work += 0.5 * (state.internal[i] + evaluation.internal[i]) * change;
         }
         for (total, new) in state.energies.iter_mut().zip(&evaluation.energies) {
             total.stored = new.stored;

@@ -150,6 +150,10 @@ pub struct State {
     pub last_change: Vec<f64>,
     /// Time of the last accepted increment; zero before the first and where its motion must not be carried on.
     pub last_dt: f64,
+    /// Second divided difference of the unknowns over time at the last three states; empty where there is none,
+    pub bend: Vec<f64>,
+    /// and whether the unknowns go along a parabola, as far as the last increment tells.
+    pub bends: bool,
     /// Size the controller wants for the next increment.
     pub next_dt: f64,
     /// What sizes that failed have taught.
@@ -211,4 +215,22 @@ pub struct State {
     pub attempts: usize,
     /// Iterations spent so far.
     pub iterations: usize,
+}
+
+impl State {
+    /// Unknowns that the motion leads to over `dt`: the last increment carried on, or the parabola through the last three states where
+    /// the unknowns go along one.
+    pub fn ahead(&self, dt: f64) -> Vec<f64> {
+        if self.last_dt > 0.0 { self.carried(dt, self.bends) } else { self.u.clone() }
+    }
+
+    /// The unknowns after `dt` at the velocity of the last increment or along the parabola.
+    pub fn carried(&self, dt: f64, parabola: bool) -> Vec<f64> {
+        let straight = self.u.iter().zip(&self.last_change).map(|(u, change)| u + change * (dt / self.last_dt));
+        let bend = dt * (dt + self.last_dt);
+        match parabola {
+            true => straight.zip(&self.bend).map(|(u, b)| u + bend * b).collect(),
+            false => straight.collect(),
+        }
+    }
 }

@@ -5,7 +5,7 @@ use super::configuration::Configuration;
 use super::contact::FieldContact;
 use crate::Failure;
 use crate::contact::Overlap;
-use crate::contact::increment::{ahead, reach};
+use crate::contact::increment::reach;
 use crate::contact::record::entry;
 use crate::interface::Interface;
 use crate::system::{Attempt, History, Instant, State, Term};
@@ -95,7 +95,7 @@ impl Term for FieldContact {
             before,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),
-            ahead: ahead(accepted, at.dt),
+            ahead: accepted.ahead(at.dt),
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
             augmented: 0,
             at,

@@ -5,7 +5,6 @@ use super::contact::PaperContact;
 use super::stencil::D;
 use crate::Failure;
 use crate::contact::Overlap;
-use crate::contact::increment::ahead;
 use crate::contact::kink::{answer, answer_by_mean};
 use crate::contact::record::{entry, leave, stresses};
 use crate::system::{
@@ -58,7 +57,7 @@ impl Term for PaperContact {
             accepted: &accepted.u,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),
-            ahead: ahead(accepted, at.dt),
+            ahead: accepted.ahead(at.dt),
             at,
             dt: at.dt,
         }))

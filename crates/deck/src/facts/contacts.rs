@@ -101,24 +101,51 @@ fn sampled(nodes: &BTreeSet<usize>) -> Vec<usize> {
 
 /// Distance from a tool where it stands first, negative in its material.
 fn signed_distance(model: &Model, number: usize) -> Box<dyn Fn(Vec3) -> f64 + '_> {
-    let nearer = |a: f64, b: f64| if b.abs() < a.abs() { b } else { a };
     if let Some(tool) = model.tools.get(number) {
         let pieces = tool.smooth_pieces(0.0);
         return Box::new(move |x| {
-            let gap = |piece| {
+            let foot = |piece| {
                 let foot = tool.closest(piece, x);
-                (x - foot.point).norm().copysign(foot.gap)
+                (foot.point, foot.normal)
             };
-            pieces.iter().map(gap).fold(f64::INFINITY, nearer)
+            signed(x, pieces.iter().map(foot))
         });
     }
     let Some(tool) = model.solid_tools.get(number) else { return Box::new(|_| f64::INFINITY) };
     let pieces = tool.smooth_pieces();
     Box::new(move |x| {
-        let gap = |piece| {
+        let foot = |piece| {
             let foot = tool.closest(&pieces, piece, x);
-            (x - foot.point).norm().copysign(foot.gap)
+            (foot.point, foot.normal)
         };
-        (0..pieces.count()).map(gap).fold(f64::INFINITY, nearer)
+        signed(x, (0..pieces.count()).map(foot))
     })
+}
+
+/// Distance of a point from the nearest of the feet on several pieces, each with its outward normal. At an edge that pieces share the
+/// sum of their normals gives the sign, after the pseudonormal of Baerentzen & Aanaes (IEEE Trans. Vis. Comput. Graph. 11, 2005).
+fn signed(x: Vec3, feet: impl Iterator<Item = (Vec3, Vec3)>) -> f64 {
+    let feet: Vec<(f64, Vec3, Vec3)> = feet.map(|(point, normal)| ((x - point).norm(), point, normal)).collect();
+    let Some(&(least, nearest, _)) = feet.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { return f64::INFINITY };
+    let same = feet.iter().filter(|(distance, ..)| *distance <= least * (1.0 + 1e-9));
+    let out = same.fold(Vec3::zero(), |sum, (.., normal)| sum + *normal);
+    least.copysign((x - nearest).dot(out))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Beside the tip of a slender tooth one of its flanks looks away from a point outside, and in a groove towards one inside.
+    #[test]
+    fn edges_have_the_sign_of_both_flanks() {
+        let flanks = [Vec3([0.99, 0.1, 0.0]), Vec3([-0.99, 0.1, 0.0])];
+        let at = |x: f64, y: f64| signed(Vec3([x, y, 0.0]), flanks.iter().map(|normal| (Vec3::zero(), *normal)));
+        assert!(flanks[1].dot(Vec3([0.2, 1.0, 0.0])) < 0.0);
+        assert!((at(0.2, 1.0) - 1.04_f64.sqrt()).abs() < 1e-15);
+        assert!(at(0.2, -1.0) < 0.0);
+        // Away from the edge the nearer of two feet counts alone.
+        let feet = [(Vec3::zero(), flanks[1]), (Vec3([0.19, 1.0, 0.0]), flanks[0])];
+        assert!((signed(Vec3([0.2, 1.0, 0.0]), feet.into_iter()) - 0.01).abs() < 1e-12);
+    }
 }

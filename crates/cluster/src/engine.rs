@@ -241,27 +241,31 @@ impl System {
                 .and_then(|()| checked(ffi::PCGetFailedReason(conditioner, &mut failed)))
         };
         made.map_err(LinearError::Input)?;
-        if failed != ffi::PCFailedReason_PC_NOERROR {
+        // A rank that lacks memory may be the only one that knows.
+        let told = [failed != ffi::PCFailedReason_PC_NOERROR, failed == ffi::PCFailedReason_PC_FACTOR_OUTMEMORY];
+        let mut told = told.map(|yes| f64::from(u8::from(yes)));
+        self.shares.largest(&mut told).map_err(LinearError::Input)?;
+        let [fails, lacks] = told.map(|yes| yes > 0.0);
+        if fails {
             // What once failed is not tried again as it is, nor taken for the factor of the next values.
             // SAFETY: the solver is ours.
             checked(unsafe { ffi::KSPReset(self.solver.raw) }).map_err(LinearError::Other)?;
         }
-        match failed {
-            ffi::PCFailedReason_PC_NOERROR => Ok(true),
-            ffi::PCFailedReason_PC_FACTOR_OUTMEMORY if self.more.len() > 0 => {
-                let (name, more) = (text("-mat_mumps_icntl_14"), text(self.more.next().copied().unwrap_or_default()));
-                // SAFETY: PETSc takes copies of the words.
-                let set = unsafe { ffi::PetscOptionsSetValue(ptr::null_mut(), name.as_ptr(), more.as_ptr()) };
-                checked(set).map_err(LinearError::Other)?;
-                self.set_up(values)
-            }
-            ffi::PCFailedReason_PC_FACTOR_OUTMEMORY => Err(LinearError::Memory(
+        if !lacks {
+            return Ok(!fails);
+        }
+        let Some(more) = self.more.next() else {
+            return Err(LinearError::Memory(
                 "the factor does not fit into the memory of the ranks; more ranks on more machines, an iterative `solver.petsc`, or \
                  where MUMPS only guessed too little, `-mat_mumps_icntl_14 200`"
                     .into(),
-            )),
-            _ => Ok(false),
-        }
+            ));
+        };
+        let [name, more] = ["-mat_mumps_icntl_14", more].map(text);
+        // SAFETY: PETSc takes copies of the words.
+        let set = unsafe { ffi::PetscOptionsSetValue(ptr::null_mut(), name.as_ptr(), more.as_ptr()) };
+        checked(set).map_err(LinearError::Other)?;
+        self.set_up(values)
     }
 
     /// Replaces a right-hand side by what the factor or the iterations make of it.

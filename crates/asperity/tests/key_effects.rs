@@ -25,7 +25,7 @@ fn loaded(deck: &Value) -> Option<Loaded> {
 
 fn model(deck: &Value) -> Option<u64> {
     provide(stand_in);
-    engine::provide(|problem| Box::new(Frontal::new(problem.newton.factors).within(problem.newton.memory)));
+    engine::provide(|problem| Box::new(Frontal::new(problem.newton.factors).within(problem.newton.memory)), || None);
     build(loaded(deck)?).ok().map(|made| print(&made))
 }
 

@@ -504,8 +504,12 @@ impl Look<'_> {
             let beyond = |excused: f64| (found.depth - found.sagitta - excused) / found.size;
             // What a contact reports is the penetration of what it bears, and excuses nothing beside that.
             let told = if found.borne || reported.is_infinite() { reported } else { 0.0 };
-            keep(&mut worst, (beyond(told + known), found));
-            if let Some(length) = found.length.filter(|_| found.borne && found.manner != Manner::Through) {
+            // Nor does it leave what it bears unexplained behind an open profile, which has no inside.
+            if !(found.borne && found.manner == Manner::Behind) {
+                keep(&mut worst, (beyond(told + known), found));
+            }
+            let pressed = found.borne && found.manner != Manner::Through && reported.is_finite();
+            if let Some(length) = found.length.filter(|_| pressed) {
                 keep(&mut deepest, ((found.depth - initial) / length, found));
             }
             // What came through came through, whatever is left between the points of a contact.

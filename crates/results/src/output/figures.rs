@@ -67,7 +67,7 @@ pub static FIGURES: &[Figure] = &[
         "Largest penetration found along rays between the contact points, over the length of the edge or face there.",
         "a finer surface, more points (`gauss`), or the finer side as the surface",
     ),
-    largest("node_depth", "  of a single node").limited(
+    largest("node_depth", "  depth of a single node").limited(
         "0.5",
         "Largest depth of a node of a contact's sides in what it is pressed against, less what overlapped before any motion, over the \
          length of the longest edge or face there. Found by the audit; the penetration of a contact field is a mean around a node.",

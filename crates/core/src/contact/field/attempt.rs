@@ -263,10 +263,9 @@ impl FieldAttempt<'_> {
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (0.0, sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
-        let seen = sums.y[0] + self.closure(slot);
-        let slip = [sums.y[1], sums.y[2]];
-        let lift = self.lift(slot, &past, [seen, slip[0], slip[1]]);
-        let seen = seen + lift;
+        let (here, slip) = (sums.y[0] + self.closure(slot), [sums.y[1], sums.y[2]]);
+        let lift = self.lift(slot, &past, [here, slip[0], slip[1]]);
+        let seen = here + lift;
         if seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
             self.account(slot, (sums.area, stretch), Carried::default(), local);
@@ -302,7 +301,7 @@ impl FieldAttempt<'_> {
             stencil.add_geometric(acting, stretch, sums, &mut local.tangent);
             let slopes = self.stretch_slopes((slot, stretch), y)?;
             add_stretching(&slopes, &stretching, sums, &mut local.tangent);
-            let y = [seen - lift, sums.y[1], sums.y[2]];
+            let y = [here, sums.y[1], sums.y[2]];
             self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.u, y, stretch, sums);
         }
         let carried =

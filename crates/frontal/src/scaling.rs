@@ -16,19 +16,12 @@ pub struct Scaling {
 }
 
 impl Scaling {
-    /// That which brings the largest values of the rows and columns of a matrix close to one.
-    pub fn of(pattern: &Pattern, values: &[f64]) -> Self {
-        let mut scaling = Self::identity(pattern.len());
-        scaling.equilibrate(pattern, values);
-        scaling
-    }
-
-    /// The same where this process has only some of the rows, the others empty: `largest` replaces each of some numbers by the largest
-    /// of all processes.
+    /// That which brings the largest values of the rows and columns of a matrix close to one. Where this process has only some of the
+    /// rows, the others empty, `largest` replaces each of some numbers by the largest of all processes.
     ///
     /// # Errors
     /// Those of `largest`.
-    pub fn of_rows<E>(
+    pub fn of<E>(
         pattern: &Pattern,
         values: &[f64],
         largest: impl FnMut(&mut [f64]) -> Result<(), E>,

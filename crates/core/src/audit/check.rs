@@ -90,10 +90,8 @@ pub(super) struct Found {
     /// What the shape of the two sides explains.
     pub(super) sagitta: f64,
     pub(super) size: f64,
-    /// Length of the longest side at a node; none for points of tools.
-    length: Option<f64>,
-    /// Whether a contact bears it, whose penetration explains a part of its depth.
-    borne: bool,
+    /// The vertex; none for points of tools.
+    vertex: Option<usize>,
     place: Vec3,
     pub(super) manner: Manner,
 }
@@ -346,9 +344,8 @@ impl Look<'_> {
                 let size = a.size_at(vertex).min(b.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), b.surface.body_of(piece)];
                 let other = Other::Whole(other);
-                let borne = self.prepared.bears(self.prepared.pair(own, other), a.surface, vertex);
-                let length = Some(a.length_at(vertex));
-                found(Found { own, other, bodies, depth, sagitta, size, length, borne, place: to, manner });
+                let vertex = Some(vertex);
+                found(Found { own, other, bodies, depth, sagitta, size, vertex, place: to, manner });
             };
             if meet(&[to, to], &b.bounds)
                 && let Some(deep) = b.depth(to)
@@ -373,10 +370,8 @@ impl Look<'_> {
                 let sagitta = a.sagitta_at(vertex) + a.sagitta_of(piece);
                 let size = a.size_at(vertex).min(a.size_of(piece));
                 let bodies = [a.surface.body_at(vertex), a.surface.body_of(piece)];
-                let other = Other::Whole(own);
-                let borne = self.prepared.bears(self.prepared.pair(own, other), a.surface, vertex);
-                let length = Some(a.length_at(vertex));
-                found(Found { own, other, bodies, depth, sagitta, size, length, borne, place, manner });
+                let (other, vertex) = (Other::Whole(own), Some(vertex));
+                found(Found { own, other, bodies, depth, sagitta, size, vertex, place, manner });
             };
             if is_inside(&a.tree, a.bounds, (place, normal), &|piece| !a.surface.touches(vertex, piece)) {
                 let facing = |piece: usize| far(piece) && a.normals[piece].dot(normal) < 0.0;
@@ -401,9 +396,9 @@ impl Look<'_> {
         for (vertex, &place) in a.now.iter().enumerate().filter(|(_, x)| x[0] < 0.0) {
             let body = a.surface.body_at(vertex);
             let size = a.size_at(vertex);
-            let (depth, manner) = (-place[0], Manner::Deep);
-            let (other, bodies, sagitta, length, borne) = (Other::Axis, [body, body], 0.0, None, false);
-            found(Found { own, other, bodies, depth, sagitta, size, length, borne, place, manner });
+            let (depth, sagitta, manner) = (-place[0], 0.0, Manner::Deep);
+            let (other, bodies, vertex) = (Other::Axis, [body, body], Some(vertex));
+            found(Found { own, other, bodies, depth, sagitta, size, vertex, place, manner });
         }
     }
 
@@ -420,11 +415,9 @@ impl Look<'_> {
         for (vertex, &place) in a.now.iter().enumerate() {
             let (size, sagitta) = (a.size_at(vertex), a.sagitta_at(vertex) + tool.sagitta);
             let body = a.surface.body_at(vertex);
-            let borne = self.prepared.bears(pair, a.surface, vertex);
-            let length = Some(a.length_at(vertex));
             let mut report = |depth: f64, bulge: f64, manner: Manner| {
-                let sagitta = sagitta + bulge;
-                found(Found { own, other, bodies: [body, body], depth, sagitta, size, length, borne, place, manner });
+                let (sagitta, vertex) = (sagitta + bulge, Some(vertex));
+                found(Found { own, other, bodies: [body, body], depth, sagitta, size, vertex, place, manner });
             };
             let at = |(i, pose)| tool.withdraw(pose, a.at(vertex, i as f64 / steps as f64));
             let path: Vec<Vec3> = poses.iter().enumerate().map(at).collect();
@@ -477,8 +470,8 @@ impl Look<'_> {
                 let bears = f64::from(u8::from(self.prepared.known[self.prepared.pair(own, other)]));
                 let nose = bears * (curvature * length * length / 8.0).min(0.5 * length);
                 let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
-                let (bodies, length, borne, place) = ([body, body], None, true, here);
-                found(Found { own, other, bodies, depth, sagitta, size, length, borne, place, manner });
+                let (bodies, vertex, place) = ([body, body], None, here);
+                found(Found { own, other, bodies, depth, sagitta, size, vertex, place, manner });
             };
             if meet(&[here, here], &a.bounds)
                 && let Some(deep) = a.depth(here)
@@ -501,16 +494,19 @@ impl Look<'_> {
             let pair = self.prepared.pair(found.own, found.other);
             let (initial, reported) = (self.prepared.initial[pair], self.reported[pair]);
             let known = if self.prepared.known[pair] { initial } else { 0.0 };
+            let own = &self.placed[found.own];
+            // A point of a tool belongs to no side.
+            let borne = found.vertex.is_none_or(|vertex| self.prepared.bears(pair, own.surface, vertex));
             let beyond = |excused: f64| (found.depth - found.sagitta - excused) / found.size;
             // What a contact reports is the penetration of what it bears, and excuses nothing beside that.
-            let told = if found.borne || reported.is_infinite() { reported } else { 0.0 };
+            let told = if borne || reported.is_infinite() { reported } else { 0.0 };
             // Nor does it leave what it bears unexplained behind an open profile, which has no inside.
-            if !(found.borne && found.manner == Manner::Behind) {
+            if !(borne && found.manner == Manner::Behind) {
                 keep(&mut worst, (beyond(told + known), found));
             }
-            let pressed = found.borne && found.manner != Manner::Through && reported.is_finite();
-            if let Some(length) = found.length.filter(|_| pressed) {
-                keep(&mut deepest, ((found.depth - initial) / length, found));
+            let pressed = borne && found.manner != Manner::Through && reported.is_finite();
+            if let Some(vertex) = found.vertex.filter(|_| pressed) {
+                keep(&mut deepest, ((found.depth - initial) / own.length_at(vertex), found));
             }
             // What came through came through, whatever is left between the points of a contact.
             let limit = if found.manner == Manner::Through { self.subject.limit } else { self.limit(pair) };

@@ -123,11 +123,11 @@ impl Stability {
             return false;
         }
         let x = &softest.mode;
-        let shares = look.memory.workspace.shares();
-        let mut image = pattern.times(look.values, x);
-        if shares.complete(&mut image).is_err() {
-            return false;
-        }
+        let times = |x: &[f64]| {
+            let mut product = pattern.times(look.values, x);
+            look.memory.workspace.shares().complete(&mut product).ok().map(|()| product)
+        };
+        let Some(image) = times(x) else { return false };
         let quotient = dot(x, &image);
         let mut way: Vec<f64> = image.iter().zip(x).map(|(image, x)| image - quotient * x).collect();
         if !look.system.substitute(&mut way) {
@@ -141,10 +141,7 @@ impl Stability {
         }
         scale(&mut way, 1.0 / length);
         // The lesser eigenvector of the matrix on the plane of both.
-        let mut moved = pattern.times(look.values, &way);
-        if shares.complete(&mut moved).is_err() {
-            return false;
-        }
+        let Some(moved) = times(&way) else { return false };
         let (mixed, other) = (0.5 * (dot(x, &moved) + dot(&way, &image)), dot(&way, &moved));
         let (mean, half) = (0.5 * (quotient + other), 0.5 * (other - quotient));
         let least = mean - half.hypot(mixed);

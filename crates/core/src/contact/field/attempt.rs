@@ -284,19 +284,18 @@ impl FieldAttempt<'_> {
         }
         stencil.find_forces(sums);
         let n = local.force.len();
-        let mut t = response.stress;
+        let (mut t, y) = (response.stress, [seen, sums.y[1], sums.y[2], 0.0]);
+        let wanted = local.wants_tangent || lift > 0.0;
+        let tangent = if wanted { answer(law, &past, contact.least, &y)? } else { Answer::default() };
         if lift > 0.0 {
-            let y = [seen, sums.y[1], sums.y[2], 0.0];
-            t.copy_from_slice(&extended(answer(law, &past, contact.least, &y)?, lift).stress[..COUNT]);
+            t.copy_from_slice(&extended(tangent, lift).stress[..COUNT]);
         }
         for (c, t) in t.iter().enumerate() {
             let unit = &sums.forces[c * n..(c + 1) * n];
             local.force.iter_mut().zip(unit).for_each(|(force, unit)| *force += stretch * t * unit);
         }
         if local.wants_tangent {
-            let y = [seen, sums.y[1], sums.y[2], 0.0];
-            let slopes = answer(law, &past, contact.least, &y)?.slopes;
-            add_material(&slopes, stretch, sums, &mut local.tangent);
+            add_material(&tangent.slopes, stretch, sums, &mut local.tangent);
             let acting = local.acting.map_or(t, |acting| [acting[0], acting[1], acting[2]]);
             stencil.add_geometric(acting, stretch, sums, &mut local.tangent);
             let slopes = self.stretch_slopes((slot, stretch), y)?;

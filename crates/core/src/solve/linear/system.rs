@@ -336,12 +336,14 @@ impl LinearSystem {
         let of =
             |starts: &Arc<Vec<usize>>, columns: &Arc<Vec<usize>>| Pattern::trusted(starts.clone(), columns.clone());
         let shares = &self.shares;
-        if shares.any(values.iter().any(|value| !value.is_finite())).map_err(LinearError::Input)? {
+        // One rank alone is told by the iterations.
+        let is_infinite = || values.iter().any(|value| !value.is_finite());
+        if shares.with().is_some() && shares.any(is_infinite()).map_err(LinearError::Input)? {
             return Err(LinearError::NotFinite("the stiffness is not finite".into()));
         }
         if self.scaling.is_none() {
             let largest = |x: &mut [f64]| shares.largest(x).map_err(LinearError::Input);
-            self.scaling = Some(Scaling::of_rows(&of(&held.starts, &held.columns), &held.values, largest)?);
+            self.scaling = Some(Scaling::of(&of(&held.starts, &held.columns), &held.values, largest)?);
         }
         let Some(scaling) = &self.scaling else { return Ok(false) };
         // Each increment has its own, made by the same rules as the first.

@@ -192,3 +192,43 @@ fn nodes_that_are_not_there_are_refused() {
     assert!(refused("temperature.block.nodes = []").contains("either `value` or `nodes`"));
     assert!(refused("temperature.block = { value = 1.0, nodes = [[1, 1.0]] }").contains("either `value` or `nodes`"));
 }
+
+/// Drawn while its temperature differs over its height, each point flows at the stress of its own temperature.
+#[test]
+fn each_point_flows_at_its_own_temperature() {
+    let step = "[[step]]
+        increments.count = 10
+        symmetry = [\"block.left\", \"block.bottom\"]
+        displacement.\"block.right\" = { x = 0.08 }
+        temperature.block.nodes = NODES";
+    let deck = |cell: &str, how: &str, strain: &str, nodes: &str| {
+        deck(("plane-strain", cell, how), 0.3, &step.replace("NODES", nodes))
+            .replace("elastic = { young = 1e3, poisson = 0.3 }", "von_mises_johnson_cook = { young = 1e3, poisson = 0.3, yield_stress = 2.0, strength = 1.0, exponent = 0.5, melting_temperature = 100.0 }")
+            .replace("strain = \"small\"", strain)
+    };
+    let cases = [
+        ("quad8", "standard", ""),
+        ("quad8", "f-bar", ""),
+        ("quad4", "f-bar", ""),
+        ("quad8", "standard", "strain = \"small\""),
+    ];
+    for (cell, how, strain) in cases {
+        let strain = if strain.is_empty() { "strain = \"finite\"" } else { strain };
+        let bare = model(&deck(cell, how, strain, "[[1, 1.0]]"), &[]);
+        let nodes = pairs(&bare.mesh.points, |x| 60.0 * x[1]);
+        let model = model(&deck(cell, how, strain, &nodes), &[]);
+        let keep = run(&model);
+        let state = keep.states.last().unwrap();
+        let (mut hottest, mut coldest) = (f64::INFINITY, 0.0_f64);
+        for record in model.bodies[0].0.records(&state.u, &state.histories[0]) {
+            let s = asperity::tensor::Tensor2::from_voigt(std::array::from_fn(|i| record.state[i])).deviator();
+            let flow = (1.5 * s.contract(s)).sqrt() / (2.0 + record.state[6].sqrt());
+            // In first degree a cell has the temperature of its middle.
+            let y =
+                if cell == "quad4" { if record.reference[1] < 0.5 { 0.25 } else { 0.75 } } else { record.reference[1] };
+            assert!((flow - (1.0 - 0.6 * y)).abs() < 1e-6 && record.state[6] > 0.01, "{cell} {how}: {flow} at {y}");
+            (hottest, coldest) = (hottest.min(flow), coldest.max(flow));
+        }
+        assert!(hottest < 0.6 && coldest > 0.8, "{hottest} {coldest}");
+    }
+}

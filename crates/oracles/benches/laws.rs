@@ -40,7 +40,7 @@ fn reached(law: &dyn Material, size: f64) -> Vec<f64> {
     law.initialise(&mut state);
     for _ in 0..5 {
         let mut new = state.clone();
-        if law.update(&deformation(size), 0.1, &state, &mut new).is_ok() {
+        if law.update(&deformation(size), 0.1.into(), &state, &mut new).is_ok() {
             state = new;
         }
     }
@@ -56,7 +56,7 @@ fn updates(criterion: &mut Criterion) {
             let (f, mut new) = (deformation(size), old.clone());
             for (directions, space) in [(Directions::Plane, "plane"), (Directions::Space, "space")] {
                 group.bench_function(format!("{name}, {what}, {space}"), |bencher| {
-                    bencher.iter(|| law.update_with_gradient(&f, 0.1, &old, &mut new, directions).is_ok());
+                    bencher.iter(|| law.update_with_gradient(&f, 0.1.into(), &old, &mut new, directions).is_ok());
                 });
             }
         }

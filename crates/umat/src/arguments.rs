@@ -63,7 +63,7 @@ pub struct Arguments<'a> {
     /// That of the step and that of the run, which are one.
     time: [f64; 2],
     dt: f64,
-    /// TEMP, DTEMP, PREDEF and DPRED: no fields.
+    /// TEMP, DTEMP, and PREDEF and DPRED: no other fields.
     fields: [f64; 4],
     name: &'a [u8; 80],
     properties: &'a [f64],
@@ -106,7 +106,7 @@ impl<'a> Arguments<'a> {
             strain: call.strain,
             time: [call.time[0]; 2],
             dt: call.time[1],
-            fields: [0.0; 4],
+            fields: [call.temperature[0], call.temperature[1] - call.temperature[0], 0.0, 0.0],
             name,
             properties,
             place: at.place.0,

@@ -7,7 +7,7 @@ use asperity::deck::{self, LoadedPoint, load_point};
 use asperity::solve::{AttemptRecord, Observer, RunOptions, Stop};
 use asperity::system::State;
 use std::path::Path;
-use support::{examples, library};
+use support::{examples, library, library_of};
 
 const J2: &str = "{ young = 200e3, poisson = 0.3, yield_stress = 300.0, hardening = 2e3 }";
 const ELASTIC: &str = "{ young = 200e3, poisson = 0.3 }";
@@ -149,4 +149,34 @@ fn structures_are_those_of_the_law_of_the_program() {
     let own = format!("{{ elastic = {ELASTIC} }}");
     agree("bar.toml", &own, &elastic(&library), &[]);
     agree("beam.toml", &own, &elastic(&library), &[]);
+}
+
+/// A law whose yield stress follows `TEMP` and `DTEMP`: the J2 of the example at the stress of the temperature of each point, in the
+/// middle of a deck that heats its body.
+#[test]
+fn a_law_is_told_of_the_temperature() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = std::fs::read_to_string(examples().join("j2.c")).unwrap();
+    let heading = source.find("umat_(").unwrap();
+    let body = heading + source[heading..].find('{').unwrap() + 1;
+    let told = format!("{}\n statev[1] = *temp; statev[2] = *dtemp;\n{}", &source[..body], &source[body..]);
+    let Some(library) = library_of(&told, "told.c", folder.path()) else { return };
+    let deck = format!(
+        "version = 1
+        space = \"plane-strain\"
+        mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [1.0, 1.0], cells = [1, 1], cell = \"quad8\" }}
+        material.m = {}
+        body.block = {{ material = \"m\", expansion = 1e-6 }}
+        [[step]]
+        increments.count = 4
+        symmetry = [\"block.left\", \"block.bottom\"]
+        displacement.\"block.right\" = {{ x = 0.01 }}
+        temperature.block.value = 80.0",
+        umat(&library, "properties = [200e3, 0.3, 300.0, 2e3], states = 3")
+    );
+    let path = folder.path().join("heated.toml");
+    std::fs::write(&path, deck).unwrap();
+    let (state, _) = solved(path.to_str().unwrap(), &[]);
+    let told = &state.histories[0].slot(0)[7..9];
+    assert_eq!(told, [60.0, 20.0]);
 }

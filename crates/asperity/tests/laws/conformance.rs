@@ -38,7 +38,7 @@ fn moved(material: &dyn Material, state: &[f64], f: &Tensor2, place: (usize, usi
     let mut f = *f;
     f[place] += h;
     let mut new = state.to_vec();
-    material.update(&f, 0.1, state, &mut new).ok()?;
+    material.update(&f, 0.1.into(), state, &mut new).ok()?;
     Some(std::array::from_fn(|i| new[i]))
 }
 
@@ -102,7 +102,9 @@ fn compare_tangents(seed: u64, states: usize, sample: &Sample) {
         let state = reached(material, &mut random);
         let f = random.deformation([-5.0, -1.5]);
         let mut new = state.clone();
-        let Ok(c) = material.update_with_gradient(&f, 0.1, &state, &mut new, Directions::Space) else { continue };
+        let Ok(c) = material.update_with_gradient(&f, 0.1.into(), &state, &mut new, Directions::Space) else {
+            continue;
+        };
         for d in 0..9 {
             match compare(material, &state, &f, d, &c) {
                 Some(Column::Error(error)) => {
@@ -133,11 +135,11 @@ fn turned_solids_have_turned_stresses() {
             let state = reached(material, &mut random);
             let (q, f) = (random.rotation(), random.deformation([-5.0, -1.5]));
             let (mut plain, mut other) = (state.clone(), state.clone());
-            if material.update(&f, 0.1, &state, &mut plain).is_err() {
+            if material.update(&f, 0.1.into(), &state, &mut plain).is_err() {
                 continue;
             }
             let before = turned(material, &state, &q);
-            material.update(&(q * f * q.transpose()), 0.1, &before, &mut other).unwrap();
+            material.update(&(q * f * q.transpose()), 0.1.into(), &before, &mut other).unwrap();
             let wanted = turned(material, &plain, &q);
             let difference = largest(&(stress(&wanted) - stress(&other)));
             // What the elastic increment brings in and the return takes out again is rounded at its own size.
@@ -156,7 +158,7 @@ fn rigid_rotations_turn_the_stress_and_nothing_else() {
             let (state, q) = (reached(material, &mut random), random.rotation());
             let mut new = state.clone();
             // Without time, so that nothing creeps.
-            material.update(&q, 0.0, &state, &mut new).unwrap();
+            material.update(&q, 0.0.into(), &state, &mut new).unwrap();
             let difference = largest(&(stress(&turned(material, &state, &q)) - stress(&new)));
             let scale = largest(&stress(&state)).max(1e-2 * material.moduli()[0]);
             assert!(difference < 1e-12 * scale, "{}: {difference} of {scale}", sample.name);
@@ -173,7 +175,7 @@ fn no_increment_gives_out_energy() {
             let mut state = initial(material);
             for _ in 0..8 {
                 let mut new = state.clone();
-                if material.update(&random.deformation([-4.5, -1.5]), 0.1, &state, &mut new).is_err() {
+                if material.update(&random.deformation([-4.5, -1.5]), 0.1.into(), &state, &mut new).is_err() {
                     continue;
                 }
                 let lost = material.dissipation(&state, &new);
@@ -209,7 +211,9 @@ fn search_what_is_no_number(seed: u64, states: usize) {
             let f = random.deformation([-9.0, 0.3]);
             let dt = 10_f64.powf(6.0 * random.number());
             let mut new = state.clone();
-            let Ok(c) = material.update_with_gradient(&f, dt, &state, &mut new, Directions::Space) else { continue };
+            let Ok(c) = material.update_with_gradient(&f, dt.into(), &state, &mut new, Directions::Space) else {
+                continue;
+            };
             good += 1;
             let finite = new.iter().chain(c.iter().flatten()).all(|x| x.is_finite());
             assert!(finite, "{}: {new:?} after {state:?} by {f:?} in {dt}", sample.name);
@@ -228,8 +232,8 @@ fn the_plain_update_is_the_one_with_the_tangent() {
             let state = reached(material, &mut random);
             let f = random.deformation([-5.0, -1.5]);
             let (mut plain, mut dual) = (state.clone(), state.clone());
-            let with = material.update_with_gradient(&f, 0.1, &state, &mut dual, Directions::Space);
-            assert_eq!(with.is_ok(), material.update(&f, 0.1, &state, &mut plain).is_ok(), "{}", sample.name);
+            let with = material.update_with_gradient(&f, 0.1.into(), &state, &mut dual, Directions::Space);
+            assert_eq!(with.is_ok(), material.update(&f, 0.1.into(), &state, &mut plain).is_ok(), "{}", sample.name);
             if with.is_ok() {
                 let scale = plain.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
                 let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-13 * scale;

@@ -25,6 +25,26 @@ fn the_flow_stress_jumps_with_the_rate() {
     }
 }
 
+/// The same while the temperature rises to 0.6 of that of melting; the matrix of porous metal flows on Gurson's surface.
+#[test]
+fn the_flow_stress_follows_the_temperature() {
+    let records = run("johnson_cook_heated", &[]);
+    for (record, strain) in
+        records.iter().zip(["equivalent_plastic_strain", "equivalent_plastic_strain", "matrix_plastic_strain"])
+    {
+        let column = |name: &str| record.column(name).unwrap();
+        let [time, p, stress, mean] = ["time", strain, "stress_xx", "mean_stress"].map(column);
+        let porosity = if record.name == "porous" { column("porosity") } else { vec![0.0; time.len()] };
+        for i in 2..time.len() {
+            let (rate, t) = ((p[i] - p[i - 1]) / (time[i] - time[i - 1]), 0.6 * (time[i] / 0.05 - 1.0).max(0.0));
+            let flow = (350.0 + 275.0 * p[i].powf(0.36)) * (1.0 + 0.05 * rate.max(1.0).ln()) * (1.0 - t.powf(1.2));
+            let (q, f) = (stress[i] / flow, porosity[i]);
+            let surface = q * q + 3.0 * f * (1.5 * mean[i] / flow).cosh() - 1.0 - 2.25 * f * f;
+            assert!(surface.abs() < 1e-8, "{}: {surface:e} at {i}", record.name);
+        }
+    }
+}
+
 /// Beyond its last point a measured curve goes on with the slope that is said.
 #[test]
 fn a_curve_goes_on_beyond_its_end() {

@@ -96,7 +96,7 @@ pub fn reached(material: &dyn Material, random: &mut Random) -> Vec<f64> {
     let mut state = initial(material);
     for _ in 0..4 {
         let mut new = state.clone();
-        if material.update(&random.deformation([-4.5, -2.0]), 0.1, &state, &mut new).is_ok() {
+        if material.update(&random.deformation([-4.5, -2.0]), 0.1.into(), &state, &mut new).is_ok() {
             state = new;
         }
     }

@@ -15,11 +15,11 @@ fn stress(material: &dyn Material, update: Update) -> Result<Tensor2, Failure> {
     let mut stretch = Tensor2::identity() * 0.995;
     stretch[(0, 0)] = 1.0105;
     let mut new = state.clone();
-    material.update(&stretch, 1e-3, &state, &mut new).unwrap();
+    material.update(&stretch, 1e-3.into(), &state, &mut new).unwrap();
     let mut shear = Tensor2::identity();
     (shear[(0, 1)], shear[(1, 0)], shear[(1, 1)]) = (0.01, 0.01, 1.002);
     let mut end = new.clone();
-    law.update(&shear, 1e-3, &new, &mut end)?;
+    law.update(&shear, 1e-3.into(), &new, &mut end)?;
     Ok(super::samples::stress(&end))
 }
 

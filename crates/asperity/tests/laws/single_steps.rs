@@ -1,8 +1,10 @@
 //! Single returns and steady states against their closed forms, law by law without the driver.
 
+use super::samples::initial;
 use asperity::declare::find;
-use asperity::material::Material;
+use asperity::integrate::{Scheme, Update};
 use asperity::material::laws::ALL;
+use asperity::material::{Lapse, Material};
 use asperity::tensor::Tensor2;
 
 fn law(name: &str, values: &[f64]) -> Box<dyn Material> {
@@ -15,7 +17,7 @@ fn after(material: &dyn Material, stress: [f64; 6], dt: f64) -> Vec<f64> {
     material.initialise(&mut old);
     old[..6].copy_from_slice(&stress);
     let mut new = old.clone();
-    material.update(&Tensor2::identity(), dt, &old, &mut new).unwrap();
+    material.update(&Tensor2::identity(), dt.into(), &old, &mut new).unwrap();
     new
 }
 
@@ -51,7 +53,7 @@ fn factors_of_norton_and_hoff() {
         [dt, -0.5 * dt, -0.5 * dt].iter().enumerate().for_each(|(i, e)| f[(i, i)] = e.exp());
         for _ in 0..100 {
             let mut new = old.clone();
-            metal.update(&f, dt, &old, &mut new).unwrap();
+            metal.update(&f, dt.into(), &old, &mut new).unwrap();
             old = new;
         }
         near(3.0_f64.sqrt() * invariants(&old)[1] / 100.0, factor, 1e-5);
@@ -113,4 +115,39 @@ fn matrix_and_joint_agree() {
         let shear = (t.iter().map(|t| t * t).sum::<f64>() - normal * normal).max(0.0).sqrt();
         assert!(normal <= 0.5 + 1e-10 && shear + normal * 30f64.to_radians().tan() <= 1.0 + 1e-10, "{normal} {shear}");
     }
+}
+
+/// Stretched, and then sheared while it cools and hardens by it: sub-steps keep their order, and increments alike.
+#[test]
+fn a_temperature_that_changes_keeps_the_order() {
+    let values = [200e3, 0.3, 350.0, 275.0, 0.36, 0.0, 1.0, 0.0, 1000.0, 1.2, 5e3, 20.0];
+    let plain = law("von_mises_johnson_cook", &values);
+    let mut stretch = Tensor2::identity() * 0.995;
+    stretch[(0, 0)] = 1.0105;
+    let mut begun = initial(plain.as_ref());
+    plain.update(&stretch, Lapse { dt: 1.0, temperature: Some([600.0; 2]) }, &begun.clone(), &mut begun).unwrap();
+    let end = |scheme: Scheme, substeps: usize, increments: usize| {
+        let law = plain.with_update(Update { scheme, substeps, tolerance: None }).unwrap();
+        let (mut state, part) = (begun.clone(), 0.01 / increments as f64);
+        let mut shear = Tensor2::identity() * part.cosh();
+        (shear[(0, 1)], shear[(1, 0)], shear[(2, 2)]) = (part.sinh(), part.sinh(), 1.0);
+        for number in 0..increments {
+            let at = |number: usize| 600.0 - 400.0 * number as f64 / increments as f64;
+            let lapse = Lapse { dt: 1.0, temperature: Some([at(number), at(number + 1)]) };
+            law.update(&shear, lapse, &state.clone(), &mut state).unwrap();
+        }
+        super::samples::stress(&state)
+    };
+    for (scheme, least) in [(Scheme::BackwardEuler, 0.9), (Scheme::TwoStep, 1.9), (Scheme::Midpoint(0.5), 1.9)] {
+        let order = |of: &dyn Fn(usize) -> Tensor2| {
+            let exact = of(8192);
+            let error = |n: usize| (of(n) - exact).contract(of(n) - exact).sqrt();
+            (error(32) / error(512)).log2() / 4.0
+        };
+        let (substeps, increments) = (order(&|n| end(scheme, n, 1)), order(&|n| end(scheme, 1, n)));
+        assert!(substeps > least && increments > least, "{scheme:?}: {substeps} {increments}");
+    }
+    let melts = Lapse { dt: 1.0, temperature: Some([990.0, 1000.0]) };
+    let reason = plain.update(&stretch, melts, &begun, &mut begun.clone()).unwrap_err().reason;
+    assert!(reason.contains("melting"), "{reason}");
 }

@@ -60,15 +60,16 @@ const SHARED: f64 = 0.5;
 const AT_A_KINK: u32 = 6;
 
 impl Update {
-    /// The state at the end of an increment that begins with `start`; `step(state, h)` takes one implicit step over
-    /// the fraction `h` of the increment, and with `h = 0` returns to the admissible states.
+    /// The state at the end of an increment that begins with `start`; `step(state, h, end)` takes one implicit step over
+    /// the fraction `h` of the increment to its fraction `end`, and with `h = 0` returns to the admissible states.
     ///
     /// # Errors
     /// The failure of a step; with a tolerance, that of a sub-step that was halved too often.
-    pub fn advance<S: Blend>(&self, start: S, step: impl Fn(&S, f64) -> Result<S, Failure>) -> Result<S, Failure> {
+    pub fn advance<S: Blend>(&self, start: S, step: impl Fn(&S, f64, f64) -> Result<S, Failure>) -> Result<S, Failure> {
         let h = 1.0 / self.substeps as f64;
         match self.tolerance {
-            None => (0..self.substeps).try_fold(start, |state, _| self.scheme.step(&state, h, &step)),
+            None => (0..self.substeps)
+                .try_fold(start, |state, number| self.scheme.step(&state, [number as f64 * h, h], &step)),
             Some(tolerance) => self.controlled(start, tolerance, &step),
         }
     }
@@ -79,7 +80,7 @@ impl Update {
         &self,
         start: S,
         tolerance: f64,
-        step: &impl Fn(&S, f64) -> Result<S, Failure>,
+        step: &impl Fn(&S, f64, f64) -> Result<S, Failure>,
     ) -> Result<S, Failure> {
         const MOST: u64 = 1 << HALVINGS;
         let end = self.substeps as u64 * MOST;
@@ -87,7 +88,7 @@ impl Update {
         let (mut largest, mut reserve) = (start.size(), (1.0 - SHARED) * tolerance);
         while done < end {
             let h = part as f64 / end as f64;
-            let tried = self.scheme.compared(&state, h, step);
+            let tried = self.scheme.compared(&state, [done as f64 / end as f64, h], step);
             if let Ok((next, off)) = &tried {
                 let size = largest.max(next.size());
                 let (error, share) = (if *off > 0.0 { off / size } else { 0.0 }, SHARED * tolerance * h);
@@ -112,13 +113,21 @@ impl Update {
 }
 
 impl Scheme {
-    fn step<S: Blend>(&self, from: &S, h: f64, step: &impl Fn(&S, f64) -> Result<S, Failure>) -> Result<S, Failure> {
+    /// One sub-step over `h` from the fraction `begun` of the increment.
+    fn step<S: Blend>(
+        &self,
+        from: &S,
+        [begun, h]: [f64; 2],
+        step: &impl Fn(&S, f64, f64) -> Result<S, Failure>,
+    ) -> Result<S, Failure> {
         match *self {
-            Self::BackwardEuler => step(from, h),
-            Self::Midpoint(theta) => step(&from.blend(&step(from, theta * h)?, 1.0 / theta), 0.0),
+            Self::BackwardEuler => step(from, h, begun + h),
+            Self::Midpoint(theta) => {
+                step(&from.blend(&step(from, theta * h, begun + theta * h)?, 1.0 / theta), 0.0, begun + h)
+            }
             Self::TwoStep => {
                 let g = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-                step(&from.blend(&step(from, g * h)?, (1.0 - g) / g), g * h)
+                step(&from.blend(&step(from, g * h, begun + g * h)?, (1.0 - g) / g), g * h, begun + h)
             }
         }
     }
@@ -127,11 +136,11 @@ impl Scheme {
     fn compared<S: Blend>(
         &self,
         from: &S,
-        h: f64,
-        step: &impl Fn(&S, f64) -> Result<S, Failure>,
+        [begun, h]: [f64; 2],
+        step: &impl Fn(&S, f64, f64) -> Result<S, Failure>,
     ) -> Result<(S, f64), Failure> {
-        let whole = self.step(from, h, step)?;
-        let halves = self.step(&self.step(from, 0.5 * h, step)?, 0.5 * h, step)?;
+        let whole = self.step(from, [begun, h], step)?;
+        let halves = self.step(&self.step(from, [begun, 0.5 * h], step)?, [begun + 0.5 * h, 0.5 * h], step)?;
         let error = whole.distance(&halves);
         if error.is_finite() { Ok((halves, error)) } else { Err(Failure::new("a sub-step of the law is not finite")) }
     }
@@ -155,7 +164,8 @@ mod tests {
 
     /// `y' = -y^2` from 1: `1 / (1 + t)`, here over t = 2.
     fn decay(update: Update) -> f64 {
-        let euler = |y: &f64, h: f64| Ok(if h == 0.0 { *y } else { ((1.0 + 8.0 * h * y).sqrt() - 1.0) / (4.0 * h) });
+        let euler =
+            |y: &f64, h: f64, _: f64| Ok(if h == 0.0 { *y } else { ((1.0 + 8.0 * h * y).sqrt() - 1.0) / (4.0 * h) });
         update.advance(1.0, euler).unwrap()
     }
 
@@ -182,10 +192,10 @@ mod tests {
 
     #[test]
     fn a_step_that_fails_is_halved_and_then_told() {
-        let picky = |y: &f64, h: f64| if h > 0.1 { Err(Failure::new("too far")) } else { Ok(y + h) };
+        let picky = |y: &f64, h: f64, _: f64| if h > 0.1 { Err(Failure::new("too far")) } else { Ok(y + h) };
         let update = Update { tolerance: Some(1e-3), ..Update::default() };
         assert!((update.advance(0.0, picky).unwrap() - 1.0).abs() < 1e-14);
-        let never = |_: &f64, _: f64| Err(Failure::new("never"));
+        let never = |_: &f64, _: f64, _: f64| Err(Failure::new("never"));
         assert_eq!(update.advance(0.0, never).unwrap_err().reason, "never");
     }
 }

@@ -91,7 +91,7 @@ impl<L: InterfaceLaw> InterfaceLaw for Integrated<L> {
     fn respond<T: Scalar>(&self, motion: &Motion<T>, past: &Past<T>, vars: &mut [T]) -> Result<Response<T>, Failure> {
         let n = vars.len();
         let way = motion.penetration - past.penetration;
-        let step = |from: &Point<T>, part: f64| {
+        let step = |from: &Point<T>, part: f64, _: f64| {
             let penetration = from.penetration + way * part;
             let (pressure, shear) = (from.response.pressure, from.response.shear);
             // Only the extrapolation of the midpoint rule can lead beyond the slip.

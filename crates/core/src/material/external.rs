@@ -15,8 +15,8 @@ use super::rate::{INSIDE_OUT, stress_of};
 use super::small::NO_RATE;
 use super::turned::Turn;
 use super::{
-    Directions, Flow, Gradient, Material, Spin, Variable, VariableKind, green_naghdi, hughes_winget, laws::Elastic,
-    logarithmic,
+    Directions, Flow, Gradient, Lapse, Material, Spin, Variable, VariableKind, green_naghdi, hughes_winget,
+    laws::Elastic, logarithmic,
 };
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
@@ -86,6 +86,8 @@ pub struct Call<'a> {
     pub strain: [[f64; 6]; 2],
     /// Time at the beginning, and the length of the increment.
     pub time: [f64; 2],
+    /// Temperatures at the beginning and at the end, zero where the body has none.
+    pub temperature: [f64; 2],
     /// Deformation gradients at the beginning and at the end.
     pub deformation: [Tensor2; 2],
     /// Rotation of the increment.
@@ -240,7 +242,7 @@ impl External {
         let mut f = Tensor2::identity();
         f[(0, 0)] += PROBE;
         let turn = self.turn(&f, &old)?;
-        let tangent = self.end(&turn, &f, 1.0, &old, &mut new)?;
+        let tangent = self.end(&turn, &f, 1.0.into(), &old, &mut new)?;
         let [confined, shear] = [tangent[0], tangent[3 + 3 * self.components]];
         self.elastic =
             (shear > 0.0 && confined > 4.0 / 3.0 * shear).then_some(Elastic { lambda: confined - 2.0 * shear, shear });
@@ -276,12 +278,19 @@ impl External {
     }
 
     /// The state at the end of an increment, and the tangent of the law.
-    fn end(&self, turn: &Turn<f64>, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<[f64; 36], Failure> {
+    fn end(
+        &self,
+        turn: &Turn<f64>,
+        f: &Tensor2,
+        lapse: Lapse,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Result<[f64; 36], Failure> {
         self.admissible()?;
         let (first, states) = (self.kept(), 6..self.kept());
         new[states.clone()].copy_from_slice(&old[states.clone()]);
         let (head, kept) = new.split_at_mut(first);
-        let mut call = self.call(turn, f, dt, (old, &mut head[6..]));
+        let mut call = self.call(turn, f, lapse, (old, &mut head[6..]));
         let (start, strain, end) = (call.stress, call.strain, call.deformation[1]);
         self.law.call(&mut call).map_err(|failure| self.blamed(failure))?;
         let (stress, tangent, energies) = (call.stress, call.tangent, call.energies);
@@ -301,7 +310,7 @@ impl External {
             kept[ENERGIES] = stored;
             kept[ENERGIES + 1] += work - (stored - old[first + ENERGIES]);
         }
-        kept[TIME] = old[first + TIME] + dt;
+        kept[TIME] = old[first + TIME] + lapse.dt;
         kept[NUMBER] = old[first + NUMBER] + 1.0;
         kept[CELL..MEMORY].copy_from_slice(&old[first + CELL..first + MEMORY]);
         if matches!(self.frame, Frame::Turned(_)) {
@@ -311,7 +320,13 @@ impl External {
     }
 
     /// What the law is told of an increment.
-    fn call<'a>(&self, turn: &Turn<f64>, f: &Tensor2, dt: f64, (old, states): (&[f64], &'a mut [f64])) -> Call<'a> {
+    fn call<'a>(
+        &self,
+        turn: &Turn<f64>,
+        f: &Tensor2,
+        lapse: Lapse,
+        (old, states): (&[f64], &'a mut [f64]),
+    ) -> Call<'a> {
         let (kept, q) = (&old[self.kept()..], turn.q);
         let turned = |t: Tensor2| (q * t * q.transpose()).sym();
         let begun = Tensor2::from_fn(|i, j| kept[DEFORMATION + 3 * i + j]);
@@ -323,7 +338,8 @@ impl External {
             tangent: [0.0; 36],
             energies: std::array::from_fn(|i| kept[ENERGIES + i]),
             strain: [customary(&turned(stress_of(kept)), 2.0), customary(&turn.de, 2.0)],
-            time: [kept[TIME], dt],
+            time: [kept[TIME], lapse.dt],
+            temperature: lapse.temperature.unwrap_or_default(),
             deformation: [begun, if small { begun + *f - Tensor2::identity() } else { *f * begun }],
             rotation: q,
             small,
@@ -350,7 +366,14 @@ impl External {
 
     /// Compares the tangent with differences, each strain to both sides; a corner of the law is left out. What is wrong is told
     /// from then on, since a step that fails is shortened until it does not.
-    fn compare(&self, turn: &Turn<f64>, f: &Tensor2, dt: f64, old: &[f64], tangent: &[f64; 36]) -> Result<(), Failure> {
+    fn compare(
+        &self,
+        turn: &Turn<f64>,
+        f: &Tensor2,
+        lapse: Lapse,
+        old: &[f64],
+        tangent: &[f64; 36],
+    ) -> Result<(), Failure> {
         let n = self.components;
         let most = customary(&turn.de, 2.0).iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let fewer = |left: usize| if most > 0.0 { left.checked_sub(1) } else { None };
@@ -360,7 +383,7 @@ impl External {
         let (step, mut states) = ((STEP * most).max(LEAST_STEP), vec![0.0; self.states.len()]);
         let mut stress = |j: usize, step: f64| {
             states.copy_from_slice(&old[6..self.kept()]);
-            let mut call = self.call(turn, f, dt, (old, &mut states));
+            let mut call = self.call(turn, f, lapse, (old, &mut states));
             call.strain[1][j] += step;
             self.law.call(&mut call).map(|()| call.stress).map_err(|failure| self.blamed(failure))
         };
@@ -393,15 +416,15 @@ impl Differentiate for External {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
         let dual = self.turn(&seeded::<N>(f, directions.components()), old)?;
         let turn = Turn { de: dual.de.re(), q: dual.q.re(), memory: dual.memory };
-        let tangent = self.end(&turn, f, dt, old, new)?;
-        self.compare(&turn, f, dt, old, &tangent)?;
+        let tangent = self.end(&turn, f, lapse, old, new)?;
+        self.compare(&turn, f, lapse, old, &tangent)?;
         let stress = stress_of(new);
         for d in 0..directions.components().len() {
             let slope = |t: &Tensor2<Dual<N>>| Tensor2::from_fn(|i, j| t[(i, j)].du[d]);
@@ -466,19 +489,19 @@ impl Material for External {
         Ok(Box::new(Self { frame: Frame::Still, ..self.clone() }))
     }
 
-    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        self.end(&self.turn(f, old)?, f, dt, old, new).map(|_| ())
+    fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        self.end(&self.turn(f, old)?, f, lapse, old, new).map(|_| ())
     }
 
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.advance_along(f, dt, old, out, directions)
+        self.advance_along(f, lapse, old, out, directions)
     }
 
     fn moduli(&self) -> [f64; 2] {

@@ -3,7 +3,7 @@
 
 use super::memory::{Memory, Remembering};
 use super::rate::INSIDE_OUT;
-use super::{Directions, Gradient, Material, Spin, Variable, VariableKind};
+use super::{Directions, Gradient, Lapse, Material, Spin, Variable, VariableKind};
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
 use crate::{Failure, FailureKind};
@@ -99,7 +99,7 @@ impl<L: HyperLaw> Material for Hyper<L> {
         Ok(Box::new(Remembering::new(self.0.clone(), memory.clone())?))
     }
 
-    fn update(&self, f: &Tensor2, _dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+    fn update(&self, f: &Tensor2, _lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         let (_, b) = carried(f, old)?;
         write(&self.0.stress(&b)?, &b, new);
         Ok(())
@@ -109,7 +109,7 @@ impl<L: HyperLaw> Material for Hyper<L> {
     fn differentiate(
         &self,
         f: &Tensor2,
-        _dt: f64,
+        _lapse: Lapse,
         old: &[f64],
         (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,

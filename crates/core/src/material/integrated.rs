@@ -3,7 +3,7 @@
 //! The strain of the objective frame is cut into equal parts of constant rate; stress and variables carry their
 //! derivatives from one sub-step to the next, so the tangent is that of the whole.
 
-use super::{Flow, Material, RateLaw, Spin, Variable, Vars};
+use super::{Flow, Lapse, Material, RateLaw, Spin, Variable, Vars};
 use crate::Failure;
 use crate::integrate::{Blend, Update};
 use crate::tensor::{Scalar, Tensor2};
@@ -53,10 +53,10 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         vars: &Self::Vars<T>,
-        dt: f64,
+        lapse: Lapse,
     ) -> Result<(Tensor2<T>, Self::Vars<T>), Failure> {
-        let step = |from: &Point<T, L::Vars<T>>, part: f64| {
-            let (stress, vars) = self.law.update(de * T::from(part), from.stress, &from.vars, dt * part)?;
+        let step = |from: &Point<T, L::Vars<T>>, part: f64, end: f64| {
+            let (stress, vars) = self.law.update(de * T::from(part), from.stress, &from.vars, lapse.part(part, end))?;
             Ok(Point { stress, vars, scalar: PhantomData })
         };
         let end = self.update.advance(Point { stress, vars: *vars, scalar: PhantomData }, step)?;

@@ -8,6 +8,31 @@ use crate::declare::Variable;
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
 
+/// What goes on over an increment at a point besides its deformation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lapse {
+    /// The time that it takes.
+    pub dt: f64,
+    /// The temperature at its beginning and at its end, above that at which the undeformed body is free of stress; none where the
+    /// body has no temperature.
+    pub temperature: Option<[f64; 2]>,
+}
+
+impl From<f64> for Lapse {
+    /// A time, without temperature.
+    fn from(dt: f64) -> Self {
+        Self { dt, temperature: None }
+    }
+}
+
+impl Lapse {
+    /// A part of it that ends at the fraction `end`. The temperature changes evenly.
+    pub fn part(self, part: f64, end: f64) -> Self {
+        let warm = |[from, to]: [f64; 2]| [end - part, end].map(|at| from + (to - from) * at);
+        Self { dt: self.dt * part, temperature: self.temperature.map(warm) }
+    }
+}
+
 /// The components of the deformation gradient along which a derivative is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Directions {
@@ -53,7 +78,7 @@ pub(super) trait Differentiate {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
@@ -63,15 +88,15 @@ pub(super) trait Differentiate {
     fn advance_along(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
         match directions {
-            Directions::Plane => self.advance_dual::<4>(f, dt, old, out, directions),
-            Directions::PlaneAndNormal => self.advance_dual::<5>(f, dt, old, out, directions),
-            Directions::Space => self.advance_dual::<9>(f, dt, old, out, directions),
+            Directions::Plane => self.advance_dual::<4>(f, lapse, old, out, directions),
+            Directions::PlaneAndNormal => self.advance_dual::<5>(f, lapse, old, out, directions),
+            Directions::Space => self.advance_dual::<9>(f, lapse, old, out, directions),
         }
     }
 }
@@ -79,19 +104,25 @@ pub(super) trait Differentiate {
 /// What finds the end of an increment in numbers of any kind.
 pub(super) trait Advance {
     /// The stress at the end of an increment, whose state is written to `new`.
-    fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure>;
+    fn advance<T: Scalar>(
+        &self,
+        f: &Tensor2<T>,
+        lapse: Lapse,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Result<Tensor2<T>, Failure>;
 }
 
 impl<L: Advance> Differentiate for L {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        let stress = self.advance(&seeded::<N>(f, directions.components()), dt, old, new)?;
+        let stress = self.advance(&seeded::<N>(f, directions.components()), lapse, old, new)?;
         write_slopes(&stress.to_voigt(), gradient);
         Ok(())
     }
@@ -170,7 +201,7 @@ pub trait Material: Send + Sync {
     ///
     /// # Errors
     /// A [`Failure`] when the deformation is inadmissible or a local iteration does not converge.
-    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure>;
+    fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure>;
     /// The same, and the derivative of the stress along the components of `f`; what of the gradient belongs to no direction
     /// stays as it is.
     ///
@@ -179,7 +210,7 @@ pub trait Material: Send + Sync {
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
@@ -191,13 +222,13 @@ pub trait Material: Send + Sync {
     fn update_with_gradient(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         new: &mut [f64],
         directions: Directions,
     ) -> Result<Gradient, Failure> {
         let mut gradient = Gradient::default();
-        self.differentiate(f, dt, old, (new, &mut gradient), directions)?;
+        self.differentiate(f, lapse, old, (new, &mut gradient), directions)?;
         Ok(gradient)
     }
     /// Recoverable energy per current volume.
@@ -233,7 +264,7 @@ pub trait Material: Send + Sync {
         self.initialise(&mut state);
         let old = state.clone();
         let identity = Tensor2::identity();
-        let gradient = self.update_with_gradient(&identity, 1.0, &old, &mut state, Directions::Plane);
+        let gradient = self.update_with_gradient(&identity, 1.0.into(), &old, &mut state, Directions::Plane);
         gradient.map_or([0.0; 2], |c| [c[0][0], c[3][1]])
     }
 }

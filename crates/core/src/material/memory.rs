@@ -16,7 +16,7 @@
 use super::hyper::{HyperLaw, left_cauchy_green};
 use super::law::{Advance, Differentiate};
 use super::rate::INSIDE_OUT;
-use super::{Directions, Gradient, Hyper, Material, Spin, Variable, VariableKind};
+use super::{Directions, Gradient, Hyper, Lapse, Material, Spin, Variable, VariableKind};
 use crate::integrate::Update;
 use crate::tensor::{Scalar, Tensor2};
 use crate::{Failure, FailureKind};
@@ -155,7 +155,13 @@ impl<L: HyperLaw> Remembering<L> {
 }
 
 impl<L: HyperLaw> Advance for Remembering<L> {
-    fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
+    fn advance<T: Scalar>(
+        &self,
+        f: &Tensor2<T>,
+        lapse: Lapse,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Result<Tensor2<T>, Failure> {
         let det = f.det();
         if det.re() <= 0.0 {
             return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
@@ -182,7 +188,7 @@ impl<L: HyperLaw> Advance for Remembering<L> {
         let before = if self.memory.prony.is_empty() { Tensor2::zero() } else { carry(self.softened(old)?) };
         new[TAKEN] = old[TAKEN];
         for (i, [share, time]) in self.memory.prony.iter().enumerate() {
-            let x = dt / time;
+            let x = lapse.dt / time;
             let grown = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
             let (start, step) = (carry(Self::overstress(old, i)), shape - before);
             let h = start * T::from((-x).exp()) + step * T::from(grown);
@@ -238,19 +244,19 @@ impl<L: HyperLaw> Material for Remembering<L> {
         Hyper(self.law.clone()).with_small_strain()
     }
 
-    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        self.advance(f, dt, old, new).map(|_| ())
+    fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        self.advance(f, lapse, old, new).map(|_| ())
     }
 
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.advance_along(f, dt, old, out, directions)
+        self.advance_along(f, lapse, old, out, directions)
     }
 
     fn has_potential(&self) -> bool {

@@ -9,7 +9,7 @@
 use super::frame::{Frame, InPlane, InSpace, Turning};
 use super::integrated::Integrated;
 use super::law::{self, Differentiate};
-use super::{Directions, Flow, Gradient, Material, SmallStrain, Spin, Turned, Variable, Vars};
+use super::{Directions, Flow, Gradient, Lapse, Material, SmallStrain, Spin, Turned, Variable, Vars};
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
 use crate::{Failure, FailureKind};
@@ -27,7 +27,7 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     /// Fills in what is not zero in the state before any strain: six stress components, then the variables.
     fn initial(&self, _state: &mut [f64]) {}
 
-    /// Stress and variables after the strain increment `de` over the time `dt`, by one implicit step. With no strain
+    /// Stress and variables after the strain increment `de` over `lapse`, by one implicit step. With no strain
     /// and no time the nearest admissible stress.
     ///
     /// # Errors
@@ -37,12 +37,18 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         vars: &Self::Vars<T>,
-        dt: f64,
+        lapse: Lapse,
     ) -> Result<(Tensor2<T>, Self::Vars<T>), Failure>;
 
     /// Lame's constants of a step in which the stress grows by `lambda tr(de) I + 2 G de` and nothing else changes:
     /// its derivative then needs no duals through the law. None where the law does not know.
-    fn elastic_step(&self, _de: &Tensor2, _stress: &Tensor2, _vars: &Self::Vars<f64>) -> Option<[f64; 2]> {
+    fn elastic_step(
+        &self,
+        _de: &Tensor2,
+        _stress: &Tensor2,
+        _vars: &Self::Vars<f64>,
+        _lapse: Lapse,
+    ) -> Option<[f64; 2]> {
         None
     }
 
@@ -97,13 +103,19 @@ pub(super) const INSIDE_OUT: &str = "a cell is turned inside out";
 
 impl<L: RateLaw> Rate<L> {
     /// Stress and variables at the end of an increment seen in `frame`.
-    fn end(&self, frame: &Frame<f64>, dt: f64, old: &[f64]) -> Result<(Tensor2, L::Vars<f64>), Failure> {
-        self.0.update(frame.de, frame.stress, &L::Vars::<f64>::read(&old[6..]).rotate(&frame.q), dt)
+    fn end(&self, frame: &Frame<f64>, lapse: Lapse, old: &[f64]) -> Result<(Tensor2, L::Vars<f64>), Failure> {
+        self.0.update(frame.de, frame.stress, &L::Vars::<f64>::read(&old[6..]).rotate(&frame.q), lapse)
     }
 
     /// New state at the end of an increment seen in `frame`.
-    pub(super) fn update_in(&self, frame: &Frame<f64>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        let (stress, vars) = self.end(frame, dt, old)?;
+    pub(super) fn update_in(
+        &self,
+        frame: &Frame<f64>,
+        lapse: Lapse,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Result<(), Failure> {
+        let (stress, vars) = self.end(frame, lapse, old)?;
         new[..6].copy_from_slice(&stress.to_voigt());
         vars.write(&mut new[6..]);
         Ok(())
@@ -113,15 +125,15 @@ impl<L: RateLaw> Rate<L> {
     pub(super) fn advance_in<const N: usize>(
         &self,
         turning: &impl Turning,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         (new, gradient): (&mut [f64], &mut Gradient),
         places: &[(usize, usize)],
     ) -> Result<(), Failure> {
         let frame = turning.values();
         let vars = L::Vars::<f64>::read(&old[6..]).rotate(&frame.q);
-        if let Some(lame) = self.0.elastic_step(&frame.de, &frame.stress, &vars) {
-            let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, dt)?;
+        if let Some(lame) = self.0.elastic_step(&frame.de, &frame.stress, &vars, lapse) {
+            let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, lapse)?;
             new[..6].copy_from_slice(&stress.to_voigt());
             vars.write(&mut new[6..]);
             turning.elastic_gradient(lame, places, gradient);
@@ -129,7 +141,7 @@ impl<L: RateLaw> Rate<L> {
         }
         let frame = turning.duals::<N>(places);
         let vars = L::Vars::<Dual<N>>::read(&old[6..]).rotate(&frame.q);
-        let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, dt)?;
+        let (stress, vars) = self.0.update(frame.de, frame.stress, &vars, lapse)?;
         let stress = stress.to_voigt();
         new[..6].copy_from_slice(&stress.map(Scalar::re));
         vars.write(&mut new[6..]);
@@ -142,7 +154,7 @@ impl<L: RateLaw> Differentiate for Rate<L> {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
@@ -152,9 +164,9 @@ impl<L: RateLaw> Differentiate for Rate<L> {
         }
         let (stress, places) = (stress_of(old), directions.components());
         if N == 9 {
-            self.advance_in::<N>(&InSpace::new(f, &stress), dt, old, out, places)
+            self.advance_in::<N>(&InSpace::new(f, &stress), lapse, old, out, places)
         } else {
-            self.advance_in::<N>(&InPlane::new(f, &stress), dt, old, out, places)
+            self.advance_in::<N>(&InPlane::new(f, &stress), lapse, old, out, places)
         }
     }
 }
@@ -172,7 +184,7 @@ impl<L: RateLaw> Material for Rate<L> {
     /// A stress that an increment of nothing leaves as it is.
     fn bears(&self, state: &[f64]) -> Result<(), String> {
         let (borne, _) = self
-            .end(&Frame::of(&Tensor2::identity(), &stress_of(state)), 0.0, state)
+            .end(&Frame::of(&Tensor2::identity(), &stress_of(state)), 0.0.into(), state)
             .map_err(|failure| failure.reason)?;
         let given = stress_of(state);
         let off = borne - given;
@@ -194,22 +206,22 @@ impl<L: RateLaw> Material for Rate<L> {
         Ok(Box::new(SmallStrain::new(self.0.clone())))
     }
 
-    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+    fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         if f.det() <= 0.0 {
             return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
         }
-        self.update_in(&Frame::of(f, &stress_of(old)), dt, old, new)
+        self.update_in(&Frame::of(f, &stress_of(old)), lapse, old, new)
     }
 
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.advance_along(f, dt, old, out, directions)
+        self.advance_along(f, lapse, old, out, directions)
     }
 
     fn axes_at(&self) -> Option<usize> {

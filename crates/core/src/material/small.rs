@@ -4,7 +4,7 @@
 use super::frame::{Still, Turning};
 use super::law::Differentiate;
 use super::rate::stress_of;
-use super::{Directions, Flow, Gradient, Material, Rate, RateLaw, Spin, Variable};
+use super::{Directions, Flow, Gradient, Lapse, Material, Rate, RateLaw, Spin, Variable};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::Tensor2;
@@ -24,12 +24,12 @@ impl<L: RateLaw> Differentiate for SmallStrain<L> {
     fn advance_dual<const N: usize>(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.0.advance_in::<N>(&Still::new(f, &stress_of(old)), dt, old, out, directions.components())
+        self.0.advance_in::<N>(&Still::new(f, &stress_of(old)), lapse, old, out, directions.components())
     }
 }
 
@@ -58,19 +58,19 @@ impl<L: RateLaw> Material for SmallStrain<L> {
         Ok(Box::new(self.clone()))
     }
 
-    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        self.0.update_in(&Still::new(f, &stress_of(old)).values(), dt, old, new)
+    fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        self.0.update_in(&Still::new(f, &stress_of(old)).values(), lapse, old, new)
     }
 
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         out: (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.advance_along(f, dt, old, out, directions)
+        self.advance_along(f, lapse, old, out, directions)
     }
 
     fn axes_at(&self) -> Option<usize> {

@@ -8,7 +8,7 @@ use super::law::{Advance, Differentiate};
 use super::rate::{INSIDE_OUT, stress_of};
 use super::small::NO_RATE;
 use super::{
-    Directions, Flow, Gradient, Material, Rate, RateLaw, Variable, VariableKind, Vars, green_naghdi, logarithmic,
+    Directions, Flow, Gradient, Lapse, Material, Rate, RateLaw, Variable, VariableKind, Vars, green_naghdi, logarithmic,
 };
 use crate::integrate::Update;
 use crate::tensor::{Scalar, Tensor2};
@@ -56,7 +56,13 @@ impl<L: RateLaw> Turned<L> {
 }
 
 impl<L: RateLaw> Advance for Turned<L> {
-    fn advance<T: Scalar>(&self, f: &Tensor2<T>, dt: f64, old: &[f64], new: &mut [f64]) -> Result<Tensor2<T>, Failure> {
+    fn advance<T: Scalar>(
+        &self,
+        f: &Tensor2<T>,
+        lapse: Lapse,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Result<Tensor2<T>, Failure> {
         if f.det().re() <= 0.0 {
             return Err(Failure::new(INSIDE_OUT).of(FailureKind::Inverted));
         }
@@ -68,7 +74,7 @@ impl<L: RateLaw> Advance for Turned<L> {
         };
         let stress = q * stress_of(old).lift() * q.transpose();
         let vars = L::Vars::<T>::read(&old[6..at]).rotate(&q);
-        let (stress, vars) = self.law.update(de, stress, &vars, dt)?;
+        let (stress, vars) = self.law.update(de, stress, &vars, lapse)?;
         new[..6].copy_from_slice(&stress.re().to_voigt());
         vars.write(&mut new[6..at]);
         new[at..at + 6].copy_from_slice(&memory.to_voigt());
@@ -123,19 +129,19 @@ impl<L: RateLaw> Material for Turned<L> {
         Err(NO_RATE.into())
     }
 
-    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        self.advance(f, dt, old, new).map(|_| ())
+    fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+        self.advance(f, lapse, old, new).map(|_| ())
     }
 
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        self.advance_along(f, dt, old, (new, gradient), directions)
+        self.advance_along(f, lapse, old, (new, gradient), directions)
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {

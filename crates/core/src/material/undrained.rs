@@ -3,7 +3,7 @@
 //! `u = -K_w/n tr(e)`. The skeleton follows its own law, which sees the effective stress (Terzaghi 1923). The stress of the
 //! beginning is effective: the pressure that the water had then is none of the excess.
 
-use super::{Directions, Flow, Gradient, Material, Placement, Spin, Variable, VariableKind};
+use super::{Directions, Flow, Gradient, Lapse, Material, Placement, Spin, Variable, VariableKind};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::Tensor2;
@@ -124,9 +124,9 @@ impl Material for Undrained {
         self.soil.advice()
     }
 
-    fn update(&self, f: &Tensor2, dt: f64, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
+    fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
         let last = old.len() - 1;
-        Self::effective(old, |old| self.soil.update(f, dt, old, &mut new[..last]))?;
+        Self::effective(old, |old| self.soil.update(f, lapse, old, &mut new[..last]))?;
         self.fill(f, old, new);
         Ok(())
     }
@@ -135,14 +135,14 @@ impl Material for Undrained {
     fn differentiate(
         &self,
         f: &Tensor2,
-        dt: f64,
+        lapse: Lapse,
         old: &[f64],
         (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
         let last = old.len() - 1;
         let out = (&mut new[..last], &mut *gradient);
-        Self::effective(old, |old| self.soil.differentiate(f, dt, old, out, directions))?;
+        Self::effective(old, |old| self.soil.differentiate(f, lapse, old, out, directions))?;
         self.fill(f, old, new);
         let along = if self.small { Tensor2::identity() } else { f.inverse().transpose() };
         for (d, &place) in directions.components().iter().enumerate() {

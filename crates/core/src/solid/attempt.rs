@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::gradient::{Gradients, MOST, PointGradient, Rows, padded};
-use super::heat::Stretch;
+use super::heat::Warmth;
 use super::incompatible::take_mean;
 use super::operator::{Nodal, Tangent, add_forces, deformation};
 use super::plane_stress;
@@ -26,8 +26,8 @@ pub(super) struct OpenBody<'a> {
     /// Gradients at the points of each cell; [`PART`] cells in each part.
     pub gradients: Vec<Gradients>,
     pub dt: f64,
-    /// Thermal stretches at the end of the increment, where the body has a temperature.
-    pub stretch: Option<Stretch<'a>>,
+    /// Temperatures over the increment, where the body has any.
+    pub warmth: Option<Warmth<'a>>,
 }
 
 impl Attempt for OpenBody<'_> {
@@ -198,7 +198,7 @@ impl OpenBody<'_> {
         let mut sums = self.sums::<DIM, D, N>(tangent);
         sums.means = shared.map(|_| Means::default());
         sums.differentiated |= keep.is_some();
-        let heat = shared.and_then(|_| self.shared_stretch(index));
+        let heat = shared.and_then(|_| self.shared_warmth(index));
         let lanes = self.history.slot(index).chunks_exact(len).zip(new.chunks_exact_mut(len));
         for (number, ((rows, begun, f), (old, new))) in points.zip(lanes).enumerate() {
             let thickness = self.body.thickness(old);
@@ -210,8 +210,9 @@ impl OpenBody<'_> {
                 sums.law.shared = Some(theta);
                 (volume, place) = (at.volume * begun, Some((at, begun)));
             }
-            let stretch = self.stretch_at((index, number), heat.as_ref());
-            if let Some(now) = stretch {
+            let warmth = self.warmth_at((index, number), heat.as_ref());
+            if let Some((temperature, now)) = warmth {
+                sums.law.lapse.temperature = Some(temperature);
                 (sums.law.free, sums.law.cooling) = self.body.options.strain.of_heat(old[len - 1], now);
             }
             let added = sums.add((rows, volume, &f), place.as_ref(), (old, new));
@@ -220,7 +221,7 @@ impl OpenBody<'_> {
                 keep(number, &sums.s, volume);
             }
             self.account((old, new), (volume, det), local);
-            if let Some(stretch) = stretch {
+            if let Some((_, stretch)) = warmth {
                 new[len - 1] = stretch;
                 let strain = sums.law.free.ln() + sums.law.cooling;
                 local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * strain;
@@ -235,8 +236,8 @@ impl OpenBody<'_> {
         tangent: Option<&'s mut Tangent<DIM, N>>,
     ) -> Sums<'s, DIM, D, N> {
         let strain = self.body.options.strain;
-        let (material, space, dt) = (self.body.material.as_ref(), self.body.space, self.dt);
-        let law = PointLaw { material, space, strain, dt, shared: None, free: 1.0, cooling: 0.0 };
+        let (material, space, lapse) = (self.body.material.as_ref(), self.body.space, self.dt.into());
+        let law = PointLaw { material, space, strain, lapse, shared: None, free: 1.0, cooling: 0.0 };
         let (force, s) = ([[0.0; N]; DIM], PointStress::default());
         let differentiated = tangent.is_some();
         Sums { law, force, means: None, tangent, differentiated, s }

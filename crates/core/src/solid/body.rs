@@ -302,15 +302,15 @@ impl Term for Body {
     /// Without stress, also at the temperature that it then has.
     fn returned(&self, accepted: &State, at: Instant, _: f64) -> Result<History, Failure> {
         let mut history = self.begun(None);
-        let stretch = self.heat.as_ref().map(|heat| heat.stretch(at)).transpose()?;
-        if stretch.is_some() {
+        let warmth = self.heat.as_ref().map(|heat| heat.over(at)).transpose()?;
+        if warmth.is_some() {
             let before = history.clone();
-            let open = OpenBody { body: self, accepted, history: &before, gradients: vec![], dt: 0.0, stretch };
+            let open = OpenBody { body: self, accepted, history: &before, gradients: vec![], dt: 0.0, warmth };
             for slot in 0..self.cells.len() {
                 let own = matches!(self.shapes(self.kind(slot)).bar, Bar::Own);
-                let shared = if own { None } else { open.shared_stretch(slot) };
+                let shared = if own { None } else { open.shared_warmth(slot) };
                 for (point, state) in history.slot_mut(slot).chunks_exact_mut(self.point_len()).enumerate() {
-                    let warm = open.stretch_at((slot, point), shared.as_ref());
+                    let warm = open.warmth_at((slot, point), shared.as_ref()).map(|(_, stretch)| stretch);
                     state.iter_mut().last().zip(warm).into_iter().for_each(|(last, warm)| *last = warm);
                 }
             }
@@ -340,8 +340,8 @@ impl Term for Body {
         at: Instant,
     ) -> Result<Box<dyn Attempt + 'a>, Failure> {
         let gradients = self.gradients(&self.options.strain.base(&accepted.u))?;
-        let stretch = self.heat.as_ref().map(|heat| heat.stretch(at)).transpose()?;
-        Ok(Box::new(OpenBody { body: self, accepted, history, gradients, dt: at.dt, stretch }))
+        let warmth = self.heat.as_ref().map(|heat| heat.over(at)).transpose()?;
+        Ok(Box::new(OpenBody { body: self, accepted, history, gradients, dt: at.dt, warmth }))
     }
 
     fn name_of(&self, stencil: usize) -> String {

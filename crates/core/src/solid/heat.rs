@@ -1,5 +1,5 @@
 //! Thermal strain: a prescribed temperature stretches a body alike in all directions, by `1 + alpha T` against its size
-//! at the reference temperature. The law sees the rest of the deformation, `f (1 + alpha T_n)/(1 + alpha T_n+1)`.
+//! at the reference temperature. The law sees the rest of the deformation, `f (1 + alpha T_n)/(1 + alpha T_n+1)`, and the temperature.
 //!
 //! Where nodes have temperatures of their own, that of a point has the degree of the strain that its cell can have: the mean of
 //! its corners in cells of first degree, linear between the corners in those of second; with reduced integration all nodes count, since
@@ -44,31 +44,42 @@ impl Temperature {
 }
 
 impl Heat {
-    /// Thermal stretches at an instant.
+    /// Temperatures over an increment.
     ///
     /// # Errors
     /// A [`Failure`] where nothing of the body would be left.
-    pub(super) fn stretch(&self, at: Instant) -> Result<Stretch<'_>, Failure> {
-        let stretch = |course: &Timeline| 1.0 + self.expansion * course.value(at.step, at.step_time);
-        let courses: Vec<f64> = self.temperature.courses.iter().map(stretch).collect();
-        if courses.iter().all(|&stretch| stretch > 0.0) {
-            Ok(Stretch { courses, of: &self.temperature.of })
+    pub(super) fn over(&self, at: Instant) -> Result<Warmth<'_>, Failure> {
+        let (begun, courses) = (at.step_time - at.dt, &self.temperature.courses);
+        let over = |course: &Timeline| [begun, at.step_time].map(|time| course.value(at.step, time));
+        let warmth =
+            Warmth { expansion: self.expansion, courses: courses.iter().map(over).collect(), of: &self.temperature.of };
+        if warmth.courses.iter().all(|&[_, now]| warmth.stretch(now) > 0.0) {
+            Ok(warmth)
         } else {
             Err(Failure::new("the cold leaves nothing of the body"))
         }
     }
 }
 
-/// Thermal stretches at an instant, by the nodes.
-pub(super) struct Stretch<'a> {
-    courses: Vec<f64>,
+/// Temperatures at the beginning and at the end of an increment, by the nodes.
+pub(super) struct Warmth<'a> {
+    expansion: f64,
+    courses: Vec<[f64; 2]>,
     of: &'a [usize],
 }
 
-impl Stretch<'_> {
+impl Warmth<'_> {
     /// At a point, by the nodes of its cell and their weights there.
-    fn at(&self, nodes: &[usize], weights: &[f64]) -> f64 {
-        nodes.iter().zip(weights).map(|(&node, weight)| self.courses[self.of[node]] * weight).sum()
+    fn at(&self, nodes: &[usize], weights: &[f64]) -> [f64; 2] {
+        let of = |time: usize| {
+            nodes.iter().zip(weights).map(|(&node, weight)| self.courses[self.of[node]][time] * weight).sum()
+        };
+        [of(0), of(1)]
+    }
+
+    /// What a temperature stretches.
+    pub(super) fn stretch(&self, temperature: f64) -> f64 {
+        1.0 + self.expansion * temperature
     }
 }
 
@@ -86,30 +97,36 @@ pub(super) fn weights(kind: &Cell, xi: [f64; 3], integration: Integration, modes
 }
 
 impl OpenBody<'_> {
-    /// Terms of the thermal stretch of a cell with F-bar whose nodes have stretches of their own.
-    pub(super) fn shared_stretch(&self, index: usize) -> Option<Functions> {
-        let stretch = self.stretch.as_ref().filter(|stretch| !stretch.of.is_empty())?;
-        let mut terms = Functions::default();
+    /// Terms of the temperatures of a cell with F-bar whose nodes have temperatures of their own.
+    pub(super) fn shared_warmth(&self, index: usize) -> Option<[Functions; 2]> {
+        let warmth = self.warmth.as_ref().filter(|warmth| !warmth.of.is_empty())?;
+        let mut terms = [Functions::default(); 2];
         for &member in self.body.patches.members(index) {
             let nodes = self.nodes(member);
             let points = &self.body.shapes(self.body.kind(member)).warmth;
             for (weights, place) in points.iter().zip(self.body.places.cell(member)) {
-                let weight = place.volume * stretch.at(nodes, weights);
-                terms.iter_mut().zip(place.functions).for_each(|(term, phi)| *term += weight * phi);
+                for (terms, at) in terms.iter_mut().zip(warmth.at(nodes, weights)) {
+                    terms.iter_mut().zip(place.functions).for_each(|(term, phi)| *term += place.volume * at * phi);
+                }
             }
         }
         Some(terms)
     }
 
-    /// Thermal stretch at a point of a cell, where the body has a temperature.
-    pub(super) fn stretch_at(&self, (index, point): (usize, usize), shared: Option<&Functions>) -> Option<f64> {
-        let stretch = self.stretch.as_ref()?;
-        if stretch.of.is_empty() {
-            return stretch.courses.first().copied();
-        }
-        Some(match shared {
-            Some(terms) => value(terms, &self.body.places.cell(index)[point].functions),
-            None => stretch.at(self.nodes(index), &self.body.shapes(self.body.kind(index)).warmth[point]),
-        })
+    /// Temperatures over the increment at a point of a cell, and the thermal stretch at its end, where the body has a temperature.
+    pub(super) fn warmth_at(
+        &self,
+        (index, point): (usize, usize),
+        shared: Option<&[Functions; 2]>,
+    ) -> Option<([f64; 2], f64)> {
+        let warmth = self.warmth.as_ref()?;
+        let at = if warmth.of.is_empty() {
+            *warmth.courses.first()?
+        } else if let Some(terms) = shared {
+            [0, 1].map(|time| value(&terms[time], &self.body.places.cell(index)[point].functions))
+        } else {
+            warmth.at(self.nodes(index), &self.body.shapes(self.body.kind(index)).warmth[point])
+        };
+        Some((at, warmth.stretch(at[1])))
     }
 }

@@ -17,7 +17,7 @@ fn solve(law: &PointLaw, f: &Tensor2, old: &[f64], new: &mut [f64]) -> Result<Te
     let (mut f, mut c) = (*f, Gradient::default());
     for _ in 0..LIMIT {
         let (seen, out) = (law.seen(&f), (&mut *new, &mut c));
-        law.material.differentiate(&seen, law.dt, old, out, Directions::PlaneAndNormal)?;
+        law.material.differentiate(&seen, law.lapse, old, out, Directions::PlaneAndNormal)?;
         let change = -new[2] / (c[2][4] * law.free);
         f[(2, 2)] += change.clamp(-0.5 * f[(2, 2)], f[(2, 2)]);
         if change.abs() <= 4.0 * f64::EPSILON {

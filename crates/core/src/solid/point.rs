@@ -7,7 +7,7 @@
 
 use super::Strain;
 use super::piola::{Derivative, VOIGT, first_piola, place};
-use crate::material::{Directions, Gradient, Material};
+use crate::material::{Directions, Gradient, Lapse, Material};
 use crate::mesh::Space;
 use crate::tensor::Tensor2;
 use crate::{Failure, FailureKind};
@@ -53,8 +53,8 @@ pub struct PointLaw<'a> {
     pub space: Space,
     /// Kinematics.
     pub strain: Strain,
-    /// Length of the increment.
-    pub dt: f64,
+    /// Length of the increment, and the temperature over it.
+    pub lapse: Lapse,
     /// `theta` where F-bar is used; in small strain one and the shared trace.
     pub shared: Option<f64>,
     /// What heat leaves of a unit of deformation to the law,
@@ -104,7 +104,7 @@ impl PointLaw<'_> {
             return self.small_stress(f, old, new, out);
         }
         out.det = self.admissible(f)?;
-        self.material.update(&(self.bar(f, out.det).0 * self.free), self.dt, old, new)?;
+        self.material.update(&(self.bar(f, out.det).0 * self.free), self.lapse, old, new)?;
         let stress = self.working_on_f(new, out);
         let volume = self.shared.unwrap_or(out.det);
         let p = first_piola(&stress, &(f.inverse() * volume));
@@ -144,7 +144,13 @@ impl PointLaw<'_> {
         }
         let det = self.admissible(f)?;
         let (bar, power) = self.bar(f, det);
-        self.material.differentiate(&(bar * self.free), self.dt, old, (&mut *new, &mut out.law), self.directions())?;
+        self.material.differentiate(
+            &(bar * self.free),
+            self.lapse,
+            old,
+            (&mut *new, &mut out.law),
+            self.directions(),
+        )?;
         if self.free != 1.0 {
             out.law.iter_mut().for_each(|row| row[..D].iter_mut().for_each(|c| *c *= self.free));
         }

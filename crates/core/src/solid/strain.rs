@@ -94,7 +94,7 @@ impl PointLaw<'_> {
         new: &mut [f64],
         out: &mut PointStress<D>,
     ) -> Result<(), Failure> {
-        self.material.update(&self.small_seen(f), self.dt, old, new)?;
+        self.material.update(&self.small_seen(f), self.lapse, old, new)?;
         self.small_values(new, out);
         Ok(())
     }
@@ -108,7 +108,7 @@ impl PointLaw<'_> {
         out: &mut PointStress<D>,
     ) -> Result<(), Failure> {
         let seen = self.small_seen(f);
-        self.material.differentiate(&seen, self.dt, old, (&mut *new, &mut out.law), self.directions())?;
+        self.material.differentiate(&seen, self.lapse, old, (&mut *new, &mut out.law), self.directions())?;
         let mut along = [0.0; 6];
         if self.shared.is_some() {
             let traced = |d: &usize| matches!(place::<D>(*d), (i, j) if i == j && i < self.axes());

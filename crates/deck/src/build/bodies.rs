@@ -125,7 +125,9 @@ impl Builder<'_> {
                 None
             }
             (None, _, Some((at, _))) => {
-                self.refuse(format!("`temperature.{name}` has no use: the body `{name}` has no `expansion`"), at.place);
+                let what =
+                    format!("`temperature.{name}` has no use: the body `{name}` has no `expansion` (which may be 0)");
+                self.refuse(what, at.place);
                 None
             }
         }

@@ -93,7 +93,9 @@ impl Builder<'_> {
                 && !known.is_empty()
                 && !expanding.any(|(body, _)| !self.warmed(&body.text, name, keys).is_empty())
             {
-                let what = format!("`temperature.{name}` has no use: no body of its nodes has an `expansion`");
+                let what = format!(
+                    "`temperature.{name}` has no use: no body of its nodes has an `expansion` (which may be 0)"
+                );
                 self.refuse(what, name.place);
             }
         }

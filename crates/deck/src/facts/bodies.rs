@@ -138,7 +138,7 @@ fn yields(material: &dyn Material, shear: f64) -> [Option<f64>; 2] {
     let mut stress = |gamma: f64| {
         let mut f = Tensor2::identity();
         f[(0, 1)] = gamma;
-        material.update(&f, SLOWLY, &old, &mut new).ok().map(|()| new[3].abs())
+        material.update(&f, SLOWLY.into(), &old, &mut new).ok().map(|()| new[3].abs())
     };
     let mut gamma = SHEARS[0];
     while gamma < SHEARS[1] {

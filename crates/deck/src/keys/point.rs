@@ -54,6 +54,8 @@ table! {
         strain: Strains = table_of().or("{}"),
         /// Stresses that are prescribed, reached at the end of the step.
         stress: Stresses = table_of().or("{}"),
+        /// Temperature above that of the room, reached at the end of the step; it stretches nothing.
+        temperature: Option<f64> = number(unit::TEMPERATURE, Range::ANY).unless_given("what it was, at first 0"),
     }
 }
 
@@ -141,6 +143,7 @@ impl PointStep {
             duration: self.duration,
             increments: self.increments,
             controls: std::array::from_fn(control),
+            temperature: self.temperature,
         }
     }
 }

@@ -25,6 +25,8 @@ pub struct Stage {
     pub increments: usize,
     /// What is prescribed of each component.
     pub controls: [PathControl; 6],
+    /// The temperature at its end; none where it stays.
+    pub temperature: Option<f64>,
 }
 
 impl PathControl {

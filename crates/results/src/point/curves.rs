@@ -103,7 +103,8 @@ mod tests {
     fn a_loop_of_stress_has_a_picture_of_its_own() {
         let mut controls = [PathControl::Stress(0.0); 6];
         controls[1] = PathControl::Strain(0.1);
-        let curves = Curve::standard(&[Stage { name: String::new(), duration: 1.0, increments: 1, controls }]);
+        let stage = Stage { name: String::new(), duration: 1.0, increments: 1, controls, temperature: None };
+        let curves = Curve::standard(&[stage]);
         assert_eq!((curves[0].file_name().as_str(), curves[0].y.len()), ("stress_yy_over_strain_yy", 1));
         let axes = curves[2].chart("", &[]).axes;
         assert_eq!(axes, ["mean stress".to_string(), "von Mises stress".to_string()]);

@@ -2,7 +2,7 @@
 
 use super::probe::deformation;
 use asperity_core::Failure;
-use asperity_core::material::{Directions, Gradient, Material};
+use asperity_core::material::{Directions, Gradient, Lapse, Material};
 use asperity_core::tensor::Tensor2;
 use frontal::Full;
 
@@ -25,7 +25,8 @@ pub(super) struct Increment<'a> {
     pub strain: [f64; 6],
     /// Prescribed stresses; where there is none the strain is prescribed.
     pub stress: [Option<f64>; 6],
-    pub dt: f64,
+    /// Its time and temperature.
+    pub lapse: Lapse,
     /// Stiffness of the undeformed solid, which says what is rounding.
     pub modulus: f64,
 }
@@ -68,7 +69,7 @@ impl Increment<'_> {
     fn trial(&self, strain: [f64; 6]) -> Result<Trial, Failure> {
         let mut new = vec![0.0; self.old.len()];
         let f = deformation(&strain) * deformation(&self.strain).inverse();
-        let gradient = self.material.update_with_gradient(&f, self.dt, self.old, &mut new, Directions::Space)?;
+        let gradient = self.material.update_with_gradient(&f, self.lapse, self.old, &mut new, Directions::Space)?;
         if !new.iter().chain(gradient.iter().flatten()).all(|x| x.is_finite()) {
             return Err(Failure::new("the stress is not finite"));
         }

@@ -3,7 +3,7 @@
 use super::course::{COMPONENTS, PathControl, Stage};
 use super::newton::Increment;
 use super::tangent::PointTangentCheck;
-use asperity_core::material::Material;
+use asperity_core::material::{Lapse, Material};
 use asperity_core::tensor::Tensor2;
 use asperity_core::{Error, Failure};
 
@@ -20,6 +20,8 @@ pub struct MaterialPointDriver<'a> {
     pub state: Vec<f64>,
     /// Time.
     pub time: f64,
+    /// Temperature above that of the room.
+    pub temperature: f64,
     /// Energy dissipated so far per undeformed volume.
     pub dissipated: f64,
     /// Compares the tangents of all increments with differences, where it is asked to.
@@ -43,7 +45,17 @@ impl<'a> MaterialPointDriver<'a> {
             state[..6].copy_from_slice(&stress);
         }
         let [modulus, _] = material.moduli();
-        Self { material, strain: [0.0; 6], state, time: 0.0, dissipated: 0.0, check: None, rate: [0.0; 6], modulus }
+        Self {
+            material,
+            strain: [0.0; 6],
+            state,
+            time: 0.0,
+            temperature: 0.0,
+            dissipated: 0.0,
+            check: None,
+            rate: [0.0; 6],
+            modulus,
+        }
     }
 
     /// Goes along a stage and calls `seen` at the end of each of its increments. An increment that the law or the
@@ -79,12 +91,14 @@ impl<'a> MaterialPointDriver<'a> {
 
     fn attempt(&mut self, ends: &Ends, [from, to]: [f64; 2]) -> Result<(), Failure> {
         let dt = ends.duration * (to - from);
+        let [cold, hot] = ends.temperature;
+        let lapse = Lapse { dt, temperature: Some([self.temperature, cold + (hot - cold) * to]) };
         let increment = Increment {
             material: self.material,
             old: &self.state,
             strain: self.strain,
             stress: ends.stress.map(|two| two.map(|[start, end]| start + (end - start) * to)),
-            dt,
+            lapse,
             modulus: self.modulus,
         };
         let guess = |rate: &[f64; 6]| -> [f64; 6] {
@@ -94,13 +108,14 @@ impl<'a> MaterialPointDriver<'a> {
         let (strain, new) = solved?;
         if let Some(check) = &mut self.check {
             let f = deformation(&strain) * deformation(&self.strain).inverse();
-            check.compare(self.material, (&self.state, &f, dt), ends.time + ends.duration * to);
+            check.compare(self.material, (&self.state, &f, lapse), ends.time + ends.duration * to);
         }
         let volume = strain[0] + strain[1] + strain[2];
         self.dissipated += self.material.dissipation(&self.state, &new) * volume.exp();
         self.rate = std::array::from_fn(|i| (strain[i] - self.strain[i]) / dt);
         (self.strain, self.state) = (strain, new);
         self.time = ends.time + ends.duration * to;
+        self.temperature = cold + (hot - cold) * to;
         Ok(())
     }
 
@@ -122,6 +137,7 @@ struct Ends {
     duration: f64,
     strain: [Option<[f64; 2]>; 6],
     stress: [Option<[f64; 2]>; 6],
+    temperature: [f64; 2],
 }
 
 impl Ends {
@@ -136,6 +152,7 @@ impl Ends {
             duration: stage.duration,
             strain: std::array::from_fn(strain),
             stress: std::array::from_fn(stress),
+            temperature: [probe.temperature, stage.temperature.unwrap_or(probe.temperature)],
         }
     }
 }

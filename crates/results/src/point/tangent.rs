@@ -1,6 +1,6 @@
 //! The tangent of a law against differences along a driven path.
 
-use asperity_core::material::{Directions, Gradient, Material};
+use asperity_core::material::{Directions, Gradient, Lapse, Material};
 use asperity_core::tensor::Tensor2;
 
 /// Sizes of the differences of a component of the deformation, the smallest last.
@@ -26,16 +26,18 @@ pub struct PointTangentCheck {
 
 impl PointTangentCheck {
     /// Compares the tangent of an increment by the deformation `f` from the state `old`, whose end has a time.
-    pub(super) fn compare(&mut self, material: &dyn Material, (old, f, dt): (&[f64], &Tensor2, f64), time: f64) {
+    pub(super) fn compare(&mut self, material: &dyn Material, (old, f, lapse): (&[f64], &Tensor2, Lapse), time: f64) {
         let mut new = old.to_vec();
-        let Ok(gradient) = material.update_with_gradient(f, dt, old, &mut new, Directions::Space) else { return };
+        let Ok(gradient) = material.update_with_gradient(f, lapse, old, &mut new, Directions::Space) else {
+            return;
+        };
         let largest = gradient.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         let scale = largest.max(1e-3 * material.moduli()[0]);
         for d in 0..9 {
             let moved = |h: f64| {
                 let (mut f, mut new) = (*f, old.to_vec());
                 f[Directions::Space.components()[d]] += h;
-                material.update(&f, dt, old, &mut new).ok().map(|()| -> [f64; 6] { std::array::from_fn(|i| new[i]) })
+                material.update(&f, lapse, old, &mut new).ok().map(|()| -> [f64; 6] { std::array::from_fn(|i| new[i]) })
             };
             let Some((error, corner)) = column(moved, &gradient, d, scale) else { continue };
             if corner && error > CLOSE {

@@ -23,7 +23,8 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     }
     measured.push(("ratchetting".into(), ratchetting(bench)?));
     measured.extend(three_back_stresses(bench)?);
-    for (name, [slow, fast]) in [("", rate_jump(bench, None)?), ("warm_", rate_jump(bench, Some([0.4, 1.2]))?)] {
+    for name in ["", "warm_", "heated_"] {
+        let [slow, fast] = rate_jump(bench, name)?;
         measured.extend([(format!("{name}slow"), slow), (format!("{name}fast"), fast)]);
     }
     measured.push(("relaxed".into(), relaxation(bench)?));
@@ -127,23 +128,37 @@ fn three_back_stresses(bench: &Bench) -> Result<Measured, Error> {
     ])
 }
 
-/// Force of the bar at the end of both steps over that of the flow stress on its present area, at the temperature of the room or at
-/// a homologous one with its exponent.
-fn rate_jump(bench: &Bench, warm: Option<[f64; 2]>) -> Result<[f64; 2], Error> {
-    let (mut found, mut sets, mut left) = ([f64::NAN; 2], Vec::new(), 1.0);
-    if let Some([temperature, exponent]) = warm {
-        let steel = "material.steel.von_mises_johnson_cook";
-        sets.push(format!("{steel}.homologous_temperature={temperature:?}"));
-        sets.push(format!("{steel}.softening_exponent={exponent:?}"));
-        left -= temperature.powf(exponent);
-    }
+/// Force of the bar at the end of both steps over that of the flow stress on its present area, at the temperature of the room, at a
+/// homologous one, or with one that rises in both steps.
+fn rate_jump(bench: &Bench, how: &str) -> Result<[f64; 2], Error> {
+    let steel = "material.steel.von_mises_johnson_cook";
+    let warm = format!("{steel}.homologous_temperature=0.4");
+    let heated = [
+        format!("{steel}.melting_temperature=1500.0"),
+        "body.bar.expansion=0.0".into(),
+        "step.slow.temperature.bar.value=300.0".into(),
+        "step.fast.temperature.bar.value=900.0".into(),
+    ];
+    let (said, homologous) = match how {
+        "warm_" => (vec![warm], [0.4; 2]),
+        "heated_" => (heated.to_vec(), [0.2, 0.6]),
+        _ => (vec![], [0.0_f64; 2]),
+    };
+    let (mut found, mut sets) = ([f64::NAN; 2], vec![format!("{steel}.softening_exponent=1.2")]);
+    sets.extend(said);
+    let mut before = [0.0; 2];
     bench.follow("rate_jump.toml", &sets, |model, state| {
         let force = reaction(model, state, "bar.top")[1];
-        let step = usize::from(state.time > 0.0500001);
+        let step = usize::from(state.time > 0.050_000_1);
         let (strain, speed) = [(0.1_f64, 0.105_170_918 / 0.05), (0.12, 0.022_325_933_5 / 1e-4)][step];
         let stress = force * strain.exp() / PI;
+        let now = [state.time, force];
+        // What the bar loses of its elastic strain as it softens flows too.
+        let lost = (before[1] - force) * strain.exp() / PI / 200e3 / (now[0] - before[0]);
+        let rate = speed / strain.exp() * (1.0 - stress / 200e3) + lost;
         let flow = 350.0 + 275.0 * (strain - stress / 200e3).powf(0.36);
-        found[step] = stress / (flow * left * (1.0 + 0.05 * (speed / strain.exp()).ln()));
+        found[step] = stress / (flow * (1.0 - homologous[step].powf(1.2)) * (1.0 + 0.05 * rate.ln()));
+        before = now;
     })?;
     Ok(found)
 }

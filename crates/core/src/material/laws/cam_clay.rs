@@ -16,7 +16,7 @@ use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{Scheme, System, Update, solve};
 use crate::material::integrated::Integrated;
-use crate::material::{Flow, Material, Rate, RateLaw, Variable};
+use crate::material::{Flow, Lapse, Material, Rate, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn positive(key: &'static str, meaning: &'static str, unit: &'static str) -> Parameter {
@@ -223,7 +223,7 @@ impl RateLaw for CamClay {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[pc, volume, shear]: &[T; 3],
-        _dt: f64,
+        _lapse: Lapse,
     ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let (p, s, e) = (stress.trace() * (-1.0 / 3.0), stress.deviator(), de.deviator());
         if p.re() <= 0.0 {

@@ -15,7 +15,7 @@ use super::softening::{self, Changing};
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root};
-use crate::material::{Flow, Material, RateLaw, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 pub(super) const COHESION: Parameter =
@@ -192,7 +192,7 @@ impl RateLaw for DruckerPrager {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[shear, volume]: &[T; 2],
-        _dt: f64,
+        _lapse: Lapse,
     ) -> Result<(Tensor2<T>, [T; 2]), Failure> {
         let trial = stress + self.elastic.stress(&de);
         let (p, s) = (trial.trace() * (1.0 / 3.0), trial.deviator());
@@ -212,7 +212,7 @@ impl RateLaw for DruckerPrager {
         Ok((s * scale + Tensor2::identity() * p, [shear + more, volume + wider]))
     }
 
-    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, &[shear, _]: &[f64; 2]) -> Option<[f64; 2]> {
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, &[shear, _]: &[f64; 2], _: Lapse) -> Option<[f64; 2]> {
         let trial = *stress + self.elastic.stress(de);
         let (p, s) = (trial.trace() * (1.0 / 3.0), trial.deviator());
         let f = Self::beyond(self.numbers_at(shear), (s.contract(s) * 0.5).sqrt(), p);
@@ -252,7 +252,7 @@ mod tests {
             ([60.0, 5.0], [17.3205081, 0.0]),
         ] {
             let trial = Tensor2::from_voigt([p + root, p - root, p, 0.0, 0.0, 0.0]);
-            let (stress, vars) = soil.update(Tensor2::zero(), trial, &[0.0; 2], 0.0).unwrap();
+            let (stress, vars) = soil.update(Tensor2::zero(), trial, &[0.0; 2], 0.0.into()).unwrap();
             let s = stress.deviator();
             for (found, wanted) in [stress.trace() / 3.0, (0.5 * s.contract(s)).sqrt()].into_iter().zip(wanted) {
                 assert!((found - wanted).abs() < 6e-6, "{found} instead of {wanted}");

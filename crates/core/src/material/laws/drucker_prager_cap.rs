@@ -12,7 +12,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root, solve};
-use crate::material::{Flow, Material, RateLaw, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn positive(key: &'static str, meaning: &'static str, unit: &'static str, default: Option<f64>) -> Parameter {
@@ -179,7 +179,7 @@ impl RateLaw for Capped {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[cap, volume, shear]: &[T; 3],
-        _dt: f64,
+        _lapse: Lapse,
     ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let trial = stress + self.elastic.stress(&de);
         let (p, s) = (trial.trace() * (-1.0 / 3.0), trial.deviator());

@@ -5,7 +5,7 @@
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, unit};
-use crate::material::{Material, RateLaw, Variable};
+use crate::material::{Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 pub(super) const YOUNG: Parameter =
@@ -76,12 +76,12 @@ impl RateLaw for Elastic {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         _: &(),
-        _dt: f64,
+        _lapse: Lapse,
     ) -> Result<(Tensor2<T>, ()), Failure> {
         Ok((stress + self.stress(&de), ()))
     }
 
-    fn elastic_step(&self, _: &Tensor2, _: &Tensor2, (): &()) -> Option<[f64; 2]> {
+    fn elastic_step(&self, _: &Tensor2, _: &Tensor2, (): &(), _: Lapse) -> Option<[f64; 2]> {
         Some([self.lambda, self.shear])
     }
 

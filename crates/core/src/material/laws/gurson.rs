@@ -11,13 +11,13 @@
 //! is taken for none, and the solid is its matrix from then on, of von Mises, until tension nucleates voids.
 
 use super::elastic::Elastic;
-use super::hardening::{Hardening, Kind};
+use super::hardening::{FlowStress, Hardening, Kind};
 use super::invariants::Invariants;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, Update, root, solve};
-use crate::material::{self, Material, RateLaw, Variable};
+use crate::material::{self, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn number(key: &'static str, meaning: &'static str, range: Range, default: Option<f64>) -> Parameter {
@@ -66,7 +66,7 @@ pub(super) const TABLE: Entry<Box<dyn Material>> = Entry {
 pub(super) const JOHNSON_COOK: Entry<Box<dyn Material>> = Entry {
     name: "gurson_johnson_cook",
     meaning: "the same with Ludwik's power law for the matrix, by rate and temperature (Johnson and Cook)",
-    parameters: &Kind::JohnsonCook.between::<18>(VOIDS),
+    parameters: &Kind::JohnsonCook.between::<19>(VOIDS),
     pairs: None,
     build: |v| build(v, Kind::JohnsonCook),
 };
@@ -153,16 +153,20 @@ impl Gurson {
         s * 2.0 / (3.0 * q2) * ((1.0 + q3 * star * star) / (2.0 * q1 * star)).max(1.0).acosh()
     }
 
-    /// The flow stress of the matrix in a state: that of the curve, and of the surface through the stress where it
-    /// depends on the rate and is higher.
+    /// The flow stress of the matrix in a state: that of the curve, and of the surface through the stress where it depends on more than
+    /// the strain and that stress is beyond the curve's.
     fn matrix_stress(&self, stress: &Tensor2, &[f, em, _]: &[f64; 3]) -> f64 {
-        let (at, star, slow) = (Invariants::of(stress), self.effective(f), self.matrix.stress(em));
+        let (at, star) = (Invariants::of(stress), self.effective(f));
+        let curve = self.matrix.at_rest(em);
         let beyond = |s: f64| self.surface(at.p / s, at.q / s, star)[0] > 0.0;
-        if !self.matrix.has_rate() || !beyond(slow) {
-            return slow;
+        if !self.matrix.varies() {
+            return curve;
         }
-        let (mut low, mut high) = (slow, 2.0 * slow);
-        while beyond(high) && high < 1e6 * slow {
+        let (mut low, mut high) = (curve, 2.0 * curve);
+        while !beyond(low) && low > 1e-6 * curve {
+            (low, high) = (0.5 * low, low);
+        }
+        while beyond(high) && high < 1e6 * curve {
             (low, high) = (high, 2.0 * high);
         }
         for _ in 0..50 {
@@ -208,13 +212,13 @@ impl Gurson {
         &self,
         at: &Invariants<T>,
         [f, em, volume]: [T; 3],
-        dt: f64,
+        flow: FlowStress,
     ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let p = at.p + f * self.elastic.bulk();
-        let dm = -f * p / self.matrix.stress(em);
+        let dm = -f * p / flow.slow(em);
         let (stress, vars) = (at.with(p, at.q), [T::zero(), em + dm, volume - f]);
-        let within = at.q.re() <= self.matrix.stress(vars[1]).re();
-        if within { Ok((stress, vars)) } else { self.dense(&Invariants { p, ..*at }, vars, dt) }
+        let within = at.q.re() <= flow.slow(vars[1]).re();
+        if within { Ok((stress, vars)) } else { self.dense(&Invariants { p, ..*at }, vars, flow) }
     }
 
     /// The matrix without voids: the shear strain that returns to its flow stress.
@@ -222,11 +226,11 @@ impl Gurson {
         &self,
         at: &Invariants<T>,
         [f, em, volume]: [T; 3],
-        dt: f64,
+        flow: FlowStress,
     ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let stiffness = 3.0 * self.elastic.shear;
         let most = at.q.re() / stiffness;
-        let equation = Dense { law: self, dt, scale: at.q.re() };
+        let equation = Dense { law: self, flow, scale: at.q.re() };
         let eq = root(&equation, [0.0, most], &[at.q, em], "Gurson's matrix")?;
         Ok((at.with(at.p, at.q - eq * stiffness), [f, em + eq, volume]))
     }
@@ -235,13 +239,13 @@ impl Gurson {
 /// The shear strain of a solid without voids; data are `q` of the trial stress and the matrix strain at the beginning.
 struct Dense<'a> {
     law: &'a Gurson,
-    dt: f64,
+    flow: FlowStress<'a>,
     scale: f64,
 }
 
 impl System<1, 2> for Dense<'_> {
     fn residual<S: Scalar>(&self, &[eq]: &[S; 1], &[q, em]: &[S; 2]) -> [S; 1] {
-        [(q - eq * (3.0 * self.law.elastic.shear) - self.law.matrix.flow(em, eq, self.dt)) / self.scale]
+        [(q - eq * (3.0 * self.law.elastic.shear) - self.flow.after(em, eq)) / self.scale]
     }
 }
 
@@ -249,7 +253,7 @@ impl System<1, 2> for Dense<'_> {
 /// the porosity and the matrix strain at the beginning.
 struct Flow<'a> {
     law: &'a Gurson,
-    dt: f64,
+    flow: FlowStress<'a>,
     scale: f64,
     tension: bool,
 }
@@ -257,7 +261,7 @@ struct Flow<'a> {
 impl System<3, 4> for Flow<'_> {
     fn residual<S: Scalar>(&self, x: &[S; 3], &[p, q, f, em]: &[S; 4]) -> [S; 3] {
         let (law, [ev, eq, dm]) = (self.law, x.map(|x| x * self.scale));
-        let s = law.matrix.flow(em, dm, self.dt);
+        let s = self.flow.after(em, dm);
         let f = law.grown(f, ev, (em, dm), self.tension);
         let (p, q) = ((p - ev * law.elastic.bulk()) / s, (q - eq * (3.0 * law.elastic.shear)) / s);
         let [surface, along_p, along_q] = law.surface(p, q, law.effective(f));
@@ -283,24 +287,25 @@ impl RateLaw for Gurson {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[f, em, volume]: &[T; 3],
-        dt: f64,
+        lapse: Lapse,
     ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
+        let matrix = self.matrix.over(lapse)?;
         let trial = stress + self.elastic.stress(&de);
         let at = Invariants::of(&trial);
-        let (p, q, s) = (at.p.re(), at.q.re(), self.matrix.stress(em.re()));
+        let (p, q, s) = (at.p.re(), at.q.re(), matrix.slow(em.re()));
         let within = self.surface(p / s, q / s, self.effective(f.re()))[0] <= 0.0;
-        if within || (dt == 0.0 && self.matrix.has_rate()) {
+        if within || matrix.rests() {
             return Ok((trial, [f, em, volume]));
         }
         if f.re() == 0.0 && !(p > 0.0 && self.nucleation.porosity > 0.0) {
-            return self.dense(&at, [f, em, volume], dt);
+            return self.dense(&at, [f, em, volume], matrix);
         }
         let (shear, bulk) = (self.elastic.shear, self.elastic.bulk());
-        let flow = Flow { law: self, dt, scale: s / shear, tension: p > 0.0 };
+        let flow = Flow { law: self, flow: matrix, scale: s / shear, tension: p > 0.0 };
         // From near the surface: far outside of it the hyperbolic cosine is beyond any number.
         let limit = self.hydrostatic_limit(s, f.re());
         let Some(ev) = (if p > 0.0 { Some((p - limit).max(0.0) / bulk) } else { self.closing([p, s], f.re()) }) else {
-            return self.close(&at, [f, em, volume], dt);
+            return self.close(&at, [f, em, volume], matrix);
         };
         let eq = (q - s).max(0.0) / (3.0 * shear);
         let start = [ev, eq, eq].map(|x| x / flow.scale);
@@ -313,7 +318,7 @@ impl RateLaw for Gurson {
         let (p, vars) = (at.p - ev * bulk, [grown, em + dm, volume + ev]);
         if q == 0.0 {
             // Without shear the part of it that the flow would leave follows from the flow rule, for the tangent.
-            let s = self.matrix.flow(em, dm, dt);
+            let s = matrix.after(em, dm);
             let [_, along_p, _] = self.surface(p / s, T::zero(), self.effective(grown));
             let left = if along_p.re() == 0.0 { T::one() } else { (ev / (s * along_p) * (6.0 * shear) + 1.0).recip() };
             return Ok((at.scaled(p, left), vars));
@@ -364,7 +369,7 @@ mod tests {
             let (mut stress, mut vars) = (Tensor2::zero(), [law.porosity, 0.0, 0.0]);
             let de = Tensor2::identity() * (-0.1 / f64::from(increments));
             for _ in 0..increments {
-                (stress, vars) = law.update(de, stress, &vars, 1.0).unwrap();
+                (stress, vars) = law.update(de, stress, &vars, 1.0.into()).unwrap();
             }
             assert_eq!(vars[0], 0.0, "{increments}");
             // All that was void has gone: the rest of the strain is elastic.
@@ -373,11 +378,11 @@ mod tests {
             let mut shear = Tensor2::zero();
             (shear[(0, 1)], shear[(1, 0)]) = (0.01, 0.01);
             for _ in 0..20 {
-                (stress, vars) = law.update(shear, stress, &vars, 1.0).unwrap();
+                (stress, vars) = law.update(shear, stress, &vars, 1.0.into()).unwrap();
             }
             assert!((Invariants::of(&stress).q / 300.0 - 1.0).abs() < 1e-12);
             // Drawn, what has no voids bears any mean stress.
-            let (drawn, _) = law.update(Tensor2::identity() * 0.5, stress, &vars, 1.0).unwrap();
+            let (drawn, _) = law.update(Tensor2::identity() * 0.5, stress, &vars, 1.0.into()).unwrap();
             assert!((Invariants::of(&drawn).q / 300.0 - 1.0).abs() < 1e-12 && drawn.trace() > 0.0);
         }
     }

@@ -1,4 +1,4 @@
-//! Isotropic hardening: the flow stress over the equivalent plastic strain, and over its rate.
+//! Isotropic hardening: the flow stress over the equivalent plastic strain, its rate and the temperature.
 //!
 //! A law that hardens takes any [`Kind`] of curve: it declares the parameters of the curve between its own
 //! ([`Kind::between`]) and gets the curve from their values ([`Kind::take`]).
@@ -6,7 +6,9 @@
 use super::elastic::{POISSON, YOUNG};
 use crate::declare::{Pairs, Parameter, Range, unit};
 use crate::integrate::{Scheme, Update};
+use crate::material::Lapse;
 use crate::tensor::Scalar;
+use crate::{Failure, FailureKind};
 
 const fn number(key: &'static str, meaning: &'static str, range: Range, default: Option<f64>) -> Parameter {
     Parameter { key, meaning, unit: unit::NONE, range, default }
@@ -43,7 +45,7 @@ const SWIFT: [Parameter; 3] = [
 const TABLE: [Parameter; 1] =
     [stress("end_slope", "slope of the flow stress beyond the last point of `curve`", Range::NOT_NEGATIVE, Some(0.0))];
 
-const JOHNSON_COOK: [Parameter; 7] = [
+const JOHNSON_COOK: [Parameter; 8] = [
     stress(
         "yield_stress",
         "first yield stress A of (A + B p^n)(1 + C ln(rate/reference_rate))(1 - T^m)",
@@ -62,10 +64,18 @@ const JOHNSON_COOK: [Parameter; 7] = [
     },
     number(
         "homologous_temperature",
-        "temperature T above that of the room, over that of melting above that of the room",
+        "temperature T above that of the room, over that of melting above that of the room, where it is one and the same always",
         Range { least: Some((0.0, true)), most: Some((1.0, false)) },
         Some(0.0),
     ),
+    Parameter {
+        key: "melting_temperature",
+        meaning: "temperature of melting above that of the room, at which the body is free of stress: T follows the temperature of the \
+                  body",
+        unit: unit::TEMPERATURE,
+        range: Range::NOT_NEGATIVE,
+        default: Some(0.0),
+    },
     number("softening_exponent", "exponent m of the temperature", Range::POSITIVE, Some(1.0)),
 ];
 
@@ -134,7 +144,7 @@ impl Kind {
             Self::Combined => Hardening::combined(curve)?,
             Self::Swift => Hardening::Swift { strength: curve[0], offset: curve[1], exponent: curve[2] },
             Self::Table => Hardening::table(pairs, curve[0])?,
-            Self::JohnsonCook => Hardening::johnson_cook(curve),
+            Self::JohnsonCook => Hardening::johnson_cook(curve)?,
         };
         Ok((hardening, own))
     }
@@ -168,7 +178,7 @@ pub enum Hardening {
         /// Slope beyond the last.
         slope: f64,
     },
-    /// `(first + strength p^exponent)(1 + sensitivity ln(rate/reference)) warmth`, without the middle below `reference`.
+    /// `(first + strength p^exponent)(1 + sensitivity ln(rate/reference))(1 - T^softening)`, without the middle below `reference`.
     JohnsonCook {
         /// First yield stress A.
         first: f64,
@@ -180,8 +190,12 @@ pub enum Hardening {
         sensitivity: f64,
         /// Reference rate.
         reference: f64,
-        /// What the temperature leaves, `1 - T^m`.
-        warmth: f64,
+        /// Homologous temperature T where it is always the same,
+        homologous: f64,
+        /// and the temperature of melting over which it is that of the body; zero where it does not follow that.
+        melting: f64,
+        /// Exponent m of the temperature.
+        softening: f64,
     },
 }
 
@@ -201,10 +215,13 @@ impl Hardening {
         Ok(Self::Combined { first: v[0], linear: v[1], voce })
     }
 
-    fn johnson_cook(v: &[f64]) -> Self {
-        let [first, strength, exponent, sensitivity, reference] = std::array::from_fn(|i| v[i]);
-        let warmth = 1.0 - if v[5] > 0.0 { v[5].powf(v[6]) } else { 0.0 };
-        Self::JohnsonCook { first, strength, exponent, sensitivity, reference, warmth }
+    fn johnson_cook(v: &[f64]) -> Result<Self, String> {
+        let [first, strength, exponent, sensitivity, reference, homologous, melting, softening] =
+            std::array::from_fn(|i| v[i]);
+        if homologous > 0.0 && melting > 0.0 {
+            return Err("`homologous_temperature` and `melting_temperature` are two ways to say one thing".into());
+        }
+        Ok(Self::JohnsonCook { first, strength, exponent, sensitivity, reference, homologous, melting, softening })
     }
 
     /// A curve from its points, one after the other, and the slope beyond the last.
@@ -226,37 +243,34 @@ impl Hardening {
         }
     }
 
-    /// Flow stress at `p`, of the slowest flow.
+    /// The flow stress over an increment.
+    ///
+    /// # Errors
+    /// A [`Failure`] where the temperature melts the solid.
     #[inline]
-    pub fn stress<T: Scalar>(&self, p: T) -> T {
-        match self {
-            Self::Combined { first, linear, voce } => {
-                let saturating = |sum: T, &[stress, rate]: &[f64; 2]| match stress {
-                    0.0 => sum,
-                    _ => sum - ((p * -rate).exp() - 1.0) * stress,
-                };
-                voce.iter().fold(p * *linear + *first, saturating)
+    pub fn over(&self, lapse: Lapse) -> Result<FlowStress<'_>, Failure> {
+        let warmth = match *self {
+            Self::JohnsonCook { homologous, melting, softening, .. } => {
+                let follows = lapse.temperature.filter(|_| melting > 0.0);
+                let t = follows.map_or(homologous, |[_, at]| (at / melting).max(0.0));
+                if t >= 1.0 || t.is_nan() {
+                    return Err(Failure::new("the temperature is that of melting").of(FailureKind::Material));
+                }
+                if t > 0.0 { 1.0 - t.powf(softening) } else { 1.0 }
             }
-            Self::Swift { strength, offset, exponent } => (p + *offset).powf(*exponent) * *strength,
-            Self::Table { points, slope } => on_line(points, *slope, p),
-            Self::JohnsonCook { first, strength, exponent, warmth, .. } => {
-                // The root of no strain has no slope.
-                let grown = if p.re() > 0.0 { p.powf(*exponent) * *strength } else { T::zero() };
-                (grown + *first) * *warmth
-            }
-        }
+            _ => 1.0,
+        };
+        Ok(FlowStress { curve: self, dt: lapse.dt, warmth })
     }
 
-    /// Flow stress after the plastic strain `dp` from `p` in the time `dt`.
-    #[inline]
-    pub fn flow<T: Scalar>(&self, p: T, dp: T, dt: f64) -> T {
-        let slow = self.stress(p + dp);
-        match self {
-            Self::JohnsonCook { sensitivity, reference, .. } if *sensitivity > 0.0 && dp.re() > reference * dt => {
-                slow * ((dp * (1.0 / (reference * dt))).ln() * *sensitivity + 1.0)
-            }
-            _ => slow,
-        }
+    /// The flow stress of the slowest flow without the temperature of a body.
+    pub fn at_rest(&self, p: f64) -> f64 {
+        self.over(0.0.into()).map_or(f64::NAN, |flow| flow.slow(p))
+    }
+
+    /// Whether the flow stress is not that of the plastic strain alone.
+    pub fn varies(&self) -> bool {
+        self.has_rate() || matches!(self, Self::JohnsonCook { melting, .. } if *melting > 0.0)
     }
 
     /// Whether the flow stress depends on the rate of flow.
@@ -309,6 +323,58 @@ impl Hardening {
             ));
         }
         Ok(())
+    }
+}
+
+/// The flow stress over an increment, at the temperature of its end.
+#[derive(Debug, Clone, Copy)]
+pub struct FlowStress<'a> {
+    curve: &'a Hardening,
+    /// Length of the increment.
+    dt: f64,
+    /// What the temperature leaves of it, `1 - T^m`.
+    warmth: f64,
+}
+
+impl FlowStress<'_> {
+    /// At `p`, of the slowest flow.
+    #[inline]
+    pub fn slow<T: Scalar>(&self, p: T) -> T {
+        match self.curve {
+            Hardening::Combined { first, linear, voce } => {
+                let saturating = |sum: T, &[stress, rate]: &[f64; 2]| match stress {
+                    0.0 => sum,
+                    _ => sum - ((p * -rate).exp() - 1.0) * stress,
+                };
+                voce.iter().fold(p * *linear + *first, saturating)
+            }
+            Hardening::Swift { strength, offset, exponent } => (p + *offset).powf(*exponent) * *strength,
+            Hardening::Table { points, slope } => on_line(points, *slope, p),
+            Hardening::JohnsonCook { first, strength, exponent, .. } => {
+                // The root of no strain has no slope.
+                let grown = if p.re() > 0.0 { p.powf(*exponent) * *strength } else { T::zero() };
+                (grown + *first) * self.warmth
+            }
+        }
+    }
+
+    /// After the plastic strain `dp` from `p` in the time of the increment.
+    #[inline]
+    pub fn after<T: Scalar>(&self, p: T, dp: T) -> T {
+        let slow = self.slow(p + dp);
+        match self.curve {
+            Hardening::JohnsonCook { sensitivity, reference, .. }
+                if *sensitivity > 0.0 && dp.re() > reference * self.dt =>
+            {
+                slow * ((dp * (1.0 / (reference * self.dt))).ln() * *sensitivity + 1.0)
+            }
+            _ => slow,
+        }
+    }
+
+    /// Whether nothing can flow: a flow stress that depends on the rate, without time.
+    pub fn rests(&self) -> bool {
+        self.dt == 0.0 && self.curve.has_rate()
     }
 }
 

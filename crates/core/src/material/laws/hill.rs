@@ -11,12 +11,12 @@
 
 use super::axes::{axes, basis, component, local};
 use super::elastic::Elastic;
-use super::hardening::{Hardening, Kind};
+use super::hardening::{FlowStress, Hardening, Kind};
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind};
 use crate::integrate::{System, Update, root};
-use crate::material::{Flow, Material, RateLaw, ScalarsAndVectors, Spin, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, ScalarsAndVectors, Spin, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
 
 const fn number(key: &'static str, meaning: &'static str, range: Range, default: Option<f64>) -> Parameter {
@@ -93,7 +93,7 @@ pub(super) const TABLE: Entry<Box<dyn Material>> = Entry {
 pub(super) const JOHNSON_COOK: Entry<Box<dyn Material>> = Entry {
     name: "hill_johnson_cook",
     meaning: "the same with Ludwik's power law, by rate and temperature (Johnson and Cook)",
-    parameters: &Kind::JohnsonCook.between::<18>(&RATIOS),
+    parameters: &Kind::JohnsonCook.between::<19>(&RATIOS),
     pairs: None,
     build: |v| by_ratios(v, Kind::JohnsonCook),
 };
@@ -145,7 +145,7 @@ pub struct Hill {
 /// 11 22 33 12 23 13, and `p` at the beginning.
 struct Return<'a> {
     law: &'a Hill,
-    dt: f64,
+    flow: FlowStress<'a>,
     scale: f64,
 }
 
@@ -153,7 +153,7 @@ impl System<1, 7> for Return<'_> {
     fn residual<S: Scalar>(&self, &[x]: &[S; 1], &[a, b, c, d, e, f, p]: &[S; 7]) -> [S; 1] {
         let law = self.law;
         let q = law.equivalent(&law.returned(x, &[a, b, c, d, e, f]));
-        [(q - law.hardening.flow(p, law.strain(x, q), self.dt)) / self.scale]
+        [(q - self.flow.after(p, law.strain(x, q))) / self.scale]
     }
 }
 
@@ -204,17 +204,18 @@ impl RateLaw for Hill {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         vars: &State<T>,
-        dt: f64,
+        lapse: Lapse,
     ) -> Result<(Tensor2<T>, State<T>), Failure> {
+        let flow = self.hardening.over(lapse)?;
         let trial = stress + self.elastic.stress(&de);
         let (axes, p) = (axes(&vars.vectors), vars.scalars[0]);
         let at = local(&trial.deviator(), &axes);
         let [a, b, c, d, e, f] = at;
         let data = [a, b, c, d, e, f, p];
         let (mut high, plain) = (1.0, data.map(T::re));
-        let equation = Return { law: self, dt, scale: self.equivalent(&at.map(T::re)).max(f64::MIN_POSITIVE) };
+        let equation = Return { law: self, flow, scale: self.equivalent(&at.map(T::re)).max(f64::MIN_POSITIVE) };
         let bears = equation.residual(&[0.0], &plain)[0] <= 0.0;
-        if bears || (dt == 0.0 && self.hardening.has_rate()) {
+        if bears || flow.rests() {
             return Ok((trial, *vars));
         }
         while equation.residual(&[high], &plain)[0] > 0.0 && high < 1e12 {
@@ -235,10 +236,11 @@ impl RateLaw for Hill {
         Some(Spin::Polar)
     }
 
-    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64>) -> Option<[f64; 2]> {
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64>, lapse: Lapse) -> Option<[f64; 2]> {
         let trial = *stress + self.elastic.stress(de);
         let q = self.equivalent(&self.returned(0.0, &local(&trial.deviator(), &axes(&vars.vectors))));
-        (q <= self.hardening.stress(vars.scalars[0])).then_some([self.elastic.lambda, self.elastic.shear])
+        (q <= self.hardening.over(lapse).ok()?.slow(vars.scalars[0]))
+            .then_some([self.elastic.lambda, self.elastic.shear])
     }
 
     fn flow(&self) -> Flow {

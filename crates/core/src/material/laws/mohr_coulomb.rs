@@ -14,7 +14,7 @@ use super::softening::{self, Changing};
 use crate::Failure;
 use crate::declare::{Entry, VariableKind};
 use crate::integrate::{System, root};
-use crate::material::{Flow, Material, RateLaw, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Dual, Isotropic, Scalar, Tensor2, Vec3, principal};
 use std::ops::{Mul, Sub};
 
@@ -224,7 +224,7 @@ impl RateLaw for MohrCoulomb {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[shear, volume, work]: &[T; 3],
-        _dt: f64,
+        _lapse: Lapse,
     ) -> Result<(Tensor2<T>, [T; 3]), Failure> {
         let trial = stress + self.elastic.stress(&de);
         let (stress, [more_shear, more_volume]) = self.returned(&trial, shear)?;

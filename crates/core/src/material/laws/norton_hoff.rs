@@ -8,7 +8,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root};
-use crate::material::{Flow, Material, RateLaw, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const CONSISTENCY: Parameter = Parameter {
@@ -81,16 +81,16 @@ impl RateLaw for NortonHoff {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[p]: &[T; 1],
-        dt: f64,
+        lapse: Lapse,
     ) -> Result<(Tensor2<T>, [T; 1]), Failure> {
         let trial = stress + self.elastic.stress(&de);
         let at = Invariants::of(&trial);
-        if at.q.re() == 0.0 || dt == 0.0 {
+        if at.q.re() == 0.0 || lapse.dt == 0.0 {
             return Ok((trial, [p]));
         }
-        let equation = Creep { law: self, dt, scale: at.q.re() };
+        let equation = Creep { law: self, dt: lapse.dt, scale: at.q.re() };
         // All of the trial stress relaxed: the other bound, which keeps large powers finite.
-        let relaxed = at.q.re() / (3.0 * self.elastic.shear * dt);
+        let relaxed = at.q.re() / (3.0 * self.elastic.shear * lapse.dt);
         let high = at.q.re().min(self.unit_stress * relaxed.powf(1.0 / self.exponent));
         let q = root(&equation, [0.0, high], &[at.q], "Norton-Hoff")?;
         Ok((at.with(at.p, q), [p + equation.flow(q)]))

@@ -8,7 +8,7 @@ use super::hardening::join;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::material::{Material, RateLaw, ScalarsAndVectors, Spin, Variable};
+use crate::material::{Lapse, Material, RateLaw, ScalarsAndVectors, Spin, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
 
 const fn modulus(key: &'static str, meaning: &'static str) -> Parameter {
@@ -181,7 +181,7 @@ impl RateLaw for Orthotropic {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         vars: &State<T>,
-        _dt: f64,
+        _lapse: Lapse,
     ) -> Result<(Tensor2<T>, State<T>), Failure> {
         let axes = axes(&vars.vectors);
         let grown = Tensor2::from_voigt(product(&self.stiffness, &local(&de, &axes)));
@@ -218,7 +218,7 @@ mod tests {
         let mut old = vec![0.0; small.state_len()];
         small.initialise(&mut old);
         let mut new = old.clone();
-        small.update(&(Tensor2::identity() + *strain), 1.0, &old, &mut new).unwrap();
+        small.update(&(Tensor2::identity() + *strain), 1.0.into(), &old, &mut new).unwrap();
         Tensor2::from_voigt(std::array::from_fn(|i| new[i]))
     }
 

@@ -10,7 +10,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, root};
-use crate::material::{Flow, Material, RateLaw, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const HARDENING: Parameter = Parameter {
@@ -94,19 +94,19 @@ impl RateLaw for Perzyna {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         &[p]: &[T; 1],
-        dt: f64,
+        lapse: Lapse,
     ) -> Result<(Tensor2<T>, [T; 1]), Failure> {
         let trial = stress + self.elastic.stress(&de);
         let at = Invariants::of(&trial);
         let yield_stress = p * self.hardening + self.first;
         // Without time there is no flow, at whatever stress.
-        if at.q.re() <= yield_stress.re() || dt == 0.0 {
+        if at.q.re() <= yield_stress.re() || lapse.dt == 0.0 {
             return Ok((trial, [p]));
         }
-        let equation = Overstress { law: self, dt, scale: at.q.re() };
+        let equation = Overstress { law: self, dt: lapse.dt, scale: at.q.re() };
         let most = at.q.re() / yield_stress.re() - 1.0;
         // All of the trial stress relaxed: the other bound, which keeps large powers finite.
-        let relaxed = at.q.re() / (3.0 * self.elastic.shear * self.fluidity * dt);
+        let relaxed = at.q.re() / (3.0 * self.elastic.shear * self.fluidity * lapse.dt);
         let high = most.min(relaxed.powf(1.0 / self.power));
         let y = root(&equation, [0.0, high], &[at.q, yield_stress], "Perzyna")?;
         let dp = equation.flow(y);

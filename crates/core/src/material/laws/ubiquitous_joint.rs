@@ -11,7 +11,7 @@ use super::mohr_coulomb::MohrCoulomb;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, VariableKind};
-use crate::material::{Flow, Material, RateLaw, ScalarsAndVectors, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, ScalarsAndVectors, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
 
 pub(super) const ENTRY: Entry<Box<dyn Material>> = Entry {
@@ -152,7 +152,7 @@ impl RateLaw for UbiquitousJoint {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         vars: &State<T>,
-        _dt: f64,
+        _lapse: Lapse,
     ) -> Result<(Tensor2<T>, State<T>), Failure> {
         let (mut stress, mut vars) = (stress + self.joint.elastic.stress(&de), *vars);
         let size = stress.re().contract(stress.re()).sqrt();

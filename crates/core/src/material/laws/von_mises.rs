@@ -7,12 +7,12 @@
 //! Where the flow stress depends on the rate it is that of `dp/dt`, and without time nothing flows.
 
 use super::elastic::Elastic;
-use super::hardening::{Hardening, Kind};
+use super::hardening::{FlowStress, Hardening, Kind};
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, Update, root};
-use crate::material::{Flow, Material, RateLaw, ScalarsAndTensors, Spin, Variable};
+use crate::material::{Flow, Lapse, Material, RateLaw, ScalarsAndTensors, Spin, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const fn modulus(key: &'static str, meaning: &'static str, default: Option<f64>) -> Parameter {
@@ -67,7 +67,7 @@ pub(super) const TABLE: Entry<Box<dyn Material>> = Entry {
 pub(super) const JOHNSON_COOK: Entry<Box<dyn Material>> = Entry {
     name: "von_mises_johnson_cook",
     meaning: "von Mises plasticity with Ludwik's power law, by rate and temperature (Johnson and Cook)",
-    parameters: &Kind::JohnsonCook.between::<11>(ONE_BACK),
+    parameters: &Kind::JohnsonCook.between::<12>(ONE_BACK),
     pairs: None,
     build: |v| build::<1>(v, Kind::JohnsonCook, &["kinematic"]),
 };
@@ -123,7 +123,7 @@ const PAIRS: [[usize; 3]; 3] = [[5, 6, 7], [6, 8, 9], [7, 9, 10]];
 /// The equation of a step.
 struct Consistency<'a, const K: usize> {
     law: &'a VonMises<K>,
-    dt: f64,
+    flow: FlowStress<'a>,
     /// Stress by which the residual is divided.
     scale: f64,
 }
@@ -134,8 +134,7 @@ impl<const K: usize> System<1, 11> for Consistency<'_, K> {
         let w = law.left(dp);
         let mut stiffness = S::from(3.0 * law.elastic.shear);
         (0..K).for_each(|i| stiffness += w[i] * law.back[i].modulus);
-        let flow = law.hardening.flow(data[0], dp, self.dt);
-        [(VonMises::shifted(data, &w) - dp * stiffness - flow) / self.scale]
+        [(VonMises::shifted(data, &w) - dp * stiffness - self.flow.after(data[0], dp)) / self.scale]
     }
 }
 
@@ -165,8 +164,8 @@ impl<const K: usize> VonMises<K> {
         (square * 1.5).sqrt()
     }
 
-    fn bears(&self, data: &Contractions<f64>) -> bool {
-        Self::shifted(data, &[1.0; K]) <= self.hardening.stress(data[0])
+    fn bears(flow: &FlowStress, data: &Contractions<f64>) -> bool {
+        Self::shifted(data, &[1.0; K]) <= flow.slow(data[0])
     }
 
     /// Stress and variables with the plastic increment `dp`.
@@ -201,17 +200,18 @@ impl<const K: usize> RateLaw for VonMises<K> {
         de: Tensor2<T>,
         stress: Tensor2<T>,
         vars: &State<T, K>,
-        dt: f64,
+        lapse: Lapse,
     ) -> Result<(Tensor2<T>, State<T, K>), Failure> {
+        let flow = self.hardening.over(lapse)?;
         let trial = stress + self.elastic.stress(&de);
         let data = Self::contractions(&trial.deviator(), vars);
         let plain = data.map(T::re);
-        if self.bears(&plain) || (dt == 0.0 && self.hardening.has_rate()) {
+        if Self::bears(&flow, &plain) || flow.rests() {
             return Ok((trial, *vars));
         }
         let size = |square: f64| (1.5 * square).sqrt();
         let reach = size(plain[1]) + (0..K).map(|i| size(plain[PAIRS[i][i]])).sum::<f64>();
-        let equation = Consistency { law: self, dt, scale: reach };
+        let equation = Consistency { law: self, flow, scale: reach };
         let dp = root(&equation, [0.0, reach / (3.0 * self.elastic.shear)], &data, "von Mises")?;
         Ok(self.relax(&trial, vars, dp))
     }
@@ -224,9 +224,10 @@ impl<const K: usize> RateLaw for VonMises<K> {
         self.back.iter().any(|back| back.modulus > 0.0).then_some(Spin::Logarithmic)
     }
 
-    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64, K>) -> Option<[f64; 2]> {
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &State<f64, K>, lapse: Lapse) -> Option<[f64; 2]> {
         let s = (*stress + self.elastic.stress(de)).deviator();
-        self.bears(&Self::contractions(&s, vars)).then_some([self.elastic.lambda, self.elastic.shear])
+        let flow = self.hardening.over(lapse).ok()?;
+        Self::bears(&flow, &Self::contractions(&s, vars)).then_some([self.elastic.lambda, self.elastic.shear])
     }
 
     fn flow(&self) -> Flow {

@@ -66,6 +66,8 @@ impl Newton<'_> {
                         SLOW
                     };
                 }
+                // A medium that holds more than all that gives way leaves nothing for a still stiffer one to change.
+                None if coefficient > self.stiffness => break,
                 None => coefficient *= BACK,
             }
             failed = taken.is_none();

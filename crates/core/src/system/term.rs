@@ -256,4 +256,11 @@ pub trait Attempt: Send + Sync {
     fn answer(&self, _stencil: usize, _y: &Coordinates) -> Result<Answer, Failure> {
         Ok(Answer::default())
     }
+    /// The same of one that is closed and sticks, whatever its shear.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate).
+    fn sticking(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
+        self.answer(stencil, y)
+    }
 }

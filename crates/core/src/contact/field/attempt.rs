@@ -472,6 +472,19 @@ impl Attempt for FieldAttempt<'_> {
         Ok(extended(answer(&*self.law, &past, self.contact.least, &[y[0] + lift, y[1], y[2], y[3]])?, lift))
     }
 
+    fn sticking(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
+        let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner)[stencil].stretch;
+        let (past, still) = (self.past(stencil, stretch), [y[0], 0.0, 0.0, y[3]]);
+        let mut answer = answer(&*self.law, &Past { shear: [0.0; 2], ..past }, self.contact.least, &still)?;
+        if answer.slopes[1][1] == 0.0 {
+            return self.answer(stencil, y);
+        }
+        for (c, shear) in past.shear.iter().enumerate() {
+            answer.stress[c + 1] = shear + answer.slopes[c + 1][1] * y[1] + answer.slopes[c + 1][2] * y[2];
+        }
+        Ok(answer)
+    }
+
     fn hold(&self, hold: bool) {
         self.hold.store(hold, Ordering::Relaxed);
         self.held.store(false, Ordering::Relaxed);

@@ -88,6 +88,11 @@ impl ContactLaws for Points<'_, '_> {
         self.contact.response(&self.contact.kinks.list()[point], y)
     }
 
+    fn sticking(&self, point: usize, y: &Coordinates) -> Result<Answer, Failure> {
+        let kink = &self.contact.kinks.list()[point];
+        self.contact.assembly.attempts[kink.term].sticking(kink.stencil, y)
+    }
+
     fn compliance(&mut self, stresses: &[Stress]) -> Result<Vec<Vec<Coordinates>>, Unsolved> {
         let ContactSystem { kinks, .. } = self.contact;
         let constraints = self.contact.constraints();

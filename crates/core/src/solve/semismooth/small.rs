@@ -25,6 +25,11 @@ pub(super) trait ContactLaws {
     /// # Errors
     /// When the law cannot answer.
     fn response(&self, point: usize, y: &Coordinates) -> Result<Answer, Failure>;
+    /// The same of a closed point that sticks, whatever its shear.
+    ///
+    /// # Errors
+    /// When the law cannot answer.
+    fn sticking(&self, point: usize, y: &Coordinates) -> Result<Answer, Failure>;
     /// `S`: change of the coordinates of all points under a unit of each stress.
     ///
     /// # Errors
@@ -140,7 +145,9 @@ impl SmallProblem {
     /// # Errors
     /// When a law cannot answer, or a solution with the factor fails.
     pub fn settle(&mut self, laws: &mut dyn ContactLaws) -> Result<Option<f64>, Unsolved> {
-        if self.settle_part((1.0, Steps::Whole), laws)? {
+        if self.settle_part((1.0, Steps::Whole), laws)?
+            || self.stick(laws)? && self.settle_part((1.0, Steps::Whole), laws)?
+        {
             return Ok(Some(1.0));
         }
         self.left.fill(0.0);
@@ -165,6 +172,40 @@ impl SmallProblem {
             }
         }
         Ok(None)
+    }
+
+    /// Begins with the stresses that the whole step leaves where all closed points stick; false where none of them slips. Where all
+    /// slip little holds the linear step, which leads far from the piece of the laws that holds.
+    fn stick(&mut self, laws: &mut dyn ContactLaws) -> Result<bool, Unsolved> {
+        let (mut sticking, mut woken) = (vec![Answer::default(); self.y.len()], Vec::new());
+        for (point, (left, start)) in sticking.iter_mut().zip(&self.start).enumerate() {
+            let now = laws.sticking(point, &self.y0[point])?;
+            if are_alike(&now.slopes, &start.slopes) {
+                continue;
+            }
+            for i in 0..self.counts[point] {
+                left.stress[i] = now.stress[i] - start.stress[i];
+                (0..self.counts[point]).for_each(|j| left.slopes[i][j] = now.slopes[i][j] - start.slopes[i][j]);
+                if !self.is_active[point][i] {
+                    woken.push((point, i));
+                }
+            }
+        }
+        if woken.is_empty() || self.active.len() + woken.len() > MOST {
+            return Ok(false);
+        }
+        self.activate(&woken, laws)?;
+        self.left.fill(0.0);
+        let y = self.coordinates(&self.left, 1.0);
+        let mut slopes = Vec::new();
+        for (left, &(point, c)) in self.left.iter_mut().zip(&self.active) {
+            let motion = std::array::from_fn(|j| y[point][j] - self.y0[point][j]);
+            *left = sticking[point].stress[c] + dot(&sticking[point].slopes[c], &motion);
+            slopes.push(sticking[point].slopes[c]);
+        }
+        let Some(slopes) = Full::factorise(slopes.len(), self.slopes(&slopes)) else { return Ok(false) };
+        slopes.solve(&mut self.left);
+        Ok(true)
     }
 
     /// Puts the same part of the step right again, now that the step is known to change the coordinates by `along` where `before` were
@@ -257,7 +298,7 @@ impl SmallProblem {
         let (mut part, mut ahead) = (0.0, self.problem(self.left.clone(), self.coordinates(&self.left, 0.0), laws)?);
         for _ in 0..PIECES {
             let n = self.active.len();
-            let Some(slopes) = Full::factorise(n, self.slopes(&ahead)) else { return Ok(false) };
+            let Some(slopes) = Full::factorise(n, self.slopes(&ahead.slopes)) else { return Ok(false) };
             // What is left of the crossing into this piece.
             let mut rest = ahead.error.clone();
             slopes.solve(&mut rest);
@@ -410,7 +451,7 @@ impl SmallProblem {
                 }
                 met.push(at.slopes.clone());
             }
-            let Some(slopes) = Full::factorise(at.error.len(), self.slopes(&at)) else { return Ok(false) };
+            let Some(slopes) = Full::factorise(at.error.len(), self.slopes(&at.slopes)) else { return Ok(false) };
             let mut step = at.error.clone();
             slopes.solve(&mut step);
             let moved = |&point: &usize| {
@@ -473,10 +514,10 @@ impl SmallProblem {
         Ok(problem)
     }
 
-    /// Derivative of the error along `w`, by rows.
-    fn slopes(&self, at: &Iterate) -> Vec<f64> {
+    /// Derivative of the error along `w`, by rows, for these slopes of the active stresses.
+    fn slopes(&self, along: &[Coordinates]) -> Vec<f64> {
         let mut entries = Vec::with_capacity(self.active.len() * self.active.len());
-        for (row, (slopes, &(point, _))) in at.slopes.iter().zip(&self.active).enumerate() {
+        for (row, (slopes, &(point, _))) in along.iter().zip(&self.active).enumerate() {
             let start = entries.len();
             entries.extend(self.influence.iter().map(|influence| dot(slopes, &influence[point])));
             entries[start + row] += 1.0;
@@ -501,6 +542,11 @@ mod tests {
     impl ContactLaws for Formulas {
         fn response(&self, _: usize, y: &Coordinates) -> Result<Answer, Failure> {
             Ok((self.law)(y))
+        }
+        fn sticking(&self, _: usize, y: &Coordinates) -> Result<Answer, Failure> {
+            let mut answer = (self.law)(&[y[0], 0.0, 0.0, 0.0]);
+            answer.stress[1] = answer.slopes[1][1] * y[1];
+            Ok(answer)
         }
         fn compliance(&mut self, stresses: &[Stress]) -> Result<Vec<Vec<Coordinates>>, Unsolved> {
             self.asked += stresses.len();
@@ -582,6 +628,22 @@ mod tests {
         // The pressure goes on in its line; what the shear leaves is what it is beyond that of sticking.
         let left = after.stress[1] - 10.0 * y[1];
         assert!((y[1] - (0.2 - 0.05 * left)).abs() < 1e-12 && (y[0] - 0.12).abs() < 1e-12, "{y:?}");
+    }
+
+    /// Two points slip against each other, a third a little, and nothing but a soft spring holds what they are on: a small force leads
+    /// the linear step far away, where all slip the same way. The third, once it sticks, bears it.
+    #[test]
+    fn what_slips_everywhere_is_held_by_a_point_that_sticks_again() {
+        let compliance = |from: Stress, to: Stress| if from.1 == 1 && to.1 == 1 { 1e3 } else { 0.0 };
+        let mut laws = Formulas { law: coulomb, compliance, points: 3, asked: 0 };
+        let start = [0.5, -0.5, -0.04].map(|slip| [0.1, slip, 0.0, 0.0]);
+        let mut small = problem(&laws, 2, &start, &[[0.0, 300.0, 0.0, 0.0]; 3]);
+        assert!(!small.settle_part((1.0, Steps::Whole), &mut laws).expect("laws that answer"), "it goes round in a circle");
+        assert!(small.stick(&mut laws).expect("a start"));
+        assert!(small.settle_part((1.0, Steps::Whole), &mut laws).expect("laws that answer"));
+        // 0.001 shift + 10 y + 0.3 = 0.3, shift = y + 0.04.
+        let y = -0.00004 / 10.001;
+        assert!((small.y[2][1] - y).abs() < 1e-9 && (small.y[0][1] - y - 0.54).abs() < 1e-9, "{:?}", small.y);
     }
 
     /// It hardens, softens and hardens again, all with the same slope.

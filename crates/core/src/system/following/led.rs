@@ -176,4 +176,7 @@ impl Attempt for LedAttempt<'_> {
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
         self.attempt.answer(stencil, y)
     }
+    fn sticking(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
+        self.attempt.sticking(stencil, y)
+    }
 }

@@ -237,7 +237,7 @@ fn a_law_that_fails_on_one_rank_ends_all() {
     let begun = Instant::now();
     let (code, errors) = end(&trial.command(2, &["run", "deck.toml", "--out", "out"]).output().unwrap());
     assert_eq!((code, errors.len()), (Some(3), 1), "{errors:?}");
-    assert!(errors[0].contains("XIT"), "{errors:?}");
+    assert!(errors[0].contains("rank 1 of 2") && errors[0].contains("XIT"), "{errors:?}");
     assert!(begun.elapsed() < Duration::from_secs(60));
     assert!(Path::new(&trial.path("out").join(CHECKPOINT)).exists());
 }

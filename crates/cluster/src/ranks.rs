@@ -3,6 +3,7 @@
 use crate::petsc::{checked, ffi, text};
 use asperity_core::system::{Communicator, said};
 use std::ffi::{CStr, c_char, c_int};
+use std::io::{Cursor, Write};
 use std::mem::{MaybeUninit, size_of};
 use std::ptr;
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -11,6 +12,9 @@ use std::time::{Duration, Instant};
 /// How long a rank that is in trouble waits for the others to come to the same end.
 const PATIENCE: Duration = Duration::from_secs(10);
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
+
+/// The code with which a run ends that does not fit into memory.
+const NO_MEMORY: c_int = 2;
 
 /// Variables that launchers set, those of one process before those of a whole job: how many processes there are, and which
 /// one this is.
@@ -67,6 +71,7 @@ pub fn start() -> Result<&'static Ranks, String> {
         return Ok(ranks);
     }
     let begun = Ranks::begin()?;
+    crate::memory::reserve()?;
     Ok(RANKS.get_or_init(|| begun))
 }
 
@@ -76,6 +81,11 @@ pub(crate) fn has_arrived() -> bool {
 }
 
 impl Ranks {
+    /// The ranks, once they have begun.
+    pub(crate) fn begun() -> Option<&'static Self> {
+        RANKS.get()
+    }
+
     fn begin() -> Result<Self, String> {
         let (mut given, mut rank, mut size, mut own) = (0, 0, 0, MaybeUninit::uninit());
         let serialised = ffi::MPI_THREAD_SERIALIZED as c_int;
@@ -228,6 +238,29 @@ impl Ranks {
             ffi::MPI_Test(request, &mut done, status.as_mut_ptr());
             done != 0
         })
+    }
+
+    /// Ends all ranks, since this one is given no more memory. Takes none itself.
+    pub(crate) fn end_without_memory(&self, bytes: usize) {
+        extern "C" fn end(_: c_int) {
+            // SAFETY: it ends this process.
+            unsafe { ffi::_exit(NO_MEMORY) }
+        }
+        let (rank, size, mut words) = (self.rank, self.size, Cursor::new([0; 512]));
+        let _ = writeln!(
+            words,
+            "error: rank {rank} of {size} is refused {bytes} bytes more of memory: more ranks on more machines, or an iterative \
+             `solver.petsc`"
+        );
+        let length = words.position() as usize;
+        // At once, so that no other process writes between.
+        let _ = std::io::stderr().write_all(&words.get_ref()[..length]);
+        // SAFETY: this ends the process; what MPI lacks of memory for that must not give it another code.
+        unsafe {
+            ffi::signal(ffi::SIGSEGV as c_int, Some(end));
+            ffi::signal(ffi::SIGABRT as c_int, Some(end));
+            ffi::MPI_Abort(self.own, NO_MEMORY);
+        }
     }
 
     /// Ends this rank with a code, all together where they come to the same end. Where this one is in trouble alone it says

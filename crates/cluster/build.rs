@@ -3,17 +3,18 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-const FUNCTIONS: [&str; 7] = [
+const FUNCTIONS: [&str; 8] = [
+    "signal|_exit",
     "MPI_(Init_thread|Finalize|Abort|Comm_(dup|rank|size)|Allgatherv|Gatherv|Ibarrier|Test|Get_library_version)",
     "Petsc(InitializeNoArguments|Finalize|GetVersionNumber|ErrorMessage|PushErrorHandler|ReturnErrorHandler|GlobalMinMaxInt)",
     "PetscDataType(GetSize|ToMPIDataType)|PetscOptions(SetValue|InsertString|LeftGet|LeftRestore)|PetscObjectTypeCompare",
     "Vec(CreateMPIWithArray|SetBlockSize|Destroy|GetArray|RestoreArray)",
     "Mat(CreateMPIAIJWithArrays|UpdateMPIAIJWithArray|SetBlockSize|SetNearNullSpace|NullSpace(CreateRigidBody|Destroy)|Destroy)",
-    "Mat(CreateVecs|CreateDense|Dense(GetArray|RestoreArray)|Assembly(Begin|End))",
+    "Mat(CreateVecs|CreateDense|LUFactor|Shift|Dense(GetLocalMatrix|GetArray|RestoreArray)|Assembly(Begin|End))",
     "KSP(Create|Reset|SetOperators|SetTolerances|SetFromOptions|SetUp|Reset|Solve|MatSolve|Get(PC|IterationNumber|ConvergedReason)|Destroy)|PC(GetFailedReason|FactorGetMatrix)|MatGetInfo",
 ];
 const VARIABLES: &str =
-    "PETSC_COMM_WORLD|PETSC_VERSION_(MAJOR|MINOR)|MPI_THREAD_SERIALIZED|MPI_MAX_LIBRARY_VERSION_STRING";
+    "SIG(SEGV|ABRT)|PETSC_COMM_WORLD|PETSC_VERSION_(MAJOR|MINOR)|MPI_THREAD_SERIALIZED|MPI_MAX_LIBRARY_VERSION_STRING";
 
 fn main() {
     println!("cargo:rerun-if-changed=headers.h");

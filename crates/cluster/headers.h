@@ -1,2 +1,4 @@
 #include <mpi.h>
 #include <petscksp.h>
+#include <signal.h>
+#include <unistd.h>

@@ -61,7 +61,10 @@ mod together {
 
     fn in_words(trouble: &Trouble) -> String {
         match trouble {
-            Trouble::Deck(diagnostics) => diagnostics.render(false),
+            Trouble::Deck(diagnostics) => {
+                let words = diagnostics.render(false);
+                words.strip_prefix("error: ").unwrap_or(&words).to_owned()
+            }
             Trouble::Other(error) => visible(&error.to_string()).into_owned(),
         }
     }

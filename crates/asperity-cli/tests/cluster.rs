@@ -6,6 +6,7 @@ use asperity::deck::{self, Made};
 use asperity::output::{CHECKPOINT, resumed};
 use asperity::solve::{RunOptions, Silent};
 use asperity::system::State;
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::{Mutex, PoisonError};
@@ -73,8 +74,12 @@ impl Trial {
         deck::load(&self.path("deck.toml"), &[]).and_then(deck::build).unwrap_or_else(|d| panic!("{}", d.render(false)))
     }
     fn command(&self, ranks: usize, words: &[&str]) -> Command {
+        self.command_of(ranks, &[], words)
+    }
+    /// The same by programs that start the one they are told.
+    fn command_of(&self, ranks: usize, by: &[&str], words: &[&str]) -> Command {
         let mut command = Command::new("mpirun");
-        command.args(["--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "-n", &ranks.to_string()]);
+        command.args(["--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "-n", &ranks.to_string()]).args(by);
         command.arg(env!("CARGO_BIN_EXE_asperity")).args(words).args(["--threads", "1", "--no-report"]);
         command.envs([("OMPI_ALLOW_RUN_AS_ROOT", "1"), ("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")]);
         command.current_dir(self.folder.path());
@@ -237,7 +242,7 @@ fn a_law_that_fails_on_one_rank_ends_all() {
     let begun = Instant::now();
     let (code, errors) = end(&trial.command(2, &["run", "deck.toml", "--out", "out"]).output().unwrap());
     assert_eq!((code, errors.len()), (Some(3), 1), "{errors:?}");
-    assert!(errors[0].contains("XIT"), "{errors:?}");
+    assert!(errors[0].contains("rank 1 of 2") && errors[0].contains("XIT"), "{errors:?}");
     assert!(begun.elapsed() < Duration::from_secs(60));
     assert!(Path::new(&trial.path("out").join(CHECKPOINT)).exists());
 }
@@ -246,6 +251,14 @@ fn a_law_that_fails_on_one_rank_ends_all() {
 fn children(parent: u32) -> Vec<u32> {
     let list = std::fs::read_to_string(format!("/proc/{parent}/task/{parent}/children")).unwrap_or_default();
     list.split_whitespace().filter_map(|pid| pid.parse().ok()).collect()
+}
+
+fn wait_for(checkpoint: &Path) {
+    let begun = Instant::now();
+    while !checkpoint.exists() {
+        assert!(begun.elapsed() < Duration::from_secs(120), "no checkpoint came");
+        std::thread::sleep(Duration::from_millis(50));
+    }
 }
 
 #[test]
@@ -257,15 +270,64 @@ fn a_rank_that_is_killed_ends_all() {
     let mut command = trial.command(2, &["run", "deck.toml", "--out", "out"]);
     let mut mpirun = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let checkpoint = format!("out/{CHECKPOINT}");
-    let begun = Instant::now();
-    while !trial.path(&checkpoint).exists() {
-        assert!(begun.elapsed() < Duration::from_secs(120), "no checkpoint came");
-        std::thread::sleep(Duration::from_millis(50));
-    }
+    wait_for(&trial.path(&checkpoint));
     let last = *children(mpirun.id()).last().expect("ranks");
     assert!(Command::new("kill").args(["-9", &last.to_string()]).status().unwrap().success());
     let killed = Instant::now();
     let status = mpirun.wait().unwrap();
     assert!(!status.success() && killed.elapsed() < Duration::from_secs(60), "{status} after {:?}", killed.elapsed());
     assert!(trial.state(&checkpoint).increment > 0);
+}
+
+/// A cube whose factors are a good part of what a rank holds.
+const CUBE: &str = r#"
+version = 1
+space = "solid"
+mesh.part.cube.box = { from = [0.0, 0.0, 0.0], to = [1.0, 1.0, 1.0], cells = [20, 20, 20], cell = "hex8" }
+material.rubber.neo_hookean = { shear = 0.385, bulk = 0.833 }
+body.cube.material = "rubber"
+output.checkpoint_every = 1
+[[step]]
+displacement."cube.bottom" = { x = 0.0, y = 0.0, z = 0.0 }
+displacement."cube.top" = { x = 1.0, y = -0.1, z = 0.0 }
+increments.count = 10
+"#;
+
+/// Limits the address space of the second of two ranks and leaves the first alone.
+const LIMITED: &str = r#"#!/bin/sh
+[ "$OMPI_COMM_WORLD_RANK" = 1 ] && ulimit -v "$LIMIT"
+exec "$@"
+"#;
+
+/// What a process holds of address space, in kilobytes.
+fn addresses(pid: u32) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).unwrap();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmSize:")).expect("a size");
+    line.split_whitespace().next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn a_rank_without_memory_ends_all() {
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let (trial, checkpoint) = (Trial::new(CUBE), format!("out/{CHECKPOINT}"));
+    let mut command = trial.command(2, &["run", "deck.toml", "--out", "out"]);
+    let mut mpirun = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    wait_for(&trial.path(&checkpoint));
+    let last = *children(mpirun.id()).last().expect("ranks");
+    let size = addresses(last);
+    assert!(Command::new("kill").args(["-9", &last.to_string()]).status().unwrap().success());
+    assert!(!mpirun.wait().unwrap().success());
+
+    let script = trial.path("limited");
+    std::fs::write(&script, LIMITED).unwrap();
+    std::fs::set_permissions(&script, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let mut command = trial.command_of(2, &[script.to_str().unwrap()], &["restart", "deck.toml", "--out", "out"]);
+    let begun = Instant::now();
+    let output = command.env("LIMIT", (size / 8 * 7).to_string()).output().unwrap();
+    let (code, errors) = end(&output);
+    assert_eq!((code, errors.len()), (Some(2), 1), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(errors[0].contains("memory"), "{errors:?}");
+    assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
+    assert!(trial.state(&checkpoint).increment > 0);
+    eprintln!("{size} kB of addresses, {:?}: {}", begun.elapsed(), errors[0]);
 }

@@ -1,6 +1,6 @@
 //! The linear solver of a run by PETSc's KSP.
 
-use crate::petsc::{KSP, Mat, Owned, Result, Vector, checked, ffi, int, text};
+use crate::petsc::{DECIDE, KSP, Mat, Owned, Result, Vector, checked, ffi, int, text};
 use crate::ranks::{Ranks, Rendezvous, start};
 use crate::rows::{Rows, with_held};
 use asperity_core::solve::{Factored, LinearError, LinearSolver, Problem, Unknowns};
@@ -36,8 +36,6 @@ const SHIFT: f64 = 1e-13;
 /// What moving a number of the factor counts in flops, as it is made and as it solves: those of `frontal`.
 const FACTOR_MOVED: f64 = 200.0;
 const SOLUTION_MOVED: f64 = 30.0;
-/// PETSc's PETSC_DECIDE.
-const DECIDE: ffi::PetscInt = -1;
 /// Loads that are solved for together.
 const TOGETHER: usize = 32;
 

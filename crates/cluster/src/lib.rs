@@ -11,6 +11,7 @@
 #![deny(unsafe_op_in_unsafe_fn)]
 
 mod engine;
+mod memory;
 mod petsc;
 mod ranks;
 mod rows;

@@ -28,8 +28,13 @@ pub fn checked(code: ffi::PetscErrorCode) -> Result<()> {
             .map(|text| if text.is_null() { "".into() } else { CStr::from_ptr(text).to_string_lossy() })
     };
     let lines = words.iter().flat_map(|text| text.lines()).map(str::trim).filter(|line| !line.is_empty());
-    Err(format!("PETSc: {} (its error {})", lines.collect::<Vec<_>>().join(": "), code as i32))
+    // A number that is none of its errors is the line at which it was given no memory.
+    let why = if general.is_null() { ", most likely for want of memory" } else { "" };
+    Err(format!("PETSc: {} (its error {}{why})", lines.collect::<Vec<_>>().join(": "), code as i32))
 }
+
+/// PETSc's PETSC_DECIDE.
+pub const DECIDE: PetscInt = -1;
 
 /// A text as C has it.
 pub fn text(words: &str) -> CString {

@@ -1,16 +1,20 @@
 //! The ranks of a run: how they begin, agree and end together.
 
 use crate::petsc::{checked, ffi, text};
-use asperity_core::system::Communicator;
+use asperity_core::system::{Communicator, said};
 use std::ffi::{CStr, c_char, c_int};
+use std::io::{Cursor, Write};
 use std::mem::{MaybeUninit, size_of};
 use std::ptr;
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long a rank that is in trouble waits for the others to come to the same end.
 const PATIENCE: Duration = Duration::from_secs(10);
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
+
+/// The code with which a run ends that does not fit into memory.
+const NO_MEMORY: c_int = 2;
 
 /// Variables that launchers set, those of one process before those of a whole job: how many processes there are, and which
 /// one this is.
@@ -29,6 +33,9 @@ pub(crate) enum Rendezvous {
     Pieces,
 }
 
+/// Bits of a number with which ranks come to what they must come to together.
+const BITS: u32 = 28;
+
 /// The ranks that run together.
 pub struct Ranks {
     rank: usize,
@@ -37,6 +44,10 @@ pub struct Ranks {
     own: ffi::MPI_Comm,
     /// Has come to its end; all have once this is done.
     arrival: Mutex<Option<ffi::MPI_Request>>,
+    /// Why the last attempt failed here, until the others are known to be where this rank is.
+    failure: Mutex<String>,
+    /// Why the ranks do not go on, once they have come apart.
+    apart: OnceLock<String>,
 }
 
 // SAFETY: handles of MPI may be used by any thread, one at a time, for which it is initialised.
@@ -60,6 +71,7 @@ pub fn start() -> Result<&'static Ranks, String> {
         return Ok(ranks);
     }
     let begun = Ranks::begin()?;
+    crate::memory::reserve()?;
     Ok(RANKS.get_or_init(|| begun))
 }
 
@@ -69,6 +81,11 @@ pub(crate) fn has_arrived() -> bool {
 }
 
 impl Ranks {
+    /// The ranks, once they have begun.
+    pub(crate) fn begun() -> Option<&'static Self> {
+        RANKS.get()
+    }
+
     fn begin() -> Result<Self, String> {
         let (mut given, mut rank, mut size, mut own) = (0, 0, 0, MaybeUninit::uninit());
         let serialised = ffi::MPI_THREAD_SERIALIZED as c_int;
@@ -85,7 +102,8 @@ impl Ranks {
         }
         // SAFETY: the call above wrote it.
         let own = unsafe { own.assume_init() };
-        let ranks = Self { rank: rank as usize, size: size as usize, own, arrival: Mutex::new(None) };
+        let (arrival, failure, apart) = (Mutex::new(None), Mutex::default(), OnceLock::new());
+        let ranks = Self { rank: rank as usize, size: size as usize, own, arrival, failure, apart };
         let fault = ranks.alone().or_else(|| (given < serialised).then(|| "this MPI serves no threads".into()));
         fault.map_or_else(other_library, Err).map(|()| ranks)
     }
@@ -112,18 +130,48 @@ impl Ranks {
         self.size
     }
 
-    /// Smallest and largest of the ranks' own numbers.
-    fn range(&self, mine: ffi::PetscInt) -> Result<[ffi::PetscInt; 2], String> {
-        let (mut mine, mut all) = ([mine; 2], [0; 2]);
+    /// Smallest and largest of numbers that the ranks come with; all must come to the same, and with the same number where they
+    /// do not ask. Those that have come apart once do so for good.
+    fn meet(&self, on: Rendezvous, number: u32) -> Result<[u32; 2], String> {
+        if let Some(why) = self.apart.get() {
+            return Err(why.clone());
+        }
+        let (mut mine, mut all) = ([((on as u32) << BITS | number) as ffi::PetscInt; 2], [0; 2]);
         // SAFETY: both are pairs.
         checked(unsafe { ffi::PetscGlobalMinMaxInt(ffi::PETSC_COMM_WORLD, mine.as_mut_ptr(), all.as_mut_ptr()) })?;
-        Ok(all)
+        let [least, most] = all.map(|number| number as u32);
+        let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+        if least == most || matches!(on, Rendezvous::Question) && least >> BITS == most >> BITS {
+            failure.clear();
+            return Ok([least, most]);
+        }
+        let why = self.all_failures(&failure)?.unwrap_or_else(|| {
+            "a law failed on some of them only, or their processors, libraries or files are not the same".into()
+        });
+        Err(self.apart.get_or_init(|| format!("the ranks have come to different equations: {why}")).clone())
     }
 
-    /// Whether any rank says yes, or is elsewhere than here; all must ask.
+    /// What failed on some ranks and not on all alike, with their numbers.
+    fn all_failures(&self, mine: &str) -> Result<Option<String>, String> {
+        let mut lengths = vec![0.0; self.size];
+        self.gather(&[mine.len() as f64], &vec![1; self.size], &mut lengths)?;
+        let lengths: Vec<c_int> = lengths.iter().map(|length| *length as c_int).collect();
+        let (piece, starts) = (mine.bytes().map(f64::from).collect::<Vec<_>>(), starts(&lengths));
+        let mut whole = vec![0.0; starts[self.size]];
+        self.gather(&piece, &lengths, &mut whole)?;
+        let text = |ends: &[usize]| whole[ends[0]..ends[1]].iter().map(|byte| *byte as u8).collect::<Vec<_>>();
+        let texts: Vec<String> =
+            starts.windows(2).map(|ends| String::from_utf8_lossy(&text(ends)).into_owned()).collect();
+        if texts.iter().all(|text| *text == texts[0]) {
+            return Ok(None);
+        }
+        let failed = texts.iter().enumerate().filter(|(_, text)| !text.is_empty());
+        Ok(Some(failed.map(|(rank, text)| said(text, rank, self.size)).collect::<Vec<_>>().join("; ")))
+    }
+
+    /// Whether any rank says yes; all must ask. Those that have come apart learn why where they meet next.
     pub fn any(&self, yes: bool) -> bool {
-        let question = Rendezvous::Question as ffi::PetscInt * 2;
-        !self.range(question + ffi::PetscInt::from(yes)).is_ok_and(|range| range == [question; 2])
+        self.meet(Rendezvous::Question, u32::from(yes)).is_ok_and(|[_, most]| most & 1 == 1)
     }
 
     /// Sees to it that all ranks come here with the same numbers.
@@ -132,14 +180,8 @@ impl Ranks {
             let bits = x.to_bits();
             (hash ^ bits as u32 ^ (bits >> 32) as u32).wrapping_mul(0x0100_0193).rotate_left(5)
         };
-        let hash = numbers.iter().fold(on as u32, mix) >> 4;
-        let [least, most] = self.range((((on as u32) << 28) | hash) as ffi::PetscInt)?;
-        if least == most {
-            return Ok(());
-        }
-        Err("the ranks have come to different equations: a law failed on some of them only, or their processors, libraries or files \
-             are not the same"
-            .into())
+        let hash = numbers.iter().fold(on as u32, mix) >> (u32::BITS - BITS);
+        self.meet(on, hash).map(drop)
     }
 
     /// Puts together the pieces that the ranks hold of a vector, of these lengths.
@@ -176,7 +218,7 @@ impl Ranks {
 
     /// Lets the others know that this rank has come to its end, whatever that is.
     pub fn arrive(&self) {
-        let mut arrival = self.arrival.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut arrival = self.arrival.lock().unwrap_or_else(PoisonError::into_inner);
         arrival.get_or_insert_with(|| {
             let mut request = MaybeUninit::uninit();
             // SAFETY: the call writes the request.
@@ -189,13 +231,36 @@ impl Ranks {
 
     /// Whether all have.
     fn all_arrived(&self) -> bool {
-        let mut arrival = self.arrival.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut arrival = self.arrival.lock().unwrap_or_else(PoisonError::into_inner);
         let (mut done, mut status) = (0, MaybeUninit::uninit());
         // SAFETY: the request is that of `arrive`; one that is done is so for good.
         arrival.as_mut().is_some_and(|request| unsafe {
             ffi::MPI_Test(request, &mut done, status.as_mut_ptr());
             done != 0
         })
+    }
+
+    /// Ends all ranks, since this one is given no more memory. Takes none itself.
+    pub(crate) fn end_without_memory(&self, bytes: usize) {
+        extern "C" fn end(_: c_int) {
+            // SAFETY: it ends this process.
+            unsafe { ffi::_exit(NO_MEMORY) }
+        }
+        let (rank, size, mut words) = (self.rank, self.size, Cursor::new([0; 512]));
+        let _ = writeln!(
+            words,
+            "error: rank {rank} of {size} is refused {bytes} bytes more of memory: more ranks on more machines, or an iterative \
+             `solver.petsc`"
+        );
+        let length = words.position() as usize;
+        // At once, so that no other process writes between.
+        let _ = std::io::stderr().write_all(&words.get_ref()[..length]);
+        // SAFETY: this ends the process; what MPI lacks of memory for that must not give it another code.
+        unsafe {
+            ffi::signal(ffi::SIGSEGV as c_int, Some(end));
+            ffi::signal(ffi::SIGABRT as c_int, Some(end));
+            ffi::MPI_Abort(self.own, NO_MEMORY);
+        }
     }
 
     /// Ends this rank with a code, all together where they come to the same end. Where this one is in trouble alone it says
@@ -230,6 +295,9 @@ impl Communicator for Ranks {
     }
     fn agree(&self, numbers: &[f64]) -> Result<(), String> {
         Self::agree(self, Rendezvous::Trial, numbers)
+    }
+    fn failed(&self, why: &str) {
+        why.clone_into(&mut self.failure.lock().unwrap_or_else(PoisonError::into_inner));
     }
     fn gather(&self, piece: &[f64]) -> Result<(Vec<f64>, Vec<usize>), String> {
         let lengths = self.lengths(piece)?;

@@ -4,8 +4,8 @@
 mod contract;
 
 use asperity::solve::{Factored, LinearError, LinearSolver, Unknowns};
-use asperity::system::{Csr, Shares};
-use cluster::{Petsc, others, start};
+use asperity::system::{Communicator, Csr, Shares};
+use cluster::{Petsc, Ranks, others, start};
 use std::ops::Range;
 
 const ITERATIVE: &str = "-ksp_type fgmres -pc_type asm -ksp_rtol 1e-10";
@@ -43,6 +43,21 @@ impl LinearSolver for Share {
     }
 }
 
+/// Where ranks come to different things they hear of what failed on some of them, and of nothing else after.
+fn a_failure_is_told_with_its_rank(ranks: &Ranks) {
+    ranks.failed("all");
+    assert_eq!(Communicator::agree(ranks, &[1.0]), Ok(()));
+    if ranks.rank() == 1 {
+        ranks.failed("the law of sand fails");
+        assert!(!ranks.any(false));
+    }
+    for _ in 0..2 {
+        let apart = Communicator::agree(ranks, &[2.0]).expect_err("a rank was elsewhere");
+        let told = format!(": the law of sand fails (rank 1 of {})", ranks.size());
+        assert!(apart.ends_with(&told), "{apart}");
+    }
+}
+
 fn main() {
     let ranks = start().unwrap_or_else(|why| panic!("{why}"));
     // The options of PETSc are those of the whole process: what comes last holds.
@@ -50,6 +65,9 @@ fn main() {
     contract::hold(&mut Share::with(Some(ITERATIVE)), false);
     if ranks.rank() == 0 {
         println!("the contract holds on {} ranks, directly and by iterations", ranks.size());
+    }
+    if ranks.size() > 1 {
+        a_failure_is_told_with_its_rank(ranks);
     }
     ranks.part(0, None);
 }

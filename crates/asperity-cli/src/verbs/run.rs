@@ -91,7 +91,9 @@ fn quoted(word: &str) -> String {
 fn set_threads(arguments: &arguments::Run) -> Result<(), Error> {
     let Some(threads) = arguments.threads else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
-    pool.map_err(|error| Error::Internal(error.to_string()))
+    pool.map_err(|error| {
+        Error::Input(format!("no {threads} threads, for want of memory or of processes allowed: {error}"))
+    })
 }
 
 /// What a rank does that is not the first: it solves what that one solves, and writes nothing.

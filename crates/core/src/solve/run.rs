@@ -199,6 +199,9 @@ impl<'a> Run<'a> {
                     return Err(error);
                 }
                 Err(SolveError::Failure(failure)) => {
+                    if let Some(with) = self.memory.workspace.shares().with() {
+                        with.failed(&failure.reason);
+                    }
                     (record.failure, record.kind) = (Some(failure.reason.clone()), failure.kind);
                     observer.attempt(&record);
                     // Relaxation is the last resort: what made it one is why the increment failed.

@@ -36,7 +36,7 @@ pub use kernel::kernel;
 pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};
 pub use pattern::{Couplings, Csr, Reduced};
 pub use preconditioner::{Factorised, Near, Preconditioner};
-pub use shares::{Communicator, Shares, apart};
+pub use shares::{Communicator, Shares, apart, said};
 pub use state::{Caution, Energies, History, Interpenetration, Signs, Softest, State};
 pub use term::{Attempt, Branch, Instant, Local, Role, Stencil, Stencils, Term};
 pub use whole::Whole;

@@ -1,7 +1,7 @@
 //! What ranks tell each other of an evaluation: what the chunks of each come to, in the order of terms and stencils.
 
 use super::chunk::{CHUNK, Chunk};
-use super::shares::apart;
+use super::shares::{apart, said};
 use super::sink::Miss;
 use super::{Communicator, Energies, History, Stencils};
 use crate::{Failure, FailureKind};
@@ -46,7 +46,7 @@ impl Parcel {
     /// Tells all ranks; whether none of them missed an entry.
     ///
     /// # Errors
-    /// The first failure in the order of terms and stencils, or that ranks have come apart.
+    /// The first failure in the order of terms and stencils, with the rank that met it, or that ranks have come apart.
     pub fn exchange(self, with: &dyn Communicator) -> Result<Result<Parcels, Miss>, Failure> {
         let mut piece = vec![f64::from(u8::from(self.missed)), f64::INFINITY, 0.0, 0.0, 0.0];
         match &self.failed {
@@ -61,11 +61,11 @@ impl Parcel {
         }
         let (numbers, starts) = with.gather(&piece).map_err(apart)?;
         let heads = || starts.windows(2).map(|ends| &numbers[ends[0]..ends[1]]);
-        let first = heads().min_by(|a, b| a[1].total_cmp(&b[1]).then(a[2].total_cmp(&b[2])));
-        if let Some(failed) = first.filter(|head| head[1].is_finite()) {
+        let first = heads().enumerate().min_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]).then(a[2].total_cmp(&b[2])));
+        if let Some((rank, failed)) = first.filter(|(_, head)| head[1].is_finite()) {
             let text: Vec<u8> = failed[HEAD..].iter().map(|byte| *byte as u8).collect();
             let kind = FailureKind::ALL[failed[3] as usize];
-            return Err(Failure::new(String::from_utf8_lossy(&text)).of(kind));
+            return Err(Failure::new(said(&String::from_utf8_lossy(&text), rank, with.size())).of(kind));
         }
         if heads().any(|head| head[0] != 0.0) {
             return Ok(Err(Miss));

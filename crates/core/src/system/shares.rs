@@ -19,8 +19,10 @@ pub trait Communicator: Send + Sync {
     /// Sees to it that all come here with the same numbers.
     ///
     /// # Errors
-    /// That they have not, in words, on all of them.
+    /// That they have not, in words, on all of them, with what [`failed`](Self::failed) since they last did.
     fn agree(&self, numbers: &[f64]) -> Result<(), String>;
+    /// Notes why an attempt failed on this rank, which the others hear of where they come to something else.
+    fn failed(&self, _why: &str) {}
     /// The pieces of all ranks, one after another, and where each begins and the last ends.
     ///
     /// # Errors
@@ -124,6 +126,11 @@ impl Shares {
         self.largest(&mut said)?;
         Ok(said[0] != 0.0)
     }
+}
+
+/// What one of several ranks said, with its number.
+pub fn said(words: &str, rank: usize, size: usize) -> String {
+    format!("{words} (rank {rank} of {size})")
 }
 
 /// Why ranks that have come apart do not go on.

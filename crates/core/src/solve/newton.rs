@@ -213,11 +213,12 @@ pub(super) struct Sequence {
     count: usize,
     begun: usize,
     augmentation: usize,
-    /// What the last iteration changed, which part of its step it took, whether its matrix was factorised, and the unbalanced forces
-    /// that it began with and, at the first, all began with.
+    /// What the last iteration changed, which part of its step it took, whether its matrix was factorised and contact found no states
+    /// over it, and the unbalanced forces that it began with and, at the first, all began with.
     correction: f64,
     taken: f64,
     factorised: bool,
+    lost: bool,
     ratio: f64,
     first: f64,
     /// Iterations in a row that stalled.
@@ -359,7 +360,7 @@ impl<'a> Newton<'a> {
             }
             let since = iteration - sequence.begun;
             if main {
-                sequence.progress.push(since == 0, norms.ratio, sequence.taken);
+                sequence.progress.push(since == 0, norms.ratio, (sequence.taken, sequence.lost));
                 // Where flow is not associated a step need not lower the slope: only contact is to be calmed.
                 if since >= PATIENCE && !self.problem.contacts.is_empty() {
                     self.bound = STRICT;
@@ -388,7 +389,7 @@ impl<'a> Newton<'a> {
                 self.linearise((iteration, u), missing.as_deref(), loose)?
             };
             let tangent = if main { self.wanted(&norms, sequence.ratio) } else { self.tangent() };
-            (sequence.factorised, sequence.ratio) = (step.factorised, norms.ratio);
+            (sequence.factorised, sequence.ratio, sequence.lost) = (step.factorised, norms.ratio, step.lost);
             let from = u.clone();
             self.hold(false);
             sequence.taken = match self.path {

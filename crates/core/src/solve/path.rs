@@ -241,7 +241,7 @@ impl<'a> Newton<'a> {
         for (du, (load_moves, spring_moves)) in du.iter_mut().zip(with_load.iter().zip(&with_spring)) {
             *du += load * load_moves + pulled * spring_moves;
         }
-        let mut motion = NewtonStep { du, part: 1.0, factorised, load };
+        let mut motion = NewtonStep { du, part: 1.0, factorised, load, lost: false };
         self.limit(u, None, &mut motion);
         motion.load *= motion.part;
         self.memory.mip.aim(&self.assembly, &self.memory.kinks, &motion.du)?;

@@ -2,23 +2,27 @@
 //!
 //! Newton's method near a solution takes whole steps and makes the unbalanced forces a small part of those in play within a few.
 //! Iterations that leave them large, no smaller than they were before, and must shorten their steps, wander: a smaller increment
-//! costs less than the rest of them.
+//! costs less than the rest of them. So do those over which contact finds no states that would balance the linear step: what they
+//! change then is no more than a guess.
 
-use super::constants::progress::{FALL, LARGE, SHORT, WINDOW};
+use super::constants::progress::{FALL, LARGE, LOST, SHORT, WINDOW};
 
-/// The iterations of a sequence: what each left of the unbalanced forces over those in play, and the part of Newton's step that led
-/// there.
+/// The iterations of a sequence: what each left of the unbalanced forces over those in play, the part of Newton's step that led
+/// there, and over how many steps contact found no states.
 #[derive(Debug, Default)]
 pub(super) struct Progress {
     ratios: Vec<f64>,
     parts: Vec<f64>,
+    lost: usize,
 }
 
 impl Progress {
     /// Remembers an iteration; the first of a sequence is that of its first guess.
-    pub fn push(&mut self, first: bool, ratio: f64, part: f64) {
+    pub fn push(&mut self, first: bool, ratio: f64, (part, lost): (f64, bool)) {
         if first {
             *self = Self::default();
+        } else {
+            self.lost += usize::from(lost);
         }
         self.ratios.push(ratio);
         self.parts.push(part);
@@ -26,6 +30,9 @@ impl Progress {
 
     /// Whether the last iterations wander.
     pub fn wanders(&self) -> bool {
+        if self.lost >= LOST {
+            return true;
+        }
         let Some(start) = self.ratios.len().checked_sub(WINDOW).filter(|start| *start > 1) else { return false };
         let least = |ratios: &[f64]| ratios.iter().copied().fold(f64::INFINITY, f64::min);
         let (before, now) = (least(&self.ratios[1..start]), least(&self.ratios[start..]));
@@ -41,7 +48,7 @@ mod tests {
     fn wanders(iterations: &[(f64, f64)]) -> Option<usize> {
         let mut progress = Progress::default();
         let mut lost = |(i, &(ratio, part)): (usize, &(f64, f64))| {
-            progress.push(i == 0, ratio, part);
+            progress.push(i == 0, ratio, (part, false));
             progress.wanders().then_some(i)
         };
         iterations.iter().enumerate().find_map(&mut lost)
@@ -51,6 +58,20 @@ mod tests {
     fn forces_that_stay_large_over_shortened_steps_are_given_up() {
         let attempt: Vec<(f64, f64)> = [(1e-2, 0.0), (0.9, 1.0)].into_iter().chain([(0.8, 0.1); 20]).collect();
         assert_eq!(wanders(&attempt), Some(1 + WINDOW));
+    }
+
+    #[test]
+    fn a_second_step_without_states_of_contact_is_the_last() {
+        let mut progress = Progress::default();
+        let mut wanders = |first, lost| {
+            progress.push(first, 0.1, (1.0, lost));
+            progress.wanders()
+        };
+        // What led to the first iterate belongs to no step of the sequence.
+        assert_eq!(
+            [(true, true), (false, true), (false, false), (false, true)].map(|(f, l)| wanders(f, l)),
+            [false, false, false, true]
+        );
     }
 
     #[test]

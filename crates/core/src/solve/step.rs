@@ -18,6 +18,8 @@ pub(super) struct NewtonStep {
     pub factorised: bool,
     /// Change of the load factor of a path.
     pub load: f64,
+    /// Whether no states of the contact points were found over it.
+    pub lost: bool,
 }
 
 impl Newton<'_> {
@@ -41,7 +43,7 @@ impl Newton<'_> {
         let size = norm(&rhs);
         let factorised = self.solve_linear(iteration, &mut rhs, forcing)?;
         constraints.expand(&rhs, &mut du);
-        let mut step = NewtonStep { du, part: 1.0, factorised, load: 0.0 };
+        let mut step = NewtonStep { du, part: 1.0, factorised, load: 0.0, lost: false };
         if self.problem.newton.piecewise && !self.put_right(size, &mut step, forcing)? {
             self.system.invalidate_factor();
             return self.linearise((iteration, u), missing, forcing);

@@ -142,7 +142,10 @@ pub(super) fn put_right(
     let along = kinks.list().iter().map(|kink| kinks.along(kink, &step.du)).collect();
     let mut points = Points { contact, system };
     let mut problem = SmallProblem::new((y, counts), along, &points)?;
-    let Some(part) = problem.settle(&mut points)? else { return Ok(linearised.forcing.is_none()) };
+    let Some(part) = problem.settle(&mut points)? else {
+        step.lost = true;
+        return Ok(linearised.forcing.is_none());
+    };
     if !problem.is_nonsmooth() {
         return Ok(true);
     }

@@ -638,7 +638,10 @@ mod tests {
         let mut laws = Formulas { law: coulomb, compliance, points: 3, asked: 0 };
         let start = [0.5, -0.5, -0.04].map(|slip| [0.1, slip, 0.0, 0.0]);
         let mut small = problem(&laws, 2, &start, &[[0.0, 300.0, 0.0, 0.0]; 3]);
-        assert!(!small.settle_part((1.0, Steps::Whole), &mut laws).expect("laws that answer"), "it goes round in a circle");
+        assert!(
+            !small.settle_part((1.0, Steps::Whole), &mut laws).expect("laws that answer"),
+            "it goes round in a circle"
+        );
         assert!(small.stick(&mut laws).expect("a start"));
         assert!(small.settle_part((1.0, Steps::Whole), &mut laws).expect("laws that answer"));
         // 0.001 shift + 10 y + 0.3 = 0.3, shift = y + 0.04.

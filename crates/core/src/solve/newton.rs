@@ -368,7 +368,11 @@ impl<'a> Newton<'a> {
             }
             let grows = norms.ratio > sequence.ratio.max(norms.allowed) && iteration > 0;
             let given_up = match goal {
-                Goal::Equilibrium => since == options.iterations || sequence.progress.wanders(),
+                // Where no smaller increment may follow there is nothing to save the rest for.
+                Goal::Equilibrium => {
+                    let vain = sequence.progress.wanders() && self.step.may_halve(self.at.dt);
+                    since == options.iterations || vain
+                }
                 Goal::Less { most, .. } => iteration == most,
                 Goal::Balance { most, .. } => iteration == most || grows,
             };

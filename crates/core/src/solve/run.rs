@@ -8,7 +8,7 @@ use super::path::Reached;
 use super::predict::learn;
 use super::problem::{Problem, largest};
 use super::rigid::free_motions;
-use super::schedule::{SMALLEST, Step};
+use super::schedule::Step;
 use super::snap::{Snap, set_free};
 use super::stability::{Look, Stability};
 use crate::system::{Caution, Energies, Interpenetration, State, Workspace};
@@ -151,7 +151,6 @@ impl<'a> Run<'a> {
         // What a path does past its limit points is no jump.
         let still = step.arc_length.is_some() || !self.problem.relaxes();
         let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, still);
-        let smallest = step.increments.smallest.max(SMALLEST) * step.duration;
         let mut caution = self.state.caution;
         let usual = caution.usual(step);
         let mut cause = String::new();
@@ -217,11 +216,11 @@ impl<'a> Run<'a> {
                     if small && self.stops() {
                         continue;
                     }
-                    relaxing = !relaxed && (small || 0.5 * dt < smallest);
-                    wanted = if relaxing { dt } else { 0.5 * dt };
-                    if wanted < smallest {
+                    relaxing = !relaxed && (small || !step.may_halve(dt));
+                    if !relaxing && !step.may_halve(dt) {
                         return Err(self.give_up(step, dt, &cause));
                     }
+                    wanted = if relaxing { dt } else { 0.5 * dt };
                 }
             }
         }

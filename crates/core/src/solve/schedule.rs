@@ -132,6 +132,11 @@ impl Step {
         step_time >= self.duration * (1.0 - 1e-9)
     }
 
+    /// Whether an increment may be halved.
+    pub(super) fn may_halve(&self, dt: f64) -> bool {
+        0.5 * dt >= self.increments.smallest.max(SMALLEST) * self.duration
+    }
+
     /// Size of the increment to try when the controller wants `wanted` and `done` of the step is behind: the rest of
     /// the step when that is near, and halves of the rest rather than a sliver at the end.
     pub fn next(&self, wanted: f64, done: f64) -> f64 {

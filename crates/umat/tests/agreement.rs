@@ -151,8 +151,7 @@ fn structures_are_those_of_the_law_of_the_program() {
     agree("beam.toml", &own, &elastic(&library), &[]);
 }
 
-/// A law whose yield stress follows `TEMP` and `DTEMP`: the J2 of the example at the stress of the temperature of each point, in the
-/// middle of a deck that heats its body.
+/// The J2 of the example, which keeps `TEMP` and `DTEMP` as states, in a body that is heated to 80 in four increments.
 #[test]
 fn a_law_is_told_of_the_temperature() {
     let folder = tempfile::tempdir().unwrap();

@@ -457,18 +457,17 @@ impl Look<'_> {
         let (a, tool) = (&self.placed[own], &self.prepared.tools[number]);
         let other = Other::Tool(number);
         let poses: Vec<_> = (0..=STEPS).map(|i| tool.pose(self.accepted, self.u, i as f64 / STEPS as f64)).collect();
-        for &(point, curvature) in &tool.points {
-            let path: Vec<Vec3> = poses.iter().map(|pose| tool.place(pose, point)).collect();
+        let bears = self.prepared.known[self.prepared.pair(own, other)];
+        for &point in &tool.points {
+            let path: Vec<Vec3> = poses.iter().map(|pose| tool.place(pose, point.0)).collect();
             let here = path[STEPS];
             if !meet(&bounds(path.iter().copied()), &a.swept) {
                 continue;
             }
             let mut report = |depth: f64, piece: usize, manner: Manner| {
                 let size = a.size_of(piece);
-                // Between the points of a contact the nose of a tool lies in a straight side by its sagitta.
-                let length = a.length_of(piece);
-                let bears = f64::from(u8::from(self.prepared.known[self.prepared.pair(own, other)]));
-                let nose = bears * (curvature * length * length / 8.0).min(0.5 * length);
+                // Only between the points of a contact.
+                let nose = if bears { tool.nose(point, a.length_of(piece)) } else { 0.0 };
                 let (sagitta, body) = (a.sagitta_of(piece) + nose, a.surface.body_of(piece));
                 let (bodies, vertex, place) = ([body, body], None, here);
                 found(Found { own, other, bodies, depth, sagitta, size, vertex, place, manner });

@@ -111,7 +111,24 @@ impl Rigid {
     /// How far a side of length `length` at `p` that the tool bears at some of its points may lie in it between and beyond them,
     /// since its surface turns over that length: by an angle `t`, no farther than `t / 4` times the length.
     pub fn bulge(&self, p: Vec3, piece: usize, length: f64) -> f64 {
-        let (own, reach) = (self.pieces[piece].direction(), Vec3([length; 3]));
+        0.25 * self.turn(p, piece, length) * length
+    }
+    /// How far a point `p` of its surface, where it has a curvature, may lie in a straight side of length `length` that rests on it beside the
+    /// point: by the sagitta, or as much as that where facets stand for a round surface.
+    pub fn nose(&self, (p, curvature): (Vec3, f64), length: f64) -> f64 {
+        let (reach, mut nose) = (0.5 * length, curvature * length * length / 8.0);
+        self.tree.nearest(p, reach, &mut |piece, _, distance| {
+            let touches = distance <= self.sagitta;
+            if touches {
+                nose = nose.max(0.25 * self.turn(p, piece, reach) * length);
+            }
+            touches
+        });
+        nose.min(reach)
+    }
+    /// The largest angle by which pieces within `reach` of `p` are turned from one of them; what is turned far is a corner.
+    fn turn(&self, p: Vec3, piece: usize, reach: f64) -> f64 {
+        let (own, reach) = (self.pieces[piece].direction(), Vec3([reach; 3]));
         let mut turn = 0.0_f64;
         self.tree.within([p - reach, p + reach], &mut |_, other| {
             let here = (other.direction() - own).norm();
@@ -119,7 +136,7 @@ impl Rigid {
                 turn = turn.max(here);
             }
         });
-        0.25 * turn * length
+        turn
     }
     /// How deep a point of its own frame lies in its material; behind a profile without an inside no farther than `reach`.
     pub fn depth(&self, p: Vec3, reach: f64) -> Option<Depth> {
@@ -189,4 +206,33 @@ fn tiles(facet: &dyn ToolFacet, sagitta: f64) -> Vec<Simplex> {
     };
     let all = (0..n).flat_map(|i| (0..m).map(move |j| (i, j))).flat_map(both);
     all.filter(|tile| tile.normal().norm() > 0.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tool::space::SpaceTool;
+    use crate::tool::space::solids::polygons;
+
+    /// A gutter of flat strips around an arc of radius 4, each turned from the last by `angle` degrees.
+    fn gutter(angle: f64) -> Rigid {
+        let at = |k: f64, y: f64| {
+            let (sin, cos) = (angle * k).to_radians().sin_cos();
+            Vec3::new(4.0 * sin, y, -4.0 * cos)
+        };
+        let strip = |k: f64| vec![at(k, -5.0), at(k, 5.0), at(k + 1.0, 5.0), at(k + 1.0, -5.0)];
+        let facets = polygons((-4..4).map(|k| strip(f64::from(k)))).unwrap();
+        Rigid::space(&SpaceTool::new("gutter", facets, Vec3::zero()), 0, &Dofs::new(3, 0, 1), 0.4)
+    }
+
+    #[test]
+    fn a_side_lies_on_facets_by_the_sagitta_of_the_arc_for_which_they_stand() {
+        let bottom = (Vec3::new(0.0, -5.0, -4.0), 0.0);
+        for (angle, length) in [(5.0, 2.0), (10.0, 2.0), (10.0, 1.5), (3.0, 1.0)] {
+            let (nose, sagitta) = (gutter(angle).nose(bottom, length), length * length / 32.0);
+            assert!((0.6..2.0).contains(&(nose / sagitta)), "{angle}, {length}: {nose} of {sagitta}"); // by whole facets
+        }
+        assert_eq!(gutter(60.0).nose(bottom, 2.0), 0.0, "a corner stands for nothing round");
+        assert_eq!(gutter(60.0).nose((bottom.0, 0.25), 2.0), 0.125, "the sagitta of a round tool");
+    }
 }

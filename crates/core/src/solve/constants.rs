@@ -151,8 +151,8 @@ pub mod rigid_motions {
 pub mod increments {
     /// Energy below this part of that of the model and of its forces over a cell is rounding.
     pub const NOISE: f64 = 1e-9;
-    /// Part of the size that served last, at most the first of the step, from which on an increment that fails is relaxed, and what
-    /// the next one is after that, at least.
+    /// Part of the size that served last, at most the first of the step, from which on an increment that fails is relaxed (its square
+    /// in the first increment of a step), and what the next one is after that, at least.
     pub const RELAX: f64 = 0.125;
     pub const JUMPED: f64 = 0.25;
     /// Attempts at one increment before the run gives up.

@@ -152,7 +152,8 @@ impl<'a> Run<'a> {
         let still = step.arc_length.is_some() || !self.problem.relaxes();
         let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, still);
         let mut caution = self.state.caution;
-        let usual = caution.usual(step);
+        // In a step that has just begun no size has served.
+        let served = if self.state.step_time > 0.0 { 1.0 } else { RELAX } * caution.usual(step);
         let mut cause = String::new();
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);
@@ -212,7 +213,7 @@ impl<'a> Run<'a> {
                     caution.fail(dt);
                     relaxed |= relaxing;
                     caution.vain |= relaxing;
-                    let small = dt <= RELAX * usual && !caution.vain;
+                    let small = dt <= RELAX * served && !caution.vain;
                     if small && self.stops() {
                         continue;
                     }

@@ -18,6 +18,8 @@ pub struct BoxTree {
     nodes: Vec<BoxNode>,
     /// Pieces, in the order of the leaves.
     order: Vec<usize>,
+    /// Their boxes, in that order.
+    pieces: Vec<BoundingBox>,
 }
 
 #[derive(Debug, Clone)]
@@ -45,8 +47,9 @@ impl BoxNode {
 impl BoxTree {
     /// A tree over boxes, each widened by `margin` on all sides.
     pub fn new(boxes: &[BoundingBox], margin: f64) -> Self {
-        let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len()).collect() };
+        let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len()).collect(), pieces: Vec::new() };
         tree.grow(boxes, margin, 0, boxes.len());
+        tree.pieces = tree.order.iter().map(|&i| boxes[i].widened(margin)).collect();
         tree
     }
 
@@ -82,6 +85,7 @@ impl BoxTree {
             let node = &mut tree.nodes[here];
             (node.centre, node.half) = (all[here].centre(), (all[here].max - all[here].min) * 0.5 + Vec3([margin; 3]));
         }
+        tree.pieces = self.order.iter().map(|&i| boxes[i].widened(margin)).collect();
         tree
     }
 
@@ -117,11 +121,9 @@ impl BoxTree {
         );
     }
 
-    /// The least distance from `x` to a piece, each of whose distances `of` tells; boxes farther than the least so far are left out.
-    pub fn closest(&self, x: Vec3, of: &mut dyn FnMut(usize) -> f64) -> f64 {
-        let mut least = f64::INFINITY;
-        self.approach((0, self.nodes[0].distance(x)), x, &mut least, of);
-        least
+    /// Asks `of` for the distances of `x` from pieces, but for those whose boxes are farther than the least so far.
+    pub fn closest(&self, x: Vec3, of: &mut dyn FnMut(usize) -> f64) {
+        self.approach((0, self.nodes[0].distance(x)), x, &mut { f64::INFINITY }, of);
     }
 
     fn approach(&self, (at, distance): (usize, f64), x: Vec3, least: &mut f64, of: &mut dyn FnMut(usize) -> f64) {
@@ -129,7 +131,13 @@ impl BoxTree {
             return;
         }
         match self.nodes[at].content {
-            BoxContent::Leaf(from, to) => self.order[from..to].iter().for_each(|&i| *least = least.min(of(i))),
+            BoxContent::Leaf(from, to) => {
+                for (&i, bounds) in self.order[from..to].iter().zip(&self.pieces[from..to]) {
+                    if bounds.distance(x) <= *least {
+                        *least = least.min(of(i));
+                    }
+                }
+            }
             BoxContent::Inner(second) => {
                 let mut both = [at + 1, second].map(|child| (child, self.nodes[child].distance(x)));
                 if both[1].1 < both[0].1 {

@@ -97,31 +97,29 @@ impl Configuration<'_> {
         found
     }
 
-    /// Gaps of a patch at `places`, the last of them its middle; none if it does not look at the surface.
+    /// Gaps of a patch at `places`, the last of them its middle; none if it does not look at the surface. What lies beyond the border
+    /// of a piece of a tool in space is not seen.
     pub(super) fn judge(&self, face: &FaceInPlace, patch: Patch, places: &[[f64; 2]]) -> Option<SeenPart> {
         let (mut looks, mut least, mut middle) = (false, f64::INFINITY, f64::INFINITY);
-        let mut gap = |xi: [f64; 2]| {
+        for &xi in places {
             let at = face.at(xi);
-            match &self.target {
+            let cosine;
+            (middle, cosine) = match &self.target {
                 TargetInPlace::Tool(tool) => {
                     let foot = tool.closest(patch.target, at.x);
-                    looks |= -foot.normal.dot(face.own_normal(xi)) > LEAST_COSINE;
-                    Some(foot.gap)
+                    if foot.beyond.is_some() && !self.contact.parts.surface.plane {
+                        continue;
+                    }
+                    (foot.gap, -foot.normal.dot(face.own_normal(xi)))
                 }
                 TargetInPlace::Faces(faces) => {
                     let ray = FaceRay { x: at.x, n: at.normal.unit() };
-                    let hit = self.contact.parts.target.as_faces()?.project(
-                        patch.target,
-                        faces.placed(patch.target),
-                        &ray,
-                    )?;
-                    looks |= -hit.normal().dot(ray.n) > LEAST_COSINE;
-                    Some(hit.gap)
+                    let target = self.contact.parts.target.as_faces()?;
+                    let hit = target.project(patch.target, faces.placed(patch.target), &ray)?;
+                    (hit.gap, -hit.normal().dot(ray.n))
                 }
-            }
-        };
-        for &xi in places {
-            middle = gap(xi)?;
+            };
+            looks |= cosine > LEAST_COSINE;
             least = least.min(middle);
         }
         looks.then_some(SeenPart { patch, least, middle })

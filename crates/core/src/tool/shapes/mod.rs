@@ -146,6 +146,14 @@ impl BoundingBox {
         let pick = |a: Vec3, b: Vec3, f: fn(f64, f64) -> f64| Vec3(std::array::from_fn(|i| f(a[i], b[i])));
         Self { min: pick(self.min, other.min, f64::min), max: pick(self.max, other.max, f64::max) }
     }
+    /// It and `margin` on all sides.
+    pub fn widened(self, margin: f64) -> Self {
+        Self { min: self.min - Vec3([margin; 3]), max: self.max + Vec3([margin; 3]) }
+    }
+    /// From a point to it.
+    pub fn distance(&self, x: Vec3) -> f64 {
+        Vec3(std::array::from_fn(|i| (self.min[i] - x[i]).max(x[i] - self.max[i]).max(0.0))).norm()
+    }
     /// Length of its diagonal; zero for the empty box.
     pub fn size(&self) -> f64 {
         if self.min[0] <= self.max[0] { (self.max - self.min).norm() } else { 0.0 }

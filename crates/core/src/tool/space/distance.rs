@@ -98,8 +98,8 @@ impl SpaceTool {
 
     /// Facets whose boxes come within `reach` of a point, ascending.
     fn around(&self, x: Vec3, reach: f64) -> Vec<usize> {
-        let (wide, mut found) = (Vec3([reach; 3]), Vec::new());
-        self.tree().near(&BoundingBox { min: x - wide, max: x + wide }, &mut |facet| found.push(facet));
+        let mut found = Vec::new();
+        self.tree().near(&BoundingBox { min: x, max: x }.widened(reach), &mut |facet| found.push(facet));
         found.sort_unstable();
         found
     }
@@ -107,15 +107,21 @@ impl SpaceTool {
     /// The closest points of the facets of a piece that may be the closest of all.
     fn candidates(&self, (pieces, piece): (&SmoothPieces, usize), x: Vec3) -> Vec<FacetPoint> {
         let (facets, tree) = &pieces.pieces[piece];
-        let mut all: Vec<(usize, FacetPoint, f64)> = Vec::new();
-        let least = tree.closest(x, &mut |number| {
+        let (mut all, mut least): (Vec<(usize, FacetPoint, f64)>, f64) = (Vec::new(), f64::INFINITY);
+        // What shares an edge with the closest is as close.
+        let together = TOGETHER * self.size();
+        tree.closest(x, &mut |number| {
             let found = self.facets()[facets[number]].nearest(x);
             let distance = (found.point - x).norm();
-            all.push((number, found, distance));
+            if distance < least {
+                least = distance;
+                all.retain(|(_, _, distance)| *distance <= least + together);
+            }
+            if distance <= least + together {
+                all.push((number, found, distance));
+            }
             distance
         });
-        // What shares an edge with the closest is as close.
-        all.retain(|(_, _, distance)| *distance <= least + TOGETHER * self.size());
         all.sort_unstable_by_key(|(number, _, _)| *number);
         all.into_iter().map(|(_, found, _)| found).collect()
     }

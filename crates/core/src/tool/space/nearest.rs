@@ -75,11 +75,35 @@ impl RigidFacet for Triangle {
 
 /// Iterations on a twisted quadrilateral.
 const ITERATIONS: usize = 30;
+/// They end with a step of this part of its sides: they are quadratic, and what is left is its square.
+const CLOSE: f64 = 1e-11;
+/// A quadrilateral whose twist leaves its plane by no more than this part of its diagonals is flat.
+const FLAT: f64 = 1e-14;
+
+impl Quad {
+    /// The closest point of a quadrilateral in a plane with this unit normal: by its straight edges.
+    fn nearest_flat(&self, x: Vec3, normal: Vec3) -> FacetPoint {
+        let [a, b, c, d] = self.0;
+        let left = |from: Vec3, to: Vec3| (to - from).cross(x - from).dot(normal) >= 0.0;
+        let (point, border) = if left(a, b) && left(b, c) && left(c, d) && left(d, a) {
+            (x - normal * normal.dot(x - a), FacetBorder::Inside)
+        } else {
+            on_edges(&self.0, x)
+        };
+        let along = (b - a + (c - d)).unit();
+        FacetPoint { point, normal, bends: [(along, 0.0), (normal.cross(along), 0.0)], border }
+    }
+}
 
 impl RigidFacet for Quad {
     fn nearest(&self, x: Vec3) -> FacetPoint {
         let [a, b, c, d] = self.0;
         let twist = (a - b) + (c - d);
+        let (one, other) = (c - a, d - b);
+        let normal = one.cross(other).unit();
+        if normal.dot(twist).abs() <= FLAT * (one.norm() + other.norm()) {
+            return self.nearest_flat(x, normal);
+        }
         let mut s = [0.5; 2];
         for _ in 0..ITERATIONS {
             let ([p, q], to) = (self.tangents(s), x - self.point(s));
@@ -92,7 +116,7 @@ impl RigidFacet for Quad {
                 break;
             }
             (0..2).for_each(|i| s[i] += step[i].clamp(-0.5, 0.5));
-            if step.iter().all(|step| step.abs() < 1e-15) {
+            if step.iter().all(|step| step.abs() < CLOSE) {
                 break;
             }
         }

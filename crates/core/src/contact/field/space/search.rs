@@ -18,13 +18,9 @@ impl Configuration<'_> {
         let corners = &face.placed.nodes()[..face.face.corners()];
         let patch = |target: usize| Patch { face: number, target, ends: [None; 2], near: [-1.0, 1.0], tip: None };
         match &self.target {
-            TargetInPlace::Tool(tool) => {
-                let seen = |piece: usize| {
-                    let places = whole(face.face.corners()).map(|place| place.xi);
-                    let seen = places.filter(|&xi| tool.closest(piece, face.at(xi).x).beyond.is_none());
-                    self.judge(&face, patch(piece), &seen.collect::<Vec<_>>())
-                };
-                (0..self.contact.pieces).filter_map(seen).collect()
+            TargetInPlace::Tool(_) => {
+                let places: Vec<[f64; 2]> = whole(face.face.corners()).map(|place| place.xi).collect();
+                (0..self.contact.pieces).filter_map(|piece| self.judge(&face, patch(piece), &places)).collect()
             }
             TargetInPlace::Faces(faces) => {
                 // Farther than the band, since a node has one and not each of its faces.

@@ -20,6 +20,7 @@ use verbs::Outcome;
 
 fn main() -> ExitCode {
     let line = Line::parse();
+    asperity::machine::give_back_large_arrays();
     umat::provide();
     Interrupts::listen()
         .map_or_else(

@@ -1,6 +1,7 @@
 //! What the machine gives to this process: memory there is, memory in use. Read from Linux's own files; elsewhere, and
 //! where a file is not there, nothing is known and nothing is limited.
 
+pub use frontal::give_back_large_arrays;
 use std::path::{Path, PathBuf};
 
 /// Memory in use, in bytes.

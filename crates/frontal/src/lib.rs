@@ -27,6 +27,7 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+mod allocator;
 mod assembly_tree;
 mod change;
 mod dense;
@@ -67,6 +68,7 @@ mod symmetric;
 mod together;
 mod vector;
 
+pub use allocator::give_back_large_arrays;
 pub use change::{LowRankChange, Sparse};
 pub use diagnose::{NullVector, Singular};
 pub use direct::Direct;

@@ -30,13 +30,16 @@ pub mod regularisation {
 
 /// Memory beside the factor, measured on runs.
 pub mod demand {
-    /// Bytes beside the factor: for each entry of the matrix its column, its value in the evaluations at hand and in the copy that
-    /// preconditions, for each pair of unknowns of a stencil its place, and for each unknown the vectors of the iterations.
-    pub const PER_ENTRY: f64 = 48.0;
-    pub const PER_PAIR: f64 = 2.0;
-    pub const PER_UNKNOWN: f64 = 700.0;
-    /// What tables and buffers take whatever the model.
-    pub const BESIDES: f64 = 2e6;
+    /// Bytes beside the factor, its pattern and the histories. For each entry of the matrix its value in the evaluation at hand and in
+    /// the copy that preconditions;
+    pub const PER_ENTRY: f64 = 16.0;
+    /// for each pair of unknowns of a stencil its place (1.3), the gradients of its cell (4) and the fields of a frame that is written
+    /// (5 for 20 nodes of a cell, 9 for 8);
+    pub const PER_PAIR: f64 = 13.0;
+    /// and for each unknown the vectors of the iterations.
+    pub const PER_UNKNOWN: f64 = 500.0;
+    /// What tables, buffers and the program itself take whatever the model.
+    pub const BESIDES: f64 = 9e6;
     /// The same for each entry, in the plane and in space, where contact moves and an old factor preconditions: a pattern and a matrix
     /// more, and the columns of the inverse near contact.
     pub const PER_ENTRY_OF_CONTACT: [f64; 2] = [25.0, 50.0];

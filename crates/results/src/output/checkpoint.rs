@@ -16,6 +16,7 @@ use asperity_core::Error;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use std::io::BufWriter;
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ASPERITY";
@@ -71,20 +72,27 @@ impl std::fmt::Display for InputHash {
 /// # Errors
 /// [`Error::File`] when it cannot be written; the old one then still stands.
 pub fn save<S: Serialize>(path: &Path, head: &Head, state: &S) -> Result<(), Error> {
-    let packed = postcard::to_stdvec(state).map_err(|error| Error::file(path, error))?;
-    let body = zstd::bulk::compress(&packed, zstd::DEFAULT_COMPRESSION_LEVEL).map_err(|e| Error::file(path, e))?;
-    let mut bytes = Vec::with_capacity(HEAD + body.len() + SUM);
-    bytes.extend_from_slice(MAGIC);
+    let mut bytes = Vec::from(MAGIC);
     bytes.extend_from_slice(&VERSION.to_le_bytes());
     bytes.extend_from_slice(&head.input.0);
     bytes.extend_from_slice(&head.stamp.step.to_le_bytes());
     bytes.extend_from_slice(&head.stamp.increment.to_le_bytes());
     bytes.extend_from_slice(&head.stamp.time.to_le_bytes());
-    bytes.extend_from_slice(&(body.len() as u64).to_le_bytes());
-    bytes.extend_from_slice(&body);
+    bytes.extend_from_slice(&[0; 8]);
+    // Compressed as it comes: the state is not there twice.
+    let mut bytes = compressed(bytes, state).map_err(|error| Error::file(path, error))?;
+    let length = (bytes.len() - HEAD) as u64;
+    bytes[HEAD - 8..HEAD].copy_from_slice(&length.to_le_bytes());
     let sum = Sha256::digest(&bytes);
     bytes.extend_from_slice(&sum);
     write_atomic(path, &bytes, Durability::Machine)
+}
+
+/// These bytes and a compressed state behind them.
+fn compressed<S: Serialize>(bytes: Vec<u8>, state: &S) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
+    let encoder = zstd::stream::Encoder::new(bytes, zstd::DEFAULT_COMPRESSION_LEVEL)?;
+    let buffer = postcard::to_io(state, BufWriter::with_capacity(1 << 16, encoder))?;
+    Ok(buffer.into_inner().map_err(std::io::IntoInnerError::into_error)?.finish()?)
 }
 
 /// Reads a checkpoint.

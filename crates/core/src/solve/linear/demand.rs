@@ -51,11 +51,13 @@ impl Problem {
             .map_err(|error| Error::input(format!("the equations cannot be solved: {error}")))?;
         let (policy, dimension) = (self.newton.factors.policy(), self.dofs.per_node());
         let contact = self.terms.iter().any(|term| term.bends());
+        // Those of the accepted state are there already.
+        let histories = state.histories.iter().map(|history| size_of_val(&*history.data)).sum::<usize>();
         let [bytes, symmetric_bytes] = costs.map(|cost| {
             let bends = contact && policy.affordable_iterations(Work::from(&cost)) > 0;
             let per_entry = PER_ENTRY + if bends { PER_ENTRY_OF_CONTACT[dimension - 2] } else { 0.0 };
             let beside = per_entry * entries as f64 + PER_PAIR * pairs + PER_UNKNOWN * unknowns as f64 + BESIDES;
-            cost.bytes as u64 + single(&policy, &cost) + beside as u64
+            cost.bytes as u64 + single(&policy, &cost) + histories as u64 + beside as u64
         });
         let [factorisation, symmetric] = costs;
         Ok(Demand { unknowns, entries, factorisation, symmetric, bytes, symmetric_bytes, dimension })

@@ -50,8 +50,11 @@ impl Grid {
         sections.iter().try_for_each(|section| section.write(&mut head, &mut appended))?;
         let form = if encoding.base64 { "base64" } else { "raw" };
         let _ = write!(head, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"{form}\">\n_");
-        let tail = b"\n</AppendedData>\n</VTKFile>\n";
-        Ok([head.as_bytes(), &appended.bytes, tail].concat())
+        // In the memory of the arrays, which is that of a whole grid.
+        let mut bytes = appended.bytes;
+        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+        bytes.splice(..0, head.into_bytes());
+        Ok(bytes)
     }
 
     fn head(&self, encoding: Encoding) -> String {

@@ -166,9 +166,11 @@ impl OpenBody<'_> {
             means.write_forces(shared, &mut local.force);
         }
         let Some(mut tangent) = tangent else { return Ok(()) };
-        if let Some((_, means)) = &both {
+        if let Some((shared, means)) = &both {
+            let curved = || self.curved::<DIM, N>((index, shared), (&local.from, &local.u));
+            let acting = means.acting(local.origin, curved);
             let out = (&mut tangent, &mut local.tangent[..]);
-            self.add_curvature::<DIM, D, N>((index, &local.u), &means.work, out);
+            self.add_curvature::<DIM, D, N>((index, &local.u), &acting, out);
         }
         tangent.write(length, &mut local.tangent);
         if let Some((shared, means)) = &both {
@@ -293,7 +295,9 @@ impl<const DIM: usize, const D: usize, const N: usize> Sums<'_, DIM, D, N> {
             tangent.add(rows, &s.tangent, volume);
         }
         if let (Some((place, begun)), Some(means)) = (place, &mut self.means) {
-            means.add((rows, place, *begun), s, self.differentiated);
+            let axes = self.law.axes();
+            let before = old[..axes].iter().sum::<f64>() / axes as f64;
+            means.add((rows, place, *begun), (before, s), self.differentiated);
         }
         Ok(s.det)
     }

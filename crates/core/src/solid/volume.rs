@@ -17,6 +17,7 @@ use super::patches::WIDEST;
 use super::piola::place;
 use super::point::PointStress;
 use super::{Strain, gradient};
+use crate::system::Origin;
 use crate::tensor::{Tensor2, Vec3};
 
 /// Most unknowns of a stencil.
@@ -241,6 +242,29 @@ impl OpenBody<'_> {
         Some(shared)
     }
 
+    /// What a step from the unknowns `from` of a cell's stencil changed of the shared change of volume beyond the linear change.
+    pub(super) fn curved<const DIM: usize, const N: usize>(
+        &self,
+        (index, shared): (usize, &Shared),
+        (from, u): (&[f64], &[f64]),
+    ) -> Functions {
+        let mut begun = [0.0; TERMS];
+        for &member in self.body.patches.members(index) {
+            let (du, _) = self.member::<DIM, N>((index, member), from);
+            for VolumeSample { volume, functions, f, .. } in self.samples(member, &du) {
+                let ratio = self.body.options.strain.dilation(&f);
+                begun
+                    .iter_mut()
+                    .zip(functions)
+                    .take(shared.terms)
+                    .for_each(|(c, function)| *c += volume * function * ratio);
+            }
+        }
+        let step = || u.iter().zip(from).map(|(u, from)| u - from);
+        let along = |gradient: &[f64; MOST]| -> f64 { step().zip(gradient).map(|(d, g)| d * g).sum() };
+        std::array::from_fn(|a| begun[a] - shared.now[a] + along(&shared.gradients[a]))
+    }
+
     /// Adds the second derivatives of the shared change of volume, those of `det f` at its samples, times the work of the mean
     /// stress on each term, to the tangent of a cell, and to that of its stencil where they touch the rest of its patch.
     pub(super) fn add_curvature<const DIM: usize, const D: usize, const N: usize>(
@@ -281,8 +305,9 @@ fn second_of_volume<const D: usize>(f: &Tensor2) -> [[f64; D]; D] {
 
 /// What the mean stress of a cell's points does on the terms of its shared change of volume.
 pub(super) struct Means<const DIM: usize, const N: usize> {
-    /// Its work on each term.
+    /// Its work on each term, and that of the stress of the accepted state.
     pub work: Functions,
+    before: Functions,
     /// Derivatives of that along the cell's nodes,
     along_nodes: [Nodal<DIM, N>; TERMS],
     /// and along the terms.
@@ -294,7 +319,7 @@ pub(super) struct Means<const DIM: usize, const N: usize> {
 impl<const DIM: usize, const N: usize> Default for Means<DIM, N> {
     fn default() -> Self {
         let (none, nodal) = ([0.0; TERMS], [[[0.0; N]; DIM]; TERMS]);
-        Self { work: none, along_nodes: nodal, along_terms: [none; TERMS], forces: nodal }
+        Self { work: none, before: none, along_nodes: nodal, along_terms: [none; TERMS], forces: nodal }
     }
 }
 
@@ -304,17 +329,34 @@ impl<const DIM: usize, const N: usize> Means<DIM, N> {
     pub fn add<const D: usize>(
         &mut self,
         (rows, place, begun): (&gradient::Rows<N>, &Place, f64),
-        s: &PointStress<D>,
+        (before, s): (f64, &PointStress<D>),
         differentiated: bool,
     ) {
         for (a, function) in place.functions.iter().enumerate().filter(|(_, function)| **function != 0.0) {
             let weight = place.volume * function;
             self.work[a] += weight * s.mean.value;
+            self.before[a] += weight * before;
             if differentiated {
                 add_forces(rows, &s.mean.tangent, weight, &mut self.along_nodes[a]);
                 add_forces(rows, &s.mean.stress_along, weight, &mut self.forces[a]);
                 let along = self.along_terms[a].iter_mut().zip(&place.functions);
                 along.for_each(|(along, other)| *along += weight * s.mean.along / begun * other);
+            }
+        }
+    }
+
+    /// The work with which the shared change of volume bends in the tangent: that of the accepted state for a first guess, and after
+    /// a step the one that it leads to by the linear change of volume. What is left of the volume by the square of a step makes a
+    /// large stress, and a tangent that turns with it leads astray (see [`MipStress`](crate::solve)).
+    pub fn acting(&self, origin: Origin, curved: impl FnOnce() -> Functions) -> Functions {
+        match origin {
+            Origin::Unknown => self.work,
+            Origin::Accepted => self.before,
+            Origin::Step => {
+                let curved = curved();
+                let of =
+                    |a: usize| -> f64 { self.along_terms[a].iter().zip(&curved).map(|(along, c)| along * c).sum() };
+                std::array::from_fn(|a| self.work[a] - of(a))
             }
         }
     }

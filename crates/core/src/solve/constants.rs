@@ -103,7 +103,7 @@ pub mod predictor {
     pub const ROUNDING: f64 = 1e-12;
     /// A motion is smooth whose parabola would have missed the last increment by less than this part of what a straight line missed
     /// it by, at the node where that is most: where contact changes it is more, in smooth motion a tenth to a third.
-    pub const SMOOTH: f64 = 0.5;
+    pub const SMOOTH: f64 = 0.6;
 }
 
 /// Iterations that wander.

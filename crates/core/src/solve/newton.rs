@@ -460,7 +460,8 @@ impl<'a> Newton<'a> {
 
     pub(super) fn evaluate(&mut self, u: &[f64], missing: Option<&[f64]>, tangent: Tangent) -> Result<(), Failure> {
         self.linearised = tangent != Tangent::None;
-        let trial = Trial { u, missing, tangent, acting: self.memory.mip.acting() };
+        let (origin, from) = self.memory.mip.origin();
+        let trial = Trial { u, missing, tangent, acting: self.memory.mip.acting(), origin, from };
         let begun = std::time::Instant::now();
         let evaluated = self.memory.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation);
         self.memory.spent.evaluating += begun.elapsed();

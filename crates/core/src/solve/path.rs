@@ -244,7 +244,7 @@ impl<'a> Newton<'a> {
         let mut motion = NewtonStep { du, part: 1.0, factorised, load, lost: false };
         self.limit(u, None, &mut motion);
         motion.load *= motion.part;
-        self.memory.mip.aim(&self.assembly, &self.memory.kinks, &motion.du)?;
+        self.memory.mip.aim(&self.assembly, &self.memory.kinks, (u, &motion.du))?;
         Ok(motion)
     }
 

@@ -49,6 +49,7 @@ impl Newton<'_> {
     /// A first guess at `u`.
     pub(super) fn begin(&mut self, mut u: Vec<f64>) -> Result<Iterate, Failure> {
         let missing = self.missing(&mut u);
+        self.memory.mip.guess();
         self.evaluate(&u, missing.as_deref(), self.tangent())?;
         Ok((u, missing))
     }

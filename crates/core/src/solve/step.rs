@@ -49,7 +49,7 @@ impl Newton<'_> {
             return self.linearise((iteration, u), missing, forcing);
         }
         self.limit(u, missing, &mut step);
-        self.memory.mip.aim(&self.assembly, &self.memory.kinks, &step.du)?;
+        self.memory.mip.aim(&self.assembly, &self.memory.kinks, (u, &step.du))?;
         Ok(step)
     }
 

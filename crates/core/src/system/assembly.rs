@@ -10,7 +10,7 @@ use super::shares::{Shares, apart};
 use super::sink::{Miss, Round, Sink};
 use super::structure::Structure;
 use super::{
-    Attempt, Branch, Communicator, Constraints, Coordinates, Csr, Dofs, Energies, History, Kinks, Role, State,
+    Attempt, Branch, Communicator, Constraints, Coordinates, Csr, Dofs, Energies, History, Kinks, Origin, Role, State,
     Stencils, Term,
 };
 use crate::Failure;
@@ -43,6 +43,10 @@ pub struct Trial<'a> {
     /// Stresses with which the tangents of stencils that bend turn and move, term by term and stencil by stencil; those of
     /// the trial state where none are given.
     pub acting: &'a [Vec<Coordinates>],
+    /// Where the step to the unknowns began.
+    pub origin: Origin,
+    /// The unknowns there; none where it is not a step.
+    pub from: &'a [f64],
 }
 
 /// Result of one evaluation.
@@ -276,7 +280,7 @@ impl Workspace {
     pub fn evaluate_loads(&mut self, assembly: &Assembly, u: &[f64], out: &mut Evaluation) -> Result<(), Failure> {
         out.clear(assembly.dofs.count(), 0, Tangent::None);
         out.apart.clear();
-        let trial = Trial { u, missing: None, tangent: Tangent::None, acting: &[] };
+        let trial = Trial { u, missing: None, tangent: Tangent::None, acting: &[], origin: Origin::Unknown, from: &[] };
         for t in (0..assembly.terms.len()).filter(|&t| assembly.terms[t].role() == Role::Load) {
             // Nothing can miss a matrix that is not found.
             let evaluated = self.evaluate_term((assembly, t, &trial), out, None);

@@ -1,7 +1,7 @@
 //! Chunks of stencils: what one thread evaluates at a time, with the lane of history that it writes.
 
 use super::check::perturb;
-use super::{Attempt, Branch, Constraints, Dofs, Energies, History, Local, Shares, Stencils, Tangent, Trial};
+use super::{Attempt, Branch, Constraints, Dofs, Energies, History, Local, Origin, Shares, Stencils, Tangent, Trial};
 use crate::Failure;
 use std::ops::Range;
 
@@ -117,6 +117,11 @@ impl Chunk {
         }
         local.wants_tangent = tangent == Tangent::Exact;
         local.acting = pass.trial.acting.get(pass.term).and_then(|acting| acting.get(index)).copied();
+        local.origin = pass.trial.origin;
+        local.from.clear();
+        if local.origin == Origin::Step && local.wants_tangent {
+            local.from.extend(dofs.iter().map(|&dof| pass.trial.from[dof]));
+        }
         local.reset(stencil.len);
         let branch = pass.attempt.evaluate(index, stencil, new, local)?;
         if local.wants_tangent {

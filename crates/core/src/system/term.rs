@@ -80,6 +80,18 @@ impl Stencils {
     }
 }
 
+/// Where the step to a trial state began, for stencils whose tangents turn and move with the stress that it leads to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Origin {
+    /// They turn with the stress of the trial state, so that the tangent is the derivative of the forces.
+    #[default]
+    Unknown,
+    /// At the accepted state, of which the trial state is the first guess: the stress there.
+    Accepted,
+    /// At these unknowns: the stress that a linear step from there leads to.
+    Step,
+}
+
 /// Where a stencil reads and writes: scratch of one thread, reused without allocation.
 #[derive(Debug)]
 pub struct Local {
@@ -94,6 +106,10 @@ pub struct Local {
     /// Stresses over the coordinates of a stencil that bends with which its tangent turns and moves; none for those of the
     /// trial state, with which the tangent is the derivative of the forces.
     pub acting: Option<Coordinates>,
+    /// Where the step to the trial unknowns began,
+    pub origin: Origin,
+    /// and the stencil's unknowns there.
+    pub from: Vec<f64>,
     /// Energy stored in the stencil at the trial state.
     pub stored: f64,
     /// Energy dissipated over the increment.
@@ -112,6 +128,8 @@ impl Default for Local {
             tangent: Vec::new(),
             wants_tangent: false,
             acting: None,
+            origin: Origin::Unknown,
+            from: Vec::new(),
             stored: 0.0,
             dissipated: 0.0,
             supplied: 0.0,

@@ -22,6 +22,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         }
     }
     measured.push(("ratchetting".into(), ratchetting(bench)?));
+    measured.extend(published_curve(bench)?);
     measured.extend(three_back_stresses(bench)?);
     for name in ["", "warm_", "heated_"] {
         let [slow, fast] = rate_jump(bench, name)?;
@@ -61,6 +62,42 @@ fn ratchetting(bench: &Bench) -> Result<f64, Error> {
     })?;
     let step = 0.01 * ((200.0_f64.powi(2) - 90.0_f64.powi(2)) / (200.0_f64.powi(2) - 150.0_f64.powi(2))).ln();
     Ok((ends[4] - ends[2]) / step)
+}
+
+/// Four cycles between the stresses 220 and -110: what the strain differs by at any increment from the integral of the law, over the
+/// most strain, and the strain that the last cycle left. While `dX = (C - gamma X) dp` the plastic strain is
+/// `1/gamma ln((C/gamma - X_0)/(C/gamma - X))` with `X = stress - yield stress`, and the same with the signs turned.
+fn published_curve(bench: &Bench) -> Result<Measured, Error> {
+    let each = bench.pick(40, 160);
+    let sets = [format!("step.1.increments.count={}", 8 * each)];
+    let mut strains = Vec::new();
+    bench.follow("ratchetting_curve.toml", &sets, |model, state| {
+        let top = model.problem.dofs.node(model.mesh.groups["bar.top"].nodes[0]) + 1;
+        if state.increment > 0 {
+            strains.push(state.u[top].ln_1p());
+        }
+    })?;
+    let (mut back, mut plastic, mut apart, mut most) = (0.0_f64, 0.0, 0.0_f64, 0.0_f64);
+    for (leg, strains) in strains.chunks(each).enumerate() {
+        let (from, to, sign) = match leg {
+            0 => (0.0, 220.0, 1.0),
+            leg if leg % 2 == 0 => (-110.0, 220.0, 1.0),
+            _ => (220.0, -110.0, -1.0),
+        };
+        let flow = |stress: f64| {
+            let now = (stress - sign * 100.0) * sign;
+            ((150.0 - sign * back) / (150.0 - now.max(sign * back))).ln() / 200.0
+        };
+        for (i, strain) in strains.iter().enumerate() {
+            let stress: f64 = from + (to - from) * (i + 1) as f64 / each as f64;
+            let exact = stress / 200e3 + plastic + sign * flow(stress);
+            (apart, most) = (apart.max((strain - exact).abs()), most.max(exact));
+        }
+        plastic += sign * flow(to);
+        back = to - sign * 100.0;
+    }
+    let last = |cycles: usize| strains.len().checked_sub(1 + 2 * cycles * each).map_or(f64::NAN, |i| strains[i]);
+    Ok(vec![("published_curve".into(), apart / most), ("published_cycle".into(), last(0) - last(1))])
 }
 
 /// The alloy of `ratchetting_three.toml` in uniaxial stress. Between two turns each back stress is an exponential of the plastic strain,

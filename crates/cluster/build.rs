@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 const FUNCTIONS: [&str; 8] = [
-    "signal|_exit",
+    "signal|_exit|dmumps_c",
     "MPI_(Init_thread|Finalize|Abort|Comm_(dup|rank|size)|Allgatherv|Gatherv|Ibarrier|Test|Get_library_version)",
     "Petsc(InitializeNoArguments|Finalize|GetVersionNumber|ErrorMessage|PushErrorHandler|ReturnErrorHandler|GlobalMinMaxInt)",
     "PetscDataType(GetSize|ToMPIDataType)|PetscOptions(SetValue|InsertString|LeftGet|LeftRestore)|PetscObjectTypeCompare",
@@ -31,6 +31,7 @@ fn main() {
             _ => {}
         }
     }
+    println!("cargo:rustc-link-lib=dmumps");
     let bindings = FUNCTIONS.iter().fold(bindgen::builder(), |builder, names| builder.allowlist_function(names));
     let bindings = bindings.header("headers.h").clang_args(arguments).allowlist_var(VARIABLES).layout_tests(false);
     let to = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo says it")).join("bindings.rs");

@@ -1,3 +1,4 @@
+#include <dmumps_c.h>
 #include <mpi.h>
 #include <petscksp.h>
 #include <signal.h>

@@ -153,6 +153,10 @@ pub struct Check {
     /// The deck.
     #[command(flatten)]
     pub deck: Deck,
+    /// Predict the memory of each of N ranks of a cluster (`mpirun -n N asperity run DECK`) in place of that of a run on this
+    /// machine; in programs without the part for clusters, too.
+    #[arg(long, value_name = "N", value_parser = ranks)]
+    pub ranks: Option<NonZeroUsize>,
 }
 
 /// Arguments of `info`.
@@ -235,6 +239,10 @@ fn above_one(text: &str) -> Result<f64, String> {
         Ok(number) if number > 1.0 && number.is_finite() => Ok(number),
         _ => Err("a number above 1 is needed".into()),
     }
+}
+
+fn ranks(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "a whole number of ranks is needed, 1 or more".into())
 }
 
 fn window(text: &str) -> Result<Window, String> {

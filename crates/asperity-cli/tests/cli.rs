@@ -235,6 +235,35 @@ fn the_smaller_verbs_speak() {
     assert_eq!(code(&empty), 2);
 }
 
+/// What ranks of a cluster need is said by any program, also of a deck for PETSc, and this machine's memory is then no matter.
+#[test]
+fn the_memory_of_ranks_is_predicted_anywhere() {
+    let folder = folder(DECK);
+    let check =
+        |ranks: &str, set: &str| asperity(folder.path(), &["check", "block.toml", "--ranks", ranks, "--set", set]);
+    let need = |ranks: &str, set: &str| {
+        let output = check(ranks, set);
+        assert_eq!(code(&output), 0, "{}", error(&output));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let said = text.split_once(&format!("memory of a rank, {ranks} in all:\n")).expect("a prediction").1;
+        let gigabytes = |line: &str| -> Vec<f64> {
+            line.split(" GB").filter_map(|words| words.rsplit(' ').next()?.parse().ok()).collect()
+        };
+        said.lines().take(2).map(gigabytes).collect::<Vec<_>>()
+    };
+    for set in ["solver.petsc=\"-ksp_type fgmres -pc_type hypre\"", "solver.iterations=20"] {
+        let (one, four) = (need("1", set), need("4", set));
+        assert_eq!(one.iter().chain(&four).map(Vec::len).collect::<Vec<_>>(), [1, 1, 2, 2]);
+        assert!(one.iter().zip(&four).all(|(one, four)| one[0] >= four[0] && four[0] > four[1] && four[1] > 0.05));
+    }
+    for wrong in ["0", "two", "-1", "1.5", "99999999999999999999999"] {
+        let output = check(wrong, "solver.iterations=20");
+        let (code, message) = (code(&output), error(&output));
+        assert!(code == 2 && message.contains(wrong), "{code} {message}");
+        assert_eq!(message.matches("error:").count(), 1, "{message}");
+    }
+}
+
 #[test]
 fn a_point_is_driven_and_leaves_table_and_curves() {
     let directory = tempfile::tempdir().unwrap();

@@ -6,6 +6,8 @@ use asperity::deck::{self, Made};
 use asperity::output::{CHECKPOINT, resumed};
 use asperity::solve::{RunOptions, Silent};
 use asperity::system::State;
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -299,11 +301,36 @@ const LIMITED: &str = r#"#!/bin/sh
 exec "$@"
 "#;
 
-/// What a process holds of address space, in kilobytes.
-fn addresses(pid: u32) -> u64 {
-    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).unwrap();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmSize:")).expect("a size");
-    line.split_whitespace().next().unwrap().parse().unwrap()
+/// What the status of a process says of its memory, in kilobytes, as long as it lives.
+fn memory(pid: u32, key: &str) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{pid}/status")).ok()?;
+    status.lines().find_map(|line| line.strip_prefix(key))?.split_whitespace().next()?.parse().ok()
+}
+
+#[test]
+fn ranks_take_the_memory_that_is_predicted() {
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let deck =
+        CUBE.replace("[20, 20, 20]", "[16, 16, 16]").replace("x = 1.0", "x = 0.1").replace("count = 10", "count = 1");
+    let trial = Trial::new(&deck);
+    let problem = &trial.made().model.problem;
+    let said = problem.demand(&problem.initial_state()).unwrap().of_ranks(NonZeroUsize::new(2).unwrap());
+    let multigrid = "solver.petsc=\"-ksp_type fgmres -pc_type hypre -pc_hypre_boomeramg_strong_threshold 0.5\"";
+    for (set, said, range) in [("solver.iterations=20", said.direct, 0.85..1.15), (multigrid, said.multigrid, 0.9..1.6)]
+    {
+        let mut command = trial.command(2, &["run", "deck.toml", "--out", "out", "--set", set]);
+        let mut mpirun = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut most: BTreeMap<u32, u64> = BTreeMap::new();
+        while mpirun.try_wait().unwrap().is_none() {
+            let held = children(mpirun.id()).into_iter().filter_map(|pid| Some((pid, memory(pid, "VmHWM:")?)));
+            most.extend(held);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(mpirun.wait().unwrap().success() && most.len() == 2, "{most:?}");
+        let parts: Vec<f64> = most.values().zip(said).map(|(held, said)| said as f64 / (held * 1024) as f64).collect();
+        eprintln!("{set}: {most:?} kB, predicted {said:?} bytes: {parts:.2?} times as much");
+        assert!(parts.iter().all(|part| range.contains(part)), "{parts:?}");
+    }
 }
 
 #[test]
@@ -314,7 +341,7 @@ fn a_rank_without_memory_ends_all() {
     let mut mpirun = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     wait_for(&trial.path(&checkpoint));
     let last = *children(mpirun.id()).last().expect("ranks");
-    let size = addresses(last);
+    let size = memory(last, "VmSize:").expect("a size");
     assert!(Command::new("kill").args(["-9", &last.to_string()]).status().unwrap().success());
     assert!(!mpirun.wait().unwrap().success());
 

@@ -1,22 +1,15 @@
-//! The linear solver of a run by PETSc's KSP.
+//! The linear solver of a run: MUMPS, or PETSc's KSP as a deck says.
 
+use crate::mumps::Mumps;
 use crate::petsc::{DECIDE, KSP, Mat, Owned, Result, Vector, checked, ffi, int, text};
 use crate::ranks::{Ranks, Rendezvous, start};
 use crate::rows::{Rows, with_held};
 use asperity_core::solve::{Factored, LinearError, LinearSolver, Problem, Unknowns};
 use asperity_core::system::{Csr, Shares};
 use frontal::Work;
-use std::cell::Cell;
 use std::os::raw::c_int;
 use std::ptr;
 use std::sync::Arc;
-
-/// The options of PETSc where a deck says none: every matrix factorised by MUMPS.
-pub const DIRECT: &str = "-ksp_type preonly -pc_type lu -pc_factor_mat_solver_type mumps -mat_mumps_icntl_14 10";
-
-/// Hundredths of its workspace that MUMPS gets then beyond what it foresees, where those before were too few: what is not used is
-/// taken all the same.
-const MORE: [&str; 2] = ["60", "200"];
 
 /// Part of the right-hand side that an iterative solution may leave where the options say nothing else, and its iterations.
 const LEFT: f64 = 1e-8;
@@ -49,29 +42,37 @@ pub struct Petsc {
     system: Option<System>,
 }
 
-/// A pattern with what PETSc made for it.
+/// A pattern with what was made for it.
 struct System {
     ranks: &'static Ranks,
     shares: Shares,
-    rows: Rows,
-    lengths: Vec<c_int>,
-    /// Entries that hold places without an unknown.
-    held: Vec<usize>,
+    engine: Engine,
     /// This rank's rows.
     pattern: Csr,
     values: Vec<f64>,
     /// One over the root of the largest entry of each row: `S A S` has rows and columns of one size.
     scale: Vec<f64>,
     direct: bool,
-    /// Workspace that may still be tried.
-    more: std::slice::Iter<'static, &'static str>,
     factorised: bool,
+}
+
+/// What solves a system.
+enum Engine {
+    Mumps(Mumps),
+    Petsc(Ksp),
+}
+
+/// What PETSc made for a pattern.
+struct Ksp {
+    ranks: &'static Ranks,
+    rows: Rows,
+    lengths: Vec<c_int>,
+    /// Entries that hold places without an unknown.
+    held: Vec<usize>,
     right: Owned<ffi::_p_Vec>,
     solution: Owned<ffi::_p_Vec>,
     solver: Owned<ffi::_p_KSP>,
     matrix: Owned<ffi::_p_Mat>,
-    /// Iterations of the last solution.
-    iterations: Cell<ffi::PetscInt>,
 }
 
 // SAFETY: PETSc is called by one thread at a time, for which MPI is initialised.
@@ -99,12 +100,17 @@ impl Petsc {
         self.system = None;
         let ranks = self.ranks.clone()?;
         ranks.agree(Rendezvous::Pattern, &[pattern.rows() as f64])?;
+        let shares = Shares::new(crate::others(), unknowns.dofs, unknowns.free);
+        let Some(options) = &self.options else {
+            let engine = Engine::Mumps(Mumps::new(ranks, pattern, unknowns, &shares)?);
+            self.system = Some(System::new(ranks, shares, engine, pattern, true));
+            return Ok(());
+        };
         if !std::mem::replace(&mut self.told, true) {
-            let words = text(self.options.as_deref().unwrap_or(DIRECT));
+            let words = text(options);
             // SAFETY: it takes a copy of the words.
             checked(unsafe { ffi::PetscOptionsInsertString(ptr::null_mut(), words.as_ptr()) })?;
         }
-        let shares = Shares::new(crate::others(), unknowns.dofs, unknowns.free);
         let rows = Rows::new(unknowns, &shares);
         let places = self.places.as_ref().map(|nodes| {
             let mut own = vec![0.0; rows.own().len()];
@@ -115,10 +121,8 @@ impl Petsc {
             }
             own
         });
-        self.system = Some(System::new(ranks, (shares, rows), pattern, places.as_deref())?);
-        if let (None, Some(system)) = (&self.options, &mut self.system) {
-            system.more = MORE.iter();
-        }
+        let (engine, direct) = Ksp::new(ranks, rows, pattern, places.as_deref())?;
+        self.system = Some(System::new(ranks, shares, Engine::Petsc(engine), pattern, direct));
         Ok(())
     }
 
@@ -160,13 +164,9 @@ impl Petsc {
     }
 }
 
-impl System {
-    fn new(
-        ranks: &'static Ranks,
-        (shares, rows): (Shares, Rows),
-        pattern: &Csr,
-        places: Option<&[f64]>,
-    ) -> Result<Self> {
+impl Ksp {
+    /// The objects for a pattern, and whether they factorise.
+    fn new(ranks: &'static Ranks, rows: Rows, pattern: &Csr, places: Option<&[f64]>) -> Result<(Self, bool)> {
         let entries = rows.entries(pattern)?;
         let (own, all, block) = (int(rows.own().len())?, int(rows.count())?, int(rows.block)?);
         // SAFETY: the lists are those of the rows that the sizes say, and are copied; what is written is taken as ours.
@@ -196,34 +196,15 @@ impl System {
             ))?;
             let vector = |raw: *mut Vector| ffi::MatCreateVecs(matrix.raw, ptr::null_mut(), raw);
             let [right, solution] = [Owned::made(vector, ffi::VecDestroy)?, Owned::made(vector, ffi::VecDestroy)?];
-            let (lengths, pattern, scale) = (rows.lengths(), pattern.clone(), vec![1.0; pattern.rows()]);
-            let (values, iterations) = (Vec::new(), Cell::new(0));
-            let (direct, factorised, more) = (direct != 0, false, [].iter());
-            Ok(Self {
-                ranks,
-                shares,
-                rows,
-                lengths,
-                held,
-                pattern,
-                values,
-                scale,
-                direct,
-                more,
-                factorised,
-                right,
-                solution,
-                solver,
-                matrix,
-                iterations,
-            })
+            let lengths = rows.lengths();
+            Ok((Self { ranks, rows, lengths, held, right, solution, solver, matrix }, direct != 0))
         }
     }
 
     /// Makes the factor or preconditioner of values; says whether it has one.
-    fn set_up(&mut self, values: &[f64]) -> std::result::Result<bool, LinearError> {
+    fn set_up(&mut self, values: &[f64], shares: &Shares) -> std::result::Result<bool, LinearError> {
         let mut held = [values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))];
-        self.shares.largest(&mut held).map_err(LinearError::Input)?;
+        shares.largest(&mut held).map_err(LinearError::Input)?;
         let all = with_held(values, &self.held, held[0]);
         // SAFETY: the values are those of the pattern that the matrix was made with, and are copied.
         let updated = checked(unsafe { ffi::MatUpdateMPIAIJWithArray(self.matrix.raw, all.as_ptr()) });
@@ -242,28 +223,21 @@ impl System {
         // A rank that lacks memory may be the only one that knows.
         let told = [failed != ffi::PCFailedReason_PC_NOERROR, failed == ffi::PCFailedReason_PC_FACTOR_OUTMEMORY];
         let mut told = told.map(|yes| f64::from(u8::from(yes)));
-        self.shares.largest(&mut told).map_err(LinearError::Input)?;
+        shares.largest(&mut told).map_err(LinearError::Input)?;
         let [fails, lacks] = told.map(|yes| yes > 0.0);
         if fails {
             // What once failed is not tried again as it is, nor taken for the factor of the next values.
             // SAFETY: the solver is ours.
             checked(unsafe { ffi::KSPReset(self.solver.raw) }).map_err(LinearError::Other)?;
         }
-        if !lacks {
-            return Ok(!fails);
-        }
-        let Some(more) = self.more.next() else {
+        if lacks {
             return Err(LinearError::Memory(
                 "the factor does not fit into the memory of the ranks; more ranks on more machines, an iterative `solver.petsc`, or \
                  where MUMPS only guessed too little, `-mat_mumps_icntl_14 200`"
                     .into(),
             ));
-        };
-        let [name, more] = ["-mat_mumps_icntl_14", more].map(text);
-        // SAFETY: PETSc takes copies of the words.
-        let set = unsafe { ffi::PetscOptionsSetValue(ptr::null_mut(), name.as_ptr(), more.as_ptr()) };
-        checked(set).map_err(LinearError::Other)?;
-        self.set_up(values)
+        }
+        Ok(!fails)
     }
 
     /// Replaces a right-hand side by what the factor or the iterations make of it.
@@ -282,7 +256,6 @@ impl System {
                 .and_then(|()| checked(ffi::KSPGetIterationNumber(self.solver.raw, &mut iterations)))
         };
         solved.map_err(LinearError::Input)?;
-        self.iterations.set(iterations);
         if reason < 0 {
             let why = if iterations >= MOST as ffi::PetscInt { "do not converge" } else { "break down" };
             return Err(LinearError::Inaccurate(format!(
@@ -294,6 +267,144 @@ impl System {
         self.ranks.gather(&piece, &self.lengths, &mut whole).map_err(LinearError::Other)?;
         x.iter_mut().zip(&self.rows.places).for_each(|(x, &place)| *x = whole[place]);
         Ok(())
+    }
+
+    /// What the factor took and a solution with it takes, in flops, a number of the factor that is moved counted as so many; none
+    /// where the package that factorised does not say the size of its factors.
+    fn work(&self) -> Result<Option<Work>> {
+        let (mut conditioner, mut factor) = (ptr::null_mut(), ptr::null_mut());
+        // SAFETY: objects of ours; the factor is lent, and the numbers are written where they are told to.
+        let info = unsafe {
+            checked(ffi::KSPGetPC(self.solver.raw, &mut conditioner))?;
+            checked(ffi::PCFactorGetMatrix(conditioner, &mut factor))?;
+            let mut info = std::mem::zeroed::<ffi::MatInfo>();
+            checked(ffi::MatGetInfo(factor, ffi::MatInfoType_MAT_GLOBAL_SUM, &mut info))?;
+            info
+        };
+        let (entries, rows) = (info.nz_used, self.rows.count() as f64);
+        // The least that so many entries may have taken, with columns of one length (Cauchy and Schwarz).
+        let flops = entries * entries / (2.0 * rows.max(1.0));
+        let work = Work { factorisation: flops + FACTOR_MOVED * entries, solution: SOLUTION_MOVED * entries };
+        Ok((entries > 0.0).then_some(work))
+    }
+
+    /// Solves for loads together and writes the solutions at some unknowns, load after load.
+    fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<()> {
+        let (own, count) = (self.rows.own(), loads.len());
+        let (own_rows, all_rows, columns) = (int(own.len())?, int(self.rows.count())?, int(count)?);
+        let dense = || {
+            // SAFETY: the matrix has room of its own.
+            unsafe {
+                let make = |raw: *mut Mat| {
+                    ffi::MatCreateDense(
+                        ffi::PETSC_COMM_WORLD,
+                        own_rows,
+                        DECIDE,
+                        all_rows,
+                        columns,
+                        ptr::null_mut(),
+                        raw,
+                    )
+                };
+                Owned::made(make, ffi::MatDestroy)
+            }
+        };
+        let [right, solution] = [dense()?, dense()?];
+        let (places, shares) = {
+            let places: Vec<usize> = at.iter().map(|&unknown| self.rows.places[unknown]).collect();
+            let shares = self.rows.shares(&places);
+            (places, shares)
+        };
+        let mut piece = Vec::new();
+        // SAFETY: the arrays are those of this rank's rows, column after column.
+        unsafe {
+            with_array(&right, own.len() * count, |array| {
+                array.fill(0.0);
+                for (load, column) in loads.iter().zip(array.chunks_mut(own.len().max(1))) {
+                    for &(unknown, force) in load {
+                        let place = self.rows.places[unknown];
+                        if own.contains(&place) {
+                            column[place - own.start] += force;
+                        }
+                    }
+                }
+            })?;
+            for matrix in [&right, &solution] {
+                checked(ffi::MatAssemblyBegin(matrix.raw, ffi::MatAssemblyType_MAT_FINAL_ASSEMBLY))?;
+                checked(ffi::MatAssemblyEnd(matrix.raw, ffi::MatAssemblyType_MAT_FINAL_ASSEMBLY))?;
+            }
+            checked(ffi::KSPMatSolve(self.solver.raw, right.raw, solution.raw))?;
+            with_array(&solution, own.len() * count, |array| {
+                let mine: Vec<usize> =
+                    places.iter().filter(|place| own.contains(place)).map(|place| place - own.start).collect();
+                for column in array.chunks(own.len().max(1)).take(count) {
+                    piece.extend(mine.iter().map(|&row| column[row]));
+                }
+            })?;
+        }
+        let lengths: Vec<c_int> = shares.iter().map(|share| (share * count) as c_int).collect();
+        let mut pieces = vec![0.0; at.len() * count];
+        self.ranks.gather(&piece, &lengths, &mut pieces)?;
+        // Of each rank, load after load.
+        let (mut begin, mut from) = (0, &pieces[..]);
+        for share in shares {
+            for load in 0..count {
+                let (head, tail) = from.split_at(share);
+                x[load * at.len() + begin..][..share].copy_from_slice(head);
+                from = tail;
+            }
+            begin += share;
+        }
+        Ok(())
+    }
+}
+
+impl System {
+    fn new(ranks: &'static Ranks, shares: Shares, engine: Engine, pattern: &Csr, direct: bool) -> Self {
+        let (pattern, scale) = (pattern.clone(), vec![1.0; pattern.rows()]);
+        Self { ranks, shares, engine, pattern, values: Vec::new(), scale, direct, factorised: false }
+    }
+
+    /// Makes the factor or preconditioner of values; says whether it has one.
+    fn set_up(&mut self, values: &[f64]) -> std::result::Result<bool, LinearError> {
+        match &mut self.engine {
+            Engine::Mumps(mumps) => mumps.factorise(values),
+            Engine::Petsc(ksp) => ksp.set_up(values, &self.shares),
+        }
+    }
+
+    /// Replaces a right-hand side by what the factor or the iterations make of it.
+    fn apply(&mut self, x: &mut [f64]) -> std::result::Result<(), LinearError> {
+        match &mut self.engine {
+            Engine::Mumps(mumps) => mumps.apply(x).map_err(LinearError::Other),
+            Engine::Petsc(ksp) => ksp.apply(x),
+        }
+    }
+
+    /// Solves for loads together and writes the solutions at some unknowns, load after load.
+    fn influence(&mut self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<()> {
+        let mumps = match &mut self.engine {
+            Engine::Petsc(ksp) => return ksp.influence(loads, at, x),
+            Engine::Mumps(mumps) => mumps,
+        };
+        let rows = self.pattern.rows();
+        let mut sides = vec![0.0; rows * loads.len()];
+        for (load, side) in loads.iter().zip(sides.chunks_mut(rows.max(1))) {
+            load.iter().for_each(|&(unknown, force)| side[unknown] += force);
+        }
+        mumps.solve(&mut sides)?;
+        let found = sides.chunks(rows.max(1)).flat_map(|side| at.iter().map(move |&unknown| side[unknown]));
+        x.iter_mut().zip(found).for_each(|(x, found)| *x = found);
+        mumps.share(x)
+    }
+
+    /// What the factor took and a solution with it takes, where that is known.
+    fn work(&self) -> Result<Option<Work>> {
+        match &self.engine {
+            Engine::Mumps(mumps) => Ok(Some(mumps.work(FACTOR_MOVED, SOLUTION_MOVED))),
+            Engine::Petsc(ksp) if self.direct => ksp.work(),
+            Engine::Petsc(_) => Ok(None),
+        }
     }
 
     /// `b - A x`, and its componentwise backward error: the largest part of `|A| |x| + |b|` that it is.
@@ -317,7 +428,7 @@ impl System {
     }
 
     /// Solves, and refines what a factor says until it is as good as can be.
-    fn solve(&self, b: &mut [f64]) -> std::result::Result<(), LinearError> {
+    fn solve(&mut self, b: &mut [f64]) -> std::result::Result<(), LinearError> {
         let mut x = b.to_vec();
         self.apply(&mut x)?;
         if self.direct {
@@ -344,27 +455,8 @@ impl System {
         Ok(())
     }
 
-    /// What the factor took and a solution with it takes, in flops, a number of the factor that is moved counted as so many; none
-    /// where the package that factorised does not say the size of its factors.
-    fn work(&self) -> Result<Option<Work>> {
-        let (mut conditioner, mut factor) = (ptr::null_mut(), ptr::null_mut());
-        // SAFETY: objects of ours; the factor is lent, and the numbers are written where they are told to.
-        let info = unsafe {
-            checked(ffi::KSPGetPC(self.solver.raw, &mut conditioner))?;
-            checked(ffi::PCFactorGetMatrix(conditioner, &mut factor))?;
-            let mut info = std::mem::zeroed::<ffi::MatInfo>();
-            checked(ffi::MatGetInfo(factor, ffi::MatInfoType_MAT_GLOBAL_SUM, &mut info))?;
-            info
-        };
-        let (entries, rows) = (info.nz_used, self.rows.count() as f64);
-        // The least that so many entries may have taken, with columns of one length (Cauchy and Schwarz).
-        let flops = entries * entries / (2.0 * rows.max(1.0));
-        let work = Work { factorisation: flops + FACTOR_MOVED * entries, solution: SOLUTION_MOVED * entries };
-        Ok((entries > 0.0).then_some(work))
-    }
-
     /// Motions that the matrix shrinks to nothing, by inverse iteration with the factor there is, one after the other.
-    fn null_motions(&self) -> std::result::Result<Vec<Vec<f64>>, LinearError> {
+    fn null_motions(&mut self) -> std::result::Result<Vec<Vec<f64>>, LinearError> {
         let mut found: Vec<Vec<f64>> = Vec::new();
         'motions: while found.len() < MOTIONS {
             // Any vector has a part along what is looked for.
@@ -439,76 +531,6 @@ impl System {
         let motions = if self.direct { self.null_motions()? } else { Vec::new() };
         if motions.is_empty() { Ok(()) } else { Err(LinearError::Singular(motions)) }
     }
-
-    /// Solves for loads together and writes the solutions at some unknowns, load after load.
-    fn influence(&self, loads: &[Vec<(usize, f64)>], at: &[usize], x: &mut [f64]) -> Result<()> {
-        let (own, count) = (self.rows.own(), loads.len());
-        let (own_rows, all_rows, columns) = (int(own.len())?, int(self.rows.count())?, int(count)?);
-        let dense = || {
-            // SAFETY: the matrix has room of its own.
-            unsafe {
-                let make = |raw: *mut Mat| {
-                    ffi::MatCreateDense(
-                        ffi::PETSC_COMM_WORLD,
-                        own_rows,
-                        DECIDE,
-                        all_rows,
-                        columns,
-                        ptr::null_mut(),
-                        raw,
-                    )
-                };
-                Owned::made(make, ffi::MatDestroy)
-            }
-        };
-        let [right, solution] = [dense()?, dense()?];
-        let (places, shares) = {
-            let places: Vec<usize> = at.iter().map(|&unknown| self.rows.places[unknown]).collect();
-            let shares = self.rows.shares(&places);
-            (places, shares)
-        };
-        let mut piece = Vec::new();
-        // SAFETY: the arrays are those of this rank's rows, column after column.
-        unsafe {
-            with_array(&right, own.len() * count, |array| {
-                array.fill(0.0);
-                for (load, column) in loads.iter().zip(array.chunks_mut(own.len().max(1))) {
-                    for &(unknown, force) in load {
-                        let place = self.rows.places[unknown];
-                        if own.contains(&place) {
-                            column[place - own.start] += force;
-                        }
-                    }
-                }
-            })?;
-            for matrix in [&right, &solution] {
-                checked(ffi::MatAssemblyBegin(matrix.raw, ffi::MatAssemblyType_MAT_FINAL_ASSEMBLY))?;
-                checked(ffi::MatAssemblyEnd(matrix.raw, ffi::MatAssemblyType_MAT_FINAL_ASSEMBLY))?;
-            }
-            checked(ffi::KSPMatSolve(self.solver.raw, right.raw, solution.raw))?;
-            with_array(&solution, own.len() * count, |array| {
-                let mine: Vec<usize> =
-                    places.iter().filter(|place| own.contains(place)).map(|place| place - own.start).collect();
-                for column in array.chunks(own.len().max(1)).take(count) {
-                    piece.extend(mine.iter().map(|&row| column[row]));
-                }
-            })?;
-        }
-        let lengths: Vec<c_int> = shares.iter().map(|share| (share * count) as c_int).collect();
-        let mut pieces = vec![0.0; at.len() * count];
-        self.ranks.gather(&piece, &lengths, &mut pieces)?;
-        // Of each rank, load after load.
-        let (mut begin, mut from) = (0, &pieces[..]);
-        for share in shares {
-            for load in 0..count {
-                let (head, tail) = from.split_at(share);
-                x[load * at.len() + begin..][..share].copy_from_slice(head);
-                from = tail;
-            }
-            begin += share;
-        }
-        Ok(())
-    }
 }
 
 impl LinearSolver for Petsc {
@@ -526,8 +548,7 @@ impl LinearSolver for Petsc {
         }
         system.factorise(values)?;
         system.factorised = true;
-        let work = if system.direct { system.work().map_err(LinearError::Other)? } else { None };
-        Ok(Factored { signs: None, work })
+        Ok(Factored { signs: None, work: system.work().map_err(LinearError::Other)? })
     }
 
     fn solve(&mut self, rhs: &mut [f64]) -> std::result::Result<(), LinearError> {
@@ -545,7 +566,7 @@ impl LinearSolver for Petsc {
         at: &[usize],
         x: &mut [f64],
     ) -> std::result::Result<bool, LinearError> {
-        let Some(system) = self.system.as_ref().filter(|system| system.factorised) else {
+        let Some(system) = self.system.as_mut().filter(|system| system.factorised) else {
             return Err(LinearError::Other("nothing is factorised".into()));
         };
         let sizes = [loads.len() as f64, at.len() as f64];
@@ -618,30 +639,4 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// Size of a scattered vector of so many numbers: those of a uniform distribution over one.
 fn norm_of_scatter(count: usize) -> f64 {
     (count as f64 / 12.0).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use asperity_core::system::Dofs;
-
-    #[test]
-    fn a_workspace_that_is_too_small_is_made_larger() {
-        let n = 300;
-        let (dofs, free): (Dofs, Vec<usize>) = (Dofs::new(2, n / 2, 0), (0..n).collect());
-        let (starts, columns) = ((0..=n).map(|row| n * row).collect(), (0..n * n).map(|k| k % n).collect());
-        let pattern = Csr::new(Arc::new(starts), Arc::new(columns));
-        let values: Vec<f64> = (0..n * n).map(|k| if k % (n + 1) == 0 { n as f64 } else { (k as f64).sin() }).collect();
-        let mut petsc = Petsc::with(None);
-        petsc.set_pattern(&pattern, Unknowns { dofs: &dofs, free: &free }).unwrap();
-        let [name, less] = ["-mat_mumps_icntl_14", "-90"].map(text);
-        // SAFETY: PETSc takes copies of the words.
-        checked(unsafe { ffi::PetscOptionsSetValue(ptr::null_mut(), name.as_ptr(), less.as_ptr()) }).unwrap();
-        petsc.factorise(&values).unwrap();
-        assert!(petsc.system.as_ref().is_some_and(|system| system.more.len() < MORE.len()));
-        let expected: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
-        let mut x = pattern.times(&values, &expected);
-        petsc.solve(&mut x).unwrap();
-        assert!(x.iter().zip(&expected).all(|(x, expected)| (x - expected).abs() < 1e-10));
-    }
 }

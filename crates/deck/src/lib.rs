@@ -33,7 +33,7 @@ pub use facts::facts;
 pub use keys::{Deck, InterfaceDeck, PointDeck};
 pub use point::{LoadedPoint, load_point, read_point};
 pub use reader::{Name, Unsaid};
-pub use review::{Review, review, warnings};
+pub use review::{Review, review, review_for, warnings};
 pub use slide::{Driven, LoadedInterface, load_driven, read_driven, read_interface};
 
 use asperity_core::error::Error;
@@ -57,6 +57,8 @@ pub struct Loaded {
     pub mesh: Mesh,
     /// Where the files that it names are looked for.
     pub folder: PathBuf,
+    /// Whether another program is to run it, with parts that this one may lack.
+    pub elsewhere: bool,
     /// What was not said, and what holds instead.
     pub unsaid: Vec<Unsaid>,
     /// Fingerprints of its parts.
@@ -118,7 +120,8 @@ pub fn read_with(
     let diagnostics = gathered(reader.sources, reader.diagnostics);
     match read {
         Some((deck, mesh, parts)) if !diagnostics.has_errors() => {
-            Ok(Loaded { deck, mesh, folder: folder.to_path_buf(), unsaid: reader.unsaid, parts, diagnostics })
+            let (folder, elsewhere, unsaid) = (folder.to_path_buf(), false, reader.unsaid);
+            Ok(Loaded { deck, mesh, folder, elsewhere, unsaid, parts, diagnostics })
         }
         _ => Err(diagnostics.without_notes()),
     }

@@ -8,7 +8,7 @@ use super::keys;
 use super::reader::Name;
 use asperity_core::contact::field::{FieldContact, FieldSurface};
 use asperity_core::contact::{ContactOptions, LoadedSides, PaperContact, second_name};
-use asperity_core::solve::Step;
+use asperity_core::solve::{OfRanks, Step};
 use asperity_core::system::Term;
 use asperity_core::tool::Hit;
 use asperity_core::tool::{ProfileTool, Rejected};
@@ -17,6 +17,7 @@ use asperity_results::diagnosis::oddities;
 use rayon::current_num_threads;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::num::NonZeroUsize;
 
 /// A penetration above this part of its edge is worth a warning before the first increment.
 const OVERLAP: f64 = 1e-3;
@@ -56,6 +57,14 @@ fn warnings_of(made: &Made, all: &[Seen]) -> Vec<Diagnostic> {
 /// # Errors
 /// An error of the solver that is not the model's fault.
 pub fn review(made: &Made) -> Result<Review, Error> {
+    review_for(made, None)
+}
+
+/// The same for a run on this machine, or on so many ranks of a cluster, whose memory is not this machine's.
+///
+/// # Errors
+/// An error of the solver that is not the model's fault.
+pub fn review_for(made: &Made, ranks: Option<NonZeroUsize>) -> Result<Review, Error> {
     let all = Seen::all(made);
     let mut problems = warnings_of(made, &all);
     let mut page = Page::default();
@@ -69,7 +78,7 @@ pub fn review(made: &Made) -> Result<Review, Error> {
     page.rigid(made);
     page.steps(made);
     problems.extend(page.motions(made)?);
-    problems.extend(page.cost(made)?);
+    problems.extend(page.cost(made, ranks)?);
     page.unsaid(made);
     Ok(Review { text: page.text, problems })
 }
@@ -213,7 +222,7 @@ impl Page {
     }
 
     /// Unknowns, work and memory, from the symbolic analysis alone.
-    fn cost(&mut self, made: &Made) -> Result<Option<Diagnostic>, Error> {
+    fn cost(&mut self, made: &Made, ranks: Option<NonZeroUsize>) -> Result<Option<Diagnostic>, Error> {
         let problem = &made.model.problem;
         let room = machine::room(problem.newton.memory);
         let demand = problem.demand(&problem.initial_state())?;
@@ -233,6 +242,10 @@ impl Page {
             );
         }
         self.line(line);
+        if let Some(ranks) = ranks {
+            self.ranks(ranks, demand.of_ranks(ranks));
+            return Ok(None);
+        }
         let Some(room) = room else { return Ok(None) };
         let [need, half] = [demand.bytes, demand.symmetric_bytes].map(|bytes| (room.taken + bytes) as f64 / 1e9);
         self.line(format!(
@@ -246,6 +259,19 @@ impl Page {
         let tight = |error: Error| Diagnostic::warning(error.to_string()).help(half);
         let short = demand.check(&room).err().map(|error| Diagnostic::warning(error.to_string()).help(help));
         Ok(short.or_else(|| demand.check_unsymmetric(&room).err().map(tight)))
+    }
+
+    fn ranks(&mut self, ranks: NonZeroUsize, bytes: OfRanks) {
+        let gigabytes = |[first, other]: [u64; 2]| match ranks.get() {
+            1 => format!("about {:.3} GB", first as f64 / 1e9),
+            _ => format!("about {:.3} GB on the first, {:.3} GB on each other", first as f64 / 1e9, other as f64 / 1e9),
+        };
+        self.line(format!("memory of a rank, {ranks} in all:"));
+        self.line(format!("  where MUMPS factorises every matrix: {}", gigabytes(bytes.direct)));
+        self.line(format!(
+            "  where BoomerAMG preconditions FGMRES (`solver.petsc`), at most: {}",
+            gigabytes(bytes.multigrid)
+        ));
     }
 
     fn unsaid(&mut self, made: &Made) {

@@ -167,6 +167,16 @@ impl NodeGraph {
     pub fn rows_beyond(&self, most: f64) -> Vec<usize> {
         self.row_lengths().enumerate().filter(|&(_, length)| length as f64 > most).map(|(node, _)| node).collect()
     }
+
+    /// The order in which a factorisation would eliminate the nodes, `last` after all others.
+    ///
+    /// # Errors
+    /// Those of [`Prediction::of_nodes`].
+    pub fn order(self, last: &[usize], options: &Options) -> Result<Vec<u32>, FrontalError> {
+        let graph = Graph::of_nodes(self.starts, self.neighbours, self.weights);
+        let order = ordering::order_nodes(&graph, last, &options.ordering)?;
+        Ok(divided(&graph, order, options).0)
+    }
 }
 
 impl Prediction {

@@ -7,12 +7,14 @@ use asperity::deck::{self, Diagnostics};
 
 /// Makes the model, prints what it is and what wants attention. Exit code 5 when something does.
 pub fn check(arguments: &Check) -> Outcome {
-    let (loaded, translated) = loaded(&arguments.deck)?;
+    let (mut loaded, translated) = loaded(&arguments.deck)?;
     if let Some(translated) = translated {
         tell(&translated.notes());
     }
+    // A cluster has its own program and memory.
+    loaded.elsewhere = arguments.ranks.is_some();
     let made = deck::build(loaded)?;
-    let review = deck::review(&made)?;
+    let review = deck::review_for(&made, arguments.ranks)?;
     print(&review.text)?;
     let exit = if review.problems.is_empty() { Exit::Done } else { Exit::Problems };
     tell(&Diagnostics { list: review.problems, ..made.diagnostics });

@@ -47,6 +47,28 @@ pub mod demand {
     pub const PLENTY: u64 = 60_000;
     /// Powers by which memory grows with unknowns in the plane and in space (George, SIAM J. Numer. Anal. 10, 1973).
     pub const GROWTH: [f64; 2] = [1.1, 4.0 / 3.0];
+
+    /// Bytes of a rank of a cluster, measured on few of them with OpenBLAS and Debian's PETSc 3.18.
+    pub mod ranks {
+        /// What a rank takes whatever the model, and the first besides, which writes.
+        pub const BESIDES: f64 = 68e6;
+        pub const FIRST: f64 = 36e6;
+        /// Where MUMPS factorises: for each unknown of the whole model, which all hold, and on the first rank besides; for each entry of
+        /// the matrix that preconditions, which the first holds whole; for each entry of the rows of a rank.
+        pub const PER_UNKNOWN: f64 = 2000.0;
+        pub const FIRST_PER_UNKNOWN: f64 = 3300.0;
+        pub const FIRST_PER_ENTRY: f64 = 4.0;
+        pub const PER_ENTRY: f64 = 40.0;
+        /// For each number of the factors, with working memory and reserve, where one rank has all; `n` ranks have `n` to this power of
+        /// it each, since fronts at the root are shared out unevenly.
+        pub const PER_FACTOR: f64 = 10.5;
+        pub const SHARE: f64 = -0.65;
+        /// Where BoomerAMG preconditions FGMRES: the same for unknowns, on all and on the first, and for the entries of a rank, at most:
+        /// small models and cells without modes of their own take two thirds.
+        pub const MULTIGRID_PER_UNKNOWN: f64 = 8200.0;
+        pub const MULTIGRID_FIRST_PER_UNKNOWN: f64 = 450.0;
+        pub const MULTIGRID_PER_ENTRY: f64 = 66.0;
+    }
 }
 
 /// Factors of the library's own engine.

@@ -52,7 +52,9 @@ mod step;
 mod stop;
 
 pub use convergence::{Norms, Worst};
-pub use linear::{Demand, Factored, Factors, Frontal, LinearError, LinearSolver, SolverCounts, Unknowns, engine};
+pub use linear::{
+    Demand, Factored, Factors, Frontal, LinearError, LinearSolver, OfRanks, SolverCounts, Unknowns, dense, engine,
+};
 pub use newton::{IfFree, NewtonOptions, Spent, Variant};
 pub use observer::{AttemptRecord, IterationRecord, Observer, Silent};
 pub use problem::Problem;

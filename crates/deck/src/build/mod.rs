@@ -64,6 +64,8 @@ struct Builder<'d> {
     /// Where files are looked for, and the bytes of those that were read.
     folder: &'d Path,
     files: Vec<Vec<u8>>,
+    /// Whether another program is to run the model.
+    elsewhere: bool,
     bearing: Bearing,
     ties: Vec<ties::Glued>,
     found: Vec<Diagnostic>,
@@ -109,7 +111,7 @@ impl Made {
 /// [`Diagnostics`] with everything that the mesh, the tools and the laws say against the deck.
 pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
     let texts = texts(&loaded);
-    let Loaded { deck, mesh, folder, unsaid, mut parts, mut diagnostics } = loaded;
+    let Loaded { deck, mesh, folder, elsewhere, unsaid, mut parts, mut diagnostics } = loaded;
     let space = *deck.space;
     let dofs = Dofs::new(space.dimension(), mesh.points.len(), deck.tool.len() + deck.rigid.len());
     let thickness = deck.thickness.map_or(1.0, |thickness| thickness.value);
@@ -118,6 +120,7 @@ pub fn build(loaded: Loaded) -> Result<Made, Diagnostics> {
         deck: &deck,
         site,
         folder: &folder,
+        elsewhere,
         files: Vec::new(),
         bearing: Bearing::default(),
         ties: Vec::new(),
@@ -244,7 +247,7 @@ impl Builder<'_> {
             let what = "`memory` is that of the library's own solver, and has no use beside `petsc`";
             self.found.push(Diagnostic::error(what).at(petsc.place).help("leave `petsc` or `memory` out"));
         }
-        if !engine::provided() {
+        if !engine::provided() && !self.elsewhere {
             let what = "`petsc` wants a program with the crate `cluster`, and this one was built without";
             let help = "build it by `cargo install --path crates/asperity-cli --features cluster`, which needs PETSc and MPI (see the \
                         manual's page on a cluster), or leave `petsc` out";

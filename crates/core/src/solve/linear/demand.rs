@@ -2,7 +2,7 @@
 //! nodes, and from counts.
 
 use super::super::constants::demand::{
-    BESIDES, GROWTH, PER_ENTRY, PER_ENTRY_OF_CONTACT, PER_PAIR, PER_UNKNOWN, PLENTY,
+    BESIDES, GROWTH, PER_ENTRY, PER_ENTRY_OF_CONTACT, PER_PAIR, PER_UNKNOWN, PLENTY, ranks,
 };
 use super::frontal::dense;
 use super::{Unknowns, engine};
@@ -11,6 +11,7 @@ use crate::solve::Problem;
 use crate::system::{Constraints, Couplings, Csr, Instant, Reduced, State, Stencils};
 use crate::{Error, Failure};
 use frontal::{NodeGraph, Options, Policy, Prediction, Work};
+use std::num::NonZeroUsize;
 
 /// What the first step of a run takes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -29,6 +30,15 @@ pub struct Demand {
     pub symmetric_bytes: u64,
     /// Directions of the space, which say how the need grows with the number of unknowns.
     dimension: usize,
+}
+
+/// Bytes that ranks of a cluster hold: the first, which writes, and each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OfRanks {
+    /// Where MUMPS factorises every matrix.
+    pub direct: [u64; 2],
+    /// Where BoomerAMG preconditions FGMRES, at most.
+    pub multigrid: [u64; 2],
 }
 
 impl Problem {
@@ -120,6 +130,24 @@ impl Demand {
     /// As those of [`check`](Self::check).
     pub fn check_unsymmetric(&self, room: &Room) -> Result<(), Error> {
         self.fits(self.bytes, room)
+    }
+
+    /// What each of so many ranks of a cluster holds in all, by what ranks held on models that were measured.
+    pub fn of_ranks(&self, count: NonZeroUsize) -> OfRanks {
+        let (count, unknowns, entries) = (count.get() as f64, self.unknowns as f64, self.entries as f64);
+        let both =
+            |all: f64, first: f64| [all + first + ranks::FIRST, all].map(|bytes| (bytes + ranks::BESIDES) as u64);
+        let factors = ranks::PER_FACTOR * self.factorisation.factor_entries as f64 * count.powf(ranks::SHARE);
+        OfRanks {
+            direct: both(
+                ranks::PER_UNKNOWN * unknowns + ranks::PER_ENTRY * entries / count + factors,
+                ranks::FIRST_PER_UNKNOWN * unknowns + ranks::FIRST_PER_ENTRY * entries,
+            ),
+            multigrid: both(
+                ranks::MULTIGRID_PER_UNKNOWN * unknowns + ranks::MULTIGRID_PER_ENTRY * entries / count,
+                ranks::MULTIGRID_FIRST_PER_UNKNOWN * unknowns,
+            ),
+        }
     }
 
     fn fits(&self, bytes: u64, room: &Room) -> Result<(), Error> {

@@ -101,7 +101,7 @@ fn translate(error: frontal::FrontalError) -> LinearError {
 
 /// Entries from which on a row of a matrix of so many is dense, and its unknown better eliminated last: the rule of minimum
 /// degree orderings (Amestoy, Davis & Duff, ACM TOMS 30, 2004).
-pub(super) fn dense(rows: usize) -> f64 {
+pub fn dense(rows: usize) -> f64 {
     16.0_f64.max(10.0 * (rows as f64).sqrt())
 }
 

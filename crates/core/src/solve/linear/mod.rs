@@ -12,8 +12,8 @@ mod frontal;
 mod low_rank;
 mod system;
 
-pub use demand::Demand;
-pub use frontal::{Factors, Frontal};
+pub use demand::{Demand, OfRanks};
+pub use frontal::{Factors, Frontal, dense};
 pub use system::SolverCounts;
 pub(super) use system::{JumpSites, LinearSystem, Unsolved};
 

@@ -10,7 +10,7 @@ use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::tip::TipFoot;
 use crate::contact::augment;
-use crate::contact::increment::{in_contact, refuse_turn};
+use crate::contact::increment::{in_contact, refuse_jump, refuse_turn};
 use crate::contact::kink::answer;
 use crate::contact::record::{entry, leave, stresses, write};
 use crate::interface::{Interface, Past};
@@ -329,10 +329,8 @@ impl FieldAttempt<'_> {
         let contact = self.contact;
         let faces = stencil.support.patches.iter().map(|(patch, _)| self.depths[patch.face]);
         let depth = faces.fold(f64::INFINITY, f64::min);
-        if self.history.slot(slot)[entry::STATUS] == 0.0 && sums.y[0] > 0.25 * depth {
-            let (name, deep) = (contact.name_of(slot), sums.y[0]);
-            let reason = format!("{name} came to lie {deep:.3e} deep in one increment");
-            return Err(Failure::new(reason).of(FailureKind::Passage));
+        if self.history.slot(slot)[entry::STATUS] == 0.0 {
+            refuse_jump(sums.y[0], depth, || contact.name_of(slot))?;
         }
         let FieldTarget::Tool(rigid) = &contact.parts.target else { return Ok(()) };
         let turned = rigid.turned(stencil.motion(), &self.accepted[rigid.unknowns()]);
@@ -494,8 +492,43 @@ impl Attempt for FieldAttempt<'_> {
         self.held.load(Ordering::Relaxed)
     }
 
-    fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
-        self.improve(u, new)
+    /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
+    /// Comput. Struct. 42, 1992).
+    fn augment(&mut self, _: &[f64], new: &mut History) -> Result<bool, Failure> {
+        let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(false) };
+        let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());
+        for (slot, shift) in better.iter_mut().enumerate() {
+            let (new, size) = (new.slot(slot), self.contact.size_at(slot));
+            if new[entry::SEGMENT] < 0.0 {
+                shift[0] = 0.0;
+                continue;
+            }
+            let stretch = new[entry::HALF];
+            let borne = new[entry::PRESSURE] * stretch / self.contact.parts.options.penalty;
+            let closed = new[entry::STATUS] > 0.0;
+            let raised = if closed { borne } else { (shift[0] + new[entry::PENETRATION]).max(0.0) };
+            left.penetration = left.penetration.max((raised - shift[0]).abs() / size);
+            shift[0] = raised;
+            if closed {
+                let old = self.history.slot(slot);
+                let elastic = [(entry::SHEAR, 1), (entry::SHEAR2, 2)]
+                    .map(|(shear, c)| ((new[shear] - old[shear]) * stretch / self.tangential[slot], c));
+                let sticks = new[entry::STATUS] == 1.0;
+                for (borne, c) in elastic {
+                    if sticks {
+                        left.slip = left.slip.max((borne - shift[c]).abs() / size);
+                    }
+                    shift[c] = borne;
+                }
+            }
+        }
+        if !augmentation.goes_on(&left, self.augmented, self.contact.title())? {
+            let kept = new.slot_mut(self.contact.slots());
+            kept.iter_mut().zip(&self.shifts).for_each(|(closure, shift)| *closure = shift[0]);
+            return Ok(false);
+        }
+        (self.shifts, self.augmented) = (better, self.augmented + 1);
+        Ok(true)
     }
 }
 
@@ -517,44 +550,5 @@ impl FieldAttempt<'_> {
             out.close(start, Stencil { choice, ..Stencil::default() });
         }
         supports
-    }
-
-    /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
-    /// Comput. Struct. 42, 1992).
-    fn improve(&mut self, _u: &[f64], new: &mut History) -> Result<bool, Failure> {
-        let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(false) };
-        let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());
-        for (slot, shift) in better.iter_mut().enumerate() {
-            let (new, size) = (new.slot(slot), self.contact.size_at(slot));
-            if new[entry::SEGMENT] < 0.0 {
-                shift[0] = 0.0;
-                continue;
-            }
-            let stretch = new[entry::HALF];
-            let borne = new[entry::PRESSURE] * stretch / self.contact.parts.options.penalty;
-            let closed = new[entry::STATUS] > 0.0;
-            let raised = if closed { borne } else { (shift[0] + new[entry::PENETRATION]).max(0.0) };
-            left.penetration = left.penetration.max((raised - shift[0]).abs() / size);
-            shift[0] = raised;
-            if closed && self.contact.parts.options.augmentation.is_some() {
-                let old = self.history.slot(slot);
-                let elastic = [(entry::SHEAR, 1), (entry::SHEAR2, 2)]
-                    .map(|(shear, c)| ((new[shear] - old[shear]) * stretch / self.tangential[slot], c));
-                let sticks = new[entry::STATUS] == 1.0;
-                for (borne, c) in elastic {
-                    if sticks {
-                        left.slip = left.slip.max((borne - shift[c]).abs() / size);
-                    }
-                    shift[c] = borne;
-                }
-            }
-        }
-        if !augmentation.goes_on(&left, self.augmented, self.contact.title())? {
-            let kept = new.slot_mut(self.contact.slots());
-            kept.iter_mut().zip(&self.shifts).for_each(|(closure, shift)| *closure = shift[0]);
-            return Ok(false);
-        }
-        (self.shifts, self.augmented) = (better, self.augmented + 1);
-        Ok(true)
     }
 }

@@ -350,7 +350,7 @@ fn a_rank_without_memory_ends_all() {
     std::fs::set_permissions(&script, std::fs::Permissions::from_mode(0o755)).unwrap();
     let mut command = trial.command_of(2, &[script.to_str().unwrap()], &["restart", "deck.toml", "--out", "out"]);
     let begun = Instant::now();
-    let output = command.env("LIMIT", (size / 8 * 7).to_string()).output().unwrap();
+    let output = command.env("LIMIT", (size / 4 * 3).to_string()).output().unwrap();
     let (code, errors) = end(&output);
     assert_eq!((code, errors.len()), (Some(2), 1), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(errors[0].contains("memory"), "{errors:?}");

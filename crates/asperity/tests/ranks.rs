@@ -2,7 +2,7 @@
 //! energies, branches, and what fails.
 
 use asperity::deck::{self, Made};
-use asperity::system::{Assembly, Communicator, Evaluation, Instant, Origin, Tangent, Trial, Workspace};
+use asperity::system::{Assembly, Communicator, Evaluation, Instant, Tangent, Trial, Workspace};
 use asperity::{Failure, FailureKind};
 use std::sync::{Barrier, Mutex};
 
@@ -112,7 +112,7 @@ fn evaluate(made: &Made, u: &[f64], tangent: Tangent, rank: Option<&'static Rank
     workspace.prepare(&assembly, &state)?;
     let mut evaluation = Evaluation::new(terms, &state);
     let missing: Vec<f64> = (0..u.len()).map(|dof| if dof % 5 == 0 { 1e-3 } else { 0.0 }).collect();
-    let trial = Trial { u, missing: Some(&missing), tangent, acting: &[], origin: Origin::Unknown, from: &[] };
+    let trial = Trial { missing: Some(&missing), ..Trial::at(u, tangent) };
     workspace.evaluate(&assembly, &trial, &mut evaluation)?;
     workspace.share_histories(&mut evaluation.histories)?;
     let (own, pattern) = (workspace.shares().own(), workspace.pattern());

@@ -159,14 +159,14 @@ fn order(pattern: &Csr, unknowns: &Unknowns, shares: &Shares) -> Result<Vec<c_in
         piece.push(others.len() as f64);
         piece.extend(others.iter().map(|&other| other as f64));
     }
-    let mut all = match shares.with() {
+    let all = match shares.with() {
         Some(with) => with.collect(&piece)?,
         None => piece,
     };
     if shares.rank() != 0 {
         return Ok(Vec::new());
     }
-    let mut lists = std::mem::take(&mut all).into_iter();
+    let mut lists = all.into_iter();
     let (mut starts, mut neighbours) = (vec![0], Vec::new());
     while let Some(count) = lists.next() {
         neighbours.extend(lists.by_ref().take(count as usize).map(|other| other as u32));

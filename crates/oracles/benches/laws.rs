@@ -5,7 +5,7 @@
 use asperity::deck::{self, load_point};
 use asperity::material::{Directions, Material};
 use asperity::solve::{AttemptRecord, IterationRecord, Observer, RunOptions};
-use asperity::system::{Assembly, Evaluation, Instant, Origin, State, Tangent, Trial, Workspace};
+use asperity::system::{Assembly, Evaluation, Instant, State, Tangent, Trial, Workspace};
 use asperity::tensor::Tensor2;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::path::Path;
@@ -120,8 +120,7 @@ fn evaluate(made: &deck::Made, state: &State, criterion: &mut Criterion) -> f64 
     let (mut workspace, mut evaluation) = (Workspace::default(), Evaluation::new(&problem.terms, state));
     workspace.prepare(&assembly, state).expect("a pattern");
     let u: Vec<f64> = state.u.iter().zip(&state.last_change).map(|(u, change)| u + change).collect();
-    let trial =
-        Trial { u: &u, missing: None, tangent: Tangent::Exact, acting: &[], origin: Origin::Unknown, from: &[] };
+    let trial = Trial::at(&u, Tangent::Exact);
     let mut once = || workspace.evaluate(&assembly, &trial, &mut evaluation).expect("an evaluation");
     let begun = Clock::now();
     (0..3).for_each(|_| once());

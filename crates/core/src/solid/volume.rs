@@ -253,11 +253,7 @@ impl OpenBody<'_> {
             let (du, _) = self.member::<DIM, N>((index, member), from);
             for VolumeSample { volume, functions, f, .. } in self.samples(member, &du) {
                 let ratio = self.body.options.strain.dilation(&f);
-                begun
-                    .iter_mut()
-                    .zip(functions)
-                    .take(shared.terms)
-                    .for_each(|(c, function)| *c += volume * function * ratio);
+                (0..shared.terms).for_each(|a| begun[a] += volume * functions[a] * ratio);
             }
         }
         let step = || u.iter().zip(from).map(|(u, from)| u - from);
@@ -306,7 +302,7 @@ fn second_of_volume<const D: usize>(f: &Tensor2) -> [[f64; D]; D] {
 /// What the mean stress of a cell's points does on the terms of its shared change of volume.
 pub(super) struct Means<const DIM: usize, const N: usize> {
     /// Its work on each term, and that of the stress of the accepted state.
-    pub work: Functions,
+    work: Functions,
     before: Functions,
     /// Derivatives of that along the cell's nodes,
     along_nodes: [Nodal<DIM, N>; TERMS],

@@ -7,9 +7,7 @@ use super::constants::rigid_motions::{ALLOWED, HELD, TRIED};
 use super::problem::Problem;
 use super::schedule::Step;
 use crate::Failure;
-use crate::system::{
-    Assembly, Constraints, Evaluation, Instant, Origin, Row, State, Tangent, Trial, Workspace, kernel,
-};
+use crate::system::{Assembly, Constraints, Evaluation, Instant, Row, State, Tangent, Trial, Workspace, kernel};
 
 /// Motions of all unknowns that span those which nothing holds at an accepted state.
 ///
@@ -108,8 +106,7 @@ impl<'a> Resistance<'a> {
 
     fn residual(&mut self, motion: &[f64], part: f64) -> Result<Vec<f64>, Failure> {
         let u: Vec<f64> = self.state.u.iter().zip(motion).map(|(u, v)| u + part * v).collect();
-        let trial =
-            Trial { u: &u, missing: None, tangent: Tangent::None, acting: &[], origin: Origin::Unknown, from: &[] };
+        let trial = Trial::at(&u, Tangent::None);
         self.workspace.evaluate(&self.assembly, &trial, &mut self.evaluation)?;
         let unbalanced: Vec<f64> = (0..u.len()).map(|dof| self.evaluation.residual(dof)).collect();
         let mut free = vec![0.0; self.assembly.constraints.free_count()];

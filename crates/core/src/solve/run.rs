@@ -153,7 +153,8 @@ impl<'a> Run<'a> {
         let (mut wanted, mut relaxing, mut relaxed) = (self.state.next_dt, false, still);
         let mut caution = self.state.caution;
         // In a step that has just begun no size has served.
-        let served = if self.state.step_time > 0.0 { 1.0 } else { RELAX } * caution.usual(step);
+        let begun = self.state.step_time > 0.0;
+        let served = if begun { caution.usual(step) } else { RELAX * caution.usual(step) };
         let mut cause = String::new();
         for attempt in 1..=ATTEMPTS {
             let dt = step.next(wanted, self.state.step_time);

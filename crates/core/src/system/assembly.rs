@@ -49,6 +49,13 @@ pub struct Trial<'a> {
     pub from: &'a [f64],
 }
 
+impl<'a> Trial<'a> {
+    /// At these unknowns, where nothing is known of a step to them.
+    pub fn at(u: &'a [f64], tangent: Tangent) -> Self {
+        Self { u, missing: None, tangent, acting: &[], origin: Origin::Unknown, from: &[] }
+    }
+}
+
 /// Result of one evaluation.
 #[derive(Debug, Clone, Default)]
 pub struct Evaluation {
@@ -280,7 +287,7 @@ impl Workspace {
     pub fn evaluate_loads(&mut self, assembly: &Assembly, u: &[f64], out: &mut Evaluation) -> Result<(), Failure> {
         out.clear(assembly.dofs.count(), 0, Tangent::None);
         out.apart.clear();
-        let trial = Trial { u, missing: None, tangent: Tangent::None, acting: &[], origin: Origin::Unknown, from: &[] };
+        let trial = Trial::at(u, Tangent::None);
         for t in (0..assembly.terms.len()).filter(|&t| assembly.terms[t].role() == Role::Load) {
             // Nothing can miss a matrix that is not found.
             let evaluated = self.evaluate_term((assembly, t, &trial), out, None);

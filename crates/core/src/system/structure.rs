@@ -209,14 +209,7 @@ mod tests {
         workspace.prepare(&assembly, &accepted).unwrap();
         for at in 0..2 {
             accepted.u[0] = at as f64;
-            let trial = Trial {
-                u: &accepted.u,
-                missing: None,
-                tangent: Tangent::Exact,
-                acting: &[],
-                origin: Origin::Unknown,
-                from: &[],
-            };
+            let trial = Trial::at(&accepted.u, Tangent::Exact);
             let (mut evaluation, before) = (Evaluation::new(&terms, &accepted), workspace.enlarged());
             workspace.evaluate(&assembly, &trial, &mut evaluation).unwrap();
             let pattern = workspace.pattern();

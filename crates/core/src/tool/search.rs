@@ -24,8 +24,7 @@ pub struct BoxTree {
 
 #[derive(Debug, Clone)]
 struct BoxNode {
-    centre: Vec3,
-    half: Vec3,
+    bounds: BoundingBox,
     content: BoxContent,
 }
 
@@ -35,13 +34,6 @@ enum BoxContent {
     Leaf(usize, usize),
     /// The place of the second child.
     Inner(usize),
-}
-
-impl BoxNode {
-    /// From a point to its box.
-    fn distance(&self, x: Vec3) -> f64 {
-        Vec3(std::array::from_fn(|i| ((x[i] - self.centre[i]).abs() - self.half[i]).max(0.0))).norm()
-    }
 }
 
 impl BoxTree {
@@ -55,13 +47,13 @@ impl BoxTree {
 
     fn grow(&mut self, boxes: &[BoundingBox], margin: f64, from: usize, to: usize) {
         let all = self.order[from..to].iter().fold(BoundingBox::EMPTY, |b, &i| b.union(boxes[i]));
-        let half = (all.max - all.min) * 0.5 + Vec3([margin; 3]);
         let here = self.nodes.len();
-        self.nodes.push(BoxNode { centre: all.centre(), half, content: BoxContent::Leaf(from, to) });
+        self.nodes.push(BoxNode { bounds: all.widened(margin), content: BoxContent::Leaf(from, to) });
         if to - from <= LEAF {
             return;
         }
-        let longer = |a: usize, b: usize| if half[b] > half[a] { b } else { a };
+        let sides = all.max - all.min;
+        let longer = |a: usize, b: usize| if sides[b] > sides[a] { b } else { a };
         let axis = longer(longer(0, 1), 2);
         let key = |i: &usize| boxes[*i].min[axis] + boxes[*i].max[axis];
         self.order[from..to].sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
@@ -82,8 +74,7 @@ impl BoxTree {
                 }
                 BoxContent::Inner(second) => all[here + 1].union(all[second]),
             };
-            let node = &mut tree.nodes[here];
-            (node.centre, node.half) = (all[here].centre(), (all[here].max - all[here].min) * 0.5 + Vec3([margin; 3]));
+            tree.nodes[here].bounds = all[here].widened(margin);
         }
         tree.pieces = self.order.iter().map(|&i| boxes[i].widened(margin)).collect();
         tree
@@ -95,12 +86,12 @@ impl BoxTree {
         self.visit(
             0,
             &mut |node| {
-                let to = node.centre - ray.origin;
-                let (along, reach) = (to.dot(ray.direction), sides.dot(node.half));
+                let (to, half) = (node.bounds.centre() - ray.origin, (node.bounds.max - node.bounds.min) * 0.5);
+                let (along, reach) = (to.dot(ray.direction), sides.dot(half));
                 let aside = ray.direction.cross(to);
                 let meets = (0..3).all(|i| {
                     let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                    aside[i].abs() <= sides[j] * node.half[k] + sides[k] * node.half[j]
+                    aside[i].abs() <= sides[j] * half[k] + sides[k] * half[j]
                 });
                 meets && along + reach >= back && along - reach <= ahead
             },
@@ -112,18 +103,14 @@ impl BoxTree {
     pub fn near(&self, bounds: &BoundingBox, found: &mut dyn FnMut(usize)) {
         self.visit(
             0,
-            &mut |node| {
-                (0..3).all(|i| {
-                    node.centre[i] + node.half[i] >= bounds.min[i] && node.centre[i] - node.half[i] <= bounds.max[i]
-                })
-            },
+            &mut |node| (0..3).all(|i| node.bounds.max[i] >= bounds.min[i] && node.bounds.min[i] <= bounds.max[i]),
             found,
         );
     }
 
     /// Asks `of` for the distances of `x` from pieces, but for those whose boxes are farther than the least so far.
     pub fn closest(&self, x: Vec3, of: &mut dyn FnMut(usize) -> f64) {
-        self.approach((0, self.nodes[0].distance(x)), x, &mut { f64::INFINITY }, of);
+        self.approach((0, self.nodes[0].bounds.distance(x)), x, &mut { f64::INFINITY }, of);
     }
 
     fn approach(&self, (at, distance): (usize, f64), x: Vec3, least: &mut f64, of: &mut dyn FnMut(usize) -> f64) {
@@ -139,7 +126,7 @@ impl BoxTree {
                 }
             }
             BoxContent::Inner(second) => {
-                let mut both = [at + 1, second].map(|child| (child, self.nodes[child].distance(x)));
+                let mut both = [at + 1, second].map(|child| (child, self.nodes[child].bounds.distance(x)));
                 if both[1].1 < both[0].1 {
                     both.swap(0, 1);
                 }

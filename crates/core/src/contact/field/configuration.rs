@@ -103,8 +103,7 @@ impl Configuration<'_> {
         let (mut looks, mut least, mut middle) = (false, f64::INFINITY, f64::INFINITY);
         for &xi in places {
             let at = face.at(xi);
-            let cosine;
-            (middle, cosine) = match &self.target {
+            let (gap, cosine) = match &self.target {
                 TargetInPlace::Tool(tool) => {
                     let foot = tool.closest(patch.target, at.x);
                     if foot.beyond.is_some() && !self.contact.parts.surface.plane {
@@ -120,7 +119,7 @@ impl Configuration<'_> {
                 }
             };
             looks |= cosine > LEAST_COSINE;
-            least = least.min(middle);
+            (least, middle) = (least.min(gap), gap);
         }
         looks.then_some(SeenPart { patch, least, middle })
     }

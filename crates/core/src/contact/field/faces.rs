@@ -130,8 +130,7 @@ impl TargetFaces {
 fn bounds(placed: &PlacedFace) -> BoundingBox {
     let all = BoundingBox::of(placed.nodes().iter().copied());
     // Faces of second degree bulge beyond the box around their nodes.
-    let wide = Vec3([if placed.nodes().len() > 4 || placed.nodes().len() == 3 { 0.25 * all.size() } else { 0.0 }; 3]);
-    BoundingBox { min: all.min - wide, max: all.max + wide }
+    all.widened(if placed.nodes().len() > 4 || placed.nodes().len() == 3 { 0.25 * all.size() } else { 0.0 })
 }
 
 impl FacesInPlace<'_> {
@@ -147,9 +146,8 @@ impl FacesInPlace<'_> {
 
     /// Numbers of the faces whose boxes come within `margin` of a box, ascending.
     pub fn near(&self, around: &BoundingBox, margin: f64, out: &mut Vec<usize>) {
-        let wide = Vec3([margin; 3]);
         out.clear();
-        self.tree.near(&BoundingBox { min: around.min - wide, max: around.max + wide }, &mut |number| out.push(number));
+        self.tree.near(&around.widened(margin), &mut |number| out.push(number));
         out.sort_unstable();
     }
 

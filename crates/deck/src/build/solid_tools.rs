@@ -6,7 +6,9 @@ use crate::keys::{FacetKeys, SegmentKeys, StlKeys, ToolKeys};
 use crate::reader::Name;
 use crate::source::{Place, Spot};
 use asperity_core::tensor::Vec3;
-use asperity_core::tool::space::solids::{Facets, cone, extruded, plane, polygons, revolved, sphere, torus};
+use asperity_core::tool::space::solids::{
+    Facets, SweepPath, cone, extruded, plane, polygons, revolved, sphere, swept, torus,
+};
 use asperity_core::tool::space::{FacetFinding, ProfileFrame, SpaceTool, stl};
 use asperity_core::tool::{self, FindingSeverity};
 use std::sync::Arc;
@@ -53,7 +55,7 @@ impl Builder<'_> {
         self.keep(told, keys.place)
     }
 
-    /// A profile that is revolved or extruded, judged as a profile first.
+    /// A profile that is revolved, extruded or swept, judged as a profile first.
     fn swept(&mut self, name: &Name, keys: &ToolKeys, profile: &Spot<Vec<SegmentKeys>>) -> Option<Facets> {
         let (segments, _) = self.segments(profile, keys)?;
         let (again, places) = self.segments(profile, keys)?;
@@ -66,9 +68,17 @@ impl Builder<'_> {
             let frame = ProfileFrame::about(vector(&it.origin), vector(&it.axis)).map_err(told);
             return self.keep(frame, it.place).map(|frame| revolved(segments, frame));
         }
+        if let Some(it) = &keys.sweep {
+            let drafts = self.drafts(profile, keys)?;
+            let frame = ProfileFrame::across(vector(&it.origin), vector(&it.axis), vector(&it.x));
+            let corners = it.path.iter().map(|corner| vector(corner)).collect();
+            let path = |frame| SweepPath { frame, corners, radius: it.radius, closed: it.closed };
+            let facets = frame.and_then(|frame| swept(&drafts, &path(frame)));
+            return self.keep(facets.map_err(told), it.place);
+        }
         let Some(it) = &keys.extrude else {
             let what = format!("the profile of tool `{name}` is plane, but space = \"solid\"");
-            let help = "say `revolve` or `extrude` as well";
+            let help = "say `revolve`, `extrude` or `sweep` as well";
             self.found.push(Diagnostic::error(what).at(profile.place).help(help));
             return None;
         };

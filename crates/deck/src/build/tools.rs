@@ -21,10 +21,10 @@ impl Builder<'_> {
     }
 
     fn tool(&mut self, name: &Name, keys: &ToolKeys) -> Option<Arc<ProfileTool>> {
-        let profile = keys.profile.as_ref().filter(|_| keys.revolve.is_none() && keys.extrude.is_none());
+        let profile = keys.profile.as_ref().filter(|_| keys.swept().is_empty());
         let Some(profile) = profile else {
             let what = format!("the tool `{name}` is a body of space, but space = \"{}\"", self.site.space.name());
-            let help = "in the plane a tool is a `profile`, neither revolved nor extruded";
+            let help = "in the plane a tool is a `profile`, neither revolved nor extruded nor swept";
             self.found.push(Diagnostic::error(what).at(keys.place).help(help));
             return None;
         };
@@ -34,18 +34,20 @@ impl Builder<'_> {
         self.judge(&tool, (&places, profile.place), axisymmetric).then(|| Arc::new(tool))
     }
 
-    /// The segments of a profile, with its fillets, and where each is said.
-    pub(super) fn segments(&mut self, profile: &Spot<Vec<SegmentKeys>>, keys: &ToolKeys) -> Option<Segments> {
+    /// The segments of a profile, with its fillets.
+    pub(super) fn drafts(&mut self, profile: &Spot<Vec<SegmentKeys>>, keys: &ToolKeys) -> Option<Vec<Draft>> {
         let draft = |(i, segment): (usize, &SegmentKeys)| (i, segment.kind, segment.nodes.clone());
         let drafts: Vec<Draft> = profile.value.iter().enumerate().map(draft).collect();
-        let drafts = match keys.fillet {
-            Some(fillet) => {
-                self.keep(rounded(drafts, fillet.value).map_err(asperity_core::Error::input), fillet.place)?
-            }
-            None => drafts,
-        };
+        match keys.fillet {
+            Some(fillet) => self.keep(rounded(drafts, fillet.value).map_err(asperity_core::Error::input), fillet.place),
+            None => Some(drafts),
+        }
+    }
+
+    /// The same, built, and where each is said.
+    pub(super) fn segments(&mut self, profile: &Spot<Vec<SegmentKeys>>, keys: &ToolKeys) -> Option<Segments> {
         let (mut segments, mut places) = (Vec::new(), Vec::new());
-        for (i, kind, nodes) in drafts {
+        for (i, kind, nodes) in self.drafts(profile, keys)? {
             let place = profile.value[i].place;
             segments.push(self.keep(kind.build(&nodes).map_err(asperity_core::Error::input), place));
             places.push(place);

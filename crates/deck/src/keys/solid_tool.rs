@@ -1,7 +1,7 @@
 //! Shapes of rigid tools in space.
 
 use crate::diagnose::Diagnostic;
-use crate::form::{Form, list, number, table, text, whole};
+use crate::form::{Form, flag, list, number, table, text, whole};
 use crate::reader::Reader;
 use crate::source::Spot;
 use asperity_core::declare::{Range, unit};
@@ -24,6 +24,24 @@ table! {
         /// From that end to the other. It is across the profile: x, y and this are right-handed.
         along: Vec<f64> = point().required(),
         /// The profile's x axis, of any length.
+        x: Vec<f64> = direction().or("[1.0, 0.0, 0.0]"),
+    }
+}
+
+table! {
+    /// A path in a plane, along which a profile is swept.
+    pub struct Sweep {
+        /// Corners `[x, y]` in the order of travel; the profile's x points to the right of it.
+        path: Vec<Vec<f64>> = list(list(number(unit::LENGTH, Range::ANY), 2..=2), 2..=usize::MAX).required(),
+        /// Radius of the arcs by which the corners are rounded.
+        radius: f64 = number(unit::LENGTH, Range::POSITIVE).required(),
+        /// Whether the path goes on to its first corner.
+        closed: bool = flag().or("true"),
+        /// Where the path's origin lies.
+        origin: Vec<f64> = point().or("[0.0, 0.0, 0.0]"),
+        /// What the path's plane is across, and the profile's y axis, of any length.
+        axis: Vec<f64> = direction().or("[0.0, 0.0, 1.0]"),
+        /// The path's x axis, of any length; its y axis makes them right-handed.
         x: Vec<f64> = direction().or("[1.0, 0.0, 0.0]"),
     }
 }

@@ -1,6 +1,6 @@
 //! Rigid tools and their profiles.
 
-use super::solid_tool::{Cone, Cylinder, Extrude, FacetKeys, Plane, Revolve, Sphere, StlKeys, Torus};
+use super::solid_tool::{Cone, Cylinder, Extrude, FacetKeys, Plane, Revolve, Sphere, StlKeys, Sweep, Torus};
 use crate::diagnose::Diagnostic;
 use crate::form::{Form, list, number, table, table_of, tag};
 use crate::reader::Reader;
@@ -12,8 +12,8 @@ use asperity_core::tensor::Vec3;
 use asperity_core::tool::shapes::{self, ShapeKind};
 
 table! {
-    /// A rigid tool: in the plane a profile; in space a profile that is revolved or extruded, facets, a file of
-    /// triangles, or one of the simple shapes.
+    /// A rigid tool: in the plane a profile; in space a profile that is revolved, extruded or swept, facets, a file
+    /// of triangles, or one of the simple shapes.
     pub struct ToolKeys check tool {
         /// Its profile: segments in the order of travel, each from the end of the one before, with the tool's material
         /// on the left.
@@ -26,6 +26,9 @@ table! {
         revolve: Option<Revolve> = table_of().unless_given("not revolved"),
         /// In space: the profile carried along a line; its ends stay open.
         extrude: Option<Extrude> = table_of().unless_given("not extruded"),
+        /// In space: the profile swept along a path of straight lines and arcs. One that begins at `x = -radius`, over the middles of
+        /// the arcs, is joined there by a flat face if the path is closed and turns left only.
+        sweep: Option<Sweep> = table_of().unless_given("not swept"),
         /// In space: triangles and quadrilaterals between nodes.
         facets: Option<FacetKeys> = table_of().unless_given("another key says its shape"),
         /// In space: the triangles of an STL file.
@@ -43,6 +46,15 @@ table! {
         /// The point that its motion moves and about which it turns; where its force and torque act.
         reference: Option<Spot<Vec<f64>>> =
             list(number(unit::LENGTH, Range::ANY), 2..=3).spot().computed("the origin"),
+    }
+}
+
+impl ToolKeys {
+    /// What is said of how a profile makes a surface.
+    pub fn swept(&self) -> Vec<&'static str> {
+        let all =
+            [("revolve", self.revolve.is_some()), ("extrude", self.extrude.is_some()), ("sweep", self.sweep.is_some())];
+        all.iter().filter(|(_, said)| *said).map(|(key, _)| *key).collect()
     }
 }
 
@@ -71,8 +83,7 @@ fn tool(keys: &ToolKeys, reader: &mut Reader) {
             refuse(format!("`{path}` says both `{first}` and `{second}`"), "keep one: a tool has one shape");
         }
     }
-    let swept = [("revolve", keys.revolve.is_some()), ("extrude", keys.extrude.is_some())];
-    let swept: Vec<&str> = swept.iter().filter(|(_, said)| *said).map(|(key, _)| *key).collect();
+    let swept = keys.swept();
     if keys.fillet.is_some() && keys.profile.is_none() {
         refuse(format!("`{path}.fillet` has no profile to act on"), "cylinders and cones have a fillet of their own");
     }
@@ -80,7 +91,7 @@ fn tool(keys: &ToolKeys, reader: &mut Reader) {
         [key] if keys.profile.is_none() => {
             refuse(format!("`{path}.{key}` has no profile to act on"), "give `profile`, or remove it");
         }
-        [_, _] => refuse(format!("`{path}` says both `revolve` and `extrude`"), "keep one of the two"),
+        [one, other, ..] => refuse(format!("`{path}` says both `{one}` and `{other}`"), "keep one of them"),
         _ => {}
     }
 }

@@ -188,17 +188,26 @@ impl RigidFacet for Revolved {
     fn nearest(&self, x: Vec3) -> FacetPoint {
         let frame = self.frame();
         let at = frame.coordinates(x - frame.origin);
-        let radius = at[0].hypot(at[2]);
-        let out = if radius > 0.0 { (frame.x * at[0] + frame.z * at[2]) * radius.recip() } else { frame.x };
+        let (t, radius) = (self.around(at), at[0].hypot(at[2]));
+        let over = !self.is_whole() && !(-PAST..=1.0 + PAST).contains(&t);
+        // Beyond its ends the closest point lies on the last meridian, in whose plane x may lie behind the axis.
+        let (out, radius) = if over || radius == 0.0 {
+            let out = self.meridian(t.clamp(0.0, 1.0)).0;
+            (out, out.dot(x - frame.origin))
+        } else {
+            ((frame.x * at[0] + frame.z * at[2]) * radius.recip(), radius)
+        };
         let around = out.cross(frame.y);
-        let (s, p, tangent, n, past) = on_profile(self.shape(), Vec3::new(radius, at[1], 0.0));
+        let flat = Vec3::new(radius, at[1], 0.0);
+        let (s, p, tangent, n, past) = on_profile(self.shape(), flat);
         let turn = |v: Vec3| out * v[0] + frame.y * v[1];
         let bend = self.shape().curvature(s);
         let tip = p[0] <= ON_AXIS * self.radius();
-        let border = match (past, tip) {
-            (false, _) => FacetBorder::Inside,
-            (true, false) => FacetBorder::Edge(around, radius / p[0] - 1.0),
-            (true, true) => FacetBorder::Corner,
+        let border = match (past, tip, over) {
+            (false, _, false) => FacetBorder::Inside,
+            (true, false, false) => FacetBorder::Edge(around, radius / p[0] - 1.0),
+            (false, _, true) => FacetBorder::Edge(turn(tangent), bend * n.dot(flat - p)),
+            _ => FacetBorder::Corner,
         };
         FacetPoint {
             point: frame.origin + turn(p),

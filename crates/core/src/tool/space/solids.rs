@@ -4,8 +4,9 @@ use super::nearest::RigidFacet;
 use super::polygons::{Quad, Triangle};
 use super::swept::{Extruded, ProfileFrame, Revolved};
 use crate::tensor::Vec3;
-use crate::tool::fillet::fillet;
+use crate::tool::fillet::{Draft, fillet, rounded};
 use crate::tool::shapes::{ProfileShape, find};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Facets of a tool.
@@ -18,14 +19,96 @@ pub type Profile = Vec<Box<dyn ProfileShape>>;
 /// make no facet.
 pub fn revolved(profile: Profile, frame: ProfileFrame) -> Facets {
     let size = profile.iter().map(|shape| shape.bounds().size()).fold(0.0, f64::max);
-    let off_axis = profile.into_iter().filter(|shape| shape.bounds().max[0] > 1e-12 * size);
-    off_axis.map(|shape| Box::new(Revolved::new(Arc::from(shape), frame)) as _).collect()
+    sector(profile, frame, TAU, 1e-12 * size).collect()
+}
+
+/// A profile revolved by an angle; segments within `least` of the axis make no facet.
+fn sector(profile: Profile, frame: ProfileFrame, turn: f64, least: f64) -> impl Iterator<Item = Box<dyn RigidFacet>> {
+    let off_axis = profile.into_iter().filter(move |shape| shape.bounds().max[0] > least);
+    off_axis.map(move |shape| Box::new(Revolved::new(Arc::from(shape), frame, turn)) as _)
 }
 
 /// A profile carried along the z axis of its frame; the ends stay open.
 pub fn extruded(profile: Profile, frame: ProfileFrame, length: f64) -> Facets {
     let facet = |shape: Box<dyn ProfileShape>| Box::new(Extruded { shape: Arc::from(shape), frame, length }) as _;
     profile.into_iter().map(facet).collect()
+}
+
+/// A path in the plane of x and y of its frame through corners that are rounded by `radius`.
+#[derive(Debug, Clone)]
+pub struct SweepPath {
+    /// Its frame; the profile's y axis is z of this.
+    pub frame: ProfileFrame,
+    /// Its corners in the order of travel.
+    pub corners: Vec<Vec3>,
+    /// Radius of the arcs.
+    pub radius: f64,
+    /// Whether it comes back to its first corner.
+    pub closed: bool,
+}
+
+/// A profile carried along a path, its x to the right of travel: extruded along straight parts, revolved about the middles of arcs.
+/// One that begins over these, at `x = -radius`, is joined there by a flat face if the path is closed and never turns right.
+///
+/// # Errors
+/// In words, if the path has too few corners, its arcs do not fit, or the profile reaches over the middles of arcs.
+pub fn swept(profile: &[Draft], path: &SweepPath) -> Result<Facets, String> {
+    let (frame, radius, n) = (&path.frame, path.radius, path.corners.len());
+    if n < if path.closed { 3 } else { 2 } {
+        return Err("the path has too few corners".into());
+    }
+    let line = find("line")?;
+    let straight = |i: usize| (i, line, vec![path.corners[i], path.corners[(i + 1) % n]]);
+    let parts = rounded((0..n - usize::from(!path.closed)).map(straight).collect(), radius)
+        .map_err(|_| "the arcs of the path do not fit between its corners")?;
+    let built = |place: &dyn Fn(Vec3) -> Vec3, back: bool| -> Result<Profile, String> {
+        let nodes = |(_, kind, nodes): &Draft| {
+            let mut placed: Vec<Vec3> = nodes.iter().map(|&x| place(x)).collect();
+            if back {
+                placed.reverse();
+            }
+            kind.build(&placed)
+        };
+        profile.iter().map(nodes).collect()
+    };
+    let (mut facets, mut middles, mut convex) = (Facets::new(), Vec::new(), path.closed);
+    for (_, _, nodes) in &parts {
+        let &[a, middle, .., b] = nodes.as_slice() else {
+            let along = frame.turn(nodes[1] - nodes[0]);
+            let across = ProfileFrame {
+                origin: frame.place(nodes[1]),
+                x: along.cross(frame.z).unit(),
+                y: frame.z,
+                z: -along.unit(),
+            };
+            facets.extend(extruded(built(&|x| x, false)?, across, along.norm()));
+            continue;
+        };
+        let center = middle + ((a + b) * 0.5 - middle).unit() * radius;
+        let left = (middle - a).cross(b - middle)[2] > 0.0;
+        let sign = if left { 1.0 } else { -1.0 };
+        let place = |x: Vec3| Vec3::new(radius + sign * x[0], x[1], 0.0);
+        let profile = built(&place, !left)?;
+        if profile.iter().any(|shape| shape.bounds().min[0] < -1e-12 * radius) {
+            return Err(format!(
+                "the profile reaches over the middle of an arc of the path, by more than its radius {radius}"
+            ));
+        }
+        // Clockwise as seen from the profile's y axis.
+        let [from, to] = if left { [b, a] } else { [a, b] }.map(|x| x - center);
+        let x = frame.turn(from).unit();
+        let about = ProfileFrame { origin: frame.place(center), x, y: frame.z, z: x.cross(frame.z) };
+        facets.extend(sector(profile, about, to.cross(from)[2].atan2(to.dot(from)), 1e-12 * radius));
+        (convex, _) = (convex && left, middles.push(center));
+    }
+    let begin =
+        profile.first().and_then(|(_, _, nodes)| nodes.first()).filter(|x| (x[0] + radius).abs() <= 1e-12 * radius);
+    if let (Some(begin), true) = (begin, convex) {
+        let at = |k: usize| frame.place(middles[k] + Vec3::new(0.0, 0.0, begin[1]));
+        let fan = (1..middles.len() - 1).map(|k| vec![at(0), at(k + 1), at(k)]);
+        facets.extend(polygons(fan)?);
+    }
+    Ok(facets)
 }
 
 /// Polygons of three or four corners.

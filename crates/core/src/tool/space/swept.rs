@@ -12,7 +12,7 @@ use super::facet::{Meeting, ToolFacet};
 use super::roots::roots;
 use crate::tensor::Vec3;
 use crate::tool::shapes::{BoundingBox, Conic, ProfileRay, ProfileShape};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// Axes of the plane in which a profile is drawn: x, y, and the axis of revolution or extrusion. They are of unit
@@ -117,11 +117,13 @@ impl ToolFacet for Extruded {
     }
 }
 
-/// A segment revolved once about the y axis of its plane.
+/// A segment revolved about the y axis of its plane, from x towards z.
 #[derive(Debug)]
 pub struct Revolved {
     shape: Arc<dyn ProfileShape>,
     frame: ProfileFrame,
+    /// By which angle.
+    turn: f64,
     conic: Conic,
     /// Middle of the facet on the axis and a radius that holds all of it.
     middle: f64,
@@ -129,12 +131,12 @@ pub struct Revolved {
 }
 
 impl Revolved {
-    /// The segment's x is its distance from the axis.
-    pub fn new(shape: Arc<dyn ProfileShape>, frame: ProfileFrame) -> Self {
+    /// The segment's x is its distance from the axis; a turn is at most a whole one.
+    pub fn new(shape: Arc<dyn ProfileShape>, frame: ProfileFrame, turn: f64) -> Self {
         let bounds = shape.bounds();
         let middle = 0.5 * (bounds.min[1] + bounds.max[1]);
         let radius = bounds.max[0].hypot(0.5 * (bounds.max[1] - bounds.min[1]));
-        Self { conic: shape.conic(), shape, frame, middle, radius }
+        Self { conic: shape.conic(), shape, frame, turn, middle, radius }
     }
     pub(super) fn shape(&self) -> &dyn ProfileShape {
         &*self.shape
@@ -146,10 +148,19 @@ impl Revolved {
         self.radius
     }
     /// The frame's x, z turned by the angle: the direction away from the axis, and that of a growing angle.
-    fn meridian(&self, t: f64) -> (Vec3, Vec3) {
+    pub(super) fn meridian(&self, t: f64) -> (Vec3, Vec3) {
         // From x to z, so that the normal is to the right of the profile.
-        let (sin, cos) = (t * TAU).sin_cos();
+        let (sin, cos) = (t * self.turn).sin_cos();
         (self.frame.x * cos + self.frame.z * sin, self.frame.z * cos - self.frame.x * sin)
+    }
+    /// Coordinate around the axis of a point of the frame: of those a whole turn apart that nearest to the facet's middle.
+    pub(super) fn around(&self, x: Vec3) -> f64 {
+        let from_middle = x[2].atan2(x[0]) - 0.5 * self.turn;
+        0.5 + ((from_middle + PI).rem_euclid(TAU) - PI) / self.turn
+    }
+    /// Whether it comes back to where it begins.
+    pub(super) fn is_whole(&self) -> bool {
+        self.turn >= TAU
     }
     /// Coordinate along the segment of a point of the carrier.
     fn along(&self, p: Vec3, gradient: Vec3) -> f64 {
@@ -218,7 +229,7 @@ impl ToolFacet for Revolved {
     }
     fn tangents(&self, [s, t]: [f64; 2]) -> [Vec3; 2] {
         let (p, d, (out, around)) = (self.shape.point(s), self.shape.tangent(s), self.meridian(t));
-        [out * d[0] + self.frame.y * d[1], around * (TAU * p[0])]
+        [out * d[0] + self.frame.y * d[1], around * (self.turn * p[0])]
     }
     fn normal(&self, [s, t]: [f64; 2]) -> Vec3 {
         let (n, (out, _)) = (-self.shape.tangent(s).left().unit(), self.meridian(t));
@@ -246,13 +257,20 @@ impl ToolFacet for Revolved {
         for &v in roots(quartic(even, odd, seen.r2), [-BEYOND, BEYOND]).as_slice() {
             if let Some((v, p, gradient)) = self.polish(&seen, v) {
                 let (x, u) = (near + e * (size * v), shift + size * v);
-                let angle = x[2].atan2(x[0]) / TAU;
-                found(Meeting { u, s: [self.along(p, gradient), if angle < 0.0 { angle + 1.0 } else { angle }] });
+                found(Meeting { u, s: [self.along(p, gradient), self.around(x)] });
             }
         }
     }
     fn bounds(&self) -> BoundingBox {
         let BoundingBox { min, max } = self.shape.bounds();
+        if self.turn < 0.9 * PI {
+            // An arc lies within the triangle of its ends and the point in which its tangents there meet.
+            let corner = |t: f64, r: f64| self.meridian(t).0 * r;
+            let far = max[0] / (0.5 * self.turn).cos();
+            let around = [(0.0, min[0]), (1.0, min[0]), (0.0, max[0]), (0.5, far), (1.0, max[0])];
+            let at = |z: f64| around.map(|(t, r)| self.frame.origin + corner(t, r) + self.frame.y * z);
+            return BoundingBox::of([min[1], max[1]].into_iter().flat_map(at));
+        }
         // A circle about y reaches r sqrt(1 - y_i^2) along axis i.
         let reach = Vec3(self.frame.y.0.map(|y| max[0].max(0.0) * (1.0 - y * y).max(0.0).sqrt()));
         let ends = [min[1], max[1]].map(|z| self.frame.origin + self.frame.y * z);
@@ -261,11 +279,12 @@ impl ToolFacet for Revolved {
     fn parts(&self, sagitta: f64) -> [usize; 2] {
         let radius = self.shape.bounds().max[0];
         let half = (1.0 - (sagitta / radius).min(0.5)).acos();
-        let around = (std::f64::consts::PI / half).ceil().clamp(8.0, 512.0) as usize;
+        let around = (0.5 * self.turn / half).ceil().clamp((8.0 * self.turn / TAU).ceil(), 512.0) as usize;
         [self.shape.pieces(sagitta).clamp(1, 1024), around]
     }
     fn holds(&self, s: [f64; 2], beyond: f64) -> bool {
-        (-beyond..=1.0 + beyond).contains(&s[0])
+        let within = |s: f64| (-beyond..=1.0 + beyond).contains(&s);
+        within(s[0]) && (self.is_whole() || within(s[1]))
     }
     fn follow(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<Meeting> {
         let (mut best, mut least) = (None, f64::INFINITY);

@@ -2,11 +2,11 @@
 
 use super::facet::{Meeting, ToolFacet};
 use super::polygons::{Quad, Triangle};
-use super::solids::{Facets, cone, extruded, filleted, plane, polygons, revolved, sphere, torus};
+use super::solids::{Facets, SweepPath, cone, extruded, filleted, plane, polygons, revolved, sphere, swept, torus};
 use super::{FacetFinding, ProfileFrame, SpacePose, SpaceTool};
 use crate::tensor::Vec3;
-use crate::tool::Hit;
 use crate::tool::shapes::{ALL, ProfileRay, find};
+use crate::tool::{Draft, Hit};
 use crate::tool::{Rejected, Rules, select};
 use proptest::prelude::*;
 
@@ -27,6 +27,24 @@ fn wave() -> super::solids::Profile {
     kinds.iter().zip(nodes).map(|(key, nodes)| find(key).unwrap().build(nodes).unwrap()).collect()
 }
 
+/// A flat end, a rounded edge and a wall.
+fn rim() -> Vec<Draft> {
+    let p = |x: f64, y: f64| at(x, y, 0.0);
+    let nodes = [
+        vec![p(-0.3, 0.0), p(-0.2, 0.0)],
+        vec![p(-0.2, 0.0), p(-0.02, 0.12), p(0.0, 0.2)],
+        vec![p(0.0, 0.2), p(0.0, 0.5)],
+    ];
+    ["line", "arc", "line"].iter().zip(nodes).map(|(key, nodes)| (0, find(key).unwrap(), nodes)).collect()
+}
+
+/// An open path that turns left and right.
+fn around() -> SweepPath {
+    let frame = ProfileFrame::across(at(0.1, 0.0, -0.1), at(0.1, -0.2, 1.0), at(1.0, 0.3, 0.0)).unwrap();
+    let corners = vec![at(-1.0, 0.8, 0.0), at(-0.9, -0.3, 0.0), at(0.3, -0.2, 0.0), at(0.9, -1.0, 0.0)];
+    SweepPath { frame, corners, radius: 0.3, closed: false }
+}
+
 /// One tool of every kind, each of about unit size.
 fn scenes() -> Vec<(&'static str, Facets)> {
     let frame = ProfileFrame::about(at(0.1, 0.0, -0.1), at(0.3, 1.0, -0.5)).unwrap();
@@ -41,6 +59,7 @@ fn scenes() -> Vec<(&'static str, Facets)> {
         ("tip", cone(at(-0.7, 0.0, 0.1), at(0.8, 0.2, 0.0), [0.0, 0.7], 0.0).unwrap()),
         ("wave", revolved(wave(), frame)),
         ("rail", extruded(wave(), across, 1.2)),
+        ("rim", swept(&rim(), &around()).unwrap()),
         ("twisted", polygons([quad.to_vec()]).unwrap()),
         ("triangle", polygons([quad[..3].to_vec()]).unwrap()),
     ]
@@ -259,6 +278,37 @@ fn no_ray_slips_between_neighbours() {
         tool.cast(&pose, &ray, [2.0, 4.0], &mut hits);
         assert!(hits.iter().any(|hit| (hit.u - 3.0).abs() < 1e-9), "facet {i} part {part}: {hits:?}");
     }
+}
+
+/// A profile that begins over the middles of the corners is closed between them; the tool is one smooth piece without a hole.
+#[test]
+fn a_swept_punch_is_closed_below() {
+    let p = |x: f64, y: f64| at(x, y, 0.0);
+    let rim: Vec<Draft> = [("line", vec![p(-2.0, 0.0), p(-1.0, 0.0)]), ("line", vec![p(-1.0, 0.0), p(0.0, 0.0)])]
+        .into_iter()
+        .map(|(key, nodes)| (0, find(key).unwrap(), nodes))
+        .collect();
+    let frame = ProfileFrame::across(at(0.0, 0.0, 0.0), at(0.0, 0.0, 1.0), at(1.0, 0.0, 0.0)).unwrap();
+    let mut path = SweepPath {
+        frame,
+        corners: vec![at(-6.0, -5.0, 0.0), at(6.0, -5.0, 0.0), at(6.0, 5.0, 0.0), at(-6.0, 5.0, 0.0)],
+        radius: 2.0,
+        closed: true,
+    };
+    let tool = SpaceTool::new("punch", swept(&rim, &path).unwrap(), at(0.0, 0.0, 0.0));
+    assert_eq!(tool.facets().len(), 4 * 2 + 4 * 2 + 2);
+    let pieces = tool.smooth_pieces();
+    assert_eq!(pieces.count(), 1);
+    for (x, y, inside) in [(0.0, 0.0, true), (5.4, 4.4, true), (5.9, 4.9, false), (-4.0, 3.0, true), (3.0, -4.9, true)]
+    {
+        let found = tool.closest(&pieces, 0, at(x, y, -0.3));
+        assert!((found.gap - 0.3).abs() < 1e-14 && found.normal == at(0.0, 0.0, -1.0), "{x} {y}: {found:?}");
+        assert_eq!(found.beyond, !inside, "{x} {y}");
+    }
+    path.radius = 1.0;
+    assert!(swept(&rim, &path).unwrap_err().contains("middle of an arc"));
+    path.radius = 9.0;
+    assert!(swept(&rim, &path).unwrap_err().contains("do not fit"));
 }
 
 #[test]

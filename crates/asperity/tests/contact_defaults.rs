@@ -72,3 +72,32 @@ fn the_penalty_knows_what_a_surface_resists() {
     assert!(close(penalty(0.3), 50.0 * confined / depth), "{}", penalty(0.3));
     assert!(close(penalty(0.499), 50.0 * 4.0 * shear(0.499) / depth), "{}", penalty(0.499));
 }
+
+/// That of a thin sheet goes by its bending, with the secant modulus at a strain of 5 % where it flows: in plane strain the difference of
+/// two stresses that are not more than `2 sy / sqrt(3)` apart. A block of the same steel keeps the elastic one.
+#[test]
+fn the_penalty_of_a_sheet_knows_that_it_flows() {
+    let penalty = |law: &str, height: f64| {
+        let deck = format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.b.rectangle = {{ from = [0.0, 0.0], to = [50.0, {height}], cells = [50, 2], cell = \"quad4\" }}
+            material.m.{law}
+            body.b.material = \"m\"
+            tool.die.profile = [{{ line = [[60.0, 0.0], [-10.0, 0.0]] }}]
+            contact.c = {{ surface = \"b.bottom\", target = \"die\", form = \"paper\", law.coulomb.friction = 0.1 }}
+            [[step]]
+            displacement.\"b.left\" = {{ x = 0.0 }}"
+        );
+        model(&deck, &[]).contacts[0].options().penalty
+    };
+    let (elastic, flowing) = (
+        "elastic = { young = 2e5, poisson = 0.3 }",
+        "von_mises = { young = 2e5, poisson = 0.3, yield_stress = 300.0, hardening = 0.0 }",
+    );
+    let (sheet, block) =
+        ([elastic, flowing].map(|law| penalty(law, 1.0)), [elastic, flowing].map(|law| penalty(law, 10.0)));
+    let secant = 0.25 * 2.0 * 300.0 / 3.0_f64.sqrt() / (2e5 / 2.6 * 0.05);
+    assert!((sheet[1] / sheet[0] / secant - 1.0).abs() < 1e-3, "{sheet:?}");
+    assert_eq!(block[0], block[1]);
+}

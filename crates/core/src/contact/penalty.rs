@@ -1,6 +1,7 @@
 //! The penalty that needs no guess: 50 times what the surface can follow, the least over the faces of both sides. A face follows
 //! by squeezing the cell behind it, `M / h`, with `M` the lesser of `lambda + 2 G` and `4 G` of the undeformed law and `h` the
-//! size of the cell (its volume over the area of the face); that of a thin body by bending, which is softer.
+//! size of the cell (its volume over the area of the face); that of a thin body by bending, which is softer, and softer still where the
+//! law flows.
 
 use super::thin::{Plate, area, curvature, stiffness};
 use crate::mesh::{Mesh, Side, Space};
@@ -17,6 +18,8 @@ pub const TWO_PASSES: f64 = 0.2;
 pub struct Backing {
     /// Stiffness of the material against pressure.
     pub modulus: f64,
+    /// What flow leaves of it where a plate is bent: a secant modulus over it.
+    pub secant: f64,
     /// The body where it is thin.
     pub plate: Option<Plate>,
 }
@@ -29,10 +32,11 @@ pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behi
     let least = |sides: &&[Side]| {
         let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
         let followed = |side: &Side| {
-            let Backing { modulus, plate } = behind(side.cell);
+            let Backing { modulus, secant, plate } = behind(side.cell);
             let squeezed = 1.0 / mesh.depth(*side);
-            let bent =
-                plate.filter(|plate| area > FACE * plate.area).map(|plate| stiffness(plate.thickness, curvature));
+            let bent = plate
+                .filter(|plate| area > FACE * plate.area)
+                .map(|plate| secant * stiffness(plate.thickness, curvature));
             modulus * bent.map_or(squeezed, |bent| bent.min(squeezed))
         };
         sides.iter().map(followed).fold(f64::INFINITY, f64::min)

@@ -2,9 +2,11 @@
 
 use crate::contact::field::{FieldSurface, FieldTarget};
 use crate::contact::{Backing, Plate, plates};
+use crate::material::{Flow, Material};
 use crate::mesh::{Mesh, Side, Space, flat_normal};
 use crate::solid::Body;
 use crate::system::Dofs;
+use crate::tensor::Tensor2;
 use crate::tool::ProfileTool;
 use crate::tool::space::SpaceTool;
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,25 +24,54 @@ const RESTS: f64 = 0.5;
 /// Component of a normal from which on what is held along that axis is held across the face.
 const ACROSS: f64 = 0.1;
 
+/// Strain of a plate that is bent over a radius of ten of its thicknesses, in so many increments.
+const BENT: f64 = 0.05;
+const INCREMENTS: usize = 10;
+/// Least that flow leaves of the stiffness of a plate.
+const LEAST: f64 = 0.01;
+
 /// What stands behind the faces of each cell: the confined modulus of its material, at most four shear moduli, and the
-/// thickness of what it belongs to where that is thin and free to bend. `holds` names the groups that the first step holds or
+/// thickness of what it belongs to where that is thin and free to bend, with what flow leaves of the modulus then. `holds` names the groups that the first step holds or
 /// moves, and along which axes.
 pub fn backings<'b>(
     mesh: &Mesh,
     holds: impl IntoIterator<Item = (String, [bool; 3])>,
     bodies: impl IntoIterator<Item = &'b Body>,
 ) -> Vec<Backing> {
-    let (mut backings, wholes) = (vec![Backing { modulus: 0.0, plate: None }; mesh.cell_count()], mesh.wholes());
+    let (mut backings, wholes) =
+        (vec![Backing { modulus: 0.0, secant: 1.0, plate: None }; mesh.cell_count()], mesh.wholes());
     let held = held(mesh, &wholes, holds);
     for body in bodies {
         let [confined, shear] = body.material().moduli();
         let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
-        body.cells().iter().for_each(|&cell| backings[cell].modulus = modulus);
+        let secant = secant(&**body.material(), shear).max(LEAST);
+        body.cells().iter().for_each(|&cell| backings[cell] = Backing { modulus, secant, plate: None });
         let bends = |cell: usize, plate: &Plate| held.get(&wholes[cell]).is_none_or(|held| *held <= RESTS * plate.area);
         plates(mesh, body.cells())
             .for_each(|(cell, plate)| backings[cell].plate = plate.filter(|plate| bends(cell, plate)));
     }
     backings
+}
+
+/// Secant modulus over the elastic one, of a law that flows, where it is drawn in plane strain without change of volume; one where it
+/// cannot answer.
+fn secant(material: &dyn Material, shear: f64) -> f64 {
+    if matches!(material.flow(), Flow::None | Flow::Unknown) {
+        return 1.0;
+    }
+    let part = BENT / INCREMENTS as f64;
+    let mut f = Tensor2::identity();
+    (f.0[0][0], f.0[1][1]) = (part.exp(), (-part).exp());
+    let mut state = vec![0.0; material.state_len()];
+    material.initialise(&mut state);
+    for _ in 0..INCREMENTS {
+        let old = state.clone();
+        if material.update(&f, (1.0 / INCREMENTS as f64).into(), &old, &mut state).is_err() {
+            return 1.0;
+        }
+    }
+    let part = 0.25 * (state[0] - state[1]) / (shear * BENT);
+    if part.is_finite() { part.min(1.0) } else { 1.0 }
 }
 
 /// Area of the faces of each connected whole that are held along their normals.

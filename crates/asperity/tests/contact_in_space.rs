@@ -11,7 +11,7 @@ use asperity::interface::laws::Coulomb;
 use asperity::solve::{RunOptions, Silent, Stop};
 use asperity::system::{Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
-use asperity::tool::space::SpacePose;
+use asperity::tool::Pose;
 use cubes::{at, motion};
 use perturbed::{Random, check, commit, instant, state};
 use std::path::Path;
@@ -80,7 +80,7 @@ fn a_loaded_pair_turns_without_slip() {
         let pressed = commit(&contact, &start, steps.next().unwrap()).unwrap();
         let loaded = commit(&contact, &pressed, steps.next().unwrap()).unwrap();
         let axis = at(0.48, -0.6, 0.64) * 63.0_f64.to_radians();
-        let turn = SpacePose::new([0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
+        let turn = Pose::new(&[0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
         let rest = dofs.nodes();
         let mut u = loaded.u.clone();
         let mut carry = |x: Vec3, first: usize| {
@@ -128,10 +128,8 @@ fn forces_and_moments_of_the_two_sides_balance() {
         }
         let (tool, pole) = (dofs.tool(0), contact.pole(&u));
         let f = at(&sum, tool);
-        (force, moment) = (
-            force + f,
-            moment + pole.cross(f) + SpacePose::new(std::array::from_fn(|i| u[tool + i])).moment(at(&sum, tool + 3)),
-        );
+        (force, moment) =
+            (force + f, moment + pole.cross(f) + Pose::new(&u[tool..tool + 6]).moment(at(&sum, tool + 3)));
         assert!(force.norm() <= 1e-13 * size && moment.norm() <= 1e-13 * size, "{force:?} {moment:?}");
         pressed += usize::from(size > 1e-3);
     }

@@ -5,7 +5,7 @@ mod support;
 
 use asperity::solve::RunOptions;
 use asperity::tensor::Vec3;
-use asperity::tool::PlanePose;
+use asperity::tool::Pose;
 use support::{Keep, model, run};
 
 const DECK: &str = include_str!("../../../cases/roller/roller.toml");
@@ -50,7 +50,7 @@ fn a_torque_turns_the_roller_and_draws_the_strip() {
 fn the_rotation_stays_a_rotation() {
     let model = model(DECK, &[]);
     for [x, y, angle] in poses(&model, &run(&model)) {
-        let pose = PlanePose::new(x, y, angle);
+        let pose = Pose::new(&[x, y, angle]);
         let (a, b) = (pose.rotate(Vec3::new(1.0, 0.0, 0.0)), pose.rotate(Vec3::new(0.0, 1.0, 0.0)));
         for drift in [a.dot(a) - 1.0, b.dot(b) - 1.0, a.dot(b)] {
             assert!(drift.abs() < 1e-14, "{drift:e} at {angle}");

@@ -12,7 +12,7 @@ use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh, Space};
 use asperity::system::{Attempt, Dofs, Local, State, Stencils, Term};
 use asperity::tensor::Vec3;
-use asperity::tool::space::SpacePose;
+use asperity::tool::Pose;
 use pairs::Carrier;
 use perturbed::{Random, check, commit, instant, options, state};
 use std::sync::Arc;
@@ -155,7 +155,7 @@ fn a_loaded_pair_turns_without_slip() {
         let pressed = commit(&contact, &start, push()).unwrap();
         let loaded = commit(&contact, &pressed, push()).unwrap();
         let axis = at(0.48, -0.6, 0.64) * 63.0_f64.to_radians();
-        let turn = SpacePose::new([0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
+        let turn = Pose::new(&[0.0, 0.0, 0.0, axis[0], axis[1], axis[2]]);
         let mut u = loaded.u.clone();
         for node in 0..dofs.nodes() {
             let (first, x) = (dofs.node(node), contact.mesh().points[node]);

@@ -7,7 +7,7 @@ use super::surface::CURVED;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::ToolFacet;
-use crate::tool::{self, ProfileShape, ProfileTool};
+use crate::tool::{self, Pose, ProfileShape, ProfileTool};
 
 /// A tool.
 #[derive(Debug)]
@@ -30,15 +30,6 @@ pub struct Rigid {
     pub closed: bool,
     /// How far its pieces may lie from it.
     pub sagitta: f64,
-}
-
-/// Where a tool stands.
-#[derive(Debug, Clone, Copy)]
-pub enum Pose {
-    /// In the plane.
-    Plane(tool::PlanePose),
-    /// In space.
-    Space(tool::space::Stance),
 }
 
 /// Sagitta of the pieces over the size of the smallest cell, but over the size of the tool at least
@@ -96,11 +87,7 @@ impl Rigid {
     /// Where it stands at a part of the way from the accepted unknowns to `u`.
     pub fn pose(&self, accepted: &[f64], u: &[f64], part: f64) -> Pose {
         let at = |i: usize| accepted[self.first + i] + (u[self.first + i] - accepted[self.first + i]) * part;
-        if self.plane {
-            Pose::Plane(tool::PlanePose::new(at(0), at(1), at(2)))
-        } else {
-            Pose::Space(tool::space::SpacePose::new(std::array::from_fn(at)).stance())
-        }
+        Pose::new(&(0..if self.plane { 3 } else { 6 }).map(at).collect::<Vec<f64>>())
     }
     /// Into how many parts its way is divided, so that it turns little in each.
     pub fn turns(&self, accepted: &[f64], u: &[f64]) -> usize {
@@ -148,17 +135,11 @@ impl Rigid {
     }
     /// Where a point in space stands in its own frame.
     pub fn withdraw(&self, pose: &Pose, p: Vec3) -> Vec3 {
-        match pose {
-            Pose::Plane(pose) => pose.withdraw(self.reference, p),
-            Pose::Space(pose) => pose.withdraw(self.reference, p),
-        }
+        pose.withdraw(self.reference, p)
     }
     /// Where a point of its own frame stands in space.
     pub fn place(&self, pose: &Pose, p: Vec3) -> Vec3 {
-        match pose {
-            Pose::Plane(pose) => pose.place(self.reference, p),
-            Pose::Space(pose) => pose.place(self.reference, p),
-        }
+        pose.place(self.reference, p)
     }
 }
 

@@ -5,6 +5,7 @@
 //! Bodies, laws and tools are known here; other terms of equilibrium are strangers.
 
 mod augment;
+mod energy;
 pub mod field;
 mod increment;
 mod kink;

@@ -8,7 +8,7 @@ use crate::Failure;
 use crate::amplitude::Timeline;
 use crate::system::{Attempt, Branch, Dofs, History, Instant, Local, Role, State, Stencil, Stencils, Term};
 use crate::tensor::{Dual, Vec3};
-use crate::tool::space::SpacePose;
+use crate::tool::Pose;
 
 /// Components of a torque along the axes of space, each with its course.
 #[derive(Debug)]
@@ -65,7 +65,7 @@ impl Attempt for OpenTorque {
     }
     fn evaluate(&self, _: usize, _: &Stencil, _: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
         let rotation = Vec3(std::array::from_fn(|i| Dual::<3>::variable(local.u[i], i)));
-        let force = SpacePose { translation: Vec3::zero(), rotation }.conjugate(self.moment.lift());
+        let force = Pose::turned(rotation).conjugate(self.moment.lift());
         for i in 0..3 {
             local.force[i] = force[i].re;
             if local.wants_tangent {

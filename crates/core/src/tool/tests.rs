@@ -2,7 +2,7 @@
 
 use super::conformance::{at, cast, nodes};
 use super::shapes::{ALL, ProfileRay, RayCrossing, find};
-use super::{Hit, PlanePose, ProfileTool};
+use super::{Hit, Pose, ProfileTool};
 use crate::tensor::Vec3;
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn star(n: usize, bulge: f64, radius: impl Fn(usize) -> f64) -> ProfileTool {
 }
 
 /// What [`ProfileTool::cast`] must give, without tree and without a moved ray: the segments' nodes are moved instead.
-fn cast_all_moved(tool: &ProfileTool, pose: &PlanePose, ray: &ProfileRay) -> Vec<(usize, RayCrossing)> {
+fn cast_all_moved(tool: &ProfileTool, pose: &Pose, ray: &ProfileRay) -> Vec<(usize, RayCrossing)> {
     let mut all = Vec::new();
     for (i, segment) in tool.segments().iter().enumerate() {
         let moved: Vec<Vec3> = segment.nodes().iter().map(|&p| pose.place(tool.reference(), p)).collect();
@@ -42,7 +42,7 @@ proptest! {
         angle in 0.0..6.3,
     ) {
         let tool = star(n, bulge, |i| radii[i]);
-        let pose = PlanePose::new(motion[0], motion[1], motion[2]);
+        let pose = Pose::new(&motion);
         let ray = ProfileRay { origin: at(origin[0], origin[1]), direction: at(f64::cos(angle), f64::sin(angle)) };
         let expected = cast_all_moved(&tool, &pose, &ray);
         let mut hits = Vec::new();
@@ -64,7 +64,7 @@ proptest! {
     #[test]
     fn normals_point_out_of_a_closed_tool(n in 3usize..30, bulge in -0.2..0.2, angle in -3.0..3.0) {
         let tool = star(n, bulge, |_| 1.0);
-        let pose = PlanePose::new(5.0, -1.0, angle);
+        let pose = Pose::new(&[5.0, -1.0, angle]);
         let centre = pose.place(tool.reference(), at(0.0, 0.0));
         for (i, s) in (0..n).flat_map(|i| [(i, 0.25), (i, 0.5), (i, 0.8)]) {
             let (normal, outwards) = (tool.normal(&pose, i, s), tool.point(&pose, i, s) - centre);
@@ -77,7 +77,7 @@ proptest! {
     #[test]
     fn one_given_segment_is_hit_where_all_are_and_a_little_beyond(n in 3usize..12, part in 0.02..0.98, s in -0.05..1.05) {
         let tool = star(n, -0.3, |_| 1.0);
-        let (pose, segment) = (PlanePose::new(0.5, 0.5, 1.0), (part * n as f64) as usize);
+        let (pose, segment) = (Pose::new(&[0.5, 0.5, 1.0]), (part * n as f64) as usize);
         let (target, inwards) = (tool.point(&pose, segment, s), -tool.normal(&pose, segment, s));
         let ray = ProfileRay { origin: target - inwards * 0.3, direction: inwards };
         let hit = tool.cast_segment(&pose, segment, &ray, s).unwrap();
@@ -95,9 +95,9 @@ fn a_ray_that_misses_the_curve_meets_its_tangent() {
     let arc = find("arc").unwrap().build(&[at(1.0, 0.0), at(0.0, 1.0), at(-1.0, 0.0)]).unwrap();
     let tool = ProfileTool::new("half disc", vec![vec![arc]], at(0.0, 0.0));
     let ray = ProfileRay { origin: at(3.0, 5.0), direction: at(0.0, -1.0) };
-    let hit = tool.cast_segment(&PlanePose::default(), 0, &ray, 0.5).unwrap();
+    let hit = tool.cast_segment(&Pose::default(), 0, &ray, 0.5).unwrap();
     assert!((hit.u - 4.0).abs() < 1e-15 && (hit.normal - at(0.0, 1.0)).norm() < 1e-15, "{hit:?}");
-    assert!(tool.cast_segment(&PlanePose::default(), 0, &ProfileRay { direction: at(1.0, 0.0), ..ray }, 0.5).is_none());
+    assert!(tool.cast_segment(&Pose::default(), 0, &ProfileRay { direction: at(1.0, 0.0), ..ray }, 0.5).is_none());
 }
 
 /// A ray through a common node of two segments hits at least one of them, however far it comes and the tool turns.
@@ -107,7 +107,7 @@ fn no_ray_slips_between_neighbours() {
     let mut hits = Vec::new();
     for i in 0..24 {
         for j in 0..50 {
-            let pose = PlanePose::new(0.1 * f64::from(j), 0.0, 0.37 * f64::from(j));
+            let pose = Pose::new(&[0.1 * f64::from(j), 0.0, 0.37 * f64::from(j)]);
             let (corner, normal) = (tool.point(&pose, i, 0.0), tool.normal(&pose, i, 0.5));
             let ray = ProfileRay { origin: corner + normal * f64::from(1 + j), direction: -normal };
             tool.cast(&pose, &ray, [f64::from(j), f64::from(j) + 1.5], &mut hits);
@@ -126,7 +126,7 @@ fn misspelt_shapes_and_wrong_numbers_of_nodes_are_told_in_words() {
 
 #[test]
 fn an_outline_follows_the_pose() {
-    let (tool, pose) = (star(9, 0.3, |_| 1.0), PlanePose::new(1.0, 2.0, 0.5));
+    let (tool, pose) = (star(9, 0.3, |_| 1.0), Pose::new(&[1.0, 2.0, 0.5]));
     let outline = tool.outline(&pose, 1e-3);
     assert_eq!(outline.len(), 1);
     assert!(outline[0].len() > 9);

@@ -2,7 +2,7 @@
 
 use super::search::BoxTree;
 use super::shapes::{BoundingBox, ProfileRay, ProfileShape};
-use super::{PlanePose, ProfileFinding, check};
+use super::{Pose, ProfileFinding, check};
 use crate::tensor::{Scalar, Vec3};
 
 /// A rigid tool in the plane: chains of segments with the material on their left, and a reference point.
@@ -89,23 +89,23 @@ impl ProfileTool {
     }
 
     /// Present position of the material point at `s` on a segment.
-    pub fn point<T: Scalar>(&self, pose: &PlanePose<T>, segment: usize, s: f64) -> Vec3<T> {
+    pub fn point<T: Scalar>(&self, pose: &Pose<T>, segment: usize, s: f64) -> Vec3<T> {
         pose.place(self.reference, self.segments[segment].point(s))
     }
     /// Present `dx/ds` there.
-    pub fn tangent(&self, pose: &PlanePose, segment: usize, s: f64) -> Vec3 {
+    pub fn tangent(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
         pose.rotate(self.segments[segment].tangent(s))
     }
     /// Present outward unit normal there: the material is on the left.
-    pub fn normal(&self, pose: &PlanePose, segment: usize, s: f64) -> Vec3 {
+    pub fn normal(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
         pose.rotate(-self.segments[segment].tangent(s).left().unit())
     }
 
     /// All places with `u` in `range` where the line through `ray` meets the tool, by segment and then by `u`;
     /// `hits` is cleared first and its memory reused.
-    pub fn cast(&self, pose: &PlanePose, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
+    pub fn cast(&self, pose: &Pose, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
         hits.clear();
-        let own = self.own_frame(pose, ray);
+        let own = pose.own_frame(self.reference, ray);
         self.tree.along(&own, range, &mut |segment| {
             self.segments[segment].cast(&own, &mut |place| {
                 if (range[0]..=range[1]).contains(&place.u) {
@@ -117,13 +117,13 @@ impl ProfileTool {
     }
 
     /// Where a ray meets one given segment, whether or not others are nearer, by [`ProfileShape::meet_near`].
-    pub fn cast_segment(&self, pose: &PlanePose, segment: usize, ray: &ProfileRay, near: f64) -> Option<Hit> {
-        let (place, tangent) = self.segments[segment].meet_near(&self.own_frame(pose, ray), near)?;
+    pub fn cast_segment(&self, pose: &Pose, segment: usize, ray: &ProfileRay, near: f64) -> Option<Hit> {
+        let (place, tangent) = self.segments[segment].meet_near(&pose.own_frame(self.reference, ray), near)?;
         Some(Hit { segment, s: [place.s, 0.0], u: place.u, normal: pose.rotate(-tangent.left().unit()) })
     }
 
     /// The profiles in space as polylines nowhere farther than `sagitta` from them, for drawing.
-    pub fn outline(&self, pose: &PlanePose, sagitta: f64) -> Vec<Vec<Vec3>> {
+    pub fn outline(&self, pose: &Pose, sagitta: f64) -> Vec<Vec<Vec3>> {
         let polyline = |chain: &Chain| {
             let mut points: Vec<Vec3> = Vec::new();
             for segment in &self.segments[chain.first..chain.end] {
@@ -135,11 +135,7 @@ impl ProfileTool {
         self.chains.iter().map(polyline).collect()
     }
 
-    fn own_frame(&self, pose: &PlanePose, ray: &ProfileRay) -> ProfileRay {
-        let origin = pose.withdraw(self.reference, ray.origin);
-        ProfileRay { origin, direction: pose.rotate_back(ray.direction) }
-    }
-    fn hit(&self, pose: &PlanePose, segment: usize, u: f64, s: f64) -> Hit {
+    fn hit(&self, pose: &Pose, segment: usize, u: f64, s: f64) -> Hit {
         Hit { segment, s: [s, 0.0], u, normal: self.normal(pose, segment, s) }
     }
 }

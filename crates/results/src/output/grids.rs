@@ -6,7 +6,7 @@ use super::quantity::{Frame, Number, Quantity, QuantityPlace};
 use super::vtk::{Cells, DataArray, Grid, Values, vtk_order};
 use asperity_core::Error;
 use asperity_core::mesh::Mesh;
-use asperity_core::tool::{PlanePose, space};
+use asperity_core::tool::Pose;
 
 /// Lines of a tool's outline leave its curves by no more than this part of its size.
 const SAGITTA: f64 = 1e-4;
@@ -109,10 +109,8 @@ pub fn tools(source: &Source, frame: &Frame) -> Grid {
     let mut grid = Grid { time: frame.time, ..Grid::default() };
     let (mut displacement, mut number) = (Vec::new(), Vec::new());
     for (index, tool) in source.parts.tools.iter().enumerate() {
-        let Some(pose) = source.pose(index) else { continue };
-        let sagitta = SAGITTA * tool.size();
-        let chains =
-            tool.outline(&PlanePose::new(0.0, 0.0, 0.0), sagitta).into_iter().zip(tool.outline(&pose, sagitta));
+        let (pose, sagitta) = (source.pose(index), SAGITTA * tool.size());
+        let chains = tool.outline(&Pose::default(), sagitta).into_iter().zip(tool.outline(&pose, sagitta));
         for (before, now) in chains {
             let first = grid.points.len();
             displacement.extend(before.iter().zip(&now).flat_map(|(before, now)| (*now - *before).0));
@@ -133,8 +131,8 @@ pub fn tools(source: &Source, frame: &Frame) -> Grid {
 
 /// The surface of a tool in space as triangles and quadrilaterals.
 fn solid_tool(source: &Source, index: usize, grid: &mut Grid, (displacement, number): (&mut Vec<f64>, &mut Vec<i64>)) {
-    let (tool, pose) = (source.parts.solid_tools[index], source.solid_pose(index));
-    let before = tool.surface(&space::SpacePose::default(), SOLID_SAGITTA * tool.size());
+    let (tool, pose) = (source.parts.solid_tools[index], source.pose(index));
+    let before = tool.surface(&Pose::default(), SOLID_SAGITTA * tool.size());
     let first = grid.points.len();
     for point in &before.points {
         grid.points.push(point.0);

@@ -4,6 +4,7 @@
 use crate::bench::{Bench, Solved};
 use crate::{Case, Measured};
 use asperity::Error;
+use asperity::contact::ContactRecord;
 
 /// The case.
 pub const CASE: Case = Case { name: "contact-default", measure };
@@ -42,6 +43,11 @@ fn thrust(run: &Solved) -> f64 {
     run.points(0).iter().map(|point| point.pressure * point.area).sum()
 }
 
+/// Size of the vertical force that points carry.
+fn lift(points: &[ContactRecord]) -> f64 {
+    points.iter().map(|point| point.force()[1]).sum::<f64>().abs()
+}
+
 /// Largest error of a pressure on floor and wall of the corner, relative.
 fn corner(bench: &Bench) -> Result<f64, Error> {
     let mut worst = 0.0_f64;
@@ -72,8 +78,7 @@ fn ripple(bench: &Bench, cell: &str) -> Result<f64, Error> {
         bench.follow("column.toml", &sets, |model, state| {
             // The block slides with all of its nodes from here on.
             if state.time > 1.3 {
-                let force =
-                    crate::bench::points(model, state, 0).iter().map(|point| point.force()[1]).sum::<f64>().abs();
+                let force = lift(&crate::bench::points(model, state, 0));
                 (least, most) = (least.min(force), most.max(force));
             }
         })?;
@@ -84,7 +89,7 @@ fn ripple(bench: &Bench, cell: &str) -> Result<f64, Error> {
 
 /// Largest difference of the force with either side carrying the stress, relative: on a block of fewer than four faces, and of more.
 fn roles(bench: &Bench) -> Result<[f64; 2], Error> {
-    let force = |sets: &[String]| Ok::<_, Error>(thrust(&bench.solve("roles.toml", sets)?));
+    let force = |sets: &[String]| bench.solve("roles.toml", sets).map(|run| lift(&run.points(0)));
     let mut worst = [0.0_f64; 2];
     for cell in ["quad4", "quad8"] {
         for faces in [1, 2, 3, 4, 8] {
@@ -108,8 +113,7 @@ fn spread(bench: &Bench, (deck, finer): (&str, &[&str]), increments: &[usize]) -
     let force = |count: usize, finer: &[&str]| {
         let mut sets = vec![format!("step.1.increments.count={count}")];
         sets.extend(finer.iter().map(|&set| set.to_owned()));
-        let run = bench.solve(deck, &sets)?;
-        Ok::<_, Error>(run.points(0).iter().map(|point| point.force()[1]).sum::<f64>())
+        bench.solve(deck, &sets).map(|run| lift(&run.points(0)))
     };
     let reference = force(20, finer)?;
     increments.iter().try_fold(0.0_f64, |worst, &count| Ok(worst.max((force(count, &[])? / reference - 1.0).abs())))

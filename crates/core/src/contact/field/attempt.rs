@@ -10,6 +10,7 @@ use super::space::{Spread, spread};
 use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::tip::TipFoot;
 use crate::contact::augment;
+use crate::contact::energy::account;
 use crate::contact::increment::{in_contact, refuse_jump, refuse_turn};
 use crate::contact::kink::answer;
 use crate::contact::record::{entry, leave, stresses, write};
@@ -260,6 +261,7 @@ impl FieldAttempt<'_> {
         }
         let (stretch, stretching) = stencil.stretch();
         let (past, law) = (self.past(slot, stretch), &*self.law);
+        let (options, multiplied, terms) = (&contact.parts.options, self.shift(slot)[0], (law, &past, old));
         (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (0.0, sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
@@ -268,7 +270,7 @@ impl FieldAttempt<'_> {
         let seen = here + lift;
         if seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
-            self.account(slot, (sums.area, stretch), Carried::default(), local);
+            account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, [0.0; 2]), local);
             return Ok(0);
         }
         self.refuse_leap(slot, (stencil, sums))?;
@@ -303,9 +305,7 @@ impl FieldAttempt<'_> {
             let y = [here, sums.y[1], sums.y[2]];
             self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.u, y, stretch, sums);
         }
-        let carried =
-            Carried { pressure: t[0], shear: [t[1], t[2]], slip, slipped: response.slipped, closure: response.closure };
-        self.account(slot, (sums.area, stretch), carried, local);
+        account(terms, (options, self.at), (sums.area * stretch, multiplied), (Some(&response), slip), local);
         Ok(response.status as Branch)
     }
 
@@ -336,39 +336,6 @@ impl FieldAttempt<'_> {
         let turned = rigid.turned(stencil.motion(), &self.accepted[rigid.unknowns()]);
         refuse_turn(turned, || contact.name_of(slot))
     }
-
-    /// Energy stored by the stresses of a node, and dissipated over the increment: the work of the mean friction stress on
-    /// the slip less what of it is stored, and of the mean pressure on the closure that stays. A node that closes or opens takes
-    /// part with half its stress. Where multipliers bear the stress nothing is stored by a slip.
-    fn account(&self, slot: usize, (area, stretch): (f64, f64), now: Carried, local: &mut Local) {
-        let (options, old) = (&self.contact.parts.options, self.history.slot(slot));
-        let (nominal, undeformed, area) = (now.pressure * stretch, area, area * stretch);
-        let before = [old[entry::SHEAR], old[entry::SHEAR2]];
-        let multiplied = if now.pressure == 0.0 { 0.0 } else { self.shift(slot)[0] };
-        local.stored = (self.law.stored(nominal, options.penalty) - 0.5 * nominal * multiplied) * undeformed;
-        let mean = [0, 1].map(|a| 0.5 * (before[a] + now.shear[a]));
-        let friction = if options.augmentation.is_some() {
-            let shear = now.shear[0].hypot(now.shear[1]);
-            if shear > 0.0 { (mean[0] * now.shear[0] + mean[1] * now.shear[1]) / shear * now.slipped } else { 0.0 }
-        } else {
-            let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) * stretch / self.tangential[slot];
-            local.stored += area * stored(now.shear);
-            mean[0] * now.slip[0] + mean[1] * now.slip[1] - (stored(now.shear) - stored(before))
-        };
-        let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);
-        local.supplied = area * pressure * options.overlap.removed(old, self.at);
-        local.dissipated = area * (friction + pressure * now.closure);
-    }
-}
-
-/// What a node carries, for its energy.
-#[derive(Debug, Clone, Copy, Default)]
-struct Carried {
-    pressure: f64,
-    shear: [f64; 2],
-    slip: [f64; 2],
-    slipped: f64,
-    closure: f64,
 }
 
 /// Step of the stretch in differences, as a part of it.

@@ -4,7 +4,7 @@ use super::surface::unit;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
-use crate::tool::{Hit, PlanePose, ProfileRay, ProfileTool, SmoothPiece, Tip};
+use crate::tool::{Hit, Pose, ProfileRay, ProfileTool, SmoothPiece, Tip};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -33,15 +33,8 @@ enum RigidShape {
 #[derive(Debug, Clone, Copy)]
 pub struct ToolInPlace<'a> {
     rigid: &'a RigidTool,
-    stand: PlacedTool,
-}
-
-/// Where a tool stands.
-#[derive(Debug, Clone, Copy)]
-enum PlacedTool {
-    Plane(PlanePose),
-    /// With its spins.
-    Space(space::Stance, [Vec3; 3]),
+    pose: Pose,
+    spins: [Vec3; 3],
 }
 
 /// The point of a tool that is closest to a point of the surface.
@@ -117,6 +110,17 @@ impl RigidTool {
             RigidShape::Space(tool, _) => tool.size(),
         }
     }
+    /// Number of its translations.
+    fn axes(&self) -> usize {
+        if let RigidShape::Plane(..) = self.shape { 2 } else { 3 }
+    }
+    /// What belongs to its unknowns, of that which belongs to three translations and a rotation vector; behind it what has none.
+    fn own(&self, mut all: [Vec3; MOST]) -> [Vec3; MOST] {
+        if self.axes() == 2 {
+            all.swap(2, 5);
+        }
+        all
+    }
     fn rest(&self) -> Vec3 {
         match &self.shape {
             RigidShape::Plane(tool, _) => tool.reference(),
@@ -125,14 +129,8 @@ impl RigidTool {
     }
     /// The tool for values of its unknowns.
     pub fn in_place(&self, motion: &[f64]) -> ToolInPlace<'_> {
-        let stand = match &self.shape {
-            RigidShape::Plane(..) => PlacedTool::Plane(PlanePose::new(motion[0], motion[1], motion[2])),
-            RigidShape::Space(..) => {
-                let pose = space::SpacePose::new(std::array::from_fn(|i| motion[i]));
-                PlacedTool::Space(pose.stance(), pose.spins())
-            }
-        };
-        ToolInPlace { rigid: self, stand }
+        let pose = Pose::new(&motion[..self.unknowns.len()]);
+        ToolInPlace { rigid: self, pose, spins: pose.spins() }
     }
     /// The tool at all unknowns.
     pub fn at(&self, u: &[f64]) -> ToolInPlace<'_> {
@@ -140,8 +138,7 @@ impl RigidTool {
     }
     /// The angle between two values of its unknowns, in radians; in space that of a turn about a steady axis.
     pub fn turned(&self, motion: &[f64], before: &[f64]) -> f64 {
-        let first = if let RigidShape::Plane(..) = self.shape { 2 } else { 3 };
-        let turns = motion.iter().zip(before).skip(first).map(|(now, before)| (now - before).powi(2));
+        let turns = motion.iter().zip(before).skip(self.axes()).map(|(now, before)| (now - before).powi(2));
         turns.sum::<f64>().sqrt()
     }
 }
@@ -153,31 +150,19 @@ impl ToolInPlace<'_> {
     }
     /// Present place of the material point that stood at `point`.
     pub fn place(&self, point: Vec3) -> Vec3 {
-        match &self.stand {
-            PlacedTool::Plane(pose) => pose.place(self.rigid.rest(), point),
-            PlacedTool::Space(pose, _) => pose.place(self.rigid.rest(), point),
-        }
+        self.pose.place(self.rigid.rest(), point)
     }
     /// Where the material point that is now at `placed` stood.
     pub fn withdraw(&self, placed: Vec3) -> Vec3 {
-        match &self.stand {
-            PlacedTool::Plane(pose) => pose.withdraw(self.rigid.rest(), placed),
-            PlacedTool::Space(pose, _) => pose.withdraw(self.rigid.rest(), placed),
-        }
+        self.pose.withdraw(self.rigid.rest(), placed)
     }
     /// A vector turned with the tool.
     pub fn rotate(&self, v: Vec3) -> Vec3 {
-        match &self.stand {
-            PlacedTool::Plane(pose) => pose.rotate(v),
-            PlacedTool::Space(pose, _) => pose.rotate(v),
-        }
+        self.pose.rotate(v)
     }
     /// A vector turned back into the tool's own frame.
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
-        match &self.stand {
-            PlacedTool::Plane(pose) => pose.rotate_back(v),
-            PlacedTool::Space(pose, _) => pose.rotate_back(v),
-        }
+        self.pose.rotate_back(v)
     }
     /// The closest point of a smooth piece.
     pub fn closest(&self, piece: usize, x: Vec3) -> Foot {
@@ -204,35 +189,20 @@ impl ToolInPlace<'_> {
     }
     /// Derivatives along its unknowns of the place of a material point that is now at `at`.
     pub fn rates(&self, at: Vec3) -> [Vec3; MOST] {
-        match &self.stand {
-            PlacedTool::Plane(pose) => {
-                let mut rates = [Vec3::zero(); MOST];
-                rates[..3].copy_from_slice(&pose.rates(self.rigid.rest(), at));
-                rates
-            }
-            PlacedTool::Space(stance, spins) => stance.pose.rates(spins, self.rigid.rest(), at),
-        }
+        self.rigid.own(self.pose.rates(&self.spins, self.rigid.rest(), at))
     }
     /// Derivatives along its unknowns of its rotation, as vectors.
     pub fn spins(&self) -> [Vec3; MOST] {
-        let mut spins = [Vec3::zero(); MOST];
-        match &self.stand {
-            PlacedTool::Plane(_) => spins[2] = unit(2),
-            PlacedTool::Space(_, own) => spins[3..].copy_from_slice(own),
-        }
-        spins
+        let ([a, b, c], none) = (self.spins, Vec3::zero());
+        self.rigid.own([none, none, none, a, b, c])
     }
     /// Derivatives of [`spins`](Self::spins) along the unknown `along`.
     pub fn spin_rates(&self, along: usize) -> [Vec3; MOST] {
         let mut rates = [Vec3::zero(); MOST];
-        if let (PlacedTool::Space(stance, _), Some(axis)) = (&self.stand, along.checked_sub(3)) {
-            rates[3..].copy_from_slice(&stance.pose.spin_rates(axis));
+        if let (RigidShape::Space(..), Some(axis)) = (&self.rigid.shape, along.checked_sub(3)) {
+            rates[3..].copy_from_slice(&self.pose.spin_rates(axis));
         }
         rates
-    }
-    /// Number of its translations.
-    fn translations(&self) -> usize {
-        if let PlacedTool::Plane(_) = self.stand { 2 } else { 3 }
     }
     /// Forces on its unknowns of a force `f` at `y`, for derivatives of both: `f . r_i(y)`.
     pub fn receive(&self, y: Vec3, f: Vec3) -> [f64; MOST] {
@@ -248,7 +218,7 @@ impl ToolInPlace<'_> {
     ) -> [f64; MOST] {
         let mut rates = self.receive(y, df);
         // The arm grows with the place and shortens as the reference point moves; a turning tool has other axes.
-        let arm = dy - along.filter(|&(j, _)| j < self.translations()).map_or(Vec3::zero(), |(j, _)| unit(j));
+        let arm = dy - along.filter(|&(j, _)| j < self.rigid.axes()).map_or(Vec3::zero(), |(j, _)| unit(j));
         let still = [Vec3::zero(); MOST];
         let turned = along.map_or(&still, |(_, turned)| turned);
         let whole = y - self.reference();
@@ -262,20 +232,16 @@ impl ToolInPlace<'_> {
 impl ToolInPlace<'_> {
     /// All places within a range where a ray meets the tool's segments; `hits` is cleared first.
     pub fn cast(&self, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
-        match (&self.rigid.shape, &self.stand) {
-            (RigidShape::Plane(tool, _), PlacedTool::Plane(pose)) => tool.cast(pose, ray, range, hits),
-            (RigidShape::Space(tool, _), PlacedTool::Space(stance, _)) => tool.cast(&stance.pose, ray, range, hits),
-            _ => hits.clear(),
+        match &self.rigid.shape {
+            RigidShape::Plane(tool, _) => tool.cast(&self.pose, ray, range, hits),
+            RigidShape::Space(tool, _) => tool.cast(&self.pose, ray, range, hits),
         }
     }
     /// Where a ray meets one segment or what continues it, near a place on it.
     pub fn meet(&self, segment: usize, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
-        match (&self.rigid.shape, &self.stand) {
-            (RigidShape::Plane(tool, _), PlacedTool::Plane(pose)) => tool.cast_segment(pose, segment, ray, near[0]),
-            (RigidShape::Space(tool, _), PlacedTool::Space(stance, _)) => {
-                tool.cast_facet(&stance.pose, segment, ray, near)
-            }
-            _ => None,
+        match &self.rigid.shape {
+            RigidShape::Plane(tool, _) => tool.cast_segment(&self.pose, segment, ray, near[0]),
+            RigidShape::Space(tool, _) => tool.cast_facet(&self.pose, segment, ray, near),
         }
     }
     /// Present place of the material point at `s` on a segment.

@@ -6,6 +6,7 @@ use super::point::{self, PointConstants, Triad};
 use super::seed::Seed;
 use super::stencil::{D, DIRECTIONS, PointGeometry};
 use crate::Failure;
+use crate::contact::energy::account;
 use crate::contact::increment::{refuse_jump, refuse_turn};
 use crate::contact::record::{entry, leave, write};
 use crate::interface::{Linearised, Past};
@@ -61,7 +62,7 @@ impl PaperAttempt<'_> {
         })?;
         let Some(closed) = closed else {
             leave(law, old, new);
-            self.account(index, g, CarriedStress::default(), local);
+            self.account(index, g, None, local);
             return Ok(0);
         };
         self.refuse_leap(index, (g, &local.u))?;
@@ -71,7 +72,7 @@ impl PaperAttempt<'_> {
         if let Some(mean) = mean.filter(|_| local.wants_tangent) {
             self.add_neighbours((g, by_mean), &mean, local);
         }
-        self.account(index, g, CarriedStress::of(&closed.response), local);
+        self.account(index, g, Some(&closed.response), local);
         Ok(closed.response.status as Branch)
     }
 
@@ -103,35 +104,10 @@ impl PaperAttempt<'_> {
         refuse_turn(rigid.turned(&u[g.met.clone()], &self.accepted[rigid.unknowns()]), name)
     }
 
-    /// Energy stored by a pressure and a friction stress, and dissipated over the increment: the work of the mean
-    /// friction stress on the whole slip, less what of it is stored, and of the mean pressure on the closure that stays.
-    /// A point that closes or opens takes part with half its stress, so that one which passes a peak of pressure within an
-    /// increment does not lose its work.
-    fn account(&self, index: usize, g: &PointGeometry, now: CarriedStress, local: &mut Local) {
+    fn account(&self, index: usize, g: &PointGeometry, now: Option<&Linearised>, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
-        let before = [old[entry::SHEAR], old[entry::SHEAR2]];
-        let area = self.present_area(g) * options.loads.share();
         let slip = g.place.slip(&Triad::new(g.place.tangents, self.contact.surface().plane));
-        let stored = |[s, t]: [f64; 2]| 0.5 * (s * s + t * t) / options.tangential_penalty;
-        local.stored = area * (self.law.stored(now.pressure, options.penalty) + stored(now.shear));
-        let work: f64 = (0..2).map(|i| 0.5 * (before[i] + now.shear[i]) * slip[i]).sum();
-        let friction = work - (stored(now.shear) - stored(before));
-        let pressure = 0.5 * (old[entry::PRESSURE] + now.pressure);
-        local.supplied = area * pressure * options.overlap.removed(old, self.at);
-        local.dissipated = area * (friction + pressure * now.closure);
-    }
-}
-
-/// What a point carries, for its energy.
-#[derive(Debug, Clone, Copy, Default)]
-struct CarriedStress {
-    pressure: f64,
-    shear: [f64; 2],
-    closure: f64,
-}
-
-impl CarriedStress {
-    fn of(response: &Linearised) -> Self {
-        Self { pressure: response.pressure(), shear: response.shear(), closure: response.closure }
+        let area = self.present_area(g) * options.loads.share();
+        account((&*self.law, &self.past(index), old), (options, self.at), (area, 0.0), (now, slip), local);
     }
 }

@@ -11,7 +11,7 @@ mod map;
 
 use super::{Dofs, Term};
 use crate::tensor::{Dual, Vec3};
-use crate::tool::space::SpacePose;
+use crate::tool::Pose;
 use led::Led;
 use map::{Map, Source};
 use std::collections::BTreeMap;
@@ -78,7 +78,7 @@ impl Following {
     }
 
     fn moved(&self, arm: Vec3, q: &[f64]) -> Vec3 {
-        let pose = SpacePose { translation: Vec3::zero(), rotation: self.rotation(q) };
+        let pose = Pose::turned(self.rotation(q));
         let shift = Vec3(std::array::from_fn(|axis| if axis < self.per_node { q[axis] } else { 0.0 }));
         shift + (pose.rotate(arm) - arm)
     }
@@ -86,8 +86,7 @@ impl Following {
     /// The arm turned, and the moment of a force there on the unknowns of the rotation, with derivatives along these.
     fn turned(&self, arm: Vec3, q: &[f64], force: Vec3) -> [Vec3<Dual<3>>; 2] {
         let w = self.rotation(q);
-        let pose =
-            SpacePose { translation: Vec3::zero(), rotation: Vec3(std::array::from_fn(|i| Dual::variable(w[i], i))) };
+        let pose = Pose::turned(Vec3(std::array::from_fn(|i| Dual::variable(w[i], i))));
         let turned = pose.rotate(arm);
         [turned, pose.conjugate(turned.cross(force.lift()))]
     }

@@ -3,11 +3,10 @@
 use super::facet::{Meeting, ToolFacet};
 use super::polygons::{Quad, Triangle};
 use super::solids::{Facets, SweepPath, cone, extruded, filleted, plane, polygons, revolved, sphere, swept, torus};
-use super::{FacetFinding, ProfileFrame, SpacePose, SpaceTool};
+use super::{FacetFinding, ProfileFrame, SpaceTool};
 use crate::tensor::Vec3;
 use crate::tool::shapes::{ALL, ProfileRay, find};
-use crate::tool::{Draft, Hit};
-use crate::tool::{Rejected, Rules, select};
+use crate::tool::{Draft, Hit, Pose, Rejected, Rules, select};
 use proptest::prelude::*;
 
 fn at(x: f64, y: f64, z: f64) -> Vec3 {
@@ -179,11 +178,11 @@ fn normals_point_out_of_closed_solids() {
         let tool = SpaceTool::new(name, facets, at(0.0, 0.0, 0.0));
         let mut hits = Vec::new();
         for (facet, s) in (0..tool.facets().len()).flat_map(|f| [[0.3, 0.2], [0.6, 0.7]].map(move |s| (f, s))) {
-            let (x, n) = (tool.point(&SpacePose::default(), facet, s), tool.normal(&SpacePose::default(), facet, s));
+            let (x, n) = (tool.point(&Pose::default(), facet, s), tool.normal(&Pose::default(), facet, s));
             // An odd number of faces lies between the inside and far away.
             for (side, parity) in [(1e-6, 0), (-1e-6, 1)] {
                 let ray = ProfileRay { origin: x + n * side, direction: (n + at(0.011, 0.023, -0.017)).unit() };
-                tool.cast(&SpacePose::default(), &ray, [0.0, f64::INFINITY], &mut hits);
+                tool.cast(&Pose::default(), &ray, [0.0, f64::INFINITY], &mut hits);
                 assert_eq!(hits.len() % 2, parity, "{name} {facet} {side}: {hits:?}");
             }
         }
@@ -232,7 +231,7 @@ proptest! {
         };
         let facets: Facets = seeds.iter().enumerate().flat_map(facet).collect();
         let tool = SpaceTool::new("heap", facets, at(0.3, 0.2, -0.1));
-        let pose = SpacePose::new(motion);
+        let pose = Pose::new(&motion);
         let to = Vec3(towards);
         prop_assume!(to.norm() > 0.1);
         let origin = pose.place(tool.reference(), Vec3(origin));
@@ -269,7 +268,7 @@ fn no_ray_slips_between_neighbours() {
     let tool = SpaceTool::new("ball", polygons(ball(12)).unwrap(), at(0.1, 0.2, 0.3));
     let mut hits = Vec::new();
     for (i, part) in (0..tool.facets().len()).flat_map(|i| [0.0, 0.37, 0.5].map(|part| (i, part))) {
-        let pose = SpacePose::new([0.1 * i as f64, -3.0, 0.0, 0.01 * i as f64, 0.7, -0.3]);
+        let pose = Pose::new(&[0.1 * i as f64, -3.0, 0.0, 0.01 * i as f64, 0.7, -0.3]);
         let place = tool.point(&pose, i, [part, 0.0]);
         let inward = (tool.point(&pose, 0, [0.0, 0.0]) - pose.place(tool.reference(), at(0.0, 0.0, 0.0))).unit();
         let centre = pose.place(tool.reference(), at(0.0, 0.0, 0.0));
@@ -372,10 +371,10 @@ fn conics_vanish_on_their_segments() {
 fn the_surface_for_drawing_lies_on_the_tool() {
     for (name, facets) in scenes() {
         let tool = SpaceTool::new(name, facets, at(0.0, 0.0, 0.0));
-        let tiles = tool.surface(&SpacePose::new([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]), 1e-3);
+        let tiles = tool.surface(&Pose::new(&[1.0, 2.0, 3.0, 0.1, 0.2, 0.3]), 1e-3);
         for (facet, corners) in &tiles.tiles {
             let [a, b, c] = [0, 1, corners.len() - 1].map(|k| tiles.points[corners[k]]);
-            let pose = SpacePose::new([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]);
+            let pose = Pose::new(&[1.0, 2.0, 3.0, 0.1, 0.2, 0.3]);
             let middle =
                 corners.iter().fold(Vec3::zero(), |sum, &k| sum + tiles.points[k]) * (1.0 / corners.len() as f64);
             let direction = (b - a).cross(c - a);

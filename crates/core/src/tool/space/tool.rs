@@ -2,11 +2,11 @@
 
 use super::facet::{Meeting, ToolFacet};
 use super::nearest::RigidFacet;
-use super::{FacetFinding, SpacePose, check};
+use super::{FacetFinding, check};
 use crate::tensor::{Scalar, Vec3};
-use crate::tool::Hit;
 use crate::tool::search::BoxTree;
 use crate::tool::shapes::{BoundingBox, ProfileRay};
+use crate::tool::{Hit, Pose};
 
 /// A rigid tool in space: facets with the material behind them, and a reference point.
 #[derive(Debug)]
@@ -66,19 +66,19 @@ impl SpaceTool {
     }
 
     /// Present position of the material point at `s` on a facet.
-    pub fn point<T: Scalar>(&self, pose: &SpacePose<T>, facet: usize, s: [f64; 2]) -> Vec3<T> {
+    pub fn point<T: Scalar>(&self, pose: &Pose<T>, facet: usize, s: [f64; 2]) -> Vec3<T> {
         pose.place(self.reference, self.facets[facet].point(s))
     }
     /// Present outward unit normal there.
-    pub fn normal(&self, pose: &SpacePose, facet: usize, s: [f64; 2]) -> Vec3 {
+    pub fn normal(&self, pose: &Pose, facet: usize, s: [f64; 2]) -> Vec3 {
         pose.rotate(self.facets[facet].normal(s))
     }
 
     /// All places with `u` in `range` where the line through `ray` meets the tool, by facet and then by `u`; `hits` is
     /// cleared first and its memory reused.
-    pub fn cast(&self, pose: &SpacePose, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
+    pub fn cast(&self, pose: &Pose, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
         hits.clear();
-        let own = self.own_frame(pose, ray);
+        let own = pose.own_frame(self.reference, ray);
         self.tree.along(&own, range, &mut |facet| {
             self.facets[facet].cast(&own, &mut |place| {
                 if (range[0]..=range[1]).contains(&place.u) {
@@ -91,13 +91,13 @@ impl SpaceTool {
 
     /// Where a ray meets one given facet or what continues it, whether or not others are nearer: see
     /// [`ToolFacet::follow`]. Continuous in the ray, so that a point whose ray is perturbed keeps its facet.
-    pub fn cast_facet(&self, pose: &SpacePose, facet: usize, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
-        let own = self.own_frame(pose, ray);
+    pub fn cast_facet(&self, pose: &Pose, facet: usize, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
+        let own = pose.own_frame(self.reference, ray);
         self.facets[facet].follow(&own, near).map(|place| self.hit(pose, facet, place))
     }
 
     /// Its surface in space, nowhere much farther than `sagitta` from it.
-    pub fn surface(&self, pose: &SpacePose, sagitta: f64) -> Tiles {
+    pub fn surface(&self, pose: &Pose, sagitta: f64) -> Tiles {
         let mut out = Tiles::default();
         for (i, facet) in self.facets.iter().enumerate() {
             tile(i, facet.as_ref(), sagitta, &mut out);
@@ -106,11 +106,7 @@ impl SpaceTool {
         out
     }
 
-    fn own_frame(&self, pose: &SpacePose, ray: &ProfileRay) -> ProfileRay {
-        let origin = pose.withdraw(self.reference, ray.origin);
-        ProfileRay { origin, direction: pose.rotate_back(ray.direction) }
-    }
-    fn hit(&self, pose: &SpacePose, facet: usize, place: Meeting) -> Hit {
+    fn hit(&self, pose: &Pose, facet: usize, place: Meeting) -> Hit {
         Hit { segment: facet, s: place.s, u: place.u, normal: self.normal(pose, facet, place.s) }
     }
 }

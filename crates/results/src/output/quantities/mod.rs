@@ -28,7 +28,7 @@ use asperity_core::mesh::{Mesh, Space};
 use asperity_core::model::Model;
 use asperity_core::solid::Body;
 use asperity_core::system::{Constraints, Dofs, History, State};
-use asperity_core::tool::{self, PlanePose, ProfileTool};
+use asperity_core::tool::{self, Pose, ProfileTool};
 
 /// The parts of a model that outputs read. Numbers of terms are places in the list of terms and in the state.
 pub struct Parts<'a> {
@@ -150,15 +150,10 @@ impl Source<'_> {
     fn history(&self, term: usize) -> Result<&History, Error> {
         self.state.histories.get(term).ok_or_else(|| Error::Internal(format!("the state has no term {term}")))
     }
-    /// Where a tool of a model in space stands.
-    pub fn solid_pose(&self, tool: usize) -> tool::space::SpacePose {
+    /// Where a tool stands.
+    pub fn pose(&self, tool: usize) -> Pose {
         let first = self.parts.dofs.tool(tool);
-        tool::space::SpacePose::new(std::array::from_fn(|i| self.state.u[first + i]))
-    }
-    /// Where a tool stands; none for tools in space, whose motion is of another kind.
-    pub fn pose(&self, tool: usize) -> Option<PlanePose> {
-        let (first, u) = (self.parts.dofs.tool(tool), &self.state.u);
-        (self.parts.dofs.per_node() == 2).then(|| PlanePose::new(u[first], u[first + 1], u[first + 2]))
+        Pose::new(&self.state.u[first..first + self.parts.dofs.per_tool()])
     }
     /// Whether forces and moments out of the plane have no meaning.
     pub fn is_plane(&self) -> bool {

@@ -23,7 +23,7 @@ pub(super) fn report(source: &Source, frame: &mut Frame) -> Result<(), Error> {
         push("rotation", Unit::Angle, Width::Axial, rotation(&|dof| moved(dof).to_degrees()))?;
         push("force", Unit::Force, Width::Vector, translation(&held))?;
         let conjugate = rotation(&held);
-        let moment = if rotations == 3 { source.solid_pose(number).moment(Vec3(conjugate)).0 } else { conjugate };
+        let moment = source.pose(number).moment(Vec3(conjugate)).0;
         push("moment", Unit::Moment, Width::Axial, moment)?;
     }
     Ok(())

@@ -24,8 +24,9 @@ const RESTS: f64 = 0.5;
 /// Component of a normal from which on what is held along that axis is held across the face.
 const ACROSS: f64 = 0.1;
 
-/// Strain of a plate that is bent over a radius of ten of its thicknesses, in so many increments.
-const BENT: f64 = 0.05;
+/// Strain at which a secant modulus is taken, the offset by which a proof stress is defined, in so many increments. Over larger ones a
+/// rim that slides off a tool's end under a load sinks into it, deeper than the audit lets it, before the tool is lost.
+const STRAIN: f64 = 0.002;
 const INCREMENTS: usize = 10;
 /// Least that flow leaves of the stiffness of a plate.
 const LEAST: f64 = 0.01;
@@ -59,7 +60,7 @@ fn secant(material: &dyn Material, shear: f64) -> f64 {
     if matches!(material.flow(), Flow::None | Flow::Unknown) {
         return 1.0;
     }
-    let part = BENT / INCREMENTS as f64;
+    let part = STRAIN / INCREMENTS as f64;
     let mut f = Tensor2::identity();
     (f.0[0][0], f.0[1][1]) = (part.exp(), (-part).exp());
     let mut state = vec![0.0; material.state_len()];
@@ -70,7 +71,7 @@ fn secant(material: &dyn Material, shear: f64) -> f64 {
             return 1.0;
         }
     }
-    let part = 0.25 * (state[0] - state[1]) / (shear * BENT);
+    let part = 0.25 * (state[0] - state[1]) / (shear * STRAIN);
     if part.is_finite() { part.min(1.0) } else { 1.0 }
 }
 

@@ -30,7 +30,7 @@ table! {
         penalty: Option<f64> = number(unit::PENALTY, Range::POSITIVE)
             .computed("50 times the modulus over the depth of the cells behind the faces, or what bending of a thin body makes of it, the \
              least of both sides, 10 times with two passes; the modulus is the confined one, at most four shear moduli, \
-             of a thin body that flows the secant one at a strain of 5 %"),
+             of a thin body that flows the secant one at a strain of 0.2 %"),
         /// Rows of penetration and pressure in place of a penalty, from [0.0, 0.0] on: straight between them and beyond the last.
         closure: Option<Spot<Vec<Vec<f64>>>> =
             list(list(number(unit::NONE, Range::NOT_NEGATIVE), 2..=2), 2..=usize::MAX).spot().unless_given("the penalty"),

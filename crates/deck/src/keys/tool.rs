@@ -26,8 +26,8 @@ table! {
         revolve: Option<Revolve> = table_of().unless_given("not revolved"),
         /// In space: the profile carried along a line; its ends stay open.
         extrude: Option<Extrude> = table_of().unless_given("not extruded"),
-        /// In space: the profile swept along a path of straight lines and arcs. One that begins at `x = -radius`, over the middles of
-        /// the arcs, is joined there by a flat face if the path is closed and turns left only.
+        /// In space: the profile swept along a path of straight lines and arcs. One that begins or ends at `x = -radius`, over the middles
+        /// of the arcs, is joined there by a flat face if the path is closed and turns left only.
         sweep: Option<Sweep> = table_of().unless_given("not swept"),
         /// In space: triangles and quadrilaterals between nodes.
         facets: Option<FacetKeys> = table_of().unless_given("another key says its shape"),

@@ -38,6 +38,7 @@ mod rotated_pair;
 mod seal;
 mod shallow_ironing;
 mod springback;
+mod square_cup;
 mod strip_footing;
 mod strip_punch;
 mod thick_shells;
@@ -82,6 +83,7 @@ pub const ALL: &[&Case] = &[
     &umat::CASE,
     &upsetting::CASE,
     &cup::CASE,
+    &square_cup::CASE,
     &wedge::CASE,
     &claw::CASE,
     &interface::CASE,

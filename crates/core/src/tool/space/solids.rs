@@ -48,18 +48,22 @@ pub struct SweepPath {
 }
 
 /// A profile carried along a path, its x to the right of travel: extruded along straight parts, revolved about the middles of arcs.
-/// One that begins over these, at `x = -radius`, is joined there by a flat face if the path is closed and never turns right.
+/// One that begins or ends over these, at `x = -radius`, is joined there by a flat face if the path is closed and never turns right.
 ///
 /// # Errors
-/// In words, if the path has too few corners, its arcs do not fit, or the profile reaches over the middles of arcs.
+/// In words, if the path has too few corners or two of them coincide, its arcs do not fit, or the profile reaches over the middles of arcs.
 pub fn swept(profile: &[Draft], path: &SweepPath) -> Result<Facets, String> {
     let (frame, radius, n) = (&path.frame, path.radius, path.corners.len());
     if n < if path.closed { 3 } else { 2 } {
         return Err("the path has too few corners".into());
     }
+    let last = n - usize::from(!path.closed);
+    if (0..last).any(|i| (path.corners[(i + 1) % n] - path.corners[i]).norm() == 0.0) {
+        return Err("two corners of the path that follow each other coincide".into());
+    }
     let line = find("line")?;
     let straight = |i: usize| (i, line, vec![path.corners[i], path.corners[(i + 1) % n]]);
-    let parts = rounded((0..n - usize::from(!path.closed)).map(straight).collect(), radius)
+    let parts = rounded((0..last).map(straight).collect(), radius)
         .map_err(|_| "the arcs of the path do not fit between its corners")?;
     let built = |place: &dyn Fn(Vec3) -> Vec3, back: bool| -> Result<Profile, String> {
         let nodes = |(_, kind, nodes): &Draft| {
@@ -101,12 +105,14 @@ pub fn swept(profile: &[Draft], path: &SweepPath) -> Result<Facets, String> {
         facets.extend(sector(profile, about, to.cross(from)[2].atan2(to.dot(from)), 1e-12 * radius));
         (convex, _) = (convex && left, middles.push(center));
     }
-    let begin =
-        profile.first().and_then(|(_, _, nodes)| nodes.first()).filter(|x| (x[0] + radius).abs() <= 1e-12 * radius);
-    if let (Some(begin), true) = (begin, convex) {
-        let at = |k: usize| frame.place(middles[k] + Vec3::new(0.0, 0.0, begin[1]));
-        let fan = (1..middles.len() - 1).map(|k| vec![at(0), at(k + 1), at(k)]);
-        facets.extend(polygons(fan)?);
+    let [first, last] =
+        [profile.first().and_then(|(.., nodes)| nodes.first()), profile.last().and_then(|(.., nodes)| nodes.last())];
+    // The tool's material is on the left of the profile: above where it begins, below where it ends.
+    for (end, turned) in [(first, true), (last, false)] {
+        let Some(end) = end.filter(|x| convex && (x[0] + radius).abs() <= 1e-12 * radius) else { continue };
+        let at = |k: usize| frame.place(middles[k] + Vec3::new(0.0, 0.0, end[1]));
+        let fan = (1..middles.len() - 1).map(|k| if turned { [0, k + 1, k] } else { [0, k, k + 1] });
+        facets.extend(polygons(fan.map(|corners| corners.map(at).to_vec()))?);
     }
     Ok(facets)
 }

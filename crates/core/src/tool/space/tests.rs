@@ -304,9 +304,18 @@ fn a_swept_punch_is_closed_below() {
         assert!((found.gap - 0.3).abs() < 1e-14 && found.normal == at(0.0, 0.0, -1.0), "{x} {y}: {found:?}");
         assert_eq!(found.beyond, !inside, "{x} {y}");
     }
+    // Drawn the other way the same looks up, and its disc is at the end.
+    let back: Vec<Draft> =
+        rim.iter().rev().map(|(i, kind, nodes)| (*i, *kind, nodes.iter().rev().copied().collect())).collect();
+    let up = SpaceTool::new("up", swept(&back, &path).unwrap(), at(0.0, 0.0, 0.0));
+    let found = up.closest(&up.smooth_pieces(), 0, at(0.5, 0.2, 0.3));
+    assert!(up.smooth_pieces().count() == 1 && !found.beyond && found.normal == at(0.0, 0.0, 1.0), "{found:?}");
     path.radius = 1.0;
     assert!(swept(&rim, &path).unwrap_err().contains("middle of an arc"));
+    path.corners[3] = path.corners[2];
+    assert!(swept(&rim, &path).unwrap_err().contains("coincide"));
     path.radius = 9.0;
+    path.corners.pop();
     assert!(swept(&rim, &path).unwrap_err().contains("do not fit"));
 }
 

@@ -6,6 +6,7 @@ use super::swept::{Extruded, ProfileFrame, Revolved};
 use crate::tensor::Vec3;
 use crate::tool::fillet::{Draft, fillet, rounded};
 use crate::tool::shapes::{ProfileShape, find};
+use crate::tool::{FindingSeverity, ProfileFinding, ProfileTool};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -51,20 +52,24 @@ pub struct SweepPath {
 /// One that begins or ends over these, at `x = -radius`, is joined there by a flat face if the path is closed and never turns right.
 ///
 /// # Errors
-/// In words, if the path has too few corners or two of them coincide, its arcs do not fit, or the profile reaches over the middles of arcs.
+/// In words, if the path has too few corners, meets itself or runs back, its arcs do not fit, or the profile reaches over the middles of arcs.
 pub fn swept(profile: &[Draft], path: &SweepPath) -> Result<Facets, String> {
     let (frame, radius, n) = (&path.frame, path.radius, path.corners.len());
     if n < if path.closed { 3 } else { 2 } {
         return Err("the path has too few corners".into());
     }
-    let last = n - usize::from(!path.closed);
-    if (0..last).any(|i| (path.corners[(i + 1) % n] - path.corners[i]).norm() == 0.0) {
-        return Err("two corners of the path that follow each other coincide".into());
-    }
     let line = find("line")?;
     let straight = |i: usize| (i, line, vec![path.corners[i], path.corners[(i + 1) % n]]);
-    let parts = rounded((0..last).map(straight).collect(), radius)
-        .map_err(|_| "the arcs of the path do not fit between its corners")?;
+    let sides: Vec<Draft> = (0..n - usize::from(!path.closed)).map(straight).collect();
+    let drawn = sides.iter().map(|(_, kind, nodes)| kind.build(nodes)).collect::<Result<Profile, _>>()?;
+    let judged = ProfileTool::new("path", vec![drawn], Vec3::zero()).check(false);
+    let grave = |finding: &&ProfileFinding| {
+        finding.severity() == FindingSeverity::Error && !matches!(finding, ProfileFinding::Clockwise(..))
+    };
+    if let Some(finding) = judged.iter().find(grave) {
+        return Err(format!("the path between corners: {finding}"));
+    }
+    let parts = rounded(sides, radius).map_err(|_| "the arcs of the path do not fit between its corners")?;
     let built = |place: &dyn Fn(Vec3) -> Vec3, back: bool| -> Result<Profile, String> {
         let nodes = |(_, kind, nodes): &Draft| {
             let mut placed: Vec<Vec3> = nodes.iter().map(|&x| place(x)).collect();
@@ -109,10 +114,15 @@ pub fn swept(profile: &[Draft], path: &SweepPath) -> Result<Facets, String> {
         [profile.first().and_then(|(.., nodes)| nodes.first()), profile.last().and_then(|(.., nodes)| nodes.last())];
     // The tool's material is on the left of the profile: above where it begins, below where it ends.
     for (end, turned) in [(first, true), (last, false)] {
-        let Some(end) = end.filter(|x| convex && (x[0] + radius).abs() <= 1e-12 * radius) else { continue };
+        let Some(end) = end.filter(|x| convex && middles.len() > 2 && (x[0] + radius).abs() <= 1e-12 * radius) else {
+            continue;
+        };
         let at = |k: usize| frame.place(middles[k] + Vec3::new(0.0, 0.0, end[1]));
         let fan = (1..middles.len() - 1).map(|k| if turned { [0, k + 1, k] } else { [0, k, k + 1] });
         facets.extend(polygons(fan.map(|corners| corners.map(at).to_vec()))?);
+    }
+    if facets.iter().map(|facet| facet.bounds()).any(|bounds| !(bounds.min.is_finite() && bounds.max.is_finite())) {
+        return Err("the path leads too far away for numbers".into());
     }
     Ok(facets)
 }

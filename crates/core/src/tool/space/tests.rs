@@ -313,7 +313,9 @@ fn a_swept_punch_is_closed_below() {
     path.radius = 1.0;
     assert!(swept(&rim, &path).unwrap_err().contains("middle of an arc"));
     path.corners[3] = path.corners[2];
-    assert!(swept(&rim, &path).unwrap_err().contains("coincide"));
+    assert!(swept(&rim, &path).unwrap_err().contains("begins and ends in the same place"));
+    path.corners[3] = at(3.0, -7.0, 0.0);
+    assert!(swept(&rim, &path).unwrap_err().contains("cross"));
     path.radius = 9.0;
     path.corners.pop();
     assert!(swept(&rim, &path).unwrap_err().contains("do not fit"));

@@ -7,6 +7,7 @@ use asperity::output::Parts;
 use asperity::output::figure::Chart;
 use asperity::solve::{AttemptRecord, Observer, RunOptions};
 use asperity::system::State;
+use asperity::tensor::Vec3;
 use asperity::{Error, deck};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -215,6 +216,11 @@ impl<F: FnMut(&Model, &State)> Observer for Follower<'_, F> {
 pub fn points(model: &Model, state: &State, contact: usize) -> Vec<ContactRecord> {
     let (term, _, contact) = Parts::of(model).contacts.swap_remove(contact);
     contact.records(&state.u, &state.histories[term])
+}
+
+/// The force of points together.
+pub fn resultant(points: &[ContactRecord]) -> Vec3 {
+    points.iter().fold(Vec3::zero(), |sum, point| sum + point.force())
 }
 
 /// What both sides of the first contact bear: of a field, which has one side, the same points turned round.

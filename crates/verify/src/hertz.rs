@@ -1,7 +1,7 @@
 //! Hertz's pressure `p = p0 sqrt(1 - x^2/a^2)` under a round body on a rigid plane, beside that of contact points on
 //! meshes ever finer.
 
-use crate::bench::{Bench, both_forms, points};
+use crate::bench::{Bench, both_forms, points, resultant};
 use crate::{Measured, fit};
 use asperity::Error;
 use asperity::contact::ContactRecord;
@@ -59,7 +59,7 @@ impl Study {
     }
 
     fn carried(&self, points: &[ContactRecord]) -> f64 {
-        self.share * points.iter().map(|point| point.force()[1]).sum::<f64>()
+        self.share * resultant(points)[1]
     }
 
     /// `|p - p_Hertz| / |p_Hertz|` in L2 over the contact points, with Hertz's pressure for the force that they carry.

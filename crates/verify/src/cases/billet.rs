@@ -1,7 +1,7 @@
 //! Upsetting without friction, where a billet stays a cylinder: `F = sigma pi R^2 H/h`, `r = R sqrt(H/h)`; and between
 //! plates that stick, onto which its side folds.
 
-use crate::bench::{Bench, both_forms, points};
+use crate::bench::{Bench, both_forms, points, resultant};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 use asperity::model::Model;
@@ -61,7 +61,7 @@ fn sticking(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
 
 /// Axial force of a contact.
 fn thrust(model: &Model, state: &State, contact: usize) -> f64 {
-    points(model, state, contact).iter().map(|point| -point.force()[1]).sum()
+    -resultant(&points(model, state, contact))[1]
 }
 
 /// Force on the plate, and the mean radius of the side.

@@ -1,7 +1,7 @@
 //! What a contact must hold where a deck says nothing of how: forces that are exact, and answers that depend neither on the size of
 //! increments nor on which side carries the stress nor on groups.
 
-use crate::bench::{Bench, Solved};
+use crate::bench::{Bench, Solved, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::contact::ContactRecord;
@@ -45,7 +45,7 @@ fn thrust(run: &Solved) -> f64 {
 
 /// Size of the vertical force that points carry.
 fn lift(points: &[ContactRecord]) -> f64 {
-    points.iter().map(|point| point.force()[1]).sum::<f64>().abs()
+    resultant(points)[1].abs()
 }
 
 /// Largest error of a pressure on floor and wall of the corner, relative.

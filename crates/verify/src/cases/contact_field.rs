@@ -1,7 +1,7 @@
 //! Contact stress as a field of nodal values: Coulomb's limit, the weight of stacked blocks, and Lame's pressure between
 //! rings of facets that do not match.
 
-use crate::bench::{Bench, Solved, points};
+use crate::bench::{Bench, Solved, points, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 
@@ -55,7 +55,7 @@ fn friction(bench: &Bench) -> Result<f64, Error> {
 fn weight(bench: &Bench, deck: &str, blocks: usize) -> Result<f64, Error> {
     let mut worst = 0.0_f64;
     bench.follow(deck, &[], |model, state| {
-        let carried = |contact: usize| points(model, state, contact).iter().map(|point| point.force()[1]).sum::<f64>();
+        let carried = |contact: usize| resultant(&points(model, state, contact))[1];
         let above = |contact: usize| (blocks - contact) as f64 * WEIGHT * state.time;
         worst = (0..blocks).map(|contact| (carried(contact) / above(contact) - 1.0).abs()).fold(worst, f64::max);
     })?;
@@ -64,8 +64,8 @@ fn weight(bench: &Bench, deck: &str, blocks: usize) -> Result<f64, Error> {
 
 /// Force on the surface of a contact.
 fn force(run: &Solved, contact: usize) -> [f64; 2] {
-    let points = run.points(contact);
-    [0, 1].map(|axis| points.iter().map(|point| point.force()[axis]).sum())
+    let force = resultant(&run.points(contact));
+    [force[0], force[1]]
 }
 
 /// Error of the pressure, root mean square over the area.

@@ -1,7 +1,7 @@
 //! A block under uniform pressure on a plane: the contact pressure is constant, on edges of both degrees, with every
 //! number of contact points that integrates the edge exactly.
 
-use crate::bench::{Bench, Solved};
+use crate::bench::{Bench, Solved, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 
@@ -39,7 +39,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 }
 
 fn force(run: &Solved) -> f64 {
-    run.points(0).iter().map(|point| point.force()[1]).sum()
+    resultant(&run.points(0))[1]
 }
 
 /// Difference of the largest and the smallest pressure over the mean.

@@ -1,6 +1,6 @@
 //! The drawing of a cup: complete by default on two meshes, whose forces agree, and what the way costs.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, points, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::model::Model;
@@ -51,7 +51,7 @@ fn draw(bench: &Bench, name: &str, sets: &[String]) -> Result<(Curve, Measured),
 
 /// Force of the punch on the blank, downwards.
 fn punch(model: &Model, state: &State) -> f64 {
-    -points(model, state, PUNCH).iter().map(|point| point.force()[1]).sum::<f64>()
+    -resultant(&points(model, state, PUNCH))[1]
 }
 
 /// Root mean square of the difference of two curves over the peak of the first.

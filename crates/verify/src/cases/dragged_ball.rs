@@ -1,6 +1,6 @@
 //! A rigid ball pressed into an elastic slab and dragged along it with friction: `H = mu V` but for the bow wave.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, points, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::contact::ContactRecord;
@@ -15,8 +15,8 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
         let points = points(model, state, 0);
         violation = points.iter().map(|point| point.violation).fold(violation, f64::max);
         if state.time > 1.5 {
-            let force = |axis: usize| points.iter().map(|point| point.force()[axis]).sum::<f64>();
-            ratios.push(-force(0) / force(2));
+            let force = resultant(&points);
+            ratios.push(-force[0] / force[2]);
         }
     })?;
     let (least, most) = ratios.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &r| (a.min(r), b.max(r)));

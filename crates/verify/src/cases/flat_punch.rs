@@ -1,7 +1,7 @@
 //! A rigid flat punch. On a half plane `p = P / (pi sqrt(a^2 - x^2))`; the cylinder on a half space takes
 //! `F = 2 a E* d`, `p = F / (2 pi a sqrt(a^2 - r^2))`.
 
-use crate::bench::{Bench, Solved};
+use crate::bench::{Bench, Solved, resultant};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 use std::f64::consts::PI;
@@ -46,7 +46,7 @@ fn refined(bench: &Bench, (far, out, deep, ratio): Extent) -> Vec<String> {
 }
 
 fn force(run: &Solved) -> f64 {
-    -run.points(0).iter().map(|point| point.force()[1]).sum::<f64>()
+    -resultant(&run.points(0))[1]
 }
 
 /// Pressure at the centre and at `0.9 a`: `1/p^2` is a straight line over `x^2`, fitted around both.

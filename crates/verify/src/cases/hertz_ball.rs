@@ -1,7 +1,7 @@
 //! Hertz's point contact in space: a rigid ball pressed on an elastic block. `a^3 = 3 P R / (4 E*)`,
 //! `p0 = 3 P / (2 pi a^2)`, `p(r) = p0 sqrt(1 - r^2/a^2)`.
 
-use crate::bench::{Bench, both_forms};
+use crate::bench::{Bench, both_forms, resultant};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 
@@ -18,7 +18,7 @@ fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     let radius = |x: f64, y: f64| x.hypot(y);
     let pressures: Vec<_> = points.iter().map(|p| (radius(p.position[0], p.position[1]), p.pressure)).collect();
     let (_, p0) = fit::hertz(&pressures);
-    let force = points.iter().map(|point| point.force()[2]).sum::<f64>();
+    let force = resultant(&points)[2];
     let thrust = |weight: &dyn Fn(f64) -> f64| -> f64 {
         points.iter().zip(&pressures).map(|(point, &(r, p))| point.area * p * weight(r)).sum()
     };

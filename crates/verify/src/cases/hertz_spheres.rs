@@ -1,7 +1,7 @@
 //! Two equal elastic spheres under a force: `a^3 = 3 F R' / (4 E')` with `R' = R/2`, `E' = E / (2 (1 - nu^2))`, and
 //! `p0 = 3 F / (2 pi a^2)`.
 
-use crate::bench::{Bench, both_forms, points, reaction, sides};
+use crate::bench::{Bench, both_forms, points, reaction, resultant, sides};
 use crate::{Case, Measured, fit};
 use asperity::Error;
 use asperity::model::Model;
@@ -39,8 +39,7 @@ fn pressed(bench: &Bench, form: &[String]) -> Result<Measured, Error> {
     };
     let small = ["lower", "upper"].map(|body| format!("body.{body}.strain=small"));
     let small = bench.solve("spheres.toml", &[&refined(n)[..], &small, form].concat())?;
-    let carried =
-        sides(&finite.model, &finite.state).map(|side| side.iter().map(|point| point.force()[1]).sum::<f64>().abs());
+    let carried = sides(&finite.model, &finite.state).map(|side| resultant(&side)[1].abs());
     let (whole, eighth) = (near(FORCE), near(0.125 * FORCE));
     let figures = [
         (["a", "p0"], whole.1),

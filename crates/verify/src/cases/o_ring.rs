@@ -1,6 +1,6 @@
 //! An O-ring squeezed into its groove: Hertz's force while little is squeezed, and what the way costs.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, points, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::model::Model;
@@ -35,7 +35,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 
 /// Force of the lid on the ring, downwards.
 fn lid(model: &Model, state: &State) -> f64 {
-    -points(model, state, LID).iter().map(|point| point.force()[1]).sum::<f64>()
+    -resultant(&points(model, state, LID))[1]
 }
 
 /// Force a length under which a cylinder between two plates is shorter by `approach`, by bisection:

@@ -1,6 +1,6 @@
 //! The drawing of a square cup in space: complete by default between swept tools, and what the way costs.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, points, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::model::Model;
@@ -33,7 +33,7 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
 
 /// Force of the punch on the quarter, downwards.
 fn punch(model: &Model, state: &State) -> f64 {
-    -points(model, state, PUNCH).iter().map(|point| point.force()[2]).sum::<f64>()
+    -resultant(&points(model, state, PUNCH))[2]
 }
 
 /// How far the node of the lower face that stood at a place has come towards the middle.

@@ -1,6 +1,6 @@
 //! The paper's own application: an elastic tube is pushed over a stepped rigid tool, with and without friction.
 
-use crate::bench::{Bench, Solved, points};
+use crate::bench::{Bench, Solved, points, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 use asperity::contact::ContactRecord;
@@ -86,7 +86,7 @@ fn run(bench: &Bench, element: &Element, course: Course, more: &[&str]) -> Resul
     sets.extend(more.iter().map(|set| (*set).to_string()));
     let mut curve = Curve::new();
     let solved = bench.follow("tube.toml", &sets, |model, state| {
-        curve.push((travel * state.time, points(model, state, 0).iter().map(|point| point.force()[1]).sum()));
+        curve.push((travel * state.time, resultant(&points(model, state, 0))[1]));
     })?;
     Ok((solved, curve))
 }

@@ -1,6 +1,6 @@
 //! A sharp wedge pressed into rubber, its tip anywhere over an edge: force against that of a finer mesh.
 
-use crate::bench::{Bench, points};
+use crate::bench::{Bench, points, resultant};
 use crate::{Case, Measured};
 use asperity::Error;
 
@@ -59,7 +59,7 @@ fn finer(times: usize) -> String {
 fn forces(bench: &Bench, sets: &[String]) -> Result<[f64; 2], Error> {
     let mut curve = vec![(0.0, 0.0)];
     bench.follow("wedge.toml", sets, |model, state| {
-        curve.push((state.time, -points(model, state, 0).iter().map(|point| point.force()[1]).sum::<f64>()));
+        curve.push((state.time, -resultant(&points(model, state, 0))[1]));
     })?;
     Ok(DEPTHS.map(|depth| {
         let after = curve.partition_point(|(time, _)| *time < depth).clamp(1, curve.len() - 1);

@@ -87,7 +87,7 @@ impl Rigid {
     /// Where it stands at a part of the way from the accepted unknowns to `u`.
     pub fn pose(&self, accepted: &[f64], u: &[f64], part: f64) -> Pose {
         let at = |i: usize| accepted[self.first + i] + (u[self.first + i] - accepted[self.first + i]) * part;
-        Pose::new(&(0..if self.plane { 3 } else { 6 }).map(at).collect::<Vec<f64>>())
+        if self.plane { Pose::new(&[at(0), at(1), at(2)]) } else { Pose::new(&std::array::from_fn::<_, 6, _>(at)) }
     }
     /// Into how many parts its way is divided, so that it turns little in each.
     pub fn turns(&self, accepted: &[f64], u: &[f64]) -> usize {

@@ -11,7 +11,7 @@
 //! is *free* to turn about two or three axes must stay below it; about one axis it need not.
 
 use super::shapes::ProfileRay;
-use crate::tensor::{Dual, Scalar, Vec3};
+use crate::tensor::{Dual, Scalar, Tensor2, Vec3};
 
 /// Translation and rotation, as the unknowns of the tool's reference node give them.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -20,8 +20,8 @@ pub struct Pose<T = f64> {
     pub translation: Vec3<T>,
     /// Rotation vector, in radians.
     pub rotation: Vec3<T>,
-    /// `sin t / t` and `(1 - cos t) / t^2`.
-    turn: [T; 2],
+    /// `R - I`: nothing of a tool at rest is rounded.
+    change: Tensor2<T>,
 }
 
 impl<T: Scalar> Pose<T> {
@@ -37,21 +37,20 @@ impl<T: Scalar> Pose<T> {
     }
     /// Turned alone.
     pub fn turned(rotation: Vec3<T>) -> Self {
-        let t2 = rotation.dot(rotation);
-        Self { translation: Vec3::zero(), rotation, turn: [sine(t2), versine(t2)] }
+        let (w, t2) = (rotation.0, rotation.dot(rotation));
+        let (sine, versine, zero) = (sine(t2), versine(t2), T::zero());
+        let skew = [[zero, -w[2], w[1]], [w[2], zero, -w[0]], [-w[1], w[0], zero]];
+        let square = |i: usize, j: usize| if i == j { w[i] * w[i] - t2 } else { w[i] * w[j] };
+        let change = Tensor2::from_fn(|i, j| skew[i][j] * sine + square(i, j) * versine);
+        Self { translation: Vec3::zero(), rotation, change }
     }
     /// Present position of the point that stood at `point`, with the reference point at `reference` then.
     pub fn place(&self, reference: Vec3, point: Vec3) -> Vec3<T> {
-        point.lift() + self.translation + self.change(self.rotation, (point - reference).lift())
+        point.lift() + self.translation + self.change * (point - reference).lift()
     }
     /// The vector turned with the tool.
     pub fn rotate(&self, v: Vec3) -> Vec3<T> {
-        v.lift() + self.change(self.rotation, v.lift())
-    }
-    /// `(R - I) v` for a rotation by `w`, which is that of the pose or its opposite.
-    fn change(&self, w: Vec3<T>, v: Vec3<T>) -> Vec3<T> {
-        let once = w.cross(v);
-        once * self.turn[0] + w.cross(once) * self.turn[1]
+        v.lift() + self.change * v.lift()
     }
     /// `T v`: the axis and rate at which the tool turns when its rotation vector changes at the rate `v`.
     pub fn spin(&self, v: Vec3<T>) -> Vec3<T> {
@@ -62,9 +61,9 @@ impl<T: Scalar> Pose<T> {
         self.series(m, -T::one())
     }
     fn series(&self, v: Vec3<T>, sign: T) -> Vec3<T> {
-        let w = self.rotation;
+        let (w, t2) = (self.rotation, self.rotation.dot(self.rotation));
         let once = w.cross(v);
-        v + once * (self.turn[1] * sign) + w.cross(once) * third(w.dot(w))
+        v + once * (versine(t2) * sign) + w.cross(once) * third(t2)
     }
 }
 
@@ -72,11 +71,11 @@ impl Pose {
     /// Where the point that is now at `placed` stood: the inverse of [`place`](Self::place).
     pub fn withdraw(&self, reference: Vec3, placed: Vec3) -> Vec3 {
         let back = placed - self.translation;
-        back + self.change(-self.rotation, back - reference)
+        back + self.change.transpose() * (back - reference)
     }
     /// The vector turned back into the tool's own frame.
     pub fn rotate_back(&self, v: Vec3) -> Vec3 {
-        v + self.change(-self.rotation, v)
+        v + self.change.transpose() * v
     }
     /// A ray in that frame.
     pub(super) fn own_frame(&self, reference: Vec3, ray: &ProfileRay) -> ProfileRay {

@@ -71,8 +71,8 @@ fn secant(material: &dyn Material, shear: f64) -> f64 {
             return 1.0;
         }
     }
-    let part = 0.25 * (state[0] - state[1]) / (shear * STRAIN);
-    if part.is_finite() { part.min(1.0) } else { 1.0 }
+    let ratio = 0.25 * (state[0] - state[1]) / (shear * STRAIN);
+    if ratio.is_finite() { ratio.min(1.0) } else { 1.0 }
 }
 
 /// Area of the faces of each connected whole that are held along their normals.

@@ -6,10 +6,8 @@ use crate::keys::{FacetKeys, SegmentKeys, StlKeys, ToolKeys};
 use crate::reader::Name;
 use crate::source::{Place, Spot};
 use asperity_core::tensor::Vec3;
-use asperity_core::tool::space::solids::{
-    Facets, SweepPath, cone, extruded, plane, polygons, revolved, sphere, swept, torus,
-};
-use asperity_core::tool::space::{FacetFinding, ProfileFrame, SpaceTool, stl};
+use asperity_core::tool::space::solids::{Facets, cone, extruded, plane, polygons, revolved, sphere, torus};
+use asperity_core::tool::space::{FacetFinding, ProfileFrame, SpaceTool, SweepPath, stl, swept};
 use asperity_core::tool::{self, FindingSeverity};
 use std::sync::Arc;
 

@@ -30,7 +30,7 @@ table! {
 
 table! {
     /// A path in a plane, along which a profile is swept.
-    pub struct Sweep {
+    pub struct SweepKeys {
         /// Corners `[x, y]` in the order of travel; the profile's x points to the right of it.
         path: Vec<Vec<f64>> = list(list(number(unit::LENGTH, Range::ANY), 2..=2), 2..=usize::MAX).required(),
         /// Radius of the arcs by which the corners are rounded.

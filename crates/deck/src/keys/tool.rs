@@ -1,6 +1,6 @@
 //! Rigid tools and their profiles.
 
-use super::solid_tool::{Cone, Cylinder, Extrude, FacetKeys, Plane, Revolve, Sphere, StlKeys, Sweep, Torus};
+use super::solid_tool::{Cone, Cylinder, Extrude, FacetKeys, Plane, Revolve, Sphere, StlKeys, SweepKeys, Torus};
 use crate::diagnose::Diagnostic;
 use crate::form::{Form, list, number, table, table_of, tag};
 use crate::reader::Reader;
@@ -28,7 +28,7 @@ table! {
         extrude: Option<Extrude> = table_of().unless_given("not extruded"),
         /// In space: the profile swept along a path of straight lines and arcs. One that begins or ends at `x = -radius`, over the middles
         /// of the arcs, is joined there by a flat face if the path is closed and turns left only.
-        sweep: Option<Sweep> = table_of().unless_given("not swept"),
+        sweep: Option<SweepKeys> = table_of().unless_given("not swept"),
         /// In space: triangles and quadrilaterals between nodes.
         facets: Option<FacetKeys> = table_of().unless_given("another key says its shape"),
         /// In space: the triangles of an STL file.

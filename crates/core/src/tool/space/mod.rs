@@ -1,13 +1,13 @@
 //! Rigid tools in space: facets moved by the six unknowns of a reference node.
 //!
-//! Facets are triangles, bilinear quadrilaterals, and segments of profiles that are revolved or extruded; they stand in
-//! the tool's own frame for ever, and rays are carried into it. The rules of [`select`](super::select) choose among the
-//! hits.
+//! Facets are triangles, bilinear quadrilaterals, and segments of profiles that are revolved, extruded, or both along a path; they
+//! stand in the tool's own frame for ever, and rays are carried into it. The rules of [`select`](super::select) choose among the hits.
 
 mod check;
 mod distance;
 mod facet;
 mod nearest;
+mod path;
 mod polygons;
 mod roots;
 pub mod solids;
@@ -21,6 +21,7 @@ pub use check::FacetFinding;
 pub use distance::{NearestPoint, SmoothPieces};
 pub use facet::{Meeting, ToolFacet};
 pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
+pub use path::{SweepPath, swept};
 pub use polygons::{Quad, Triangle};
 pub use swept::ProfileFrame;
 pub use tool::{SpaceTool, Tiles};

@@ -4,9 +4,8 @@ use super::nearest::RigidFacet;
 use super::polygons::{Quad, Triangle};
 use super::swept::{Extruded, ProfileFrame, Revolved};
 use crate::tensor::Vec3;
-use crate::tool::fillet::{Draft, fillet, rounded};
+use crate::tool::fillet::fillet;
 use crate::tool::shapes::{ProfileShape, find};
-use crate::tool::{FindingSeverity, ProfileFinding, ProfileTool};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -24,7 +23,12 @@ pub fn revolved(profile: Profile, frame: ProfileFrame) -> Facets {
 }
 
 /// A profile revolved by an angle; segments within `least` of the axis make no facet.
-fn sector(profile: Profile, frame: ProfileFrame, turn: f64, least: f64) -> impl Iterator<Item = Box<dyn RigidFacet>> {
+pub(super) fn sector(
+    profile: Profile,
+    frame: ProfileFrame,
+    turn: f64,
+    least: f64,
+) -> impl Iterator<Item = Box<dyn RigidFacet>> {
     let off_axis = profile.into_iter().filter(move |shape| shape.bounds().max[0] > least);
     off_axis.map(move |shape| Box::new(Revolved::new(Arc::from(shape), frame, turn)) as _)
 }
@@ -33,98 +37,6 @@ fn sector(profile: Profile, frame: ProfileFrame, turn: f64, least: f64) -> impl 
 pub fn extruded(profile: Profile, frame: ProfileFrame, length: f64) -> Facets {
     let facet = |shape: Box<dyn ProfileShape>| Box::new(Extruded { shape: Arc::from(shape), frame, length }) as _;
     profile.into_iter().map(facet).collect()
-}
-
-/// A path in the plane of x and y of its frame through corners that are rounded by `radius`.
-#[derive(Debug, Clone)]
-pub struct SweepPath {
-    /// Its frame; the profile's y axis is z of this.
-    pub frame: ProfileFrame,
-    /// Its corners in the order of travel.
-    pub corners: Vec<Vec3>,
-    /// Radius of the arcs.
-    pub radius: f64,
-    /// Whether it comes back to its first corner.
-    pub closed: bool,
-}
-
-/// A profile carried along a path, its x to the right of travel: extruded along straight parts, revolved about the middles of arcs.
-/// One that begins or ends over these, at `x = -radius`, is joined there by a flat face if the path is closed and never turns right.
-///
-/// # Errors
-/// In words, if the path has too few corners, meets itself or runs back, its arcs do not fit, or the profile reaches over the middles of arcs.
-pub fn swept(profile: &[Draft], path: &SweepPath) -> Result<Facets, String> {
-    let (frame, radius, n) = (&path.frame, path.radius, path.corners.len());
-    if n < if path.closed { 3 } else { 2 } {
-        return Err("the path has too few corners".into());
-    }
-    let line = find("line")?;
-    let straight = |i: usize| (i, line, vec![path.corners[i], path.corners[(i + 1) % n]]);
-    let sides: Vec<Draft> = (0..n - usize::from(!path.closed)).map(straight).collect();
-    let drawn = sides.iter().map(|(_, kind, nodes)| kind.build(nodes)).collect::<Result<Profile, _>>()?;
-    let judged = ProfileTool::new("path", vec![drawn], Vec3::zero()).check(false);
-    let grave = |finding: &&ProfileFinding| {
-        finding.severity() == FindingSeverity::Error && !matches!(finding, ProfileFinding::Clockwise(..))
-    };
-    if let Some(finding) = judged.iter().find(grave) {
-        return Err(format!("the path between corners: {finding}"));
-    }
-    let parts = rounded(sides, radius).map_err(|_| "the arcs of the path do not fit between its corners")?;
-    let built = |place: &dyn Fn(Vec3) -> Vec3, back: bool| -> Result<Profile, String> {
-        let nodes = |(_, kind, nodes): &Draft| {
-            let mut placed: Vec<Vec3> = nodes.iter().map(|&x| place(x)).collect();
-            if back {
-                placed.reverse();
-            }
-            kind.build(&placed)
-        };
-        profile.iter().map(nodes).collect()
-    };
-    let (mut facets, mut middles, mut convex) = (Facets::new(), Vec::new(), path.closed);
-    for (_, _, nodes) in &parts {
-        let &[a, middle, .., b] = nodes.as_slice() else {
-            let along = frame.turn(nodes[1] - nodes[0]);
-            let across = ProfileFrame {
-                origin: frame.place(nodes[1]),
-                x: along.cross(frame.z).unit(),
-                y: frame.z,
-                z: -along.unit(),
-            };
-            facets.extend(extruded(built(&|x| x, false)?, across, along.norm()));
-            continue;
-        };
-        let center = middle + ((a + b) * 0.5 - middle).unit() * radius;
-        let left = (middle - a).cross(b - middle)[2] > 0.0;
-        let sign = if left { 1.0 } else { -1.0 };
-        let place = |x: Vec3| Vec3::new(radius + sign * x[0], x[1], 0.0);
-        let profile = built(&place, !left)?;
-        if profile.iter().any(|shape| shape.bounds().min[0] < -1e-12 * radius) {
-            return Err(format!(
-                "the profile reaches over the middle of an arc of the path, by more than its radius {radius}"
-            ));
-        }
-        // Clockwise as seen from the profile's y axis.
-        let [from, to] = if left { [b, a] } else { [a, b] }.map(|x| x - center);
-        let x = frame.turn(from).unit();
-        let about = ProfileFrame { origin: frame.place(center), x, y: frame.z, z: x.cross(frame.z) };
-        facets.extend(sector(profile, about, to.cross(from)[2].atan2(to.dot(from)), 1e-12 * radius));
-        (convex, _) = (convex && left, middles.push(center));
-    }
-    let [first, last] =
-        [profile.first().and_then(|(.., nodes)| nodes.first()), profile.last().and_then(|(.., nodes)| nodes.last())];
-    // The tool's material is on the left of the profile: above where it begins, below where it ends.
-    for (end, turned) in [(first, true), (last, false)] {
-        let Some(end) = end.filter(|x| convex && middles.len() > 2 && (x[0] + radius).abs() <= 1e-12 * radius) else {
-            continue;
-        };
-        let at = |k: usize| frame.place(middles[k] + Vec3::new(0.0, 0.0, end[1]));
-        let fan = (1..middles.len() - 1).map(|k| if turned { [0, k + 1, k] } else { [0, k, k + 1] });
-        facets.extend(polygons(fan.map(|corners| corners.map(at).to_vec()))?);
-    }
-    if facets.iter().map(|facet| facet.bounds()).any(|bounds| !(bounds.min.is_finite() && bounds.max.is_finite())) {
-        return Err("the path leads too far away for numbers".into());
-    }
-    Ok(facets)
 }
 
 /// Polygons of three or four corners.

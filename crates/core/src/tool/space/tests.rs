@@ -2,8 +2,8 @@
 
 use super::facet::{Meeting, ToolFacet};
 use super::polygons::{Quad, Triangle};
-use super::solids::{Facets, SweepPath, cone, extruded, filleted, plane, polygons, revolved, sphere, swept, torus};
-use super::{FacetFinding, ProfileFrame, SpaceTool};
+use super::solids::{Facets, cone, extruded, filleted, plane, polygons, revolved, sphere, torus};
+use super::{FacetFinding, ProfileFrame, SpaceTool, SweepPath, swept};
 use crate::tensor::Vec3;
 use crate::tool::shapes::{ALL, ProfileRay, find};
 use crate::tool::{Draft, Hit, Pose, Rejected, Rules, select};

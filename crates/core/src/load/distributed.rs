@@ -207,9 +207,8 @@ impl Attempt for Open<'_> {
             for (j, w) in load.weights.iter().enumerate() {
                 for c in 0..dim {
                     let dq = Vec3(from_fn(|i| load.slope(&turn[i].du, (j, c), (&arms, *w))));
-                    let e = Vec3(from_fn(|axis| f64::from(u8::from(axis == c))));
                     for (i, arm) in arms.iter().enumerate() {
-                        let moved = e * (f64::from(u8::from(i == j)) - w);
+                        let moved = Vec3::axis(c) * (f64::from(u8::from(i == j)) - w);
                         let df = (dq.cross(*arm) + q.cross(moved)) * load.weights[i];
                         (0..dim).for_each(|axis| local.tangent[(dim * i + axis) * unknowns + dim * j + c] += df[axis]);
                     }

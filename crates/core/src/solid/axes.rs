@@ -28,8 +28,7 @@ impl CylinderAxes {
     }
 
     fn across(&self) -> Vec3 {
-        let least = (0..3).min_by(|&i, &j| self.along[i].abs().total_cmp(&self.along[j].abs())).unwrap_or(0);
-        self.along.cross(Vec3(std::array::from_fn(|i| f64::from(u8::from(i == least))))).unit()
+        self.along.cross(Vec3::axis(self.along.least_axis())).unit()
     }
 }
 

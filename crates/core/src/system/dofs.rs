@@ -1,5 +1,7 @@
 //! Numbering of the unknowns: displacements node by node, then the reference nodes of the tools.
 
+use std::ops::Range;
+
 /// The unknowns of a model. A node has `per_node` displacements (2 in the plane and in the axisymmetric case, 3 in
 /// space); a tool has as many translations and then its rotations (1 or 3), in radians.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +50,10 @@ impl Dofs {
     /// First unknown of a node.
     pub fn node(&self, node: usize) -> usize {
         node * self.per_node
+    }
+    /// The displacements of a node.
+    pub fn displacements(&self, node: usize) -> Range<usize> {
+        self.node(node)..self.node(node) + self.per_node
     }
     /// First unknown of a tool.
     pub fn tool(&self, tool: usize) -> usize {

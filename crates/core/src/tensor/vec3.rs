@@ -51,6 +51,20 @@ impl Vec3<f64> {
     pub fn lift<T: Scalar>(self) -> Vec3<T> {
         Vec3(self.0.map(T::from))
     }
+    /// The unit vector along an axis.
+    pub fn axis(axis: usize) -> Self {
+        Self(std::array::from_fn(|k| f64::from(u8::from(k == axis))))
+    }
+    /// The axis along which a direction is least.
+    pub fn least_axis(self) -> usize {
+        (0..3).fold(0, |i, j| if self[j].abs() < self[i].abs() { j } else { i })
+    }
+    /// Derivative of [`unit`](Self::unit) for a derivative `change` of the vector.
+    pub fn turned(self, change: Self) -> Self {
+        let size = self.norm().recip();
+        let n = self * size;
+        (change - n * n.dot(change)) * size
+    }
     /// Whether every component is a finite number.
     pub fn is_finite(self) -> bool {
         self.0.iter().all(|x| x.is_finite())

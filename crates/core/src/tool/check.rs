@@ -53,10 +53,7 @@ fn single(segment: &dyn ProfileShape, i: usize, together: f64, axisymmetric: boo
 /// Gaps, kinks, ends and orientation of one profile.
 fn along(tool: &ProfileTool, chain: &Chain, found: &mut Vec<ProfileFinding>) {
     let before = found.len();
-    let pairs = (chain.first + 1..chain.end).map(|b| (b - 1, b));
-    for (a, b) in pairs.chain(chain.closed.then_some((chain.end - 1, chain.first))) {
-        found.extend(joint(tool, a, b));
-    }
+    found.extend(chain.joints().filter_map(|(a, b)| joint(tool, a, b)));
     let broken = found[before..].iter().any(|finding| matches!(finding, ProfileFinding::Gap(..)));
     let (first, last) = (chain.first, chain.end - 1);
     if !chain.closed {
@@ -74,8 +71,7 @@ fn joint(tool: &ProfileTool, a: usize, b: usize) -> Option<ProfileFinding> {
     if gap > TOGETHER * tool.size() {
         return Some(ProfileFinding::Gap(a, b, gap));
     }
-    let (from, to) = (first.tangent(1.0), second.tangent(0.0));
-    let angle = turn(from, to).atan2(from.dot(to)).to_degrees();
+    let angle = tool.turn_behind(a, b).to_degrees();
     (angle.abs() > KINK).then_some(ProfileFinding::Kink(a, b, angle))
 }
 
@@ -121,8 +117,7 @@ fn crossing(tool: &ProfileTool, a: usize, b: usize) -> Option<Vec3> {
 /// The node in which `b` follows `a`, if it does.
 fn shared(tool: &ProfileTool, a: usize, b: usize) -> Option<Vec3> {
     let chain = tool.chains().iter().find(|chain| (chain.first..chain.end).contains(&a))?;
-    let follows = b == a + 1 && b < chain.end || chain.closed && a + 1 == chain.end && b == chain.first;
-    follows.then(|| tool.segments()[a].point(1.0))
+    (chain.behind(a) == Some(b)).then(|| tool.segments()[a].point(1.0))
 }
 
 /// Places where the straight piece from `from` to `to` meets a segment.

@@ -7,6 +7,7 @@
 //! within an edge of the material is asked of the nearer one. At an inward crease two faces bound one corner of the material
 //! around it, and each goes on straight.
 
+use super::shapes::angle;
 use super::tool::ProfileTool;
 use crate::tensor::Vec3;
 
@@ -57,23 +58,18 @@ impl ProfileTool {
     pub fn smooth_pieces(&self, rounding: f64) -> Vec<SmoothPiece> {
         let mut pieces = Vec::new();
         for chain in self.chains() {
-            let count = chain.end - chain.first;
-            let turn = |i: usize| self.turn_behind(chain.first + i, chain.first + (i + 1) % count);
-            let joints = if chain.closed { count } else { count - 1 };
-            let segment = |i: usize| &self.segments()[chain.first + i];
+            let segment = |i: usize| &self.segments()[i];
             let end = |i: usize, s: f64| {
                 let (point, along) = (segment(i).point(s), segment(i).tangent(s).unit());
                 Some(PieceEnd { point, along })
             };
-            let crease = |i: usize| self.crease(turn(i), chain.first + i, chain.first + (i + 1) % count);
             // Segments with what cuts the profile behind them; a sharp rounding is there once for each half.
             let mut parts: Vec<(usize, Option<Option<PieceEnd>>)> = Vec::new();
-            for i in 0..count {
+            for i in chain.first..chain.end {
                 if segment(i).is_tip(rounding) {
                     parts.push((i, Some(end(i, 0.5))));
                 }
-                let creased = i < joints && turn(i).abs() >= CREASE;
-                parts.push((i, creased.then(|| crease(i))));
+                parts.push((i, chain.behind(i).and_then(|next| self.crease(i, next))));
             }
             let first = parts.iter().position(|(_, cut)| cut.is_some());
             if chain.closed && first.is_none() {
@@ -83,17 +79,16 @@ impl ProfileTool {
             }
             // From behind a cut or the beginning of an open profile on.
             let first = first.filter(|_| chain.closed);
-            let mut before = first.map_or_else(|| end(0, 0.0), |first| parts[first].1.flatten());
+            let mut before = first.map_or_else(|| end(chain.first, 0.0), |first| parts[first].1.flatten());
             let count = parts.len();
             parts.rotate_left(first.map_or(0, |first| (first + 1) % count));
             let (last, mut segments) = (count - 1, Vec::new());
             for (k, (i, cut)) in parts.into_iter().enumerate() {
-                segments.push(chain.first + i);
+                segments.push(i);
                 let open = (k == last).then(|| end(i, 1.0));
                 if let Some(after) = cut.or(open) {
                     let segments = std::mem::take(&mut segments);
-                    let cut =
-                        |place: Option<&usize>| place.is_some_and(|&number| self.segments()[number].is_tip(rounding));
+                    let cut = |place: Option<&usize>| place.is_some_and(|&number| segment(number).is_tip(rounding));
                     let bounded = [cut(segments.first()), cut(segments.last())].map(|cut| if cut { 2 } else { 1 });
                     pieces.push(SmoothPiece { segments, ends: [before, after], bounded, closed: false });
                     before = after;
@@ -104,19 +99,19 @@ impl ProfileTool {
     }
 
     /// By how much the profile turns to the left from one segment to the next, in radians.
-    fn turn_behind(&self, one: usize, next: usize) -> f64 {
-        let (a, b) = (self.segments()[one].tangent(1.0), self.segments()[next].tangent(0.0));
-        (a[0] * b[1] - a[1] * b[0]).atan2(a.dot(b))
+    pub(super) fn turn_behind(&self, one: usize, next: usize) -> f64 {
+        angle(self.segments()[one].tangent(1.0), self.segments()[next].tangent(0.0))
     }
 
     /// Where the piece before a crease ends and the one behind it begins: the bisector where the profile turns outward, none where
     /// it turns inward.
-    fn crease(&self, turn: f64, one: usize, next: usize) -> Option<PieceEnd> {
+    fn crease(&self, one: usize, next: usize) -> Option<Option<PieceEnd>> {
+        let turn = self.turn_behind(one, next);
         let (one, next) = (&self.segments()[one], &self.segments()[next]);
         let along = one.tangent(1.0).unit() + next.tangent(0.0).unit();
         // A profile that turns right back ends across its tangent.
         let along = if along.norm() > 1e-6 { along.unit() } else { one.tangent(1.0).unit() };
-        (turn > 0.0).then(|| PieceEnd { point: one.point(1.0), along })
+        (turn.abs() >= CREASE).then(|| (turn > 0.0).then(|| PieceEnd { point: one.point(1.0), along }))
     }
 
     /// The point of a piece closest to `x`, in the tool's own frame.
@@ -146,25 +141,13 @@ impl ProfileTool {
             let gap = normal.dot(x - point);
             ClosestPoint { gap, normal, point, curvature: curvature / (1.0 + curvature * gap), beyond }
         };
-        let end = if s <= AT_END {
-            0
-        } else if s >= 1.0 - AT_END {
-            1
-        } else {
-            return smooth(segment.curvature(s));
-        };
-        let past = segment.tangent(s).unit().dot(x - point) * if end == 0 { -1.0 } else { 1.0 };
-        if past <= AT_END * segment.length() {
+        let end = usize::from(s > 0.5);
+        let past = segment.tangent(s).unit().dot(x - point) * [-1.0, 1.0][end];
+        if s.min(1.0 - s) > AT_END || past <= AT_END * segment.length() {
             return smooth(segment.curvature(s));
         }
-        let count = piece.segments.len();
-        let next = match (end, place) {
-            (0, 0) => piece.closed.then(|| count - 1),
-            (0, place) => Some(place - 1),
-            (_, place) if place + 1 == count => piece.closed.then_some(0),
-            (_, place) => Some(place + 1),
-        };
-        let Some(next) = next else {
+        let next = (place + 2 * end).checked_sub(1).filter(|&next| next <= last);
+        let Some(next) = next.or(piece.closed.then_some([last, 0][end])) else {
             // A straight continuation, whether or not it is seen.
             return ClosestPoint { point: x - normal * normal.dot(x - point), ..smooth(0.0) };
         };

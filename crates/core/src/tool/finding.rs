@@ -66,35 +66,27 @@ impl ProfileFinding {
 impl fmt::Display for ProfileFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let at = |p: &Vec3| format!("({}, {})", p[0], p[1]);
+        let both = |a: &usize, b: &usize| format!("segments {} and {}", a + 1, b + 1);
+        let all = |a: &usize, b: &usize| format!("profile of segments {} to {}", a + 1, b + 1);
         match self {
             Self::Empty => f.write_str("the tool has no segments"),
             Self::NotFinite(a) => write!(f, "segment {} has a coordinate that is not a finite number", a + 1),
             Self::NoLength(a) => write!(f, "segment {} begins and ends in the same place", a + 1),
             Self::Flaw(a, flaw) => write!(f, "segment {} {flaw}", a + 1),
             Self::NegativeRadius(a, r) => write!(f, "segment {} reaches the negative radius {r}", a + 1),
-            Self::Gap(a, b, gap) => {
-                write!(f, "segments {} and {} do not meet: {gap:.3e} lies between them", a + 1, b + 1)
-            }
-            Self::Crossing(a, b, p) => write!(f, "segments {} and {} cross at {}", a + 1, b + 1, at(p)),
+            Self::Gap(a, b, gap) => write!(f, "{} do not meet: {gap:.3e} lies between them", both(a, b)),
+            Self::Crossing(a, b, p) => write!(f, "{} cross at {}", both(a, b), at(p)),
             Self::Clockwise(a, b) => {
-                write!(f, "the closed profile of segments {} to {} runs clockwise, ", a + 1, b + 1)?;
-                f.write_str(
-                    "which puts the tool's material outside it: reverse the order of its segments and of their nodes",
-                )
+                let remedy = "reverse the order of its segments and of their nodes";
+                let outside = "runs clockwise, which puts the tool's material outside it";
+                write!(f, "the closed {} {outside}: {remedy}", all(a, b))
             }
             Self::Kink(a, b, angle) => {
                 let kind = if *angle > 0.0 { "convex" } else { "concave" };
-                write!(f, "segments {} and {} meet at a {kind} edge of {:.1} degrees", a + 1, b + 1, angle.abs())
+                write!(f, "{} meet at a {kind} edge of {:.1} degrees", both(a, b), angle.abs())
             }
             Self::Open(a, b, [from, to]) => {
-                write!(
-                    f,
-                    "the profile of segments {} to {} is open: it runs from {} to {}",
-                    a + 1,
-                    b + 1,
-                    at(from),
-                    at(to)
-                )
+                write!(f, "the {} is open: it runs from {} to {}", all(a, b), at(from), at(to))
             }
         }
     }

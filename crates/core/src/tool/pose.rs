@@ -83,7 +83,7 @@ impl Pose {
     }
     /// [`spin`](Self::spin) along each axis.
     pub fn spins(&self) -> [Vec3; 3] {
-        [0, 1, 2].map(|i| self.spin(axis(i)))
+        [0, 1, 2].map(|i| self.spin(Vec3::axis(i)))
     }
     /// Derivatives of these along the component `along` of the rotation vector.
     pub fn spin_rates(&self, along: usize) -> [Vec3; 3] {
@@ -91,13 +91,13 @@ impl Pose {
         let rotation =
             Vec3(std::array::from_fn(|i| if i == along { Dual::<1>::variable(w[i], 0) } else { Dual::from(w[i]) }));
         let turned = Pose::turned(rotation);
-        [0, 1, 2].map(|i| Vec3(turned.spin(axis(i).lift()).0.map(|spin| spin.du[0])))
+        [0, 1, 2].map(|i| Vec3(turned.spin(Vec3::axis(i).lift()).0.map(|spin| spin.du[0])))
     }
     /// Derivatives of the position of a material point, now at `placed`, with respect to the six unknowns, with the
     /// [`spins`](Self::spins).
     pub fn rates(&self, spins: &[Vec3; 3], reference: Vec3, placed: Vec3) -> [Vec3; 6] {
         let arm = placed - (reference + self.translation);
-        std::array::from_fn(|i| if i < 3 { axis(i) } else { spins[i - 3].cross(arm) })
+        std::array::from_fn(|i| if i < 3 { Vec3::axis(i) } else { spins[i - 3].cross(arm) })
     }
     /// The moment whose work is that of the forces `q` on the three unknowns of the rotation; not finite at a whole
     /// turn unless the forces are along the axis.
@@ -115,11 +115,6 @@ impl Pose {
         }
         along + across * (half / half.tan()) + n.cross(across) * half
     }
-}
-
-/// The unit vector along an axis.
-fn axis(i: usize) -> Vec3 {
-    Vec3(std::array::from_fn(|k| f64::from(u8::from(k == i))))
 }
 
 /// Below this square of the angle the functions are summed as series, whose next terms are beyond rounding.

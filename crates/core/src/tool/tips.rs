@@ -1,6 +1,6 @@
 //! Sharp edges, free ends and small roundings of a profile: what may lie within one face of a body.
 
-use super::shapes::ProfileShape;
+use super::shapes::{ProfileShape, angle};
 use super::tool::ProfileTool;
 use crate::tensor::Vec3;
 
@@ -24,18 +24,16 @@ impl ProfileTool {
     pub fn tips(&self, rounding: f64) -> Vec<Tip> {
         let mut tips = Vec::new();
         for chain in self.chains() {
-            let count = chain.end - chain.first;
-            let joints = if chain.closed { count } else { count - 1 };
-            for i in 0..joints {
-                let [one, next] = [i, (i + 1) % count].map(|i| &self.segments()[chain.first + i]);
+            for (one, next) in chain.joints() {
+                let [one, next] = [one, next].map(|i| &self.segments()[i]);
                 let (a, b) = (one.tangent(1.0).unit(), next.tangent(0.0).unit());
-                if turn(a, b) >= SHARP {
+                if angle(a, b) >= SHARP {
                     let (outward, flanks) = ((a - b).unit(), [-a.left(), -b.left()]);
                     tips.push(Tip { point: one.point(1.0), outward, flanks });
                 }
             }
             // Of a wedge that is drawn from its plane or axis of symmetry the edge is an end of the profile.
-            if !chain.closed && count > 0 {
+            if !chain.closed {
                 let [first, last] = [chain.first, chain.end - 1].map(|i| &self.segments()[i]);
                 let (a, b) = (last.tangent(1.0).unit(), first.tangent(0.0).unit());
                 tips.push(Tip { point: first.point(0.0), outward: -b, flanks: [-b.left(); 2] });
@@ -58,13 +56,8 @@ impl dyn ProfileShape {
     pub(super) fn is_tip(&self, largest: f64) -> bool {
         // Both halves of an arc turn by the same angle.
         let [begin, middle] = [0.0, 0.5].map(|s| self.tangent(s).unit());
-        self.kind().key == "arc" && 2.0 * turn(begin, middle) >= SHARP && self.curvature(0.5).recip() <= largest
+        self.kind().key == "arc" && 2.0 * angle(begin, middle) >= SHARP && self.curvature(0.5).recip() <= largest
     }
-}
-
-/// The angle to the left from one unit vector to another.
-fn turn(a: Vec3, b: Vec3) -> f64 {
-    (a[0] * b[1] - a[1] * b[0]).atan2(a.dot(b))
 }
 
 #[cfg(test)]

@@ -28,6 +28,17 @@ pub struct Chain {
     pub closed: bool,
 }
 
+impl Chain {
+    /// Its segments, each with that which follows it.
+    pub(super) fn joints(self) -> impl Iterator<Item = (usize, usize)> {
+        (self.first..self.end).filter_map(move |i| Some((i, self.behind(i)?)))
+    }
+    /// The segment that follows one of its own.
+    pub(super) fn behind(self, segment: usize) -> Option<usize> {
+        Some(segment + 1).filter(|&next| next < self.end).or(self.closed.then_some(self.first))
+    }
+}
+
 /// A place where a ray meets a segment of a profile, a facet of a tool in space, or a face of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {

@@ -165,13 +165,11 @@ impl FieldAttempt<'_> {
                 let nodes = |face: usize| faces.surface.faces[face].nodes.iter();
                 let known = |face: usize| nodes(face).all(|node| stencil.support.nodes.binary_search(node).is_ok());
                 let (number, hit) = self.seen_before(patch, xi, known)?;
-                let m = at.normal;
-                let n = m.unit();
+                let n = at.normal.unit();
                 let placed = stencil.placed(&faces.surface.faces[number]);
                 let [a, b] = hit.shape.tangents(placed.nodes(), self.contact.parts.surface.plane);
                 let slopes = [0, 1].map(|k| {
-                    let turned = (at.normal_slopes[k] - n * n.dot(at.normal_slopes[k])) * m.norm().recip();
-                    let (_, s) = hit.follow(n, at.tangents[k] + turned * hit.gap);
+                    let (_, s) = hit.follow(n, at.tangents[k] + at.normal.turned(at.normal_slopes[k]) * hit.gap);
                     a * s[0] + b * s[1]
                 });
                 Some(Touched { now: hit.shape.value(placed.nodes()), slopes, face: Some((number, hit.shape)) })
@@ -503,13 +501,12 @@ impl FieldAttempt<'_> {
     /// Lists the stencils of all nodes at unknowns `u`.
     fn list(&self, u: &[f64], out: &mut Stencils) -> Vec<Support> {
         let supports = self.search(u);
-        let axes = self.contact.parts.dofs.per_node();
         for support in &supports {
             let start = out.dofs.len();
             let choice = support.patches.first().map_or(0, |(patch, _)| patch.target as u32 + 1);
             if choice > 0 {
-                let nodes = support.nodes.iter().map(|&node| self.contact.parts.dofs.node(node));
-                out.dofs.extend(nodes.flat_map(|first| first..first + axes));
+                let dofs = &self.contact.parts.dofs;
+                out.dofs.extend(support.nodes.iter().flat_map(|&node| dofs.displacements(node)));
                 if let FieldTarget::Tool(rigid) = &self.contact.parts.target {
                     out.dofs.extend(rigid.unknowns());
                 }

@@ -54,6 +54,12 @@ impl ShapeFunctions {
         let along = |a: usize| x.iter().zip(&self.dn).fold(Vec3::zero(), |sum, (&x, dn)| sum + x * dn[a]);
         [along(0), if plane { Vec3::new(0.0, 0.0, 1.0) } else { along(1) }]
     }
+
+    /// Derivatives of the area vector of the tangents `a`, `b` along the three displacements of a node.
+    pub fn area_rates(&self, node: usize, [a, b]: [Vec3; 2]) -> [Vec3; 3] {
+        let [da, db] = self.dn[node];
+        [0, 1, 2].map(Vec3::axis).map(|axis| axis.cross(b) * da + a.cross(axis) * db)
+    }
 }
 
 impl FieldFace {
@@ -119,19 +125,12 @@ impl FieldFace {
 
     /// Where its nodes are before any motion.
     pub fn at_rest(&self, mesh: &Mesh) -> PlacedFace {
-        let mut placed = PlacedFace { x: [Vec3::zero(); MOST], count: self.nodes.len() };
-        placed.x.iter_mut().zip(&self.nodes).for_each(|(x, &node)| *x = mesh.points[node]);
-        placed
+        PlacedFace::new(self.nodes.iter().map(|&node| mesh.points[node]))
     }
 
     /// Where its nodes are at unknowns `u`.
     pub fn placed(&self, mesh: &Mesh, dofs: &Dofs, u: &[f64]) -> PlacedFace {
-        let mut placed = self.at_rest(mesh);
-        for (x, &node) in placed.x.iter_mut().zip(&self.nodes) {
-            let first = dofs.node(node);
-            (0..dofs.per_node()).for_each(|axis| x[axis] += u[first + axis]);
-        }
-        placed
+        PlacedFace::new(self.nodes.iter().map(|&node| moved(mesh.points[node], &u[dofs.displacements(node)])))
     }
 
     /// Whether reference coordinates lie on it, up to a part `beyond` past its edges.
@@ -141,6 +140,12 @@ impl FieldFace {
             _ => a.abs() <= 1.0 + beyond && b.abs() <= 1.0 + beyond,
         }
     }
+}
+
+/// A point and its displacements.
+pub fn moved(mut x: Vec3, u: &[f64]) -> Vec3 {
+    x.0.iter_mut().zip(u).for_each(|(x, u)| *x += u);
+    x
 }
 
 /// The nodes of a face in place.

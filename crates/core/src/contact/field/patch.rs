@@ -4,7 +4,7 @@ use super::column::{PointColumn, tool_motion};
 use super::cover::{FaceInPlace, Patch, root_near};
 use super::face::{CORNERS, PlacedFace, ShapeFunctions};
 use super::faces::TargetFaces;
-use super::surface::{NodalNormal, unit};
+use super::surface::NodalNormal;
 use super::tool::ToolInPlace;
 use super::triad::MaterialLine;
 use crate::tensor::Vec3;
@@ -70,7 +70,7 @@ impl PatchInPlace<'_> {
                 }
                 (None, Some((_, seen))) => {
                     let vertex = match column {
-                        PointColumn::Node { axis, seen: Some(k), .. } if *k == end => unit(*axis),
+                        PointColumn::Node { axis, seen: Some(k), .. } if *k == end => Vec3::axis(*axis),
                         _ => Vec3::zero(),
                     };
                     let turned = self.sum_turned(&at.corners, turning);
@@ -86,7 +86,7 @@ impl PatchInPlace<'_> {
     /// Displacement of a place of the face along an unknown, at fixed reference coordinates.
     pub(super) fn moved(&self, column: &PointColumn, shape: &ShapeFunctions) -> Vec3 {
         match column {
-            PointColumn::Node { axis, own: Some(k), .. } => unit(*axis) * shape.n[*k],
+            PointColumn::Node { axis, own: Some(k), .. } => Vec3::axis(*axis) * shape.n[*k],
             _ => Vec3::zero(),
         }
     }

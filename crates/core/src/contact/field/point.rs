@@ -12,7 +12,6 @@ use super::face::{CORNERS, ShapeFunctions};
 use super::faces::{FaceProjection, FaceRay};
 use super::patch::{IntervalRates, PatchInPlace};
 use super::spot::FaceSpot;
-use super::surface::unit;
 use super::tool::Foot;
 use super::triad::MaterialLine;
 use crate::tensor::Vec3;
@@ -185,10 +184,9 @@ impl PatchInPlace<'_> {
             }
             (Sight::Face(hit), _) => {
                 let moved = at.normal_slopes[0] * dxi[0] + at.normal_slopes[1] * dxi[1];
-                let dm = self.sum_turned(&at.corners, turning) + moved;
-                let dn = (dm - point.n * point.n.dot(dm)) * at.normal.norm().recip();
+                let dn = at.normal.turned(self.sum_turned(&at.corners, turning) + moved);
                 let carried = match column {
-                    PointColumn::Node { axis, seen: Some(k), .. } => unit(*axis) * hit.shape.n[*k],
+                    PointColumn::Node { axis, seen: Some(k), .. } => Vec3::axis(*axis) * hit.shape.n[*k],
                     _ => Vec3::zero(),
                 };
                 let (gap, s) = hit.follow(point.n, dx + dn * hit.gap - carried);
@@ -201,25 +199,22 @@ impl PatchInPlace<'_> {
 
     /// Derivative of the face's own unit normal.
     fn own_normal_rate(&self, column: &PointColumn, xi: [f64; 2], dxi: [f64; 2]) -> Vec3 {
-        let (face, face_is_plane) = (self.face.face, self.face.plane);
-        let shape = face.shape(xi);
+        let (face, shape) = (self.face.face, self.face.face.shape(xi));
         let [a, b] = shape.tangents(self.face.placed.nodes(), self.face.plane);
-        let [mut da, db] = match column {
-            PointColumn::Node { axis, own: Some(k), .. } if face_is_plane => {
-                [unit(*axis) * shape.dn[*k][0], Vec3::zero()]
-            }
-            PointColumn::Node { axis, own: Some(k), .. } => shape.dn[*k].map(|slope| unit(*axis) * slope),
+        let [mut da, mut db] = match column {
+            PointColumn::Node { axis, own: Some(k), .. } => shape.dn[*k].map(|slope| Vec3::axis(*axis) * slope),
             _ => [Vec3::zero(); 2],
         };
+        if self.face.plane {
+            db = Vec3::zero();
+        }
         // Over tools in space places stay where they are.
         if dxi[0] != 0.0 {
             // Shape functions of second degree have linear slopes, of which a central difference is exact.
             let slope = |step: f64| face.shape([xi[0] + step, xi[1]]).tangents(self.face.placed.nodes(), true)[0];
             da += (slope(0.5) - slope(-0.5)) * dxi[0];
         }
-        let (m, dm) = (a.cross(b), da.cross(b) + a.cross(db));
-        let unit = m.unit();
-        (dm - unit * unit.dot(dm)) * m.norm().recip()
+        a.cross(b).turned(da.cross(b) + a.cross(db))
     }
 
     fn touched_rate(&self, column: &PointColumn, touched: &Touched) -> Vec3 {
@@ -227,7 +222,7 @@ impl PatchInPlace<'_> {
             (PointColumn::Node { axis, node, .. }, Some((face, shape)), _) => {
                 let nodes = self.seen.as_ref().map(|(faces, _)| &faces.surface.faces[*face].nodes);
                 let place = nodes.and_then(|nodes| nodes.iter().position(|other| other == node));
-                place.map_or(Vec3::zero(), |k| unit(*axis) * shape.n[k])
+                place.map_or(Vec3::zero(), |k| Vec3::axis(*axis) * shape.n[k])
             }
             (PointColumn::Tool(j), None, Some(tool)) => tool.rates(touched.now)[*j],
             _ => Vec3::zero(),

@@ -2,6 +2,7 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
+use super::face::moved;
 use super::faces::FaceRay;
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
@@ -103,9 +104,7 @@ impl FieldContact {
         let (position, outward, edge) = match self.node_of(slot) {
             Some(node) => {
                 let FieldNode { node: number, support, .. } = &self.parts.surface.nodes[node];
-                let mut position = self.parts.mesh.points[*number];
-                (0..self.parts.dofs.per_node())
-                    .for_each(|axis| position[axis] += u[self.parts.dofs.node(*number) + axis]);
+                let position = moved(self.parts.mesh.points[*number], &u[self.parts.dofs.displacements(*number)]);
                 let normal = self
                     .parts
                     .surface

@@ -107,11 +107,9 @@ impl FieldContact {
 
     /// Values of a stencil's unknowns.
     fn values(&self, support: &Support, u: &[f64]) -> Vec<f64> {
-        let axes = self.parts.dofs.per_node();
-        let first = |&node: &usize| self.parts.dofs.node(node)..self.parts.dofs.node(node) + axes;
-        let mut values: Vec<f64> = support.nodes.iter().flat_map(first).map(|dof| u[dof]).collect();
-        values.extend(self.parts.target.as_tool().into_iter().flat_map(|rigid| rigid.unknowns()).map(|dof| u[dof]));
-        values
+        let nodes = support.nodes.iter().flat_map(|&node| self.parts.dofs.displacements(node));
+        let tool = self.parts.target.as_tool().into_iter().flat_map(|rigid| rigid.unknowns());
+        nodes.chain(tool).map(|dof| u[dof]).collect()
     }
 
     /// Calls `take` with the slots that see something at displacements `u`.

@@ -7,10 +7,10 @@
 use super::column::PointColumn;
 use super::contact::{FieldContact, FieldTarget, RULE};
 use super::cover::{FaceInPlace, Patch};
-use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions, moved};
 use super::patch::PatchInPlace;
 use super::point::{FieldPoint, PointRates, Sight, Touched};
-use super::surface::{FieldSurface, NodalNormal};
+use super::surface::NodalNormal;
 use super::tool::ToolInPlace;
 use super::triad::MaterialLine;
 use crate::tensor::Vec3;
@@ -104,11 +104,9 @@ impl<'a> StencilInPlace<'a> {
     }
 
     fn position(&self, node: usize) -> Vec3 {
-        let (mut x, axes) = (self.contact.parts.mesh.points[node], self.axes());
-        if let Ok(place) = self.support.nodes.binary_search(&node) {
-            (0..axes).for_each(|axis| x[axis] += self.u[place * axes + axis]);
-        }
-        x
+        let (x, axes) = (self.contact.parts.mesh.points[node], self.axes());
+        let place = self.support.nodes.binary_search(&node);
+        place.map_or(x, |place| moved(x, &self.u[place * axes..(place + 1) * axes]))
     }
 
     /// The unknowns of the tool.
@@ -246,8 +244,9 @@ impl<'a> StencilInPlace<'a> {
                 if matches!(&sight, Sight::Tool(foot) if foot.beyond.is_some() && !surface.plane) {
                     continue;
                 }
-                let density = if still { FieldSurface::density_there } else { FieldSurface::density };
-                let density = density(surface, in_place.face.face, &rest, xi);
+                let face = in_place.face.face;
+                let value = || (surface.density_at(face, &rest, xi), [0.0; 2]);
+                let density = if still { value() } else { surface.density(face, &rest, xi) };
                 let function = (at.corners.n[*corner], at.corners.dn[*corner]);
                 let facing = in_place.facing(xi, n_out);
                 let weight = spot.weight * density.0 * facing[0] * function.0;

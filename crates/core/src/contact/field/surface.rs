@@ -179,12 +179,8 @@ impl FieldSurface {
         for &(f, corner) in &self.nodes[node].support {
             let (face, placed) = (&self.faces[f], placed(f));
             let shape = face.shape(face.corner_place(corner));
-            let [a, b] = shape.tangents(placed.nodes(), self.plane);
-            for (k, &node) in face.nodes.iter().enumerate() {
-                let [da, db] = shape.dn[k];
-                let db = if self.plane { 0.0 } else { db };
-                add(node, [0, 1, 2].map(|axis| unit(axis).cross(b) * da + a.cross(unit(axis)) * db));
-            }
+            let tangents = shape.tangents(placed.nodes(), self.plane);
+            face.nodes.iter().enumerate().for_each(|(k, &node)| add(node, shape.area_rates(k, tangents)));
         }
     }
 
@@ -198,11 +194,6 @@ impl FieldSurface {
             (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP)
         };
         (value(xi), [slope(0), if self.plane { 0.0 } else { slope(1) }])
-    }
-
-    /// The same for a place that stays where it is: the slopes do not matter.
-    pub fn density_there(&self, face: &FieldFace, rest: &PlacedFace, xi: [f64; 2]) -> (f64, [f64; 2]) {
-        (self.density_at(face, rest, xi), [0.0; 2])
     }
 
     /// The same in any placement, value alone.
@@ -263,8 +254,7 @@ impl FieldSurface {
             area += part * m.norm() * around;
             let (along_b, along_a) = (b.cross(m.unit()), m.unit().cross(a));
             for (k, slope) in slopes[..face.nodes.len()].iter_mut().enumerate() {
-                let db = if self.plane { 0.0 } else { shape.dn[k][1] };
-                *slope += (along_b * shape.dn[k][0] + along_a * db) * (part * around);
+                *slope += (along_b * shape.dn[k][0] + along_a * shape.dn[k][1]) * (part * around);
                 if self.revolves {
                     slope[0] += part * m.norm() * std::f64::consts::TAU * shape.n[k];
                 }
@@ -281,9 +271,4 @@ const STEP: f64 = 1e-3;
 fn shared(one: &FieldFace, other: &FieldFace) -> usize {
     let has = |face: &FieldFace, node: usize| (0..face.corners()).any(|c| face.corner_node(c) == node);
     (0..one.corners()).filter(|&c| has(other, one.corner_node(c))).count()
-}
-
-/// The unit vector along an axis.
-pub fn unit(axis: usize) -> Vec3 {
-    Vec3(std::array::from_fn(|k| f64::from(u8::from(k == axis))))
 }

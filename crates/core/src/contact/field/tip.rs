@@ -13,7 +13,6 @@ use super::cover::{Landing, Patch, root_near};
 use super::face::{FieldFace, PlacedFace, ShapeFunctions};
 use super::point::{FieldPoint, PointRates, Sight, Touched};
 use super::stencil::{NodeSums, Recall, StencilInPlace};
-use super::surface::{FieldSurface, unit};
 use super::tool::ToolInPlace;
 use crate::mesh::Side;
 use crate::tensor::Vec3;
@@ -72,7 +71,7 @@ impl PlacedEdge<'_> {
     fn looks_away(&self, points: Vec3) -> bool {
         let ends = [-1.0, 1.0].map(|xi| self.tangent(xi));
         let least = POINTS * (ends[0].norm() - (ends[1] - ends[0]).norm());
-        ends.iter().all(|tangent| tangent.cross(unit(2)).dot(points) > -least)
+        ends.iter().all(|tangent| tangent.cross(Vec3::axis(2)).dot(points) > -least)
     }
     /// Derivative of half the square of the distance to `c`, with its slope.
     fn offset(&self, xi: f64, c: Vec3) -> [f64; 2] {
@@ -91,7 +90,7 @@ impl PlacedEdge<'_> {
 
 /// Outward unit normal of an edge with this tangent.
 fn outward(tangent: Vec3) -> Vec3 {
-    tangent.cross(unit(2)).unit()
+    tangent.cross(Vec3::axis(2)).unit()
 }
 
 impl Configuration<'_> {
@@ -178,7 +177,7 @@ impl Configuration<'_> {
         let surface = &self.contact.parts.surface;
         let area = |f: usize| {
             let face = &surface.faces[f];
-            face.shape(face.middle()).tangents(self.placed[f].nodes(), true)[0].cross(unit(2))
+            face.shape(face.middle()).tangents(self.placed[f].nodes(), true)[0].cross(Vec3::axis(2))
         };
         let both =
             surface.nodes[surface.field[f][corner]].support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
@@ -212,15 +211,14 @@ impl StencilInPlace<'_> {
         let to = vertex - at.x;
         let n = if landing.corner.is_some() { -to.unit() } else { outward(at.tangent) };
         let gap = to.dot(n);
-        let density = if derivatives { FieldSurface::density } else { FieldSurface::density_there };
         // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
         let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
-        let (density, [slope, _]) =
-            density(&contact.parts.surface, face, &face.at_rest(&contact.parts.mesh), [over, 0.0]);
+        let rest = face.at_rest(&contact.parts.mesh);
+        let (density, [slope, _]) = contact.parts.surface.density(face, &rest, [over, 0.0]);
         let weight = length * density * landing.share;
         let touched = recall(patch, [xi, 0.0]);
         let v = touched.map_or(Vec3::zero(), |touched| vertex - touched.now);
-        let e = [n.left(), unit(2)];
+        let e = [n.left(), Vec3::axis(2)];
         let slip = [e[0].dot(v), 0.0];
         if derivatives {
             self.list_columns(patch, &mut sums.columns);
@@ -228,20 +226,19 @@ impl StencilInPlace<'_> {
             for (j, column) in sums.columns.iter().enumerate() {
                 let (dx, dtangent, dvertex) = match column {
                     PointColumn::Node { axis, own: Some(k), .. } => {
-                        (unit(*axis) * at.shape.n[*k], unit(*axis) * at.shape.dn[*k][0], Vec3::zero())
+                        (Vec3::axis(*axis) * at.shape.n[*k], Vec3::axis(*axis) * at.shape.dn[*k][0], Vec3::zero())
                     }
                     PointColumn::Node { .. } => (Vec3::zero(), Vec3::zero(), Vec3::zero()),
                     PointColumn::Tool(j) => (Vec3::zero(), Vec3::zero(), tool.rates(vertex)[*j]),
                 };
                 let apart = dvertex - dx;
                 let (dxi, dn) = if landing.corner.is_some() {
-                    (0.0, (n * n.dot(apart) - apart) * to.norm().recip())
+                    (0.0, (-to).turned(-apart))
                 } else {
                     let stiff = at.tangent.dot(at.tangent) - to.dot(at.bend);
                     let stays = landing.border.is_some();
                     let dxi = if stays { 0.0 } else { (apart.dot(at.tangent) + to.dot(dtangent)) / stiff };
-                    let dm = (dtangent + at.bend * dxi).cross(unit(2));
-                    (dxi, (dm - n * n.dot(dm)) * at.tangent.norm().recip())
+                    (dxi, at.tangent.turned(dtangent + at.bend * dxi).cross(Vec3::axis(2)))
                 };
                 let left = touched.map_or(Vec3::zero(), |touched| dvertex - left_behind(contact, column, &touched));
                 sums.rates.push((
@@ -280,5 +277,5 @@ fn left_behind(contact: &FieldContact, column: &PointColumn, touched: &Touched) 
         return Vec3::zero();
     };
     let place = contact.parts.surface.faces[*face].nodes.iter().position(|other| other == node);
-    place.map_or(Vec3::zero(), |k| unit(*axis) * shape.n[k])
+    place.map_or(Vec3::zero(), |k| Vec3::axis(*axis) * shape.n[k])
 }

@@ -1,6 +1,5 @@
 //! A rigid tool as a target: signed distance to its smooth pieces, and how it moves with the unknowns of its reference node.
 
-use super::surface::unit;
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
@@ -218,7 +217,7 @@ impl ToolInPlace<'_> {
     ) -> [f64; MOST] {
         let mut rates = self.receive(y, df);
         // The arm grows with the place and shortens as the reference point moves; a turning tool has other axes.
-        let arm = dy - along.filter(|&(j, _)| j < self.rigid.axes()).map_or(Vec3::zero(), |(j, _)| unit(j));
+        let arm = dy - along.filter(|&(j, _)| j < self.rigid.axes()).map_or(Vec3::zero(), |(j, _)| Vec3::axis(j));
         let still = [Vec3::zero(); MOST];
         let turned = along.map_or(&still, |(_, turned)| turned);
         let whole = y - self.reference();

@@ -6,7 +6,6 @@
 //! each of its points without changing their length.
 
 use super::column::PointColumn;
-use super::surface::unit;
 use crate::tensor::Vec3;
 
 /// The line of the surface's material, and the nodes of the mesh between which it runs.
@@ -28,13 +27,13 @@ impl MaterialLine {
     /// Their derivatives along an unknown along which `n` turns by `dn`.
     pub fn rates(&self, column: &PointColumn, (n, dn): (Vec3, Vec3), e: &[Vec3; 2]) -> [Vec3; 2] {
         let dd = match column {
-            PointColumn::Node { axis, node, .. } if *node == self.nodes[0] => -unit(*axis),
-            PointColumn::Node { axis, node, .. } if *node == self.nodes[1] => unit(*axis),
+            PointColumn::Node { axis, node, .. } if *node == self.nodes[0] => -Vec3::axis(*axis),
+            PointColumn::Node { axis, node, .. } if *node == self.nodes[1] => Vec3::axis(*axis),
             _ => Vec3::zero(),
         };
         let m = self.d - n * n.dot(self.d);
         let dm = dd - dn * n.dot(self.d) - n * (dn.dot(self.d) + n.dot(dd));
-        let de = (dm - e[0] * e[0].dot(dm)) * m.norm().recip();
+        let de = m.turned(dm);
         [de, dn.cross(e[0]) + n.cross(de)]
     }
 

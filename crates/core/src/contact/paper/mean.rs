@@ -65,7 +65,8 @@ impl PaperAttempt<'_> {
         let (point, face) = (&parts.surface.points[index], parts.surface.face(index));
         let (placed, axes) = (placed(&face.nodes, &parts.mesh, &u[own.clone()]), parts.dofs.per_node());
         let plane = contact.surface().plane;
-        let inward = Triad::new(point.shape.tangents(placed.nodes(), plane), plane).inward;
+        let tangents = point.shape.tangents(placed.nodes(), plane);
+        let inward = Triad::new(tangents, plane).inward;
         let ray = ProfileRay { origin: point.shape.value(placed.nodes()), direction: inward };
         let cast = contact.cast(index, ray, (self.depths[index], self.reach));
         let Some(tool) = g.segment.tool() else { return };
@@ -76,7 +77,9 @@ impl PaperAttempt<'_> {
         }
         let (stiffness, cosine) = (part * parts.options.penalty, hit.normal.dot(inward));
         mean.pressure += stiffness * seen;
-        for ((k, column), turned) in own.enumerate().zip(self.normal_rates(&point.shape, &placed)) {
+        let area = tangents[1].cross(tangents[0]);
+        for (k, column) in own.enumerate() {
+            let turned = area.turned(-point.shape.area_rates(k / axes, tangents)[k % axes]);
             let moved = hit.normal[k % axes] * point.shape.n[k / axes];
             mean.slopes[column] -= stiffness * (moved + hit.normal.dot(turned) * hit.u) / cosine;
         }

@@ -2,9 +2,8 @@
 //! or the displacements of a face's nodes.
 
 use crate::contact::field::FieldTarget;
-use crate::contact::field::face::PlacedFace;
+use crate::contact::field::face::{PlacedFace, moved};
 use crate::contact::field::faces::{self, FaceProjection, TargetFaces};
-use crate::contact::field::surface::unit;
 use crate::contact::field::tool::ToolInPlace;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
@@ -70,17 +69,13 @@ pub fn met(segment: usize, ray: &faces::FaceRay, at: &FaceProjection) -> Option<
 
 /// The unknowns of nodes.
 pub fn dofs_of<'a>(nodes: &'a [usize], dofs: &'a Dofs) -> impl Iterator<Item = usize> + 'a {
-    nodes.iter().flat_map(move |&node| (0..dofs.per_node()).map(move |axis| dofs.node(node) + axis))
+    nodes.iter().flat_map(|&node| dofs.displacements(node))
 }
 
 /// Nodes in place for values `u` of their unknowns.
 pub fn placed(nodes: &[usize], mesh: &Mesh, u: &[f64]) -> PlacedFace {
     let axes = u.len() / nodes.len();
-    PlacedFace::new(nodes.iter().zip(u.chunks_exact(axes)).map(|(&node, u)| {
-        let mut x = mesh.points[node];
-        u.iter().enumerate().for_each(|(axis, u)| x[axis] += u);
-        x
-    }))
+    PlacedFace::new(nodes.iter().zip(u.chunks_exact(axes)).map(|(&node, u)| moved(mesh.points[node], u)))
 }
 
 impl SegmentInPlace<'_> {
@@ -114,7 +109,7 @@ impl SegmentInPlace<'_> {
             SegmentOwner::Tool(tool) => tool.rates(at)[..self.count].to_vec(),
             SegmentOwner::Body(faces, _) => {
                 let n = faces.surface.faces[self.number].shape(s).n;
-                (0..self.count).map(|k| unit(k % self.axes) * n[k / self.axes]).collect()
+                (0..self.count).map(|k| Vec3::axis(k % self.axes) * n[k / self.axes]).collect()
             }
         }
     }
@@ -152,7 +147,7 @@ impl SegmentInPlace<'_> {
         for column in 0..self.count {
             let turning = tool.spin_rates(column);
             for row in self.axes..self.count {
-                let shorter = if column < self.axes { spins[row].cross(-unit(column)) } else { Vec3::zero() };
+                let shorter = if column < self.axes { spins[row].cross(-Vec3::axis(column)) } else { Vec3::zero() };
                 add(row, column, (shorter + turning[row].cross(arm)).dot(force));
             }
         }

@@ -10,7 +10,6 @@ use super::surface::GaussPoint;
 use crate::Failure;
 use crate::contact::LoadedSides;
 use crate::contact::field::face::PlacedFace;
-use crate::contact::field::surface::unit;
 use crate::system::{Local, Stencil, Term};
 use crate::tensor::{Dual, Scalar, Vec3};
 use crate::tool::{Hit, ProfileRay};
@@ -165,25 +164,6 @@ impl<'a> PaperAttempt<'a> {
             }
         }
         columns
-    }
-
-    /// Derivatives of the inward unit normal along the unknowns of the point's own nodes.
-    pub(super) fn normal_rates(
-        &self,
-        shape: &crate::contact::field::face::ShapeFunctions,
-        placed: &PlacedFace,
-    ) -> Vec<Vec3> {
-        let axes = self.contact.parts.dofs.per_node();
-        let [g1, g2] = shape.tangents(placed.nodes(), axes == 2);
-        let m = g2.cross(g1);
-        let (normal, size) = (m.unit(), m.norm().recip());
-        let rate = |k: usize| {
-            let [da, db] = shape.dn[k / axes];
-            let turned = g2.cross(unit(k % axes)) * da;
-            let change = if axes == 3 { turned + unit(k % axes).cross(g1) * db } else { turned };
-            (change - normal * normal.dot(change)) * size
-        };
-        (0..axes * placed.nodes().len()).map(rate).collect()
     }
 
     /// Present area that a point stands for.

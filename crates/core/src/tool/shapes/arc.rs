@@ -7,7 +7,7 @@
 //! `phi = (s - 1/2) theta`. A point of the circle has `k |q|^2 / 2 = q . n`, `q = x - apex`. An arc of nearly straight
 //! nodes thus passes into the line without loss, and `theta = 0` is the line.
 
-use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, quadratic, turn};
+use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, angle, quadratic};
 use crate::tensor::Vec3;
 use std::f64::consts::PI;
 
@@ -37,7 +37,7 @@ impl Arc {
     fn new(nodes: [Vec3; 3]) -> Self {
         let [from, middle, to] = nodes;
         let (first, second) = (middle - from, to - middle);
-        let theta = 2.0 * turn(first, second).atan2(first.dot(second));
+        let theta = 2.0 * angle(first, second);
         let chord = (to - from).norm();
         let t = (to - from) * (1.0 / chord);
         let apex = (from + to) * 0.5 - t.left() * (0.5 * chord * (0.25 * theta).tan());
@@ -101,7 +101,7 @@ impl ProfileShape for Arc {
     }
     fn bounds(&self) -> BoundingBox {
         let axes = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
-        let turned = axes.map(|axis| turn(self.t, axis).atan2(self.t.dot(axis)));
+        let turned = axes.map(|axis| angle(self.t, axis));
         let inside = turned.into_iter().filter(|phi| phi.abs() < 0.5 * self.theta.abs());
         BoundingBox::of(inside.map(|phi| self.point(0.5 + phi / self.theta)).chain([self.nodes[0], self.nodes[2]]))
     }

@@ -109,11 +109,15 @@ fn single(facet: &dyn ToolFacet, i: usize) -> Option<FacetFinding> {
     if corners.iter().any(|corner| !corner.is_finite()) {
         return Some(FacetFinding::NotFinite(i));
     }
+    is_thin(corners).then_some(FacetFinding::Degenerate(i))
+}
+
+/// Whether a polygon has no area; a quadrilateral with a corner on the line of its neighbours has no normal there.
+pub(super) fn is_thin(corners: &[Vec3]) -> bool {
     let n = corners.len();
     let longest = (0..n).map(|k| (corners[(k + 1) % n] - corners[k]).norm()).fold(0.0, f64::max);
     let area = |k: usize| (corners[(k + 1) % n] - corners[k]).cross(corners[(k + n - 1) % n] - corners[k]).norm();
-    // A quadrilateral with a corner on the line of its neighbours has no normal there.
-    (0..n).any(|k| area(k) <= THIN * longest * longest).then_some(FacetFinding::Degenerate(i))
+    (0..n).any(|k| area(k) <= THIN * longest * longest)
 }
 
 fn edges(tool: &SpaceTool, found: &mut Vec<FacetFinding>) {

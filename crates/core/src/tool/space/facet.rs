@@ -32,10 +32,6 @@ pub trait ToolFacet: Debug + Send + Sync {
     fn tangents(&self, s: [f64; 2]) -> [Vec3; 2];
     /// Where a ray meets the carrier, in any order and whatever `s`.
     fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting));
-    /// The same, where only those near `near` are wanted.
-    fn meet_near(&self, ray: &ProfileRay, _near: [f64; 2], found: &mut dyn FnMut(Meeting)) {
-        self.meet(ray, found);
-    }
     /// A box around the facet.
     fn bounds(&self) -> BoundingBox;
     /// How many equal parts of each coordinate make tiles nowhere much farther than `sagitta` from the facet.
@@ -61,13 +57,17 @@ pub trait ToolFacet: Debug + Send + Sync {
             }
         });
     }
+    /// How far a place at which a ray meets the carrier is from the place `near`, in any measure.
+    fn apart(&self, _ray: &ProfileRay, place: &Meeting, near: [f64; 2]) -> f64 {
+        (place.s[0] - near[0]).hypot(place.s[1] - near[1])
+    }
     /// Where a ray meets this facet or what continues it: the place on the carrier, followed a little beyond the edges,
-    /// with `s` nearest to `near`; where there is none, that on the tangent plane at `near`. None if the ray runs along
+    /// that is nearest to `near`; where there is none, that on the tangent plane at `near`. None if the ray runs along
     /// that plane.
     fn follow(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<Meeting> {
         let (mut best, mut least) = (None, f64::INFINITY);
-        self.meet_near(ray, near, &mut |place| {
-            let off = (place.s[0] - near[0]).hypot(place.s[1] - near[1]);
+        self.meet(ray, &mut |place| {
+            let off = self.apart(ray, &place, near);
             if place.u.is_finite() && off < least && self.holds(place.s, EXTENSION) {
                 (best, least) = (Some(place), off);
             }

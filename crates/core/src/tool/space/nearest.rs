@@ -59,17 +59,19 @@ fn on_edges(corners: &[Vec3], x: Vec3) -> (Vec3, FacetBorder) {
     best
 }
 
+/// The closest point of a flat polygon with this unit normal, `along` one of its directions.
+fn on_flat(corners: &[Vec3], normal: Vec3, along: Vec3, x: Vec3) -> FacetPoint {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    let inside = edges.into_iter().all(|(&a, &b)| (b - a).cross(x - a).dot(normal) >= 0.0);
+    let above = || (x - normal * normal.dot(x - corners[0]), FacetBorder::Inside);
+    let (point, border) = if inside { above() } else { on_edges(corners, x) };
+    FacetPoint { point, normal, bends: [(along, 0.0), (normal.cross(along), 0.0)], border }
+}
+
 impl RigidFacet for Triangle {
     fn nearest(&self, x: Vec3) -> FacetPoint {
-        let [a, b, c] = self.0;
-        let ([p, q], to) = ([b - a, c - a], x - a);
-        let m = p.cross(q);
-        let normal = m.unit();
-        let size = m.dot(m).recip();
-        let s = [to.cross(q).dot(m) * size, p.cross(to).dot(m) * size];
-        let (point, border) =
-            if self.holds(s, 0.0) { (x - normal * normal.dot(to), FacetBorder::Inside) } else { on_edges(&self.0, x) };
-        FacetPoint { point, normal, bends: [(p.unit(), 0.0), (normal.cross(p.unit()), 0.0)], border }
+        let [p, q] = self.tangents([0.0; 2]);
+        on_flat(&self.0, p.cross(q).unit(), p.unit(), x)
     }
 }
 
@@ -80,21 +82,6 @@ const CLOSE: f64 = 1e-11;
 /// A quadrilateral whose twist leaves its plane by no more than this part of its diagonals is flat.
 const FLAT: f64 = 1e-14;
 
-impl Quad {
-    /// The closest point of a quadrilateral in a plane with this unit normal: by its straight edges.
-    fn nearest_flat(&self, x: Vec3, normal: Vec3) -> FacetPoint {
-        let [a, b, c, d] = self.0;
-        let left = |from: Vec3, to: Vec3| (to - from).cross(x - from).dot(normal) >= 0.0;
-        let (point, border) = if left(a, b) && left(b, c) && left(c, d) && left(d, a) {
-            (x - normal * normal.dot(x - a), FacetBorder::Inside)
-        } else {
-            on_edges(&self.0, x)
-        };
-        let along = (b - a + (c - d)).unit();
-        FacetPoint { point, normal, bends: [(along, 0.0), (normal.cross(along), 0.0)], border }
-    }
-}
-
 impl RigidFacet for Quad {
     fn nearest(&self, x: Vec3) -> FacetPoint {
         let [a, b, c, d] = self.0;
@@ -102,7 +89,7 @@ impl RigidFacet for Quad {
         let (one, other) = (c - a, d - b);
         let normal = one.cross(other).unit();
         if normal.dot(twist).abs() <= FLAT * (one.norm() + other.norm()) {
-            return self.nearest_flat(x, normal);
+            return on_flat(&self.0, normal, (b - a + (c - d)).unit(), x);
         }
         let mut s = [0.5; 2];
         for _ in 0..ITERATIONS {
@@ -147,37 +134,39 @@ fn principal([a, b]: [Vec3; 2], [l, m, n]: [f64; 3], normal: Vec3) -> [(Vec3, f6
     [along(cos, sin), along(-sin, cos)]
 }
 
-/// The closest point of a segment to `p`: its coordinate, place, unit tangent, outward normal and whether the segment ends
-/// there before `p`.
-fn on_profile(shape: &dyn ProfileShape, p: Vec3) -> (f64, Vec3, Vec3, Vec3, bool) {
-    let s = shape.closest(p);
-    let (point, tangent) = (shape.point(s), shape.tangent(s).unit());
-    let aside = tangent.dot(p - point);
+/// The closest point of a segment of a profile that is carried across its plane, to a place that is at `flat` in that: `turn` and `place`
+/// put directions and points of the plane in space, `across` is the way it is carried with whether that ends before the place, and
+/// `round` the curvature along that with the edge's `q`, none on an axis.
+fn on_carried(
+    (shape, flat): (&dyn ProfileShape, Vec3),
+    (turn, place): (impl Fn(Vec3) -> Vec3, impl Fn(Vec3) -> Vec3),
+    (across, over): (Vec3, bool),
+    round: impl Fn(Vec3, Vec3) -> Option<(f64, f64)>,
+) -> FacetPoint {
+    let s = shape.closest(flat);
+    let (point, tangent, bend) = (shape.point(s), shape.tangent(s).unit(), shape.curvature(s));
+    let (normal, aside) = (-tangent.left(), tangent.dot(flat - point));
     let past = (s <= PAST && aside < -PAST * shape.length()) || (s >= 1.0 - PAST && aside > PAST * shape.length());
-    (s, point, tangent, -tangent.left(), past)
+    let (along, round) = (turn(tangent), round(point, normal));
+    let border = match (past, over, round) {
+        (false, false, _) => FacetBorder::Inside,
+        (true, false, Some((_, q))) => FacetBorder::Edge(across, q),
+        (false, true, _) => FacetBorder::Edge(along, bend * normal.dot(flat - point)),
+        _ => FacetBorder::Corner,
+    };
+    let bends = [(along, bend), (across, round.map_or(bend, |(around, _)| around))];
+    FacetPoint { point: place(point), normal: turn(normal), bends, border }
 }
 
 impl RigidFacet for Extruded {
     fn nearest(&self, x: Vec3) -> FacetPoint {
         let frame = &self.frame;
-        let at = frame.coordinates(x - frame.origin);
-        let flat = Vec3::new(at[0], at[1], 0.0);
-        let (s, point, tangent, normal, past) = on_profile(&*self.shape, flat);
-        let height = at[2].clamp(0.0, self.length);
-        let over = (at[2] - height).abs() > PAST * self.length;
-        let (along, bend) = (frame.turn(tangent), self.shape.curvature(s));
-        let border = match (past, over) {
-            (false, false) => FacetBorder::Inside,
-            (true, false) => FacetBorder::Edge(frame.z, 0.0),
-            (false, true) => FacetBorder::Edge(along, bend * normal.dot(flat - point)),
-            (true, true) => FacetBorder::Corner,
-        };
-        FacetPoint {
-            point: frame.place(point + Vec3::new(0.0, 0.0, height)),
-            normal: frame.turn(normal),
-            bends: [(along, bend), (frame.z, 0.0)],
-            border,
-        }
+        let [a, b, z] = frame.coordinates(x - frame.origin).0;
+        let height = z.clamp(0.0, self.length);
+        let over = (z - height).abs() > PAST * self.length;
+        let place = |p: Vec3| frame.place(p + Vec3::new(0.0, 0.0, height));
+        let flat = Vec3::new(a, b, 0.0);
+        on_carried((&*self.shape, flat), (|v| frame.turn(v), place), (frame.z, over), |_, _| Some((0.0, 0.0)))
     }
 }
 
@@ -197,23 +186,10 @@ impl RigidFacet for Revolved {
         } else {
             ((frame.x * at[0] + frame.z * at[2]) * radius.recip(), radius)
         };
-        let around = out.cross(frame.y);
-        let flat = Vec3::new(radius, at[1], 0.0);
-        let (s, p, tangent, n, past) = on_profile(self.shape(), flat);
         let turn = |v: Vec3| out * v[0] + frame.y * v[1];
-        let bend = self.shape().curvature(s);
-        let tip = p[0] <= ON_AXIS * self.radius();
-        let border = match (past, tip, over) {
-            (false, _, false) => FacetBorder::Inside,
-            (true, false, false) => FacetBorder::Edge(around, radius / p[0] - 1.0),
-            (false, _, true) => FacetBorder::Edge(turn(tangent), bend * n.dot(flat - p)),
-            _ => FacetBorder::Corner,
-        };
-        FacetPoint {
-            point: frame.origin + turn(p),
-            normal: turn(n),
-            bends: [(turn(tangent), bend), (around, if tip { bend } else { n[0] / p[0] })],
-            border,
-        }
+        let flat = Vec3::new(radius, at[1], 0.0);
+        let off_axis = |p: Vec3| p[0] > ON_AXIS * self.radius();
+        let round = |p: Vec3, n: Vec3| off_axis(p).then(|| (n[0] / p[0], radius / p[0] - 1.0));
+        on_carried((self.shape(), flat), (turn, |p| frame.origin + turn(p)), (out.cross(frame.y), over), round)
     }
 }

@@ -66,8 +66,7 @@ impl ToolFacet for Quad {
     fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting)) {
         let ([a, b, _, d], e) = (self.0, ray.direction);
         // Two directions across the ray.
-        let least = (0..3).fold(0, |i, j| if e[j].abs() < e[i].abs() { j } else { i });
-        let v = e.cross(Vec3(std::array::from_fn(|i| f64::from(u8::from(i == least))))).unit();
+        let v = e.cross(Vec3::axis(e.least_axis())).unit();
         let w = e.cross(v);
         let across = |x: Vec3| (x.dot(v), x.dot(w));
         let (o, p, q, r) = (across(a - ray.origin), across(b - a), across(d - a), across(self.twist()));

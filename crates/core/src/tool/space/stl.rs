@@ -1,6 +1,7 @@
 //! Triangles from STL files, ASCII and binary. Normals in the file are passed over: the order of the corners says where
 //! outward is. Triangles of no area, which many programs write, are left out and counted.
 
+use super::check::is_thin;
 use crate::tensor::Vec3;
 
 /// Triangles and how many of the file were left out.
@@ -29,13 +30,8 @@ pub fn read(bytes: &[u8]) -> Result<Stl, String> {
     if all == 0 {
         return Err("it holds no triangle".into());
     }
-    let triangles: Vec<_> = triangles.into_iter().filter(has_area).collect();
+    let triangles: Vec<_> = triangles.into_iter().filter(|corners| !is_thin(corners)).collect();
     Ok(Stl { dropped: all - triangles.len(), triangles })
-}
-
-fn has_area([a, b, c]: &[Vec3; 3]) -> bool {
-    let longest = (*b - *a).norm().max((*c - *b).norm()).max((*a - *c).norm());
-    (*b - *a).cross(*c - *a).norm() > 1e-9 * longest * longest
 }
 
 fn binary(bytes: &[u8], count: Option<usize>) -> Result<Vec<[Vec3; 3]>, String> {

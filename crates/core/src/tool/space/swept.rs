@@ -36,8 +36,7 @@ impl ProfileFrame {
     /// In words, if `y` has no direction.
     pub fn about(origin: Vec3, y: Vec3) -> Result<Self, String> {
         let y = unit(y).ok_or("the axis has no direction")?;
-        let least = (0..3).fold(0, |i, j| if y[j].abs() < y[i].abs() { j } else { i });
-        let z = Vec3(std::array::from_fn(|i| f64::from(u8::from(i == least)))).cross(y).unit();
+        let z = Vec3::axis(y.least_axis()).cross(y).unit();
         Ok(Self { origin, x: y.cross(z), y, z })
     }
     /// With z along `z` and x along the part of `x` across it.
@@ -286,20 +285,8 @@ impl ToolFacet for Revolved {
         let within = |s: f64| (-beyond..=1.0 + beyond).contains(&s);
         within(s[0]) && (self.is_whole() || within(s[1]))
     }
-    fn follow(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<Meeting> {
-        let (mut best, mut least) = (None, f64::INFINITY);
-        let there = self.point([near[0].clamp(0.0, 1.0), near[1]]);
-        self.meet(ray, &mut |place| {
-            let off = (ray.point(place.u) - there).norm();
-            if place.u.is_finite() && off < least && self.holds(place.s, 0.1) {
-                (best, least) = (Some(place), off);
-            }
-        });
-        best.or_else(|| {
-            let normal = self.normal(near);
-            let u = normal.dot(there - ray.origin) / normal.dot(ray.direction);
-            u.is_finite().then_some(Meeting { u, s: near })
-        })
+    fn apart(&self, ray: &ProfileRay, place: &Meeting, near: [f64; 2]) -> f64 {
+        (ray.point(place.u) - self.point([near[0].clamp(0.0, 1.0), near[1]])).norm()
     }
 }
 

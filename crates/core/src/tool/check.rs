@@ -4,7 +4,8 @@
 //! convex edge of the tool. All tolerances are ratios of the tool's size.
 
 use super::ProfileFinding;
-use super::shapes::{BoundingBox, ProfileRay, ProfileShape, RayCrossing, turn};
+use super::facet::{Meeting, ToolFacet};
+use super::shapes::{BoundingBox, ProfileRay, ProfileShape, turn};
 use super::tool::{Chain, ProfileTool};
 use crate::tensor::Vec3;
 
@@ -128,7 +129,7 @@ fn meet(from: Vec3, to: Vec3, segment: &dyn ProfileShape, found: &mut dyn FnMut(
     }
     let length = (to - from).norm();
     let ray = ProfileRay { origin: from, direction: (to - from) * (1.0 / length) };
-    segment.cast(&ray, &mut |RayCrossing { u, .. }| {
+    segment.cast(&ray, &mut |Meeting { u, .. }| {
         if u >= 0.0 && u <= length {
             found(ray.point(u));
         }

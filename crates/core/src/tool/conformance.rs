@@ -1,5 +1,6 @@
 //! Every registered shape against independent and slower answers.
 
+use super::facet::{Meeting, ToolFacet};
 use super::shapes::{ALL, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
 use crate::tensor::Vec3;
 
@@ -45,7 +46,7 @@ fn rays() -> Vec<ProfileRay> {
 
 pub(super) fn cast(shape: &dyn ProfileShape, ray: &ProfileRay) -> Vec<RayCrossing> {
     let mut found = Vec::new();
-    shape.cast(ray, &mut |crossing| found.push(crossing));
+    shape.cast(ray, &mut |Meeting { u, s: [s, _] }| found.push(RayCrossing { u, s }));
     found.sort_by(|a, b| a.s.total_cmp(&b.s));
     found
 }

@@ -6,6 +6,7 @@
 
 mod check;
 mod distance;
+mod facet;
 mod fillet;
 mod finding;
 mod pose;
@@ -30,4 +31,4 @@ pub use search::BoxTree;
 pub use select::{Rejected, Rules, select};
 pub use shapes::{BoundingBox, ProfileRay, ProfileShape, ShapeKind};
 pub use tips::Tip;
-pub use tool::{Chain, Hit, ProfileTool};
+pub use tool::{Chain, Hit, ProfileTool, Tool};

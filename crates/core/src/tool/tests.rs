@@ -51,7 +51,7 @@ proptest! {
         for (hit, (segment, place)) in hits.iter().zip(&expected) {
             prop_assert_eq!(hit.segment, *segment);
             prop_assert!((hit.u - place.u).abs() < 1e-9 && (hit.s[0] - place.s).abs() < 1e-9);
-            let on_tool = tool.point(&pose, hit.segment, hit.s[0]);
+            let on_tool = tool.point(&pose, hit.segment, hit.s);
             prop_assert!((on_tool - ray.point(hit.u)).norm() < 1e-9);
         }
         let range = [-1.0, 1.5];
@@ -67,10 +67,10 @@ proptest! {
         let pose = Pose::new(&[5.0, -1.0, angle]);
         let centre = pose.place(tool.reference(), at(0.0, 0.0));
         for (i, s) in (0..n).flat_map(|i| [(i, 0.25), (i, 0.5), (i, 0.8)]) {
-            let (normal, outwards) = (tool.normal(&pose, i, s), tool.point(&pose, i, s) - centre);
+            let (normal, outwards) = (tool.normal(&pose, i, [s, 0.0]), tool.point(&pose, i, [s, 0.0]) - centre);
             prop_assert!((normal.norm() - 1.0).abs() < 1e-14);
             prop_assert!(normal.dot(outwards) > 0.0);
-            prop_assert!(normal.dot(tool.tangent(&pose, i, s)).abs() < 1e-14);
+            prop_assert!(normal.dot(pose.rotate(tool.segments()[i].tangent(s))).abs() < 1e-14);
         }
     }
 
@@ -78,9 +78,9 @@ proptest! {
     fn one_given_segment_is_hit_where_all_are_and_a_little_beyond(n in 3usize..12, part in 0.02..0.98, s in -0.05..1.05) {
         let tool = star(n, -0.3, |_| 1.0);
         let (pose, segment) = (Pose::new(&[0.5, 0.5, 1.0]), (part * n as f64) as usize);
-        let (target, inwards) = (tool.point(&pose, segment, s), -tool.normal(&pose, segment, s));
+        let (target, inwards) = (tool.point(&pose, segment, [s, 0.0]), -tool.normal(&pose, segment, [s, 0.0]));
         let ray = ProfileRay { origin: target - inwards * 0.3, direction: inwards };
-        let hit = tool.cast_segment(&pose, segment, &ray, s).unwrap();
+        let hit = tool.meet(&pose, segment, &ray, [s, 0.0]).unwrap();
         prop_assert!((hit.u - 0.3).abs() < 1e-12 && (hit.s[0] - s).abs() < 1e-11);
         let mut hits: Vec<Hit> = Vec::new();
         tool.cast(&pose, &ray, [0.0, 1.0], &mut hits);
@@ -95,9 +95,9 @@ fn a_ray_that_misses_the_curve_meets_its_tangent() {
     let arc = find("arc").unwrap().build(&[at(1.0, 0.0), at(0.0, 1.0), at(-1.0, 0.0)]).unwrap();
     let tool = ProfileTool::new("half disc", vec![vec![arc]], at(0.0, 0.0));
     let ray = ProfileRay { origin: at(3.0, 5.0), direction: at(0.0, -1.0) };
-    let hit = tool.cast_segment(&Pose::default(), 0, &ray, 0.5).unwrap();
+    let hit = tool.meet(&Pose::default(), 0, &ray, [0.5, 0.0]).unwrap();
     assert!((hit.u - 4.0).abs() < 1e-15 && (hit.normal - at(0.0, 1.0)).norm() < 1e-15, "{hit:?}");
-    assert!(tool.cast_segment(&Pose::default(), 0, &ProfileRay { direction: at(1.0, 0.0), ..ray }, 0.5).is_none());
+    assert!(tool.meet(&Pose::default(), 0, &ProfileRay { direction: at(1.0, 0.0), ..ray }, [0.5, 0.0]).is_none());
 }
 
 /// A ray through a common node of two segments hits at least one of them, however far it comes and the tool turns.
@@ -108,7 +108,7 @@ fn no_ray_slips_between_neighbours() {
     for i in 0..24 {
         for j in 0..50 {
             let pose = Pose::new(&[0.1 * f64::from(j), 0.0, 0.37 * f64::from(j)]);
-            let (corner, normal) = (tool.point(&pose, i, 0.0), tool.normal(&pose, i, 0.5));
+            let (corner, normal) = (tool.point(&pose, i, [0.0; 2]), tool.normal(&pose, i, [0.5, 0.0]));
             let ray = ProfileRay { origin: corner + normal * f64::from(1 + j), direction: -normal };
             tool.cast(&pose, &ray, [f64::from(j), f64::from(j) + 1.5], &mut hits);
             assert!(hits.iter().any(|hit| (hit.u - f64::from(1 + j)).abs() < 1e-12), "node {i}, pose {j}");
@@ -130,6 +130,6 @@ fn an_outline_follows_the_pose() {
     let outline = tool.outline(&pose, 1e-3);
     assert_eq!(outline.len(), 1);
     assert!(outline[0].len() > 9);
-    assert!((outline[0][0] - tool.point(&pose, 0, 0.0)).norm() < 1e-15);
+    assert!((outline[0][0] - tool.point(&pose, 0, [0.0; 2])).norm() < 1e-15);
     assert_eq!(outline[0][0], *outline[0].last().unwrap());
 }

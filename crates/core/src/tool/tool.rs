@@ -1,21 +1,25 @@
 //! A rigid tool and what a ray meets on it.
 
+use super::facet::{Meeting, ToolFacet};
 use super::search::BoxTree;
 use super::shapes::{BoundingBox, ProfileRay, ProfileShape};
 use super::{Pose, ProfileFinding, check};
 use crate::tensor::{Scalar, Vec3};
 
-/// A rigid tool in the plane: chains of segments with the material on their left, and a reference point.
+/// A rigid tool: facets, or segments of profiles, with the material behind them, and a reference point.
 #[derive(Debug)]
-pub struct ProfileTool {
+pub struct Tool<F: ?Sized> {
     name: String,
     reference: Vec3,
-    segments: Vec<Box<dyn ProfileShape>>,
+    facets: Vec<Box<F>>,
+    /// Of a tool in the plane.
     chains: Vec<Chain>,
-    size: f64,
     bounds: BoundingBox,
     tree: BoxTree,
 }
+
+/// A rigid tool in the plane: chains of segments with the material on their left.
+pub type ProfileTool = Tool<dyn ProfileShape>;
 
 /// One profile: segments that follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,19 +56,13 @@ pub struct Hit {
     pub normal: Vec3,
 }
 
-impl ProfileTool {
-    /// A tool of one or more profiles, each a list of segments in the order of travel; `reference` is the point that
-    /// its translation moves and about which it turns. Anything is accepted here; [`check`](Self::check) says what is
-    /// wrong with it.
-    pub fn new(name: impl Into<String>, profiles: Vec<Vec<Box<dyn ProfileShape>>>, reference: Vec3) -> Self {
-        let lengths: Vec<usize> = profiles.iter().map(Vec::len).collect();
-        let segments: Vec<_> = profiles.into_iter().flatten().collect();
-        let boxes: Vec<BoundingBox> = segments.iter().map(|segment| segment.bounds()).collect();
+impl<F: ToolFacet + ?Sized> Tool<F> {
+    /// Of facets in its own frame; `reference` is the point that its translation moves and about which it turns.
+    pub(super) fn of(name: String, facets: Vec<Box<F>>, reference: Vec3) -> Self {
+        let boxes: Vec<BoundingBox> = facets.iter().map(|facet| facet.bounds()).collect();
         let bounds = boxes.iter().fold(BoundingBox::EMPTY, |all, &b| all.union(b));
-        let size = bounds.size();
-        let chains = chains(&segments, &lengths, check::TOGETHER * size);
-        let tree = BoxTree::new(&boxes, 1e-9 * size);
-        Self { name: name.into(), reference, segments, chains, size, bounds, tree }
+        let tree = BoxTree::new(&boxes, 1e-9 * bounds.size());
+        Self { name, reference, facets, chains: Vec::new(), bounds, tree }
     }
 
     /// The user's name for it.
@@ -75,13 +73,9 @@ impl ProfileTool {
     pub fn reference(&self) -> Vec3 {
         self.reference
     }
-    /// Its segments, in the order of the profiles.
-    pub fn segments(&self) -> &[Box<dyn ProfileShape>] {
-        &self.segments
-    }
-    /// Its profiles.
-    pub fn chains(&self) -> &[Chain] {
-        &self.chains
+    /// Its facets, or the segments of its profiles in their order.
+    pub fn facets(&self) -> &[Box<F>] {
+        &self.facets
     }
     /// The box around it in its own frame.
     pub fn bounds(&self) -> BoundingBox {
@@ -89,65 +83,77 @@ impl ProfileTool {
     }
     /// The diagonal of that box, a length.
     pub fn size(&self) -> f64 {
-        self.size
-    }
-    /// What is wrong with its profiles or worth knowing; `axisymmetric` ones must have `r >= 0`.
-    pub fn check(&self, axisymmetric: bool) -> Vec<ProfileFinding> {
-        check::findings(self, axisymmetric)
+        self.bounds.size()
     }
     pub(super) fn tree(&self) -> &BoxTree {
         &self.tree
     }
 
-    /// Present position of the material point at `s` on a segment.
-    pub fn point<T: Scalar>(&self, pose: &Pose<T>, segment: usize, s: f64) -> Vec3<T> {
-        pose.place(self.reference, self.segments[segment].point(s))
+    /// Present position of the material point at `s` on a facet.
+    pub fn point<T: Scalar>(&self, pose: &Pose<T>, facet: usize, s: [f64; 2]) -> Vec3<T> {
+        pose.place(self.reference, self.facets[facet].point(s))
     }
-    /// Present `dx/ds` there.
-    pub fn tangent(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
-        pose.rotate(self.segments[segment].tangent(s))
-    }
-    /// Present outward unit normal there: the material is on the left.
-    pub fn normal(&self, pose: &Pose, segment: usize, s: f64) -> Vec3 {
-        pose.rotate(-self.segments[segment].tangent(s).left().unit())
+    /// Present outward unit normal there.
+    pub fn normal(&self, pose: &Pose, facet: usize, s: [f64; 2]) -> Vec3 {
+        pose.rotate(self.facets[facet].normal(s))
     }
 
-    /// All places with `u` in `range` where the line through `ray` meets the tool, by segment and then by `u`;
-    /// `hits` is cleared first and its memory reused.
+    /// All places with `u` in `range` where the line through `ray` meets the tool, by facet and then by `u`; `hits` is
+    /// cleared first and its memory reused.
     pub fn cast(&self, pose: &Pose, ray: &ProfileRay, range: [f64; 2], hits: &mut Vec<Hit>) {
         hits.clear();
         let own = pose.own_frame(self.reference, ray);
         self.tree.along(&own, range, &mut |segment| {
-            self.segments[segment].cast(&own, &mut |place| {
-                if (range[0]..=range[1]).contains(&place.u) {
-                    hits.push(self.hit(pose, segment, place.u, place.s));
+            self.facets[segment].cast(&own, &mut |Meeting { u, s }| {
+                if (range[0]..=range[1]).contains(&u) {
+                    hits.push(Hit { segment, s, u, normal: self.normal(pose, segment, s) });
                 }
             });
         });
         hits.sort_unstable_by(|a, b| a.segment.cmp(&b.segment).then(a.u.total_cmp(&b.u)));
     }
 
-    /// Where a ray meets one given segment, whether or not others are nearer, by [`ProfileShape::meet_near`].
-    pub fn cast_segment(&self, pose: &Pose, segment: usize, ray: &ProfileRay, near: f64) -> Option<Hit> {
-        let (place, tangent) = self.segments[segment].meet_near(&pose.own_frame(self.reference, ray), near)?;
-        Some(Hit { segment, s: [place.s, 0.0], u: place.u, normal: pose.rotate(-tangent.left().unit()) })
+    /// Where a ray meets one given facet or what continues it, whether or not others are nearer: see [`ToolFacet::follow`].
+    pub fn meet(&self, pose: &Pose, segment: usize, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
+        let (Meeting { u, s }, normal) = self.facets[segment].follow(&pose.own_frame(self.reference, ray), near)?;
+        Some(Hit { segment, s, u, normal: pose.rotate(normal) })
+    }
+}
+
+impl ProfileTool {
+    /// A tool of one or more profiles, each a list of segments in the order of travel; `reference` is the point that
+    /// its translation moves and about which it turns. Anything is accepted here; [`check`](Self::check) says what is
+    /// wrong with it.
+    pub fn new(name: impl Into<String>, profiles: Vec<Vec<Box<dyn ProfileShape>>>, reference: Vec3) -> Self {
+        let lengths: Vec<usize> = profiles.iter().map(Vec::len).collect();
+        let tool = Self::of(name.into(), profiles.into_iter().flatten().collect(), reference);
+        let chains = chains(&tool.facets, &lengths, check::TOGETHER * tool.size());
+        Self { chains, ..tool }
+    }
+    /// Its segments, in the order of the profiles.
+    pub fn segments(&self) -> &[Box<dyn ProfileShape>] {
+        &self.facets
+    }
+    /// Its profiles.
+    pub fn chains(&self) -> &[Chain] {
+        &self.chains
+    }
+    /// What is wrong with its profiles or worth knowing; `axisymmetric` ones must have `r >= 0`.
+    pub fn check(&self, axisymmetric: bool) -> Vec<ProfileFinding> {
+        check::findings(self, axisymmetric)
     }
 
     /// The profiles in space as polylines nowhere farther than `sagitta` from them, for drawing.
     pub fn outline(&self, pose: &Pose, sagitta: f64) -> Vec<Vec<Vec3>> {
         let polyline = |chain: &Chain| {
             let mut points: Vec<Vec3> = Vec::new();
-            for segment in &self.segments[chain.first..chain.end] {
+            for segment in &self.facets[chain.first..chain.end] {
                 let skip = usize::from(!points.is_empty());
                 points.extend(segment.flatten(sagitta).into_iter().skip(skip));
             }
             points.iter().map(|&p| pose.place(self.reference, p)).collect()
         };
         self.chains.iter().map(polyline).collect()
-    }
-
-    fn hit(&self, pose: &Pose, segment: usize, u: f64, s: f64) -> Hit {
-        Hit { segment, s: [s, 0.0], u, normal: self.normal(pose, segment, s) }
     }
 }
 

@@ -239,8 +239,8 @@ impl ToolInPlace<'_> {
     /// Where a ray meets one segment or what continues it, near a place on it.
     pub fn meet(&self, segment: usize, ray: &ProfileRay, near: [f64; 2]) -> Option<Hit> {
         match &self.rigid.shape {
-            RigidShape::Plane(tool, _) => tool.cast_segment(&self.pose, segment, ray, near[0]),
-            RigidShape::Space(tool, _) => tool.cast_facet(&self.pose, segment, ray, near),
+            RigidShape::Plane(tool, _) => tool.meet(&self.pose, segment, ray, near),
+            RigidShape::Space(tool, _) => tool.meet(&self.pose, segment, ray, near),
         }
     }
     /// Present place of the material point at `s` on a segment.

@@ -1,6 +1,6 @@
 //! The straight segment between two nodes.
 
-use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind};
+use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
 use crate::tensor::Vec3;
 
 pub(super) static KIND: ShapeKind = ShapeKind {
@@ -28,7 +28,11 @@ impl ProfileShape for LineSegment {
         self.0[1] - self.0[0]
     }
     fn meet(&self, ray: &ProfileRay) -> [RayCrossing; 2] {
-        [ray.meet_line(self.0[0], self.tangent(0.0)), RayCrossing { u: f64::NAN, s: f64::NAN }]
+        // Not finite where the two are parallel.
+        let (to, tangent) = (self.0[0] - ray.origin, self.tangent(0.0));
+        let span = turn(ray.direction, tangent);
+        let crossing = RayCrossing { u: turn(to, tangent) / span, s: turn(to, ray.direction) / span };
+        [crossing, RayCrossing { u: f64::NAN, s: f64::NAN }]
     }
     fn conic(&self) -> Conic {
         Conic::straight(self.0[0], self.tangent(0.0))

@@ -21,10 +21,6 @@ use std::fmt::Debug;
 /// Every shape of segment that a profile may be made of.
 pub static ALL: &[&ShapeKind] = &[&line::KIND, &parabola::KIND, &arc::KIND];
 
-/// How far beyond its ends a segment still counts as hit, in units of `s`: a ray through a common node must not slip
-/// between two neighbours by rounding.
-pub const END: f64 = 1e-10;
-
 /// A registered shape.
 #[derive(Debug)]
 pub struct ShapeKind {
@@ -76,12 +72,6 @@ impl ProfileRay {
     pub fn point(&self, u: f64) -> Vec3 {
         self.origin + self.direction * u
     }
-    /// Where it meets the straight line through `point` along `tangent`: the distance along the ray, and along the
-    /// line in units of `tangent`. Not finite when the two are parallel.
-    pub fn meet_line(&self, point: Vec3, tangent: Vec3) -> RayCrossing {
-        let (to, span) = (point - self.origin, turn(self.direction, tangent));
-        RayCrossing { u: turn(to, tangent) / span, s: turn(to, self.direction) / span }
-    }
 }
 
 /// Where a ray meets a segment.
@@ -91,14 +81,6 @@ pub struct RayCrossing {
     pub u: f64,
     /// Coordinate along the segment.
     pub s: f64,
-}
-
-impl RayCrossing {
-    /// Whether it is a point at all (parallel and missing rays give infinite and undefined numbers) and lies within
-    /// the segment lengthened at both ends by the part `beyond` of its `s`.
-    pub fn lies_within(&self, beyond: f64) -> bool {
-        self.u.is_finite() && self.s >= -beyond && self.s <= 1.0 + beyond
-    }
 }
 
 /// `c0 x^2 + c1 x y + c2 y^2 + c3 x + c4 y + c5` with `(x, y)` seen from an origin.
@@ -164,9 +146,6 @@ impl BoundingBox {
     }
 }
 
-/// How far beyond its ends [`ProfileShape::meet_near`] follows a segment's own curve, in units of `s`.
-const EXTENSION: f64 = 0.1;
-
 /// A smooth segment of a profile, in the tool's own frame.
 pub trait ProfileShape: Debug + Send + Sync {
     /// What it is.
@@ -194,28 +173,6 @@ pub trait ProfileShape: Debug + Send + Sync {
     /// What makes the nodes unfit for this shape, if anything: the rest of a sentence that begins with the segment.
     fn flaw(&self) -> Option<String> {
         None
-    }
-    /// The crossings of the segment itself: `s` in `[0, 1]`, ends included.
-    fn cast(&self, ray: &ProfileRay, hits: &mut dyn FnMut(RayCrossing)) {
-        for crossing in self.meet(ray) {
-            if crossing.lies_within(END) {
-                hits(RayCrossing { s: crossing.s.clamp(0.0, 1.0), ..crossing });
-            }
-        }
-    }
-    /// Where a ray meets the segment, whether or not others are nearer, and the tangent `dx/ds` there: the crossing with
-    /// `s` nearest to `near` on the segment's curve, followed a little beyond its ends; where it does not meet that, the
-    /// crossing with the tangent at `near`. Continuous in the ray, so that a point whose ray is perturbed keeps its
-    /// segment. None if the ray runs along that tangent.
-    fn meet_near(&self, ray: &ProfileRay, near: f64) -> Option<(RayCrossing, Vec3)> {
-        let near = near.clamp(0.0, 1.0);
-        let on_curve = self.meet(ray).into_iter().filter(|place| place.lies_within(EXTENSION));
-        if let Some(place) = on_curve.min_by(|a, b| (a.s - near).abs().total_cmp(&(b.s - near).abs())) {
-            return Some((place, self.tangent(place.s)));
-        }
-        let tangent = self.tangent(near);
-        let place = ray.meet_line(self.point(near), tangent);
-        place.u.is_finite().then_some((RayCrossing { s: near + place.s, ..place }, tangent))
     }
     /// Points along the segment, both ends included, whose chords are nowhere farther than `sagitta` from it.
     fn flatten(&self, sagitta: f64) -> Vec<Vec3> {

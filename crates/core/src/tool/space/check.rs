@@ -3,10 +3,10 @@
 //! Facets with straight edges are compared edge by edge: each edge of a closed surface lies on two facets, which run
 //! along it in opposite directions if both look outward. Facets made of profiles are judged with their profile.
 
-use super::facet::ToolFacet;
 use super::tool::SpaceTool;
 use crate::tensor::Vec3;
 use crate::tool::FindingSeverity;
+use crate::tool::facet::ToolFacet;
 use std::collections::BTreeMap;
 use std::fmt;
 

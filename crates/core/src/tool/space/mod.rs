@@ -5,7 +5,6 @@
 
 mod check;
 mod distance;
-mod facet;
 mod nearest;
 mod path;
 mod polygons;
@@ -17,9 +16,9 @@ mod swept;
 mod tests;
 mod tool;
 
+pub use super::facet::{Meeting, ToolFacet};
 pub use check::FacetFinding;
 pub use distance::{NearestPoint, SmoothPieces};
-pub use facet::{Meeting, ToolFacet};
 pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
 pub use path::{SweepPath, swept};
 pub use polygons::{Quad, Triangle};

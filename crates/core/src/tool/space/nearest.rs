@@ -3,10 +3,10 @@
 //! Profiles answer in their own plane: extruded ones at the same height, revolved ones on the same meridian. Polygons
 //! answer inside by projection, beyond by their straight edges.
 
-use super::facet::ToolFacet;
 use super::polygons::{Quad, Triangle};
 use super::swept::{Extruded, Revolved};
 use crate::tensor::Vec3;
+use crate::tool::facet::ToolFacet;
 use crate::tool::shapes::ProfileShape;
 
 /// The closest point of a facet.

@@ -8,9 +8,9 @@
 //! spheres, tori and paraboloids in one. Each root is then carried to the zero of `P` itself by Newton's method, which
 //! restores the digits that squaring loses.
 
-use super::facet::{Meeting, ToolFacet};
 use super::roots::roots;
 use crate::tensor::Vec3;
+use crate::tool::facet::{Meeting, ToolFacet};
 use crate::tool::shapes::{BoundingBox, Conic, ProfileRay, ProfileShape};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -284,9 +284,6 @@ impl ToolFacet for Revolved {
     fn holds(&self, s: [f64; 2], beyond: f64) -> bool {
         let within = |s: f64| (-beyond..=1.0 + beyond).contains(&s);
         within(s[0]) && (self.is_whole() || within(s[1]))
-    }
-    fn apart(&self, ray: &ProfileRay, place: &Meeting, near: [f64; 2]) -> f64 {
-        (ray.point(place.u) - self.point([near[0].clamp(0.0, 1.0), near[1]])).norm()
     }
 }
 

@@ -1,9 +1,8 @@
 //! Tools in space: facets against independent and slower answers, the tree against trying everything.
 
-use super::facet::{Meeting, ToolFacet};
 use super::polygons::{Quad, Triangle};
 use super::solids::{Facets, cone, extruded, filleted, plane, polygons, revolved, sphere, torus};
-use super::{FacetFinding, ProfileFrame, SpaceTool, SweepPath, swept};
+use super::{FacetFinding, Meeting, ProfileFrame, SpaceTool, SweepPath, ToolFacet, swept};
 use crate::tensor::Vec3;
 use crate::tool::shapes::{ALL, ProfileRay, find};
 use crate::tool::{Draft, Hit, Pose, Rejected, Rules, select};
@@ -108,7 +107,7 @@ fn brute_force(facet: &dyn ToolFacet, ray: &ProfileRay) -> Vec<f64> {
 
 fn newton(facet: &dyn ToolFacet, ray: &ProfileRay, mut s: [f64; 2]) -> Option<f64> {
     for _ in 0..30 {
-        let Meeting { u, s: next } = super::facet::flat(facet.point(s), facet.tangents(s), ray, s)?;
+        let Meeting { u, s: next } = crate::tool::facet::flat(facet.point(s), facet.tangents(s), ray, s)?;
         let done = (s[0] - next[0]).abs() + (s[1] - next[1]).abs() < 1e-14;
         s = next;
         if done {
@@ -256,7 +255,7 @@ proptest! {
         prop_assert_eq!(choose(&hits), choose(&expected));
         for hit in &hits {
             prop_assert!((tool.point(&pose, hit.segment, hit.s) - ray.point(hit.u)).norm() < 1e-9);
-            let again = tool.cast_facet(&pose, hit.segment, &ray, hit.s).unwrap();
+            let again = tool.meet(&pose, hit.segment, &ray, hit.s).unwrap();
             prop_assert!((again.u - hit.u).abs() < 1e-9, "{:?} {:?}", hit, again);
         }
     }

@@ -1,11 +1,12 @@
-//! What the facets of a tool in space have in common.
+//! What the facets of a tool in space and the segments of a profile have in common.
 //!
-//! A facet is a smooth piece of surface with two coordinates `s`, each in `[0, 1]` (a triangle's also `s0 + s1 <= 1`).
+//! A facet is a smooth piece of surface with two coordinates `s`, each in `[0, 1]` (a triangle's also `s0 + s1 <= 1`). A segment of the
+//! plane is one whose second tangent is `e_z`.
 //! It stands in the tool's own frame and never moves. Its outward normal is along `dx/ds0 x dx/ds1`. A ray meets the
 //! *carrier* of a facet (the whole plane, quadric or torus); the places whose `s` are in range are the facet's own.
 
+use super::shapes::{BoundingBox, ProfileRay, ProfileShape, RayCrossing};
 use crate::tensor::Vec3;
-use crate::tool::shapes::{BoundingBox, ProfileRay};
 use std::fmt::Debug;
 
 /// How far beyond its edges a facet still counts as hit, in units of `s`: a ray through a common edge must not slip
@@ -57,22 +58,37 @@ pub trait ToolFacet: Debug + Send + Sync {
             }
         });
     }
-    /// How far a place at which a ray meets the carrier is from the place `near`, in any measure.
-    fn apart(&self, _ray: &ProfileRay, place: &Meeting, near: [f64; 2]) -> f64 {
-        (place.s[0] - near[0]).hypot(place.s[1] - near[1])
-    }
-    /// Where a ray meets this facet or what continues it: the place on the carrier, followed a little beyond the edges,
-    /// that is nearest to `near`; where there is none, that on the tangent plane at `near`. None if the ray runs along
-    /// that plane.
-    fn follow(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<Meeting> {
-        let (mut best, mut least) = (None, f64::INFINITY);
+    /// Where a ray meets this facet or what continues it, with the normal there: the place on the carrier, followed a little
+    /// beyond the edges, that is nearest to that at `near`; where there is none, that on the tangent plane at `near`. None if the
+    /// ray runs along that plane. Continuous in the ray, so that a point whose ray is perturbed keeps its facet.
+    fn follow(&self, ray: &ProfileRay, near: [f64; 2]) -> Option<(Meeting, Vec3)> {
+        let near = near.map(|s| s.clamp(0.0, 1.0));
+        let (there, mut best, mut least) = (self.point(near), None, f64::INFINITY);
         self.meet(ray, &mut |place| {
-            let off = self.apart(ray, &place, near);
-            if place.u.is_finite() && off < least && self.holds(place.s, EXTENSION) {
-                (best, least) = (Some(place), off);
+            let off = (ray.point(place.u) - there).norm();
+            if off < least && self.holds(place.s, EXTENSION) {
+                (best, least) = (Some((place, self.normal(place.s))), off);
             }
         });
-        best.or_else(|| flat(self.point(near), self.tangents(near), ray, near))
+        best.or_else(|| Some((flat(there, self.tangents(near), ray, near)?, self.normal(near))))
+    }
+}
+
+impl ToolFacet for dyn ProfileShape + '_ {
+    fn point(&self, [s, _]: [f64; 2]) -> Vec3 {
+        self.point(s)
+    }
+    fn tangents(&self, [s, _]: [f64; 2]) -> [Vec3; 2] {
+        [self.tangent(s), Vec3::axis(2)]
+    }
+    fn meet(&self, ray: &ProfileRay, found: &mut dyn FnMut(Meeting)) {
+        self.meet(ray).into_iter().for_each(|RayCrossing { u, s }| found(Meeting { u, s: [s, 0.0] }));
+    }
+    fn bounds(&self) -> BoundingBox {
+        self.bounds()
+    }
+    fn parts(&self, sagitta: f64) -> [usize; 2] {
+        [self.pieces(sagitta), 1]
     }
 }
 

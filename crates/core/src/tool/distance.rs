@@ -28,19 +28,31 @@ pub struct SmoothPiece {
     closed: bool,
 }
 
-/// The point of a piece that is closest to another, in the tool's own frame.
+/// The point of a smooth piece of a tool that is closest to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClosestPoint {
+pub struct NearestPoint {
     /// Signed distance, negative inside the material.
     pub gap: f64,
     /// Outward unit normal: the gradient of the distance.
     pub normal: Vec3,
     /// The point itself.
     pub point: Vec3,
-    /// Curvature of the line of equal distance, positive where normals spread: `dn = curvature e (e . dx)`.
-    pub curvature: f64,
-    /// The end of the piece, 0 or 1, beyond which the other point lies.
+    /// Principal directions and curvatures of the surface of equal distance, positive where normals spread: `dn = sum k e (e . dx)`;
+    /// in the plane the second is none.
+    pub bends: [(Vec3, f64); 2],
+    /// The end of the piece, 0 or 1, beyond which the other point lies; in space 0 for any border.
     pub beyond: Option<usize>,
+}
+
+impl NearestPoint {
+    /// Change of the normal for a motion of the other point relative to the tool.
+    pub fn turned(&self, motion: Vec3) -> Vec3 {
+        self.bends.iter().fold(Vec3::zero(), |sum, &(along, bend)| sum + along * (bend * along.dot(motion)))
+    }
+    /// Motion of the closest point, as one of the tool's material, for that motion.
+    pub fn slide(&self, motion: Vec3) -> Vec3 {
+        motion - self.normal * self.normal.dot(motion) - self.turned(motion) * self.gap
+    }
 }
 
 /// An end of a piece: its point, and the normal of the line there beyond which the piece is not seen.
@@ -115,7 +127,7 @@ impl ProfileTool {
     }
 
     /// The point of a piece closest to `x`, in the tool's own frame.
-    pub fn closest(&self, piece: &SmoothPiece, x: Vec3) -> ClosestPoint {
+    pub fn closest(&self, piece: &SmoothPiece, x: Vec3) -> NearestPoint {
         let (mut best, mut least) = ((0, 0.0), f64::INFINITY);
         for (place, &number) in piece.segments.iter().enumerate() {
             let segment = &self.segments()[number];
@@ -137,9 +149,10 @@ impl ProfileTool {
             let past = |end: PieceEnd| end.along.dot(x - end.point) * [-1.0, 1.0][k];
             end.is_some_and(|end| past(end) > AT_END * segment.length())
         });
+        let bends = |normal: Vec3, curvature: f64| [(normal.left(), curvature), (Vec3::zero(), 0.0)];
         let smooth = |curvature: f64| {
             let gap = normal.dot(x - point);
-            ClosestPoint { gap, normal, point, curvature: curvature / (1.0 + curvature * gap), beyond }
+            NearestPoint { gap, normal, point, bends: bends(normal, curvature / (1.0 + curvature * gap)), beyond }
         };
         let end = usize::from(s > 0.5);
         let past = segment.tangent(s).unit().dot(x - point) * [-1.0, 1.0][end];
@@ -149,13 +162,14 @@ impl ProfileTool {
         let next = (place + 2 * end).checked_sub(1).filter(|&next| next <= last);
         let Some(next) = next.or(piece.closed.then_some([last, 0][end])) else {
             // A straight continuation, whether or not it is seen.
-            return ClosestPoint { point: x - normal * normal.dot(x - point), ..smooth(0.0) };
+            return NearestPoint { point: x - normal * normal.dot(x - point), ..smooth(0.0) };
         };
         let other = &self.segments()[piece.segments[next]];
         let both = normal - other.tangent(1.0 - end as f64).left().unit();
         let sign = 1.0_f64.copysign(both.dot(x - point));
         let gap = sign * (x - point).norm();
-        ClosestPoint { gap, normal: (x - point) * gap.recip(), point, curvature: gap.recip(), beyond: None }
+        let normal = (x - point) * gap.recip();
+        NearestPoint { gap, normal, point, bends: bends(normal, gap.recip()), beyond: None }
     }
 }
 
@@ -240,12 +254,9 @@ mod tests {
                         continue;
                     }
                     assert!(((up.gap - down.gap) / (2.0 * h) - found.normal[axis]).abs() < 1e-5);
-                    let e = found.normal.left();
                     let slope = (up.normal - down.normal) * (0.5 / h);
-                    assert!(
-                        (slope - e * (found.curvature * e[axis])).norm() < 1e-3 * (1.0 + found.curvature.abs()),
-                        "{x:?}"
-                    );
+                    let exact = found.turned(Vec3::axis(axis));
+                    assert!((slope - exact).norm() < 1e-3 * (1.0 + found.bends[0].1.abs()), "{x:?}");
                 }
             }
         }

@@ -23,7 +23,7 @@ mod conformance;
 #[cfg(test)]
 mod tests;
 
-pub use distance::{ClosestPoint, PieceEnd, SmoothPiece};
+pub use distance::{NearestPoint, PieceEnd, SmoothPiece};
 pub use fillet::{Draft, rounded};
 pub use finding::{FindingSeverity, ProfileFinding};
 pub use pose::Pose;

@@ -12,9 +12,9 @@ use super::face::{CORNERS, ShapeFunctions};
 use super::faces::{FaceProjection, FaceRay};
 use super::patch::{IntervalRates, PatchInPlace};
 use super::spot::FaceSpot;
-use super::tool::Foot;
 use super::triad::MaterialLine;
 use crate::tensor::Vec3;
+use crate::tool::NearestPoint;
 
 /// What a point sees of the target.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +22,7 @@ pub enum Sight {
     /// A face of a body.
     Face(FaceProjection),
     /// The closest point of a tool.
-    Tool(Foot),
+    Tool(NearestPoint),
     /// A tip of a tool.
     Tip,
 }

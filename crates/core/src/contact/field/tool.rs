@@ -3,7 +3,7 @@
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
-use crate::tool::{Hit, Pose, ProfileRay, ProfileTool, SmoothPiece, Tip};
+use crate::tool::{Hit, NearestPoint, PieceEnd, Pose, ProfileRay, ProfileTool, SmoothPiece, Tip};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -34,32 +34,6 @@ pub struct ToolInPlace<'a> {
     rigid: &'a RigidTool,
     pose: Pose,
     spins: [Vec3; 3],
-}
-
-/// The point of a tool that is closest to a point of the surface.
-#[derive(Debug, Clone, Copy)]
-pub struct Foot {
-    /// Signed distance, negative for penetration.
-    pub gap: f64,
-    /// Outward unit normal of the tool.
-    pub normal: Vec3,
-    /// The closest point.
-    pub point: Vec3,
-    /// The end of the piece beyond which the point of the surface lies; in space 0 for any border.
-    pub beyond: Option<usize>,
-    /// Principal directions and curvatures of the surface of equal distance.
-    bends: [(Vec3, f64); 2],
-}
-
-impl Foot {
-    /// Change of the normal for a motion of the point of the surface relative to the tool.
-    pub fn turned(&self, motion: Vec3) -> Vec3 {
-        self.bends.iter().fold(Vec3::zero(), |sum, &(along, bend)| sum + along * (bend * along.dot(motion)))
-    }
-    /// Motion of the closest point, as one of the tool's material, for that motion.
-    pub fn slide(&self, motion: Vec3) -> Vec3 {
-        motion - self.normal * self.normal.dot(motion) - self.turned(motion) * self.gap
-    }
 }
 
 impl RigidTool {
@@ -164,26 +138,19 @@ impl ToolInPlace<'_> {
         self.pose.rotate_back(v)
     }
     /// The closest point of a smooth piece.
-    pub fn closest(&self, piece: usize, x: Vec3) -> Foot {
+    pub fn closest(&self, piece: usize, x: Vec3) -> NearestPoint {
         let own = self.withdraw(x);
-        let (gap, normal, point, beyond, bends) = match &self.rigid.shape {
-            RigidShape::Plane(tool, pieces) => {
-                let found = tool.closest(&pieces[piece], own);
-                let bends = [(found.normal.left(), found.curvature), (Vec3::zero(), 0.0)];
-                (found.gap, found.normal, found.point, found.beyond, bends)
-            }
-            RigidShape::Space(tool, pieces) => {
-                let found = tool.closest(pieces, piece, own);
-                (found.gap, found.normal, found.point, found.beyond.then_some(0), found.bends)
-            }
+        let found = match &self.rigid.shape {
+            RigidShape::Plane(tool, pieces) => tool.closest(&pieces[piece], own),
+            RigidShape::Space(tool, pieces) => tool.closest(pieces, piece, own),
         };
-        let bends = bends.map(|(along, bend)| (self.rotate(along), bend));
-        Foot { gap, normal: self.rotate(normal), point: self.place(point), beyond, bends }
+        let bends = found.bends.map(|(along, bend)| (self.rotate(along), bend));
+        NearestPoint { normal: self.rotate(found.normal), point: self.place(found.point), bends, ..found }
     }
     /// Ends of a piece in the plane beyond which it is not seen: present point and normal of the line there.
     pub fn ends(&self, piece: usize) -> [Option<(Vec3, Vec3)>; 2] {
         let RigidShape::Plane(_, pieces) = &self.rigid.shape else { return [None; 2] };
-        let place = |end: crate::tool::PieceEnd| (self.place(end.point), self.rotate(end.along));
+        let place = |end: PieceEnd| (self.place(end.point), self.rotate(end.along));
         pieces[piece].ends.map(|end| end.map(place))
     }
     /// Derivatives along its unknowns of the place of a material point that is now at `at`.

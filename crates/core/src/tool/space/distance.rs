@@ -7,9 +7,9 @@
 use super::nearest::{FacetBorder, FacetPoint};
 use super::tool::SpaceTool;
 use crate::tensor::Vec3;
-use crate::tool::BoxTree;
 use crate::tool::distance::CREASE;
 use crate::tool::shapes::BoundingBox;
+use crate::tool::{BoxTree, NearestPoint};
 
 /// Points of two facets are the same within this part of the tool's size.
 const TOGETHER: f64 = 1e-7;
@@ -29,27 +29,6 @@ impl SmoothPieces {
     /// How many there are.
     pub fn count(&self) -> usize {
         self.pieces.len()
-    }
-}
-
-/// The point of a smooth piece that is closest to another, in the tool's own frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NearestPoint {
-    /// Signed distance, negative inside the material.
-    pub gap: f64,
-    /// Outward unit normal: the gradient of the distance.
-    pub normal: Vec3,
-    /// The point itself.
-    pub point: Vec3,
-    /// Principal directions and curvatures of the surface of equal distance: `dn = sum k e (e . dx)`.
-    pub bends: [(Vec3, f64); 2],
-    /// Whether the other point lies beyond the border of the piece.
-    pub beyond: bool,
-}
-
-impl NearestPoint {
-    fn nothing(point: Vec3) -> Self {
-        Self { gap: 0.0, normal: Vec3::new(0.0, 0.0, 1.0), point, bends: [(Vec3::zero(), 0.0); 2], beyond: true }
     }
 }
 
@@ -140,11 +119,14 @@ impl SpaceTool {
                 (best, least) = (Some(place), distance);
             }
         }
-        let Some(&FacetPoint { point, normal, bends, border }) = best else { return NearestPoint::nothing(x) };
+        let Some(&FacetPoint { point, normal, bends, border }) = best else {
+            let (normal, bends) = (Vec3::axis(2), [(Vec3::zero(), 0.0); 2]);
+            return NearestPoint { gap: 0.0, normal, point: x, bends, beyond: Some(0) };
+        };
         let gap = normal.dot(x - point);
         if border == FacetBorder::Inside {
             let bends = bends.map(|(e, k)| (e, k / (1.0 + k * gap)));
-            return NearestPoint { gap, normal, point, bends, beyond: false };
+            return NearestPoint { gap, normal, point, bends, beyond: None };
         }
         let same = |place: &&FacetPoint| (place.point - point).norm() <= TOGETHER * self.size();
         let joined = found.iter().filter(same);
@@ -160,13 +142,13 @@ impl SpaceTool {
                     [(first, gap.recip()), (normal.cross(first), gap.recip())]
                 }
             };
-            return NearestPoint { gap, normal, point, bends: round, beyond: false };
+            return NearestPoint { gap, normal, point, bends: round, beyond: None };
         }
         // A straight continuation, whether or not it is seen.
         let normal = if count > 1 { mean } else { normal };
         let gap = normal.dot(x - point);
         let aside = (x - point) - normal * gap;
-        let beyond = !self.goes_on((pieces, piece), point, aside.unit());
+        let beyond = (!self.goes_on((pieces, piece), point, aside.unit())).then_some(0);
         let flat = bends.map(|(e, _)| (e, 0.0));
         NearestPoint { gap, normal, point: x - normal * gap, bends: flat, beyond }
     }

@@ -18,7 +18,7 @@ mod tool;
 
 pub use super::facet::{Meeting, ToolFacet};
 pub use check::FacetFinding;
-pub use distance::{NearestPoint, SmoothPieces};
+pub use distance::SmoothPieces;
 pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
 pub use path::{SweepPath, swept};
 pub use polygons::{Quad, Triangle};

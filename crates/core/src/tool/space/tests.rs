@@ -301,14 +301,17 @@ fn a_swept_punch_is_closed_below() {
     {
         let found = tool.closest(&pieces, 0, at(x, y, -0.3));
         assert!((found.gap - 0.3).abs() < 1e-14 && found.normal == at(0.0, 0.0, -1.0), "{x} {y}: {found:?}");
-        assert_eq!(found.beyond, !inside, "{x} {y}");
+        assert_eq!(found.beyond.is_some(), !inside, "{x} {y}");
     }
     // Drawn the other way the same looks up, and its disc is at the end.
     let back: Vec<Draft> =
         rim.iter().rev().map(|(i, kind, nodes)| (*i, *kind, nodes.iter().rev().copied().collect())).collect();
     let up = SpaceTool::new("up", swept(&back, &path).unwrap(), at(0.0, 0.0, 0.0));
     let found = up.closest(&up.smooth_pieces(), 0, at(0.5, 0.2, 0.3));
-    assert!(up.smooth_pieces().count() == 1 && !found.beyond && found.normal == at(0.0, 0.0, 1.0), "{found:?}");
+    assert!(
+        up.smooth_pieces().count() == 1 && found.beyond.is_none() && found.normal == at(0.0, 0.0, 1.0),
+        "{found:?}"
+    );
     path.radius = 1.0;
     assert!(swept(&rim, &path).unwrap_err().contains("middle of an arc"));
     path.corners[3] = path.corners[2];
@@ -428,7 +431,7 @@ fn closest_points_are_the_closest() {
         for (piece, _) in (0..pieces.count()).flat_map(|piece| (0..150).map(move |k| (piece, k))) {
             let x = at(random(), random(), random()) * 1.3;
             let found = tool.closest(&pieces, piece, x);
-            if found.beyond {
+            if found.beyond.is_some() {
                 continue;
             }
             seen += 1;
@@ -438,12 +441,12 @@ fn closest_points_are_the_closest() {
             for axis in 0..3 {
                 let step = Vec3(std::array::from_fn(|k| if k == axis { h } else { 0.0 }));
                 let [up, down] = [x + step, x - step].map(|x| tool.closest(&pieces, piece, x));
-                if (up.normal - down.normal).norm() > 1e-3 || up.beyond || down.beyond || off > 100.0 {
+                if (up.normal - down.normal).norm() > 1e-3 || up.beyond.or(down.beyond).is_some() || off > 100.0 {
                     continue;
                 }
                 assert!(((up.gap - down.gap) / (2.0 * h) - found.normal[axis]).abs() < 1e-6, "{name} {x:?} {found:?}");
                 let slope = (up.normal - down.normal) * (0.5 / h);
-                let exact = found.bends.iter().fold(Vec3::zero(), |sum, &(e, k)| sum + e * (k * e[axis]));
+                let exact = found.turned(Vec3::axis(axis));
                 assert!(
                     (slope - exact).norm() < 1e-3 * (1.0 + off * off),
                     "{name} {x:?} {found:?} {slope:?} {exact:?}"

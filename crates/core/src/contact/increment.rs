@@ -3,7 +3,6 @@
 
 use crate::tensor::Scalar;
 use crate::{Failure, FailureKind};
-use std::f64::consts::FRAC_PI_2;
 
 /// A point counts as closed from this part of the shortest edge on. One depth for all points: a flat surface
 /// under uniform pressure then stays flat.
@@ -21,17 +20,6 @@ pub fn refuse_jump(penetration: f64, depth: f64, name: impl FnOnce() -> String) 
     if penetration > 0.25 * depth {
         let reason = format!("{} came to lie {penetration:.3e} deep in one increment", name());
         return Err(Failure::new(reason).of(FailureKind::Passage));
-    }
-    Ok(())
-}
-
-/// Refuses a touching tool that turned by more than a quarter of a turn, in radians: the slip is a chord, and half a turn
-/// brings what was touched to the other side, where none is seen.
-pub fn refuse_turn(turned: f64, name: impl FnOnce() -> String) -> Result<(), Failure> {
-    if turned.abs() > FRAC_PI_2 {
-        let degrees = turned.abs().to_degrees();
-        let reason = format!("{}: its tool turned by {degrees:.0} degrees in one increment", name());
-        return Err(Failure::new(reason).of(FailureKind::Turn));
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! History of a contact point, and what outputs may ask of it.
 
-use crate::interface::{Interface, Linearised, MOST_VARIABLES};
+use crate::interface::{Interface, Linearised, MOST_VARIABLES, Past};
 use crate::system::{Coordinates, History};
 use crate::tensor::Vec3;
 
@@ -76,6 +76,19 @@ pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]
     new[entry::STATUS] = f64::from(response.status as u8);
     new[entry::VIOLATION] = response.violation;
     new[entry::LAST_DISSIPATED] = response.dissipated;
+}
+
+/// What a law may know of a point with this accepted history, for its normal and its tangential penalty.
+pub fn past(old: &[f64], [penalty, tangential_penalty]: [f64; 2], dt: f64) -> Past<'_> {
+    Past {
+        penalty,
+        tangential_penalty,
+        penetration: old[entry::PENETRATION] + old[entry::CLOSURE],
+        pressure: old[entry::PRESSURE],
+        shear: [old[entry::SHEAR], old[entry::SHEAR2]],
+        vars: &old[entry::COUNT..],
+        dt,
+    }
 }
 
 /// An open point keeps what has been, and of the law's own state what the law says.

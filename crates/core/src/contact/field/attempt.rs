@@ -3,7 +3,7 @@
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget, RULE};
 use super::cover::Patch;
-use super::faces::{FaceRay, LEAST_COSINE};
+use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::point::Touched;
 use super::space::{Spread, spread};
@@ -11,9 +11,9 @@ use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
 use super::tip::TipFoot;
 use crate::contact::augment;
 use crate::contact::energy::account;
-use crate::contact::increment::{in_contact, refuse_jump, refuse_turn};
+use crate::contact::increment::{in_contact, refuse_jump};
 use crate::contact::kink::answer;
-use crate::contact::record::{entry, leave, stresses, write};
+use crate::contact::record::{entry, leave, past, stresses, write};
 use crate::interface::{Interface, Past};
 use crate::system::{
     Answer, Attempt, Branch, Coordinates, Couplings, History, Instant, Kinks, Local, Stencil, Stencils, Term,
@@ -56,8 +56,6 @@ pub struct FieldAttempt<'a> {
     pub at: Instant,
     /// Tangential penalties of the attempt, slot by slot.
     pub tangential: Vec<f64>,
-    /// Length of the increment.
-    pub dt: f64,
     /// What the last search found, slot by slot.
     pub found: RwLock<Arc<Vec<Support>>>,
     /// How the coordinates of closed nodes changed and what forces their stresses were where they were evaluated last.
@@ -90,11 +88,8 @@ impl FieldAttempt<'_> {
         let Some(faces) = self.contact.parts.target.as_faces() else { return };
         let mut places = Vec::new();
         if let (TargetInPlace::Faces(target), false) = (&now.target, self.contact.parts.surface.plane) {
-            let (own, other) = (&self.contact.parts.surface.faces[patch.face], target.placed(patch.target));
-            let own = &now.placed[patch.face].nodes()[..own.corners()];
-            let other = &other.nodes()[..target.corners(patch.target)];
-            let degree = self.contact.overlap_degree(patch);
-            spread(degree, own, other, |place: Spread<f64>| places.push(place.xi));
+            let (degree, own) = (self.contact.overlap_degree(patch), now.face(patch.face));
+            spread(degree, own.corners(), target.corners(patch.target), |place: Spread<f64>| places.push(place.xi));
         } else {
             let [from, to] = patch.near;
             let place = |&(eta, _): &(f64, f64)| [0.5 * (from + to) + 0.5 * (to - from) * eta, 0.0];
@@ -114,21 +109,18 @@ impl FieldAttempt<'_> {
         patch: &Patch,
         xi: [f64; 2],
         known: impl Fn(usize) -> bool,
-    ) -> Option<(usize, super::faces::FaceProjection)> {
-        let (Some(faces), TargetInPlace::Faces(before)) = (self.contact.parts.target.as_faces(), &self.before.target)
-        else {
-            return None;
-        };
+    ) -> Option<(usize, FaceProjection)> {
+        let TargetInPlace::Faces(before) = &self.before.target else { return None };
         let at = self.before.face(patch.face).at(xi);
         let ray = FaceRay { x: at.x, n: at.normal.unit() };
         let range = [-2.0 * self.depths[patch.face], 2.0 * self.reach];
-        let admits = |face: usize, hit: &super::faces::FaceProjection| {
+        let admits = |face: usize, hit: &FaceProjection| {
             self.contact.may_touch(patch.face, face) && -hit.normal().dot(ray.n) > LEAST_COSINE && known(face)
         };
-        let present = faces.project(patch.target, before.placed(patch.target), &ray).map(|hit| (patch.target, hit));
-        let same = |(face, hit): &(usize, super::faces::FaceProjection)| {
-            let within = faces.surface.faces[*face].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
-            within && admits(*face, hit)
+        let present = before.project(patch.target, &ray).map(|hit| (patch.target, hit));
+        let same = |&(face, hit): &(usize, FaceProjection)| {
+            let within = before.holds(face, hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
+            within && admits(face, &hit)
         };
         // In space the search is dear, and most places see what they saw.
         if let Some(present) = present.filter(|present| !self.contact.parts.surface.plane && same(present)) {
@@ -204,18 +196,9 @@ impl FieldAttempt<'_> {
     /// What the law may know of a node. Penalties are for undeformed area, stresses for present.
     fn past(&self, slot: usize, stretch: f64) -> Past<'_> {
         let (options, old) = (&self.contact.parts.options, self.history.slot(slot));
-        let (penalty, tangential_penalty) = (options.penalty / stretch, self.tangential[slot] / stretch);
-        let [_, s, t] = self.shift(slot);
-        let penetration = old[entry::PENETRATION] + old[entry::CLOSURE];
-        let mut past = Past {
-            penalty,
-            tangential_penalty,
-            penetration,
-            pressure: old[entry::PRESSURE],
-            shear: [old[entry::SHEAR] + tangential_penalty * s, old[entry::SHEAR2] + tangential_penalty * t],
-            vars: &old[entry::COUNT..],
-            dt: self.dt,
-        };
+        let mut past = past(old, [options.penalty, self.tangential[slot]].map(|k| k / stretch), self.at.dt);
+        let [_, s, t] = self.shift(slot).map(|shift| past.tangential_penalty * shift);
+        past.shear = [past.shear[0] + s, past.shear[1] + t];
         if old[entry::SEGMENT] < 0.0 {
             past.penetration = self.law.touch(&past);
         }
@@ -330,9 +313,8 @@ impl FieldAttempt<'_> {
         if self.history.slot(slot)[entry::STATUS] == 0.0 {
             refuse_jump(sums.y[0], depth, || contact.name_of(slot))?;
         }
-        let FieldTarget::Tool(rigid) = &contact.parts.target else { return Ok(()) };
-        let turned = rigid.turned(stencil.motion(), &self.accepted[rigid.unknowns()]);
-        refuse_turn(turned, || contact.name_of(slot))
+        let Some(rigid) = contact.parts.target.as_tool() else { return Ok(()) };
+        rigid.refuse_turn(stencil.motion(), self.accepted, || contact.name_of(slot))
     }
 }
 

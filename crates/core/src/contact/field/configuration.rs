@@ -1,10 +1,14 @@
 //! Both sides of a contact in place, and which part of a face sees which part of the target.
 
 use super::contact::{FieldContact, FieldTarget};
-use super::cover::{FaceInPlace, Patch, between_vertices, over_piece};
-use super::face::{CORNERS, PlacedFace};
+use super::cover::{FaceInPlace, Patch, over_piece};
+use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
+use super::part::{FacePart, samples};
+use super::space::whole;
 use super::tool::ToolInPlace;
+use crate::mesh::Mesh;
+use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::BoundingBox;
 
@@ -28,6 +32,16 @@ pub enum TargetInPlace<'a> {
     Faces(FacesInPlace<'a>),
 }
 
+impl FieldTarget {
+    /// At unknowns `u`.
+    pub fn at(&self, site: (&Mesh, &Dofs), u: &[f64]) -> TargetInPlace<'_> {
+        match self {
+            Self::Tool(rigid) => TargetInPlace::Tool(rigid.at(u)),
+            Self::Faces(faces) => TargetInPlace::Faces(faces.in_place(site, u)),
+        }
+    }
+}
+
 impl<'a> Configuration<'a> {
     /// At unknowns `u`.
     pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
@@ -35,21 +49,12 @@ impl<'a> Configuration<'a> {
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
-        let target = match &contact.parts.target {
-            FieldTarget::Tool(rigid) => TargetInPlace::Tool(rigid.at(u)),
-            FieldTarget::Faces(faces) => TargetInPlace::Faces(faces.in_place(site, u)),
-        };
-        Self { contact, placed, normals, target }
+        Self { contact, placed, normals, target: contact.parts.target.at(site, u) }
     }
 
     /// A face of the surface.
     pub fn face(&self, number: usize) -> FaceInPlace<'_> {
-        let surface = &self.contact.parts.surface;
-        let mut normals = [Vec3::zero(); CORNERS];
-        for (normal, node) in normals.iter_mut().zip(surface.field[number]) {
-            *normal = self.normals.get(node).copied().unwrap_or(Vec3::zero());
-        }
-        FaceInPlace { face: &surface.faces[number], placed: self.placed[number], normals, plane: surface.plane }
+        FaceInPlace::of(&self.contact.parts.surface, number, self.placed[number], &self.normals)
     }
 }
 
@@ -65,33 +70,35 @@ pub struct SeenPart {
 }
 
 impl Configuration<'_> {
-    /// The patches of a face that look at it, within `reach` or nearly so.
+    /// The patches of a face that look at it, within `reach` or nearly so: for each smooth piece of a tool those that see it, for each
+    /// face of a body one.
     pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<SeenPart> {
-        if !self.contact.parts.surface.plane {
-            return self.patches_in_space(number, reach, near);
-        }
         let (face, mut found) = (self.face(number), Vec::new());
+        let patch = |target: usize, near: [f64; 2], ends| Patch { face: number, target, ends, near, tip: None };
         match &self.target {
-            TargetInPlace::Tool(tool) => {
+            TargetInPlace::Tool(tool) if face.plane => {
                 for piece in 0..self.contact.pieces {
                     over_piece(&face, (tool, piece), |interval, ends| {
-                        let patch = Patch { face: number, target: piece, ends, near: interval, tip: None };
-                        found.extend(self.judge(&face, patch, &samples(interval)));
+                        found.extend(self.judge(&face, patch(piece, interval, ends), &samples(interval)));
                     });
                 }
             }
+            TargetInPlace::Tool(_) => {
+                let places: Vec<[f64; 2]> = whole(face.face.corners()).map(|place| place.xi).collect();
+                let look = |piece: usize| self.judge(&face, patch(piece, WHOLE, [None; 2]), &places);
+                found.extend((0..self.contact.pieces).filter_map(look));
+            }
             TargetInPlace::Faces(faces) => {
-                let all = BoundingBox::of(face.placed.nodes().iter().copied());
                 // Farther than the band, since a node has one and not each of its faces.
-                faces.near(&all, 2.0 * reach, near);
-                for &target in near.iter().filter(|&&target| self.contact.may_touch(number, target)) {
-                    let nodes = faces.placed(target).nodes();
-                    let Some((interval, bounded)) = between_vertices(&face, [nodes[1], nodes[0]]) else { continue };
-                    let ends = [bounded[0].then_some(1), bounded[1].then_some(0)];
-                    let patch = Patch { face: number, target, ends, near: interval, tip: None };
-                    found.extend(self.judge(&face, patch, &samples(interval)));
-                }
-                keep_nearest(&mut found);
+                faces.near(&BoundingBox::of(face.placed.nodes().iter().copied()), 2.0 * reach, near);
+                let candidates = near.iter().filter(|&&target| self.contact.may_touch(number, target));
+                let look = |&target: &usize| {
+                    let part = FacePart::new(&face, faces.corners(target))?;
+                    let (near, ends) =
+                        if let FacePart::Interval(near, ends) = part { (near, ends) } else { (WHOLE, [None; 2]) };
+                    Some((self.judge(&face, patch(target, near, ends), &part.places())?, part))
+                };
+                found = keep_nearest(&candidates.filter_map(look).collect::<Vec<_>>());
             }
         }
         found
@@ -113,8 +120,7 @@ impl Configuration<'_> {
                 }
                 TargetInPlace::Faces(faces) => {
                     let ray = FaceRay { x: at.x, n: at.normal.unit() };
-                    let target = self.contact.parts.target.as_faces()?;
-                    let hit = target.project(patch.target, faces.placed(patch.target), &ray)?;
+                    let hit = faces.project(patch.target, &ray)?;
                     (hit.gap, -hit.normal().dot(ray.n))
                 }
             };
@@ -125,16 +131,10 @@ impl Configuration<'_> {
     }
 }
 
-/// Ends and middle of an interval.
-fn samples([from, to]: [f64; 2]) -> [[f64; 2]; 3] {
-    [from, to, 0.5 * (from + to)].map(|xi| [xi, 0.0])
-}
-
-/// Of patches of one face that lie over each other, keeps the nearest.
-fn keep_nearest(found: &mut Vec<SeenPart>) {
-    let overlap =
-        |a: &SeenPart, b: &SeenPart| a.patch.near[1].min(b.patch.near[1]) - a.patch.near[0].max(b.patch.near[0]) > 1e-6;
+/// Of patches of one face that lie over each other, the nearest.
+fn keep_nearest(all: &[(SeenPart, FacePart)]) -> Vec<SeenPart> {
     let nearer = |a: &SeenPart, b: &SeenPart| (a.middle.abs(), a.patch.target) < (b.middle.abs(), b.patch.target);
-    let all = found.clone();
-    found.retain(|seen| !all.iter().any(|other| overlap(seen, other) && nearer(other, seen)));
+    let hidden =
+        |seen: &SeenPart, part: &FacePart| all.iter().any(|(other, over)| nearer(other, seen) && over.covers(part));
+    all.iter().filter(|(seen, part)| !hidden(seen, part)).map(|(seen, _)| *seen).collect()
 }

@@ -6,6 +6,7 @@
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::surface::FieldSurface;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
 
@@ -67,7 +68,17 @@ pub struct FaceFrame {
     pub corners: ShapeFunctions,
 }
 
-impl FaceInPlace<'_> {
+impl<'a> FaceInPlace<'a> {
+    /// A face of a surface in place, with the unit normals at the nodes of the field, none where nothing asks for them.
+    pub fn of(surface: &'a FieldSurface, number: usize, placed: PlacedFace, normals: &[Vec3]) -> Self {
+        let normals = surface.field[number].map(|node| normals.get(node).copied().unwrap_or_default());
+        Self { face: &surface.faces[number], placed, normals, plane: surface.plane }
+    }
+    /// Its corners.
+    pub fn corners(&self) -> &[Vec3] {
+        &self.placed.nodes()[..self.face.corners()]
+    }
+
     /// A place of it.
     pub fn at(&self, xi: [f64; 2]) -> FaceFrame {
         let (shape, corners) = (self.face.shape(xi), self.face.corner_functions(xi));

@@ -11,7 +11,7 @@ pub const MOST: usize = 9;
 pub const CORNERS: usize = 4;
 
 /// The part that is the whole of an edge.
-const WHOLE: [f64; 2] = [-1.0, 1.0];
+pub const WHOLE: [f64; 2] = [-1.0, 1.0];
 
 /// A face of the boundary, or half of an edge of second degree.
 #[derive(Debug, Clone)]

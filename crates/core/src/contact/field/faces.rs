@@ -134,14 +134,24 @@ fn bounds(placed: &PlacedFace) -> BoundingBox {
 }
 
 impl FacesInPlace<'_> {
-    /// Number of the corners of a face.
-    pub fn corners(&self, number: usize) -> usize {
-        self.faces.surface.faces[number].corners()
+    /// The corners of a face.
+    pub fn corners(&self, number: usize) -> &[Vec3] {
+        &self.placed[number].nodes()[..self.faces.surface.faces[number].corners()]
     }
 
     /// A face in place.
     pub fn placed(&self, number: usize) -> &PlacedFace {
         &self.placed[number]
+    }
+
+    /// Where a ray meets face `number` or what continues it.
+    pub fn project(&self, number: usize, ray: &FaceRay) -> Option<FaceProjection> {
+        self.faces.project(number, &self.placed[number], ray)
+    }
+
+    /// Whether reference coordinates lie on a face, up to a part `beyond` past its edges.
+    pub fn holds(&self, number: usize, s: [f64; 2], beyond: f64) -> bool {
+        self.faces.surface.faces[number].holds(s, beyond)
     }
 
     /// Numbers of the faces whose boxes come within `margin` of a box, ascending.
@@ -164,9 +174,8 @@ impl FacesInPlace<'_> {
         self.tree.along(&along, range, &mut |number| found.push(number));
         found.sort_unstable();
         for number in found {
-            let Some(hit) = self.faces.project(number, &self.placed[number], ray) else { continue };
-            let inside =
-                self.faces.surface.faces[number].holds(hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
+            let Some(hit) = self.project(number, ray) else { continue };
+            let inside = self.holds(number, hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
             if inside && admits(number, &hit) && best.is_none_or(|(_, b)| hit.gap.abs() < b.gap.abs()) {
                 best = Some((number, hit));
             }

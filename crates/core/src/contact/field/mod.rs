@@ -14,7 +14,7 @@
 //! smooth pieces of the target (Farah, Wall & Popp, IJNME 114, 2018).
 //!
 //! The way of a contact: [`surface`](FieldSurface) and `faces` or `tool` are who may touch whom and [`contact`](FieldContact) the two
-//! with their law; `cover` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
+//! with their law; `cover`, `part` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
 //! `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all that follows from it along a
 //! `column` of the tangent, `stencil` the sums of the points of a node, `tip` the vertex of a wedge within a face; `attempt` and
 //! `term` are the ones that equilibrium knows, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
@@ -28,6 +28,7 @@ mod cover;
 pub(super) mod face;
 pub(super) mod faces;
 mod linear;
+mod part;
 mod patch;
 mod point;
 mod report;

@@ -3,7 +3,7 @@
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
 use super::face::moved;
-use super::faces::FaceRay;
+use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
 use crate::contact::record::{ContactRecord, entry};
@@ -44,11 +44,10 @@ impl FieldContact {
                     }
                     TargetInPlace::Faces(faces) => {
                         let ray = FaceRay { x: at.x, n: at.normal.unit() };
-                        let hit = self.parts.target.as_faces().and_then(|all| {
-                            let hit = all.project(patch.target, faces.placed(patch.target), &ray)?;
-                            all.surface.faces[patch.target].holds(hit.s, 1e-6).then_some(hit)
-                        });
-                        hit.filter(|hit| hit.gap < -self.least).map(|hit| ray.n * hit.gap)
+                        let hit = faces.project(patch.target, &ray);
+                        let meets =
+                            |hit: &FaceProjection| faces.holds(patch.target, hit.s, 1e-6) && hit.gap < -self.least;
+                        hit.filter(meets).map(|hit| ray.n * hit.gap)
                     }
                 };
                 let farther = |by: &Vec3, other: Option<&Move>| other.is_none_or(|other| by.norm() > other.by.norm());

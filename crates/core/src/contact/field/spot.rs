@@ -39,7 +39,7 @@ impl PatchInPlace<'_> {
             };
             return rule.iter().map(place).collect();
         }
-        let own = &self.face.placed.nodes()[..self.face.face.corners()];
+        let own = self.face.corners();
         let Some((faces, seen)) = &self.seen else {
             let on = |Spread { xi, weight }| FaceSpot { xi, weight, laid: SpotMap::Whole };
             return whole(own.len()).map(on).collect();

@@ -101,7 +101,6 @@ impl Term for FieldContact {
             at,
             tangential: self.tangential_penalties(&*law, history),
             law,
-            dt: at.dt,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
             far: reach(self.longest, &accepted.last_change),

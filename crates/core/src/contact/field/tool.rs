@@ -4,6 +4,8 @@ use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
 use crate::tool::{Hit, NearestPoint, PieceEnd, Pose, ProfileRay, ProfileTool, SmoothPiece, Tip};
+use crate::{Failure, FailureKind};
+use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -109,10 +111,16 @@ impl RigidTool {
     pub fn at(&self, u: &[f64]) -> ToolInPlace<'_> {
         self.in_place(&u[self.unknowns()])
     }
-    /// The angle between two values of its unknowns, in radians; in space that of a turn about a steady axis.
-    pub fn turned(&self, motion: &[f64], before: &[f64]) -> f64 {
-        let turns = motion.iter().zip(before).skip(self.axes()).map(|(now, before)| (now - before).powi(2));
-        turns.sum::<f64>().sqrt()
+    /// Refuses that it touches after more than a quarter of a turn, in space about a steady axis, from all accepted unknowns to its
+    /// own: the slip is a chord, and half a turn brings what was touched to the other side, where none is seen.
+    pub fn refuse_turn(&self, own: &[f64], accepted: &[f64], name: impl FnOnce() -> String) -> Result<(), Failure> {
+        let turns = own.iter().zip(&accepted[self.unknowns()]).skip(self.axes());
+        let turned = turns.map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt();
+        if turned > FRAC_PI_2 {
+            let reason = format!("{}: its tool turned by {:.0} degrees in one increment", name(), turned.to_degrees());
+            return Err(Failure::new(reason).of(FailureKind::Turn));
+        }
+        Ok(())
     }
 }
 

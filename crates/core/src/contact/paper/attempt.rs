@@ -1,7 +1,7 @@
 //! A contact of Gauss points during one attempt.
 
 use super::contact::PaperContact;
-use crate::contact::record::entry;
+use crate::contact::record::{entry, past};
 use crate::interface::{Interface, Past};
 use crate::system::{History, Instant};
 use crate::tool::Hit;
@@ -25,8 +25,6 @@ pub struct PaperAttempt<'a> {
     pub ahead: Vec<f64>,
     /// When it ends.
     pub at: Instant,
-    /// Length of the increment.
-    pub dt: f64,
 }
 
 /// Begins the new history of a point with what the search found.
@@ -54,15 +52,7 @@ impl PaperAttempt<'_> {
 
     /// What the law may know of a point.
     pub(super) fn past(&self, index: usize) -> Past<'_> {
-        let (options, old) = (&self.contact.parts.options, self.history.slot(index));
-        Past {
-            penalty: options.penalty,
-            tangential_penalty: options.tangential_penalty,
-            penetration: old[entry::PENETRATION] + old[entry::CLOSURE],
-            pressure: old[entry::PRESSURE],
-            shear: [old[entry::SHEAR], old[entry::SHEAR2]],
-            vars: &old[entry::COUNT..],
-            dt: self.dt,
-        }
+        let options = &self.contact.parts.options;
+        past(self.history.slot(index), [options.penalty, options.tangential_penalty], self.at.dt)
     }
 }

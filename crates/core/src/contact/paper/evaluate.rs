@@ -7,7 +7,7 @@ use super::seed::Seed;
 use super::stencil::{D, DIRECTIONS, PointGeometry};
 use crate::Failure;
 use crate::contact::energy::account;
-use crate::contact::increment::{refuse_jump, refuse_turn};
+use crate::contact::increment::refuse_jump;
 use crate::contact::record::{entry, leave, write};
 use crate::interface::{Linearised, Past};
 use crate::mesh::Space;
@@ -101,7 +101,7 @@ impl PaperAttempt<'_> {
             return refuse_jump(g.hit.u, self.depths[index], name);
         }
         let Some(rigid) = self.contact.parts.target.as_tool() else { return Ok(()) };
-        refuse_turn(rigid.turned(&u[g.met.clone()], &self.accepted[rigid.unknowns()]), name)
+        rigid.refuse_turn(&u[g.met.clone()], self.accepted, name)
     }
 
     fn account(&self, index: usize, g: &PointGeometry, now: Option<&Linearised>, local: &mut Local) {

@@ -2,7 +2,6 @@
 
 use super::contact::PaperContact;
 use super::segment::met;
-use crate::contact::field::FieldTarget;
 use crate::contact::field::configuration::TargetInPlace;
 use crate::contact::field::faces;
 use crate::contact::increment::reach;
@@ -69,10 +68,7 @@ impl PaperContact {
 
     /// The target at unknowns `u`.
     pub(super) fn target_at(&self, u: &[f64]) -> TargetInPlace<'_> {
-        match &self.parts.target {
-            FieldTarget::Tool(rigid) => TargetInPlace::Tool(rigid.at(u)),
-            FieldTarget::Faces(faces) => TargetInPlace::Faces(faces.in_place(self.site(), u)),
-        }
+        self.parts.target.at(self.site(), u)
     }
 
     /// The ray of a point at unknowns `u`.

@@ -59,7 +59,6 @@ impl Term for PaperContact {
             reach: self.reach(&accepted.last_change),
             ahead: accepted.ahead(at.dt),
             at,
-            dt: at.dt,
         }))
     }
 

@@ -1,7 +1,6 @@
-//! What the field has in space alone: the parts of two faces that see each other with their quadrature, and the search.
+//! What the field has in space alone: the parts of two faces that see each other with their quadrature.
 
 mod overlap;
 mod polygon;
-mod search;
 
-pub use overlap::{DIRECTIONS, FacePart, Spread, spread, whole};
+pub use overlap::{DIRECTIONS, PolygonPart, Spread, spread, whole};

@@ -137,13 +137,13 @@ pub fn spread<T: Scalar>(degree: usize, own: &[Vec3<T>], other: &[Vec3<T>], mut 
 }
 
 /// A part of a face, in its plane: its vertices and its centroid in reference coordinates come first.
-pub struct FacePart {
+pub struct PolygonPart {
     flat: FlatFace<f64>,
     polygon: Polygon<f64>,
     places: Vec<[f64; 2]>,
 }
 
-impl FacePart {
+impl PolygonPart {
     /// Of face `own` where it sees face `other`, given by their corners.
     pub fn new(own: &[Vec3], other: &[Vec3]) -> Option<Self> {
         let flat = FlatFace::new(own);

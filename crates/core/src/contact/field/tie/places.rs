@@ -1,9 +1,9 @@
 //! Where faces of the surface have the target opposite: points of a quadrature on the overlap of both meshes.
 
-use crate::contact::field::cover::{FaceInPlace, between_vertices};
-use crate::contact::field::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use crate::contact::field::cover::FaceInPlace;
+use crate::contact::field::face::{FieldFace, PlacedFace, ShapeFunctions};
 use crate::contact::field::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE, TargetFaces};
-use crate::contact::field::space::FacePart;
+use crate::contact::field::part::FacePart;
 use crate::contact::field::surface::FieldSurface;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
@@ -40,16 +40,9 @@ pub struct TieCover {
     pub beyond: Vec<(f64, Vec3)>,
 }
 
-/// A part of a face that sees a face of the target.
-enum TiePart {
-    Interval([f64; 2]),
-    Polygon(Box<FacePart>),
-}
-
 /// Finds places.
 pub struct TiePlaces<'a> {
     surface: &'a FieldSurface,
-    faces: &'a TargetFaces,
     target: FacesInPlace<'a>,
     placed: Vec<PlacedFace>,
     normals: Vec<Vec3>,
@@ -64,43 +57,35 @@ impl<'a> TiePlaces<'a> {
         let target = faces.in_place((mesh, &dofs), &vec![0.0; dofs.count()]);
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.at_rest(mesh)).collect();
         let normals = (0..surface.nodes.len()).map(|node| surface.normal(node, |f| placed[f]).unit).collect();
-        Self { surface, faces, target, placed, normals, tolerance, rule: legendre(POINTS) }
-    }
-
-    fn face(&self, number: usize) -> FaceInPlace<'_> {
-        let mut normals = [Vec3::zero(); CORNERS];
-        for (normal, node) in normals.iter_mut().zip(self.surface.field[number]) {
-            *normal = self.normals.get(node).copied().unwrap_or(Vec3::zero());
-        }
-        let (face, placed) = (&self.surface.faces[number], self.placed[number]);
-        FaceInPlace { face, placed, normals, plane: self.surface.plane }
+        Self { surface, target, placed, normals, tolerance, rule: legendre(POINTS) }
     }
 
     /// What a face has opposite.
     pub fn of(&self, number: usize) -> TieCover {
-        let (face, mut near, mut seen) = (self.face(number), Vec::new(), Vec::new());
+        let face = FaceInPlace::of(self.surface, number, self.placed[number], &self.normals);
+        let (mut near, mut seen) = (Vec::new(), Vec::new());
         let around = BoundingBox::of(face.placed.nodes().iter().copied());
         self.target.near(&around, LOOKED * self.tolerance, &mut near);
         for &target in &near {
-            let part = self.part(&face, target);
-            let middle = |part: TiePart| {
-                let xi = part.middle();
+            let part = FacePart::new(&face, self.target.corners(target));
+            let middle = |part: FacePart| {
+                let xi = *part.places().last()?;
                 let hit = self.project(&face, xi, target)?;
                 let looks = -hit.normal().dot(face.own_normal(xi)) > LEAST_COSINE;
-                (looks && hit.gap.abs() <= LOOKED * self.tolerance).then_some((target, part, hit.gap))
+                (looks && hit.gap.abs() <= LOOKED * self.tolerance).then_some((target, part, xi, hit.gap))
             };
             seen.extend(part.and_then(middle));
         }
         let mut cover = TieCover::default();
-        for (i, (target, part, gap)) in seen.iter().enumerate() {
-            let nearer = |(j, (_, other, there)): (usize, &(usize, TiePart, f64))| {
+        for (i, (target, part, middle, gap)) in seen.iter().enumerate() {
+            let nearer = |(j, (_, other, _, there)): (usize, &(usize, FacePart, [f64; 2], f64))| {
                 (there.abs(), j) < (gap.abs(), i) && other.covers(part)
             };
             if seen.iter().enumerate().any(nearer) {
                 continue;
             }
             if gap.abs() > self.tolerance {
-                cover.beyond.push((gap.abs(), face.at(part.middle()).x));
+                cover.beyond.push((gap.abs(), face.at(*middle).x));
                 continue;
             }
             for (xi, weight) in part.rule(&self.rule) {
@@ -113,47 +98,9 @@ impl<'a> TiePlaces<'a> {
         cover
     }
 
-    /// The part of a face that sees one of the target.
-    fn part(&self, face: &FaceInPlace, target: usize) -> Option<TiePart> {
-        let other = self.target.placed(target).nodes();
-        if self.surface.plane {
-            return between_vertices(face, [other[1], other[0]]).map(|(interval, _)| TiePart::Interval(interval));
-        }
-        let own = &face.placed.nodes()[..face.face.corners()];
-        FacePart::new(own, &other[..self.target.corners(target)]).map(|part| TiePart::Polygon(Box::new(part)))
-    }
-
     fn project(&self, face: &FaceInPlace, xi: [f64; 2], target: usize) -> Option<FaceProjection> {
         let at = face.at(xi);
-        self.faces.project(target, self.target.placed(target), &FaceRay { x: at.x, n: at.normal.unit() })
-    }
-}
-
-impl TiePart {
-    fn middle(&self) -> [f64; 2] {
-        match self {
-            Self::Interval([from, to]) => [0.5 * (from + to), 0.0],
-            Self::Polygon(part) => part.places().last().copied().unwrap_or([0.0; 2]),
-        }
-    }
-
-    fn covers(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Interval(a), Self::Interval(b)) => a[1].min(b[1]) - a[0].max(b[0]) > 1e-6,
-            (Self::Polygon(a), Self::Polygon(b)) => a.covers(b),
-            _ => false,
-        }
-    }
-
-    /// Places and areas in reference coordinates, by a rule of the interval from -1 to 1.
-    fn rule(&self, rule: &[(f64, f64)]) -> Vec<([f64; 2], f64)> {
-        match self {
-            Self::Interval([from, to]) => {
-                let half = 0.5 * (to - from);
-                rule.iter().map(|(x, weight)| ([0.5 * (from + to) + half * x, 0.0], half * weight)).collect()
-            }
-            Self::Polygon(part) => part.spread(rule).map(|place| (place.xi, place.weight)).collect(),
-        }
+        self.target.project(target, &FaceRay { x: at.x, n: at.normal.unit() })
     }
 }
 

@@ -210,6 +210,16 @@ fn a_corner_that_folds_into_a_tool() {
     assert!(figure(&around, "node_depth") < 0.1 && figure(&around, "interpenetration") < 0.01);
 }
 
+/// The decks of the turned pair also from the command line: two passes agree well enough where their points stand for the same parts.
+#[test]
+fn a_pair_that_turns_in_one_increment() {
+    for deck in ["pair.toml", "bodies.toml"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/rotated-pair").join(deck);
+        let run = Run::of(&std::fs::read_to_string(path).unwrap(), &[]);
+        assert_eq!((run.code(), run.summary["status"].as_str()), (0, Some("converged")), "{}", run.notes());
+    }
+}
+
 #[test]
 fn facets_that_bear_the_pressure() {
     Run::of(RINGS, &[]).doubts(&["facet_ratio"], "contact 'seat'");

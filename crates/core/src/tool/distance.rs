@@ -116,7 +116,7 @@ impl ProfileTool {
     }
 
     /// Where the piece before a crease ends and the one behind it begins: the bisector where the profile turns outward, none where
-    /// it turns inward.
+    /// it turns inward. Nothing where the two segments meet at less than a crease.
     fn crease(&self, one: usize, next: usize) -> Option<Option<PieceEnd>> {
         let turn = self.turn_behind(one, next);
         let (one, next) = (&self.segments()[one], &self.segments()[next]);

@@ -1,9 +1,9 @@
 //! What the facets of a tool in space and the segments of a profile have in common.
 //!
-//! A facet is a smooth piece of surface with two coordinates `s`, each in `[0, 1]` (a triangle's also `s0 + s1 <= 1`). A segment of the
-//! plane is one whose second tangent is `e_z`.
+//! A facet is a smooth piece of surface with two coordinates `s`, each in `[0, 1]` (a triangle's also `s0 + s1 <= 1`).
 //! It stands in the tool's own frame and never moves. Its outward normal is along `dx/ds0 x dx/ds1`. A ray meets the
-//! *carrier* of a facet (the whole plane, quadric or torus); the places whose `s` are in range are the facet's own.
+//! *carrier* of a facet (the whole plane, quadric or torus); the places whose `s` are in range are the facet's own. A segment of a
+//! profile is one whose second tangent is `e_z`, and its second coordinate zero.
 
 use super::shapes::{BoundingBox, ProfileRay, ProfileShape, RayCrossing};
 use crate::tensor::Vec3;
@@ -11,7 +11,7 @@ use std::fmt::Debug;
 
 /// How far beyond its edges a facet still counts as hit, in units of `s`: a ray through a common edge must not slip
 /// between two neighbours by rounding.
-pub(super) const EDGE: f64 = 1e-10;
+const EDGE: f64 = 1e-10;
 
 /// How far beyond its edges a facet's own carrier is followed when a ray is to meet this facet and no other.
 const EXTENSION: f64 = 0.1;

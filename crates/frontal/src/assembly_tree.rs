@@ -56,6 +56,11 @@ impl Front {
         layout(self.border, self.border)
     }
 
+    /// Which of two memories its block lies in: 0 at even depths, 1 at odd ones.
+    pub fn side(&self) -> usize {
+        self.depth % 2
+    }
+
     /// Numbers in the contribution block.
     pub fn block_len(&self) -> usize {
         self.block().len()

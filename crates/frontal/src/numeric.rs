@@ -3,7 +3,7 @@
 use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule, eliminate};
 use crate::extend_add::{Contribution, Parts, assemble};
-use crate::plan::{Plan, Role};
+use crate::plan::{Plan, Role, Sides};
 use crate::symbolic::Inner;
 use crate::symmetric;
 use std::ops::Range;
@@ -19,25 +19,33 @@ pub(crate) struct Numeric<'a> {
     pub stacks: &'a Mutex<Vec<Vec<f64>>>,
 }
 
-/// The parts of the factor and of the shared blocks that belong to consecutive subtrees.
+/// The parts of the factor and of the two sides of the shared blocks that belong to consecutive subtrees.
 struct Part<'a> {
     /// First front.
     first: usize,
     factors: &'a mut [f64],
     pivots: &'a mut [Pivot],
-    shared: &'a mut [f64],
+    shared: [&'a mut [f64]; 2],
 }
 
 impl<'a> Part<'a> {
     /// The parts before and from front `at`, with so many numbers of the shared blocks before it.
-    fn split(self, fronts: &[Front], at: usize, shared: usize) -> (Part<'a>, Part<'a>) {
+    fn split(self, fronts: &[Front], at: usize, shared: Sides) -> (Part<'a>, Part<'a>) {
         let (first, next) = (&fronts[self.first], &fronts[at]);
         let (factors, later_factors) = self.factors.split_at_mut(next.factor - first.factor);
         let (pivots, later_pivots) = self.pivots.split_at_mut(next.first - first.first);
-        let (shared, later_shared) = self.shared.split_at_mut(shared);
-        let later = Part { first: at, factors: later_factors, pivots: later_pivots, shared: later_shared };
-        (Part { first: self.first, factors, pivots, shared }, later)
+        let [even, odd] = self.shared;
+        let ((even, later_even), (odd, later_odd)) = (even.split_at_mut(shared[0]), odd.split_at_mut(shared[1]));
+        let later = Part { first: at, factors: later_factors, pivots: later_pivots, shared: [later_even, later_odd] };
+        (Part { first: self.first, factors, pivots, shared: [even, odd] }, later)
     }
+}
+
+/// What a front computes: its part of the factor, and its block.
+struct Results<'a> {
+    factors: &'a mut [f64],
+    pivots: &'a mut [Pivot],
+    block: &'a mut [f64],
 }
 
 impl Numeric<'_> {
@@ -45,7 +53,8 @@ impl Numeric<'_> {
     pub fn factorise(&self, factors: &mut [f64], pivots: &mut [Pivot], shared: &mut [f64]) {
         let tree = &self.symbolic.tree;
         let roots = tree.child_starts[tree.fronts.len()]..tree.child_list.len();
-        self.subtrees(roots, Part { first: 0, factors, pivots, shared });
+        let (even, odd) = shared.split_at_mut(self.plan.shared_of(&tree.child_list[roots.clone()])[0]);
+        self.subtrees(roots, Part { first: 0, factors, pivots, shared: [even, odd] });
     }
 
     /// Factorises the subtrees of some entries of `child_list`, side by side where that is worth while.
@@ -57,9 +66,8 @@ impl Numeric<'_> {
             count => {
                 let middle = children.start + count / 2;
                 let earlier = &tree.child_list[children.start..middle];
-                let shared = earlier.iter().map(|&child| self.plan.shared_with(tree, child as usize)).sum();
                 let next = tree.fronts[tree.child_list[middle] as usize].first_descendant;
-                let (part, later) = part.split(&tree.fronts, next, shared);
+                let (part, later) = part.split(&tree.fronts, next, self.plan.shared_of(earlier));
                 let first = || self.subtrees(children.start..middle, part);
                 let second = || self.subtrees(middle..children.end, later);
                 if self.plan.threads > 1 {
@@ -72,27 +80,28 @@ impl Numeric<'_> {
         }
     }
 
-    /// Factorises the subtree of `s` and leaves its block at the end of the shared ones.
+    /// Factorises the subtree of `s` and leaves its block at the start of its side of the shared ones.
     fn subtree(&self, s: usize, part: Part) {
         let tree = &self.symbolic.tree;
         if self.plan.roles[s] == Role::Task {
             return self.task(s, part);
         }
-        let (below, own) = part.split(&tree.fronts, s, self.plan.shared_below[s]);
-        let Part { first, factors, pivots, shared } = below;
-        self.subtrees(
-            tree.child_starts[s]..tree.child_starts[s + 1],
-            Part { first, factors, pivots, shared: &mut *shared },
-        );
+        let (front, children) = (&tree.fronts[s], tree.children(s));
+        let Part { first, factors, pivots, shared: [even, odd] } = part;
+        let start = &tree.fronts[first];
+        let (below, factors) = factors.split_at_mut(front.factor - start.factor);
+        let (pivots_below, pivots) = pivots.split_at_mut(front.first - start.first);
+        let below = Part { first, factors: below, pivots: pivots_below, shared: [&mut *even, &mut *odd] };
+        self.subtrees(tree.child_starts[s]..tree.child_starts[s + 1], below);
+        let (own, others) = if front.side() == 0 { (even, &*odd) } else { (odd, &*even) };
         let child = |k: usize| {
-            let start = tree.children(s)[..k].iter().map(|&c| self.plan.shared_with(tree, c as usize)).sum::<usize>();
-            let child = tree.children(s)[k] as usize;
-            let start = start + self.plan.shared_below[child];
-            self.contribution(child, &shared[start..])
+            let start = self.plan.shared_of(&children[..k])[1 - front.side()];
+            self.contribution(children[k] as usize, &others[start..])
         };
         // Not that of a stack: while this thread waits for others it may take up a task that needs one.
-        let mut scratch = vec![0.0; tree.fronts[s].scratch_len()];
-        self.front(s, own, &mut scratch, child, true);
+        let mut scratch = vec![0.0; front.scratch_len()];
+        let block = &mut own[..front.block_len()];
+        self.front(s, Results { factors, pivots, block }, &mut scratch, child, true);
     }
 
     /// Factorises the subtree of `task` in postorder, on a stack of its own.
@@ -105,15 +114,15 @@ impl Numeric<'_> {
             let front = &tree.fronts[s];
             let factors = &mut part.factors[front.factor - start.factor..][..front.factor_len()];
             let pivots = &mut part.pivots[front.first - start.first..][..front.pivots];
-            let (shared, others) = match s == task {
-                true => (&mut *part.shared, Others { stack: &*blocks, offset: 0 }),
+            let (block, others) = match s == task {
+                true => (&mut part.shared[front.side()][..front.block_len()], Others { stack: &*blocks, offset: 0 }),
                 false => split_stack(front, self.plan.offsets[s], blocks),
             };
             let child = |k: usize| {
                 let child = tree.children(s)[k] as usize;
                 self.contribution(child, &others.stack[self.plan.offsets[child] - others.offset..])
             };
-            self.front(s, Part { first: s, factors, pivots, shared }, scratch, child, false);
+            self.front(s, Results { factors, pivots, block }, scratch, child, false);
         }
         self.return_stack(stack);
     }
@@ -130,29 +139,30 @@ impl Numeric<'_> {
         self.stacks.lock().unwrap_or_else(PoisonError::into_inner).push(stack);
     }
 
-    /// Assembles and eliminates the front `s`, which has the whole `part`; its block is the shared one.
+    /// Assembles and eliminates the front `s`.
     fn front<'b>(
         &self,
         s: usize,
-        part: Part,
+        results: Results,
         scratch: &mut [f64],
         child: impl Fn(usize) -> Contribution<'b> + Sync,
         parallel: bool,
     ) {
         let tree = &self.symbolic.tree;
         let front = &tree.fronts[s];
-        part.factors.fill(0.0);
+        let Results { factors, pivots, block } = results;
+        factors.fill(0.0);
         for entry in tree.entries(s) {
-            part.factors[entry.place as usize] += self.values[entry.value as usize];
+            factors[entry.place as usize] += self.values[entry.value as usize];
         }
-        let (left, right) = part.factors.split_at_mut(front.left_len());
-        let mut parts = Parts { left, right, block: part.shared };
+        let (left, right) = factors.split_at_mut(front.left_len());
+        let mut parts = Parts { left, right, block };
         assemble(front, &mut parts, tree.children(s).len(), child, parallel);
         if front.symmetric {
             let Parts { left, block, .. } = parts;
-            return symmetric::eliminate(front, (left, block), scratch, part.pivots, (self.rule, parallel));
+            return symmetric::eliminate(front, (left, block), scratch, pivots, (self.rule, parallel));
         }
-        eliminate(front, &mut parts, part.pivots, self.rule, parallel);
+        eliminate(front, &mut parts, pivots, self.rule, parallel);
     }
 
     fn contribution<'b>(&'b self, child: usize, from: &'b [f64]) -> Contribution<'b> {
@@ -172,7 +182,7 @@ struct Others<'a> {
 /// The block of a front at one side of the stack, and the other side.
 fn split_stack<'a>(front: &Front, offset: usize, stack: &'a mut [f64]) -> (&'a mut [f64], Others<'a>) {
     let len = front.block_len();
-    if front.depth.is_multiple_of(2) {
+    if front.side() == 0 {
         let (low, high) = stack.split_at_mut(offset + len);
         (&mut low[offset..], Others { stack: high, offset: offset + len })
     } else {

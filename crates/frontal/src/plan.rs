@@ -18,12 +18,16 @@ pub(crate) enum Role {
     Above,
 }
 
+/// Lengths on the side of even depths and on that of odd ones.
+pub(crate) type Sides = [usize; 2];
+
 /// The division of the tree among threads, and the layout of the working memory that goes with it.
 ///
-/// A front is assembled while its children's blocks are still there. In a task, blocks of even depth therefore grow
-/// from the front of the stack and those of odd depth from its back: on either side the last block in is the first
-/// out, and none is ever moved. The blocks of the tasks' roots and of the fronts above are *shared*: they outlive the
-/// tasks and have places of their own, in the order of the fronts.
+/// A front is assembled while its children's blocks are still there, and those of its grandchildren are not: blocks of
+/// even and of odd depth have memory of their own. In a task, those of even depth grow from the front of the stack and
+/// those of odd depth from its back: on either side the last block in is the first out, and none is ever moved. The
+/// blocks of the tasks' roots and of the fronts above are *shared*: they outlive the tasks. On either side of the shared
+/// memory siblings lie next to each other, and a block lies where those of its grandchildren were.
 ///
 /// The plan has no influence on results: every front is computed from the same numbers in the same order.
 #[derive(Debug, Clone)]
@@ -36,26 +40,28 @@ pub(crate) struct Plan {
     pub stack_len: usize,
     /// Room after the stack for the elimination of a symmetric front.
     pub scratch_len: usize,
-    /// Length of the shared blocks below each front, its own not counted; the last entry is that of all fronts.
-    pub shared_below: Vec<usize>,
+    /// Length of the shared blocks of each subtree, on the side of even depths and on that of odd ones; the last entry is
+    /// that of all.
+    shared: Vec<Sides>,
 }
 
 impl Plan {
     pub fn new(tree: &AssemblyTree, threads: usize) -> Self {
         let n = tree.fronts.len();
         let roles = roles(tree, threads);
-        let mut plan =
-            Plan { threads, roles, offsets: vec![0; n], stack_len: 0, scratch_len: 0, shared_below: vec![0; n + 1] };
+        let shared = vec![Sides::default(); n + 1];
+        let mut plan = Plan { threads, roles, offsets: vec![0; n], stack_len: 0, scratch_len: 0, shared };
         plan.scratch_len = tree.fronts.iter().map(|front| front.scratch_len()).max().unwrap_or(0);
-        for s in 0..=n {
-            match plan.roles.get(s) {
-                Some(Role::Inside) => {}
-                Some(Role::Task) => plan.lay_out_stack(tree, s),
-                Some(Role::Above) | None => {
-                    plan.shared_below[s] = tree.children(s).iter().map(|&c| plan.shared_with(tree, c as usize)).sum();
-                }
+        for s in 0..n {
+            match plan.roles[s] {
+                Role::Inside => continue,
+                Role::Task => plan.lay_out_stack(tree, s),
+                Role::Above => plan.shared[s] = plan.shared_of(tree.children(s)),
             }
+            let (front, shared) = (&tree.fronts[s], &mut plan.shared[s]);
+            shared[front.side()] = shared[front.side()].max(front.block_len());
         }
+        plan.shared[n] = plan.shared_of(tree.children(n));
         plan
     }
 
@@ -65,7 +71,7 @@ impl Plan {
     }
 
     pub fn shared_len(&self) -> usize {
-        self.shared_below.last().copied().unwrap_or(0)
+        self.shared.last().map_or(0, |sides| sides.iter().sum())
     }
 
     /// Number of tasks that can be under way together.
@@ -73,9 +79,10 @@ impl Plan {
         self.threads.min(self.roles.iter().filter(|&&role| role == Role::Task).count())
     }
 
-    /// Length of the shared blocks below a front and of its own.
-    pub fn shared_with(&self, tree: &AssemblyTree, s: usize) -> usize {
-        self.shared_below[s] + tree.fronts[s].block_len()
+    /// Length of the shared blocks of so many subtrees.
+    pub fn shared_of(&self, roots: &[u32]) -> Sides {
+        let rooms = roots.iter().map(|&root| self.shared[root as usize]);
+        rooms.fold(Sides::default(), |[even, odd], sides| [even + sides[0], odd + sides[1]])
     }
 
     fn lay_out_stack(&mut self, tree: &AssemblyTree, task: usize) {
@@ -83,14 +90,14 @@ impl Plan {
         // Filled lengths of the two sides and the most that both ever took together.
         let (mut filled, mut len) = ([0, 0], 0);
         for s in range.clone() {
-            let side = tree.fronts[s].depth % 2;
+            let side = tree.fronts[s].side();
             self.offsets[s] = filled[side];
             filled[side] += tree.fronts[s].block_len();
             len = len.max(filled[0] + filled[1]);
             filled[1 - side] -= tree.children(s).iter().map(|&c| tree.fronts[c as usize].block_len()).sum::<usize>();
         }
         // The back side counts from the end.
-        for s in range.filter(|&s| tree.fronts[s].depth % 2 == 1) {
+        for s in range.filter(|&s| tree.fronts[s].side() == 1) {
             self.offsets[s] = len - self.offsets[s] - tree.fronts[s].block_len();
         }
         self.stack_len = self.stack_len.max(len);

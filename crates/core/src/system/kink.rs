@@ -93,9 +93,11 @@ impl Kinks {
     pub fn dofs(&self) -> &[usize] {
         &self.dofs
     }
-    /// Rates of one coordinate along the unknowns.
-    pub fn rates(&self, kink: &Kink, coordinate: usize) -> impl Iterator<Item = f64> + '_ {
-        self.rates[kink.first + coordinate * kink.dofs.len()..].iter().take(kink.dofs.len()).copied()
+    /// Rates of one coordinate, unknown by unknown.
+    pub fn rates(&self, kink: &Kink, coordinate: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let dofs = &self.dofs[kink.dofs.clone()];
+        let row = &self.rates[kink.first + coordinate * dofs.len()..];
+        dofs.iter().copied().zip(row.iter().copied())
     }
     /// Forces of a unit of stress at one coordinate, unknown by unknown.
     pub fn forces(&self, kink: &Kink, coordinate: usize) -> impl Iterator<Item = (usize, f64)> + '_ {

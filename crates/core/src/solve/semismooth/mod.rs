@@ -98,22 +98,24 @@ impl ContactLaws for Points<'_, '_> {
         let constraints = self.contact.constraints();
         let load = |&(kink, coordinate): &Stress| self.contact.forces(&kinks.list()[kink], coordinate);
         let loads: Vec<Sparse> = stresses.iter().map(load).collect();
-        let dofs: BTreeSet<usize> = kinks.dofs().iter().copied().collect();
-        let followed = |&dof: &usize| constraints.followed(dof).map(move |(i, c)| (dof, i, c));
-        let follow: Vec<_> = dofs.iter().flat_map(followed).collect();
-        let mut wanted: Vec<usize> = follow.iter().map(|(_, unknown, _)| *unknown).collect();
-        wanted.sort_unstable();
-        wanted.dedup();
+        let wanted = self.contact.free(kinks.dofs());
         let motions = self.system.compliance(&loads, &wanted)?;
-        let place = |unknown: &usize| wanted.binary_search(unknown).expect("it is wanted");
-        let follow: Vec<_> = follow.iter().map(|(dof, unknown, c)| (*dof, place(unknown), *c)).collect();
-        let mut full = vec![0.0; constraints.count()];
-        let mut of = |number: usize| {
-            dofs.iter().for_each(|&dof| full[dof] = 0.0);
-            follow.iter().for_each(|(dof, place, c)| full[*dof] += c * motions[place * loads.len() + number]);
-            kinks.list().iter().map(|kink| kinks.along(kink, &full)).collect()
-        };
-        Ok((0..loads.len()).map(&mut of).collect())
+        let mut all = vec![vec![Coordinates::default(); kinks.list().len()]; loads.len()];
+        let mut along = vec![0.0; loads.len()];
+        for (number, kink) in kinks.list().iter().enumerate() {
+            for coordinate in 0..kink.count {
+                along.fill(0.0);
+                for (dof, rate) in kinks.rates(kink, coordinate) {
+                    for (unknown, share) in constraints.followed(dof) {
+                        let place = wanted.binary_search(&unknown).expect("it is wanted");
+                        let motions = &motions[place * loads.len()..][..loads.len()];
+                        along.iter_mut().zip(motions).for_each(|(along, motion)| *along += rate * (share * motion));
+                    }
+                }
+                all.iter_mut().zip(&along).for_each(|(all, along)| all[number][coordinate] = *along);
+            }
+        }
+        Ok(all)
     }
 }
 

@@ -150,9 +150,9 @@ impl Attempt for LedAttempt<'_> {
             let (places, mut kinks): (Vec<usize>, _) = ((0..own.len()).collect(), Kinks::default());
             kinks.begin((0, index), &places);
             self.attempt.kink(index, &Stencil { len: own.len(), ..*stencil }, &own, &mut kinks)?;
-            let lead = |values: &mut dyn Iterator<Item = f64>| {
+            let lead = |values: &mut dyn Iterator<Item = (usize, f64)>| {
                 let mut led = vec![0.0; u.len()];
-                for (value, rates) in values.zip(&rates) {
+                for ((_, value), rates) in values.zip(&rates) {
                     rates.iter().for_each(|&(place, rate)| led[place] += rate * value);
                 }
                 led
@@ -160,7 +160,7 @@ impl Attempt for LedAttempt<'_> {
             let Some(kink) = kinks.list().first() else { return Ok(()) };
             for coordinate in 0..kink.count {
                 let slopes = lead(&mut kinks.rates(kink, coordinate));
-                let forces = lead(&mut kinks.forces(kink, coordinate).map(|(_, force)| force));
+                let forces = lead(&mut kinks.forces(kink, coordinate));
                 out.coordinate(kink.y[coordinate], slopes.into_iter(), forces.into_iter());
             }
             Ok(())

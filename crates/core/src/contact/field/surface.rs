@@ -102,6 +102,7 @@ impl FieldSurface {
 
     /// Finds the smooth pieces and numbers the nodes of the field.
     fn number(&mut self, mesh: &Mesh) {
+        let axis = 1e-9 * mesh.size();
         let mut around: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (f, face) in self.faces.iter().enumerate() {
             (0..face.corners()).for_each(|c| around.entry(face.corner_node(c)).or_default().push((f, c)));
@@ -129,7 +130,7 @@ impl FieldSurface {
                 let support: Vec<(usize, usize)> = members.map(|i| corners[i]).collect();
                 support.iter().for_each(|&(f, c)| field[f][c] = nodes.len());
                 let on_axis = self.revolves
-                    && mesh.points[node][0].abs() <= 1e-9 * mesh.size()
+                    && mesh.points[node][0].abs() <= axis
                     && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
                 nodes.push(FieldNode { node, support, on_axis });
             }

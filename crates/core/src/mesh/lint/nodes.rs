@@ -6,8 +6,9 @@ use crate::mesh::Mesh;
 pub(super) fn check(mesh: &Mesh) -> Vec<LintFinding> {
     let which = |test: &dyn Fn(usize) -> bool| (0..mesh.points.len()).filter(|&node| test(node)).collect::<Vec<_>>();
     let lost = which(&|node| !mesh.points[node].is_finite());
+    let flat = 1e-9 * mesh.size();
     let off = match mesh.dimension() {
-        2 => which(&|node| mesh.points[node][2].abs() > 1e-9 * mesh.size()),
+        2 => which(&|node| mesh.points[node][2].abs() > flat),
         _ => vec![],
     };
     let adjacency = mesh.adjacency();

@@ -47,10 +47,10 @@ impl Builder<'_> {
             self.refuse(what, keys.place);
             return None;
         }
-        let mut pairs = Vec::new();
+        let (mut pairs, farthest) = (Vec::new(), OFF * mesh.size());
         for &node in &surface {
             let (other, distance) = opposite(node)?;
-            if distance > OFF * mesh.size() {
+            if distance > farthest {
                 let number = mesh.node_number(node);
                 let what = format!(
                     "node {number} of `{}` has no node of `{}` opposite: the nearest is {distance:.3e} off",

@@ -5,17 +5,44 @@ use crate::tensor::Vec3;
 use crate::tool::space::{self, SmoothPieces};
 use crate::tool::{Hit, NearestPoint, PieceEnd, Pose, ProfileRay, ProfileTool, SmoothPiece, Tip};
 use crate::{Failure, FailureKind};
+use std::cell::RefCell;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Most unknowns of a tool.
 pub const MOST: usize = 6;
+
+/// Closest points that a thread keeps: all nodes of a face ask for the same ones, and twice.
+const KEPT: usize = 8192;
+
+/// Which shape, which of its pieces, and the point in its own frame.
+type Asked = (usize, usize, Vec3);
+
+thread_local! {
+    static CLOSEST: RefCell<Vec<Option<(Asked, NearestPoint)>>> = RefCell::new(vec![None; KEPT]);
+}
+
+/// The closest point that a thread found for a point, or a new one.
+fn remembered(asked: Asked, find: impl FnOnce() -> NearestPoint) -> NearestPoint {
+    // Fibonacci hashing (Knuth, The Art of Computer Programming 3, section 6.4).
+    let mix = |hash: u64, x: &f64| (hash.rotate_left(9) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let place = (asked.2.0.iter().fold(asked.1 as u64, mix) >> 32) as usize % KEPT;
+    if let Some((_, found)) = CLOSEST.with_borrow(|kept| kept[place]).filter(|(other, _)| *other == asked) {
+        return found;
+    }
+    let found = find();
+    CLOSEST.with_borrow_mut(|kept| kept[place] = Some((asked, found)));
+    found
+}
 
 /// A tool, its smooth pieces and the place of its unknowns.
 #[derive(Debug)]
 pub struct RigidTool {
     shape: RigidShape,
+    /// No other shape of the program has it.
+    identity: usize,
     tips: Vec<Tip>,
     number: usize,
     unknowns: Range<usize>,
@@ -28,6 +55,11 @@ enum RigidShape {
     Plane(Arc<ProfileTool>, Vec<SmoothPiece>),
     /// Facets in space.
     Space(Arc<space::SpaceTool>, SmoothPieces),
+}
+
+fn identity() -> usize {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    COUNT.fetch_add(1, Ordering::Relaxed)
 }
 
 /// A tool in its place.
@@ -51,7 +83,7 @@ impl RigidTool {
     }
     fn made(shape: RigidShape, number: usize, dofs: &Dofs) -> Self {
         let first = dofs.tool(number);
-        Self { shape, tips: Vec::new(), number, unknowns: first..first + dofs.per_tool() }
+        Self { shape, identity: identity(), tips: Vec::new(), number, unknowns: first..first + dofs.per_tool() }
     }
     /// Its number among the tools.
     pub fn number(&self) -> usize {
@@ -72,6 +104,7 @@ impl RigidTool {
     pub fn sharpen(&mut self, radius: f64) {
         if let RigidShape::Plane(tool, pieces) = &mut self.shape {
             (*pieces, self.tips) = (tool.smooth_pieces(radius), tool.tips(radius));
+            self.identity = identity();
         }
     }
     /// Its tips.
@@ -100,6 +133,13 @@ impl RigidTool {
         match &self.shape {
             RigidShape::Plane(tool, _) => tool.reference(),
             RigidShape::Space(tool, _) => tool.reference(),
+        }
+    }
+    /// The closest point of a smooth piece, in its own frame.
+    fn nearest(&self, piece: usize, own: Vec3) -> NearestPoint {
+        match &self.shape {
+            RigidShape::Plane(tool, pieces) => tool.closest(&pieces[piece], own),
+            RigidShape::Space(tool, pieces) => tool.closest(pieces, piece, own),
         }
     }
     /// The tool for values of its unknowns.
@@ -148,10 +188,7 @@ impl ToolInPlace<'_> {
     /// The closest point of a smooth piece.
     pub fn closest(&self, piece: usize, x: Vec3) -> NearestPoint {
         let own = self.withdraw(x);
-        let found = match &self.rigid.shape {
-            RigidShape::Plane(tool, pieces) => tool.closest(&pieces[piece], own),
-            RigidShape::Space(tool, pieces) => tool.closest(pieces, piece, own),
-        };
+        let found = remembered((self.rigid.identity, piece, own), || self.rigid.nearest(piece, own));
         let bends = found.bends.map(|(along, bend)| (self.rotate(along), bend));
         NearestPoint { normal: self.rotate(found.normal), point: self.place(found.point), bends, ..found }
     }

@@ -17,7 +17,7 @@ use asperity::mesh::cells::ALL;
 use asperity::mesh::generate::{Block, Rectangle};
 use asperity::mesh::{Cell, Mesh, Side, Space};
 use asperity::solid::{Body, BodyOptions, Formulation, Integration, Strain};
-use asperity::system::{Attempt, Branch, Dofs, Local, Stencil, Stencils, Term};
+use asperity::system::{Attempt, Branch, Dofs, Local, Origin, Stencil, Stencils, Term};
 use asperity::tensor::Vec3;
 use asperity::tool::{ProfileTool, shapes};
 use perturbed::{Random, check, commit, instant, state};
@@ -94,6 +94,93 @@ fn body_is_exact(
         }
     }
     true
+}
+
+/// Volume of a brick of eight nodes: a third of the flux of the position through its bilinear sides, by two by two Gauss points.
+fn volume(x: &[[f64; 3]]) -> f64 {
+    let sides = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+    let gauss = [0.5 - 0.75_f64.sqrt() / 3.0, 0.5 + 0.75_f64.sqrt() / 3.0];
+    let points = || gauss.iter().flat_map(|a| gauss.iter().map(move |b| (*a, *b)));
+    let flux = |side: &[usize; 4]| -> f64 {
+        let [p, q, r, s] = side.map(|node| Vec3(x[node]));
+        let at = |(a, b): (f64, f64)| {
+            let (bottom, top) = (p + (q - p) * a, s + (r - s) * a);
+            let along = [(q - p) * (1.0 - b) + (r - s) * b, top - bottom];
+            (bottom + along[1] * b).dot(along[0].cross(along[1]))
+        };
+        points().map(at).sum::<f64>() / 4.0
+    };
+    sides.iter().map(flux).sum::<f64>() / 3.0
+}
+
+/// The shared volume of a brick bends the tangent by its second derivative times the mean stress: that of the trial state where the
+/// tangent is the derivative of the forces, of the accepted state at a first guess, and after a step that of the volume to which it
+/// leads linearly, but for the cube of the step. Here the mean stress is `K/2 (theta - 1/theta)`.
+#[test]
+fn the_shared_volume_bends_with_the_mean_stress_of_the_origin() {
+    const BULK: f64 = 20.0;
+    let law = find(asperity::material::laws::ALL, "neo_hookean").unwrap();
+    let material: Arc<dyn Material> = Arc::from((law.build)(&[1.0, BULK]).unwrap());
+    let mesh = Arc::new(mesh(Cell::named("hex8").unwrap()));
+    let dofs = Dofs::new(3, mesh.points.len(), 0);
+    let options = BodyOptions { formulation: Formulation::FBar, ..BodyOptions::default() };
+    let body = Body::new("b", (mesh.clone(), dofs.clone(), Space::Solid), vec![0], material, options).unwrap();
+    let nodes = mesh.cell(0).nodes;
+    let mut random = Random(3);
+    let mut about = |u: &[f64]| -> Vec<f64> { u.iter().map(|u| u + 0.04 * random.next()).collect() };
+    let start = state(vec![0.0; dofs.count()], body.initial());
+    let accepted = commit(&body, &start, about(&start.u)).unwrap();
+    let attempt = body.attempt(&accepted, &accepted.histories[0], instant()).unwrap();
+    let mut stencils = Stencils::default();
+    attempt.stencils(&accepted.u, &mut stencils).unwrap();
+    let (stencil, unknowns) = (&stencils.list[0], stencils.dofs(&stencils.list[0]));
+    let of_stencil = |u: &[f64]| -> Vec<f64> { unknowns.iter().map(|&dof| u[dof]).collect() };
+    let from = about(&accepted.u);
+    let mut u = from.clone();
+    for &node in nodes {
+        let upset = [1e-3, 1e-3, -2e-3];
+        (0..3).for_each(|i| u[dofs.node(node) + i] += upset[i] * mesh.points[node].0[i]);
+    }
+    let tangent = |origin: Origin| {
+        let mut local =
+            Local { wants_tangent: true, u: of_stencil(&u), origin, from: of_stencil(&from), ..Local::default() };
+        local.reset(stencil.len);
+        attempt.evaluate(0, stencil, &mut attempt.scratch(0), &mut local).unwrap();
+        local.tangent
+    };
+    let present = |u: &[f64]| -> f64 {
+        let place = |&node: &usize| std::array::from_fn(|i| mesh.points[node].0[i] + u[dofs.node(node) + i]);
+        volume(&nodes.iter().map(place).collect::<Vec<_>>())
+    };
+    let moved = |u: &[f64], by: &[(usize, f64)]| -> f64 {
+        let mut u = u.to_vec();
+        by.iter().for_each(|&(dof, by)| u[dof] += by);
+        present(&u)
+    };
+    // The volume is linear in each coordinate, so that any difference is its derivative.
+    let along = |dof: usize| 0.5 * (moved(&from, &[(dof, 1.0)]) - moved(&from, &[(dof, -1.0)]));
+    let linear = present(&from) + (0..u.len()).map(|dof| along(dof) * (u[dof] - from[dof])).sum::<f64>();
+    let [trial, before, linear] = [present(&u), present(&accepted.u), linear].map(|volume| {
+        let theta = volume / present(&start.u);
+        0.5 * BULK * (theta - 1.0 / theta)
+    });
+    assert!((trial - linear).abs() > 1e-6 * BULK && (trial - before).abs() > 1e-3 * BULK, "{trial} {linear} {before}");
+    let exact = tangent(Origin::Unknown);
+    for (origin, stress, allowed) in [(Origin::Accepted, before, 1e-9), (Origin::Step, linear, 1e-2)] {
+        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+        for ((place, exact), with) in exact.iter().enumerate().zip(tangent(origin)) {
+            let (i, j) = (unknowns[place / u.len()], unknowns[place % u.len()]);
+            let second = if i == j {
+                0.0
+            } else {
+                let corner = |a: f64, b: f64| a * b * moved(&u, &[(i, 0.5 * a), (j, 0.5 * b)]);
+                corner(1.0, 1.0) + corner(1.0, -1.0) + corner(-1.0, 1.0) + corner(-1.0, -1.0)
+            };
+            let bent = (trial - stress) * second;
+            (worst, largest) = (worst.max((exact - with - bent).abs()), largest.max(bent.abs()));
+        }
+        assert!(worst < allowed * largest, "{origin:?}: {worst:.1e} of {largest:.1e}");
+    }
 }
 
 /// A contact of the lower side of one cell with a target of one segment below it, its tool free to move.

@@ -21,9 +21,12 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
             _ => measured.push((name.into(), ears[0] / valleys[0] - 1.0)),
         }
     }
-    measured.push(("ratchetting".into(), ratchetting(bench)?));
+    measured.extend(ratchetting(bench)?);
     measured.extend(published_curve(bench)?);
-    measured.extend(three_back_stresses(bench)?);
+    let aluminium = ("ratchetting_three.toml", Metal::aluminium(), [520.0, -480.0]);
+    let steel = ("ratchetting_steel.toml", Metal::steel(), [34.86, -21.82]);
+    measured.extend(three_back_stresses(bench, "", aluminium)?);
+    measured.extend(three_back_stresses(bench, "steel_", steel)?);
     for name in ["", "warm_", "heated_"] {
         let [slow, fast] = rate_jump(bench, name)?;
         measured.extend([(format!("{name}slow"), slow), (format!("{name}fast"), fast)]);
@@ -49,19 +52,37 @@ fn rim(bench: &Bench, r45: f64) -> Result<[[f64; 2]; 2], Error> {
     Ok([places[places.len() - 1], places[0]])
 }
 
-/// Strain that the last cycle left over `1/g ln(((C/g)^2 - X1^2)/((C/g)^2 - X2^2))`.
-fn ratchetting(bench: &Bench) -> Result<f64, Error> {
+/// Strains that the last cycle leaves at an amplitude of 320 and several mean stresses: what they differ by from those of the closed
+/// form `1/gamma ln(((C/gamma)^2 - X_1^2)/((C/gamma)^2 - X_2^2))` with the back stresses `X` at the turns, the most over the largest,
+/// and the ratio of both at the mean stress 30.
+fn ratchetting(bench: &Bench) -> Result<Measured, Error> {
     let count = bench.pick(60, 240);
-    let sets: Vec<String> = (1..=6).map(|i| format!("step.{i}.increments.count={count}")).collect();
-    let mut ends = Vec::new();
-    bench.follow("ratchetting.toml", &sets, |model, state| {
-        let top = model.problem.dofs.node(model.mesh.groups["bar.top"].nodes[0]) + 1;
-        if (state.time - state.time.round()).abs() < 1e-9 {
-            ends.push(state.u[top].ln_1p());
+    let (mut rates, mut apart, mut ratio) = ([0.0; 2], 0.0_f64, f64::NAN);
+    for mean in [0.0, 10.0, 20.0, 30.0, 40.0] {
+        let stresses = [mean + 320.0, mean - 320.0];
+        let set = |i: usize| {
+            let value = -stresses[i % 2];
+            [
+                format!("step.{}.increments.count={count}", i + 1),
+                format!("step.{}.pressure.\"bar.top\".value={value:?}", i + 1),
+            ]
+        };
+        let sets: Vec<String> = (0..6).flat_map(set).collect();
+        let mut ends = Vec::new();
+        bench.follow("ratchetting.toml", &sets, |model, state| {
+            let top = model.problem.dofs.node(model.mesh.groups["bar.top"].nodes[0]) + 1;
+            if (state.time - state.time.round()).abs() < 1e-9 {
+                ends.push(state.u[top].ln_1p());
+            }
+        })?;
+        let left = |stress: f64| 200.0_f64.powi(2) - (stress.abs() - 200.0).powi(2);
+        rates = [ends[4] - ends[2], 0.01 * (left(stresses[1]) / left(stresses[0])).ln()];
+        apart = apart.max((rates[0] - rates[1]).abs());
+        if mean == 30.0 {
+            ratio = rates[0] / rates[1];
         }
-    })?;
-    let step = 0.01 * ((200.0_f64.powi(2) - 90.0_f64.powi(2)) / (200.0_f64.powi(2) - 150.0_f64.powi(2))).ln();
-    Ok((ends[4] - ends[2]) / step)
+    }
+    Ok(vec![("ratchetting".into(), ratio), ("ratchetting_rates".into(), apart / rates[1])])
 }
 
 /// Four cycles between the stresses 220 and -110: what the strain differs by at any increment from the integral of the law, over the
@@ -100,23 +121,41 @@ fn published_curve(bench: &Bench) -> Result<Measured, Error> {
     Ok(vec![("published_curve".into(), apart / most), ("published_cycle".into(), last(0) - last(1))])
 }
 
-/// The alloy of `ratchetting_three.toml` in uniaxial stress. Between two turns each back stress is an exponential of the plastic strain,
+/// A metal with three back stresses in uniaxial stress. Between two turns each back stress is an exponential of the plastic strain,
 /// so that a path of stresses takes the root of one equation for each of its ends.
-#[derive(Default)]
-struct Alloy {
+struct Metal {
+    young: f64,
+    yield_stress: f64,
+    /// Saturation of the isotropic hardening and its rate.
+    isotropic: [f64; 2],
+    /// `C` and `gamma` of each back stress.
+    kinematic: [[f64; 2]; 3],
     back: [f64; 3],
     /// Plastic strain, and its sum without sign.
     plastic: f64,
     spent: f64,
 }
 
-impl Alloy {
-    const YOUNG: f64 = 71e3;
-    const KINEMATIC: [[f64; 2]; 3] = [[4735.0, 299.0], [1511.0, 291.0], [1554.0, 22.0]];
+impl Metal {
+    /// That of `ratchetting_three.toml`.
+    fn aluminium() -> Self {
+        let kinematic = [[4735.0, 299.0], [1511.0, 291.0], [1554.0, 22.0]];
+        Self::new([71e3, 410.0], [150.0, 11.0], kinematic)
+    }
+
+    /// That of `ratchetting_steel.toml`.
+    fn steel() -> Self {
+        let kinematic = [[60_000.0, 20_000.0], [3228.0, 400.0], [455.0, 11.0]];
+        Self::new([26_300.0, 18.8], [0.0, 0.0], kinematic)
+    }
+
+    fn new([young, yield_stress]: [f64; 2], isotropic: [f64; 2], kinematic: [[f64; 2]; 3]) -> Self {
+        Self { young, yield_stress, isotropic, kinematic, back: [0.0; 3], plastic: 0.0, spent: 0.0 }
+    }
 
     fn back_after(&self, flow: f64, sign: f64) -> [f64; 3] {
         std::array::from_fn(|i| {
-            let [c, gamma] = Self::KINEMATIC[i];
+            let [c, gamma] = self.kinematic[i];
             let end = sign * c / gamma;
             end + (self.back[i] - end) * (-gamma * flow).exp()
         })
@@ -124,10 +163,10 @@ impl Alloy {
 
     /// Loads to a stress beyond which it turns; the strain there.
     fn load(&mut self, stress: f64) -> f64 {
-        let sign = stress.signum();
+        let (sign, [saturation, rate]) = (stress.signum(), self.isotropic);
         let over = |flow: f64| {
             let back: f64 = self.back_after(flow, sign).iter().sum();
-            sign * (stress - back) - 410.0 - 150.0 * (1.0 - (-11.0 * (self.spent + flow)).exp())
+            sign * (stress - back) - self.yield_stress - saturation * (1.0 - (-rate * (self.spent + flow)).exp())
         };
         let (mut low, mut high) = (0.0, if over(0.0) > 0.0 { 0.5 } else { 0.0 });
         for _ in 0..100 {
@@ -136,33 +175,34 @@ impl Alloy {
         }
         self.back = self.back_after(high, sign);
         (self.plastic, self.spent) = (self.plastic + sign * high, self.spent + high);
-        self.plastic + stress / Self::YOUNG
+        self.plastic + stress / self.young
     }
 }
 
 /// Ten cycles between two stresses: what the strains at the turns differ by from those of the independent integration, the most of
 /// them over the most strain, and the strain that is left at the last two turns.
-fn three_back_stresses(bench: &Bench) -> Result<Measured, Error> {
+fn three_back_stresses(
+    bench: &Bench,
+    name: &str,
+    (deck, mut metal, stresses): (&str, Metal, [f64; 2]),
+) -> Result<Measured, Error> {
     let each = bench.pick(40, 120);
     let sets = [format!("step.1.increments.count={}", 20 * each)];
     let mut turns = Vec::new();
-    bench.follow("ratchetting_three.toml", &sets, |model, state| {
+    bench.follow(deck, &sets, |model, state| {
         let top = model.problem.dofs.node(model.mesh.groups["bar.top"].nodes[0]) + 1;
         if state.increment > 0 && state.increment % each == 0 {
             turns.push(state.u[top].ln_1p());
         }
     })?;
-    let (mut alloy, mut apart, mut most) = (Alloy::default(), 0.0_f64, 0.0_f64);
+    let (mut apart, mut most) = (0.0_f64, 0.0_f64);
     for (i, turn) in turns.iter().enumerate() {
-        let exact = alloy.load(if i % 2 == 0 { 520.0 } else { -480.0 });
+        let exact = metal.load(stresses[i % 2]);
         (apart, most) = (apart.max((turn - exact).abs()), most.max(exact));
     }
     let last = |before: usize| turns.len().checked_sub(before).map_or(f64::NAN, |i| turns[i]);
-    Ok(vec![
-        ("three_back_stresses".into(), apart / most),
-        ("three_peak".into(), last(2)),
-        ("three_valley".into(), last(1)),
-    ])
+    let found = [("three_back_stresses", apart / most), ("three_peak", last(2)), ("three_valley", last(1))];
+    Ok(found.map(|(key, value)| (format!("{name}{key}"), value)).into())
 }
 
 /// Force of the bar at the end of both steps over that of the flow stress on its present area, at the temperature of the room, at a

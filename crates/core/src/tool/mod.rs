@@ -31,4 +31,4 @@ pub use search::BoxTree;
 pub use select::{Rejected, Rules, select};
 pub use shapes::{BoundingBox, ProfileRay, ProfileShape, ShapeKind};
 pub use tips::Tip;
-pub use tool::{Chain, Hit, ProfileTool, Tool};
+pub use tool::{Chain, FacetTool, Hit, ProfileTool};

@@ -8,7 +8,7 @@ use crate::tensor::{Scalar, Vec3};
 
 /// A rigid tool: facets, or segments of profiles, with the material behind them, and a reference point.
 #[derive(Debug)]
-pub struct Tool<F: ?Sized> {
+pub struct FacetTool<F: ?Sized> {
     name: String,
     reference: Vec3,
     facets: Vec<Box<F>>,
@@ -19,7 +19,7 @@ pub struct Tool<F: ?Sized> {
 }
 
 /// A rigid tool in the plane: chains of segments with the material on their left.
-pub type ProfileTool = Tool<dyn ProfileShape>;
+pub type ProfileTool = FacetTool<dyn ProfileShape>;
 
 /// One profile: segments that follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,7 +56,7 @@ pub struct Hit {
     pub normal: Vec3,
 }
 
-impl<F: ToolFacet + ?Sized> Tool<F> {
+impl<F: ToolFacet + ?Sized> FacetTool<F> {
     /// Of facets in its own frame; `reference` is the point that its translation moves and about which it turns.
     pub(super) fn of(name: String, facets: Vec<Box<F>>, reference: Vec3) -> Self {
         let boxes: Vec<BoundingBox> = facets.iter().map(|facet| facet.bounds()).collect();

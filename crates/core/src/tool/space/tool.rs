@@ -3,10 +3,10 @@
 use super::nearest::RigidFacet;
 use super::{FacetFinding, ToolFacet, check};
 use crate::tensor::Vec3;
-use crate::tool::{Pose, Tool};
+use crate::tool::{FacetTool, Pose};
 
 /// A rigid tool in space: facets with the material behind them.
-pub type SpaceTool = Tool<dyn RigidFacet>;
+pub type SpaceTool = FacetTool<dyn RigidFacet>;
 
 /// The surface of a tool as triangles and quadrilaterals, for drawing.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -345,37 +345,38 @@ fn work<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 }
 
 impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
-    /// Derivative of the deformation of a point along amplitudes in these shares.
-    fn along<const D: usize>(&self, point: &ModePoint<N>, amplitudes: &Amplitudes) -> [f64; D] {
+    /// Derivative of the deformation of a point along one amplitude.
+    fn along<const D: usize>(&self, point: &ModePoint<N>, (mode, axis): (usize, usize)) -> [f64; D] {
         let mut out = [0.0; D];
-        for (carried, amplitude) in point.carried.iter().zip(amplitudes).filter(|(_, a)| a.0 != [0.0; 3]) {
-            for j in 0..DIM {
-                let by: f64 = (0..DIM).map(|axis| amplitude[axis] * point.inverse[(axis, j)]).sum();
-                (0..DIM).for_each(|i| out[DIM * i + j] += carried[i] * by);
-            }
+        for (out, carried) in out.chunks_exact_mut(DIM).zip(point.carried[mode].0) {
+            out.iter_mut().enumerate().for_each(|(j, out)| *out = carried * point.inverse[(axis, j)]);
         }
         out
     }
 
-    /// Derivative of the forces on the nodes along amplitudes in these shares, or of the forces on those along the nodes.
-    fn coupling<const D: usize>(&self, stresses: &[Stress<D>], shares: &Amplitudes, across: bool) -> Nodal<DIM, N> {
-        let mut out = [[0.0; N]; DIM];
-        for (point, s) in self.points[..self.count].iter().zip(stresses) {
-            let along = self.along(point, shares);
-            let stress = if across { s.across(&along) } else { s.along(&along) };
-            add_forces(&point.rows, &stress, s.volume, &mut out);
-            if self.strain == Strain::Small {
-                continue;
-            }
+    /// Derivative of the forces on the nodes along amplitudes in these shares, over which the stress of each point changes so, or of
+    /// the forces on those along the nodes.
+    fn coupling<const D: usize>(
+        &self,
+        stresses: &[Stress<D>; POINTS],
+        changes: &[[f64; D]; POINTS],
+        shares: &Amplitudes,
+    ) -> Nodal<DIM, N> {
+        let (mut out, mut second) = ([[0.0; N]; DIM], [Vec3::zero(); DIM]);
+        for ((point, s), change) in self.points[..self.count].iter().zip(stresses).zip(changes) {
+            add_forces(&point.rows, change, s.volume, &mut out);
             // The stress on the second derivative of f, dF0 sum_k G_k (x) da_k.
-            for (i, out) in out.iter_mut().enumerate() {
-                let mut pulled = Vec3::zero();
-                for axis in 0..DIM {
-                    pulled[axis] = (0..DIM).map(|j| s.p[DIM * i + j] * point.inverse[(axis, j)]).sum();
-                }
-                let by = point.modes.iter().zip(shares).fold(Vec3::zero(), |sum, (g, a)| sum + *g * a.dot(pulled));
-                for (mean, by) in self.mean.iter().zip(by.0) {
-                    out.iter_mut().zip(mean).for_each(|(out, mean)| *out += s.volume * by * mean);
+            for (second, s_i) in second.iter_mut().zip(s.p.chunks_exact(DIM)) {
+                let pulled = Vec3(std::array::from_fn(|axis| {
+                    s_i.iter().enumerate().map(|(j, p)| p * point.inverse[(axis, j)]).sum::<f64>() * s.volume
+                }));
+                *second = point.modes.iter().zip(shares).fold(*second, |sum, (g, a)| sum + *g * a.dot(pulled));
+            }
+        }
+        if self.strain == Strain::Finite {
+            for (out, second) in out.iter_mut().zip(second) {
+                for (mean, by) in self.mean.iter().zip(second.0) {
+                    out.iter_mut().zip(mean).for_each(|(out, mean)| *out += by * mean);
                 }
             }
         }
@@ -385,13 +386,18 @@ impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
     /// Writes the forces on the nodes with the amplitudes in equilibrium, and the tangent without them where it is wanted.
     fn write<const D: usize>(
         &self,
-        (stresses, own): (&[Stress<D>; POINTS], &Own),
+        (stresses, own): (&[Stress<D>; POINTS], &Own<D>),
         force: Nodal<DIM, N>,
         symmetric: bool,
         local: &mut Local,
     ) {
         let (count, length) = (own.count, local.u.len());
-        let last = self.coupling(stresses, &shares::<DIM>(|n| own.step()[n], count), false);
+        let step = own.step();
+        let changes = own.changes(stresses, |along| {
+            let entry = |d: usize| along.iter().zip(&step).map(|(along, step)| along[d] * step).sum();
+            std::array::from_fn(entry)
+        });
+        let last = self.coupling(stresses, &changes, &shares::<DIM>(|n| step[n], count));
         for (r, out) in local.force.iter_mut().enumerate() {
             *out = force[r % DIM][r / DIM] - last[r % DIM][r / DIM];
         }
@@ -409,11 +415,13 @@ impl<const DIM: usize, const N: usize> ModeCell<DIM, N> {
             let spread = |nodal: &Nodal<DIM, N>, out: &mut [f64; UNKNOWNS]| {
                 out[..length].iter_mut().enumerate().for_each(|(r, out)| *out = nodal[r % DIM][r / DIM]);
             };
-            spread(&self.coupling(stresses, &unit, false), &mut columns[n]);
+            let across = std::array::from_fn(|point| own.across[point][n]);
+            spread(&self.coupling(stresses, &across, &unit), &mut rows[n]);
             if symmetric {
-                rows[n] = columns[n];
+                columns[n] = rows[n];
             } else {
-                spread(&self.coupling(stresses, &unit, true), &mut rows[n]);
+                let changes = own.changes(stresses, |along| along[n]);
+                spread(&self.coupling(stresses, &changes, &unit), &mut columns[n]);
             }
         }
         let mut follows = [[0.0; UNKNOWNS]; AMPLITUDES];
@@ -443,7 +451,11 @@ fn shares<const DIM: usize>(of: impl Fn(usize) -> f64, count: usize) -> Amplitud
 }
 
 /// The equations of the amplitudes of a cell at given displacements of its nodes.
-struct Own {
+struct Own<const D: usize> {
+    /// Derivatives of the deformation of each point along each of them, and what makes the work on any deformation of the change of
+    /// stress over such a one.
+    along: [[[f64; D]; AMPLITUDES]; POINTS],
+    across: [[[f64; D]; AMPLITUDES]; POINTS],
     /// Derivatives of the forces on them, and the inverse.
     stiffness: [[f64; AMPLITUDES]; AMPLITUDES],
     inverse: [[f64; AMPLITUDES]; AMPLITUDES],
@@ -451,26 +463,37 @@ struct Own {
     count: usize,
 }
 
-impl Own {
-    fn of<const DIM: usize, const D: usize, const N: usize>(
+impl<const D: usize> Own<D> {
+    fn of<const DIM: usize, const N: usize>(
         cell: &ModeCell<DIM, N>,
         stresses: &[Stress<D>; POINTS],
         count: usize,
     ) -> Self {
-        let none = [[0.0; AMPLITUDES]; AMPLITUDES];
-        let mut own = Self { stiffness: none, inverse: none, force: [0.0; AMPLITUDES], count };
-        for (point, s) in cell.points[..cell.count].iter().zip(stresses) {
-            let mut along = [[0.0; D]; AMPLITUDES];
-            for (n, along) in along.iter_mut().enumerate().take(count) {
-                *along = cell.along(point, &shares::<DIM>(|m| f64::from(u8::from(m == n)), count));
-            }
+        let (none, no_change) = ([[0.0; AMPLITUDES]; AMPLITUDES], [[[0.0; D]; AMPLITUDES]; POINTS]);
+        let (along, across, force) = (no_change, no_change, [0.0; AMPLITUDES]);
+        let mut own = Self { along, across, stiffness: none, inverse: none, force, count };
+        for (number, (point, s)) in cell.points[..cell.count].iter().zip(stresses).enumerate() {
+            let (along, across) = (&mut own.along[number], &mut own.across[number]);
             for n in 0..count {
+                along[n] = cell.along(point, (n / DIM, n % DIM));
+                across[n] = s.across(&along[n]);
                 own.force[n] += s.volume * work(&along[n], &s.p);
-                let stress = s.across(&along[n]);
-                (0..count).for_each(|m| own.stiffness[n][m] += s.volume * work(&along[m], &stress));
+            }
+            for (stiffness, across) in own.stiffness.iter_mut().zip(&*across).take(count) {
+                let row = stiffness.iter_mut().zip(&*along).take(count);
+                row.for_each(|(stiffness, along)| *stiffness += s.volume * work(along, across));
             }
         }
         own
+    }
+
+    /// Change of the stress of each point along a deformation made of those along the amplitudes.
+    fn changes(
+        &self,
+        stresses: &[Stress<D>; POINTS],
+        of: impl Fn(&[[f64; D]; AMPLITUDES]) -> [f64; D],
+    ) -> [[f64; D]; POINTS] {
+        std::array::from_fn(|point| stresses[point].along(&of(&self.along[point])))
     }
 
     /// Inverts the stiffness; says no where there is none.

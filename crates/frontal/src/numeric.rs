@@ -3,7 +3,7 @@
 use crate::assembly_tree::Front;
 use crate::dense::{Pivot, PivotRule, eliminate};
 use crate::extend_add::{Contribution, Parts, assemble};
-use crate::plan::{Plan, Role, Sides};
+use crate::plan::{Plan, Role};
 use crate::symbolic::Inner;
 use crate::symmetric;
 use std::ops::Range;
@@ -19,33 +19,22 @@ pub(crate) struct Numeric<'a> {
     pub stacks: &'a Mutex<Vec<Vec<f64>>>,
 }
 
-/// The parts of the factor and of the two sides of the shared blocks that belong to consecutive subtrees.
+/// The part of the factor that belongs to consecutive fronts.
 struct Part<'a> {
     /// First front.
     first: usize,
     factors: &'a mut [f64],
     pivots: &'a mut [Pivot],
-    shared: [&'a mut [f64]; 2],
 }
 
 impl<'a> Part<'a> {
-    /// The parts before and from front `at`, with so many numbers of the shared blocks before it.
-    fn split(self, fronts: &[Front], at: usize, shared: Sides) -> (Part<'a>, Part<'a>) {
+    /// The parts before and from front `at`.
+    fn split(self, fronts: &[Front], at: usize) -> (Part<'a>, Part<'a>) {
         let (first, next) = (&fronts[self.first], &fronts[at]);
         let (factors, later_factors) = self.factors.split_at_mut(next.factor - first.factor);
         let (pivots, later_pivots) = self.pivots.split_at_mut(next.first - first.first);
-        let [even, odd] = self.shared;
-        let ((even, later_even), (odd, later_odd)) = (even.split_at_mut(shared[0]), odd.split_at_mut(shared[1]));
-        let later = Part { first: at, factors: later_factors, pivots: later_pivots, shared: [later_even, later_odd] };
-        (Part { first: self.first, factors, pivots, shared: [even, odd] }, later)
+        (Part { factors, pivots, ..self }, Part { first: at, factors: later_factors, pivots: later_pivots })
     }
-}
-
-/// What a front computes: its part of the factor, and its block.
-struct Results<'a> {
-    factors: &'a mut [f64],
-    pivots: &'a mut [Pivot],
-    block: &'a mut [f64],
 }
 
 impl Numeric<'_> {
@@ -54,22 +43,25 @@ impl Numeric<'_> {
         let tree = &self.symbolic.tree;
         let roots = tree.child_starts[tree.fronts.len()]..tree.child_list.len();
         let (even, odd) = shared.split_at_mut(self.plan.shared_of(&tree.child_list[roots.clone()])[0]);
-        self.subtrees(roots, Part { first: 0, factors, pivots, shared: [even, odd] });
+        self.subtrees(roots, Part { first: 0, factors, pivots }, [even, odd]);
     }
 
-    /// Factorises the subtrees of some entries of `child_list`, side by side where that is worth while.
-    fn subtrees(&self, children: Range<usize>, part: Part) {
+    /// Factorises the subtrees of some entries of `child_list`, side by side where that is worth while, with their sides of the
+    /// shared blocks.
+    fn subtrees(&self, children: Range<usize>, part: Part, [even, odd]: [&mut [f64]; 2]) {
         let tree = &self.symbolic.tree;
         match children.len() {
             0 => {}
-            1 => self.subtree(tree.child_list[children.start] as usize, part),
+            1 => self.subtree(tree.child_list[children.start] as usize, part, [even, odd]),
             count => {
                 let middle = children.start + count / 2;
                 let earlier = &tree.child_list[children.start..middle];
                 let next = tree.fronts[tree.child_list[middle] as usize].first_descendant;
-                let (part, later) = part.split(&tree.fronts, next, self.plan.shared_of(earlier));
-                let first = || self.subtrees(children.start..middle, part);
-                let second = || self.subtrees(middle..children.end, later);
+                let (part, later) = part.split(&tree.fronts, next);
+                let room = self.plan.shared_of(earlier);
+                let ((even, later_even), (odd, later_odd)) = (even.split_at_mut(room[0]), odd.split_at_mut(room[1]));
+                let first = || self.subtrees(children.start..middle, part, [even, odd]);
+                let second = || self.subtrees(middle..children.end, later, [later_even, later_odd]);
                 if self.plan.threads > 1 {
                     rayon::join(first, second);
                 } else {
@@ -81,18 +73,14 @@ impl Numeric<'_> {
     }
 
     /// Factorises the subtree of `s` and leaves its block at the start of its side of the shared ones.
-    fn subtree(&self, s: usize, part: Part) {
+    fn subtree(&self, s: usize, part: Part, [even, odd]: [&mut [f64]; 2]) {
         let tree = &self.symbolic.tree;
-        if self.plan.roles[s] == Role::Task {
-            return self.task(s, part);
-        }
         let (front, children) = (&tree.fronts[s], tree.children(s));
-        let Part { first, factors, pivots, shared: [even, odd] } = part;
-        let start = &tree.fronts[first];
-        let (below, factors) = factors.split_at_mut(front.factor - start.factor);
-        let (pivots_below, pivots) = pivots.split_at_mut(front.first - start.first);
-        let below = Part { first, factors: below, pivots: pivots_below, shared: [&mut *even, &mut *odd] };
-        self.subtrees(tree.child_starts[s]..tree.child_starts[s + 1], below);
+        if self.plan.roles[s] == Role::Task {
+            return self.task(s, part, if front.side() == 0 { even } else { odd });
+        }
+        let (below, part) = part.split(&tree.fronts, s);
+        self.subtrees(tree.child_starts[s]..tree.child_starts[s + 1], below, [&mut *even, &mut *odd]);
         let (own, others) = if front.side() == 0 { (even, &*odd) } else { (odd, &*even) };
         let child = |k: usize| {
             let start = self.plan.shared_of(&children[..k])[1 - front.side()];
@@ -100,12 +88,11 @@ impl Numeric<'_> {
         };
         // Not that of a stack: while this thread waits for others it may take up a task that needs one.
         let mut scratch = vec![0.0; front.scratch_len()];
-        let block = &mut own[..front.block_len()];
-        self.front(s, Results { factors, pivots, block }, &mut scratch, child, true);
+        self.front(s, (part, &mut own[..front.block_len()]), &mut scratch, child, true);
     }
 
-    /// Factorises the subtree of `task` in postorder, on a stack of its own.
-    fn task(&self, task: usize, part: Part) {
+    /// Factorises the subtree of `task` in postorder, on a stack of its own, and leaves its block at the start of `shared`.
+    fn task(&self, task: usize, part: Part, shared: &mut [f64]) {
         let mut stack = self.take_stack();
         let (blocks, scratch) = stack.split_at_mut(self.plan.stack_len);
         let tree = &self.symbolic.tree;
@@ -115,14 +102,14 @@ impl Numeric<'_> {
             let factors = &mut part.factors[front.factor - start.factor..][..front.factor_len()];
             let pivots = &mut part.pivots[front.first - start.first..][..front.pivots];
             let (block, others) = match s == task {
-                true => (&mut part.shared[front.side()][..front.block_len()], Others { stack: &*blocks, offset: 0 }),
+                true => (&mut shared[..front.block_len()], Others { stack: &*blocks, offset: 0 }),
                 false => split_stack(front, self.plan.offsets[s], blocks),
             };
             let child = |k: usize| {
                 let child = tree.children(s)[k] as usize;
                 self.contribution(child, &others.stack[self.plan.offsets[child] - others.offset..])
             };
-            self.front(s, Results { factors, pivots, block }, scratch, child, false);
+            self.front(s, (Part { first: s, factors, pivots }, block), scratch, child, false);
         }
         self.return_stack(stack);
     }
@@ -139,18 +126,18 @@ impl Numeric<'_> {
         self.stacks.lock().unwrap_or_else(PoisonError::into_inner).push(stack);
     }
 
-    /// Assembles and eliminates the front `s`.
+    /// Assembles and eliminates the front `s`, which has the whole part and the block.
     fn front<'b>(
         &self,
         s: usize,
-        results: Results,
+        (part, block): (Part, &mut [f64]),
         scratch: &mut [f64],
         child: impl Fn(usize) -> Contribution<'b> + Sync,
         parallel: bool,
     ) {
         let tree = &self.symbolic.tree;
         let front = &tree.fronts[s];
-        let Results { factors, pivots, block } = results;
+        let Part { factors, pivots, .. } = part;
         factors.fill(0.0);
         for entry in tree.entries(s) {
             factors[entry.place as usize] += self.values[entry.value as usize];

@@ -20,7 +20,7 @@ pub(crate) enum Role {
 }
 
 /// Lengths on the side of even depths and on that of odd ones.
-pub(crate) type Sides = [usize; 2];
+type Sides = [usize; 2];
 
 /// The division of the tree among threads, and the layout of the working memory that goes with it.
 ///

@@ -95,15 +95,20 @@ impl Kinks {
     }
     /// Rates of one coordinate, unknown by unknown.
     pub fn rates(&self, kink: &Kink, coordinate: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let dofs = &self.dofs[kink.dofs.clone()];
-        let row = &self.rates[kink.first + coordinate * dofs.len()..];
-        dofs.iter().copied().zip(row.iter().copied())
+        self.by_unknown(kink, coordinate, &self.rates)
     }
     /// Forces of a unit of stress at one coordinate, unknown by unknown.
     pub fn forces(&self, kink: &Kink, coordinate: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.by_unknown(kink, coordinate, &self.forces)
+    }
+    fn by_unknown<'a>(
+        &'a self,
+        kink: &Kink,
+        coordinate: usize,
+        values: &'a [f64],
+    ) -> impl Iterator<Item = (usize, f64)> + use<'a> {
         let dofs = &self.dofs[kink.dofs.clone()];
-        let column = &self.forces[kink.first + coordinate * dofs.len()..];
-        dofs.iter().copied().zip(column.iter().copied())
+        dofs.iter().copied().zip(values[kink.first + coordinate * dofs.len()..].iter().copied())
     }
     /// Adds to `forces` on all unknowns those of stress `t` at one coordinate.
     pub fn push(&self, kink: &Kink, coordinate: usize, t: f64, forces: &mut [f64]) {

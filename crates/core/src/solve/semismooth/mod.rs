@@ -100,6 +100,8 @@ impl ContactLaws for Points<'_, '_> {
         let loads: Vec<Sparse> = stresses.iter().map(load).collect();
         let wanted = self.contact.free(kinks.dofs());
         let motions = self.system.compliance(&loads, &wanted)?;
+        let mut places = vec![0; constraints.free_count()];
+        wanted.iter().enumerate().for_each(|(place, &unknown)| places[unknown] = place);
         let mut all = vec![vec![Coordinates::default(); kinks.list().len()]; loads.len()];
         let mut along = vec![0.0; loads.len()];
         for (number, kink) in kinks.list().iter().enumerate() {
@@ -107,8 +109,7 @@ impl ContactLaws for Points<'_, '_> {
                 along.fill(0.0);
                 for (dof, rate) in kinks.rates(kink, coordinate) {
                     for (unknown, share) in constraints.followed(dof) {
-                        let place = wanted.binary_search(&unknown).expect("it is wanted");
-                        let motions = &motions[place * loads.len()..][..loads.len()];
+                        let motions = &motions[places[unknown] * loads.len()..][..loads.len()];
                         along.iter_mut().zip(motions).for_each(|(along, motion)| *along += rate * (share * motion));
                     }
                 }

@@ -6,8 +6,9 @@ use super::cover::Patch;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::point::Touched;
+use super::seen::Found;
 use super::space::{Spread, spread};
-use super::stencil::{COUNT, NodeSums, StencilInPlace, Support};
+use super::stencil::{COUNT, NodeSums, NodesInPlace, StencilInPlace};
 use super::tip::TipFoot;
 use crate::contact::augment;
 use crate::contact::energy::account;
@@ -56,8 +57,8 @@ pub struct FieldAttempt<'a> {
     pub at: Instant,
     /// Tangential penalties of the attempt, slot by slot.
     pub tangential: Vec<f64>,
-    /// What the last search found, slot by slot.
-    pub found: RwLock<Arc<Vec<Support>>>,
+    /// What the last search found.
+    pub found: RwLock<Arc<Found>>,
     /// How the coordinates of closed nodes changed and what forces their stresses were where they were evaluated last.
     pub linear: Vec<Mutex<Linear>>,
     /// Gap from which on a node is too far away to close in the next iteration.
@@ -71,7 +72,7 @@ pub struct FieldAttempt<'a> {
 }
 
 impl FieldAttempt<'_> {
-    fn search(&self, u: &[f64]) -> Vec<Support> {
+    fn search(&self, u: &[f64]) -> Found {
         let now = Configuration::new(self.contact, u);
         let tips = now.tips(self.contact.longest, Some(&self.tips_before));
         self.contact
@@ -135,33 +136,34 @@ impl FieldAttempt<'_> {
         found.patch.tip.map(|landing| (found.patch.face, landing.xi))
     }
 
-    fn recall(&self, stencil: &StencilInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
+    fn recall(&self, at: &NodesInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
         if patch.tip.is_some() {
             let (number, xi) = self.before_tip(patch)?;
             let face = &self.contact.parts.surface.faces[number];
             let shape = face.shape([xi, 0.0]);
-            let now = shape.value(stencil.placed(face).nodes());
+            let now = shape.value(at.placed(face).nodes());
             return Some(Touched { now, slopes: [Vec3::zero(); 2], face: Some((number, shape)) });
         }
         let face = self.before.face(patch.face);
-        let at = face.at(xi);
+        let place = face.at(xi);
         match (&self.before.target, &self.contact.parts.target) {
             (TargetInPlace::Tool(before), FieldTarget::Tool(_)) => {
-                let (foot, now) = (before.closest(patch.target, at.x), stencil.tool.as_ref()?);
+                let (foot, now) = (before.closest(patch.target, place.x), at.tool.as_ref()?);
                 let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
-                let slopes = at.tangents.map(slope);
+                let slopes = place.tangents.map(slope);
                 Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None })
             }
             (TargetInPlace::Faces(_), FieldTarget::Faces(faces)) => {
                 // A state beside the one that was searched may have seen others by a hair.
                 let nodes = |face: usize| faces.surface.faces[face].nodes.iter();
-                let known = |face: usize| nodes(face).all(|node| stencil.support.nodes.binary_search(node).is_ok());
+                let known = |face: usize| nodes(face).all(|node| at.place(*node).is_some());
                 let (number, hit) = self.seen_before(patch, xi, known)?;
-                let n = at.normal.unit();
-                let placed = stencil.placed(&faces.surface.faces[number]);
+                let n = place.normal.unit();
+                let placed = at.placed(&faces.surface.faces[number]);
                 let [a, b] = hit.shape.tangents(placed.nodes(), self.contact.parts.surface.plane);
                 let slopes = [0, 1].map(|k| {
-                    let (_, s) = hit.follow(n, at.tangents[k] + at.normal.turned(at.normal_slopes[k]) * hit.gap);
+                    let (_, s) =
+                        hit.follow(n, place.tangents[k] + place.normal.turned(place.normal_slopes[k]) * hit.gap);
                     a * s[0] + b * s[1]
                 });
                 Some(Touched { now: hit.shape.value(placed.nodes()), slopes, face: Some((number, hit.shape)) })
@@ -205,19 +207,19 @@ impl FieldAttempt<'_> {
         past
     }
 
-    fn stencil<'s>(&'s self, support: &'s Support, u: &'s [f64]) -> StencilInPlace<'s> {
-        StencilInPlace::new(self.contact, support, u)
+    fn stencil<'s>(&'s self, found: &'s Found, slot: usize, u: &'s [f64]) -> StencilInPlace<'s> {
+        StencilInPlace::new(self.contact, (found, slot), u)
     }
 
     /// The sums of a node; None where it sees nothing.
     fn sum(&self, stencil: &StencilInPlace, derivatives: bool, sums: &mut NodeSums) -> Option<()> {
-        if stencil.support.patches.is_empty() {
+        if !stencil.sees() {
             return None;
         }
-        stencil.sum(&|patch, xi| self.recall(stencil, patch, xi), derivatives, sums)
+        stencil.sum(&|at, patch, xi| self.recall(at, patch, xi), derivatives, sums)
     }
 
-    fn supports(&self) -> Arc<Vec<Support>> {
+    fn found(&self) -> Arc<Found> {
         self.found.read().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
@@ -233,7 +235,7 @@ impl FieldAttempt<'_> {
         new.fill(0.0);
         new[entry::SEGMENT] = -1.0;
         if self.sum(stencil, false, sums).is_none() {
-            if stencil.support.through && old[entry::PRESSURE] != 0.0 {
+            if stencil.is_through() && old[entry::PRESSURE] != 0.0 {
                 let reason = format!("the target came through at {}", contact.name_of(slot));
                 return Err(Failure::new(reason).of(FailureKind::Passage));
             }
@@ -284,7 +286,7 @@ impl FieldAttempt<'_> {
             let slopes = self.stretch_slopes((slot, stretch), y)?;
             add_stretching(&slopes, &stretching, sums, &mut local.tangent);
             let y = [here, sums.y[1], sums.y[2]];
-            self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.u, y, stretch, sums);
+            self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.at.u, y, stretch, sums);
         }
         account(terms, (options, self.at), (sums.area * stretch, multiplied), (Some(&response), slip), local);
         Ok(response.status as Branch)
@@ -308,13 +310,12 @@ impl FieldAttempt<'_> {
     /// Refuses a node that closes too deep, and a touching tool that turned too far.
     fn refuse_leap(&self, slot: usize, (stencil, sums): (&StencilInPlace, &NodeSums)) -> Result<(), Failure> {
         let contact = self.contact;
-        let faces = stencil.support.patches.iter().map(|(patch, _)| self.depths[patch.face]);
-        let depth = faces.fold(f64::INFINITY, f64::min);
+        let depth = stencil.faces().map(|face| self.depths[face]).fold(f64::INFINITY, f64::min);
         if self.history.slot(slot)[entry::STATUS] == 0.0 {
             refuse_jump(sums.y[0], depth, || contact.name_of(slot))?;
         }
         let Some(rigid) = contact.parts.target.as_tool() else { return Ok(()) };
-        rigid.refuse_turn(stencil.motion(), self.accepted, || contact.name_of(slot))
+        rigid.refuse_turn(stencil.at.motion(), self.accepted, || contact.name_of(slot))
     }
 }
 
@@ -370,24 +371,23 @@ impl Attempt for FieldAttempt<'_> {
     }
 
     fn stencils(&self, u: &[f64], out: &mut Stencils) -> Result<(), Failure> {
-        let supports = self.list(u, out);
+        let found = self.list(u, out);
         self.linear.iter().for_each(|linear| linear.lock().unwrap_or_else(PoisonError::into_inner).u.clear());
-        *self.found.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(supports);
+        *self.found.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(found);
         Ok(())
     }
 
     fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
-        let supports = self.supports();
-        let u = std::mem::take(&mut local.u);
-        let stencil = self.stencil(&supports[index], &u);
+        let (found, u) = (self.found(), std::mem::take(&mut local.u));
+        let stencil = self.stencil(&found, index, &u);
         let branch = SUMS.with_borrow_mut(|sums| self.evaluate_node(index, &stencil, new, (local, sums)));
         local.u = u;
         branch
     }
 
     fn kink(&self, index: usize, _: &Stencil, u: &[f64], out: &mut Kinks) -> Result<(), Failure> {
-        let supports = self.supports();
-        let stencil = self.stencil(&supports[index], u);
+        let found = self.found();
+        let stencil = self.stencil(&found, index, u);
         let mut linear = self.linear[index].lock().unwrap_or_else(PoisonError::into_inner);
         if linear.u == u {
             linear.tell(self.contact.coordinates(), out);
@@ -411,14 +411,14 @@ impl Attempt for FieldAttempt<'_> {
     }
 
     fn answer(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner)[stencil].stretch;
+        let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner).supports[stencil].stretch;
         let past = self.past(stencil, stretch);
         let lift = self.lift(stencil, &past, [y[0], y[1], y[2]]);
         Ok(extended(answer(&*self.law, &past, self.contact.least, &[y[0] + lift, y[1], y[2], y[3]])?, lift))
     }
 
     fn sticking(&self, stencil: usize, y: &Coordinates) -> Result<Answer, Failure> {
-        let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner)[stencil].stretch;
+        let stretch = self.found.read().unwrap_or_else(PoisonError::into_inner).supports[stencil].stretch;
         let (past, still) = (self.past(stencil, stretch), [y[0], 0.0, 0.0, y[3]]);
         let mut answer = answer(&*self.law, &Past { shear: [0.0; 2], ..past }, self.contact.least, &still)?;
         if answer.slopes[1][1] == 0.0 {
@@ -481,11 +481,12 @@ impl Attempt for FieldAttempt<'_> {
 
 impl FieldAttempt<'_> {
     /// Lists the stencils of all nodes at unknowns `u`.
-    fn list(&self, u: &[f64], out: &mut Stencils) -> Vec<Support> {
-        let supports = self.search(u);
-        for support in &supports {
+    fn list(&self, u: &[f64], out: &mut Stencils) -> Found {
+        let found = self.search(u);
+        for support in &found.supports {
             let start = out.dofs.len();
-            let choice = support.patches.first().map_or(0, |(patch, _)| patch.target as u32 + 1);
+            let choice =
+                support.patches.first().map_or(0, |&(number, _)| found.patches[number].patch.target as u32 + 1);
             if choice > 0 {
                 let dofs = &self.contact.parts.dofs;
                 out.dofs.extend(support.nodes.iter().flat_map(|&node| dofs.displacements(node)));
@@ -495,6 +496,6 @@ impl FieldAttempt<'_> {
             }
             out.close(start, Stencil { choice, ..Stencil::default() });
         }
-        supports
+        found
     }
 }

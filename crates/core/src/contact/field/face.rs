@@ -1,6 +1,6 @@
 //! A face of a body's boundary: an edge in the plane, a face in space, with its nodes in place.
 
-use crate::mesh::cells::{Cell, MAX_NODES};
+use crate::mesh::cells::Cell;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
@@ -38,10 +38,10 @@ pub struct ShapeFunctions {
 impl ShapeFunctions {
     /// Those of a reference cell at `xi`.
     pub fn of(kind: &Cell, xi: [f64; 2]) -> Self {
-        let (mut n, mut dn) = ([0.0; MAX_NODES], [[0.0; 3]; MAX_NODES]);
+        let (mut n, mut dn) = ([0.0; MOST], [[0.0; 3]; MOST]);
         let count = kind.nodes.len();
         (kind.shape)([xi[0], xi[1], 0.0], &mut n[..count], &mut dn[..count]);
-        Self { n: std::array::from_fn(|k| n[k]), dn: std::array::from_fn(|k| [dn[k][0], dn[k][1]]) }
+        Self { n, dn: dn.map(|[a, b, _]| [a, b]) }
     }
 
     /// The value of a field with nodal values `x`.

@@ -31,6 +31,7 @@ mod linear;
 mod part;
 mod patch;
 mod point;
+mod points;
 mod report;
 mod seen;
 mod space;

@@ -1,12 +1,13 @@
 //! A patch in place: where its interval lies, and how that moves with its unknowns.
 
 use super::column::{PointColumn, tool_motion};
+use super::contact::FieldTarget;
 use super::cover::{FaceInPlace, Patch, root_near};
 use super::face::{CORNERS, PlacedFace, ShapeFunctions};
 use super::faces::TargetFaces;
+use super::stencil::NodesInPlace;
 use super::surface::NodalNormal;
 use super::tool::ToolInPlace;
-use super::triad::MaterialLine;
 use crate::tensor::Vec3;
 
 /// A patch in place, with all that its points have in common.
@@ -23,8 +24,6 @@ pub struct PatchInPlace<'a> {
     pub patch: Patch,
     /// Where its interval begins and ends, in the plane.
     pub interval: [f64; 2],
-    /// What the tangents of its node follow, in space.
-    pub line: Option<MaterialLine>,
     /// Degree of the rule on an overlap, in space.
     pub degree: usize,
 }
@@ -32,9 +31,34 @@ pub struct PatchInPlace<'a> {
 /// Ends of an interval and their derivatives along one unknown.
 pub type IntervalRates = [f64; 2];
 
-impl PatchInPlace<'_> {
+impl<'a> PatchInPlace<'a> {
+    /// A patch with its nodes and the tool in place.
+    pub fn new(at: &NodesInPlace<'a>, patch: &Patch) -> Self {
+        let surface = &at.contact.parts.surface;
+        let face = &surface.faces[patch.face];
+        let (mut normals, mut units) = ([None; CORNERS], [Vec3::zero(); CORNERS]);
+        if at.contact.needs_normals() {
+            for c in 0..face.corners() {
+                let normal: NodalNormal =
+                    surface.normal(surface.field[patch.face][c], |f| at.placed(&surface.faces[f]));
+                (normals[c], units[c]) = (Some(normal), normal.unit);
+            }
+        }
+        let face = FaceInPlace { face, placed: at.placed(face), normals: units, plane: surface.plane };
+        let (tool, seen) = match &at.contact.parts.target {
+            FieldTarget::Tool(_) => (at.tool, None),
+            FieldTarget::Faces(faces) => (None, Some((faces, at.placed(&faces.surface.faces[patch.target])))),
+        };
+        let degree = at.contact.overlap_degree(patch);
+        let mut patch = Self { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], degree };
+        if surface.plane {
+            patch.find_interval();
+        }
+        patch
+    }
+
     /// Finds where the interval lies.
-    pub fn find_interval(&mut self) {
+    fn find_interval(&mut self) {
         for k in 0..2 {
             self.interval[k] = match self.patch.ends[k] {
                 None => [-1.0, 1.0][k],

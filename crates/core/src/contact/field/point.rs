@@ -12,7 +12,6 @@ use super::face::{CORNERS, ShapeFunctions};
 use super::faces::{FaceProjection, FaceRay};
 use super::patch::{IntervalRates, PatchInPlace};
 use super::spot::FaceSpot;
-use super::triad::MaterialLine;
 use crate::tensor::Vec3;
 use crate::tool::NearestPoint;
 
@@ -38,27 +37,31 @@ pub struct Touched {
     pub face: Option<(usize, ShapeFunctions)>,
 }
 
-/// A quadrature point of one node of the field.
+/// A quadrature point of a patch.
 #[derive(Debug, Clone, Copy)]
-pub struct FieldPoint {
-    /// Its patch.
-    pub patch: usize,
-    /// Undeformed area it stands for times the node's function there.
+pub struct PatchPoint {
+    /// Its number among the places of the quadrature.
+    pub number: usize,
+    /// Reference coordinates on the face.
+    pub xi: [f64; 2],
+    /// Undeformed area it stands for.
     pub weight: f64,
+    /// Functions of the nodes of the field at the corners of the face, and their slopes.
+    pub functions: ([f64; CORNERS], [[f64; 2]; CORNERS]),
     /// Shape functions of the face.
     pub shape: ShapeFunctions,
     /// Gap, negative for penetration.
     pub gap: f64,
-    /// Outward direction of the gap, and the two tangents.
+    /// Outward direction of the gap.
     pub n: Vec3,
-    /// Tangents.
-    pub e: [Vec3; 2],
-    /// Slip of the increment along them.
-    pub slip: [f64; 2],
+    /// The way of the increment, from the place to what it saw at the accepted state.
+    pub v: Vec3,
     /// Where the target is loaded.
     pub y: Vec3,
     /// What it sees.
     pub sight: Sight,
+    /// What it saw.
+    pub touched: Option<Touched>,
 }
 
 /// Derivatives of a point along one unknown.
@@ -72,18 +75,16 @@ pub struct PointRates {
     pub gap: f64,
     /// Of the direction.
     pub n: Vec3,
-    /// Of the tangents.
-    pub e: [Vec3; 2],
-    /// Of the slips.
-    pub slip: [f64; 2],
+    /// Of the way.
+    pub v: Vec3,
     /// Of the reference coordinates of what is seen.
     pub s: [f64; 2],
     /// Of the place where the target is loaded.
     pub y: Vec3,
 }
 
-/// A node's function at a place: its value and its slopes.
-type Function = (f64, [f64; 2]);
+/// A density at a place: its value and its slopes.
+type Density = (f64, [f64; 2]);
 
 /// Cosines between the surface's own normal and that opposite to a tool's between which a place comes into sight.
 const SIGHT: [f64; 2] = [0.1, 0.5];
@@ -116,60 +117,38 @@ impl PatchInPlace<'_> {
         sight(self.face.own_normal(xi).dot(n))
     }
 
-    /// The tangents across a direction.
-    pub fn tangents(&self, n: Vec3) -> [Vec3; 2] {
-        self.line.map_or([n.left(), Vec3::new(0.0, 0.0, 1.0)], |line| line.tangents(n))
-    }
-
-    /// Whether what a point of the patch shows depends on an unknown, besides what it saw at the accepted state.
-    pub fn depends(&self, column: &PointColumn, turning: &[Vec3; CORNERS]) -> bool {
-        let PointColumn::Node { own, seen, node, .. } = column else { return true };
-        let turns = || turning.iter().any(|dm| *dm != Vec3::zero());
-        own.is_some() || seen.is_some() || self.line.is_some_and(|line| line.has(*node)) || turns()
-    }
-
-    /// Derivatives of a point along an unknown: `at` is its place with its weight by what it looks at, `density` the undeformed
-    /// area density with its slopes, `function` the node's function.
+    /// Derivatives of a point along an unknown: `frame` is its place with its weight by what it looks at, `density` the undeformed
+    /// area density with its slopes.
     pub fn rates(
         &self,
-        point: &FieldPoint,
+        point: &PatchPoint,
         column: &PointColumn,
-        (spot, at, facing): (&FaceSpot, &FaceFrame, [f64; 2]),
-        (density, function, touched): (&Function, &Function, &Option<Touched>),
+        (spot, frame, facing): (&FaceSpot, &FaceFrame, [f64; 2]),
+        density: &Density,
         (ends, turning): (&IntervalRates, &[Vec3; CORNERS]),
     ) -> PointRates {
         let (xi, (dxi, darea)) = (spot.xi, self.spot_rates(spot, column, ends));
-        let dx = self.moved(column, &point.shape) + at.tangents[0] * dxi[0] + at.tangents[1] * dxi[1];
-        let (gap, n, s, y) = self.sight_rates(point, column, (at, dx, dxi), turning);
+        let dx = self.moved(column, &point.shape) + frame.tangents[0] * dxi[0] + frame.tangents[1] * dxi[1];
+        let (gap, n, s, y) = self.sight_rates(point, column, (frame, dx, dxi), turning);
         let mut dfacing = 0.0;
         if facing[1] != 0.0 {
             let cosine = self.own_normal_rate(column, xi, dxi).dot(point.n) + self.face.own_normal(xi).dot(n);
             dfacing = facing[1] * cosine;
         }
-        let along = |slopes: [f64; 2]| slopes[0] * dxi[0] + slopes[1] * dxi[1];
-        let (density, density_slope) = (density.0, along(density.1));
-        let (function, function_slope) = (function.0, along(function.1));
-        let weight = darea * density * facing[0] * function
-            + spot.weight
-                * (density_slope * facing[0] * function
-                    + density * dfacing * function
-                    + density * facing[0] * function_slope);
-        let turned = |line: MaterialLine| line.rates(column, (point.n, n), &point.e);
-        let e = self.line.map_or([n.left(), Vec3::zero()], turned);
-        let mut slip = [0.0; 2];
-        if let Some(touched) = touched {
-            let v = touched.now - at.x;
+        let slope = density.1[0] * dxi[0] + density.1[1] * dxi[1];
+        let weight = darea * density.0 * facing[0] + spot.weight * (slope * facing[0] + density.0 * dfacing);
+        let follow = |touched: &Touched| {
             let carried = touched.slopes[0] * dxi[0] + touched.slopes[1] * dxi[1];
-            let dv = self.touched_rate(column, touched) + carried - dx;
-            (0..2).for_each(|a| slip[a] = e[a].dot(v) + point.e[a].dot(dv));
-        }
-        PointRates { weight, xi: dxi, gap, n, e, slip, s, y }
+            self.touched_rate(column, touched) + carried - dx
+        };
+        let v = point.touched.as_ref().map_or(Vec3::zero(), follow);
+        PointRates { weight, xi: dxi, gap, n, v, s, y }
     }
 
     /// Derivatives of gap, direction, coordinates of what is seen, and of the place where it is loaded.
     fn sight_rates(
         &self,
-        point: &FieldPoint,
+        point: &PatchPoint,
         column: &PointColumn,
         (at, dx, dxi): (&FaceFrame, Vec3, [f64; 2]),
         turning: &[Vec3; CORNERS],

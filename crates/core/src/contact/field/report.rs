@@ -32,8 +32,9 @@ impl FieldContact {
     pub fn moves(&self) -> Vec<Move> {
         let still = vec![0.0; self.parts.dofs.count()];
         let (now, mut moves) = (Configuration::new(self, &still), BTreeMap::new());
-        let supports = self.supports(&still, self.reach(&still), false);
-        for (patch, _) in supports.iter().flat_map(|support| &support.patches) {
+        let found = self.supports(&still, self.reach(&still), false);
+        for (number, _) in found.supports.iter().flat_map(|support| &support.patches) {
+            let patch = &found.patches[*number].patch;
             let (face, own) = (now.face(patch.face), &self.parts.surface.faces[patch.face]);
             for (k, &node) in own.nodes.iter().enumerate() {
                 let at = face.at(own.place(k));

@@ -5,9 +5,64 @@ use super::contact::FieldContact;
 use super::cover::Patch;
 use super::face::FieldFace;
 use super::faces::FaceRay;
-use super::stencil::{NodeSums, StencilInPlace, Support};
+use super::stencil::{NodeSums, StencilInPlace};
 use super::tip::TipFoot;
 use crate::contact::increment::reach;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A patch and the nodes of the mesh on which its points depend, ascending.
+#[derive(Debug, Clone)]
+pub struct FoundPatch {
+    /// The patch.
+    pub patch: Patch,
+    /// The nodes.
+    pub nodes: Vec<usize>,
+}
+
+/// Which patches a stencil sums, and which unknowns it has.
+#[derive(Debug, Clone)]
+pub struct Support {
+    /// Numbers of the patches; the node's own number among the corners of each face.
+    pub patches: Vec<(usize, usize)>,
+    /// Nodes of the mesh on which they depend, ascending.
+    pub nodes: Vec<usize>,
+    /// The target came through the body here.
+    pub through: bool,
+    /// Deformed over undeformed area of the faces of the patches around the node.
+    pub stretch: f64,
+}
+
+impl Default for Support {
+    fn default() -> Self {
+        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0 }
+    }
+}
+
+/// What a search finds.
+#[derive(Debug, Clone, Default)]
+pub struct Found {
+    /// No other search of the program has this number.
+    pub search: usize,
+    /// The patches.
+    pub patches: Vec<FoundPatch>,
+    /// What each stencil has of them.
+    pub supports: Vec<Support>,
+}
+
+impl Found {
+    /// The faces of the patches of a stencil, each once, with the node's number among their corners; none for a tip.
+    pub fn faces(&self, slot: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let patches = &self.supports[slot].patches;
+        let patch = |&(number, _): &(usize, usize)| &self.patches[number].patch;
+        let fresh = move |i: usize, face: usize| !patches[..i].iter().any(|other| patch(other).face == face);
+        let faces = patches.iter().enumerate().map(move |(i, of)| (i, patch(of), of.1));
+        faces
+            .filter(move |(i, patch, _)| patch.tip.is_none() && fresh(*i, patch.face))
+            .map(|(_, patch, c)| (patch.face, c))
+    }
+}
+
+static SEARCHES: AtomicUsize = AtomicUsize::new(1);
 
 impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
@@ -17,17 +72,17 @@ impl FieldContact {
         reach: f64,
         depths: &[f64],
         mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
-    ) -> Vec<Support> {
-        let mut near = Vec::new();
+    ) -> Found {
+        let (mut near, mut patches) = (Vec::new(), Vec::new());
         let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
-        let mut see = |slot: usize, (patch, corner): (Patch, usize), [middle, nearest]: [f64; 2]| {
-            let depth = depths[patch.face];
+        let mut see = |slot: usize, (number, face, corner): (usize, usize, usize), [middle, nearest]: [f64; 2]| {
+            let depth = depths[face];
             if -middle > depth {
                 // Deeper than the middle of the body, and not the body's own far side.
                 supports[slot].through |= -middle < THROUGH * depth;
                 return;
             }
-            supports[slot].patches.push((patch, corner));
+            supports[slot].patches.push((number, corner));
             least[slot] = least[slot].min(nearest);
         };
         for number in 0..depths.len() {
@@ -35,37 +90,49 @@ impl FieldContact {
                 let piece = self.piece_of(seen.patch.target);
                 for corner in 0..self.parts.surface.faces[number].corners() {
                     let slot = self.slot(self.parts.surface.field[number][corner], piece);
-                    see(slot, (seen.patch, corner), [seen.middle, seen.least]);
+                    see(slot, (patches.len(), number, corner), [seen.middle, seen.least]);
                 }
+                patches.push(FoundPatch { patch: seen.patch, nodes: Vec::new() });
             }
         }
         for (number, found) in tips.into_iter().enumerate() {
             if let Some(found) = found {
-                see(self.nodal_slots() + number, (found.patch, 0), [found.gap; 2]);
+                see(self.nodal_slots() + number, (patches.len(), found.patch.face, 0), [found.gap; 2]);
+                patches.push(FoundPatch { patch: found.patch, nodes: Vec::new() });
             }
         }
         for (support, least) in supports.iter_mut().zip(least) {
             if least > reach {
                 support.patches.clear();
             }
-            for (patch, _) in &support.patches {
-                self.list_nodes(patch, &mut support.nodes);
-                touched(now, patch, &mut support.nodes);
+            for &(number, _) in &support.patches {
+                let FoundPatch { patch, nodes } = &mut patches[number];
+                if nodes.is_empty() {
+                    self.list_nodes(patch, nodes);
+                    touched(now, patch, nodes);
+                    nodes.sort_unstable();
+                    nodes.dedup();
+                }
+                support.nodes.extend_from_slice(nodes);
             }
-            if let (Some((patch, corner)), false) = (support.patches.first(), self.parts.surface.plane) {
-                support.nodes.extend(self.parts.surface.line(self.parts.surface.field[patch.face][*corner]));
+            if let (Some((number, corner)), false) = (support.patches.first(), self.parts.surface.plane) {
+                let face = patches[*number].patch.face;
+                support.nodes.extend(self.parts.surface.line(self.parts.surface.field[face][*corner]));
             }
             support.nodes.sort_unstable();
             support.nodes.dedup();
+        }
+        let mut found = Found { search: SEARCHES.fetch_add(1, Ordering::Relaxed), patches, supports };
+        for slot in 0..found.supports.len() {
             let mut areas = [0.0; 2];
-            for (number, corner) in support.faces() {
+            for (number, corner) in found.faces(slot) {
                 let face = &self.parts.surface.faces[number];
                 areas[0] += self.parts.surface.corner_area(face, &now.placed[number], corner).0;
                 areas[1] += self.parts.surface.corner_area(face, &face.at_rest(&self.parts.mesh), corner).0;
             }
-            support.stretch = if areas[1] > 0.0 { areas[0] / areas[1] } else { 1.0 };
+            found.supports[slot].stretch = if areas[1] > 0.0 { areas[0] / areas[1] } else { 1.0 };
         }
-        supports
+        found
     }
 
     /// Nodes on which a patch depends.
@@ -99,7 +166,7 @@ impl FieldContact {
     }
 
     /// What each node sees at displacements `u`, as far as the accepted state alone tells.
-    pub(super) fn supports(&self, u: &[f64], reach: f64, whole: bool) -> Vec<Support> {
+    pub(super) fn supports(&self, u: &[f64], reach: f64, whole: bool) -> Found {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
         let tips = now.tips(self.longest, if whole { None } else { Some(&[]) });
         self.find((&now, tips), reach, &depths, |_, _, _| {})
@@ -120,11 +187,11 @@ impl FieldContact {
         mut take: impl FnMut(usize, &StencilInPlace, &NodeSums),
     ) {
         let mut sums = NodeSums::default();
-        for (slot, support) in self.supports(u, reach, whole).iter().enumerate().filter(|(_, s)| !s.patches.is_empty())
-        {
+        let found = self.supports(u, reach, whole);
+        for (slot, support) in found.supports.iter().enumerate().filter(|(_, s)| !s.patches.is_empty()) {
             let values = self.values(support, u);
-            let stencil = StencilInPlace::new(self, support, &values);
-            if stencil.sum(&|_, _| None, false, &mut sums).is_some() {
+            let stencil = StencilInPlace::new(self, (&found, slot), &values);
+            if stencil.sum(&|_, _, _| None, false, &mut sums).is_some() {
                 take(slot, &stencil, &sums);
             }
         }

@@ -5,48 +5,38 @@
 //! is asked; the second adds what turning and moving the stresses does.
 
 use super::column::PointColumn;
-use super::contact::{FieldContact, FieldTarget, RULE};
-use super::cover::{FaceInPlace, Patch};
-use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions, moved};
-use super::patch::PatchInPlace;
-use super::point::{FieldPoint, PointRates, Sight, Touched};
-use super::surface::NodalNormal;
+use super::contact::FieldContact;
+use super::cover::Patch;
+use super::face::{FieldFace, PlacedFace, ShapeFunctions, moved};
+use super::point::{PatchPoint, PointRates, Sight};
+use super::points::{PatchPoints, Recall};
+use super::seen::Found;
 use super::tool::ToolInPlace;
 use super::triad::MaterialLine;
 use crate::tensor::Vec3;
-use std::ops::Range;
+use std::rc::Rc;
 
 /// Coordinates of a node: penetration and two slips.
 pub const COUNT: usize = 3;
 
-/// Which unknowns a stencil has, and the patches that it sums.
-#[derive(Debug, Clone)]
-pub struct Support {
-    /// The patches; the node's own number among the corners of each face.
-    pub patches: Vec<(Patch, usize)>,
-    /// Nodes of the mesh on which they depend, ascending.
-    pub nodes: Vec<usize>,
-    /// The target came through the body here.
-    pub through: bool,
-    /// Deformed over undeformed area of the faces of the patches around the node.
-    pub stretch: f64,
+/// A point as one node sums it.
+#[derive(Debug, Clone, Copy)]
+struct NodePoint {
+    /// Its patch among those of the node, and its number there.
+    of: (usize, usize),
+    /// Undeformed area it stands for times the node's function there.
+    weight: f64,
+    /// The two tangents, and the slip of the increment along them.
+    e: [Vec3; 2],
+    slip: [f64; 2],
 }
 
-impl Default for Support {
-    fn default() -> Self {
-        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0 }
-    }
-}
-
-impl Support {
-    /// The faces of its patches, each once, with the node's number among their corners; none for a tip.
-    pub fn faces(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let faces = self.patches.iter().enumerate();
-        let fresh = |i: usize, face: usize| !self.patches[..i].iter().any(|(other, _)| other.face == face);
-        faces
-            .filter(move |(i, (patch, _))| patch.tip.is_none() && fresh(*i, patch.face))
-            .map(|(_, (patch, corner))| (patch.face, *corner))
-    }
+/// Derivatives of what one node makes of a point, along one unknown.
+#[derive(Debug, Clone, Copy)]
+struct NodeRates {
+    weight: f64,
+    e: [Vec3; 2],
+    slip: [f64; 2],
 }
 
 /// Sums over the points of a node. Its buffers are kept from stencil to stencil.
@@ -62,89 +52,57 @@ pub struct NodeSums {
     pub forces: Vec<f64>,
     /// Mean position, weighted by area.
     pub place: Vec3,
-    pub(super) points: Vec<FieldPoint>,
-    /// Derivatives of the points along the unknowns on which they depend, with the numbers of these.
-    pub(super) rates: Vec<(usize, PointRates)>,
-    /// Where those of each point begin.
-    pub(super) starts: Vec<usize>,
-    pub(super) columns: Vec<PointColumn>,
+    patches: Vec<Rc<PatchPoints>>,
+    points: Vec<NodePoint>,
+    /// Where the unknowns of each patch are among those of the node, patch after patch; behind them those of the line that
+    /// tangents follow which the patch does not have.
+    columns: Vec<usize>,
+    /// Where those of each patch begin.
+    starts: Vec<usize>,
+    /// Derivatives of each point along them.
+    rates: Vec<NodeRates>,
+    values: Vec<f64>,
+    block: Vec<f64>,
+    turned: Vec<Vec3>,
 }
 
-/// A stencil at values of its unknowns.
-pub struct StencilInPlace<'a> {
+/// Some nodes of the mesh and the tool of a contact at values of their unknowns.
+#[derive(Clone, Copy)]
+pub struct NodesInPlace<'a> {
     /// The contact.
     pub contact: &'a FieldContact,
-    /// Its unknowns and patches.
-    pub support: &'a Support,
-    /// Values of its unknowns: those of its nodes, then those of the tool.
+    /// The nodes, ascending.
+    pub nodes: &'a [usize],
+    /// Values of their unknowns, then those of the tool.
     pub u: &'a [f64],
     /// The tool where these put it.
     pub tool: Option<ToolInPlace<'a>>,
 }
 
-/// What a place of the surface saw at the accepted state.
-pub type Recall<'a> = &'a dyn Fn(&Patch, [f64; 2]) -> Option<Touched>;
-
-impl<'a> StencilInPlace<'a> {
-    /// Of a contact.
-    pub fn new(contact: &'a FieldContact, support: &'a Support, u: &'a [f64]) -> Self {
-        let motion = support.nodes.len() * contact.parts.dofs.per_node();
-        let tool =
-            contact.parts.target.as_tool().filter(|_| motion < u.len()).map(|rigid| rigid.in_place(&u[motion..]));
-        Self { contact, support, u, tool }
-    }
-
-    fn axes(&self) -> usize {
+impl<'a> NodesInPlace<'a> {
+    /// Unknowns of a node.
+    pub fn axes(&self) -> usize {
         self.contact.parts.dofs.per_node()
     }
 
+    /// Place of a node of the mesh among them.
+    pub fn place(&self, node: usize) -> Option<usize> {
+        self.nodes.binary_search(&node).ok()
+    }
+
     /// A face with its nodes in place.
-    pub(super) fn placed(&self, face: &FieldFace) -> PlacedFace {
+    pub fn placed(&self, face: &FieldFace) -> PlacedFace {
         PlacedFace::new(face.nodes.iter().map(|&node| self.position(node)))
     }
 
     fn position(&self, node: usize) -> Vec3 {
         let (x, axes) = (self.contact.parts.mesh.points[node], self.axes());
-        let place = self.support.nodes.binary_search(&node);
-        place.map_or(x, |place| moved(x, &self.u[place * axes..(place + 1) * axes]))
+        self.place(node).map_or(x, |place| moved(x, &self.u[place * axes..(place + 1) * axes]))
     }
 
     /// The unknowns of the tool.
-    pub(super) fn motion(&self) -> &'a [f64] {
-        &self.u[self.support.nodes.len() * self.axes()..]
-    }
-
-    fn patch(&self, patch: &Patch) -> PatchInPlace<'a> {
-        let surface = &self.contact.parts.surface;
-        let face = &surface.faces[patch.face];
-        let (mut normals, mut units) = ([None; CORNERS], [Vec3::zero(); CORNERS]);
-        if self.contact.needs_normals() {
-            for c in 0..face.corners() {
-                let node = surface.field[patch.face][c];
-                let normal: NodalNormal = surface.normal(node, |f| self.placed(&surface.faces[f]));
-                (normals[c], units[c]) = (Some(normal), normal.unit);
-            }
-        }
-        let face = FaceInPlace { face, placed: self.placed(face), normals: units, plane: surface.plane };
-        let (tool, seen) = match &self.contact.parts.target {
-            FieldTarget::Tool(_) => (self.tool, None),
-            FieldTarget::Faces(faces) => (None, Some((faces, self.placed(&faces.surface.faces[patch.target])))),
-        };
-        let (line, degree) = (self.line(), self.contact.overlap_degree(patch));
-        let mut patch = PatchInPlace { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], line, degree };
-        if surface.plane {
-            patch.find_interval();
-        }
-        patch
-    }
-
-    /// What the tangents of the node follow, in space.
-    fn line(&self) -> Option<MaterialLine> {
-        let surface = &self.contact.parts.surface;
-        let (patch, corner) = self.support.patches.first().filter(|_| !surface.plane)?;
-        let nodes = surface.line(surface.field[patch.face][*corner]);
-        let [from, to] = nodes.map(|node| self.position(node));
-        Some(MaterialLine { d: to - from, nodes })
+    pub fn motion(&self) -> &'a [f64] {
+        &self.u[self.nodes.len() * self.axes()..]
     }
 
     /// Nodes of a face of the target.
@@ -152,54 +110,81 @@ impl<'a> StencilInPlace<'a> {
         self.contact.parts.target.as_faces().map_or(&[], |faces| &faces.surface.faces[face].nodes)
     }
 
-    pub(super) fn list_columns(&self, patch: &Patch, columns: &mut Vec<PointColumn>) {
-        columns.clear();
+    /// Their unknowns, as the points of a patch depend on them.
+    pub fn columns(&self, patch: &Patch) -> Vec<PointColumn> {
         let own = &self.contact.parts.surface.faces[patch.face].nodes;
-        let seen = match &self.contact.parts.target {
-            FieldTarget::Tool(_) => &[][..],
-            FieldTarget::Faces(faces) => &faces.surface.faces[patch.target].nodes,
-        };
+        let seen = self.seen_nodes(patch.target);
         let place = |nodes: &[usize], node: usize| nodes.iter().position(|&other| other == node);
-        for &node in &self.support.nodes {
+        let of = |&node: &usize| {
             let (own, seen) = (place(own, node), place(seen, node));
-            columns.extend((0..self.axes()).map(|axis| PointColumn::Node { axis, own, seen, node }));
-        }
-        columns.extend((0..self.motion().len()).map(PointColumn::Tool));
+            (0..self.axes()).map(move |axis| PointColumn::Node { axis, own, seen, node })
+        };
+        self.nodes.iter().flat_map(of).chain((0..self.motion().len()).map(PointColumn::Tool)).collect()
+    }
+}
+
+/// A stencil at values of its unknowns.
+pub struct StencilInPlace<'a> {
+    /// What a search found,
+    found: &'a Found,
+    /// and its number there.
+    slot: usize,
+    /// Its nodes and the tool.
+    pub at: NodesInPlace<'a>,
+}
+
+impl<'a> StencilInPlace<'a> {
+    /// The stencil of a slot at values `u` of its unknowns.
+    pub fn new(contact: &'a FieldContact, (found, slot): (&'a Found, usize), u: &'a [f64]) -> Self {
+        let nodes = &found.supports[slot].nodes;
+        let motion = nodes.len() * contact.parts.dofs.per_node();
+        let tool =
+            contact.parts.target.as_tool().filter(|_| motion < u.len()).map(|rigid| rigid.in_place(&u[motion..]));
+        Self { found, slot, at: NodesInPlace { contact, nodes, u, tool } }
     }
 
-    /// Derivatives of the sums of area vectors at the corners of a face along each unknown.
-    fn turning(&self, patch: &Patch, out: &mut Vec<[Vec3; CORNERS]>) {
-        let (surface, axes) = (&self.contact.parts.surface, self.axes());
-        out.clear();
-        out.resize(self.u.len(), [Vec3::zero(); CORNERS]);
-        if !self.contact.needs_normals() {
-            return;
-        }
-        let corners = surface.faces[patch.face].corners();
-        for (c, &node) in surface.field[patch.face][..corners].iter().enumerate() {
-            surface.normal_rates(
-                node,
-                |f| self.placed(&surface.faces[f]),
-                |node, rates| {
-                    if let Ok(place) = self.support.nodes.binary_search(&node) {
-                        (0..axes).for_each(|axis| out[place * axes + axis][c] += rates[axis]);
-                    }
-                },
-            );
-        }
+    /// Whether it sees something.
+    pub fn sees(&self) -> bool {
+        !self.found.supports[self.slot].patches.is_empty()
+    }
+
+    /// Whether the target came through the body here.
+    pub fn is_through(&self) -> bool {
+        self.found.supports[self.slot].through
+    }
+
+    /// The faces of its patches.
+    pub fn faces(&self) -> impl Iterator<Item = usize> + '_ {
+        self.patches().map(|(patch, _)| patch.face)
+    }
+
+    /// Its patches; the node's own number among the corners of each face.
+    fn patches(&self) -> impl Iterator<Item = (&'a Patch, usize)> {
+        let found = self.found;
+        found.supports[self.slot].patches.iter().map(|&(number, corner)| (&found.patches[number].patch, corner))
+    }
+
+    /// What the tangents of the node follow, in space.
+    fn line(&self) -> Option<MaterialLine> {
+        let surface = &self.at.contact.parts.surface;
+        let (patch, corner) = self.patches().next().filter(|_| !surface.plane)?;
+        let nodes = surface.line(surface.field[patch.face][corner]);
+        let [from, to] = nodes.map(|node| self.at.position(node));
+        Some(MaterialLine { d: to - from, nodes })
     }
 
     /// Deformed over undeformed area of the faces of the patches, and its derivatives along each unknown; one for a tip.
     pub fn stretch(&self) -> (f64, Vec<f64>) {
-        let (surface, axes) = (&self.contact.parts.surface, self.axes());
-        let (mut areas, mut slopes) = ([0.0; 2], vec![0.0; self.u.len()]);
-        for (number, corner) in self.support.faces() {
+        let (at, contact) = (&self.at, self.at.contact);
+        let (surface, axes) = (&contact.parts.surface, at.axes());
+        let (mut areas, mut slopes) = ([0.0; 2], vec![0.0; at.u.len()]);
+        for (number, corner) in self.found.faces(self.slot) {
             let face = &surface.faces[number];
-            areas[1] += surface.corner_area(face, &face.at_rest(&self.contact.parts.mesh), corner).0;
-            let (area, rates) = surface.corner_area(face, &self.placed(face), corner);
+            areas[1] += surface.corner_area(face, &face.at_rest(&contact.parts.mesh), corner).0;
+            let (area, rates) = surface.corner_area(face, &at.placed(face), corner);
             areas[0] += area;
             for (node, rate) in face.nodes.iter().zip(rates) {
-                let Ok(place) = self.support.nodes.binary_search(node) else { continue };
+                let Some(place) = at.place(*node) else { continue };
                 (0..axes).for_each(|axis| slopes[place * axes + axis] += rate[axis]);
             }
         }
@@ -212,71 +197,42 @@ impl<'a> StencilInPlace<'a> {
 
     /// First sweep. None where the node sees nothing, or a ray runs along the target.
     pub fn sum(&self, recall: Recall, derivatives: bool, sums: &mut NodeSums) -> Option<()> {
-        let n = self.u.len();
+        sums.patches.clear();
         sums.points.clear();
-        sums.rates.clear();
+        sums.columns.clear();
         sums.starts.clear();
-        let (mut area, mut moments, mut place) = (0.0, [0.0; COUNT], Vec3::zero());
-        let mut turning = Vec::new();
-        for (number, (patch, corner)) in self.support.patches.iter().enumerate() {
-            if let Some(landing) = patch.tip {
-                self.sum_tip((number, patch, landing), recall, derivatives, sums)?;
-                continue;
-            }
-            let in_place = self.patch(patch);
-            let surface = &self.contact.parts.surface;
-            let rest = in_place.face.face.at_rest(&self.contact.parts.mesh);
-            let mut ends = Vec::new();
-            if derivatives {
-                self.list_columns(patch, &mut sums.columns);
-                self.turning(patch, &mut turning);
-                ends.extend(
-                    sums.columns.iter().zip(&turning).map(|(column, turning)| in_place.interval_rates(column, turning)),
-                );
-            }
-            let depends = |(column, turning)| in_place.depends(column, turning);
-            let active: Vec<bool> = sums.columns.iter().zip(&turning).map(depends).collect();
-            let still = !derivatives || (in_place.tool.is_some() && !surface.plane);
-            for spot in in_place.spots(&RULE, derivatives) {
-                let xi = spot.xi;
-                let at = in_place.face.at(xi);
-                let (sight, n_out, gap, y) = in_place.look(&at)?;
-                if matches!(&sight, Sight::Tool(foot) if foot.beyond.is_some() && !surface.plane) {
-                    continue;
-                }
-                let face = in_place.face.face;
-                let value = || (surface.density_at(face, &rest, xi), [0.0; 2]);
-                let density = if still { value() } else { surface.density(face, &rest, xi) };
-                let function = (at.corners.n[*corner], at.corners.dn[*corner]);
-                let facing = in_place.facing(xi, n_out);
-                let weight = spot.weight * density.0 * facing[0] * function.0;
-                let e = in_place.tangents(n_out);
-                let touched = recall(patch, xi);
-                let v = touched.map_or(Vec3::zero(), |touched| touched.now - at.x);
-                let slip = e.map(|e| e.dot(v));
-                let shape = at.shape;
-                let point = FieldPoint { patch: number, weight, shape, gap, n: n_out, e, slip, y, sight };
+        sums.rates.clear();
+        let line = self.line();
+        for &(number, corner) in &self.found.supports[self.slot].patches {
+            let patch = &self.found.patches[number];
+            sums.starts.push(sums.columns.len());
+            self.list_columns((&patch.nodes, line), &mut sums.columns);
+            let columns = &sums.columns[sums.starts[sums.patches.len()]..];
+            let unknowns = patch.nodes.len() * self.at.axes() + self.at.motion().len();
+            sums.values.clear();
+            sums.values.extend(columns[..unknowns].iter().map(|&column| self.at.u[column]));
+            let at = NodesInPlace { nodes: &patch.nodes, u: &sums.values, ..self.at };
+            let points = PatchPoints::of((self.found.search, number, patch), &at, recall, derivatives)?;
+            for (k, point) in points.points.iter().enumerate() {
+                let e = line.map_or([point.n.left(), Vec3::axis(2)], |line| line.tangents(point.n));
+                let (weight, slip) = (point.weight * point.functions.0[corner], e.map(|e| e.dot(point.v)));
+                sums.points.push(NodePoint { of: (sums.patches.len(), k), weight, e, slip });
                 if derivatives {
-                    sums.starts.push(sums.rates.len());
-                    let before = touched.and_then(|touched| touched.face).map(|(face, _)| self.seen_nodes(face));
-                    for (j, (column, (ends, turning))) in sums.columns.iter().zip(ends.iter().zip(&turning)).enumerate()
-                    {
-                        let node = if let PointColumn::Node { node, .. } = column { Some(node) } else { None };
-                        if active[j] || node.is_some_and(|node| before.is_some_and(|nodes| nodes.contains(node))) {
-                            let shapes = (&density, &function, &touched);
-                            let rates = in_place.rates(&point, column, (&spot, &at, facing), shapes, (ends, turning));
-                            sums.rates.push((j, rates));
-                        }
-                    }
+                    let function = (point.functions.0[corner], point.functions.1[corner]);
+                    let node = (&at, line, function, e);
+                    differentiate((point, points.rates(k)), node, columns.len(), &mut sums.rates);
                 }
-                sums.points.push(point);
             }
+            sums.patches.push(points);
         }
-        for point in &sums.points {
-            area += point.weight;
-            place += (point.y - point.n * point.gap) * point.weight;
-            for (moment, value) in moments.iter_mut().zip([-point.gap, point.slip[0], point.slip[1]]) {
-                *moment += point.weight * value;
+        sums.starts.push(sums.columns.len());
+        let (mut area, mut moments, mut place) = (0.0, [0.0; COUNT], Vec3::zero());
+        for NodePoint { of: (patch, k), weight, slip, .. } in &sums.points {
+            let point = &sums.patches[*patch].points[*k];
+            area += weight;
+            place += (point.y - point.n * point.gap) * *weight;
+            for (moment, value) in moments.iter_mut().zip([-point.gap, slip[0], slip[1]]) {
+                *moment += weight * value;
             }
         }
         if area <= 0.0 {
@@ -285,98 +241,122 @@ impl<'a> StencilInPlace<'a> {
         (sums.area, sums.place) = (area, place * area.recip());
         sums.y = moments.map(|moment| moment / area);
         if derivatives {
-            self.differentiate(n, sums);
+            sums.find_gradients(self.at.u.len());
         }
         Some(())
     }
 
-    fn differentiate(&self, n: usize, sums: &mut NodeSums) {
-        let NodeSums { area, y, gradients, points, rates, starts, .. } = sums;
-        gradients.clear();
-        gradients.resize(COUNT * n, 0.0);
-        for (point, range) in points.iter().zip(ranges(starts, rates.len())) {
-            for &(j, ref rate) in &rates[range] {
-                let values = [-point.gap - y[0], point.slip[0] - y[1], point.slip[1] - y[2]];
-                let slopes = [-rate.gap, rate.slip[0], rate.slip[1]];
-                for c in 0..COUNT {
-                    gradients[c * n + j] += rate.weight * values[c] + point.weight * slopes[c];
-                }
-            }
-        }
-        gradients.iter_mut().for_each(|gradient| *gradient /= *area);
+    /// Lists where the unknowns of a patch with these nodes are, and those of the line behind them.
+    fn list_columns(&self, (nodes, line): (&[usize], Option<MaterialLine>), columns: &mut Vec<usize>) {
+        let axes = self.at.axes();
+        let of = |node: usize| self.at.place(node).into_iter().flat_map(move |place| place * axes..(place + 1) * axes);
+        columns.extend(nodes.iter().flat_map(|&node| of(node)));
+        columns.extend(self.at.nodes.len() * axes..self.at.u.len());
+        columns.extend(line.into_iter().flat_map(|line| beside(line, nodes).flat_map(of)));
     }
 
     /// Forces of a unit of each stress on each unknown.
     pub fn find_forces(&self, sums: &mut NodeSums) {
-        let n = self.u.len();
-        let NodeSums { forces, points, .. } = sums;
+        let (n, axes) = (self.at.u.len(), self.at.axes());
+        let NodeSums { forces, points, patches, .. } = sums;
         forces.clear();
         forces.resize(COUNT * n, 0.0);
-        for point in points.iter() {
-            for (c, direction) in [-point.n, point.e[0], point.e[1]].into_iter().enumerate() {
-                self.load(point, direction * point.weight, &mut forces[c * n..(c + 1) * n]);
+        let mut last = usize::MAX;
+        let (mut own, mut seen) = (Vec::new(), Vec::new());
+        for NodePoint { of: (patch, k), weight, e, .. } in points.iter() {
+            let point = &patches[*patch].points[*k];
+            if last != *patch {
+                [own, seen] = self.loaded(*patch);
+                last = *patch;
+            }
+            for (c, direction) in [-point.n, e[0], e[1]].into_iter().enumerate() {
+                let (f, rows) = (direction * *weight, &mut forces[c * n..(c + 1) * n]);
+                let mut push = |places: &[usize], shape: &[f64], sign: f64| {
+                    for (place, n) in places.iter().zip(shape) {
+                        (0..axes).for_each(|axis| rows[place + axis] += sign * n * f[axis]);
+                    }
+                };
+                push(&own, &point.shape.n, -1.0);
+                match (&point.sight, &self.at.tool) {
+                    (Sight::Face(hit), None) => push(&seen, &hit.shape.n, 1.0),
+                    (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
+                        let received = tool.receive(point.y, f);
+                        let first = self.at.nodes.len() * axes;
+                        rows[first..].iter_mut().zip(received).for_each(|(row, f)| *row += f);
+                    }
+                    _ => {}
+                }
             }
         }
     }
 
-    /// Adds what a force on the surface at a point does to the unknowns: `-N_L f` and the opposite on the target.
-    fn load(&self, point: &FieldPoint, f: Vec3, rows: &mut [f64]) {
-        let (patch, axes) = (&self.support.patches[point.patch].0, self.axes());
-        let mut push = |nodes: &[usize], shape: &[f64], sign: f64| {
-            for (node, n) in nodes.iter().zip(shape) {
-                let Ok(place) = self.support.nodes.binary_search(node) else { continue };
-                (0..axes).for_each(|axis| rows[place * axes + axis] += sign * n * f[axis]);
-            }
-        };
-        push(&self.contact.parts.surface.faces[patch.face].nodes, &point.shape.n, -1.0);
-        match (&point.sight, &self.tool) {
-            (Sight::Face(hit), None) => push(self.seen_nodes(patch.target), &hit.shape.n, 1.0),
-            (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
-                let received = tool.receive(point.y, f);
-                let first = self.support.nodes.len() * axes;
-                rows[first..].iter_mut().zip(received).for_each(|(row, f)| *row += f);
-            }
-            _ => {}
-        }
+    /// First unknowns of the nodes of the face of a patch, and of those of the face that it sees, which its forces load.
+    fn loaded(&self, patch: usize) -> [Vec<usize>; 2] {
+        let (patch, _) = self.found.supports[self.slot].patches[patch];
+        let patch = &self.found.patches[patch].patch;
+        let own = &self.at.contact.parts.surface.faces[patch.face].nodes[..];
+        let seen = if patch.tip.is_some() { &[] } else { self.at.seen_nodes(patch.target) };
+        let axes = self.at.axes();
+        [own, seen].map(|nodes| nodes.iter().filter_map(|&node| self.at.place(node)).map(|k| k * axes).collect())
     }
 
     /// Second sweep: adds `factor` times what turning and moving stresses `t` does to the tangent.
-    pub fn add_geometric(&self, t: [f64; COUNT], factor: f64, sums: &NodeSums, tangent: &mut [f64]) {
-        let (n, axes) = (self.u.len(), self.axes());
-        let NodeSums { points, rates, starts, .. } = sums;
-        let first = self.support.nodes.len() * axes;
+    pub fn add_geometric(&self, t: [f64; COUNT], factor: f64, sums: &mut NodeSums, tangent: &mut [f64]) {
+        let (n, axes) = (self.at.u.len(), self.at.axes());
+        let NodeSums { patches, points, rates, columns, starts, block, turned, .. } = sums;
+        let first = self.at.nodes.len() * axes;
         let spin_rates: Vec<_> =
-            self.tool.iter().flat_map(|tool| (first..n).map(|j| tool.spin_rates(j - first))).collect();
-        for (point, range) in points.iter().zip(ranges(starts, rates.len())) {
-            let patch = &self.support.patches[point.patch].0;
-            let traction = (point.e[0] * t[1] + point.e[1] * t[2] - point.n * t[0]) * factor;
-            let place = |&node: &usize| self.support.nodes.binary_search(&node).ok();
-            let own: Vec<Option<usize>> =
-                self.contact.parts.surface.faces[patch.face].nodes.iter().map(place).collect();
-            let seen = if let Sight::Face(_) = &point.sight { self.seen_nodes(patch.target) } else { &[] };
-            let seen: Vec<Option<usize>> = seen.iter().map(place).collect();
-            for &(j, ref rate) in &rates[range] {
-                let turned = (rate.e[0] * t[1] + rate.e[1] * t[2] - rate.n * t[0]) * factor;
-                let mut push = |places: &[Option<usize>], shape: &ShapeFunctions, at: [f64; 2], sign: f64| {
-                    for (k, place) in places.iter().enumerate() {
-                        let Some(place) = *place else { continue };
-                        let (value, [a, b]) = (shape.n[k], shape.dn[k]);
-                        let slope = rate.weight * value + point.weight * (a * at[0] + b * at[1]);
-                        let change = (traction * slope + turned * (point.weight * value)) * sign;
-                        (0..axes).for_each(|axis| tangent[(place * axes + axis) * n + j] += change[axis]);
+            self.at.tool.iter().flat_map(|tool| (first..n).map(|j| tool.spin_rates(j - first))).collect();
+        let (mut points, mut rates) = (points.iter().peekable(), &rates[..]);
+        for (number, patch) in patches.iter().enumerate() {
+            let columns = &columns[starts[number]..starts[number + 1]];
+            let [own, seen] = self.loaded(number);
+            let m = columns.len();
+            block.clear();
+            block.resize((own.len() + seen.len()) * axes * m, 0.0);
+            while let Some(here) = points.next_if(|point| point.of.0 == number) {
+                let point = &patch.points[here.of.1];
+                let (of_node, rest) = rates.split_at(m);
+                rates = rest;
+                let traction = (here.e[0] * t[1] + here.e[1] * t[2] - point.n * t[0]) * factor;
+                let of_point = patch.rates(here.of.1);
+                let still = PointRates::default();
+                let each = || of_node.iter().enumerate().map(|(j, node)| (node, of_point.get(j).unwrap_or(&still)));
+                turned.clear();
+                turned
+                    .extend(each().map(|(node, rate)| (node.e[0] * t[1] + node.e[1] * t[2] - rate.n * t[0]) * factor));
+                let push = |rows: &mut [f64], shape: &ShapeFunctions, on_target: bool| {
+                    let (sign, weight) = (if on_target { 1.0 } else { -1.0 }, here.weight);
+                    for (k, rows) in rows.chunks_exact_mut(axes * m).enumerate() {
+                        let (value, [a, b]) = (shape.n[k] * sign, shape.dn[k].map(|dn| dn * sign));
+                        for (j, ((node, rate), turned)) in each().zip(turned.iter()).enumerate() {
+                            let at = if on_target { rate.s } else { rate.xi };
+                            let slope = node.weight * value + weight * (a * at[0] + b * at[1]);
+                            let change = traction * slope + *turned * (weight * value);
+                            (0..axes).for_each(|axis| rows[axis * m + j] += change[axis]);
+                        }
                     }
                 };
-                push(&own, &point.shape, rate.xi, -1.0);
-                match (&point.sight, &self.tool) {
-                    (Sight::Face(hit), None) => push(&seen, &hit.shape, rate.s, 1.0),
+                let (on_own, on_seen) = block.split_at_mut(own.len() * axes * m);
+                push(on_own, &point.shape, false);
+                match (&point.sight, &self.at.tool) {
+                    (Sight::Face(hit), None) => push(on_seen, &hit.shape, true),
                     (Sight::Tool(_) | Sight::Tip, Some(tool)) => {
-                        let along = j.checked_sub(first).map(|along| (along, &spin_rates[along]));
-                        let f = traction * point.weight;
-                        let df = traction * rate.weight + turned * point.weight;
-                        let received = tool.receive_rate((point.y, f), (rate.y, df), along);
-                        (first..n).for_each(|row| tangent[row * n + j] += received[row - first]);
+                        for (((node, rate), turned), &j) in each().zip(turned.iter()).zip(columns) {
+                            let along = j.checked_sub(first).map(|along| (along, &spin_rates[along]));
+                            let f = traction * here.weight;
+                            let df = traction * node.weight + *turned * here.weight;
+                            let received = tool.receive_rate((point.y, f), (rate.y, df), along);
+                            (first..n).for_each(|row| tangent[row * n + j] += received[row - first]);
+                        }
                     }
                     _ => {}
+                }
+            }
+            for (rows, place) in block.chunks_exact(axes * m).zip(own.iter().chain(&seen)) {
+                for (axis, row) in rows.chunks_exact(m).enumerate() {
+                    let to = &mut tangent[(place + axis) * n..(place + axis + 1) * n];
+                    row.iter().zip(columns).for_each(|(change, &j)| to[j] += change);
                 }
             }
         }
@@ -385,16 +365,64 @@ impl<'a> StencilInPlace<'a> {
     /// Resultant of stresses `t` on the surface, the mean direction of pressure, and the mean first and second tangents.
     pub fn directions(&self, sums: &NodeSums) -> [Vec3; COUNT] {
         let mut mean = [Vec3::zero(); COUNT];
-        for point in &sums.points {
-            for (mean, direction) in mean.iter_mut().zip([-point.n, point.e[0], point.e[1]]) {
-                *mean += direction * (point.weight / sums.area);
+        for NodePoint { of: (patch, k), weight, e, .. } in &sums.points {
+            let n = sums.patches[*patch].points[*k].n;
+            for (mean, direction) in mean.iter_mut().zip([-n, e[0], e[1]]) {
+                *mean += direction * (weight / sums.area);
             }
         }
         mean
     }
 }
 
-/// Ranges that begin at `starts` and end where the next begins, the last at `end`.
-fn ranges(starts: &[usize], end: usize) -> impl Iterator<Item = Range<usize>> + '_ {
-    starts.iter().enumerate().map(move |(k, &start)| start..starts.get(k + 1).copied().unwrap_or(end))
+impl NodeSums {
+    fn find_gradients(&mut self, n: usize) {
+        let Self { area, y, gradients, patches, points, rates, columns, starts, .. } = self;
+        gradients.clear();
+        gradients.resize(COUNT * n, 0.0);
+        let mut rates = &rates[..];
+        for NodePoint { of: (patch, k), weight, slip, .. } in points.iter() {
+            let (columns, point) = (&columns[starts[*patch]..starts[*patch + 1]], &patches[*patch].points[*k]);
+            let (of_node, rest) = rates.split_at(columns.len());
+            rates = rest;
+            let of_point = patches[*patch].rates(*k);
+            let values = [-point.gap - y[0], slip[0] - y[1], slip[1] - y[2]];
+            for (i, (node, &j)) in of_node.iter().zip(columns).enumerate() {
+                let slopes = [of_point.get(i).map_or(0.0, |rate| -rate.gap), node.slip[0], node.slip[1]];
+                (0..COUNT).for_each(|c| gradients[c * n + j] += node.weight * values[c] + weight * slopes[c]);
+            }
+        }
+        gradients.iter_mut().for_each(|gradient| *gradient /= *area);
+    }
+}
+
+/// Nodes of a line that are not among those of a patch.
+fn beside(line: MaterialLine, nodes: &[usize]) -> impl Iterator<Item = usize> {
+    line.nodes.into_iter().filter(move |node| nodes.binary_search(node).is_err())
+}
+
+/// Adds what a node makes of the derivatives of a point, `function` its function there with its slopes: along the unknowns of the
+/// patch, and along `count` in all with those of the line beside it.
+fn differentiate(
+    (point, rates): (&PatchPoint, &[PointRates]),
+    (at, line, function, e): (&NodesInPlace, Option<MaterialLine>, (f64, [f64; 2]), [Vec3; 2]),
+    count: usize,
+    out: &mut Vec<NodeRates>,
+) {
+    let (axes, still) = (at.axes(), PointRates::default());
+    let beside: Vec<usize> = line.into_iter().flat_map(|line| beside(line, at.nodes)).collect();
+    for j in 0..count {
+        let rate = rates.get(j).unwrap_or(&still);
+        let node = at.nodes.get(j / axes).copied();
+        let behind = || j.checked_sub(rates.len()).map(|k| (beside[k / axes], k % axes));
+        let column = node.map(|node| (node, j % axes)).or_else(behind);
+        let turned = |line: MaterialLine| line.rates(column, (point.n, rate.n), &e);
+        let de = line.map_or([rate.n.left(), Vec3::zero()], turned);
+        let slope = function.1[0] * rate.xi[0] + function.1[1] * rate.xi[1];
+        out.push(NodeRates {
+            weight: rate.weight * function.0 + point.weight * slope,
+            e: de,
+            slip: [0, 1].map(|a| de[a].dot(point.v) + e[a].dot(rate.v)),
+        });
+    }
 }

@@ -10,9 +10,10 @@ use super::column::PointColumn;
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::{Landing, Patch, root_near};
-use super::face::{FieldFace, PlacedFace, ShapeFunctions};
-use super::point::{FieldPoint, PointRates, Sight, Touched};
-use super::stencil::{NodeSums, Recall, StencilInPlace};
+use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::point::{PatchPoint, PointRates, Sight, Touched};
+use super::points::Recall;
+use super::stencil::NodesInPlace;
 use super::tool::ToolInPlace;
 use crate::mesh::Side;
 use crate::tensor::Vec3;
@@ -188,86 +189,101 @@ impl Configuration<'_> {
     }
 }
 
-impl StencilInPlace<'_> {
-    /// Adds the point of a tip to the sums.
-    pub(super) fn sum_tip(
-        &self,
-        (number, patch, landing): (usize, &Patch, Landing),
-        recall: Recall,
-        derivatives: bool,
-        sums: &mut NodeSums,
-    ) -> Option<()> {
+/// A tip over its place of the edge.
+struct TipInPlace<'a> {
+    tool: &'a ToolInPlace<'a>,
+    vertex: Vec3,
+    xi: f64,
+    at: EdgePlace,
+    /// Undeformed area for a unit of the reference coordinate there, with its slope, times the length that it stands for.
+    area: f64,
+    slope: f64,
+}
+
+impl NodesInPlace<'_> {
+    fn tip(&self, patch: &Patch, landing: Landing) -> Option<TipInPlace<'_>> {
         let (tool, contact) = (self.tool.as_ref()?, self.contact);
-        let tip = &contact.tips()[patch.target];
         let face = &contact.parts.surface.faces[patch.face];
         let placed = self.placed(face);
         let edge = PlacedEdge { face, placed: &placed };
-        let vertex = tool.place(tip.point);
+        let vertex = tool.place(contact.tips()[patch.target].point);
         let xi = match landing.corner.or(landing.border) {
             Some(corner) => face.corner_place(corner)[0],
             None => root_near(landing.xi, |xi| edge.offset(xi, vertex)),
         };
-        let at = edge.at(xi);
-        let to = vertex - at.x;
-        let n = if landing.corner.is_some() { -to.unit() } else { outward(at.tangent) };
-        let gap = to.dot(n);
         // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
         let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
         let rest = face.at_rest(&contact.parts.mesh);
         let (density, [slope, _]) = contact.parts.surface.density(face, &rest, [over, 0.0]);
-        let weight = length * density * landing.share;
-        let touched = recall(patch, [xi, 0.0]);
-        let v = touched.map_or(Vec3::zero(), |touched| vertex - touched.now);
-        let e = [n.left(), Vec3::axis(2)];
-        let slip = [e[0].dot(v), 0.0];
-        if derivatives {
-            self.list_columns(patch, &mut sums.columns);
-            sums.starts.push(sums.rates.len());
-            for (j, column) in sums.columns.iter().enumerate() {
-                let (dx, dtangent, dvertex) = match column {
-                    PointColumn::Node { axis, own: Some(k), .. } => {
-                        (Vec3::axis(*axis) * at.shape.n[*k], Vec3::axis(*axis) * at.shape.dn[*k][0], Vec3::zero())
-                    }
-                    PointColumn::Node { .. } => (Vec3::zero(), Vec3::zero(), Vec3::zero()),
-                    PointColumn::Tool(j) => (Vec3::zero(), Vec3::zero(), tool.rates(vertex)[*j]),
-                };
-                let apart = dvertex - dx;
-                let (dxi, dn) = if landing.corner.is_some() {
-                    (0.0, (-to).turned(-apart))
-                } else {
-                    let stiff = at.tangent.dot(at.tangent) - to.dot(at.bend);
-                    let stays = landing.border.is_some();
-                    let dxi = if stays { 0.0 } else { (apart.dot(at.tangent) + to.dot(dtangent)) / stiff };
-                    (dxi, at.tangent.turned(dtangent + at.bend * dxi).cross(Vec3::axis(2)))
-                };
-                let left = touched.map_or(Vec3::zero(), |touched| dvertex - left_behind(contact, column, &touched));
-                sums.rates.push((
-                    j,
-                    PointRates {
-                        weight: 2.0 * slope * dxi * landing.share,
-                        xi: [dxi, 0.0],
-                        gap: n.dot(apart) + if landing.border.is_some() { dn.dot(to) } else { 0.0 },
-                        n: dn,
-                        e: [dn.left(), Vec3::zero()],
-                        slip: [dn.left().dot(v) + e[0].dot(left), 0.0],
-                        s: [0.0; 2],
-                        y: dvertex,
-                    },
-                ));
-            }
-        }
-        sums.points.push(FieldPoint {
-            patch: number,
-            weight,
+        Some(TipInPlace { tool, vertex, xi, at: edge.at(xi), area: length * density, slope })
+    }
+
+    /// The point of a tip.
+    pub(super) fn tip_point(
+        &self,
+        (patch, landing): (&Patch, Landing),
+        recall: Recall,
+        points: &mut Vec<PatchPoint>,
+    ) -> Option<()> {
+        let TipInPlace { vertex, xi, at, area, .. } = self.tip(patch, landing)?;
+        let (xi, to) = ([xi, 0.0], vertex - at.x);
+        let n = if landing.corner.is_some() { -to.unit() } else { outward(at.tangent) };
+        let touched = recall(self, patch, xi);
+        points.push(PatchPoint {
+            number: 0,
+            xi,
+            weight: area * landing.share,
+            functions: ([1.0; CORNERS], [[0.0; 2]; CORNERS]),
             shape: at.shape,
-            gap,
+            gap: to.dot(n),
             n,
-            e,
-            slip,
+            v: touched.map_or(Vec3::zero(), |touched| vertex - touched.now),
             y: vertex,
             sight: Sight::Tip,
+            touched,
         });
         Some(())
+    }
+
+    /// Its derivatives along each unknown.
+    pub(super) fn tip_rates(
+        &self,
+        (patch, landing): (&Patch, Landing),
+        points: &[PatchPoint],
+        columns: &[PointColumn],
+        rates: &mut Vec<PointRates>,
+    ) {
+        let (Some(tip), [point]) = (self.tip(patch, landing), points) else { return };
+        let TipInPlace { tool, vertex, at, slope, .. } = tip;
+        let to = vertex - at.x;
+        for column in columns {
+            let (dx, dtangent, dvertex) = match column {
+                PointColumn::Node { axis, own: Some(k), .. } => {
+                    (Vec3::axis(*axis) * at.shape.n[*k], Vec3::axis(*axis) * at.shape.dn[*k][0], Vec3::zero())
+                }
+                PointColumn::Node { .. } => (Vec3::zero(), Vec3::zero(), Vec3::zero()),
+                PointColumn::Tool(j) => (Vec3::zero(), Vec3::zero(), tool.rates(vertex)[*j]),
+            };
+            let apart = dvertex - dx;
+            let stays = landing.border.is_some();
+            let (dxi, dn) = if landing.corner.is_some() {
+                (0.0, (-to).turned(-apart))
+            } else {
+                let stiff = at.tangent.dot(at.tangent) - to.dot(at.bend);
+                let dxi = if stays { 0.0 } else { (apart.dot(at.tangent) + to.dot(dtangent)) / stiff };
+                (dxi, at.tangent.turned(dtangent + at.bend * dxi).cross(Vec3::axis(2)))
+            };
+            let left = |touched: &Touched| dvertex - left_behind(self.contact, column, touched);
+            rates.push(PointRates {
+                weight: 2.0 * slope * dxi * landing.share,
+                xi: [dxi, 0.0],
+                gap: point.n.dot(apart) + if stays { dn.dot(to) } else { 0.0 },
+                n: dn,
+                v: point.touched.as_ref().map_or(Vec3::zero(), left),
+                s: [0.0; 2],
+                y: dvertex,
+            });
+        }
     }
 }
 

@@ -5,7 +5,6 @@
 //! body, so that shears kept by their components are objective, and carry the shears of the node into the tangent plane of
 //! each of its points without changing their length.
 
-use super::column::PointColumn;
 use crate::tensor::Vec3;
 
 /// The line of the surface's material, and the nodes of the mesh between which it runs.
@@ -24,21 +23,16 @@ impl MaterialLine {
         [e, n.cross(e)]
     }
 
-    /// Their derivatives along an unknown along which `n` turns by `dn`.
-    pub fn rates(&self, column: &PointColumn, (n, dn): (Vec3, Vec3), e: &[Vec3; 2]) -> [Vec3; 2] {
-        let dd = match column {
-            PointColumn::Node { axis, node, .. } if *node == self.nodes[0] => -Vec3::axis(*axis),
-            PointColumn::Node { axis, node, .. } if *node == self.nodes[1] => Vec3::axis(*axis),
+    /// Their derivatives along an unknown along which `n` turns by `dn`: the displacement of a node along an axis, or of the tool.
+    pub fn rates(&self, of: Option<(usize, usize)>, (n, dn): (Vec3, Vec3), e: &[Vec3; 2]) -> [Vec3; 2] {
+        let dd = match of {
+            Some((node, axis)) if node == self.nodes[0] => -Vec3::axis(axis),
+            Some((node, axis)) if node == self.nodes[1] => Vec3::axis(axis),
             _ => Vec3::zero(),
         };
         let m = self.d - n * n.dot(self.d);
         let dm = dd - dn * n.dot(self.d) - n * (dn.dot(self.d) + n.dot(dd));
         let de = m.turned(dm);
         [de, dn.cross(e[0]) + n.cross(de)]
-    }
-
-    /// Whether it depends on the displacements of a node.
-    pub fn has(&self, node: usize) -> bool {
-        self.nodes.contains(&node)
     }
 }

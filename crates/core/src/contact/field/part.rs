@@ -30,10 +30,10 @@ impl FacePart {
         }
     }
 
-    /// Whether it covers another of the same face in more than a line.
+    /// Whether it covers more than half of another of the same face: a sliver, as where the faces of two blocks meet, hides no face.
     pub fn covers(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Interval(a, _), Self::Interval(b, _)) => a[1].min(b[1]) - a[0].max(b[0]) > 1e-6,
+            (Self::Interval(a, _), Self::Interval(b, _)) => a[1].min(b[1]) - a[0].max(b[0]) > 0.5 * (b[1] - b[0]),
             (Self::Polygon(a), Self::Polygon(b)) => a.covers(b),
             _ => false,
         }

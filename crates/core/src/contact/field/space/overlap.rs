@@ -176,10 +176,10 @@ impl PolygonPart {
         })
     }
 
-    /// Whether it covers another in more than a line.
+    /// Whether it covers more than half of another.
     pub fn covers(&self, other: &Self) -> bool {
         let both = other.polygon.edges().fold(self.polygon, |part, edge| part.clip(edge));
-        both.moments().area > 1e-6 * self.polygon.moments().area.min(other.polygon.moments().area)
+        both.moments().area > 0.5 * other.polygon.moments().area
     }
 }
 

@@ -20,6 +20,6 @@ pub use augment::Augmentation;
 pub use options::{ContactForm, ContactOptions, LoadedSides, Move, second_name};
 pub use overlap::{Overlap, Wear};
 pub use paper::{GaussPoint, PaperContact, PaperParts, PointSurface, Sample};
-pub use penalty::{Backing, TWO_PASSES, default_penalty};
+pub use penalty::{Backing, DefaultPenalty, TWO_PASSES, default_penalty};
 pub use record::{ContactRecord, PointStatus};
 pub use thin::{Plate, plates};

@@ -7,8 +7,10 @@ use crate::tensor::Vec3;
 /// How a contact is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactOptions {
-    /// Normal penalty, a stress per length.
+    /// Normal penalty, a stress per length; the least where it is raised.
     pub penalty: f64,
+    /// Whether the normal penalty is raised where penetration takes up energy that is the bodies'.
+    pub raises_penalty: bool,
     /// Tangential penalty, a stress per length; the largest where it follows from an elastic slip.
     pub tangential_penalty: f64,
     /// Elastic slip under the friction that the pressure of the accepted state allows, over the length of an edge or face;

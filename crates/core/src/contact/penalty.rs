@@ -27,9 +27,24 @@ pub struct Backing {
 /// Part of half of the boundary of a thin body that a surface must be to be a face of the plate and not its rim.
 const FACE: f64 = 0.5;
 
+/// A penalty that no user gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DefaultPenalty {
+    /// A stress per length.
+    pub value: f64,
+    /// Whether the surface follows by bending.
+    pub bends: bool,
+}
+
 /// Default penalty between the `surfaces`, with what stands behind the faces of a cell.
-pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behind: impl Fn(usize) -> Backing) -> f64 {
-    let least = |sides: &&[Side]| {
+pub fn default_penalty(
+    (mesh, space): (&Mesh, Space),
+    surfaces: &[&[Side]],
+    behind: impl Fn(usize) -> Backing,
+) -> DefaultPenalty {
+    let least = |a: DefaultPenalty, b: DefaultPenalty| if b.value < a.value { b } else { a };
+    let stiffest = DefaultPenalty { value: f64::INFINITY, bends: false };
+    let of = |sides: &&[Side]| {
         let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
         let followed = |side: &Side| {
             let Backing { modulus, secant, plate } = behind(side.cell);
@@ -37,9 +52,10 @@ pub fn default_penalty((mesh, space): (&Mesh, Space), surfaces: &[&[Side]], behi
             let bent = plate
                 .filter(|plate| area > FACE * plate.area)
                 .map(|plate| secant * stiffness(plate.thickness, curvature));
-            modulus * bent.map_or(squeezed, |bent| bent.min(squeezed))
+            let bends = bent.is_some_and(|bent| bent < squeezed);
+            DefaultPenalty { value: RATIO * modulus * bent.map_or(squeezed, |bent| bent.min(squeezed)), bends }
         };
-        sides.iter().map(followed).fold(f64::INFINITY, f64::min)
+        sides.iter().map(followed).fold(stiffest, least)
     };
-    RATIO * surfaces.iter().map(least).fold(f64::INFINITY, f64::min)
+    surfaces.iter().map(of).fold(stiffest, least)
 }

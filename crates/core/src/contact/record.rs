@@ -50,8 +50,10 @@ pub mod entry {
     pub const UNTIL: usize = 20;
     /// Pressure at the beginning of the last increment.
     pub const PRESSURE_BEFORE: usize = 21;
+    /// Normal penalty of a node of a field, for undeformed area.
+    pub const PENALTY: usize = 22;
     /// Number of these values.
-    pub const COUNT: usize = 22;
+    pub const COUNT: usize = 23;
 }
 
 /// What is said of an overlap.

@@ -369,13 +369,16 @@ impl Names<'_> {
         };
         let surfaces: Vec<&[Side]> = std::iter::once(surface).chain(others).collect();
         let computed = || default_penalty((mesh, *space), &surfaces, |cell| backings[cell]);
-        let penalty = contact.penalty.unwrap_or_else(computed);
+        let computed = contact.penalty.is_none().then(computed);
+        let penalty = contact.penalty.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
         if !(penalty > 0.0 && penalty.is_finite() && contact.elastic_slip > 0.0) {
             found.push(format!("contact '{}': penalty and elastic slip must be positive", contact.name));
         }
         let slides = contact.law.first().sliding_stress(1.0).is_some();
+        let stays = contact.augmentation.is_some() || contact.law.first().is_compliant();
         let options = ContactOptions {
             penalty,
+            raises_penalty: !stays && computed.is_some_and(|computed| !computed.bends),
             tangential_penalty: penalty,
             elastic_slip: (slides && contact.augmentation.is_none()).then_some(contact.elastic_slip),
             thickness: *thickness,

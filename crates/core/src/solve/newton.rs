@@ -429,8 +429,13 @@ impl<'a> Newton<'a> {
     pub(super) fn augment(&mut self, u: &[f64]) -> Result<bool, Failure> {
         let (mut again, histories) = (false, &mut self.evaluation.histories);
         self.memory.workspace.share_histories(histories)?;
+        let energies = self.state.energies.iter().zip(&self.evaluation.energies);
+        let bodies = energies.zip(self.assembly.terms).filter(|(_, term)| !term.bends()).map(|(energies, _)| energies);
+        let taken = bodies.fold([0.0; 2], |[then, sum], (before, now)| {
+            [then + before.stored + before.dissipated, sum + now.stored + now.dissipated + before.dissipated]
+        });
         for (attempt, new) in self.assembly.attempts.iter_mut().zip(histories) {
-            again |= attempt.augment(u, new)?;
+            again |= attempt.augment(u, new, taken)?;
         }
         if again {
             self.evaluate(u, None, self.tangent())?;

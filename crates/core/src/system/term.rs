@@ -250,11 +250,12 @@ pub trait Attempt: Send + Sync {
         Ok(())
     }
     /// Improves what the term holds besides the unknowns (multipliers) when the iterations have converged at `u`, and says
-    /// whether they must go on. `new` is the term's history there: what of it belongs to no stencil is written now.
+    /// whether they must go on. `new` is the term's history there: what of it belongs to no stencil is written now; `taken` is the
+    /// energy that the bodies had taken up at the accepted state and have at `u`.
     ///
     /// # Errors
     /// A [`Failure`] when there is no more to improve and it does not suffice.
-    fn augment(&mut self, _u: &[f64], _new: &mut History) -> Result<bool, Failure> {
+    fn augment(&mut self, _u: &[f64], _new: &mut History, _taken: [f64; 2]) -> Result<bool, Failure> {
         Ok(false)
     }
     /// Whether from now on stencils that were closed are held so, their law extended along its tangent where they open.

@@ -7,8 +7,8 @@ use crate::keys::{self, Passes};
 use crate::reader::Name;
 use asperity_core::contact::field::{FieldSurface, FieldTarget};
 use asperity_core::contact::{
-    Backing, ContactForm, ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface, TWO_PASSES,
-    default_penalty, second_name,
+    Backing, ContactForm, ContactOptions, DefaultPenalty, LoadedSides, PaperContact, PaperParts, PointSurface,
+    TWO_PASSES, default_penalty, second_name,
 };
 use asperity_core::interface::{Closure, Rule};
 use asperity_core::mesh::{Mesh, Side};
@@ -104,7 +104,7 @@ impl Builder<'_> {
         let surface = mesh.groups.get(&keys.surface.text)?.sides.as_slice();
         let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), backings);
-        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings));
+        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings).value);
         self.check_elastic_slip(keys, &options);
         if !self.check_passes(name, keys, (surface, opposite)) || !self.check_points(keys) {
             return None;
@@ -152,10 +152,13 @@ impl Builder<'_> {
     ) -> ContactOptions {
         let loads = self.carried(keys, (surface, opposite));
         let steepest = closure(keys).ok().flatten().map(|closure| closure.steepest());
-        let penalty =
-            keys.penalty.or(steepest).unwrap_or_else(|| self.computed_penalty(keys, (surface, opposite), backings));
+        let given = keys.penalty.or(steepest);
+        let computed = given.is_none().then(|| self.computed_penalty(keys, (surface, opposite), backings));
+        let penalty = given.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
+        let follows = computed.is_some_and(|computed| !computed.bends);
         ContactOptions {
             penalty,
+            raises_penalty: follows && self.is_field(keys) && keys.augmentation.is_none(),
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             elastic_slip: self.elastic_slip(keys),
             thickness: self.site.thickness,
@@ -190,13 +193,14 @@ impl Builder<'_> {
         keys: &keys::Contact,
         (surface, opposite): (&[Side], Opposite),
         backings: &[Backing],
-    ) -> f64 {
+    ) -> DefaultPenalty {
         let surfaces = match opposite {
             Opposite::Sides(others) => vec![surface, others],
             Opposite::Tool(_) => vec![surface],
         };
         let part = if self.carried(keys, (surface, opposite)) == LoadedSides::Own { TWO_PASSES } else { 1.0 };
-        part * default_penalty((&*self.site.mesh, self.site.space), &surfaces, |cell| backings[cell])
+        let whole = default_penalty((&*self.site.mesh, self.site.space), &surfaces, |cell| backings[cell]);
+        DefaultPenalty { value: part * whole.value, ..whole }
     }
 
     /// A penalty must leave the equations some digits of the stiffness of the cells.

@@ -53,7 +53,7 @@ impl Builder<'_> {
         let opposite = self.opposite(keys, &mesh)?;
         let options = self.options(keys, (surface, opposite), backings);
         self.check_elastic_slip(keys, &options);
-        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings));
+        self.check_penalties(name, keys, self.computed_penalty(keys, (surface, opposite), backings).value);
         if !self.check_passes(name, keys, (surface, opposite)) {
             return None;
         }

@@ -83,7 +83,7 @@ fn contact_facts(made: &Made, (name, keys): (&Name, &Contact), all: &[Seen], bac
         itself: surface == target,
         distance,
         edge: edges.fold(f64::INFINITY, f64::min),
-        penalty: keys.penalty.map(|given| given / computed),
+        penalty: keys.penalty.map(|given| given / computed.value),
         friction: friction.and_then(|at| keys.law.values.get(at).copied()),
     }
 }

@@ -55,7 +55,11 @@ pub struct FieldAttempt<'a> {
     pub augmented: usize,
     /// When it ends.
     pub at: Instant,
-    /// Tangential penalties of the attempt, slot by slot.
+    /// Normal penalty of the attempt,
+    pub normal: f64,
+    /// whether that was changed in it,
+    pub stiffened: bool,
+    /// and the tangential ones, slot by slot.
     pub tangential: Vec<f64>,
     /// What the last search found.
     pub found: RwLock<Arc<Found>>,
@@ -197,8 +201,8 @@ impl FieldAttempt<'_> {
 
     /// What the law may know of a node. Penalties are for undeformed area, stresses for present.
     fn past(&self, slot: usize, stretch: f64) -> Past<'_> {
-        let (options, old) = (&self.contact.parts.options, self.history.slot(slot));
-        let mut past = past(old, [options.penalty, self.tangential[slot]].map(|k| k / stretch), self.at.dt);
+        let old = self.history.slot(slot);
+        let mut past = past(old, [self.normal, self.tangential[slot]].map(|k| k / stretch), self.at.dt);
         let [_, s, t] = self.shift(slot).map(|shift| past.tangential_penalty * shift);
         past.shear = [past.shear[0] + s, past.shear[1] + t];
         if old[entry::SEGMENT] < 0.0 {
@@ -289,6 +293,8 @@ impl FieldAttempt<'_> {
             self.linear[slot].lock().unwrap_or_else(PoisonError::into_inner).keep(stencil.at.u, y, stretch, sums);
         }
         account(terms, (options, self.at), (sums.area * stretch, multiplied), (Some(&response), slip), local);
+        new[entry::PENALTY] = self.normal;
+        local.supplied += sums.area * self.supplied(old, new);
         Ok(response.status as Branch)
     }
 
@@ -305,6 +311,14 @@ impl FieldAttempt<'_> {
             let (rise, size) = (up[c] - down[c], up[c].abs() + down[c].abs());
             if rise.abs() <= 1e-9 * size { 0.0 } else { 0.5 * rise / step }
         }))
+    }
+
+    /// Energy per undeformed area that a penalty raised since the accepted state adds: what the mean pressure does over the increment is
+    /// less than what is then stored.
+    fn supplied(&self, old: &[f64], new: &[f64]) -> f64 {
+        let [before, now] = [old, new].map(|values| values[entry::PRESSURE] * values[entry::HALF]);
+        let compliance = if old[entry::PENALTY] > 0.0 { 1.0 / old[entry::PENALTY] - 1.0 / self.normal } else { 0.0 };
+        0.5 * before * now * compliance
     }
 
     /// Refuses a node that closes too deep, and a touching tool that turned too far.
@@ -441,8 +455,8 @@ impl Attempt for FieldAttempt<'_> {
 
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
-    fn augment(&mut self, _: &[f64], new: &mut History) -> Result<bool, Failure> {
-        let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(false) };
+    fn augment(&mut self, _: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
+        let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(self.stiffen(new, taken)) };
         let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());
         for (slot, shift) in better.iter_mut().enumerate() {
             let (new, size) = (new.slot(slot), self.contact.size_at(slot));

@@ -37,6 +37,7 @@ mod seen;
 mod space;
 mod spot;
 mod stencil;
+mod stiffen;
 pub(super) mod surface;
 mod term;
 mod tie;

@@ -40,9 +40,10 @@ impl FieldContact {
     /// The tangential penalties of an attempt after an accepted history: a node that is about to slide under its pressure has
     /// slipped elastically by the stated part of its faces, and one under less than the mean pressure as under that. A stiffer
     /// interface resolves nothing that the mesh shows, and has nodes change between stick and slip with every small motion.
-    fn tangential_penalties(&self, law: &dyn Interface, history: &History) -> Vec<f64> {
+    fn tangential_penalties(&self, law: &dyn Interface, history: &History, normal: f64) -> Vec<f64> {
         let most = self.parts.options.tangential_penalty;
         let Some(part) = self.parts.options.elastic_slip else { return vec![most; self.slots()] };
+        let most = most.max(normal);
         let stiffness = |slot: usize| {
             let values = history.slot(slot);
             let sliding = law.sliding_stress(values[entry::PRESSURE]).unwrap_or(0.0);
@@ -87,6 +88,7 @@ impl Term for FieldContact {
         let before = Configuration::new(self, &accepted.u);
         let shifts = if augmented { history.slot(self.slots()) } else { &[] };
         let law = self.parts.law.at(at.step, at.step_time)?;
+        let normal = self.kept_penalty(history);
         Ok(Box::new(FieldAttempt {
             contact: self,
             history,
@@ -99,7 +101,9 @@ impl Term for FieldContact {
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
             augmented: 0,
             at,
-            tangential: self.tangential_penalties(&*law, history),
+            tangential: self.tangential_penalties(&*law, history, normal),
+            normal,
+            stiffened: false,
             law,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),

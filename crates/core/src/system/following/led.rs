@@ -166,9 +166,9 @@ impl Attempt for LedAttempt<'_> {
             Ok(())
         })
     }
-    fn augment(&mut self, u: &[f64], new: &mut History) -> Result<bool, Failure> {
+    fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
         let placed = self.placed(u);
-        self.attempt.augment(&placed, new)
+        self.attempt.augment(&placed, new, taken)
     }
     fn before(&self, stencil: usize) -> Coordinates {
         self.attempt.before(stencil)

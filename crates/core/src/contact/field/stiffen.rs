@@ -1,0 +1,72 @@
+//! A normal penalty that is raised where penetration takes up energy that is the bodies'.
+//!
+//! A penalty from the undeformed modulus gives way to what is far stiffer: a body that is confined and nearly incompressible, rubber that
+//! is squeezed to less than half its height. When an iterate has converged, the work of the mean pressure
+//! on its penetration is compared with what the bodies have taken up, and the increment goes on with a higher penalty where it is too
+//! much; later increments keep that.
+
+use super::attempt::FieldAttempt;
+use super::contact::FieldContact;
+use crate::contact::record::entry;
+use crate::system::History;
+
+/// Share of the energy of the bodies above which the penalty is raised: the force is then off by one to four times as much,
+const MOST: f64 = 0.01;
+/// unless it falls faster than this from one increment to the next, as it does where bodies have just begun to touch.
+const STEADY: f64 = 0.95;
+/// Share that it is raised for, and below which the least would leave it again.
+const AIM: f64 = 0.003;
+/// It is raised by powers of this, so that it seldom changes,
+const STEP: f64 = 4.0;
+/// and by no more in all than rounding allows beside the stiffness of the cells.
+const HIGHEST: f64 = 256.0;
+
+impl FieldContact {
+    /// The normal penalty that an accepted history was found with.
+    pub(super) fn kept_penalty(&self, history: &History) -> f64 {
+        let kept = self.closed(history).map(|values| values[entry::PENALTY]);
+        kept.fold(self.parts.options.penalty, f64::max)
+    }
+
+    fn closed<'a>(&self, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
+        (0..self.nodal_slots()).map(|slot| history.slot(slot)).filter(|values| values[entry::STATUS] > 0.0)
+    }
+
+    /// Half the work of the mean pressure on what a penalty lets it penetrate: peaks at a corner ask for none.
+    fn penalty_energy(&self, history: &History, penalty: f64) -> f64 {
+        let nodes = self.closed(history).map(|values| {
+            let area = values[entry::XI];
+            (area, values[entry::PRESSURE] * values[entry::HALF] * area)
+        });
+        let (area, force) = nodes.fold((0.0, 0.0), |(area, force), node| (area + node.0, force + node.1));
+        if area > 0.0 { 0.5 * force * force / (penalty * area) } else { 0.0 }
+    }
+}
+
+impl FieldAttempt<'_> {
+    /// Changes the penalty where the share of the energy asks for it, and says whether it did.
+    pub(super) fn stiffen(&mut self, new: &History, taken: [f64; 2]) -> bool {
+        let options = &self.contact.parts.options;
+        // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
+        let bears = |slot: usize| new.slot(slot)[entry::STATUS] > 0.0;
+        let parted = (self.contact.nodal_slots()..self.contact.slots()).any(bears);
+        if !options.raises_penalty || parted || taken.iter().any(|taken| *taken <= 0.0) {
+            return false;
+        }
+        let shares = [self.history, new].map(|history| self.contact.penalty_energy(history, self.normal));
+        let [before, share] = [shares[0] / taken[0], shares[1] / taken[1]];
+        let least = options.penalty;
+        let wanted = if share > MOST && share > STEADY * before {
+            (self.normal * STEP.powf((share / AIM).log(STEP).ceil())).min(HIGHEST * least)
+        } else if share * self.normal < AIM * least {
+            least
+        } else {
+            self.normal
+        };
+        let changes = wanted > self.normal || (wanted < self.normal && !self.stiffened);
+        if changes {
+            (self.normal, self.stiffened) = (wanted, true);
+        }
+        changes
+    }
+}

@@ -116,6 +116,21 @@ displacement."block.bottom" = { x = 0.0, y = 0.0 }
 motion.plate = { y = -0.4 }
 "#;
 
+/// A plug that is confined, pressed in a single increment: nothing before it tells that the default penalty is too soft.
+const CONFINED: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.plug.rectangle = { from = [0.0, 0.0], to = [4.0, 1.0], cells = [8, 4], cell = "quad4" }
+material.rubber.neo_hookean = { shear = 1.0, bulk = 1000.0 }
+body.plug.material = "rubber"
+tool.ram.profile = [{ line = [[-20.0, 1.0], [20.0, 1.0]] }]
+contact.head = { surface = "plug.top", target = "ram", law.frictionless = {} }
+[[step]]
+increments.count = 1
+symmetry = ["plug.left", "plug.right", "plug.bottom"]
+motion.ram.y = -0.02
+"#;
+
 struct Run {
     folder: tempfile::TempDir,
     output: Output,
@@ -273,4 +288,14 @@ fn contacts_that_hardly_close_are_noted() {
     assert!(run.notes().contains("contact 'sole' never closed"), "{}", run.notes());
     let coarse = Run::of(DRAGGED, &["mesh.part.block.rectangle.cells=[2,1]", "limits.friction_deviation=9.0"]);
     assert!(coarse.notes().contains("contact 'sole' rested on 2 points at most"), "{}", coarse.notes());
+}
+
+/// The penetration of a contact without friction is told as that of any other.
+#[test]
+fn a_contact_that_gives_way_in_place_of_a_confined_body_is_told() {
+    for law in ["frictionless={}", "coulomb={friction=0.0}", "sticking={}"] {
+        let run = Run::of(CONFINED, &[&format!("contact.head.law={{{law}}}")]);
+        run.doubts(&["penalty_energy"], "contact 'head'");
+    }
+    assert_eq!(Run::of(CONFINED, &["step.1.increments.count=4"]).code(), 0);
 }

@@ -12,6 +12,7 @@ use asperity::deck::Made;
 use asperity::output::Simulation;
 use asperity::output::{CHECKPOINT, Job, Resume, RunStatus, SUMMARY, Start, Summary, branch, resumed, simulate};
 use serde_json::json;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// Runs a deck from its beginning.
@@ -87,9 +88,16 @@ fn quoted(word: &str) -> String {
     }
 }
 
+/// Threads a processor that can still take turns.
+const MOST_THREADS: usize = 32;
+
 /// Limits the threads, before the deck is read: what comes first in need of threads decides their number.
 fn set_threads(arguments: &arguments::Run) -> Result<(), Error> {
     let Some(threads) = arguments.threads else { return Ok(()) };
+    let most = MOST_THREADS * std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    if threads.get() > most {
+        return Err(Error::Input(format!("{threads} threads are too many for this machine: give at most {most}")));
+    }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global();
     pool.map_err(|error| {
         Error::Input(format!("no {threads} threads, for want of memory or of processes allowed: {error}"))

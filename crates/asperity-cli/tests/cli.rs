@@ -104,6 +104,29 @@ fn a_run_says_what_looks_wrong() {
     assert!(notes.as_array().unwrap().iter().any(never), "{notes}");
 }
 
+/// That cells were raised is told by the run, and stays in its summary.
+#[test]
+fn a_run_says_that_cells_were_raised() {
+    let folder = folder(
+        "version = 1
+        space = \"plane-strain\"
+        mesh.part.b.rectangle = { from = [0.0, 0.0], to = [20.0, 1.0], cells = [20, 1], cell = \"tri3\" }
+        material.m.elastic = { young = 1e6, poisson = 0.3 }
+        body.b.material = \"m\"
+        [[step]]
+        increments.count = 1
+        displacement.\"b.left\" = { x = 0.0, y = 0.0 }
+        traction.\"b.right\" = { y = -1.0 }",
+    );
+    let run = asperity(folder.path(), &["run", "block.toml"]);
+    assert_eq!(code(&run), 0, "{}", error(&run));
+    assert!(error(&run).contains("they became tri6"), "{}", error(&run));
+    let notes = &summary(&folder.path().join("block.results"))["notes"];
+    assert!(notes[0].as_str().unwrap().contains("they became tri6"), "{notes}");
+    let check = asperity(folder.path(), &["check", "block.toml"]);
+    assert_eq!(code(&check), 0, "a note is no problem: {}", error(&check));
+}
+
 /// What a frame keeps must not bear the name of another result.
 #[test]
 fn bodies_in_every_frame_are_written() {

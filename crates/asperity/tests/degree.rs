@@ -102,3 +102,85 @@ fn nodes_between_corners_have_their_temperature() {
         assert!((u[2 * node] - 0.5e-3 * x * x).abs() < 1e-3, "{x}: {}", u[2 * node]);
     }
 }
+
+/// Forces and springs on each node of a side or of nodes alone are those of the nodes that the mesh had, so many of them.
+#[test]
+fn raised_cells_keep_nodal_forces_and_springs() {
+    let group = "group.end = { of = \"b\", x = [20.0, 20.0] }\nmaterial";
+    let deck = |body: &str, name: &str, load: &str| {
+        let (head, _) = cantilever("tri3", body)
+            .replace("[40, 1]", "[40, 2]")
+            .replacen("material", group, 1)
+            .split_once("traction")
+            .map(|(head, rest)| (head.to_string(), rest.to_string()))
+            .unwrap();
+        head + &load.replace("END", name)
+    };
+    for name in ["b.right", "end"] {
+        for body in ["", ", degree = 2", ", degree = 1"] {
+            let model = model(&deck(body, name, "force.\"END\" = { y = -0.1 }"), &[]);
+            let found = support::columns(&model, &run(&model))["reaction.b.left.y"][0];
+            assert!((found - 0.3).abs() < 1e-6, "{name}{body}: {found}");
+        }
+        // Three springs of 1e3 bear a load of 1.
+        let load =
+            "displacement.\"b.left\" = { x = 0.0 }\ntraction.\"b.right\" = { y = -1.0 }\nspring.\"END\" = { y = 1e3 }";
+        let deck = deck("", name, load).replace("displacement.\"b.left\" = { x = 0.0, y = 0.0 }", "");
+        let model = support::model(&deck, &[]);
+        let found = support::columns(&model, &run(&model))["displacement.b.left.y"][0];
+        assert!((found + 1.0 / 3e3).abs() < 1e-6, "{name}: {found}");
+    }
+}
+
+/// Triangles and quadrilaterals that share nodes are raised together where the triangles are too stiff.
+#[test]
+fn triangles_among_quadrilaterals_are_raised_with_them() {
+    let mixed = |triangles: usize| {
+        let mut mesh = made(&cantilever("quad4", "").replace("[40, 1]", "[40, 2]"), &[]).model.mesh.as_ref().clone();
+        let mut halved = asperity::mesh::Mesh::new();
+        (halved.points, halved.numbers) = (mesh.points.clone(), mesh.numbers.clone());
+        let tri3 = asperity::mesh::Cell::named("tri3").unwrap();
+        for cell in 0..mesh.cell_count() {
+            let view = mesh.cell(cell);
+            match view.nodes {
+                &[a, b, c, d] if cell % 40 < triangles => {
+                    halved.push_cell(tri3, &[a, b, c]);
+                    halved.push_cell(tri3, &[a, c, d]);
+                }
+                nodes => _ = halved.push_cell(view.kind, nodes),
+            }
+        }
+        let all = (0..halved.cell_count()).collect();
+        let ends = ["b.left", "b.right"].map(|name| (name, mesh.groups.remove(name).unwrap().nodes));
+        halved.groups.insert("b".into(), asperity::mesh::Group::new(&halved, all, vec![], vec![]));
+        for (name, nodes) in ends {
+            let sides = halved.sides_among(&nodes);
+            halved.groups.insert(name.into(), asperity::mesh::Group::new(&halved, vec![], sides, nodes));
+        }
+        halved
+    };
+    let deck = |degree: &str| {
+        let deck = cantilever("quad4", degree);
+        let part = deck.lines().find(|line| line.contains("rectangle")).unwrap();
+        deck.replace(part, "mesh.file = \"mixed.msh\"")
+    };
+    for (triangles, degree, kinds) in
+        [(25, "", ["tri6", "quad8"]), (25, ", degree = 1", ["tri3", "quad4"]), (1, "", ["tri3", "quad4"])]
+    {
+        let read = asperity::deck::read_with(&deck(degree), "test.toml", Path::new(""), &[], Some(mixed(triangles)));
+        let model = read.and_then(build).unwrap_or_else(|found| panic!("{}", found.render(false))).model;
+        assert!(model.mesh.kinds.iter().all(|kind| kinds.contains(&kind.name)), "{triangles}{degree}");
+        let keep = run(&model);
+        let (tip, u) = (&model.mesh.groups["b.right"].nodes, &keep.states.last().unwrap().u);
+        let sinking = -tip.iter().map(|&node| u[2 * node + 1]).sum::<f64>() / tip.len() as f64;
+        let beam = (4.0 * 20.0_f64.powi(3) * 0.91 + 1.2 * 20.0 * 2.6) / 1e6;
+        let range = if kinds[0] == "tri6" {
+            0.98..1.0
+        } else if triangles == 1 {
+            0.9..1.01
+        } else {
+            0.5..0.8
+        };
+        assert!(range.contains(&(sinking / beam)), "{triangles}{degree}: {}", sinking / beam);
+    }
+}

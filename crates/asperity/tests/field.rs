@@ -292,6 +292,32 @@ fn pressure_between_rings_does_not_depend_on_their_facets() {
     }
 }
 
+/// Without friction the line of action of force and moment crosses a flat interface at the centre of the contact.
+#[test]
+fn the_centre_of_a_contact_is_that_of_pressure() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.low.rectangle = { from = [0.0, 0.0], to = [6.0, 2.0], cells = [5, 2], cell = "quad4" }
+mesh.part.high.rectangle = { from = [0.0, 2.0], to = [6.0, 4.0], cells = [8, 2], cell = "quad4" }
+material.steel.elastic = { young = 1e5, poisson = 0.3 }
+body.low = { material = "steel", strain = "small" }
+body.high = { material = "steel", strain = "small" }
+contact.joint = { surface = "low.top", target = "high.bottom", law.frictionless = {} }
+group.part = { of = "high.top", x = [3.0, 6.0] }
+[[step]]
+symmetry = ["low.left", "high.left", "low.bottom"]
+pressure.part.value = 3.0
+increments.count = 1
+"#;
+    let model = model(deck, &[]);
+    let columns = support::columns(&model, &run(&model));
+    let [force, moment, x] =
+        ["force.y", "moment.z", "center.x"].map(|name| columns[&format!("contact.joint.{name}")][0]);
+    assert!((x - moment / force).abs() < 1e-3, "{x} {}", moment / force);
+    assert!((x - 3.0).abs() > 0.5, "not in the middle: {x}");
+}
+
 /// A block pressed into a rigid corner by two different pressures bears each of them on its own wall.
 #[test]
 fn a_corner_bears_two_pressures() {

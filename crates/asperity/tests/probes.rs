@@ -250,3 +250,37 @@ displacement."ring.bottom" = { y = 0.0 }
     let [bore, skin] = ["bore", "skin"].map(|probe| last(&folder, probe, "cauchy_stress.zz"));
     assert!(bore < -10.0 && skin > 10.0, "{bore} in the shaft, {skin} in the ring");
 }
+
+/// Contact stresses lie on the side that carries them; a probe of the other one is refused, and the side is named.
+#[test]
+fn contact_stresses_are_read_where_they_are_carried() {
+    let deck = |group: &str| {
+        format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.i.rectangle = {{ from = [0.0, 0.0], to = [10.0, 3.0], cells = [8, 3], cell = "quad4" }}
+mesh.part.o.rectangle = {{ from = [0.0, 3.0], to = [10.0, 6.0], cells = [11, 3], cell = "quad4" }}
+material.m.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.i.material = "m"
+body.o.material = "m"
+contact.c = {{ surface = "i.top", target = "o.bottom", law.frictionless = {{}} }}
+probe.p = {{ at.group = "{group}", quantities = ["contact_pressure"], take = ["mean", "least", "greatest"] }}
+[[step]]
+symmetry = ["i.left", "o.left", "i.bottom"]
+pressure."o.top".value = 10.0
+"#
+        )
+    };
+    let made = |group: &str| {
+        asperity::deck::read(&deck(group), "p.toml", ".".as_ref(), &[]).and_then(asperity::deck::build).map(|_| ())
+    };
+    let folder = results(&deck("o.bottom"), &[]);
+    for take in ["mean", "least", "greatest"] {
+        let found = last(&folder, "p", &format!("contact_pressure.{take}"));
+        assert!((found - 10.0).abs() < 0.1, "{take}: {found}");
+    }
+    let said = made("i.top").unwrap_err().render(false);
+    assert!(said.contains("`contact_pressure`") && said.contains("`o.bottom` carries contact `c`"), "{said}");
+    assert!(made("i.right").unwrap_err().render(false).contains("no contact has its points here"));
+}

@@ -4,7 +4,7 @@
 use super::diagnose::Diagnostic;
 use super::keys::BodyKeys;
 use super::reader::{Name, Reader};
-use asperity_core::mesh::{Group, Mesh};
+use asperity_core::mesh::{Cell, Group, Mesh};
 use asperity_core::solid::{Formulation, Integration, too_stiff};
 use std::collections::BTreeSet;
 
@@ -64,7 +64,7 @@ fn asked(owners: &[&(Name, BodyKeys)], reader: &mut Reader) -> bool {
     true
 }
 
-/// Whether a whole of simplices (or prisms) of first degree, of whose bodies nothing is said, is too stiff in bending.
+/// Whether a whole of first degree, of whose bodies nothing is said, is too stiff in bending by its simplices (or prisms).
 fn unasked(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh, reader: &mut Reader) -> bool {
     let silent = |body: &BodyKeys| {
         body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Full
@@ -72,22 +72,25 @@ fn unasked(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh, reader: &
     let Some((name, _)) = owners.first().filter(|_| owners.iter().all(|(_, body)| silent(body))) else { return false };
     let Some(stiff) = too_stiff(mesh, cells) else { return false };
     // Each node has about three edges of its own in the plane and seven in space.
-    let kind = mesh.kinds[cells[0]];
+    let dimension = mesh.kinds[cells[0]].dimension;
     let (own, edges) = (cells.iter().flat_map(|&cell| mesh.cell(cell).nodes).collect::<BTreeSet<_>>().len(), [3, 7]);
-    if own * (1 + edges[kind.dimension - 2]) > MOST {
+    if own * (1 + edges[dimension - 2]) > MOST {
         return false;
     }
     let others = match owners.len() {
         1 => String::new(),
         more => format!(" and {} that share its nodes", more - 1),
     };
-    let second = kind.raised().map_or(kind.name, |cell| cell.name);
+    let kinds: BTreeSet<&str> = cells.iter().map(|&cell| mesh.kinds[cell].name).collect();
+    let kinds: Vec<&Cell> = kinds.into_iter().filter_map(Cell::named).collect();
+    let named = |kinds: &mut dyn Iterator<Item = &Cell>| kinds.map(|kind| kind.name).collect::<Vec<_>>().join(" and ");
+    let second = named(&mut kinds.iter().filter_map(|kind| kind.raised()));
     let what = format!(
         "`{name}`{others}: where it bends, {} cells as few as these through it are too stiff, by some {:.0} %: they became {second}, with a node \
-         in the middle of each edge; degree = 1 keeps them",
-        kind.name,
+         in the middle of each edge, on the boundary where it is curved; degree = 1 keeps them",
+        named(&mut kinds.iter().copied()),
         100.0 * stiff
     );
-    reader.report(Diagnostic::note(what).at(name.place));
+    reader.report(Diagnostic::change(what).at(name.place));
     true
 }

@@ -30,12 +30,21 @@ pub struct Diagnostic {
     pub label: String,
     /// What to do, a line each.
     pub help: Vec<String>,
+    /// Whether a run tells it too, though it is a note.
+    pub changes: bool,
 }
 
 impl Diagnostic {
     /// An error.
     pub fn error(what: impl Into<String>) -> Self {
-        Self { severity: Severity::Error, what: what.into(), place: None, label: String::new(), help: Vec::new() }
+        Self {
+            severity: Severity::Error,
+            what: what.into(),
+            place: None,
+            label: String::new(),
+            help: Vec::new(),
+            changes: false,
+        }
     }
     /// A warning.
     pub fn warning(what: impl Into<String>) -> Self {
@@ -44,6 +53,10 @@ impl Diagnostic {
     /// A note.
     pub fn note(what: impl Into<String>) -> Self {
         Self { severity: Severity::Note, ..Self::error(what) }
+    }
+    /// A note on what was made otherwise than the deck has it, which a run tells too.
+    pub fn change(what: impl Into<String>) -> Self {
+        Self { changes: true, ..Self::note(what) }
     }
     /// Points at a place.
     pub fn at(self, place: Place) -> Self {

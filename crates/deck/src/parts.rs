@@ -197,8 +197,10 @@ fn within(of: &Group, selection: &Selection, mesh: &Mesh) -> Group {
             range.as_ref().is_none_or(|range| x >= range[0] - slack && x <= range[1] + slack)
         })
     };
-    let cells = of.cells.iter().copied().filter(|&cell| mesh.cell(cell).nodes.iter().all(|&n| inside(n)));
-    let sides = of.sides.iter().copied().filter(|&side: &Side| mesh.side(side).1.into_iter().all(inside));
+    // The middles of raised cells are where their corners are.
+    let fits = |node: usize| mesh.before_raised.is_some_and(|count| node >= count) || inside(node);
+    let cells = of.cells.iter().copied().filter(|&cell| mesh.cell(cell).nodes.iter().all(|&node| fits(node)));
+    let sides = of.sides.iter().copied().filter(|&side: &Side| mesh.side(side).1.into_iter().all(fits));
     let nodes = of.nodes.iter().copied().filter(|&node| inside(node));
     Group::new(mesh, cells.collect(), sides.collect(), nodes.collect())
 }

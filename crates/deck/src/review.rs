@@ -39,9 +39,10 @@ pub struct Review {
 }
 
 /// What is known to look wrong without solving anything: the warnings of the reading, and contacts that find nothing or
-/// begin inside.
+/// begin inside; and what was made otherwise than the deck has it.
 pub fn warnings(made: &Made) -> Vec<Diagnostic> {
-    warnings_of(made, &Seen::all(made))
+    let changes = made.diagnostics.list.iter().filter(|found| found.changes).cloned();
+    warnings_of(made, &Seen::all(made)).into_iter().chain(changes).collect()
 }
 
 fn warnings_of(made: &Made, all: &[Seen]) -> Vec<Diagnostic> {

@@ -142,7 +142,7 @@ impl Type {
             }
             (1, true, Family::PlaneStress) => (Formulation::Standard, None),
             (1, true, _) if reduced => {
-                (Formulation::FBar, Some("one point with hourglass control becomes F-bar: stiffer in bending"))
+                (Formulation::FBar, Some("one point with hourglass control becomes F-bar, which bends otherwise"))
             }
             (1, true, _) if dialect == Dialect::Abaqus || hybrid => (Formulation::FBar, None),
             (1, true, _) => (

@@ -40,6 +40,8 @@ struct SideOf {
     nodes: Vec<usize>,
     /// The vertex at its centre, if that is no node.
     centre: Option<usize>,
+    /// Whether its edges are of second degree.
+    second: bool,
     /// How thick the cell behind it is, undeformed, a length.
     thickness: f64,
 }
@@ -119,7 +121,8 @@ impl Surface {
         let centre = centre.then(|| vertices[vertices.len() - 1]);
         let mut nodes = nodes;
         nodes.sort_unstable();
-        self.sides.push(SideOf { body, nodes, centre, thickness: mesh.measure(side.cell).abs() });
+        let second = kind.degree > 1;
+        self.sides.push(SideOf { body, nodes, centre, second, thickness: mesh.measure(side.cell).abs() });
     }
 
     /// Divides the measures of the cells by those of their sides.
@@ -181,14 +184,14 @@ impl Surface {
         let pieces: Vec<Simplex> = (0..self.pieces.len()).map(|i| self.piece(&now, i)).collect();
         let boxes = self.pieces.iter().map(|piece| bounds(piece.iter().flat_map(|&v| [before[v], now[v]])));
         let tree = Hierarchy::new(self.plane, pieces.iter().copied().zip(boxes));
-        let normals: Vec<Vec3> = pieces.iter().map(Simplex::direction).collect();
+        let (normals, sizes): (Vec<Vec3>, _) = (pieces.iter().map(Simplex::direction).collect(), self.sizes(&pieces));
         Placed {
             surface: self,
             swept: bounds(before.iter().chain(&now).copied()),
             bounds: bounds(now.iter().copied()),
             tree,
-            sizes: self.sizes(&pieces),
-            sagittas: self.sagittas(&pieces, &normals),
+            sagittas: self.sagittas(&pieces, &normals, &sizes),
+            sizes,
             normals,
             before,
             now,
@@ -203,17 +206,24 @@ impl Surface {
         sizes.into_iter().map(|size| if self.plane { size } else { (0.5 * size).sqrt() }).collect()
     }
 
-    fn sagittas(&self, pieces: &[Simplex], normals: &[Vec3]) -> Vec<f64> {
+    /// Those of the pieces, and of sides of second degree by what they turn at their ends more than within: all of it where they are
+    /// straight, none where they follow a curve.
+    fn sagittas(&self, pieces: &[Simplex], normals: &[Vec3], sizes: &[f64]) -> Vec<f64> {
         let span = |i: usize| {
             let size = pieces[i].normal().norm();
             if self.plane { size } else { size.sqrt() }
         };
         let turn = |i: usize, j: usize| (normals[i] - normals[j]).norm();
-        let mut sagittas = vec![0.0_f64; self.sides.len()];
+        let (mut sagittas, mut turns) = (vec![0.0_f64; self.sides.len()], vec![[0.0_f64; 2]; self.sides.len()]);
         for (i, around) in self.neighbours.iter().enumerate() {
-            let turns = around.iter().map(|&j| turn(i, j)).filter(|turn| *turn < CURVED);
-            let sagitta = &mut sagittas[self.parents[i]];
-            *sagitta = sagitta.max(turns.fold(0.0, f64::max) * span(i) / 8.0);
+            let side = self.parents[i];
+            for (j, turn) in around.iter().map(|&j| (j, turn(i, j))).filter(|(_, turn)| *turn < CURVED) {
+                let most = &mut turns[side][usize::from(self.parents[j] != side)];
+                (*most, sagittas[side]) = (most.max(turn), sagittas[side].max(turn * span(i) / 8.0));
+            }
+        }
+        for (side, [within, at_ends]) in turns.into_iter().enumerate().filter(|(side, _)| self.sides[*side].second) {
+            sagittas[side] = sagittas[side].max((at_ends - within) * sizes[side] / 8.0);
         }
         sagittas
     }

@@ -4,16 +4,16 @@ use super::{Group, Mesh};
 use std::collections::HashMap;
 
 /// The corners of an edge, the lesser first.
-type Ends = [usize; 2];
+pub(super) type Ends = [usize; 2];
 
-fn ends(one: usize, other: usize) -> Ends {
+pub(super) fn ends(one: usize, other: usize) -> Ends {
     [one.min(other), one.max(other)]
 }
 
 impl Mesh {
     /// The mesh with some of its cells raised to the serendipity cells of second degree on the same corners. Cells that share an
     /// edge share its middle, which is that of a cell of second degree beside it if there is one; nodes, cells and sides keep their
-    /// numbers. A group has the middles of the edges of its cells and sides; one of nodes alone has those between two of its nodes,
+    /// numbers. Middles of boundary edges lie on a smooth surface through the corners ([`smooth`](super::smooth)). A group has the middles of the edges of its cells and sides; one of nodes alone has those between two of its nodes,
     /// but for a chord of the body: an edge inside that joins two nodes of the boundary.
     pub fn raised(mut self, cells: &[usize]) -> Self {
         let mut middles = HashMap::<Ends, usize>::new();
@@ -45,6 +45,8 @@ impl Mesh {
         if let Some(&last) = self.numbers.nodes.iter().max() {
             self.numbers.nodes.extend((0..fresh.len() as u64).map(|place| last + 1 + place));
         }
+        self.before_raised.get_or_insert(self.points.len() - fresh.len());
+        self.smooth(&fresh);
         self.with_middles(&fresh);
         self
     }

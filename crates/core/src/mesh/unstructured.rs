@@ -20,6 +20,8 @@ pub struct Mesh {
     pub groups: BTreeMap<String, Group>,
     /// The numbers by which the mesh's file knows its nodes and cells.
     pub numbers: Numbers,
+    /// How many of its nodes, the first ones, it had before cells were raised; none where none were.
+    pub before_raised: Option<usize>,
 }
 
 /// The numbers of nodes and cells in the file they come from; empty if the mesh was generated.
@@ -56,6 +58,7 @@ impl Mesh {
             nodes: vec![],
             groups: BTreeMap::new(),
             numbers: Numbers::default(),
+            before_raised: None,
         }
     }
     /// Number of cells.

@@ -5,12 +5,18 @@ use super::{Formulation, incompatible};
 use crate::mesh::cells::Cell;
 use crate::mesh::{Mesh, Side, median};
 
-/// By what part some cells, all simplices or prisms of first degree, are too stiff in bending, where that is much.
+/// By what part some cells of first degree are too stiff in bending by the simplices or prisms among them, where that is much: that
+/// of a body of these alone, times their part of it.
 pub fn too_stiff(mesh: &Mesh, cells: &[usize]) -> Option<f64> {
-    let plain = |kind: &Cell| kind.degree == 1 && incompatible::modes(kind) == 0;
-    let kind =
-        cells.first().map(|&cell| mesh.kinds[cell]).filter(|_| cells.iter().all(|&cell| plain(mesh.kinds[cell])))?;
-    Some(Slenderness::of(mesh, cells, [false; 3]).stiff(kind, Formulation::Standard)).filter(|part| *part > STIFF)
+    let plain = |&cell: &usize| incompatible::modes(mesh.kinds[cell]) == 0;
+    let kind = cells.iter().copied().find(plain).map(|cell| mesh.kinds[cell])?;
+    if cells.iter().any(|&cell| mesh.kinds[cell].degree != 1) {
+        return None;
+    }
+    let volume = |cells: &mut dyn Iterator<Item = usize>| cells.map(|cell| mesh.measure(cell)).sum::<f64>();
+    let part = volume(&mut cells.iter().copied().filter(plain)) / volume(&mut cells.iter().copied());
+    let stiff = part * Slenderness::of(mesh, cells, [false; 3]).stiff(kind, Formulation::Standard);
+    (stiff > STIFF).then_some(stiff)
 }
 
 /// Part by which a body may be too stiff in bending without a word.

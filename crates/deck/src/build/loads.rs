@@ -56,7 +56,7 @@ impl<'d> Builder<'d> {
         let mut terms = Terms::new();
         for name in names(&self.deck.step, said) {
             let stiffness = self.vector("spring", name, said, |_| Amplitude::at_once())?;
-            let nodes = self.nodes(&name.text).to_vec();
+            let nodes = self.own_nodes(&name.text).to_vec();
             terms.push(Box::new(Springs::new(&format!("spring.{name}"), self.site.dofs.clone(), nodes, stiffness)));
         }
         Some(terms)
@@ -80,7 +80,7 @@ impl<'d> Builder<'d> {
         let mut terms = Terms::new();
         for name in names(&self.deck.step, said) {
             let components = self.vector("force", name, said, |force| force.amplitude.clone())?;
-            let nodes = self.nodes(&name.text);
+            let nodes = self.own_nodes(&name.text);
             terms.push(Box::new(force_on_nodes(&format!("force.{name}"), &self.site.dofs, nodes, components)));
         }
         Some(terms)

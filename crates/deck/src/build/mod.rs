@@ -86,6 +86,14 @@ impl Builder<'_> {
         self.site.mesh.groups.get(group).map_or(&[], |group| &group.nodes)
     }
 
+    /// Those of a group that the mesh had before its cells were raised, on which nodal forces and springs act; all of one without them.
+    fn own_nodes(&self, group: &str) -> &[usize] {
+        let nodes = self.nodes(group);
+        let all = nodes.len();
+        let own = self.site.mesh.before_raised.map_or(all, |count| nodes.partition_point(|&node| node < count));
+        &nodes[..if own == 0 { all } else { own }]
+    }
+
     fn plane(&self) -> bool {
         self.site.space.dimension() == 2
     }

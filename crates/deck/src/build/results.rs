@@ -10,7 +10,7 @@ use asperity_core::solid::Body;
 use asperity_core::system::Term;
 use asperity_core::tensor::Vec3;
 use asperity_results::output::probe::{At, ProbeSpot, Share, Take, shares, spot};
-use asperity_results::output::{Frame, Parts, Printed, Probe, ResultOptions, Source, Units, Whose};
+use asperity_results::output::{Frame, Parts, Printed, Probe, QuantityPlace, ResultOptions, Source, Units, Whose};
 use std::sync::Arc;
 
 /// The options of the results of a model, and what is wrong with them.
@@ -57,9 +57,31 @@ fn probes(deck: &Deck, model: &Model, frame: &Frame, found: &mut Vec<Diagnostic>
         for (i, fault) in probe.faults(frame, deck.space.dimension() == 2) {
             found.push(Diagnostic::error(fault).at(keys.quantities[i].place));
         }
+        found.extend(uncarried(deck, keys, &probe.at, frame));
         probes.push(probe);
     }
     probes
+}
+
+/// What a contact would say on nodes of which none has its points: those of the side that does not carry it.
+fn uncarried(deck: &Deck, keys: &ProbeKeys, at: &At, frame: &Frame) -> Option<Diagnostic> {
+    let quantity = keys.quantities.iter().find(|quantity| quantity.value.starts_with("contact_"))?;
+    let (At::Nodes(shares, _), Some(status)) = (at, frame.get(QuantityPlace::Node, "contact_status_averaged")) else {
+        return None;
+    };
+    if shares.iter().any(|share| !status.values[share.node].is_nan()) {
+        return None;
+    }
+    let what = format!("no contact has its points here, so there is no `{}`", quantity.value);
+    let other = deck.contact.iter().find_map(|(name, contact)| {
+        let ProbeAt::Group(group) = &keys.at else { return None };
+        let sides = [(&contact.surface, &contact.target), (&contact.target, &contact.surface)];
+        sides.into_iter().find(|(side, _)| side.text == group.text).map(|(_, other)| (name, other))
+    });
+    let help = other.map_or("read a side that carries a contact".to_owned(), |(name, other)| {
+        format!("`{other}` carries contact `{name}`: read it there, or say `contact.{name}.roles = \"given\"` with the surface that is meant")
+    });
+    Some(Diagnostic::error(what).at(quantity.place).help(help))
 }
 
 /// Where a probe reads; what is wrong is reported.

@@ -35,7 +35,7 @@ table! {
         displacement: Vec<(Name, Displacement)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Flat groups of sides that may not move along their normal.
         symmetry: Vec<Name> = list(refers(Names::Sides), 0..=usize::MAX).or("[]"),
-        /// Forces on each node of groups.
+        /// Forces on each node of groups; not on those with which cells were raised to second degree.
         force: Vec<(Name, Force)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Pressures on groups of sides, positive into the body.
         pressure: Vec<(Name, Pressure)> = map(refers(Names::Sides), table_of()).or("{}"),
@@ -48,7 +48,7 @@ table! {
         gravity: Option<Gravity> = table_of().unless_given("none, or that of the step before"),
         /// Temperatures of bodies with an `expansion`, and of nodes of such; of those that name a node the last of a step holds.
         temperature: Vec<(Name, TemperatureKeys)> = map(refers(Names::Group), table_of()).or("{}"),
-        /// Springs to the ground at each node of groups.
+        /// Springs to the ground at each node of groups; not at those with which cells were raised to second degree.
         spring: Vec<(Name, Spring)> = map(refers(Names::Group), table_of()).or("{}"),
         /// Motions of tools, from their first place.
         motion: Vec<(Name, MotionKeys)> = map(refers(Names::Tool), table_of()).or("{}"),

@@ -82,6 +82,11 @@ impl FieldFace {
         self.nodes[if middle { 2 } else { corner }]
     }
 
+    /// The corner of a half of an edge that is an end of the edge.
+    pub fn end(&self) -> Option<usize> {
+        (self.part != WHOLE).then(|| usize::from(self.part[0] == 0.0))
+    }
+
     /// Number of its corners.
     pub fn corners(&self) -> usize {
         self.kind.linear.nodes.len()

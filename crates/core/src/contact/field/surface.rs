@@ -5,12 +5,9 @@
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
 use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
-use crate::mesh::{Mesh, Side, Space};
+use crate::mesh::{CREASE, Mesh, Side, Space};
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
-
-/// Faces that meet at a larger angle, in radians, form a crease.
-pub const CREASE: f64 = 0.7;
 
 /// A node of the field.
 #[derive(Debug, Clone)]
@@ -214,16 +211,19 @@ impl FieldSurface {
         if self.plane { 2.0 * a.norm() } else { (whole * a.cross(b).norm()).sqrt() }
     }
 
-    /// How far the faces around a node stand off a smooth surface, `h theta / 8` with `theta` the angle between neighbours; zero
-    /// for faces of second degree, which follow it.
+    /// How far the faces around a node stand off a smooth surface, `h theta / 8` with `theta` the angle between neighbours where they
+    /// meet; next to nothing for faces of second degree that follow it.
     pub fn sagitta(&self, node: usize, mesh: &Mesh) -> f64 {
-        let normal = self.normal(node, |f| self.faces[f].at_rest(mesh)).unit;
-        let of = |&(f, _): &(usize, usize)| {
+        let of = |&(f, corner): &(usize, usize)| {
             let face = &self.faces[f];
-            if face.kind.degree > 1 {
-                return 0.0;
-            }
-            0.25 * self.size(f, mesh) * self.middle_normal(face, mesh).dot(normal).clamp(-1.0, 1.0).acos()
+            // Halves of an edge meet their neighbours at its end.
+            let (corner, parts) = face.end().map_or((corner, 1.0), |end| (end, 2.0));
+            let own = match face.kind.degree {
+                1 => self.middle_normal(face, mesh),
+                _ => self.area_vector(face, &face.at_rest(mesh), corner).unit(),
+            };
+            let normal = self.normal(self.field[f][corner], |f| self.faces[f].at_rest(mesh)).unit;
+            0.25 * parts * self.size(f, mesh) * own.dot(normal).clamp(-1.0, 1.0).acos()
         };
         self.nodes[node].support.iter().map(of).fold(0.0, f64::max)
     }

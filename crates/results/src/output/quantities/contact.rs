@@ -221,8 +221,8 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     let count = |status| closed().filter(|record| record.status == status).count() as f64;
     let pole = seen.contact.pole(&source.state.u);
     let thrust = total(&|r| r.pressure * r.area);
-    // The centre of a contact without pressure is nowhere.
-    let center = sum(&|r| r.position * (r.pressure * r.area)) * thrust.recip();
+    // The centre of pressure; that of a contact without pressure is nowhere.
+    let center = sum(&|r| r.center() * (r.pressure * r.area)) * thrust.recip();
     let vectors = [
         ("force", Unit::Force, Width::Vector, sum(&ContactRecord::force)),
         ("moment", Unit::Moment, Width::Axial, sum(&|r| (r.center() - pole).cross(r.force()))),

@@ -1,0 +1,86 @@
+//! Curved boundaries of cells of second degree: raised ones follow them, and contact tells of those that do not.
+
+mod support;
+
+use asperity::deck::{build, read_with};
+use asperity::mesh::Mesh;
+use asperity::model::Model;
+use std::path::Path;
+use support::{columns, made, run};
+
+/// Rings pressed into one another with an interference of 0.03 or what else the mesh has.
+fn rings(mesh: &str, contact: &str) -> String {
+    format!(
+        "version = 1
+        space = \"plane-strain\"
+        {mesh}
+        material.m.elastic = {{ young = 210e3, poisson = 0.3 }}
+        body.i = {{ material = \"m\" }}
+        body.o = {{ material = \"m\" }}
+        contact.c = {{ surface = \"i.outer\", target = \"o.inner\", law.frictionless = {{}}{contact} }}
+        [[step]]
+        increments.count = 1
+        symmetry = [\"i.start\", \"i.end\", \"o.start\", \"o.end\"]"
+    )
+}
+
+/// Pressure of that fit by Lame.
+const LAME: f64 = 34.27;
+
+fn annuli(cell: &str, outer: f64) -> String {
+    format!(
+        "mesh.part.i.annulus = {{ from = [16.0, 0.0], to = [{outer}, 90.0], cells = [3, 20], cell = \"{cell}\" }}
+        mesh.part.o.annulus = {{ from = [19.985, 0.0], to = [24.0, 90.0], cells = [3, 26], cell = \"{cell}\" }}"
+    )
+}
+
+fn max_pressure(model: &Model) -> f64 {
+    columns(model, &run(model))["contact.c.max_pressure"][0]
+}
+
+/// Triangles that are raised by themselves, and quadrilaterals that are asked to be, carry the pressure of a press fit.
+#[test]
+fn a_press_fit_of_raised_cells_has_its_pressure() {
+    for (cell, degree) in [("tri3", ""), ("quad4", ", degree = 2")] {
+        let deck = rings(&annuli(cell, 20.015), "").replace("\"m\" }", &format!("\"m\"{degree} }}"));
+        let made = made(&deck, &[]);
+        assert!(made.model.mesh.kinds.iter().all(|kind| kind.degree == 2), "{cell}");
+        let found = max_pressure(&made.model) / LAME;
+        assert!((0.97..1.06).contains(&found), "{cell}: {found}");
+    }
+}
+
+/// A mesh of second degree with straight edges, as some meshers write it, is told of; a smooth fit closes on it nevertheless.
+#[test]
+fn straight_edges_of_second_degree_are_facets() {
+    let straight = |outer: f64| -> Mesh {
+        let mut mesh = (*made(&rings(&annuli("tri6", outer), ""), &[]).model.mesh).clone();
+        for cell in 0..mesh.cell_count() {
+            let view = mesh.cell(cell);
+            let middles: Vec<_> =
+                view.kind.middles().map(|(m, ends)| (view.nodes[m], ends.map(|e| view.nodes[e]))).collect();
+            for (middle, [a, b]) in middles {
+                mesh.points[middle] = (mesh.points[a] + mesh.points[b]) * 0.5;
+            }
+        }
+        mesh
+    };
+    let made = |outer: f64, contact: &str, step: &str| {
+        let deck = rings("mesh.file = \"rings.msh\"", contact) + step;
+        let made = read_with(&deck, "test.toml", Path::new(""), &[], Some(straight(outer))).and_then(build);
+        made.unwrap_or_else(|found| panic!("{}", found.render(false))).model
+    };
+    let press = made(20.015, "", "");
+    let keep = run(&press);
+    let said = press.field_contacts[0].facets(&keep.states[0].histories[press.first_contact()]);
+    assert!(said.is_some_and(|said| said.contains("facets stand")));
+    // Without a gap the two are one ring under the pressure outside.
+    let fit = made(19.985, ", overlap = \"fit\"", "\npressure.\"o.outer\" = { value = 100.0 }");
+    let keep = run(&fit);
+    let state = &keep.states[0];
+    let records = fit.field_contacts[0].records(&state.u, &state.histories[fit.first_contact()]);
+    let exact = 100.0 * 576.0 / 320.0 * (1.0 - 256.0 / (19.985 * 19.985));
+    for record in records {
+        assert!((record.pressure / exact - 1.0).abs() < 0.05, "{} of {exact}", record.pressure);
+    }
+}

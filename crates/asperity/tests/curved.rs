@@ -72,7 +72,7 @@ fn straight_edges_of_second_degree_are_facets() {
     };
     let press = made(20.015, "", "");
     let keep = run(&press);
-    let said = press.field_contacts[0].facets(&keep.states[0].histories[press.first_contact()]);
+    let said = press.field_contacts[0].facets(&keep.states[0].u, &keep.states[0].histories[press.first_contact()]);
     assert!(said.is_some_and(|said| said.contains("facets stand")));
     // Without a gap the two are one ring under the pressure outside.
     let fit = made(19.985, ", overlap = \"fit\"", "\npressure.\"o.outer\" = { value = 100.0 }");
@@ -82,5 +82,38 @@ fn straight_edges_of_second_degree_are_facets() {
     let exact = 100.0 * 576.0 / 320.0 * (1.0 - 256.0 / (19.985 * 19.985));
     for record in records {
         assert!((record.pressure / exact - 1.0).abs() < 0.05, "{} of {exact}", record.pressure);
+    }
+}
+
+/// A pin that is moved in a hole of its own radius: chords of first degree stand off by as much as the motion, which is told; those of
+/// second degree do not.
+#[test]
+fn facets_of_a_pin_in_a_hole_of_its_radius_are_told() {
+    let deck = |cell: &str| {
+        format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.pin.annulus = {{ from = [6.0, -90.0], to = [10.0, 90.0], cells = [3, 48], cell = \"{cell}\" }}
+            mesh.part.hole.annulus = {{ from = [10.0, -90.0], to = [20.0, 90.0], cells = [5, 37], cell = \"{cell}\" }}
+            material.steel.elastic = {{ young = 2e5, poisson = 0.3 }}
+            body.pin.material = \"steel\"
+            body.hole.material = \"steel\"
+            contact.fit = {{ surface = \"pin.outer\", target = \"hole.inner\", law.frictionless = {{}} }}
+            [[step]]
+            increments.count = 1
+            displacement.\"pin.inner\" = {{ x = 0.0, y = -0.006 }}
+            displacement.\"hole.outer\" = {{ x = 0.0, y = 0.0 }}
+            displacement.\"pin.start\".x = 0.0
+            displacement.\"pin.end\".x = 0.0
+            displacement.\"hole.start\".x = 0.0
+            displacement.\"hole.end\".x = 0.0"
+        )
+    };
+    for (cell, told) in [("quad4", true), ("quad8", false)] {
+        let model = made(&deck(cell), &[]).model;
+        let keep = run(&model);
+        let state = &keep.states[0];
+        let said = model.field_contacts[0].facets(&state.u, &state.histories[model.first_contact()]);
+        assert_eq!(said.is_some_and(|said| said.contains("of the motion")), told, "{cell}");
     }
 }

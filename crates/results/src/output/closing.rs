@@ -84,7 +84,7 @@ fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
 /// What contacts say of the facets that their overlap is between.
 fn facets(model: &Model, state: &State) -> Vec<String> {
     let contacts = Parts::of(model).contacts;
-    contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.histories[*term])).collect()
+    contacts.iter().filter_map(|(term, _, contact)| contact.facets(&state.u, &state.histories[*term])).collect()
 }
 
 /// Changes of stability that are told one by one.

@@ -2,7 +2,7 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
-use super::face::moved;
+use super::face::{FieldFace, moved};
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
@@ -140,28 +140,43 @@ impl FieldContact {
         Some(closed.map(|slot| history.slot(slot)[entry::PENETRATION] / self.size_at(slot)).fold(0.0, f64::max))
     }
 
-    /// Facets of first degree whose mean distance is not that of the curved surfaces they stand for: with an overlap that is to
-    /// be pressed apart, what they add to it or take from it is pressure.
-    pub fn facets(&self, history: &History) -> Option<String> {
+    /// Facets whose mean distance is not that of the curved surfaces they stand for: what they add to an overlap that is to be pressed
+    /// apart, or take from it, is pressure; so is what they add to the motion that presses one surface into another that it fits.
+    pub fn facets(&self, u: &[f64], history: &History) -> Option<String> {
         let faces = self.parts.target.as_faces().filter(|_| self.parts.options.overlap != Overlap::Fit)?;
-        let overlaps =
-            (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
-        let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
         // Of a parabola over a chord the mean height is two thirds of the largest.
         let stands = |surface: &FieldSurface| {
             let all = (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.parts.mesh)).sum::<f64>();
             2.0 / 3.0 * all / surface.nodes.len().max(1) as f64
         };
-        let [overlap, apart] = [sum / count, (stands(&self.parts.surface) - stands(&faces.surface)).abs()];
-        (count > 0.0 && apart > MISPLACED * overlap).then(|| {
+        let apart = (stands(&self.parts.surface) - stands(&faces.surface)).abs();
+        let overlaps =
+            (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
+        let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
+        let (of, size) = if count > 0.0 { ("overlap", sum / count) } else { ("motion", self.motion_of_fit(u)?) };
+        (apart > MISPLACED * size).then(|| {
             format!(
                 "contact '{}': its facets stand {apart:.2e} farther apart, or less, than the curved surfaces that they are meant for, \
-                 {:.0} % of the overlap of {overlap:.2e}, and the pressure is off by about as much; cells of second degree, matching \
+                 {:.0} % of the {of} of {size:.2e}, and the pressure is off by about as much; cells of second degree, matching \
                  or finer facets, or the clearance of a smooth fit by overlap = \"fit\"",
                 self.parts.name,
-                100.0 * apart / overlap
+                100.0 * apart / size
             )
         })
+    }
+
+    /// The largest displacement of the surface, where most of it lay as near to the target before any motion as facets leave surfaces
+    /// that fit, and is pressed on it.
+    fn motion_of_fit(&self, u: &[f64]) -> Option<f64> {
+        let (gaps, near) = (self.initial_gaps(), self.sagitta());
+        let fits = 2 * gaps.iter().filter(|(penetration, _)| penetration.abs() <= near).count() > gaps.len();
+        let of = |face: &FieldFace| {
+            let nodes = face.nodes.iter().map(|&node| moved(Vec3::zero(), &u[self.parts.dofs.displacements(node)]));
+            nodes.map(|u| u.norm()).fold(0.0, f64::max)
+        };
+        let surfaces = [Some(&self.parts.surface), self.parts.target.as_faces().map(|faces| &faces.surface)];
+        let faces = surfaces.into_iter().flatten().flat_map(|surface| &surface.faces);
+        fits.then(|| faces.map(of).fold(0.0, f64::max)).filter(|motion| *motion > 0.0)
     }
 
     /// How far the facets of both sides stand off a smooth surface at most, a length.
@@ -173,5 +188,5 @@ impl FieldContact {
     }
 }
 
-/// Mean distance of facets from curved surfaces over the overlap from which on it is told.
+/// Mean distance of facets from curved surfaces over the overlap, or the motion, from which on it is told.
 const MISPLACED: f64 = 0.02;

@@ -150,7 +150,7 @@ symmetry = ["plug.left", "plug.right", "plug.bottom"]
 motion.ram.y = -0.02
 "#;
     let model = model(deck, &[]);
-    let found = -*columns(&model, &run::<Keep>(&model))["contact.head.force.y"].last().unwrap();
+    let found = -*columns(&model, &run(&model))["contact.head.force.y"].last().unwrap();
     let force = 4.0 * (1000.0 + 4.0 / 3.0) * (1.0 / 0.98_f64).ln();
     assert!((found / force - 1.0).abs() < 0.015, "{found} in place of {force}");
 }

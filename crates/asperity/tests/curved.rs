@@ -93,8 +93,8 @@ fn facets_of_a_pin_in_a_hole_of_its_radius_are_told() {
         format!(
             "version = 1
             space = \"plane-strain\"
-            mesh.part.pin.annulus = {{ from = [6.0, -90.0], to = [10.0, 90.0], cells = [3, 48], cell = \"{cell}\" }}
-            mesh.part.hole.annulus = {{ from = [10.0, -90.0], to = [20.0, 90.0], cells = [5, 37], cell = \"{cell}\" }}
+            mesh.part.pin.annulus = {{ from = [6.0, -90.0], to = [10.0, 90.0], cells = [3, 37], cell = \"{cell}\" }}
+            mesh.part.hole.annulus = {{ from = [10.0, -90.0], to = [20.0, 90.0], cells = [5, 48], cell = \"{cell}\" }}
             material.steel.elastic = {{ young = 2e5, poisson = 0.3 }}
             body.pin.material = \"steel\"
             body.hole.material = \"steel\"

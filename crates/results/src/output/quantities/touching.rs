@@ -134,10 +134,10 @@ impl Touching<'_> {
         }
     }
     /// What must be said of the facets that its overlap is between.
-    pub fn facets(&self, history: &History) -> Option<String> {
+    pub fn facets(&self, u: &[f64], history: &History) -> Option<String> {
         match self {
             Self::Points(_) => None,
-            Self::Field(contact) => contact.facets(history),
+            Self::Field(contact) => contact.facets(u, history),
         }
     }
     /// The largest penetration that augmentation leaves at a node, over the size of its elements, where there is any.

@@ -320,3 +320,36 @@ impl Placed<'_> {
         sums.into_iter().map(|sum| if sum.norm() > 0.0 { sum.unit() } else { sum }).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Cell;
+    use crate::mesh::generate::Annulus;
+
+    /// Straight edges of second degree stand off a circle as those of first degree do, curved ones by what their halves do.
+    #[test]
+    fn straight_edges_of_either_degree_stand_off_a_circle_alike() {
+        let largest = |cell: &str, straight: bool| {
+            let ring = Annulus::new([0.0; 2], [1.0, 2.0], [0.0, 360.0], [4, 24], Cell::named(cell).unwrap());
+            let mut mesh = ring.mesh("r").unwrap();
+            let cells: Vec<usize> = (0..mesh.cell_count()).collect();
+            for &cell in cells.iter().filter(|_| straight) {
+                let view = mesh.cell(cell);
+                let middles: Vec<_> =
+                    view.kind.middles().map(|(m, e)| (view.nodes[m], e.map(|e| view.nodes[e]))).collect();
+                middles.iter().for_each(|&(m, [a, b])| mesh.points[m] = (mesh.points[a] + mesh.points[b]) * 0.5);
+            }
+            let surface = Surface::new(&mesh, &cells, &|_| 0, true);
+            let x: Vec<Vec3> = surface.vertices.iter().map(|vertex| mesh.points[vertex.nodes[0].0]).collect();
+            let pieces: Vec<Simplex> = (0..surface.pieces.len()).map(|i| surface.piece(&x, i)).collect();
+            let normals: Vec<Vec3> = pieces.iter().map(Simplex::direction).collect();
+            surface.sagittas(&pieces, &normals, &surface.sizes(&pieces)).into_iter().fold(0.0, f64::max)
+        };
+        let exact = 2.0 * (1.0 - 7.5_f64.to_radians().cos());
+        for (cell, straight, part) in [("tri3", false, 1.0), ("tri6", true, 1.0), ("tri6", false, 0.25)] {
+            let found = largest(cell, straight) / exact;
+            assert!((found / part - 1.0).abs() < 0.02, "{cell} {straight}: {found}");
+        }
+    }
+}

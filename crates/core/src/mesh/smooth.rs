@@ -8,7 +8,7 @@
 use super::raise::{Ends, ends};
 use super::{CellView, Mesh, Side};
 use crate::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Sides of the boundary that meet at a larger angle, in radians, form a crease.
 pub const CREASE: f64 = 0.7;
@@ -24,6 +24,17 @@ const ACROSS: f64 = 0.3;
 const SHARP: f64 = 0.95;
 /// The determinant of a raised cell is nowhere less than this part of that of the cell with straight edges.
 const THINNEST: f64 = 0.2;
+
+/// By what the way of a middle is shortened where a cell is crushed, and the part of it from which on the chord is kept.
+const EASED: f64 = 0.8;
+const LEAST: f64 = 0.1;
+
+/// The way of a middle off its chord, and the part of it that is gone.
+struct Bow {
+    chord: Vec3,
+    by: Vec3,
+    part: f64,
+}
 
 /// A corner of the boundary on one smooth piece.
 #[derive(Default)]
@@ -43,6 +54,10 @@ struct Corner {
 impl Corner {
     fn is_flat(&self) -> bool {
         self.sides.iter().all(|normal| (*normal - self.sides[0]).norm() < FLAT)
+    }
+    /// Whether the piece goes on in one plane, which its end at a plane of symmetry may only seem to do.
+    fn is_plane(&self) -> bool {
+        self.is_flat() && (self.normal.unit() - self.sides[0]).norm() < FLAT
     }
     /// Whether sides of the piece lie all around it.
     fn is_inside(&self, plane: bool) -> bool {
@@ -164,28 +179,24 @@ impl Boundary {
         let (inside, border): (Vec<_>, Vec<_>) =
             corners.into_iter().filter(said).partition(|(corner, _)| corner.is_inside(self.plane));
         let by = if inside.is_empty() {
-            let (mirrored, others): (Vec<_>, Vec<_>) = border.iter().partition(|(corner, _)| corner.is_mirrored);
-            let curved = |all: &[&(&Corner, Vec3)]| all.iter().any(|(corner, _)| !corner.is_flat());
-            if curved(&mirrored) {
-                let sum = mirrored.iter().fold(Vec3::zero(), |sum, (corner, edge)| sum + corner.arc(*edge));
-                Some(sum * (1.0 / mirrored.len() as f64))
+            let (mirrored, others): (Vec<_>, Vec<_>) = border.into_iter().partition(|(corner, _)| corner.is_mirrored);
+            if mirrored.iter().any(|(corner, _)| !corner.is_flat()) {
+                mean_arc(&mirrored)
             } else {
                 // Where a surface ends otherwise, its normal is that of the last side.
                 let others = others.into_iter().filter(|(corner, edge)| !corner.is_flat() && corner.goes_on(*edge));
-                let arcs = others.map(|(corner, edge)| corner.arc(*edge));
+                let arcs = others.map(|(corner, edge)| corner.arc(edge));
                 arcs.reduce(|one, other| if other.norm() > one.norm() { other } else { one })
             }
         } else {
-            let curved = inside.iter().all(|(corner, _)| !corner.is_flat());
-            let sum = inside.iter().fold(Vec3::zero(), |sum, (corner, edge)| sum + corner.arc(*edge));
-            curved.then(|| sum * (1.0 / inside.len() as f64))
+            mean_arc(&inside)
         };
         [by.unwrap_or_else(Vec3::zero), normal]
     }
 }
 
 impl Mesh {
-    /// Moves new middles of boundary edges, each given with its ends, off their chords, where no cell of theirs is crushed by it.
+    /// Moves new middles of boundary edges, each given with its ends, off their chords, as far as no cell of theirs is crushed by it.
     pub(super) fn smooth(&mut self, fresh: &[(Ends, usize)]) {
         let all: Vec<usize> = (0..self.cell_count()).collect();
         let middles: BTreeMap<Ends, usize> = fresh.iter().copied().collect();
@@ -199,37 +210,41 @@ impl Mesh {
                 edges.entry(ends(a.0, b.0)).or_default().push((side, places));
             }
         }
-        let mut chords = BTreeMap::new();
+        let mut bows = BTreeMap::new();
         for (edge, sides) in edges {
             let Some(&middle) = middles.get(&edge) else { continue };
             let along = self.points[edge[1]] - self.points[edge[0]];
-            let bows: Vec<[Vec3; 2]> = sides.iter().map(|&(_, corners)| boundary.bow(corners, along)).collect();
-            let by = match bows[..] {
+            let ways: Vec<[Vec3; 2]> = sides.iter().map(|&(_, corners)| boundary.bow(corners, along)).collect();
+            let by = match ways[..] {
                 [[by, _]] => by,
                 [[by, _], _] if boundary.is_smooth([sides[0].0, sides[1].0]) => by,
                 [one, other] => crossing(one, other),
                 _ => continue,
             };
-            if by != Vec3::zero() {
-                chords.insert(middle, self.points[middle]);
+            if by.norm() > 0.0 {
+                bows.insert(middle, Bow { chord: self.points[middle], by, part: 1.0 });
                 self.points[middle] += by;
             }
         }
-        self.straighten(&all, chords);
+        self.ease(&all, bows);
     }
 
-    /// Puts middles back onto their chords where a cell is crushed.
-    fn straighten(&mut self, cells: &[usize], mut chords: BTreeMap<usize, Vec3>) {
+    /// Takes middles back towards their chords where a cell is crushed.
+    fn ease(&mut self, cells: &[usize], mut bows: BTreeMap<usize, Bow>) {
         loop {
-            let moved = |cell: usize| self.cell(cell).nodes.iter().filter(|node| chords.contains_key(node));
+            let moved = |cell: usize| self.cell(cell).nodes.iter().filter(|node| bows.contains_key(node));
             let crushed = cells.iter().filter(|&&cell| moved(cell).next().is_some() && self.is_crushed(cell));
-            let back: Vec<usize> = crushed.flat_map(|&cell| moved(cell).copied()).collect();
+            let back: BTreeSet<usize> = crushed.flat_map(|&cell| moved(cell).copied()).collect();
             if back.is_empty() {
                 return;
             }
             for node in back {
-                if let Some(chord) = chords.remove(&node) {
-                    self.points[node] = chord;
+                let Some(bow) = bows.get_mut(&node) else { continue };
+                bow.part *= EASED;
+                self.points[node] = bow.chord + bow.by * bow.part;
+                if bow.part < LEAST {
+                    self.points[node] = bow.chord;
+                    bows.remove(&node);
                 }
             }
         }
@@ -242,6 +257,12 @@ impl Mesh {
         let places = view.kind.nodes.iter().chain(view.kind.full.points);
         places.into_iter().any(|&xi| view.jacobian(&self.points, xi) < THINNEST * straight.jacobian(&self.points, xi))
     }
+}
+
+/// The mean of the arcs of an edge from its corners; none where one of them is in a plane part.
+fn mean_arc(corners: &[(&Corner, Vec3)]) -> Option<Vec3> {
+    let sum = corners.iter().fold(Vec3::zero(), |sum, (corner, edge)| sum + corner.arc(*edge));
+    corners.iter().all(|(corner, _)| !corner.is_plane()).then(|| sum * (1.0 / corners.len() as f64))
 }
 
 /// Puts the normals of pieces that end at a node into the planes across which they end there.
@@ -329,6 +350,55 @@ mod tests {
                 assert!(mesh.groups[group].nodes.iter().all(plane), "{cell} {group}");
             }
         }
+    }
+
+    /// A ball of cells of very different shapes, some with several sides on its surface, which a sphere would leave without volume.
+    #[test]
+    fn middles_of_balls_lie_on_their_spheres() {
+        for cell in ["tet4", "hex8"] {
+            let kind = Cell::named(cell).unwrap();
+            let mut mesh = Block::new([-1.0; 3], [1.0; 3], [6, 6, 6], kind).mesh("b").unwrap();
+            for x in mesh.points.iter_mut().filter(|x| x.norm() > 0.0) {
+                let [a, b, c] = x.0;
+                let shaken = *x + Vec3::new((9.0 * b).sin(), (8.0 * c).sin(), (7.0 * a).sin()) * 0.04;
+                *x = shaken * (a.abs().max(b.abs()).max(c.abs()) / shaken.norm());
+            }
+            let mesh = raised(mesh);
+            let skin = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
+            let (mut sum, mut chords) = (0.0, 0.0);
+            for side in skin {
+                let (kind, nodes) = mesh.side(side);
+                let x: Vec<Vec3> = nodes.map(|node| mesh.points[node]).collect();
+                for (middle, [a, b]) in kind.middles() {
+                    sum += (x[middle].norm() - 1.0).abs();
+                    chords += 1.0 - ((x[a] + x[b]) * 0.5).norm();
+                }
+            }
+            assert!(sum < 0.15 * chords, "{cell}: {}", sum / chords);
+        }
+    }
+
+    /// A plate of one layer that runs into an arc bends there alone: its plane part keeps chords.
+    #[test]
+    fn plane_parts_before_an_arc_stay_plane() {
+        for cell in ["tet4", "hex8"] {
+            let kind = Cell::named(cell).unwrap();
+            let mut mesh = Block::new([0.0; 3], [1.0, 2.0, 0.5], [2, 10, 1], kind).mesh("b").unwrap();
+            for x in mesh.points.iter_mut().filter(|x| x[1] > 1.0) {
+                let angle = 0.8 * (x[1] - 1.0);
+                *x = Vec3::new((x[0] + 1.0) * angle.cos() - 1.0, 1.0 + (x[0] + 1.0) * angle.sin(), x[2]);
+            }
+            let mesh = raised(mesh);
+            for (group, at) in [("b.left", 0.0), ("b.right", 1.0)] {
+                let nodes = mesh.groups[group].nodes.iter().map(|&node| mesh.points[node]);
+                assert!(nodes.clone().filter(|x| x[1] < 1.0).all(|x| x[0] == at), "{cell} {group}");
+                assert!(off_centre(nodes.filter(|x| x[1] > 1.2), 1.0 + at) < 2e-4, "{cell} {group}");
+            }
+        }
+    }
+
+    fn off_centre(points: impl Iterator<Item = Vec3>, radius: f64) -> f64 {
+        points.map(|x| ((x[0] + 1.0).hypot(x[1] - 1.0) - radius).abs()).fold(0.0, f64::max)
     }
 
     /// Straight sides keep their middles to the bit, leaning or with a blunt corner between them; a layer that an arc would

@@ -87,7 +87,7 @@ pub static FIGURES: &[Figure] = &[
     ),
     largest("nodal_penetration", "  weighted, at nodes"),
     largest("penalty_energy", "energy that penetration takes up").limited(
-        "0.02",
+        "0.05",
         "Work of the pressure on the penetration of a contact, over the energy that the bodies take up.",
         "a stiffer `penalty`, or `augmentation`: the contact gives way in place of the bodies, as where a thin one is squeezed",
     ),

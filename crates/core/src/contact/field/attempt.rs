@@ -5,10 +5,11 @@ use super::contact::{FieldContact, FieldTarget, RULE};
 use super::cover::Patch;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
+use super::nodes::NodesInPlace;
 use super::point::Touched;
-use super::seen::Found;
 use super::space::{Spread, spread};
-use super::stencil::{COUNT, NodeSums, NodesInPlace, StencilInPlace};
+use super::stencil::{COUNT, NodeSums, StencilInPlace};
+use super::support::FieldSearch;
 use super::tip::TipFoot;
 use crate::contact::augment;
 use crate::contact::energy::account;
@@ -62,7 +63,7 @@ pub struct FieldAttempt<'a> {
     /// and the tangential ones, slot by slot.
     pub tangential: Vec<f64>,
     /// What the last search found.
-    pub found: RwLock<Arc<Found>>,
+    pub found: RwLock<Arc<FieldSearch>>,
     /// How the coordinates of closed nodes changed and what forces their stresses were where they were evaluated last.
     pub linear: Vec<Mutex<Linear>>,
     /// Gap from which on a node is too far away to close in the next iteration.
@@ -76,7 +77,7 @@ pub struct FieldAttempt<'a> {
 }
 
 impl FieldAttempt<'_> {
-    fn search(&self, u: &[f64]) -> Found {
+    fn search(&self, u: &[f64]) -> FieldSearch {
         let now = Configuration::new(self.contact, u);
         let tips = now.tips(self.contact.longest, Some(&self.tips_before));
         self.contact
@@ -211,7 +212,7 @@ impl FieldAttempt<'_> {
         past
     }
 
-    fn stencil<'s>(&'s self, found: &'s Found, slot: usize, u: &'s [f64]) -> StencilInPlace<'s> {
+    fn stencil<'s>(&'s self, found: &'s FieldSearch, slot: usize, u: &'s [f64]) -> StencilInPlace<'s> {
         StencilInPlace::new(self.contact, (found, slot), u)
     }
 
@@ -223,7 +224,7 @@ impl FieldAttempt<'_> {
         stencil.sum(&|at, patch, xi| self.recall(at, patch, xi), derivatives, sums)
     }
 
-    fn found(&self) -> Arc<Found> {
+    fn found(&self) -> Arc<FieldSearch> {
         self.found.read().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
@@ -495,7 +496,7 @@ impl Attempt for FieldAttempt<'_> {
 
 impl FieldAttempt<'_> {
     /// Lists the stencils of all nodes at unknowns `u`.
-    fn list(&self, u: &[f64], out: &mut Stencils) -> Found {
+    fn list(&self, u: &[f64], out: &mut Stencils) -> FieldSearch {
         let found = self.search(u);
         for support in &found.supports {
             let start = out.dofs.len();

@@ -15,9 +15,10 @@
 //!
 //! The way of a contact: [`surface`](FieldSurface) and `faces` or `tool` are who may touch whom and [`contact`](FieldContact) the two
 //! with their law; `cover`, `part` and `configuration` find which part of a face sees which part of the target, `seen` what a node does;
-//! `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all that follows from it along a
-//! `column` of the tangent, `stencil` the sums of the points of a node, `tip` the vertex of a wedge within a face; `attempt` and
-//! `term` are the ones that equilibrium knows, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
+//! `support` is what such a search finds; `patch` is such a part in place, `point` a quadrature point of it with the derivatives of all
+//! that follows from it along a `column` of the tangent, `points` all of a patch, which the `nodes` of its face share, `stencil` their
+//! sums for one node, `tip` the vertex of a wedge within a face; `attempt` and `term` are the ones that equilibrium knows, `stiffen`
+//! raises the penalty, `report` what outputs ask. The plane is space with the second tangent `e_z`; what
 //! differs is the cover of a face, which is in `space`, and the pose of a tool.
 
 mod attempt;
@@ -28,6 +29,7 @@ mod cover;
 pub(super) mod face;
 pub(super) mod faces;
 mod linear;
+mod nodes;
 mod part;
 mod patch;
 mod point;
@@ -38,6 +40,7 @@ mod space;
 mod spot;
 mod stencil;
 mod stiffen;
+mod support;
 pub(super) mod surface;
 mod term;
 mod tie;

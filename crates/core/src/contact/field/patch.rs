@@ -5,7 +5,7 @@ use super::contact::FieldTarget;
 use super::cover::{FaceInPlace, Patch, root_near};
 use super::face::{CORNERS, PlacedFace, ShapeFunctions};
 use super::faces::TargetFaces;
-use super::stencil::NodesInPlace;
+use super::nodes::NodesInPlace;
 use super::surface::NodalNormal;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;

@@ -6,63 +6,9 @@ use super::cover::Patch;
 use super::face::FieldFace;
 use super::faces::FaceRay;
 use super::stencil::{NodeSums, StencilInPlace};
+use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
 use crate::contact::increment::reach;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// A patch and the nodes of the mesh on which its points depend, ascending.
-#[derive(Debug, Clone)]
-pub struct FoundPatch {
-    /// The patch.
-    pub patch: Patch,
-    /// The nodes.
-    pub nodes: Vec<usize>,
-}
-
-/// Which patches a stencil sums, and which unknowns it has.
-#[derive(Debug, Clone)]
-pub struct Support {
-    /// Numbers of the patches; the node's own number among the corners of each face.
-    pub patches: Vec<(usize, usize)>,
-    /// Nodes of the mesh on which they depend, ascending.
-    pub nodes: Vec<usize>,
-    /// The target came through the body here.
-    pub through: bool,
-    /// Deformed over undeformed area of the faces of the patches around the node.
-    pub stretch: f64,
-}
-
-impl Default for Support {
-    fn default() -> Self {
-        Self { patches: Vec::new(), nodes: Vec::new(), through: false, stretch: 1.0 }
-    }
-}
-
-/// What a search finds.
-#[derive(Debug, Clone, Default)]
-pub struct Found {
-    /// No other search of the program has this number.
-    pub search: usize,
-    /// The patches.
-    pub patches: Vec<FoundPatch>,
-    /// What each stencil has of them.
-    pub supports: Vec<Support>,
-}
-
-impl Found {
-    /// The faces of the patches of a stencil, each once, with the node's number among their corners; none for a tip.
-    pub fn faces(&self, slot: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let patches = &self.supports[slot].patches;
-        let patch = |&(number, _): &(usize, usize)| &self.patches[number].patch;
-        let fresh = move |i: usize, face: usize| !patches[..i].iter().any(|other| patch(other).face == face);
-        let faces = patches.iter().enumerate().map(move |(i, of)| (i, patch(of), of.1));
-        faces
-            .filter(move |(i, patch, _)| patch.tip.is_none() && fresh(*i, patch.face))
-            .map(|(_, patch, c)| (patch.face, c))
-    }
-}
-
-static SEARCHES: AtomicUsize = AtomicUsize::new(1);
 
 impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
@@ -72,7 +18,7 @@ impl FieldContact {
         reach: f64,
         depths: &[f64],
         mut touched: impl FnMut(&Configuration, &Patch, &mut Vec<usize>),
-    ) -> Found {
+    ) -> FieldSearch {
         let (mut near, mut patches) = (Vec::new(), Vec::new());
         let (mut supports, mut least) = (vec![Support::default(); self.slots()], vec![f64::INFINITY; self.slots()]);
         let mut see = |slot: usize, (number, face, corner): (usize, usize, usize), [middle, nearest]: [f64; 2]| {
@@ -122,7 +68,7 @@ impl FieldContact {
             support.nodes.sort_unstable();
             support.nodes.dedup();
         }
-        let mut found = Found { search: SEARCHES.fetch_add(1, Ordering::Relaxed), patches, supports };
+        let mut found = FieldSearch::new(patches, supports);
         for slot in 0..found.supports.len() {
             let mut areas = [0.0; 2];
             for (number, corner) in found.faces(slot) {
@@ -166,7 +112,7 @@ impl FieldContact {
     }
 
     /// What each node sees at displacements `u`, as far as the accepted state alone tells.
-    pub(super) fn supports(&self, u: &[f64], reach: f64, whole: bool) -> Found {
+    pub(super) fn supports(&self, u: &[f64], reach: f64, whole: bool) -> FieldSearch {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
         let tips = now.tips(self.longest, if whole { None } else { Some(&[]) });
         self.find((&now, tips), reach, &depths, |_, _, _| {})

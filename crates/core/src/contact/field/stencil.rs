@@ -4,14 +4,13 @@
 //! `H C G + sum_c t_c dH_c`, `G = dy/du`. Two sweeps over the points of the node: the first finds `y`, `G` and `H`; then the law
 //! is asked; the second adds what turning and moving the stresses does.
 
-use super::column::PointColumn;
 use super::contact::FieldContact;
 use super::cover::Patch;
-use super::face::{FieldFace, PlacedFace, ShapeFunctions, moved};
+use super::face::ShapeFunctions;
+use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight};
 use super::points::{PatchPoints, Recall};
-use super::seen::Found;
-use super::tool::ToolInPlace;
+use super::support::FieldSearch;
 use super::triad::MaterialLine;
 use crate::tensor::Vec3;
 use std::rc::Rc;
@@ -30,6 +29,9 @@ struct NodePoint {
     e: [Vec3; 2],
     slip: [f64; 2],
 }
+
+/// The function of a node at a point, with its slopes.
+type NodeFunction = (f64, [f64; 2]);
 
 /// Derivatives of what one node makes of a point, along one unknown.
 #[derive(Debug, Clone, Copy)]
@@ -66,67 +68,10 @@ pub struct NodeSums {
     turned: Vec<Vec3>,
 }
 
-/// Some nodes of the mesh and the tool of a contact at values of their unknowns.
-#[derive(Clone, Copy)]
-pub struct NodesInPlace<'a> {
-    /// The contact.
-    pub contact: &'a FieldContact,
-    /// The nodes, ascending.
-    pub nodes: &'a [usize],
-    /// Values of their unknowns, then those of the tool.
-    pub u: &'a [f64],
-    /// The tool where these put it.
-    pub tool: Option<ToolInPlace<'a>>,
-}
-
-impl<'a> NodesInPlace<'a> {
-    /// Unknowns of a node.
-    pub fn axes(&self) -> usize {
-        self.contact.parts.dofs.per_node()
-    }
-
-    /// Place of a node of the mesh among them.
-    pub fn place(&self, node: usize) -> Option<usize> {
-        self.nodes.binary_search(&node).ok()
-    }
-
-    /// A face with its nodes in place.
-    pub fn placed(&self, face: &FieldFace) -> PlacedFace {
-        PlacedFace::new(face.nodes.iter().map(|&node| self.position(node)))
-    }
-
-    fn position(&self, node: usize) -> Vec3 {
-        let (x, axes) = (self.contact.parts.mesh.points[node], self.axes());
-        self.place(node).map_or(x, |place| moved(x, &self.u[place * axes..(place + 1) * axes]))
-    }
-
-    /// The unknowns of the tool.
-    pub fn motion(&self) -> &'a [f64] {
-        &self.u[self.nodes.len() * self.axes()..]
-    }
-
-    /// Nodes of a face of the target.
-    fn seen_nodes(&self, face: usize) -> &'a [usize] {
-        self.contact.parts.target.as_faces().map_or(&[], |faces| &faces.surface.faces[face].nodes)
-    }
-
-    /// Their unknowns, as the points of a patch depend on them.
-    pub fn columns(&self, patch: &Patch) -> Vec<PointColumn> {
-        let own = &self.contact.parts.surface.faces[patch.face].nodes;
-        let seen = self.seen_nodes(patch.target);
-        let place = |nodes: &[usize], node: usize| nodes.iter().position(|&other| other == node);
-        let of = |&node: &usize| {
-            let (own, seen) = (place(own, node), place(seen, node));
-            (0..self.axes()).map(move |axis| PointColumn::Node { axis, own, seen, node })
-        };
-        self.nodes.iter().flat_map(of).chain((0..self.motion().len()).map(PointColumn::Tool)).collect()
-    }
-}
-
 /// A stencil at values of its unknowns.
 pub struct StencilInPlace<'a> {
     /// What a search found,
-    found: &'a Found,
+    found: &'a FieldSearch,
     /// and its number there.
     slot: usize,
     /// Its nodes and the tool.
@@ -135,7 +80,7 @@ pub struct StencilInPlace<'a> {
 
 impl<'a> StencilInPlace<'a> {
     /// The stencil of a slot at values `u` of its unknowns.
-    pub fn new(contact: &'a FieldContact, (found, slot): (&'a Found, usize), u: &'a [f64]) -> Self {
+    pub fn new(contact: &'a FieldContact, (found, slot): (&'a FieldSearch, usize), u: &'a [f64]) -> Self {
         let nodes = &found.supports[slot].nodes;
         let motion = nodes.len() * contact.parts.dofs.per_node();
         let tool =
@@ -212,7 +157,7 @@ impl<'a> StencilInPlace<'a> {
             sums.values.clear();
             sums.values.extend(columns[..unknowns].iter().map(|&column| self.at.u[column]));
             let at = NodesInPlace { nodes: &patch.nodes, u: &sums.values, ..self.at };
-            let points = PatchPoints::of((self.found.search, number, patch), &at, recall, derivatives)?;
+            let points = PatchPoints::of((self.found.number, number, patch), &at, recall, derivatives)?;
             for (k, point) in points.points.iter().enumerate() {
                 let e = line.map_or([point.n.left(), Vec3::axis(2)], |line| line.tangents(point.n));
                 let (weight, slip) = (point.weight * point.functions.0[corner], e.map(|e| e.dot(point.v)));
@@ -405,7 +350,7 @@ fn beside(line: MaterialLine, nodes: &[usize]) -> impl Iterator<Item = usize> {
 /// patch, and along `count` in all with those of the line beside it.
 fn differentiate(
     (point, rates): (&PatchPoint, &[PointRates]),
-    (at, line, function, e): (&NodesInPlace, Option<MaterialLine>, (f64, [f64; 2]), [Vec3; 2]),
+    (at, line, function, e): (&NodesInPlace, Option<MaterialLine>, NodeFunction, [Vec3; 2]),
     count: usize,
     out: &mut Vec<NodeRates>,
 ) {

@@ -9,7 +9,7 @@ use crate::tensor::Vec3;
 pub struct ContactOptions {
     /// Normal penalty, a stress per length; the least where it is raised.
     pub penalty: f64,
-    /// Whether the normal penalty is raised where penetration takes up energy that is the bodies'.
+    /// Whether the normal penalty of a field without augmentation is raised where penetration takes up energy that is the bodies'.
     pub raises_penalty: bool,
     /// Tangential penalty, a stress per length; the largest where it follows from an elastic slip.
     pub tangential_penalty: f64,

@@ -13,8 +13,9 @@ pub(super) fn ends(one: usize, other: usize) -> Ends {
 impl Mesh {
     /// The mesh with some of its cells raised to the serendipity cells of second degree on the same corners. Cells that share an
     /// edge share its middle, which is that of a cell of second degree beside it if there is one; nodes, cells and sides keep their
-    /// numbers. Middles of boundary edges lie on a smooth surface through the corners. A group has the middles of the edges of its cells and sides; one of nodes alone has those between two of its nodes,
-    /// but for a chord of the body: an edge inside that joins two nodes of the boundary.
+    /// numbers. Middles of boundary edges lie on a smooth surface through the corners. A group has the middles of the edges of its
+    /// cells and sides; one of nodes alone has those between two of its nodes, but for a chord of the body: an edge inside that joins
+    /// two nodes of the boundary.
     pub fn raised(mut self, cells: &[usize]) -> Self {
         let mut middles = HashMap::<Ends, usize>::new();
         for cell in (0..self.cell_count()).map(|cell| self.cell(cell)).filter(|cell| cell.kind.degree == 2) {

@@ -375,10 +375,9 @@ impl Names<'_> {
             found.push(format!("contact '{}': penalty and elastic slip must be positive", contact.name));
         }
         let slides = contact.law.first().sliding_stress(1.0).is_some();
-        let stays = contact.augmentation.is_some() || contact.law.first().is_compliant();
         let options = ContactOptions {
             penalty,
-            raises_penalty: !stays && computed.is_some_and(|computed| !computed.bends),
+            raises_penalty: computed.is_some_and(|computed| !computed.bends),
             tangential_penalty: penalty,
             elastic_slip: (slides && contact.augmentation.is_none()).then_some(contact.elastic_slip),
             thickness: *thickness,

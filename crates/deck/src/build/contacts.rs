@@ -155,10 +155,9 @@ impl Builder<'_> {
         let given = keys.penalty.or(steepest);
         let computed = given.is_none().then(|| self.computed_penalty(keys, (surface, opposite), backings));
         let penalty = given.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
-        let follows = computed.is_some_and(|computed| !computed.bends);
         ContactOptions {
             penalty,
-            raises_penalty: follows && self.is_field(keys) && keys.augmentation.is_none(),
+            raises_penalty: computed.is_some_and(|computed| !computed.bends),
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             elastic_slip: self.elastic_slip(keys),
             thickness: self.site.thickness,

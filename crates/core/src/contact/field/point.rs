@@ -46,8 +46,8 @@ pub struct PatchPoint {
     pub xi: [f64; 2],
     /// Undeformed area it stands for.
     pub weight: f64,
-    /// Functions of the nodes of the field at the corners of the face, and their slopes.
-    pub functions: ([f64; CORNERS], [[f64; 2]; CORNERS]),
+    /// Functions of the nodes of the field at the corners of the face.
+    pub functions: ShapeFunctions,
     /// Shape functions of the face.
     pub shape: ShapeFunctions,
     /// Gap, negative for penetration.

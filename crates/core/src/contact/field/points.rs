@@ -101,8 +101,7 @@ impl PatchPoints {
             let weight = spot.weight * surface.density_at(face, &rest, xi) * patch.facing(xi, n)[0];
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
-            let (shape, functions) = (frame.shape, (frame.corners.n, frame.corners.dn));
-            let functions = (std::array::from_fn(|c| functions.0[c]), std::array::from_fn(|c| functions.1[c]));
+            let (shape, functions) = (frame.shape, frame.corners);
             self.points.push(PatchPoint { number, xi, weight, functions, shape, gap, n, v, y, sight, touched });
         }
         Some(())

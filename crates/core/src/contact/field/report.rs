@@ -2,7 +2,7 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
-use super::face::{FieldFace, moved};
+use super::face::moved;
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
@@ -153,8 +153,9 @@ impl FieldContact {
         let overlaps =
             (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
         let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
-        let (of, size) = if count > 0.0 { ("overlap", sum / count) } else { ("motion", self.motion_of_fit(u)?) };
-        (apart > MISPLACED * size).then(|| {
+        let (of, size) = if count > 0.0 { ("overlap", sum / count) } else { ("motion", self.motion(u)) };
+        let misplaced = size > 0.0 && apart > MISPLACED * size;
+        (misplaced && (count > 0.0 || self.fits())).then(|| {
             format!(
                 "contact '{}': its facets stand {apart:.2e} farther apart, or less, than the curved surfaces that they are meant for, \
                  {:.0} % of the {of} of {size:.2e}, and the pressure is off by about as much; cells of second degree, matching \
@@ -165,18 +166,18 @@ impl FieldContact {
         })
     }
 
-    /// The largest displacement of the surface, where most of it lay as near to the target before any motion as facets leave surfaces
-    /// that fit, and is pressed on it.
-    fn motion_of_fit(&self, u: &[f64]) -> Option<f64> {
+    /// Whether most of the surface lay as near to the target before any motion as facets leave surfaces that fit.
+    fn fits(&self) -> bool {
         let (gaps, near) = (self.initial_gaps(), self.sagitta());
-        let fits = 2 * gaps.iter().filter(|(penetration, _)| penetration.abs() <= near).count() > gaps.len();
-        let of = |face: &FieldFace| {
-            let nodes = face.nodes.iter().map(|&node| moved(Vec3::zero(), &u[self.parts.dofs.displacements(node)]));
-            nodes.map(|u| u.norm()).fold(0.0, f64::max)
-        };
+        2 * gaps.iter().filter(|(penetration, _)| penetration.abs() <= near).count() > gaps.len()
+    }
+
+    /// The largest displacement of a node of the surface or of what it may touch.
+    fn motion(&self, u: &[f64]) -> f64 {
         let surfaces = [Some(&self.parts.surface), self.parts.target.as_faces().map(|faces| &faces.surface)];
-        let faces = surfaces.into_iter().flatten().flat_map(|surface| &surface.faces);
-        fits.then(|| faces.map(of).fold(0.0, f64::max)).filter(|motion| *motion > 0.0)
+        let nodes = surfaces.into_iter().flatten().flat_map(|surface| &surface.faces).flat_map(|face| &face.nodes);
+        let moved = nodes.map(|&node| moved(Vec3::zero(), &u[self.parts.dofs.displacements(node)]).norm());
+        moved.fold(0.0, f64::max)
     }
 
     /// How far the facets of both sides stand off a smooth surface at most, a length.

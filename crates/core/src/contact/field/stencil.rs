@@ -160,10 +160,10 @@ impl<'a> StencilInPlace<'a> {
             let points = PatchPoints::of((self.found.number, number, patch), &at, recall, derivatives)?;
             for (k, point) in points.points.iter().enumerate() {
                 let e = line.map_or([point.n.left(), Vec3::axis(2)], |line| line.tangents(point.n));
-                let (weight, slip) = (point.weight * point.functions.0[corner], e.map(|e| e.dot(point.v)));
+                let (weight, slip) = (point.weight * point.functions.n[corner], e.map(|e| e.dot(point.v)));
                 sums.points.push(NodePoint { of: (sums.patches.len(), k), weight, e, slip });
                 if derivatives {
-                    let function = (point.functions.0[corner], point.functions.1[corner]);
+                    let function = (point.functions.n[corner], point.functions.dn[corner]);
                     let node = (&at, line, function, e);
                     differentiate((point, points.rates(k)), node, columns.len(), &mut sums.rates);
                 }

@@ -1,9 +1,8 @@
 //! A normal penalty that is raised where penetration takes up energy that is the bodies'.
 //!
 //! A penalty from the undeformed modulus gives way to what is far stiffer: a body that is confined and nearly incompressible, rubber that
-//! is squeezed to less than half its height. When an iterate has converged, the work of the mean pressure
-//! on its penetration is compared with what the bodies have taken up, and the increment goes on with a higher penalty where it is too
-//! much; later increments keep that.
+//! is squeezed to less than half its height. When an iterate has converged, the work of the mean pressure on its penetration is compared
+//! with what the bodies have taken up, and the increment goes on with a higher penalty where it is too much; later increments keep that.
 
 use super::attempt::FieldAttempt;
 use super::contact::FieldContact;
@@ -50,7 +49,8 @@ impl FieldAttempt<'_> {
         // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
         let bears = |slot: usize| new.slot(slot)[entry::STATUS] > 0.0;
         let parted = (self.contact.nodal_slots()..self.contact.slots()).any(bears);
-        if !options.raises_penalty || parted || taken.iter().any(|taken| *taken <= 0.0) {
+        let may = options.raises_penalty && !self.law.is_compliant() && !parted;
+        if !may || taken.iter().any(|taken| *taken <= 0.0) {
             return false;
         }
         let shares = [self.history, new].map(|history| self.contact.penalty_energy(history, self.normal));

@@ -10,7 +10,7 @@ use super::column::PointColumn;
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::{Landing, Patch, root_near};
-use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::face::{FieldFace, MOST, PlacedFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, Touched};
 use super::points::Recall;
@@ -233,7 +233,7 @@ impl NodesInPlace<'_> {
             number: 0,
             xi,
             weight: area * landing.share,
-            functions: ([1.0; CORNERS], [[0.0; 2]; CORNERS]),
+            functions: ShapeFunctions { n: [1.0; MOST], dn: [[0.0; 2]; MOST] },
             shape: at.shape,
             gap: to.dot(n),
             n,

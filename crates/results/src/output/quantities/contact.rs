@@ -285,8 +285,7 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
         let (left, scale) = couple(seen, None);
         frame.certify(seen.reading("moment_imbalance", left).over(scale));
     }
-    let law = seen.contact.law();
-    if !law.is_compliant() {
+    if !seen.contact.law().is_compliant() {
         let pressed = |record: &ContactRecord| (record.penetration + record.closure.min(0.0)).max(0.0);
         let work = |record: &ContactRecord| 0.5 * record.pressure * pressed(record) * record.area;
         let bodies = of_bodies(source);

@@ -155,6 +155,64 @@ motion.ram.y = -0.02
     assert!((found / force - 1.0).abs() < 0.015, "{found} in place of {force}");
 }
 
+/// A thin disc that is squeezed between plates bears what a bar of its cross-section does, though its penalty begins as that of a sheet
+/// that bends.
+#[test]
+fn a_thin_disc_that_is_squeezed_bears_what_its_law_says() {
+    let deck = r#"
+version = 1
+space = "axisymmetric"
+mesh.part.disc.rectangle = { from = [0.0, 0.0], to = [40.0, 1.0], cells = [30, 2], cell = "quad4" }
+material.m.elastic = { young = 1000.0, poisson = 0.3 }
+body.disc.material = "m"
+tool.up.profile = [{ line = [[0.0, 1.0], [90.0, 1.0]] }]
+tool.down.profile = [{ line = [[90.0, 0.0], [0.0, 0.0]] }]
+contact.up = { surface = "disc.top", target = "up", law.frictionless = {} }
+contact.down = { surface = "disc.bottom", target = "down", law.frictionless = {} }
+[[step]]
+increments.count = 3
+symmetry = ["disc.left"]
+motion.up.y = -0.02
+"#;
+    let strain = (1.0 / 0.98_f64).ln();
+    let force = 1000.0 * strain * std::f64::consts::PI * 1600.0 * (2.0 * 0.3 * strain).exp();
+    for cell in ["quad4", "quad8", "tri6"] {
+        let model = model(deck, &[&format!("mesh.part.disc.rectangle.cell=\"{cell}\"")]);
+        let found = *columns(&model, &run(&model))["contact.down.force.y"].last().unwrap();
+        assert!((found / force - 1.0).abs() < 0.01, "{cell}: {found} in place of {force}");
+    }
+}
+
+/// A ring that two round tools pinch until it touches itself: the force there is that of its half on a plane of symmetry, 0.120, whichever
+/// part lies in the other. The part is seen up to the middle of the wall and not of what the other laps over.
+#[test]
+fn a_ring_that_touches_itself_tells_its_force() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.r.annulus = { centre = [0.0, 0.0], from = [4.7, -90.0], to = [5.0, 90.0], cells = [1, 52], cell = "quad4" }
+material.m.neo_hookean = { shear = 10.0, bulk = 100.0 }
+body.r.material = "m"
+tool.u.profile = [{ arc = [[-1.5, 6.5], [0.0, 5.0], [1.5, 6.5]] }, { arc = [[1.5, 6.5], [0.0, 8.0], [-1.5, 6.5]] }]
+tool.d.profile = [{ arc = [[-1.5, -6.5], [0.0, -8.0], [1.5, -6.5]] }, { arc = [[1.5, -6.5], [0.0, -5.0], [-1.5, -6.5]] }]
+contact.u = { surface = "r.outer", target = "u", law.frictionless = {} }
+contact.d = { surface = "r.outer", target = "d", law.frictionless = {} }
+contact.s = { surface = "r.inner", target = "r.inner", law.frictionless = {} }
+[[step]]
+increments = { first = 0.05, largest = 0.05 }
+symmetry = ["r.start", "r.end"]
+motion.u.y = -4.71
+motion.d.y = 4.71
+"#;
+    for cell in ["quad4", "quad8"] {
+        let model = model(deck, &[&format!("mesh.part.r.annulus.cell=\"{cell}\"")]);
+        let columns = columns(&model, &run(&model));
+        let last = |name: &str| *columns[name].last().unwrap();
+        assert!((last("contact.s.thrust") / 0.12 - 1.0).abs() < 0.05, "{cell}: {}", last("contact.s.thrust"));
+        assert!(last("contact.s.area") > 0.03, "{cell}: {}", last("contact.s.area"));
+    }
+}
+
 /// A block over the seam of two flush blocks stands as on one: the sliver of either beyond the seam hides nothing of the other.
 #[test]
 fn a_block_stands_on_two_flush_blocks() {

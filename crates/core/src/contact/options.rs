@@ -9,8 +9,9 @@ use crate::tensor::Vec3;
 pub struct ContactOptions {
     /// Normal penalty, a stress per length; the least where it is raised.
     pub penalty: f64,
-    /// Whether the normal penalty of a field without augmentation is raised where penetration takes up energy that is the bodies'.
-    pub raises_penalty: bool,
+    /// Mean penetration from which on the normal penalty of a field without augmentation is raised where penetration takes up energy
+    /// that is the bodies'; none where it stays as it is.
+    pub raised_from: Option<f64>,
     /// Tangential penalty, a stress per length; the largest where it follows from an elastic slip.
     pub tangential_penalty: f64,
     /// Elastic slip under the friction that the pressure of the accepted state allows, over the length of an edge or face;

@@ -27,13 +27,17 @@ pub struct Backing {
 /// Part of half of the boundary of a thin body that a surface must be to be a face of the plate and not its rim.
 const FACE: f64 = 0.5;
 
+/// Share of its thickness that a thin body may be penetrated whatever the energy: that of a sheet that a holder presses is small, and few
+/// of its nodes follow a stiffer penalty.
+const SLIGHT: f64 = 1e-4;
+
 /// A penalty that no user gave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefaultPenalty {
     /// A stress per length.
     pub value: f64,
-    /// Whether the surface follows by bending.
-    pub bends: bool,
+    /// Mean penetration from which on it may be raised.
+    pub raised_from: f64,
 }
 
 /// Default penalty between the `surfaces`, with what stands behind the faces of a cell.
@@ -43,17 +47,16 @@ pub fn default_penalty(
     behind: impl Fn(usize) -> Backing,
 ) -> DefaultPenalty {
     let least = |a: DefaultPenalty, b: DefaultPenalty| if b.value < a.value { b } else { a };
-    let stiffest = DefaultPenalty { value: f64::INFINITY, bends: false };
+    let stiffest = DefaultPenalty { value: f64::INFINITY, raised_from: 0.0 };
     let of = |sides: &&[Side]| {
         let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
         let followed = |side: &Side| {
             let Backing { modulus, secant, plate } = behind(side.cell);
             let squeezed = 1.0 / mesh.depth(*side);
-            let bent = plate
-                .filter(|plate| area > FACE * plate.area)
-                .map(|plate| secant * stiffness(plate.thickness, curvature));
-            let bends = bent.is_some_and(|bent| bent < squeezed);
-            DefaultPenalty { value: RATIO * modulus * bent.map_or(squeezed, |bent| bent.min(squeezed)), bends }
+            let plate = plate.filter(|plate| area > FACE * plate.area);
+            let bent = plate.map(|plate| (secant * stiffness(plate.thickness, curvature), SLIGHT * plate.thickness));
+            let (followed, raised_from) = bent.filter(|bent| bent.0 < squeezed).unwrap_or((squeezed, 0.0));
+            DefaultPenalty { value: RATIO * modulus * followed, raised_from }
         };
         sides.iter().map(followed).fold(stiffest, least)
     };

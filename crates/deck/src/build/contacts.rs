@@ -157,7 +157,7 @@ impl Builder<'_> {
         let penalty = given.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
         ContactOptions {
             penalty,
-            raises_penalty: computed.is_some_and(|computed| !computed.bends),
+            raised_from: computed.map(|computed| computed.raised_from),
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             elastic_slip: self.elastic_slip(keys),
             thickness: self.site.thickness,

@@ -5,9 +5,10 @@ use crate::diagnose::Diagnostic;
 use crate::keys::{FacetKeys, SegmentKeys, StlKeys, ToolKeys};
 use crate::reader::Name;
 use crate::source::{Place, Spot};
+use asperity_core::mesh::formats::stl;
 use asperity_core::tensor::Vec3;
 use asperity_core::tool::space::solids::{Facets, cone, extruded, plane, polygons, revolved, sphere, torus};
-use asperity_core::tool::space::{FacetFinding, ProfileFrame, SpaceTool, SweepPath, stl, swept};
+use asperity_core::tool::space::{FacetFinding, ProfileFrame, SpaceTool, SweepPath, is_thin, swept};
 use asperity_core::tool::{self, FindingSeverity};
 use std::sync::Arc;
 
@@ -92,9 +93,10 @@ impl Builder<'_> {
         let bytes = self.keep(bytes, keys.file.place)?;
         let read = stl::read(&bytes).map_err(told);
         self.files.push(bytes);
-        let stl::Stl { triangles, dropped } = self.keep(read, keys.file.place)?;
-        if dropped > 0 {
-            let what = format!("`{}`: {dropped} triangles of no area are left out", keys.file.value);
+        let (thin, triangles): (Vec<_>, Vec<_>) =
+            self.keep(read, keys.file.place)?.into_iter().partition(|corners| is_thin(corners));
+        if !thin.is_empty() {
+            let what = format!("`{}`: {} triangles of no area are left out", keys.file.value, thin.len());
             self.found.push(Diagnostic::note(what).at(keys.file.place));
         }
         let origin = vector(&keys.origin);

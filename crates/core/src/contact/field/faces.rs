@@ -3,7 +3,7 @@
 
 use super::face::{PlacedFace, ShapeFunctions};
 use super::surface::FieldSurface;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
 use crate::tool::{BoundingBox, BoxTree};
@@ -169,17 +169,83 @@ impl FacesInPlace<'_> {
         mut admits: impl FnMut(usize, &FaceProjection) -> bool,
     ) -> Option<(usize, FaceProjection)> {
         let mut best: Option<(usize, FaceProjection)> = None;
+        self.meet(ray, range, |number, hit| {
+            if admits(number, &hit) && best.is_none_or(|(_, b)| hit.gap.abs() < b.gap.abs()) {
+                best = Some((number, hit));
+            }
+        });
+        best
+    }
+
+    /// How far a ray stays in the body where it begins, on the face `own` or, where that is curved, within `least` of it.
+    pub fn depth(&self, own: Side, ray: &FaceRay, least: f64) -> f64 {
+        let mut crossings = Vec::new();
+        self.meet(ray, [least, f64::MAX], |number, hit| {
+            if self.faces.surface.faces[number].side != own {
+                crossings.push(BodyCrossing { u: hit.gap, leaves: hit.normal().dot(ray.n) > 0.0 });
+            }
+        });
+        end_of_body(crossings)
+    }
+
+    /// Calls `take` with the faces that a ray meets within `range`, by their numbers.
+    pub fn meet(&self, ray: &FaceRay, range: [f64; 2], mut take: impl FnMut(usize, FaceProjection)) {
         let along = crate::tool::ProfileRay { origin: ray.x, direction: ray.n };
         let mut found = Vec::new();
         self.tree.along(&along, range, &mut |number| found.push(number));
         found.sort_unstable();
         for number in found {
             let Some(hit) = self.project(number, ray) else { continue };
-            let inside = self.holds(number, hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap);
-            if inside && admits(number, &hit) && best.is_none_or(|(_, b)| hit.gap.abs() < b.gap.abs()) {
-                best = Some((number, hit));
+            if self.holds(number, hit.s, 1e-9) && (range[0]..=range[1]).contains(&hit.gap) {
+                take(number, hit);
             }
         }
-        best
+    }
+}
+
+/// Where a ray crosses the boundary of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct BodyCrossing {
+    /// Distance along the ray.
+    u: f64,
+    /// Whether it leaves the body there, or enters it.
+    leaves: bool,
+}
+
+/// Crossings of one kind that are no farther apart than this part of their distance are one: a ray through a common node.
+const TOGETHER: f64 = 1e-9;
+
+/// Where a ray that begins on a body's boundary and goes inward leaves the body. Where the body penetrates itself the ray
+/// begins inside it twice, and the first face that it leaves by is that of the other part: the end is where it is inside
+/// nothing.
+fn end_of_body(mut crossings: Vec<BodyCrossing>) -> f64 {
+    crossings.sort_unstable_by(|a, b| a.u.total_cmp(&b.u));
+    crossings.dedup_by(|b, a| a.leaves == b.leaves && b.u - a.u <= TOGETHER * b.u);
+    let way = |crossing: &BodyCrossing| if crossing.leaves { -1 } else { 1 };
+    let mut inside = 1.max(-crossings.iter().map(way).sum::<i32>());
+    let end = crossings.iter().find(|crossing| {
+        inside += way(crossing);
+        inside <= 0
+    });
+    end.map_or(f64::INFINITY, |crossing| crossing.u)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_body_that_penetrates_itself_does_not_end_at_its_other_part() {
+        let crossing = |&u: &f64| BodyCrossing { u: u.abs(), leaves: u > 0.0 };
+        let at = |list: &[f64]| end_of_body(list.iter().map(crossing).collect());
+        assert_eq!(at(&[2.0]), 2.0);
+        // Out of the other part, then out of its own.
+        assert_eq!(at(&[2.0, 0.1]), 2.0);
+        // Through a ring, whose far wall is met in a node.
+        assert_eq!(at(&[1.0, -7.0, 8.0, 8.0 + 1e-13]), 1.0);
+        assert_eq!(at(&[0.1, 1.0, -7.0, 8.0]), 1.0);
+        assert_eq!(at(&[]), f64::INFINITY);
+        // Beyond a gap that was missed.
+        assert_eq!(at(&[1.0, -3.0]), 1.0);
     }
 }

@@ -104,9 +104,7 @@ impl FieldContact {
             let [a, b] = shape.tangents(placed.nodes(), self.parts.surface.plane);
             let ray = FaceRay { x: shape.value(placed.nodes()), n: -a.cross(b).unit() };
             let least = 1e-3 * a.norm();
-            let own = |number: usize| self.boundary.surface.faces[number].side == face.side;
-            let leaves = boundary.nearest(&ray, [least, f64::MAX], |number, hit| !own(number) && hit.gap > least);
-            leaves.map_or(f64::INFINITY, |(_, hit)| 0.5 * hit.gap)
+            0.5 * boundary.depth(face.side, &ray, least)
         };
         self.parts.surface.faces.iter().map(depth).collect()
     }

@@ -31,14 +31,15 @@ impl FieldContact {
         (0..self.nodal_slots()).map(|slot| history.slot(slot)).filter(|values| values[entry::STATUS] > 0.0)
     }
 
-    /// Half the work of the mean pressure on what a penalty lets it penetrate: peaks at a corner ask for none.
-    fn penalty_energy(&self, history: &History, penalty: f64) -> f64 {
+    /// What a penalty lets the mean pressure penetrate, and half its work on that: peaks at a corner ask for none.
+    fn penetrated(&self, history: &History, penalty: f64) -> [f64; 2] {
         let nodes = self.closed(history).map(|values| {
             let area = values[entry::XI];
             (area, values[entry::PRESSURE] * values[entry::HALF] * area)
         });
         let (area, force) = nodes.fold((0.0, 0.0), |(area, force), node| (area + node.0, force + node.1));
-        if area > 0.0 { 0.5 * force * force / (penalty * area) } else { 0.0 }
+        let mean = if area > 0.0 { force / (penalty * area) } else { 0.0 };
+        [mean, 0.5 * mean * force]
     }
 }
 
@@ -49,14 +50,13 @@ impl FieldAttempt<'_> {
         // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
         let bears = |slot: usize| new.slot(slot)[entry::STATUS] > 0.0;
         let parted = (self.contact.nodal_slots()..self.contact.slots()).any(bears);
-        let may = options.raises_penalty && !self.law.is_compliant() && !parted;
-        if !may || taken.iter().any(|taken| *taken <= 0.0) {
-            return false;
-        }
-        let shares = [self.history, new].map(|history| self.contact.penalty_energy(history, self.normal));
-        let [before, share] = [shares[0] / taken[0], shares[1] / taken[1]];
+        let from = options.raised_from.filter(|_| !self.law.is_compliant() && !parted);
+        let Some(from) = from.filter(|_| taken.iter().all(|taken| *taken > 0.0)) else { return false };
+        let [[_, before], [mean, now]] =
+            [self.history, new].map(|history| self.contact.penetrated(history, self.normal));
+        let [before, share] = [before / taken[0], now / taken[1]];
         let least = options.penalty;
-        let wanted = if share > MOST && share > STEADY * before {
+        let wanted = if mean >= from && share > MOST && share > STEADY * before {
             (self.normal * STEP.powf((share / AIM).log(STEP).ceil())).min(HIGHEST * least)
         } else if share * self.normal < AIM * least {
             least

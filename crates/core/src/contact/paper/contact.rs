@@ -41,8 +41,6 @@ pub struct PaperParts {
 pub struct PaperContact {
     pub(super) parts: PaperParts,
     pub(super) boundary: TargetFaces,
-    /// The connected whole of each cell.
-    pub(super) wholes: Vec<usize>,
     /// Penetration from which a point counts as closed.
     pub(super) least: f64,
     /// The longest edge of both sides, a length.
@@ -65,9 +63,8 @@ impl PaperContact {
             (shortest, longest) = (shortest.min(least), longest.max(most));
         }
         let relatives = relatives(&parts.surface.faces, parts.target.as_faces().map(|faces| &faces.surface));
-        let (wholes, least) = (parts.mesh.wholes(), CLOSED * shortest);
-        let neighbours = Neighbours::default();
-        let mut contact = Self { parts, boundary, wholes, least, longest, relatives, neighbours };
+        let (least, neighbours) = (CLOSED * shortest, Neighbours::default());
+        let mut contact = Self { parts, boundary, least, longest, relatives, neighbours };
         let radius = contact.parts.law.first().radius();
         if radius > 0.0 {
             let still = vec![0.0; contact.parts.dofs.count()];

@@ -35,10 +35,7 @@ impl TargetInPlace<'_> {
             Self::Tool(tool) => tool.cast(ray, range, &mut hits),
             Self::Faces(faces) => {
                 let ray = faces::FaceRay { x: ray.origin, n: ray.direction };
-                faces.nearest(&ray, range, |segment, at| {
-                    hits.extend(met(segment, &ray, at));
-                    false
-                });
+                faces.meet(&ray, range, |segment, at| hits.extend(met(segment, &ray, at)));
             }
         }
         hits
@@ -57,6 +54,18 @@ impl PaperContact {
     /// What the search finds at displacements `u`, point by point, and how many false contacts it rejects.
     pub fn search(&self, u: &[f64]) -> (Vec<Option<Hit>>, Rejected) {
         self.search_within(u, f64::INFINITY)
+    }
+
+    /// The largest admissible penetration at each point; infinite where its ray never leaves the body. A point of a curved face lies off
+    /// its chord, so that its own face is left out, and what is within rounding of a corner.
+    pub(super) fn depths(&self, u: &[f64]) -> Vec<f64> {
+        let boundary = self.boundary.in_place(self.site(), u);
+        let depth = |index: usize| {
+            let (own, (origin, triad)) = (self.parts.surface.face(index).side, self.triad(index, u));
+            let least = 1e-3 * if self.parts.surface.faces.plane { triad.area } else { triad.area.sqrt() };
+            0.5 * boundary.depth(own, &faces::FaceRay { x: origin, n: triad.inward }, least)
+        };
+        (0..self.parts.surface.points.len()).map(depth).collect()
     }
 
     pub(super) fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {

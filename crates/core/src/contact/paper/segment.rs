@@ -62,7 +62,7 @@ impl FieldTarget {
 const ON_RAY: f64 = 1e-7;
 
 /// Where a ray meets a face.
-pub fn met(segment: usize, ray: &faces::FaceRay, at: &FaceProjection) -> Option<Hit> {
+pub fn met(segment: usize, ray: &faces::FaceRay, at: FaceProjection) -> Option<Hit> {
     let off = (ray.x + ray.n * at.gap - at.y).norm();
     (off <= ON_RAY * at.tangents[0].norm()).then(|| Hit { segment, s: at.s, u: at.gap, normal: at.normal() })
 }
@@ -85,7 +85,7 @@ impl SegmentInPlace<'_> {
             SegmentOwner::Tool(tool) => tool.meet(self.number, ray, near),
             SegmentOwner::Body(faces, placed) => {
                 let ray = faces::FaceRay { x: ray.origin, n: ray.direction };
-                met(self.number, &ray, &faces.project(self.number, placed, &ray)?)
+                met(self.number, &ray, faces.project(self.number, placed, &ray)?)
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Mesh files: Gmsh, Abaqus and CalculiX.
+//! Mesh files: Gmsh, Abaqus and CalculiX, and the triangles of STL.
 //!
 //! A reader collects nodes, elements and groups as the file lists them in a draft, and the draft becomes the mesh:
 //! the elements of the highest dimension are its cells, those one dimension lower become sides of the cells behind
@@ -12,6 +12,7 @@ mod draft;
 mod gmsh;
 mod note;
 mod numbering;
+pub mod stl;
 
 pub use note::Note;
 

@@ -113,7 +113,7 @@ fn single(facet: &dyn ToolFacet, i: usize) -> Option<FacetFinding> {
 }
 
 /// Whether a polygon has no area; a quadrilateral with a corner on the line of its neighbours has no normal there.
-pub(super) fn is_thin(corners: &[Vec3]) -> bool {
+pub fn is_thin(corners: &[Vec3]) -> bool {
     let n = corners.len();
     let longest = (0..n).map(|k| (corners[(k + 1) % n] - corners[k]).norm()).fold(0.0, f64::max);
     let area = |k: usize| (corners[(k + 1) % n] - corners[k]).cross(corners[(k + n - 1) % n] - corners[k]).norm();

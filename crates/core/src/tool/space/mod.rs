@@ -10,14 +10,13 @@ mod path;
 mod polygons;
 mod roots;
 pub mod solids;
-pub mod stl;
 mod swept;
 #[cfg(test)]
 mod tests;
 mod tool;
 
 pub use super::facet::{Meeting, ToolFacet};
-pub use check::FacetFinding;
+pub use check::{FacetFinding, is_thin};
 pub use distance::SmoothPieces;
 pub use nearest::{FacetBorder, FacetPoint, RigidFacet};
 pub use path::{SweepPath, swept};

@@ -1,37 +1,22 @@
 //! Triangles from STL files, ASCII and binary. Normals in the file are passed over: the order of the corners says where
-//! outward is. Triangles of no area, which many programs write, are left out and counted.
+//! outward is.
 
-use super::check::is_thin;
 use crate::tensor::Vec3;
-
-/// Triangles and how many of the file were left out.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Stl {
-    /// The corners.
-    pub triangles: Vec<[Vec3; 3]>,
-    /// Number of triangles of no area.
-    pub dropped: usize,
-}
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
-/// Reads a file's bytes.
+/// Reads the corners of the triangles from a file's bytes.
 ///
 /// # Errors
 /// In words, with the line or the triangle concerned.
-pub fn read(bytes: &[u8]) -> Result<Stl, String> {
+pub fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, String> {
     let count = bytes.get(80..HEADER).map(|n| u32::from_le_bytes([n[0], n[1], n[2], n[3]]) as usize);
     // A binary file may begin with "solid" as well: its length tells.
     let exact = count.is_some_and(|n| n.checked_mul(RECORD).and_then(|n| n.checked_add(HEADER)) == Some(bytes.len()));
     let is_text = bytes.trim_ascii_start().starts_with(b"solid") && !exact;
     let triangles = if is_text { text(bytes)? } else { binary(bytes, count)? };
-    let all = triangles.len();
-    if all == 0 {
-        return Err("it holds no triangle".into());
-    }
-    let triangles: Vec<_> = triangles.into_iter().filter(|corners| !is_thin(corners)).collect();
-    Ok(Stl { dropped: all - triangles.len(), triangles })
+    if triangles.is_empty() { Err("it holds no triangle".into()) } else { Ok(triangles) }
 }
 
 fn binary(bytes: &[u8], count: Option<usize>) -> Result<Vec<[Vec3; 3]>, String> {
@@ -120,8 +105,7 @@ endsolid tip
     #[test]
     fn both_kinds_give_the_same_triangles() {
         let text = read(TEXT.as_bytes()).unwrap();
-        assert_eq!((text.triangles.len(), text.dropped), (1, 1));
-        assert_eq!(text.triangles[0][2], Vec3::new(0.0, 1.5, 0.0));
+        assert_eq!((text.len(), text[0][2]), (2, Vec3::new(0.0, 1.5, 0.0)));
         let flat = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0];
         let bytes = binary(&[[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.5, 0.0], flat], b"solid by a program that says so");
         assert_eq!(read(&bytes).unwrap(), text);

@@ -75,7 +75,7 @@ table! {
         /// Names of the units of force and length, and maybe of time, that the numbers are in: `"N, mm"`. Nothing is converted; they
         /// are written on pictures and in headers of tables.
         units: Option<Spot<String>> = text(UNITS).spot().unless_given("no names of units"),
-        /// Thickness of a plane model.
+        /// Thickness of a plane model, undeformed: areas of contact and of pressures are of it in plane stress too.
         thickness: Option<Spot<f64>> =
             number(unit::LENGTH, Range::POSITIVE).spot().computed("1 in the plane spaces"),
         /// Where the nodes and cells come from.

@@ -111,9 +111,54 @@ fn wear_relieves_the_pressure() {
     let (before, after, depth) = worn("true");
     let left = (-0.1 * stiffness * 1.0_f64).exp();
     assert!((after / before / left - 1.0).abs() < 0.02, "{before} {after} {left}");
-    assert!((depth * stiffness / (before - after) - 1.0).abs() < 0.02, "{depth}");
+    // The column is longer by the depth: `p = 10 ln(2 / h)`.
+    let longer = [before, after].map(|pressure| 2.0 * (-pressure / 10.0).exp());
+    assert!((depth / (longer[1] - longer[0]) - 1.0).abs() < 0.005, "{depth} {longer:?}");
     let (before, after, depth) = worn("false");
     assert!((after / before - 1.0).abs() < 1e-6 && (depth - 0.1 * before).abs() < 1e-3 * depth, "{depth} {before}");
+}
+
+/// A block under 20 N is drawn by 3 and back by 2, and wears in an increment by a hundred times what it penetrates: the mean depth is
+/// `k p s` all the same, all of the slip rubs, and the work of the load on the receding surface is not missing.
+#[test]
+fn wear_beyond_the_penetration_keeps_its_slip() {
+    const WORN: &str = r#"
+version = 1
+space = "plane-strain"
+mesh.part.a.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [4, 2], cell = "quad4" }
+material.m.elastic = { young = 1e6, poisson = 0.0 }
+body.a.material = "m"
+tool.t.profile = [{ line = [[50.0, 0.0], [-50.0, 0.0]] }]
+contact.c = { surface = "a.bottom", target = "t", law.coulomb.friction = 0.3, wear = { coefficient = 1e-4, recedes = true } }
+[[step]]
+displacement."a.top".x = 0.0
+pressure."a.top".value = 10.0
+[[step]]
+increments.count = 10
+displacement."a.top".x = 3.0
+[[step]]
+increments.count = 10
+displacement."a.top".x = 1.0
+"#;
+    for sets in [&[][..], &["contact.c.form=paper"]] {
+        let model = model(WORN, sets);
+        let keep = run(&model);
+        let columns = columns(&model, &keep);
+        let frame = Source { parts: &Parts::of(&model), state: keep.states.last().unwrap(), step: 2 }.gather().unwrap();
+        let field = |name: &str| frame.at(QuantityPlace::Contact).find(|q| q.name == name).unwrap().values.clone();
+        let (wear, area) = (field("contact_wear"), field("contact_area"));
+        let volume: f64 = wear.iter().zip(&area).map(|(wear, area)| wear * area).sum();
+        assert!((volume / (1e-4 * 20.0 * 5.0) - 1.0).abs() < 0.005, "{sets:?}: {volume}");
+        let last = |name: &str| *columns[name].last().unwrap();
+        let (slid, worn) = (0.3 * 20.0 * 5.0, 20.0 * 1e-4 * 10.0 * 5.0);
+        assert!(
+            (last("contact.c.dissipation") / slid - 1.0).abs() < 0.005,
+            "{sets:?}: {}",
+            last("contact.c.dissipation")
+        );
+        assert!((last("energy.friction") / (slid + worn) - 1.0).abs() < 0.005, "{sets:?}: {}", last("energy.friction"));
+        assert!(last("energy.missing").abs() < 0.005 * slid, "{sets:?}: {}", last("energy.missing"));
+    }
 }
 
 /// Variables of laws are fields of the contact points; a law that does not have one has no number there.

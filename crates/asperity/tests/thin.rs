@@ -4,7 +4,7 @@
 mod support;
 
 use asperity::solid::Formulation;
-use support::{made, run};
+use support::{columns, made, run};
 
 /// What the first body became, and the mean displacement along `axis` of a side at the end.
 fn ended(deck: &str, side: &str, axis: usize) -> (Formulation, f64) {
@@ -88,4 +88,44 @@ fn a_slice_is_not_thin() {
             .map(|(space, part, more)| ended(&deck(space, part, more), "b.right", 0));
     assert_eq!([flat.0, slice.0, sheet.0], [Formulation::FBar, Formulation::FBar, Formulation::Incompatible]);
     assert!((slice.1 / flat.1 - 1.0).abs() < 3e-3 && flat.1 > 0.0, "{flat:?} {slice:?}");
+}
+
+/// A pad of rubber or metal bonded at both faces is told where one to three cells of first degree lie through it, and its force is above
+/// that of cells of second degree by what is said; one that is not bonded, or gives way, is not.
+#[test]
+fn few_cells_through_a_bonded_layer_are_told() {
+    let pad = |cells: [usize; 2], cell: &str, law: &str, side: &str| {
+        let deck = format!(
+            "version = 1
+            space = \"plane-strain\"
+            mesh.part.s.rectangle = {{ from = [0.0, 0.0], to = [6.0, 1.0], cells = {cells:?}, cell = \"{cell}\" }}
+            material.m.{law}
+            body.s.material = \"m\"
+            [[step]]
+            increments.count = 1
+            symmetry = [\"s.left\"]
+            displacement = {{ \"s.bottom\" = {{ {side}y = 0.0 }}, \"s.top\" = {{ {side}y = -0.01 }} }}"
+        );
+        let made = made(&deck, &[]);
+        let (columns, choice) = (columns(&made.model, &run(&made.model)), &made.model.bodies[0].0.choices()[0]);
+        (columns["reaction.s.top.y"].last().unwrap().abs(), choice.advice().find(|note| note.contains("bonded")))
+    };
+    let (rubber, held) = ("neo_hookean = { shear = 1.0, bulk = 1000.0 }", "x = 0.0, ");
+    let (exact, note) = pad([24, 8], "quad8", rubber, held);
+    assert_eq!(note, None);
+    for (through, count, part) in [(1, "one", 3.0..20.0), (2, "two", 1.2..1.4), (3, "three", 1.05..1.2)] {
+        let (force, note) = pad([6 * through, through], "quad4", rubber, held);
+        assert!(
+            note.is_some_and(|note| note.starts_with(count)) && part.contains(&(force / exact)),
+            "{}",
+            force / exact
+        );
+    }
+    let metal = "von_mises = { young = 2e3, poisson = 0.3, yield_stress = 3.0, hardening = 1.0 }";
+    assert!(pad([12, 2], "quad4", metal, held).1.is_some());
+    for (cells, law, side) in
+        [([24, 4], rubber, held), ([12, 2], rubber, ""), ([12, 2], "elastic = { young = 1.0, poisson = 0.3 }", held)]
+    {
+        assert_eq!(pad(cells, "quad4", law, side).1, None, "{cells:?} {law} {side}");
+    }
 }

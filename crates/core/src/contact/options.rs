@@ -1,7 +1,7 @@
 //! How a contact is computed.
 
 use super::augment::Augmentation;
-use super::overlap::{Overlap, Wear};
+use super::overlap::Overlap;
 use crate::tensor::Vec3;
 
 /// How a contact is computed.
@@ -27,8 +27,9 @@ pub struct ContactOptions {
     pub augmentation: Option<Augmentation>,
     /// What becomes of penetration before the first increment.
     pub overlap: Overlap,
-    /// How the surface wears, if it does.
-    pub wear: Option<Wear>,
+    /// Depth of Archard's wear for a unit of pressure times sliding, if the surface wears; by a law that is [`Wearing`](crate::interface::Wearing) it
+    /// recedes by it.
+    pub wear: Option<f64>,
     /// Where contact stress lives.
     pub form: ContactForm,
 }

@@ -3,7 +3,7 @@
 //!
 //! A point that penetrates by `g_0` before the first increment, or where its contact is added, may be pressed apart over the time `T`
 //! of that step: the law sees `u - (1 - t / T) g_0`. A surface that wears recedes by Archard's depth, the coefficient times the sum of pressure
-//! times sliding, at the last accepted state: `u - k sum p ds` (Archard, J. Appl. Phys. 24, 1953).
+//! times sliding up to the last accepted state: `u - k sum p ds` (Archard, J. Appl. Phys. 24, 1953). The law itself adds that of the increment.
 
 use super::record::entry;
 use crate::system::Instant;
@@ -17,15 +17,6 @@ pub enum Overlap {
     Ramp(f64),
     /// The surfaces are meant to fit: what stands between them before the first increment counts as none for good.
     Fit,
-}
-
-/// Archard's wear of a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wear {
-    /// Depth for a unit of pressure times sliding.
-    pub coefficient: f64,
-    /// Whether the surface recedes by it.
-    pub recedes: bool,
 }
 
 impl Overlap {
@@ -57,10 +48,10 @@ impl Overlap {
         })
     }
 
-    /// What overlap and wear add to the penetration of a point at the end of an increment, from its accepted history.
-    pub fn recession(&self, wear: Option<Wear>, old: &[f64], at: Instant) -> f64 {
-        let worn = wear.filter(|wear| wear.recedes).map_or(0.0, |wear| wear.coefficient * old[entry::RUBBED]);
-        -(1.0 - self.settled(old, at)[1]) * old[entry::OVERLAP] - worn
+    /// What overlap, and wear of this depth for a unit of rubbing, add to the penetration of a point at the end of an increment, from its
+    /// accepted history.
+    pub fn recession(&self, wear: f64, old: &[f64], at: Instant) -> f64 {
+        -(1.0 - self.settled(old, at)[1]) * old[entry::OVERLAP] - wear * old[entry::RUBBED]
     }
 
     /// By how much the overlap of a point is reduced over an increment.
@@ -82,7 +73,7 @@ mod tests {
         assert_eq!((values[entry::OVERLAP], values[entry::CLOSURE]), (0.2, -0.2));
         let at = Instant { time: 1.0, dt: 1.0, ..Instant::default() };
         assert_eq!(overlap.settled(&values, at), [0.0, 0.25]);
-        assert!((overlap.recession(None, &values, at) + 0.15).abs() < 1e-16);
+        assert!((overlap.recession(0.0, &values, at) + 0.15).abs() < 1e-16);
         assert!((overlap.removed(&values, at) - 0.05).abs() < 1e-16);
         assert_eq!(overlap.settled(&values, Instant { time: 9.0, dt: 1.0, ..at }), [1.0; 2]);
         values[entry::OVERLAP] = 0.0;
@@ -108,10 +99,9 @@ mod tests {
     }
 
     #[test]
-    fn wear_recedes_only_when_it_is_to() {
+    fn wear_recedes() {
         let (mut values, at) = (vec![0.0; entry::COUNT], Instant::default());
         values[entry::RUBBED] = 50.0;
-        let worn = |recedes| Overlap::Keep.recession(Some(Wear { coefficient: 1e-3, recedes }), &values, at);
-        assert_eq!((worn(true), worn(false)), (-0.05, 0.0));
+        assert_eq!([1e-3, 0.0].map(|wear| Overlap::Keep.recession(wear, &values, at)), [-0.05, 0.0]);
     }
 }

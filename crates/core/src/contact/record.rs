@@ -64,8 +64,8 @@ pub fn stresses(values: &[f64]) -> Coordinates {
     [values[entry::PRESSURE], values[entry::SHEAR], values[entry::SHEAR2], 0.0]
 }
 
-/// Writes what the law answers at a closed point that slips along the two tangents; in the plane the second is zero.
-pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]) {
+/// Writes what the law answers at a closed point that slips along the two tangents, in the plane the second zero, and recedes by wear.
+pub fn write(response: &Linearised, (slip, wear): ([f64; 2], f64), old: &[f64], new: &mut [f64]) {
     new[OVERLAP].copy_from_slice(&old[OVERLAP]);
     new[entry::PRESSURE] = response.pressure();
     new[entry::PRESSURE_BEFORE] = old[entry::PRESSURE];
@@ -74,7 +74,9 @@ pub fn write(response: &Linearised, slip: [f64; 2], old: &[f64], new: &mut [f64]
     new[entry::SLIP2] = old[entry::SLIP2] + slip[1];
     new[entry::SLIPPED] = old[entry::SLIPPED] + response.slipped;
     new[entry::DISSIPATED] = old[entry::DISSIPATED] + response.dissipated;
-    new[entry::RUBBED] = old[entry::RUBBED] + response.pressure().max(0.0) * response.slipped;
+    let rubbed = response.pressure().max(0.0) * response.slipped;
+    new[entry::RUBBED] = old[entry::RUBBED] + rubbed;
+    new[entry::CLOSURE] -= wear * rubbed;
     new[entry::STATUS] = f64::from(response.status as u8);
     new[entry::VIOLATION] = response.violation;
     new[entry::LAST_DISSIPATED] = response.dissipated;

@@ -7,7 +7,7 @@
 
 use crate::mesh::{CellView, Mesh, Side, Space};
 use crate::tensor::Vec3;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// A body is thin that is longer than so many of its thicknesses.
 const THIN: f64 = 20.0;
@@ -30,7 +30,10 @@ pub struct Plate {
 
 /// What hangs together behind each cell, where it is thin.
 pub fn plates<'a>(mesh: &'a Mesh, cells: &[usize]) -> impl Iterator<Item = (usize, Option<Plate>)> + 'a {
-    pieces(mesh, cells).into_iter().flat_map(|piece| {
+    let wholes = mesh.wholes_of(cells);
+    let mut pieces = vec![Vec::new(); wholes.iter().map(|whole| whole + 1).max().unwrap_or(0)];
+    cells.iter().zip(wholes).for_each(|(&cell, whole)| pieces[whole].push(cell));
+    pieces.into_iter().flat_map(|piece| {
         let plate = plate(mesh, &piece);
         piece.into_iter().map(move |cell| (cell, plate))
     })
@@ -47,23 +50,6 @@ fn plate(mesh: &Mesh, cells: &[usize]) -> Option<Plate> {
 /// Area of sides, in the plane their length.
 pub fn area(mesh: &Mesh, sides: &[Side]) -> f64 {
     sides.iter().map(|&side| mesh.extent(side)).sum()
-}
-
-/// The cells that hang together by nodes, from the lowest on.
-fn pieces(mesh: &Mesh, cells: &[usize]) -> Vec<Vec<usize>> {
-    let (adjacency, mut left) = (mesh.adjacency(), cells.iter().copied().collect::<BTreeSet<_>>());
-    let mut pieces = Vec::new();
-    while let Some(first) = left.pop_first() {
-        let (mut piece, mut next) = (vec![first], 0);
-        while let Some(&cell) = piece.get(next) {
-            next += 1;
-            let around = mesh.cell(cell).nodes.iter().flat_map(|&node| adjacency.cells(node));
-            piece.extend(around.copied().filter(|other| left.remove(other)));
-        }
-        piece.sort_unstable();
-        pieces.push(piece);
-    }
-    pieces
 }
 
 /// Stiffness against pressure, a stress per length, of the surface of a thin body over its modulus.
@@ -108,8 +94,7 @@ fn pairs(faces: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
 fn frame(mesh: &Mesh, side: Side) -> (Vec3, Vec3) {
     let (kind, nodes) = mesh.side(side);
     let nodes: Vec<usize> = nodes.collect();
-    let middle = if kind.dimension == 2 && kind.linear.nodes.len() == 3 { 1.0 / 3.0 } else { 0.0 };
-    let (x, [g, h, _]) = CellView { kind, nodes: &nodes }.map(&mesh.points, [middle, middle, 0.0]);
+    let (x, [g, h, _]) = CellView { kind, nodes: &nodes }.map(&mesh.points, kind.center());
     let normal = if kind.dimension == 1 { Vec3::new(g[1], -g[0], 0.0) } else { g.cross(h) };
     (x, normal * (1.0 / normal.norm()))
 }

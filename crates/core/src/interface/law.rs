@@ -187,6 +187,10 @@ pub trait Interface: Send + Sync {
     fn is_compliant(&self) -> bool {
         false
     }
+    /// Depth by which the surface recedes for a unit of pressure times sliding.
+    fn recession(&self) -> f64 {
+        0.0
+    }
     /// As [`InterfaceLaw::radius`].
     fn radius(&self) -> f64;
     /// As [`InterfaceLaw::sliding_stress`].

@@ -59,8 +59,10 @@ mod integrated;
 mod law;
 pub mod laws;
 mod rule;
+mod wear;
 
 pub use closure::{Closing, Closure};
 pub use rule::Rule;
+pub use wear::Wearing;
 
 pub use law::{Interface, InterfaceLaw, Law, Linearised, MOST_VARIABLES, Motion, Past, Response, Status};

@@ -2,37 +2,60 @@
 
 use super::Mesh;
 
+/// Sets of numbers that are joined pair by pair; the least of a set is its root.
+pub struct DisjointSets(Vec<usize>);
+
+impl DisjointSets {
+    /// Of so many numbers, each alone.
+    pub fn new(count: usize) -> Self {
+        Self((0..count).collect())
+    }
+
+    /// The root of the set of a number.
+    pub fn root(&self, mut i: usize) -> usize {
+        while self.0[i] != i {
+            i = self.0[i];
+        }
+        i
+    }
+
+    /// Makes the sets of two numbers one; the way to its root is shortened.
+    pub fn join(&mut self, i: usize, j: usize) {
+        let root = self.root(i).min(self.root(j));
+        for mut i in [i, j] {
+            while i != root {
+                i = std::mem::replace(&mut self.0[i], root);
+            }
+        }
+    }
+}
+
 impl Mesh {
     /// For each cell the number of the connected whole that it belongs to: cells that share a node, whatever groups they
     /// are in, have the same. Wholes are numbered by their first cells.
     pub fn wholes(&self) -> Vec<usize> {
-        let mut leader: Vec<usize> = (0..self.points.len()).collect();
-        for cell in 0..self.cell_count() {
-            let leaders: Vec<usize> = self.cell(cell).nodes.iter().map(|&node| lead(&mut leader, node)).collect();
-            let first = leaders.iter().copied().fold(usize::MAX, usize::min);
-            leaders.into_iter().for_each(|node| leader[node] = first);
+        self.wholes_of(&(0..self.cell_count()).collect::<Vec<_>>())
+    }
+
+    /// The same for each of some cells, among themselves.
+    pub fn wholes_of(&self, cells: &[usize]) -> Vec<usize> {
+        let mut sets = DisjointSets::new(self.points.len());
+        for &cell in cells {
+            let nodes = self.cell(cell).nodes;
+            nodes.iter().for_each(|&node| sets.join(nodes[0], node));
         }
         let (mut number, mut count) = (vec![usize::MAX; self.points.len()], 0);
-        let mut of = |cell: usize| {
+        let mut of = |&cell: &usize| {
             let Some(&node) = self.cell(cell).nodes.first() else { return usize::MAX };
-            let first = lead(&mut leader, node);
+            let first = sets.root(node);
             if number[first] == usize::MAX {
                 number[first] = count;
                 count += 1;
             }
             number[first]
         };
-        (0..self.cell_count()).map(&mut of).collect()
+        cells.iter().map(&mut of).collect()
     }
-}
-
-/// The node that leads those which hang together with this one; the way there is shortened.
-fn lead(leader: &mut [usize], mut node: usize) -> usize {
-    while leader[node] != node {
-        leader[node] = leader[leader[node]];
-        node = leader[node];
-    }
-    node
 }
 
 #[cfg(test)]

@@ -47,18 +47,23 @@ pub struct BodyOptions {
     pub thickness: f64,
     /// Axes along which the sides that face them are held, so that it does not bend across them however thin it is.
     pub held: [bool; 3],
+    /// Whether most of its surface is bonded: held, glued or stuck, so that it cannot give way along it.
+    pub bonded: bool,
 }
 
 impl Default for BodyOptions {
     fn default() -> Self {
         let (formulation, integration) = (Formulation::Auto, Integration::Full);
-        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3] }
+        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3], bonded: false }
     }
 }
 
 /// Ratio of bulk to shear modulus from which on cells would lock: just below that of Poisson's ratio 0.4, where `quad4` with 16
 /// edges a side are 5.0 % too stiff in Cook's membrane and 1.7 % with F-bar (3.7 and 1.8 % at 0.3, 21 and 1.7 % at 0.49).
 pub const NEARLY: f64 = 4.6;
+
+/// Cells of first degree through a bonded layer from which on they are near the parabola with which what keeps its volume flows out.
+const FEW: f64 = 4.0;
 
 /// What the cells of one kind in a body became, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +80,8 @@ pub struct Choice {
     pub stiff: Option<f64>,
     /// Whether they are too soft in bending.
     pub soft: bool,
+    /// How many of them lie through a bonded layer that keeps its volume, where they are too few.
+    pub layers: Option<f64>,
 }
 
 impl Choice {
@@ -87,6 +94,7 @@ impl Choice {
         let reduced = options.integration == Integration::Reduced && kind.reduced.is_some();
         let standard = |reason: &str, locks: bool| (Formulation::Standard, reason.to_string(), locks);
         let stiff = stiff && flow != Flow::Unknown;
+        let layers = (options.bonded && (stiff || flow == Flow::Isochoric)).then_some(f64::INFINITY);
         let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::modes(kind) > 0 && !reduced;
         let modes = |reason: &str| (Formulation::Incompatible, reason.to_string(), false);
         let (formulation, reason, locks) = match options.formulation {
@@ -114,7 +122,7 @@ impl Choice {
             }
             Formulation::Auto => standard(&format!("bulk over shear modulus is only {}", rounded(ratio)), false),
         };
-        Self { kind, formulation, reason, locks, stiff: None, soft: false }
+        Self { kind, formulation, reason, locks, stiff: None, soft: false, layers }
     }
 
     /// One line: cells, formulation, reason.
@@ -127,11 +135,19 @@ impl Choice {
         format!("{} {word}: {}", self.kind.name, self.reason)
     }
 
-    /// The same with what follows from the body's thickness, which is asked for where it matters.
-    pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
+    /// The same with what follows from the body's thickness, which is asked for where it matters; `through` are the cells through a bonded
+    /// layer.
+    pub(super) fn in_body(
+        mut self,
+        (body, through): (impl FnOnce() -> Slenderness, Option<f64>),
+        options: &BodyOptions,
+    ) -> Self {
         let reduced = options.integration == Integration::Reduced && self.kind.reduced.is_some();
-        if !reduced && self.kind.degree == 1 {
+        if reduced || self.kind.degree > 1 {
+            self.layers = None;
+        } else {
             let body = body();
+            self.layers = self.layers.and(through).map(f64::round).filter(|layers| *layers < FEW);
             self.soft = body.soft(self.kind, self.formulation);
             if self.soft && options.formulation == Formulation::Auto {
                 self.formulation = Formulation::Incompatible;
@@ -167,7 +183,18 @@ impl Choice {
         let stiff = stiff.map(|part| {
             format!("where it bends it is too stiff, by some {:.0} %: its {name} cells {why}", 100.0 * part)
         });
-        locks.into_iter().chain(soft).chain(stiff)
+        let layers = self.layers.map(|layers| {
+            let (count, part) = match layers {
+                2.0 => ("two", "a third"),
+                3.0 => ("three", "a tenth"),
+                _ => ("one", "several times"),
+            };
+            format!(
+                "{count} {name} through a layer that keeps its volume between bonded faces: too stiff across it, by {part}; \
+                 cells of second degree are right"
+            )
+        });
+        locks.into_iter().chain(soft).chain(stiff).chain(layers)
     }
 }
 

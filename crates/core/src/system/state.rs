@@ -48,7 +48,8 @@ pub struct Energies {
     pub stored: f64,
     /// Dissipated energy, accumulated over accepted increments.
     pub dissipated: f64,
-    /// Energy that heat supplied, accumulated likewise.
+    /// Energy that heat supplied, overlap that was removed, and work of supports and loads that a trapezoid over the increment misses
+    /// since friction turned within it; accumulated likewise.
     pub supplied: f64,
     /// Work that a rate law neither stores nor dissipates, accumulated likewise.
     pub residue: f64,

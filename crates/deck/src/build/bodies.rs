@@ -5,6 +5,7 @@ use crate::diagnose::Diagnostic;
 use crate::keys::{BodyKeys, ObjectiveRate, completed, integrated};
 use crate::reader::Name;
 use asperity_core::material::Material;
+use asperity_core::mesh::Side;
 use asperity_core::solid::{Body, BodyOptions, Heat, Strain};
 use std::sync::Arc;
 
@@ -31,6 +32,7 @@ impl Builder<'_> {
                     strain: *keys.strain,
                     thickness: self.site.thickness,
                     held: self.held(&cells),
+                    bonded: self.bonded(&cells),
                 };
                 let site = (self.site.mesh.clone(), self.site.dofs.clone(), self.site.space);
                 // Nothing turns in small strain, and nothing is said against a rate that was not.
@@ -68,11 +70,42 @@ impl Builder<'_> {
         self.keep(body.along(axes), said.place)
     }
 
+    /// Whether more than half of the surface of a body is held along all axes, glued or stuck.
+    fn bonded(&self, cells: &[usize]) -> bool {
+        let (mesh, mut held) = (&self.site.mesh, self.held_nodes());
+        let stuck = self.deck.contact.iter().filter(|(_, contact)| contact.law.entry.name == "sticking");
+        let stuck = stuck.flat_map(|(_, contact)| [&contact.surface, &contact.target]);
+        for group in self.deck.tie.iter().flat_map(|tie| [&tie.surface, &tie.target]).chain(stuck) {
+            self.nodes(&group.text).iter().for_each(|&node| held[node] = [true; 3]);
+        }
+        let axes = ..self.site.space.dimension();
+        let whole = |side: Side| mesh.side(side).1.all(|node| held[node][axes].iter().all(|held| *held));
+        let (mut all, mut bonded) = (0.0, 0.0);
+        for side in mesh.boundary(cells) {
+            all += mesh.extent(side);
+            bonded += if whole(side) { mesh.extent(side) } else { 0.0 };
+        }
+        bonded > 0.5 * all
+    }
+
     /// Axes along which all sides of a body that face them are held from the first step to the end.
     fn held(&self, cells: &[usize]) -> [bool; 3] {
+        let (mesh, held) = (&self.site.mesh, self.held_nodes());
+        let mut all = [None; 3];
+        for side in mesh.boundary(cells) {
+            if let Some(axis) = mesh.faces(side) {
+                let whole = mesh.side(side).1.all(|node| held[node][axis]);
+                all[axis] = Some(all[axis].unwrap_or(true) && whole);
+            }
+        }
+        all.map(|all| all == Some(true))
+    }
+
+    /// Axes along which each node is held from the first step to the end.
+    fn held_nodes(&self) -> Vec<[bool; 3]> {
         let (mesh, mut held) = (&self.site.mesh, vec![[false; 3]; self.site.mesh.points.len()]);
         let stays = |kind: &str, name: &Name| self.deck.step.iter().all(|step| !step.releases(kind, &name.text));
-        let Some(first) = self.deck.step.first() else { return [false; 3] };
+        let Some(first) = self.deck.step.first() else { return held };
         for (name, keys) in first.displacement.iter().filter(|(name, _)| stays("displacement", name)) {
             let axes = [keys.x.is_some(), keys.y.is_some(), keys.z.is_some()];
             self.nodes(&name.text).iter().for_each(|&node| (0..3).for_each(|axis| held[node][axis] |= axes[axis]));
@@ -84,14 +117,7 @@ impl Builder<'_> {
                 mesh.side(side).1.for_each(|node| held[node][axis] = true);
             }
         }
-        let mut all = [None; 3];
-        for side in mesh.boundary(cells) {
-            if let Some(axis) = mesh.faces(side) {
-                let whole = mesh.side(side).1.all(|node| held[node][axis]);
-                all[axis] = Some(all[axis].unwrap_or(true) && whole);
-            }
-        }
-        all.map(|all| all == Some(true))
+        held
     }
 
     fn prestressed(&mut self, body: Body, name: &Name, keys: &BodyKeys) -> Option<Body> {

@@ -62,7 +62,10 @@ impl Builder<'_> {
         let place = keys.update.as_ref().map_or(keys.law.place, |update| update.place);
         let place = keys.closure.as_ref().map_or(place, |closure| closure.place);
         let closure = self.keep(closure(keys).map_err(asperity_core::Error::input), place)?.map(Arc::new);
-        let first = self.keep(integrated(law, update, closure.as_ref()).map_err(asperity_core::Error::input), place)?;
+        let first = self.keep(
+            integrated(law, update, (closure.as_ref(), keys.recession())).map_err(asperity_core::Error::input),
+            place,
+        )?;
         self.running(name, keys, (first, closure))
     }
 
@@ -166,7 +169,7 @@ impl Builder<'_> {
             augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation()),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
             form: if self.is_field(keys) { ContactForm::Field } else { ContactForm::Paper },
-            wear: keys.wear.as_ref().map(keys::WearKeys::wear),
+            wear: keys.wear.as_ref().map(|wear| wear.coefficient),
         }
     }
 

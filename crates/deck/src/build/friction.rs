@@ -6,24 +6,27 @@ use crate::keys;
 use crate::reader::Name;
 use asperity_core::amplitude::{Change, Timeline};
 use asperity_core::integrate::Update;
-use asperity_core::interface::{Closing, Closure, Interface, Rule};
+use asperity_core::interface::{Closing, Closure, Interface, Rule, Wearing};
 use std::sync::Arc;
 
 /// The key of laws that steps may change.
 const KEY: &str = "friction";
 
-/// A law, its increments integrated as said, under the table of pressure over penetration that is said.
+/// A law, its increments integrated as said, under the table of pressure over penetration and with the wear that recedes that are said.
 pub(super) fn integrated(
     law: Box<dyn Interface>,
     update: Option<Update>,
-    closure: Option<&Arc<Closure>>,
+    (closure, wear): (Option<&Arc<Closure>>, Option<f64>),
 ) -> Result<Arc<dyn Interface>, String> {
-    let law: Arc<dyn Interface> = match update {
+    let mut law: Arc<dyn Interface> = match update {
         Some(update) => Arc::from(law.with_update(update)?),
         None => Arc::from(law),
     };
-    Ok(match closure {
-        Some(closure) => Arc::new(Closing::new(law, closure.clone())?),
+    if let Some(closure) = closure {
+        law = Arc::new(Closing::new(law, closure.clone())?);
+    }
+    Ok(match wear {
+        Some(coefficient) => Arc::new(Wearing { law, coefficient }),
         None => law,
     })
 }
@@ -55,13 +58,14 @@ impl Builder<'_> {
         };
         let course = Timeline::from(law.values[at], steps.iter().map(|step| (step.duration, change(step))));
         let (entry, values, update) = (law.entry, law.values, keys.update.as_ref().map(|update| update.update()));
+        let wear = keys.recession();
         Some(Rule::running(first, move |step, step_time| {
             let mut values = values.clone();
             values[at] = course.value(step, step_time);
             let allowed = entry.parameters[at].range.contains(values[at]);
             let built =
                 if allowed { (entry.build)(&values) } else { Err(format!("friction cannot be {}", values[at])) };
-            built.and_then(|law| integrated(law, update, closure.as_ref()))
+            built.and_then(|law| integrated(law, update, (closure.as_ref(), wear)))
         }))
     }
 }

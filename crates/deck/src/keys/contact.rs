@@ -6,7 +6,7 @@ use crate::form::{ChosenLaw, Form, Words, flag, law, list, number, refers, table
 use crate::reader::{Name, Reader};
 use crate::schema::Names;
 use crate::source::Spot;
-use asperity_core::contact::{Augmentation, ContactForm, Overlap, Wear};
+use asperity_core::contact::{Augmentation, ContactForm, Overlap};
 use asperity_core::declare::{Range, unit};
 use asperity_core::interface::{self, Interface};
 
@@ -120,10 +120,10 @@ fn stiffness(contact: &Contact, reader: &mut Reader) {
     }
 }
 
-impl WearKeys {
-    /// What the keys say.
-    pub fn wear(&self) -> Wear {
-        Wear { coefficient: self.coefficient, recedes: self.recedes }
+impl Contact {
+    /// Depth of wear for a unit of pressure times sliding, of a surface that recedes by it.
+    pub fn recession(&self) -> Option<f64> {
+        self.wear.as_ref().filter(|wear| wear.recedes).map(|wear| wear.coefficient)
     }
 }
 

@@ -180,7 +180,7 @@ impl FieldAttempt<'_> {
     /// What is added to the penetration of a node before the law sees it.
     fn closure(&self, slot: usize) -> f64 {
         let options = &self.contact.parts.options;
-        self.shift(slot)[0] + options.overlap.recession(options.wear, self.history.slot(slot), self.at)
+        self.shift(slot)[0] + options.overlap.recession(self.law.recession(), self.history.slot(slot), self.at)
     }
 
     /// How much deeper an open node must lie for the law to answer as for a closed one, where the first guess holds it closed: it was
@@ -268,7 +268,7 @@ impl FieldAttempt<'_> {
         let slip = slip.map(|slip| slip * part);
         let entered = Past { penetration: past.penetration.max(touch), ..past };
         let response = law.respond([penetration, slip[0], slip[1]], &entered, &mut new[entry::COUNT..])?;
-        write(&response, slip, old, new);
+        write(&response, (slip, law.recession()), old, new);
         if local.wants_tangent {
             self.sum(stencil, true, sums);
         }

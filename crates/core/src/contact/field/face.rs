@@ -13,6 +13,9 @@ pub const CORNERS: usize = 4;
 /// The part that is the whole of an edge.
 pub const WHOLE: [f64; 2] = [-1.0, 1.0];
 
+/// Step of differences of shape functions, in reference coordinates.
+const STEP: f64 = 1e-3;
+
 /// A face of the boundary, or half of an edge of second degree.
 #[derive(Debug, Clone)]
 pub struct FieldFace {
@@ -121,6 +124,30 @@ impl FieldFace {
         let mut shape = ShapeFunctions::of(self.kind, [0.5 * (from + to) + half * xi[0], xi[1]]);
         shape.dn.iter_mut().for_each(|dn| dn[0] *= half);
         shape
+    }
+
+    /// Those of a face in space carried on straight beyond its edges, where functions of second degree would turn back.
+    pub fn extended_shape(&self, xi: [f64; 2]) -> ShapeFunctions {
+        if self.kind.degree == 1 || self.corners() < 3 || self.holds(xi, 0.0) {
+            return self.shape(xi);
+        }
+        let beyond = [0, 1].map(|i| xi[i] - self.nearest(xi)[i]);
+        let along = |shape: &ShapeFunctions, k: usize| shape.dn[k][0] * beyond[0] + shape.dn[k][1] * beyond[1];
+        // Slopes of functions of second degree have a degree of two at most, of which a central difference is exact.
+        let near =
+            |a: usize, step: f64| self.shape(self.nearest([0, 1].map(|i| if i == a { xi[i] + step } else { xi[i] })));
+        let (mut shape, near) = (self.shape(self.nearest(xi)), [0, 1].map(|a| [near(a, STEP), near(a, -STEP)]));
+        for k in 0..self.nodes.len() {
+            shape.n[k] += along(&shape, k);
+            (0..2).for_each(|a| shape.dn[k][a] += (along(&near[a][0], k) - along(&near[a][1], k)) / (2.0 * STEP));
+        }
+        shape
+    }
+
+    /// The place of the face that is nearest in reference coordinates.
+    fn nearest(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        let (least, beyond) = if self.corners() == 3 { (0.0, 0.5 * (a + b - 1.0).max(0.0)) } else { (-1.0, 0.0) };
+        [a, b].map(|x| (x - beyond).clamp(least, 1.0))
     }
 
     /// The functions of first degree of its corners.

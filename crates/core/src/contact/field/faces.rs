@@ -121,7 +121,7 @@ impl TargetFaces {
     }
 
     fn at(&self, number: usize, placed: &PlacedFace, s: [f64; 2], gap: f64) -> FaceProjection {
-        let shape = self.surface.faces[number].shape(s);
+        let shape = self.surface.faces[number].extended_shape(s);
         let tangents = shape.tangents(placed.nodes(), self.surface.plane);
         FaceProjection { gap, s, shape, y: shape.value(placed.nodes()), tangents }
     }

@@ -5,7 +5,7 @@
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
 use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
-use crate::mesh::{CREASE, Mesh, Side, Space};
+use crate::mesh::{CREASE, DisjointSets, Mesh, Side, Space};
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
 
@@ -56,25 +56,6 @@ pub struct FieldSurface {
     /// Whether the model is axisymmetric.
     pub revolves: bool,
     thickness: f64,
-}
-
-/// Sets of numbers that are joined pair by pair.
-struct DisjointSets(Vec<usize>);
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self((0..count).collect())
-    }
-    fn root(&self, mut i: usize) -> usize {
-        while self.0[i] != i {
-            i = self.0[i];
-        }
-        i
-    }
-    fn join(&mut self, i: usize, j: usize) {
-        let (i, j) = (self.root(i), self.root(j));
-        self.0[i.max(j)] = i.min(j);
-    }
 }
 
 impl FieldSurface {

@@ -47,7 +47,7 @@ impl PaperAttempt<'_> {
     /// What overlap and wear add to the penetration of a point before the law sees it.
     pub(super) fn closure(&self, index: usize) -> f64 {
         let options = &self.contact.parts.options;
-        options.overlap.recession(options.wear, self.history.slot(index), self.at)
+        options.overlap.recession(self.law.recession(), self.history.slot(index), self.at)
     }
 
     /// What the law may know of a point.

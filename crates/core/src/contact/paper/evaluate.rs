@@ -67,7 +67,7 @@ impl PaperAttempt<'_> {
         };
         self.refuse_leap(index, (g, &local.u))?;
         new[entry::PENETRATION] -= constants.least;
-        write(&closed.response, closed.slip.map(T::re), old, new);
+        write(&closed.response, (closed.slip.map(T::re), law.recession()), old, new);
         self.add(g, &closed, local);
         if let Some(mean) = mean.filter(|_| local.wants_tangent) {
             self.add_neighbours((g, by_mean), &mean, local);

@@ -181,7 +181,7 @@ fn report_points(all: &[Seen], frame: &mut Frame) -> Result<(), Error> {
 
 /// Depth of wear at all points; not a number in contacts that do not wear. None where none does.
 fn wear_of(all: &[Seen]) -> Option<Vec<f64>> {
-    let coefficient = |seen: &Seen| seen.contact.options().wear.map(|wear| wear.coefficient);
+    let coefficient = |seen: &Seen| seen.contact.options().wear;
     all.iter().find_map(coefficient)?;
     let depth = |seen| {
         let coefficient = coefficient(seen).unwrap_or(f64::NAN);

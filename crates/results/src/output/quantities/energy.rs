@@ -1,5 +1,5 @@
-//! Energies: what is stored, what has been dissipated, what came from outside (with what was stored at the start and
-//! what heat supplied), what was set free in instabilities, what rate laws leave over, and what is missing between them.
+//! Energies: what is stored, what has been dissipated, what came from outside (with what was stored at the start, what heat
+//! supplied, and what friction that turns within an increment takes beyond the trapezoid of the work), what was set free in instabilities, what rate laws leave over, and what is missing between them.
 
 use super::Source;
 use crate::output::{Frame, Quantity, Reading, Unit};

@@ -64,8 +64,8 @@ impl<T: Scalar> FlatFace<T> {
     /// The polygon of the face itself.
     fn outline(&self) -> Polygon<T> {
         let Some(h) = self.twist else { return Polygon::whole(3) };
-        let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        Polygon::of(square.map(|s: [f64; 2]| [0, 1].map(|i| h[i] * (s[0] * s[1]) + T::from(s[i]))))
+        let twisted = |s: &[f64; 2]| [0, 1].map(|i| h[i] * (s[0] * s[1]) + T::from(s[i]));
+        Polygon::of(Polygon::whole(CORNERS).vertices().iter().map(twisted))
     }
 
     /// Reference coordinates of a place in the plane, and what of their area one of the plane's is.
@@ -129,7 +129,7 @@ pub fn spread<T: Scalar>(degree: usize, own: &[Vec3<T>], other: &[Vec3<T>], mut 
     let flat = FlatFace::new(own);
     let Some(part) = common(&flat, other) else { return };
     let laid = PartMap::new(own.len(), &part);
-    let share = laid.scale() * laid.scale();
+    let share = laid.share();
     for place in rule(degree, own.len()) {
         let (xi, density) = flat.pull_back(laid.place(place.xi));
         take(Spread { xi, weight: share * density * place.weight });

@@ -43,11 +43,7 @@ impl<T: Scalar> Polygon<T> {
     pub fn whole(corners: usize) -> Self {
         let triangle: &[[f64; 2]] = &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
         let square: &[[f64; 2]] = &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        let mut polygon = Self { vertices: [[T::zero(); 2]; MOST], count: 0 };
-        for vertex in if corners == 3 { triangle } else { square } {
-            polygon.push(vertex.map(T::from));
-        }
-        polygon
+        Self::of((if corners == 3 { triangle } else { square }).iter().map(|vertex| vertex.map(T::from)))
     }
 
     /// Of so many vertices, counter-clockwise.
@@ -148,9 +144,9 @@ impl<T: Scalar> PartMap<T> {
         let d = [xi[0] - self.from.centre[0], xi[1] - self.from.centre[1]];
         [0, 1].map(|i| self.to.centre[i] + self.map[i][0] * d[0] + self.map[i][1] * d[1])
     }
-    /// Root of the ratio of the areas: by so much lengths on the face shrink.
-    pub fn scale(&self) -> T {
-        (self.to.area * (1.0 / self.from.area)).sqrt()
+    /// Ratio of the areas.
+    pub fn share(&self) -> T {
+        self.to.area * (1.0 / self.from.area)
     }
 }
 
@@ -176,7 +172,7 @@ mod tests {
                 assert!(part.moments().area > 1e-3);
                 for (i, j) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)] {
                     let f = |p: Point<f64>| p[0].powi(i) * p[1].powi(j);
-                    let share = laid.scale() * laid.scale();
+                    let share = laid.share();
                     let points = rule.points.iter().zip(rule.weights);
                     let found: f64 = points.map(|(&[x, y, _], w)| share * w * f(laid.place([x, y]))).sum();
                     let first = part.vertices[0];

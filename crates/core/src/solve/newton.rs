@@ -1,7 +1,7 @@
 //! One attempt at an increment: Newton's iterations from the first guess of the predictor. All iterations of a run go through
 //! [`Newton::iterate`], those of a path of arc length and those of a relaxation too.
 
-use super::constants::iterations::{NAMED, PATIENCE, SLOPE, STALLED, STALLS, STRICT};
+use super::constants::iterations::{NAMED, PATIENCE, STALLED, STALLS};
 use super::convergence::{Norms, ResidualScale};
 use super::cycle::{Cycle, CycleDetector};
 use super::linear::{Factors, LinearSystem};
@@ -13,7 +13,7 @@ use super::relax::PseudoTime;
 use super::schedule::Step;
 use super::semismooth::MipStress;
 use super::step::forcing;
-use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace, apart};
+use crate::system::{Assembly, Branch, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace, apart};
 use crate::{Error, Failure, FailureKind};
 use std::sync::Arc;
 use std::time::Duration;
@@ -175,8 +175,10 @@ pub struct Newton<'a> {
     pub(super) stiffness: f64,
     /// Largest coefficient of a displacement in each equation.
     pub(super) coefficients: Vec<f64>,
-    /// Multiple of the initial slope that the line search allows at the end of a step.
-    pub(super) bound: f64,
+    /// Whether the line search is strict.
+    pub(super) strict: bool,
+    /// Contact states where the step begins.
+    pub(super) branches: Vec<Vec<(Branch, u32)>>,
     /// Motions that the last matrix was regularised against, in words.
     pub(super) regularised: Vec<String>,
     /// Iterations in a row over which no contact changed.
@@ -275,7 +277,8 @@ impl<'a> Newton<'a> {
             residual,
             stiffness: 0.0,
             coefficients: Vec::new(),
-            bound: SLOPE,
+            strict: false,
+            branches: Vec::new(),
             regularised: Vec::new(),
             steady: 0,
             holding: false,
@@ -306,7 +309,7 @@ impl<'a> Newton<'a> {
                 return Ok(self.converged(at.0, norms));
             }
             sequence.improved();
-            self.bound = SLOPE;
+            self.strict = false;
         }
         self.memory.unborne = self.unborne();
         let kind = if sequence.cycles.cycle().is_some() { FailureKind::Cycle } else { FailureKind::Iterations };
@@ -363,7 +366,7 @@ impl<'a> Newton<'a> {
                 sequence.progress.push(since == 0, norms.ratio, (sequence.taken, sequence.lost));
                 // Where flow is not associated a step need not lower the slope: only contact is to be calmed.
                 if since >= PATIENCE && !self.problem.contacts.is_empty() {
-                    self.bound = STRICT;
+                    self.strict = true;
                 }
             }
             let grows = norms.ratio > sequence.ratio.max(norms.allowed) && iteration > 0;

@@ -1,5 +1,6 @@
 //! One step of Newton's method: the linear system, the contact points over its solution, and the line search along it.
 
+use super::constants::iterations::{CHANGED, STRICT, UNCHANGED};
 use super::constants::steps::{ENOUGH, FAR, GOOD, LOOSEST, SHORTEST, TIGHTEST, TURN};
 use super::linear::{LinearError, Unsolved};
 use super::newton::{Newton, SolveError, Variant};
@@ -159,6 +160,7 @@ impl Newton<'_> {
         missing: Option<&[f64]>,
     ) -> Result<f64, Failure> {
         let (begin, slope) = (u.clone(), self.slope(&step.du));
+        self.branches.clone_from(&self.evaluation.branches);
         let along = |part: f64| -> Vec<f64> { begin.iter().zip(&step.du).map(|(u, d)| u + part * d).collect() };
         let rest = |part: f64| missing.filter(|_| part < 1.0).map(|m| m.iter().map(|m| m * (1.0 - part)).collect());
         let mut part = 1.0;
@@ -177,7 +179,12 @@ impl Newton<'_> {
             return Ok(part * step.part);
         }
         let end = self.slope(&step.du);
-        if end.abs() <= self.bound * slope.abs() {
+        let allowed = match self.strict {
+            true => STRICT,
+            false if self.branches == self.evaluation.branches => UNCHANGED,
+            false => CHANGED,
+        };
+        if end.abs() <= allowed * slope.abs() {
             return Ok(step.part);
         }
         part = self.search(&along, &step.du, (slope, end))?;

@@ -11,6 +11,7 @@ use super::shell::Tile;
 use super::ticks::minus;
 use super::view::{Projection, Window};
 use crate::output::file::{Durability, write_atomic};
+use crate::output::probe::MEANS;
 use crate::output::vtk::{DataArray, Grid, read_grid, read_series};
 use crate::output::{Columns, Summary, Unit, Units};
 use asperity_core::Error;
@@ -170,7 +171,7 @@ impl Run<'_> {
 
 /// The dimension of a quantity at nodes, whose file does not say it; none for a pure number.
 fn dimension(quantity: &str) -> Option<Unit> {
-    let name = quantity.split('.').next().unwrap_or(quantity).trim_end_matches("_averaged");
+    let name = quantity.split('.').next().unwrap_or(quantity).trim_end_matches(MEANS);
     Some(match name {
         "displacement" | "contact_gap" | "contact_slip" => Unit::Length,
         "reaction" | "load" => Unit::Force,
@@ -187,14 +188,18 @@ impl Shot {
     /// A quantity at the nodes: a number, a component (`displacement.y`), or the length of a vector.
     fn values(&self, quantity: &str) -> Result<Vec<f64>, Error> {
         let names = || self.bodies.point_data.iter().map(|array| array.name.as_str());
+        let find = |name: &str| {
+            let exact = self.bodies.point_array(name);
+            exact.or_else(|| self.bodies.point_array(&format!("{name}{MEANS}")))
+        };
         let (name, component) = match quantity.rsplit_once('.') {
-            Some((name, component)) if self.bodies.point_array(quantity).is_none() => (name, Some(component)),
+            Some((name, component)) if find(quantity).is_none() => (name, Some(component)),
             _ => (quantity, None),
         };
-        let Some(array) = self.bodies.point_array(name) else {
-            let near = nearest(name, names()).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        let Some(array) = find(name) else {
+            let near = nearest(name, names()).map_or("; ".to_owned(), |near| format!("; did you mean `{near}`? "));
             let all = names().collect::<Vec<_>>().join(", ");
-            return Err(Error::input(format!("there is no quantity `{name}` at the nodes{near} There are: {all}")));
+            return Err(Error::input(format!("there is no quantity `{name}` at the nodes{near}there are {all}")));
         };
         let (values, width) = (array.values.to_real(), array.components);
         let words: &[&str] = match width {

@@ -5,7 +5,7 @@ use asperity_core::declare::nearest;
 use asperity_core::tensor::{Tensor2, principal};
 
 /// What means over the points of cells are called after.
-const MEANS: &str = "_averaged";
+pub const MEANS: &str = "_averaged";
 
 /// A quantity and what of it is read.
 #[derive(Debug, Clone, PartialEq)]

@@ -131,6 +131,20 @@ symmetry = ["plug.left", "plug.right", "plug.bottom"]
 motion.ram.y = -0.02
 "#;
 
+const NARROW: &str = r#"
+version = 1
+space = "solid"
+mesh.part.block.box = { from = [-1.0, -1.0, -1.0], to = [1.0, 0.0, 1.0], cells = [3, 2, 3], cell = "hex8" }
+material.rubber.elastic = { young = 100.0, poisson = 0.3 }
+body.block.material = "rubber"
+tool.pin.cylinder = { from = [0.0, 0.0, 0.0], to = [0.0, 2.0, 0.0], radius = 0.2 }
+contact.spot = { surface = "block.top", target = "pin", law.frictionless = {} }
+[[step]]
+increments.count = 2
+displacement."block.bottom" = { x = 0.0, y = 0.0, z = 0.0 }
+motion.pin.y = -0.04
+"#;
+
 struct Run {
     folder: tempfile::TempDir,
     output: Output,
@@ -288,6 +302,14 @@ fn contacts_that_hardly_close_are_noted() {
     assert!(run.notes().contains("contact 'sole' never closed"), "{}", run.notes());
     let coarse = Run::of(DRAGGED, &["mesh.part.block.rectangle.cells=[2,1]", "limits.friction_deviation=9.0"]);
     assert!(coarse.notes().contains("contact 'sole' rested on 2 points at most"), "{}", coarse.notes());
+}
+
+/// A flat cylinder narrower than a cell presses the whole cell, and that is told; on cells of half its radius it is not.
+#[test]
+fn a_tool_narrower_than_a_face_is_told() {
+    let run = Run::of(NARROW, &[]);
+    run.doubts(&["coarseness"], "contact 'spot'");
+    assert_eq!(Run::of(NARROW, &["mesh.part.block.box.cells=[7,3,7]", "tool.pin.cylinder.radius=0.6"]).code(), 0);
 }
 
 /// The penetration of a contact without friction is told as that of any other.

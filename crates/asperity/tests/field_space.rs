@@ -119,6 +119,12 @@ fn tangents_over_tools_are_exact() {
             "triangle",
             "{ facets = { nodes = [[-3.0, 0.0, -3.0], [0.0, -0.01, 6.0], [6.0, 0.02, -3.0]], faces = [[1, 2, 3]] } }",
         ),
+        // Borders within faces: a rim, a corner.
+        ("rim", "{ cylinder = { from = [0.7, -1.0, 0.45], to = [0.72, 0.03, 0.44], radius = 0.57 } }"),
+        (
+            "corner",
+            "{ facets = { nodes = [[-3.0, 0.0, -3.0], [0.3, -0.01, 6.0], [1.1, 0.01, 0.3]], faces = [[1, 2, 3]] } }",
+        ),
     ];
     for (name, tool) in tools {
         for cell in ["hex8", "hex20", "tet10"] {
@@ -259,6 +265,33 @@ displacement."block.top" = {{ x = 6.0, y = -0.01, z = 3.0 }}
             assert!(closed.len() >= 3, "{cell} {friction}");
             closed.iter().for_each(|r| assert!((r.shear.abs() - friction * r.pressure).abs() <= 1e-10 * r.pressure));
         }
+    }
+}
+
+/// The force of a flat cylinder depends little on where the mesh has its rim, and each mesh converges as usual.
+#[test]
+fn a_rim_may_lie_anywhere_over_a_mesh() {
+    for (cell, cells) in [("hex8", 5), ("hex8", 7), ("tet10", 3), ("tet10", 4)] {
+        let deck = format!(
+            r#"
+version = 1
+space = "solid"
+mesh.part.block.box = {{ from = [-1.0, 0.0, -1.0], to = [1.0, 1.0, 1.0], cells = [{cells}, 2, {cells}], cell = "{cell}" }}
+material.rubber.elastic = {{ young = 100.0, poisson = 0.3 }}
+body.block.material = "rubber"
+tool.punch.cylinder = {{ from = [0.0, 1.0, 0.0], to = [0.0, 3.0, 0.0], radius = 0.8 }}
+contact.face = {{ surface = "block.top", target = "punch", law.coulomb = {{ friction = 0.3 }} }}
+[[step]]
+increments.count = 4
+displacement."block.bottom" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+motion.punch.y = -0.1
+"#
+        );
+        let model = model(&deck, &[]);
+        let keep: Keep = run(&model);
+        let (state, force) = (keep.states.last().unwrap(), last(&columns(&model, &keep), "contact.face.force.y"));
+        assert!(state.iterations <= 40, "{cell} {cells}: {}", state.iterations);
+        assert!((-force / 33.8 - 1.0).abs() < 0.1, "{cell} {cells}: {force}");
     }
 }
 

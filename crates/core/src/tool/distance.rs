@@ -40,8 +40,9 @@ pub struct NearestPoint {
     /// Principal directions and curvatures of the surface of equal distance, positive where normals spread: `dn = sum k e (e . dx)`;
     /// in the plane the second is none.
     pub bends: [(Vec3, f64); 2],
-    /// The end of the piece, 0 or 1, beyond which the other point lies; in space 0 for any border.
-    pub beyond: Option<usize>,
+    /// The end of the piece, 0 or 1, beyond which the other point lies, in space 0 for any border; and the way to it from there, across
+    /// what ends the piece.
+    pub beyond: Option<(usize, Vec3)>,
 }
 
 impl NearestPoint {
@@ -143,11 +144,11 @@ impl ProfileTool {
         let point = segment.point(s);
         let normal = -segment.tangent(s).left().unit();
         let last = piece.segments.len() - 1;
-        let beyond = (0..2).find(|&k| {
+        let beyond = (0..2).find_map(|k| {
             let from_end = [place, last - place][k];
-            let end = piece.ends[k].filter(|_| from_end < piece.bounded[k]);
-            let past = |end: PieceEnd| end.along.dot(x - end.point) * [-1.0, 1.0][k];
-            end.is_some_and(|end| past(end) > AT_END * segment.length())
+            let end = piece.ends[k].filter(|_| from_end < piece.bounded[k])?;
+            let past = end.along.dot(x - end.point);
+            (past * [-1.0, 1.0][k] > AT_END * segment.length()).then(|| (k, end.along * past))
         });
         let bends = |normal: Vec3, curvature: f64| [(normal.left(), curvature), (Vec3::zero(), 0.0)];
         let smooth = |curvature: f64| {

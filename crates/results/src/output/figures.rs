@@ -134,6 +134,12 @@ pub static FIGURES: &[Figure] = &[
         "a finer mesh, edges of second degree, matching nodes, or a softer `penalty`: above one the pressure of points may be \
          anything",
     ),
+    largest("coarseness", "faces over what presses them").limited(
+        "3.0",
+        "Area of the faces around the nodes of a contact that bear, over the area on which they lie over a rigid tool in space, as a mean over \
+         the force: a face cannot give way under a part of it alone.",
+        "a finer surface where the tool touches: the force of a tool narrower than a few faces is too large",
+    ),
     largest("mismatch", "mean pressures of the sides differ by"),
     largest("rejected_false_contacts", "false contacts refused").folded(Fold::Sum),
     largest("leap", "largest leap over the size").limited(

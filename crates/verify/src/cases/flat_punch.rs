@@ -16,15 +16,29 @@ fn measure(bench: &Bench) -> Result<Measured, Error> {
     let disc = bench.solve("disc.toml", &refined(bench, DISC))?;
     let ([p, f], force) = (pressures(&strip), force(&strip));
     let ([q, g], total) = (pressures(&disc), self::force(&disc));
-    Ok(vec![
+    let mut measured: Measured = vec![
         // The model is half of the strip.
         ("strip_centre".into(), p * PI * A / (2.0 * force)),
         ("strip_edge".into(), f * PI * A / (2.0 * force)),
         ("disc_force".into(), total),
         ("disc_centre".into(), q * 2.0 * PI * A * A / total),
         ("disc_edge".into(), g * 2.0 * PI * A * A / total),
-    ])
+    ];
+    let mut iterations = 0.0_f64;
+    for (cell, cells) in bench.pick(&RIMS[..3], &RIMS[..]) {
+        let part = "mesh.part.block";
+        let run =
+            bench.solve("rim.toml", &[format!("{part}.box.cells={cells:?}"), format!("{part}.box.cell=\"{cell}\"")])?;
+        iterations = iterations.max(run.iterations());
+        measured.push((format!("rim_{cell}_{}", cells[0]), self::force(&run)));
+    }
+    measured.push(("rim_iterations".into(), iterations));
+    Ok(measured)
 }
+
+/// Meshes of the block under a rim.
+const RIMS: [(&str, [usize; 3]); 5] =
+    [("hex8", [5, 2, 5]), ("tet10", [4, 2, 4]), ("tet10", [5, 2, 5]), ("hex8", [10, 2, 10]), ("hex20", [5, 2, 5])];
 
 /// Far end along x, number of cells to it, depth, number of cells along it, size of the last over that of the first.
 type Extent = (f64, usize, usize, f64);

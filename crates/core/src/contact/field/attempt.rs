@@ -66,6 +66,8 @@ pub struct FieldAttempt<'a> {
     pub found: RwLock<Arc<FieldSearch>>,
     /// How the coordinates of closed nodes changed and what forces their stresses were where they were evaluated last.
     pub linear: Vec<Mutex<Linear>>,
+    /// Nodes that leave the stress to others of their faces, slot by slot.
+    pub idle: Vec<bool>,
     /// Gap from which on a node is too far away to close in the next iteration.
     pub far: f64,
     /// Length of the increment over that of the last; zero without one.
@@ -256,7 +258,7 @@ impl FieldAttempt<'_> {
         let (here, slip) = (sums.y[0] + self.closure(slot), [sums.y[1], sums.y[2]]);
         let lift = self.lift(slot, &past, [here, slip[0], slip[1]]);
         let seen = here + lift;
-        if seen <= law.opens(&past, slip) + contact.least {
+        if self.idle[slot] || seen <= law.opens(&past, slip) + contact.least {
             leave(law, old, new);
             account(terms, (options, self.at), (sums.area * stretch, multiplied), (None, [0.0; 2]), local);
             return Ok(0);
@@ -409,7 +411,7 @@ impl Attempt for FieldAttempt<'_> {
             return Ok(());
         }
         SUMS.with_borrow_mut(|sums| {
-            if self.sum(&stencil, false, sums).is_none() || sums.y[0] < -self.far {
+            if self.idle[index] || self.sum(&stencil, false, sums).is_none() || sums.y[0] < -self.far {
                 return;
             }
             self.sum(&stencil, true, sums);

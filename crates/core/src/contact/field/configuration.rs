@@ -5,7 +5,7 @@ use super::cover::{FaceInPlace, Patch, over_piece};
 use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
 use super::part::{FacePart, samples};
-use super::space::whole;
+use super::space::{CutFace, SeenNodes, foot, nearby, whole};
 use super::tool::ToolInPlace;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
@@ -74,7 +74,8 @@ impl Configuration<'_> {
     /// face of a body one.
     pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<SeenPart> {
         let (face, mut found) = (self.face(number), Vec::new());
-        let patch = |target: usize, near: [f64; 2], ends| Patch { face: number, target, ends, near, tip: None };
+        let patch =
+            |target: usize, near: [f64; 2], ends| Patch { face: number, target, ends, near, seen: None, tip: None };
         match &self.target {
             TargetInPlace::Tool(tool) if face.plane => {
                 for piece in 0..self.contact.pieces {
@@ -83,9 +84,24 @@ impl Configuration<'_> {
                     });
                 }
             }
-            TargetInPlace::Tool(_) => {
-                let places: Vec<[f64; 2]> = whole(face.face.corners()).map(|place| place.xi).collect();
-                let look = |piece: usize| self.judge(&face, patch(piece, WHOLE, [None; 2]), &places);
+            TargetInPlace::Tool(tool) => {
+                let rule: Vec<[f64; 2]> = whole(face.face.corners()).map(|place| place.xi).collect();
+                let corners: Vec<[f64; 2]> = (0..face.face.corners()).map(|c| face.face.corner_place(c)).collect();
+                let look = |piece: usize| {
+                    let all = patch(piece, WHOLE, [None; 2]);
+                    let over = tool.middle(piece).map(|x| foot(face.corners(), x));
+                    let focus = over.and_then(|xi| nearby(corners.len(), xi));
+                    let sees = |xi: &[f64; 2]| tool.closest(piece, face.at(*xi).x).beyond.is_none();
+                    if rule.iter().chain(&corners).all(sees) {
+                        return self.judge(&face, all, &rule);
+                    }
+                    if !focus.iter().chain(&rule).chain(&corners).any(sees) {
+                        return None;
+                    }
+                    let seen = SeenNodes::new(&face, (tool, piece), focus);
+                    CutFace::new(&face, (tool, piece), seen)?;
+                    self.judge(&face, Patch { seen: Some(seen), ..all }, &seen.places(&face))
+                };
                 found.extend((0..self.contact.pieces).filter_map(look));
             }
             TargetInPlace::Faces(faces) => {

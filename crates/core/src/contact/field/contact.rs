@@ -104,7 +104,7 @@ impl FieldContact {
         let sizes = surface.nodes.iter().map(size).collect();
         let (labels, pieces) = match &mut parts.target {
             FieldTarget::Tool(rigid) => {
-                rigid.sharpen(SMALL * shortest);
+                rigid.sharpen([SMALL * shortest, longest]);
                 (Vec::new(), rigid.pieces())
             }
             FieldTarget::Faces(faces) => {

@@ -6,6 +6,7 @@
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
 use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::space::SeenNodes;
 use super::surface::FieldSurface;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
@@ -21,6 +22,8 @@ pub struct Patch {
     pub ends: [Option<usize>; 2],
     /// Where the interval ends, roughly: from where its ends are found anew.
     pub near: [f64; 2],
+    /// In space, where the border of a piece of a tool cuts the face, the nodes of a grid on it that see the piece.
+    pub seen: Option<SeenNodes>,
     /// Where a tip of the tool lies over the face, instead of a piece of it; `target` is then its number.
     pub tip: Option<Landing>,
 }
@@ -188,7 +191,7 @@ pub fn over_piece(
     mut take: impl FnMut([f64; 2], [Option<usize>; 2]),
 ) {
     let ends = tool.ends(piece);
-    let sees = |xi: f64| tool.closest(piece, face.at([xi, 0.0]).x).beyond;
+    let sees = |xi: f64| tool.closest(piece, face.at([xi, 0.0]).x).beyond.map(|(end, _)| end);
     let mut samples: Vec<f64> = (0..=SAMPLES).map(|k| 2.0 * k as f64 / SAMPLES as f64 - 1.0).collect();
     if let [Some((a, _)), Some((b, _))] = ends {
         // A piece shorter than an edge shows between its own ends.

@@ -6,6 +6,7 @@ use super::cover::{FaceInPlace, Patch, root_near};
 use super::face::{CORNERS, PlacedFace, ShapeFunctions};
 use super::faces::TargetFaces;
 use super::nodes::NodesInPlace;
+use super::space::{CutFace, INTEGRALS};
 use super::surface::NodalNormal;
 use super::tool::ToolInPlace;
 use crate::tensor::Vec3;
@@ -26,10 +27,12 @@ pub struct PatchInPlace<'a> {
     pub interval: [f64; 2],
     /// Degree of the rule on an overlap, in space.
     pub degree: usize,
+    /// The part of the face that it is, where the border of a piece of a tool cuts that in space.
+    pub cut: Option<CutFace>,
 }
 
-/// Ends of an interval and their derivatives along one unknown.
-pub type IntervalRates = [f64; 2];
+/// Derivatives along one unknown of what bounds a patch: of both ends of an interval, or of the integrals of a part of a face.
+pub type BoundRates = [f64; INTEGRALS];
 
 impl<'a> PatchInPlace<'a> {
     /// A patch with its nodes and the tool in place.
@@ -50,9 +53,12 @@ impl<'a> PatchInPlace<'a> {
             FieldTarget::Faces(faces) => (None, Some((faces, at.placed(&faces.surface.faces[patch.target])))),
         };
         let degree = at.contact.overlap_degree(patch);
-        let mut patch = Self { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], degree };
+        let mut patch = Self { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], degree, cut: None };
         if surface.plane {
             patch.find_interval();
+        }
+        if let (Some(tool), Some(seen)) = (&patch.tool, patch.patch.seen) {
+            patch.cut = CutFace::new(&patch.face, (tool, patch.patch.target), seen);
         }
         patch
     }
@@ -77,9 +83,17 @@ impl<'a> PatchInPlace<'a> {
         }
     }
 
-    /// Derivatives of the ends of the interval along an unknown. `turning` are those of the sums of area vectors at the
-    /// corners.
-    pub fn interval_rates(&self, column: &PointColumn, turning: &[Vec3; CORNERS]) -> IntervalRates {
+    /// Derivatives of what bounds it along an unknown. `turning` are those of the sums of area vectors at the corners.
+    pub fn bound_rates(&self, column: &PointColumn, turning: &[Vec3; CORNERS]) -> BoundRates {
+        let mut rates = [0.0; INTEGRALS];
+        if let (Some(cut), Some(tool)) = (&self.cut, &self.tool) {
+            for crossing in &cut.crossings {
+                let motion = self.moved(column, &crossing.shape) - tool_motion(tool, column, crossing.x).0;
+                let along = -crossing.across.dot(motion);
+                rates.iter_mut().zip(crossing.rates).for_each(|(sum, rate)| *sum += rate * along);
+            }
+            return rates;
+        }
         let rate = |k: usize| {
             let Some(end) = self.patch.ends[k] else { return 0.0 };
             let xi = self.interval[k];
@@ -104,7 +118,8 @@ impl<'a> PatchInPlace<'a> {
             };
             -change / slope
         };
-        [rate(0), rate(1)]
+        (rates[0], rates[1]) = (rate(0), rate(1));
+        rates
     }
 
     /// Displacement of a place of the face along an unknown, at fixed reference coordinates.

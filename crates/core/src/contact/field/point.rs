@@ -10,7 +10,7 @@ use super::column::{PointColumn, tool_motion};
 use super::cover::FaceFrame;
 use super::face::{CORNERS, ShapeFunctions};
 use super::faces::{FaceProjection, FaceRay};
-use super::patch::{IntervalRates, PatchInPlace};
+use super::patch::{BoundRates, PatchInPlace};
 use super::spot::FaceSpot;
 use crate::tensor::Vec3;
 use crate::tool::NearestPoint;
@@ -125,9 +125,9 @@ impl PatchInPlace<'_> {
         column: &PointColumn,
         (spot, frame, facing): (&FaceSpot, &FaceFrame, [f64; 2]),
         density: &Density,
-        (ends, turning): (&IntervalRates, &[Vec3; CORNERS]),
+        (bounds, turning): (&BoundRates, &[Vec3; CORNERS]),
     ) -> PointRates {
-        let (xi, (dxi, darea)) = (spot.xi, self.spot_rates(spot, column, ends));
+        let (xi, (dxi, darea)) = (spot.xi, self.spot_rates(spot, column, bounds));
         let dx = self.moved(column, &point.shape) + frame.tangents[0] * dxi[0] + frame.tangents[1] * dxi[1];
         let (gap, n, s, y) = self.sight_rates(point, column, (frame, dx, dxi), turning);
         let mut dfacing = 0.0;
@@ -184,14 +184,17 @@ impl PatchInPlace<'_> {
             PointColumn::Node { axis, own: Some(k), .. } => shape.dn[*k].map(|slope| Vec3::axis(*axis) * slope),
             _ => [Vec3::zero(); 2],
         };
+        // Shape functions have slopes of second degree, of which a central difference is exact.
+        for (k, dxi) in dxi.into_iter().enumerate().filter(|(_, dxi)| *dxi != 0.0) {
+            let at = |step: f64| {
+                let xi = std::array::from_fn(|i| if i == k { xi[i] + step } else { xi[i] });
+                face.shape(xi).tangents(self.face.placed.nodes(), self.face.plane)
+            };
+            let ([a, b], [c, d]) = (at(0.5), at(-0.5));
+            (da, db) = (da + (a - c) * dxi, db + (b - d) * dxi);
+        }
         if self.face.plane {
             db = Vec3::zero();
-        }
-        // Over tools in space places stay where they are.
-        if dxi[0] != 0.0 {
-            // Shape functions of second degree have linear slopes, of which a central difference is exact.
-            let slope = |step: f64| face.shape([xi[0] + step, xi[1]]).tangents(self.face.placed.nodes(), true)[0];
-            da += (slope(0.5) - slope(-0.5)) * dxi[0];
         }
         a.cross(b).turned(da.cross(b) + a.cross(db))
     }

@@ -10,7 +10,7 @@ use super::cover::Patch;
 use super::face::CORNERS;
 use super::nodes::NodesInPlace;
 use super::patch::PatchInPlace;
-use super::point::{PatchPoint, PointRates, Sight, Touched};
+use super::point::{PatchPoint, PointRates, Touched};
 use super::support::FoundPatch;
 use crate::tensor::Vec3;
 use std::cell::RefCell;
@@ -95,9 +95,6 @@ impl PatchPoints {
             let xi = spot.xi;
             let frame = patch.face.at(xi);
             let (sight, n, gap, y) = patch.look(&frame)?;
-            if matches!(&sight, Sight::Tool(foot) if foot.beyond.is_some() && !surface.plane) {
-                continue;
-            }
             let weight = spot.weight * surface.density_at(face, &rest, xi) * patch.facing(xi, n)[0];
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
@@ -118,9 +115,9 @@ impl PatchPoints {
         let (surface, face) = (&at.contact.parts.surface, in_place.face.face);
         let rest = face.at_rest(&at.contact.parts.mesh);
         let turning = turning(at, patch);
-        let along = |(column, turning): (&PointColumn, &[Vec3; CORNERS])| in_place.interval_rates(column, turning);
-        let ends: Vec<_> = columns.iter().zip(&turning).map(along).collect();
-        let still = in_place.tool.is_some() && !surface.plane;
+        let along = |(column, turning): (&PointColumn, &[Vec3; CORNERS])| in_place.bound_rates(column, turning);
+        let bounds: Vec<_> = columns.iter().zip(&turning).map(along).collect();
+        let still = in_place.tool.is_some() && !surface.plane && patch.seen.is_none();
         let spots = in_place.spots(&RULE, true);
         for point in &self.points {
             let (spot, frame) = (&spots[point.number], in_place.face.at(point.xi));
@@ -130,8 +127,8 @@ impl PatchPoints {
                 surface.density(face, &rest, point.xi)
             };
             let facing = in_place.facing(point.xi, point.n);
-            for (column, (ends, turning)) in columns.iter().zip(ends.iter().zip(&turning)) {
-                self.rates.push(in_place.rates(point, column, (spot, &frame, facing), &density, (ends, turning)));
+            for (column, (bounds, turning)) in columns.iter().zip(bounds.iter().zip(&turning)) {
+                self.rates.push(in_place.rates(point, column, (spot, &frame, facing), &density, (bounds, turning)));
             }
         }
     }

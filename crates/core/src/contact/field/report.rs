@@ -1,7 +1,7 @@
 //! What a field tells of a state: gaps before any motion, records of its nodes, penetration and facets.
 
 use super::configuration::{Configuration, TargetInPlace};
-use super::contact::FieldContact;
+use super::contact::{FieldContact, FieldParts};
 use super::face::moved;
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
@@ -138,6 +138,31 @@ impl FieldContact {
         self.parts.options.augmentation?;
         let closed = (0..self.slots()).filter(|&slot| history.slot(slot)[entry::STATUS] > 0.0);
         Some(closed.map(|slot| history.slot(slot)[entry::PENETRATION] / self.size_at(slot)).fold(0.0, f64::max))
+    }
+
+    /// Area of the faces around its nodes over that which these see of a tool in space, as a mean over the force that they bear: by how
+    /// much the surface is too coarse for what presses it.
+    pub fn coarseness(&self, history: &History) -> Option<f64> {
+        let shares = self.shares(history)?;
+        let (mut force, mut seen) = (0.0, 0.0);
+        for (slot, share) in shares.into_iter().enumerate().filter(|(slot, _)| history.slot(*slot)[entry::STATUS] > 0.0)
+        {
+            let values = history.slot(slot);
+            let borne = values[entry::PRESSURE].max(0.0) * values[entry::HALF] * values[entry::XI];
+            (force, seen) = (force + borne, seen + borne * share);
+        }
+        (seen > 0.0).then(|| force / seen)
+    }
+
+    /// The part of its faces on which a node lies over a piece of a tool in space, slot by slot.
+    pub(super) fn shares(&self, history: &History) -> Option<Vec<f64>> {
+        let Self { parts: FieldParts { surface, mesh, .. }, .. } = self;
+        self.parts.target.as_tool().filter(|_| !surface.plane)?;
+        let area = |&(f, corner): &(usize, usize)| {
+            surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
+        };
+        let whole: Vec<f64> = surface.nodes.iter().map(|node| node.support.iter().map(area).sum()).collect();
+        Some((0..self.slots()).map(|slot| history.slot(slot)[entry::XI] / whole[slot / self.pieces]).collect())
     }
 
     /// Facets whose mean distance is not that of the curved surfaces they stand for: what they add to an overlap that is to be pressed

@@ -2,8 +2,8 @@
 
 use super::column::PointColumn;
 use super::face::CORNERS;
-use super::patch::{IntervalRates, PatchInPlace};
-use super::space::{DIRECTIONS, Spread, spread, whole};
+use super::patch::{BoundRates, PatchInPlace};
+use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
 use crate::tensor::{Dual, Vec3};
 
 /// A place of a quadrature on a face.
@@ -19,8 +19,8 @@ pub struct FaceSpot {
 /// How a place depends on unknowns.
 #[derive(Debug, Clone)]
 enum SpotMap {
-    /// On an interval from -1 to 1: its place there and its weight.
-    Interval([f64; 2]),
+    /// On an interval, or a part of a face: derivatives of both coordinates and of the area along what bounds it.
+    Bounded([[f64; INTEGRALS]; 3]),
     /// On a whole face: not at all.
     Whole,
     /// On an overlap: derivatives of both coordinates and of the area along the corners of both faces.
@@ -32,14 +32,25 @@ impl PatchInPlace<'_> {
     pub fn spots(&self, rule: &[(f64, f64)], derivatives: bool) -> Vec<FaceSpot> {
         if self.face.plane {
             let half = 0.5 * (self.interval[1] - self.interval[0]);
+            let both = |a: f64, b: f64| std::array::from_fn(|k| [a, b].get(k).map_or(0.0, |x| 0.5 * x));
             let place = |&(eta, weight): &(f64, f64)| FaceSpot {
                 xi: [self.place(eta), 0.0],
                 weight: weight * half,
-                laid: SpotMap::Interval([eta, weight]),
+                laid: SpotMap::Bounded([both(1.0 - eta, 1.0 + eta), both(0.0, 0.0), both(-weight, weight)]),
             };
             return rule.iter().map(place).collect();
         }
         let own = self.face.corners();
+        if self.patch.seen.is_some() {
+            let Some(cut) = &self.cut else { return Vec::new() };
+            let laid = PartMap::new(own.len(), cut.moments(Dual::<INTEGRALS>::variable));
+            let share = laid.scale() * laid.scale();
+            let on = |spread: Spread<f64>| {
+                let ([a, b], weight) = (laid.place(spread.xi), share * spread.weight);
+                FaceSpot { xi: [a.re, b.re], weight: weight.re, laid: SpotMap::Bounded([a.du, b.du, weight.du]) }
+            };
+            return whole(own.len()).map(on).collect();
+        }
         let Some((faces, seen)) = &self.seen else {
             let on = |Spread { xi, weight }| FaceSpot { xi, weight, laid: SpotMap::Whole };
             return whole(own.len()).map(on).collect();
@@ -68,12 +79,13 @@ impl PatchInPlace<'_> {
         spots
     }
 
-    /// Derivatives of a place's coordinates and of its area along an unknown; `ends` are those of the interval.
-    pub fn spot_rates(&self, spot: &FaceSpot, column: &PointColumn, ends: &IntervalRates) -> ([f64; 2], f64) {
+    /// Derivatives of a place's coordinates and of its area along an unknown; `bounds` are those of what bounds the patch.
+    pub fn spot_rates(&self, spot: &FaceSpot, column: &PointColumn, bounds: &BoundRates) -> ([f64; 2], f64) {
         match &spot.laid {
-            SpotMap::Interval([eta, weight]) => {
-                let along = 0.5 * (ends[0] * (1.0 - eta) + ends[1] * (1.0 + eta));
-                ([along, 0.0], weight * 0.5 * (ends[1] - ends[0]))
+            SpotMap::Bounded(rates) => {
+                let [a, b, area] =
+                    rates.map(|rates| rates.iter().zip(bounds).map(|(rate, bound)| rate * bound).sum::<f64>());
+                ([a, b], area)
             }
             SpotMap::Whole => ([0.0; 2], 0.0),
             SpotMap::Overlap(rates) => {

@@ -37,6 +37,23 @@ impl FieldContact {
         history
     }
 
+    /// Nodes that saw little of a piece of a tool in space beside others of their faces: a face of first degree cannot bend, and one that
+    /// bore at a node beyond the border would have the tool reach to there.
+    fn idle(&self, history: &History) -> Vec<bool> {
+        let Some(shares) = self.shares(history) else { return vec![false; self.slots()] };
+        let mut most = vec![0.0_f64; self.slots()];
+        let faces = self.parts.surface.faces.iter().zip(&self.parts.surface.field);
+        for (face, field) in faces.filter(|(face, _)| face.kind.degree == 1) {
+            for piece in 0..self.pieces {
+                let slots = || field[..face.corners()].iter().map(|&node| self.slot(node, piece));
+                let largest = slots().map(|slot| shares[slot]).fold(0.0, f64::max);
+                slots().for_each(|slot| most[slot] = most[slot].max(largest));
+            }
+        }
+        let saw = |slot: usize| history.slot(slot)[entry::SEGMENT] >= 0.0;
+        (0..self.slots()).map(|slot| saw(slot) && shares[slot] < LITTLE * most[slot]).collect()
+    }
+
     /// The tangential penalties of an attempt after an accepted history: a node that is about to slide under its pressure has
     /// slipped elastically by the stated part of its faces, and one under less than the mean pressure as under that. A stiffer
     /// interface resolves nothing that the mesh shows, and has nodes change between stick and slip with every small motion.
@@ -56,6 +73,8 @@ impl FieldContact {
     }
 }
 
+/// Part of the largest share of the nodes of its faces below which that of a node leaves the stress to them.
+const LITTLE: f64 = 0.45;
 /// Least tangential penalty over the largest, which is many times the stiffness of the cells behind: what slips elastically stays
 /// small against what those shear, also in a metal, whose friction is small against its modulus.
 const SOFTEST: f64 = 0.05;
@@ -107,6 +126,7 @@ impl Term for FieldContact {
             law,
             found: RwLock::default(),
             linear: (0..self.slots()).map(|_| Mutex::default()).collect(),
+            idle: self.idle(history),
             far: reach(self.longest, &accepted.last_change),
             part: if accepted.last_dt > 0.0 { at.dt / accepted.last_dt } else { 0.0 },
             hold: AtomicBool::default(),

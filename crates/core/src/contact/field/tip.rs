@@ -141,7 +141,7 @@ impl Configuration<'_> {
             let landed = |corner: Option<usize>, border: Option<usize>| {
                 let share = self.share((f, nearer), flanks, rest);
                 let tip = Some(Landing { xi, corner, border, share });
-                Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], tip }
+                Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip }
             };
             let patch = |corner: Option<usize>| landed(corner, None);
             match corner {

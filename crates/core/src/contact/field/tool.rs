@@ -44,6 +44,8 @@ pub struct RigidTool {
     /// No other shape of the program has it.
     identity: usize,
     tips: Vec<Tip>,
+    /// In space, the middles of pieces that may lie within a face.
+    middles: Vec<Option<Vec3>>,
     number: usize,
     unknowns: Range<usize>,
 }
@@ -83,7 +85,14 @@ impl RigidTool {
     }
     fn made(shape: RigidShape, number: usize, dofs: &Dofs) -> Self {
         let first = dofs.tool(number);
-        Self { shape, identity: identity(), tips: Vec::new(), number, unknowns: first..first + dofs.per_tool() }
+        Self {
+            shape,
+            identity: identity(),
+            tips: Vec::new(),
+            middles: Vec::new(),
+            number,
+            unknowns: first..first + dofs.per_tool(),
+        }
     }
     /// Its number among the tools.
     pub fn number(&self) -> usize {
@@ -100,11 +109,16 @@ impl RigidTool {
             RigidShape::Space(_, pieces) => pieces.count(),
         }
     }
-    /// In the plane, has its edges and roundings up to a radius lie within a face, as tips.
-    pub fn sharpen(&mut self, radius: f64) {
-        if let RigidShape::Plane(tool, pieces) = &mut self.shape {
-            (*pieces, self.tips) = (tool.smooth_pieces(radius), tool.tips(radius));
-            self.identity = identity();
+    /// Has what is small lie within a face, whose size lies between two lengths: in the plane edges and roundings as tips, in space pieces.
+    pub fn sharpen(&mut self, [radius, size]: [f64; 2]) {
+        match &mut self.shape {
+            RigidShape::Plane(tool, pieces) => {
+                (*pieces, self.tips) = (tool.smooth_pieces(radius), tool.tips(radius));
+                self.identity = identity();
+            }
+            RigidShape::Space(tool, pieces) => {
+                self.middles = (0..pieces.count()).map(|piece| tool.middle(pieces, piece, size)).collect();
+            }
         }
     }
     /// Its tips.
@@ -190,7 +204,12 @@ impl ToolInPlace<'_> {
         let own = self.withdraw(x);
         let found = remembered((self.rigid.identity, piece, own), || self.rigid.nearest(piece, own));
         let bends = found.bends.map(|(along, bend)| (self.rotate(along), bend));
-        NearestPoint { normal: self.rotate(found.normal), point: self.place(found.point), bends, ..found }
+        let beyond = found.beyond.map(|(end, way)| (end, self.rotate(way)));
+        NearestPoint { normal: self.rotate(found.normal), point: self.place(found.point), bends, beyond, ..found }
+    }
+    /// The middle of a piece that may lie within a face.
+    pub fn middle(&self, piece: usize) -> Option<Vec3> {
+        self.rigid.middles.get(piece).copied().flatten().map(|middle| self.place(middle))
     }
     /// Ends of a piece in the plane beyond which it is not seen: present point and normal of the line there.
     pub fn ends(&self, piece: usize) -> [Option<(Vec3, Vec3)>; 2] {

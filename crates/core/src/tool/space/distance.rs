@@ -2,7 +2,8 @@
 //! principal curvatures of the surface of equal distance there.
 //!
 //! Facets that meet along an edge at less than a crease form a smooth piece. Beyond the border of a piece nothing of it is
-//! seen, but at an inward crease, where two faces bound one corner of the material around it, each goes on straight.
+//! seen, nor within an outward edge where another piece is nearer, but at an inward crease, where two faces bound one corner of the
+//! material around it, each goes on straight.
 
 use super::nearest::{FacetBorder, FacetPoint};
 use super::tool::SpaceTool;
@@ -15,6 +16,8 @@ use crate::tool::{BoxTree, NearestPoint};
 const TOGETHER: f64 = 1e-7;
 /// The facet behind an inward crease looks back at least by this sine.
 const INWARD: f64 = 0.1;
+/// Flanks of an edge look away from each other by less than this cosine.
+const BACK: f64 = -0.99;
 
 /// The smooth pieces of a tool in space.
 #[derive(Debug, Clone)]
@@ -75,6 +78,13 @@ impl SpaceTool {
         SmoothPieces { labels, pieces: pieces.into_iter().map(tree).collect() }
     }
 
+    /// The middle of a piece that is smaller than `size`.
+    pub fn middle(&self, pieces: &SmoothPieces, piece: usize, size: f64) -> Option<Vec3> {
+        let bounds =
+            pieces.pieces[piece].0.iter().map(|&facet| self.facets()[facet].bounds()).reduce(BoundingBox::union)?;
+        (bounds.size() <= size).then(|| self.closest(pieces, piece, bounds.centre()).point)
+    }
+
     /// Facets whose boxes come within `reach` of a point, ascending.
     fn around(&self, x: Vec3, reach: f64) -> Vec<usize> {
         let mut found = Vec::new();
@@ -121,12 +131,13 @@ impl SpaceTool {
         }
         let Some(&FacetPoint { point, normal, bends, border }) = best else {
             let (normal, bends) = (Vec3::axis(2), [(Vec3::zero(), 0.0); 2]);
-            return NearestPoint { gap: 0.0, normal, point: x, bends, beyond: Some(0) };
+            return NearestPoint { gap: 0.0, normal, point: x, bends, beyond: Some((0, Vec3::zero())) };
         };
         let gap = normal.dot(x - point);
         if border == FacetBorder::Inside {
             let bends = bends.map(|(e, k)| (e, k / (1.0 + k * gap)));
-            return NearestPoint { gap, normal, point, bends, beyond: None };
+            let beyond = self.nearer((pieces, piece), x, (gap, normal)).map(|way| (0, way));
+            return NearestPoint { gap, normal, point, bends, beyond };
         }
         let same = |place: &&FacetPoint| (place.point - point).norm() <= TOGETHER * self.size();
         let joined = found.iter().filter(same);
@@ -148,9 +159,25 @@ impl SpaceTool {
         let normal = if count > 1 { mean } else { normal };
         let gap = normal.dot(x - point);
         let aside = (x - point) - normal * gap;
-        let beyond = (!self.goes_on((pieces, piece), point, aside.unit())).then_some(0);
+        let beyond = (!self.goes_on((pieces, piece), point, aside.unit())).then_some((0, aside));
         let flat = bends.map(|(e, _)| (e, 0.0));
         NearestPoint { gap, normal, point: x - normal * gap, bends: flat, beyond }
+    }
+
+    /// Within an outward edge of the material another piece may be nearer than one with this gap and normal: then the way from the
+    /// bisector.
+    fn nearer(&self, (pieces, piece): (&SmoothPieces, usize), x: Vec3, (gap, normal): (f64, Vec3)) -> Option<Vec3> {
+        if gap >= 0.0 {
+            return None;
+        }
+        let others = self.around(x, -gap).into_iter().filter(|&facet| pieces.labels[facet] != piece);
+        let seen =
+            others.map(|facet| self.facets()[facet].nearest(x)).filter(|other| other.border == FacetBorder::Inside);
+        let gaps = seen.map(|other| (other.normal.dot(x - other.point), other.normal));
+        // The far side of a plate is no flank of an edge.
+        let flank = gaps.filter(|(other, n)| *other < 0.0 && *other > gap && n.dot(normal) > BACK);
+        let (other, n) = flank.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((n - normal) * ((other - gap) / (n - normal).dot(n - normal)))
     }
 
     /// Whether a step along `aside` from a border point leads into the material: whether the facet of another piece that is then the

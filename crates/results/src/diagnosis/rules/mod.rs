@@ -141,7 +141,7 @@ fn accuracy(_: &Facts, course: &RunCourse) -> Option<Finding> {
     let cause = match worst.figure.as_str() {
         "energy_balance" => "large-increments",
         "pressure_oscillation" => "locking",
-        "imbalance" | "moment_imbalance" | "reaction_balance" | "friction_deviation" | "facet_ratio" => {
+        "imbalance" | "moment_imbalance" | "reaction_balance" | "friction_deviation" | "facet_ratio" | "coarseness" => {
             "coarse-contact"
         }
         _ => "penetration",

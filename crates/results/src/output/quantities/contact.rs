@@ -255,14 +255,15 @@ fn report_contact(source: &Source, seen: &Seen, frame: &mut Frame) -> Result<(),
     let sometimes = [
         ("facet_ratio", seen.contact.facet_ratio(u, history)),
         ("nodal_penetration", seen.contact.nodal_penetration(history)),
+        ("coarseness", seen.contact.coarseness(history)),
     ];
     for (what, value) in sometimes.into_iter().filter_map(|(what, value)| Some((what, value?))) {
         frame.push(Quantity::scalar(name(what), Unit::One, value))?;
-        // Facets are worth a pressure of their own, however little is carried.
-        frame.certify(if what == "facet_ratio" {
-            seen.reading(what, value * thrust).over(thrust)
-        } else {
+        // What little is carried is worth little beside what facets stand for and small tools press.
+        frame.certify(if what == "nodal_penetration" {
             seen.reading(what, value)
+        } else {
+            seen.reading(what, value * thrust).over(thrust)
         });
     }
     Ok(())

@@ -147,6 +147,13 @@ impl Touching<'_> {
             Self::Field(contact) => contact.nodal_penetration(history),
         }
     }
+    /// Area of the faces that bear over that which they see of a tool in space.
+    pub fn coarseness(&self, history: &History) -> Option<f64> {
+        match self {
+            Self::Points(_) => None,
+            Self::Field(contact) => contact.coarseness(history),
+        }
+    }
     /// Nodes whose distance is the length of an edge, or of the first edge of a face.
     pub fn edge_ends(&self, edge: usize) -> Option<[usize; 2]> {
         let nodes = match self {

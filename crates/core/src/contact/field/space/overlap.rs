@@ -128,12 +128,18 @@ fn common<T: Scalar>(flat: &FlatFace<T>, other: &[Vec3<T>]) -> Option<Polygon<T>
 pub fn spread<T: Scalar>(degree: usize, own: &[Vec3<T>], other: &[Vec3<T>], mut take: impl FnMut(Spread<T>)) {
     let flat = FlatFace::new(own);
     let Some(part) = common(&flat, other) else { return };
-    let laid = PartMap::new(own.len(), &part);
+    let laid = PartMap::new(own.len(), part.moments());
     let share = laid.share();
     for place in rule(degree, own.len()) {
         let (xi, density) = flat.pull_back(laid.place(place.xi));
         take(Spread { xi, weight: share * density * place.weight });
     }
+}
+
+/// Reference coordinates of the place of a face, given by its corners, over which a point lies.
+pub fn foot(own: &[Vec3], x: Vec3) -> [f64; 2] {
+    let flat = FlatFace::new(own);
+    flat.pull_back(flat.coordinates(x)).0
 }
 
 /// A part of a face, in its plane: its vertices and its centroid in reference coordinates come first.

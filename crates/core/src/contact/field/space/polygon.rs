@@ -58,7 +58,8 @@ impl<T: Scalar> Polygon<T> {
         &self.vertices[..self.count]
     }
 
-    fn push(&mut self, vertex: Point<T>) {
+    /// Adds a vertex.
+    pub fn push(&mut self, vertex: Point<T>) {
         if self.count < MOST {
             self.vertices[self.count] = vertex;
             self.count += 1;
@@ -90,29 +91,44 @@ impl<T: Scalar> Polygon<T> {
         part
     }
 
-    /// Its moments; the area is zero where nothing is left.
-    pub fn moments(&self) -> Moments<T> {
-        let o: [f64; 2] = self.vertices[0].map(T::re);
-        let (mut area, mut first, mut second) = (T::zero(), [T::zero(); 2], [T::zero(); 3]);
+    /// Integrals of the [`monomials`] about a point.
+    pub fn integrals(&self, o: Point<f64>) -> [T; INTEGRALS] {
+        let mut sums = [T::zero(); INTEGRALS];
         for edge in self.edges() {
             let [p, q] = edge.map(|p| [p[0] - T::from(o[0]), p[1] - T::from(o[1])]);
             let cross = p[0] * q[1] - p[1] * q[0];
-            area += cross * 0.5;
-            (0..2).for_each(|i| first[i] += cross * (p[i] + q[i]) * (1.0 / 6.0));
+            sums[0] += cross * 0.5;
+            (0..2).for_each(|i| sums[1 + i] += cross * (p[i] + q[i]) * (1.0 / 6.0));
             for (k, (i, j)) in [(0, 0), (0, 1), (1, 1)].into_iter().enumerate() {
                 let product = p[i] * p[j] + q[i] * q[j] + (p[i] + q[i]) * (p[j] + q[j]);
-                second[k] += cross * product * (1.0 / 24.0);
+                sums[3 + k] += cross * product * (1.0 / 24.0);
             }
         }
-        let c = first.map(|f| f / area);
-        let spread = [(0, 0), (0, 1), (1, 1)].into_iter().enumerate();
-        let mut moments = Moments { area, centre: [c[0] + T::from(o[0]), c[1] + T::from(o[1])], spread: second };
-        spread.for_each(|(k, (i, j))| moments.spread[k] = second[k] / area - c[i] * c[j]);
-        moments
+        sums
+    }
+
+    /// Its moments; the area is zero where nothing is left.
+    pub fn moments(&self) -> Moments<T> {
+        let o: [f64; 2] = self.vertices[0].map(T::re);
+        Moments::of(self.integrals(o), o)
     }
 }
 
+/// How many integrals have the moments of a part of a face.
+pub const INTEGRALS: usize = 6;
+
+/// What is integrated: 1, x, y, xx, xy and yy.
+pub fn monomials([x, y]: Point<f64>) -> [f64; INTEGRALS] {
+    [1.0, x, y, x * x, x * y, y * y]
+}
+
 impl<T: Scalar> Moments<T> {
+    /// From integrals of the [`monomials`] about a point.
+    pub fn of([area, x, y, xx, xy, yy]: [T; INTEGRALS], o: Point<f64>) -> Self {
+        let c = [x / area, y / area];
+        let spread = [xx / area - c[0] * c[0], xy / area - c[0] * c[1], yy / area - c[1] * c[1]];
+        Self { area, centre: [c[0] + T::from(o[0]), c[1] + T::from(o[1])], spread }
+    }
     /// The symmetric root of the covariance: xx, xy, yy. `(C + s I) / t` with `s^2 = det C`, `t^2 = tr C + 2 s`.
     fn root(&self) -> [T; 3] {
         let [a, b, c] = self.spread;
@@ -131,9 +147,9 @@ pub struct PartMap<T> {
 }
 
 impl<T: Scalar> PartMap<T> {
-    /// From the face with so many corners to a polygon on it.
-    pub fn new(corners: usize, part: &Polygon<T>) -> Self {
-        let (from, to) = (Polygon::<f64>::whole(corners).moments(), part.moments());
+    /// From the face with so many corners to a part of it.
+    pub fn new(corners: usize, to: Moments<T>) -> Self {
+        let from = Polygon::<f64>::whole(corners).moments();
         let ([a, b, c], [p, q, r]) = (from.root(), to.root());
         let inverse = [c, -b, a].map(|x| x / (a * c - b * b));
         let [i, j, k] = inverse;
@@ -168,7 +184,7 @@ mod tests {
             let rule = cell.gauss[1].unwrap();
             for cuts in lines {
                 let part = cuts.iter().fold(Polygon::whole(corners), |part, &line| part.clip(line));
-                let laid = PartMap::new(corners, &part);
+                let laid = PartMap::new(corners, part.moments());
                 assert!(part.moments().area > 1e-3);
                 for (i, j) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)] {
                     let f = |p: Point<f64>| p[0].powi(i) * p[1].powi(j);

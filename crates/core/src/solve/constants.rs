@@ -89,11 +89,12 @@ pub mod low_rank {
 
 /// Newton's iterations.
 pub mod iterations {
-    /// The line search takes a step at whose end the slope is at most this multiple of the initial one where contact states changed
-    /// over it: a point that closes raises it a little and is dealt with by the next iteration; only what goes far astray is shortened.
-    pub const CHANGED: f64 = 10.0;
-    /// The same where none did: bodies that flow are then not led away by steps whose ends are farther from equilibrium.
-    pub const UNCHANGED: f64 = 1.0;
+    /// The line search takes a step at whose end the slope is at most this multiple of the initial one: a point that
+    /// closes over the step raises it a little and is dealt with by the next iteration, and so does a snap; only what goes far
+    /// astray is shortened.
+    pub const SLOPE: f64 = 10.0;
+    /// The same where bodies flow and contact states did not change over the step: it must not lead farther away.
+    pub const FLOWING: f64 = 1.0;
     /// An iteration with an old factor stalls that leaves more than this part of the unbalanced forces; so many in a row, and
     /// the next has a fresh one.
     pub const STALLED: f64 = 0.5;

@@ -1,6 +1,6 @@
 //! One step of Newton's method: the linear system, the contact points over its solution, and the line search along it.
 
-use super::constants::iterations::{CHANGED, STRICT, UNCHANGED};
+use super::constants::iterations::{FLOWING, SLOPE, STRICT};
 use super::constants::steps::{ENOUGH, FAR, GOOD, LOOSEST, SHORTEST, TIGHTEST, TURN};
 use super::linear::{LinearError, Unsolved};
 use super::newton::{Newton, SolveError, Variant};
@@ -179,10 +179,13 @@ impl Newton<'_> {
             return Ok(part * step.part);
         }
         let end = self.slope(&step.du);
-        let allowed = match self.strict {
-            true => STRICT,
-            false if self.branches == self.evaluation.branches => UNCHANGED,
-            false => CHANGED,
+        let bodies =
+            self.problem.terms.iter().zip(&self.evaluation.energies).filter(|(term, _)| term.branches().is_empty());
+        let flows = bodies.map(|(_, energies)| energies.dissipated).any(|dissipated| dissipated > 0.0);
+        let allowed = match (self.strict, self.branches == self.evaluation.branches) {
+            (true, _) => STRICT,
+            (false, true) if flows => FLOWING,
+            (false, _) => SLOPE,
         };
         if end.abs() <= allowed * slope.abs() {
             return Ok(step.part);

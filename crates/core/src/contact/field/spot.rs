@@ -44,7 +44,7 @@ impl PatchInPlace<'_> {
         if self.patch.seen.is_some() {
             let Some(cut) = &self.cut else { return Vec::new() };
             let laid = PartMap::new(own.len(), cut.moments(Dual::<INTEGRALS>::variable));
-            let share = laid.scale() * laid.scale();
+            let share = laid.share();
             let on = |spread: Spread<f64>| {
                 let ([a, b], weight) = (laid.place(spread.xi), share * spread.weight);
                 FaceSpot { xi: [a.re, b.re], weight: weight.re, laid: SpotMap::Bounded([a.du, b.du, weight.du]) }

@@ -90,7 +90,7 @@ pub fn nearby(corners: usize, xi: Point<f64>) -> Option<Point<f64>> {
 }
 
 /// Where the border of a piece crosses a line of the grid.
-pub struct Crossing {
+pub struct BorderCrossing {
     /// Position,
     pub x: Vec3,
     /// and the shape functions of the face there.
@@ -104,7 +104,7 @@ pub struct Crossing {
     pub rates: [f64; INTEGRALS],
 }
 
-impl Crossing {
+impl BorderCrossing {
     /// On the line between a node that sees the piece and one that does not.
     fn new(face: &FaceInPlace, (tool, piece): (&ToolInPlace, usize), [from, to]: [Point<f64>; 2]) -> Self {
         let along = [to[0] - from[0], to[1] - from[1]];
@@ -151,7 +151,7 @@ pub struct CutFace {
     /// Integrals of 1, x, y, xx, xy and yy over it, in reference coordinates.
     integrals: [f64; INTEGRALS],
     /// Where the border crosses the grid, once for each triangle there.
-    pub crossings: Vec<Crossing>,
+    pub crossings: Vec<BorderCrossing>,
 }
 
 impl CutFace {
@@ -173,7 +173,7 @@ impl CutFace {
                 }
                 if seen.sees(a) != seen.sees(b) {
                     let [inside, outside] = if seen.sees(a) { [a, b] } else { [b, a] };
-                    let crossing = Crossing::new(face, piece, [nodes[inside], nodes[outside]]);
+                    let crossing = BorderCrossing::new(face, piece, [nodes[inside], nodes[outside]]);
                     part.push(crossing.xi);
                     cut.crossings.push(crossing);
                 }
@@ -198,7 +198,7 @@ impl CutFace {
 
 /// Adds what the two ends of a straight piece of the border, the part on its left, do to the integrals about a point; of a triangle as
 /// far as it lies on that.
-fn bound([p, q]: [&mut Crossing; 2], (about, triangle): (Point<f64>, bool)) {
+fn bound([p, q]: [&mut BorderCrossing; 2], (about, triangle): (Point<f64>, bool)) {
     let normal = [q.xi[1] - p.xi[1], p.xi[0] - q.xi[0]];
     let speeds = [&p.along, &q.along].map(|along| along[0] * normal[0] + along[1] * normal[1]);
     let off = if triangle { [left_of(SLANT, p.xi), left_of(SLANT, q.xi)] } else { [1.0; 2] };

@@ -13,7 +13,7 @@ use super::relax::PseudoTime;
 use super::schedule::Step;
 use super::semismooth::MipStress;
 use super::step::forcing;
-use crate::system::{Assembly, Branch, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace, apart};
+use crate::system::{Assembly, Evaluation, Instant, Kinks, State, Tangent, Trial, Workspace, apart};
 use crate::{Error, Failure, FailureKind};
 use std::sync::Arc;
 use std::time::Duration;
@@ -177,8 +177,6 @@ pub struct Newton<'a> {
     pub(super) coefficients: Vec<f64>,
     /// Whether the line search is strict.
     pub(super) strict: bool,
-    /// Contact states where the step begins.
-    pub(super) branches: Vec<Vec<(Branch, u32)>>,
     /// Motions that the last matrix was regularised against, in words.
     pub(super) regularised: Vec<String>,
     /// Iterations in a row over which no contact changed.
@@ -278,7 +276,6 @@ impl<'a> Newton<'a> {
             stiffness: 0.0,
             coefficients: Vec::new(),
             strict: false,
-            branches: Vec::new(),
             regularised: Vec::new(),
             steady: 0,
             holding: false,
@@ -401,7 +398,7 @@ impl<'a> Newton<'a> {
             self.hold(false);
             sequence.taken = match self.path {
                 Some(_) => self.advance_on_path(u, (&step, tangent))?,
-                None => self.advance(u, (&step, tangent), missing.as_deref())?,
+                None => self.advance(u, (&step, tangent), missing.as_deref(), &sequence.cycles)?,
             };
             if main && sequence.taken < step.part && !step.factorised {
                 self.system.invalidate_factor();

@@ -2,6 +2,7 @@
 
 use super::constants::iterations::{FLOWING, SLOPE, STRICT};
 use super::constants::steps::{ENOUGH, FAR, GOOD, LOOSEST, SHORTEST, TIGHTEST, TURN};
+use super::cycle::CycleDetector;
 use super::linear::{LinearError, Unsolved};
 use super::newton::{Newton, SolveError, Variant};
 use super::semismooth::{self, ContactSystem, Linearised};
@@ -158,9 +159,9 @@ impl Newton<'_> {
         u: &mut Vec<f64>,
         (step, tangent): (&NewtonStep, Tangent),
         missing: Option<&[f64]>,
+        cycles: &CycleDetector,
     ) -> Result<f64, Failure> {
         let (begin, slope) = (u.clone(), self.slope(&step.du));
-        self.branches.clone_from(&self.evaluation.branches);
         let along = |part: f64| -> Vec<f64> { begin.iter().zip(&step.du).map(|(u, d)| u + part * d).collect() };
         let rest = |part: f64| missing.filter(|_| part < 1.0).map(|m| m.iter().map(|m| m * (1.0 - part)).collect());
         let mut part = 1.0;
@@ -182,7 +183,7 @@ impl Newton<'_> {
         let bodies =
             self.problem.terms.iter().zip(&self.evaluation.energies).filter(|(term, _)| term.branches().is_empty());
         let flows = bodies.map(|(_, energies)| energies.dissipated).any(|dissipated| dissipated > 0.0);
-        let allowed = match (self.strict, self.branches == self.evaluation.branches) {
+        let allowed = match (self.strict, cycles.met(&self.evaluation.branches)) {
             (true, _) => STRICT,
             (false, true) if flows => FLOWING,
             (false, _) => SLOPE,

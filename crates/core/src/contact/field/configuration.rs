@@ -89,12 +89,11 @@ impl Configuration<'_> {
                 let corners: Vec<[f64; 2]> = (0..face.face.corners()).map(|c| face.face.corner_place(c)).collect();
                 let look = |piece: usize| {
                     let all = patch(piece, WHOLE, [None; 2]);
-                    let over = tool.middle(piece).map(|x| foot(face.corners(), x));
-                    let focus = over.and_then(|xi| nearby(corners.len(), xi));
                     let sees = |xi: &[f64; 2]| tool.closest(piece, face.at(*xi).x).beyond.is_none();
                     if rule.iter().chain(&corners).all(sees) {
                         return self.judge(&face, all, &rule);
                     }
+                    let focus = tool.middle(piece).and_then(|x| nearby(&face, foot(face.corners(), x)));
                     if !focus.iter().chain(&rule).chain(&corners).any(sees) {
                         return None;
                     }

@@ -145,7 +145,7 @@ impl FieldFace {
     }
 
     /// The place of the face that is nearest in reference coordinates.
-    fn nearest(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+    pub fn nearest(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         let (least, beyond) = if self.corners() == 3 { (0.0, 0.5 * (a + b - 1.0).max(0.0)) } else { (-1.0, 0.0) };
         [a, b].map(|x| (x - beyond).clamp(least, 1.0))
     }

@@ -11,7 +11,7 @@ use super::shell::Tile;
 use super::ticks::minus;
 use super::view::{Projection, Window};
 use crate::output::file::{Durability, write_atomic};
-use crate::output::probe::MEANS;
+use crate::output::probe::{MEANS, or_means};
 use crate::output::vtk::{DataArray, Grid, read_grid, read_series};
 use crate::output::{Columns, Summary, Unit, Units};
 use asperity_core::Error;
@@ -188,10 +188,7 @@ impl Shot {
     /// A quantity at the nodes: a number, a component (`displacement.y`), or the length of a vector.
     fn values(&self, quantity: &str) -> Result<Vec<f64>, Error> {
         let names = || self.bodies.point_data.iter().map(|array| array.name.as_str());
-        let find = |name: &str| {
-            let exact = self.bodies.point_array(name);
-            exact.or_else(|| self.bodies.point_array(&format!("{name}{MEANS}")))
-        };
+        let find = |name: &str| or_means(name, |name| self.bodies.point_array(name));
         let (name, component) = match quantity.rsplit_once('.') {
             Some((name, component)) if find(quantity).is_none() => (name, Some(component)),
             _ => (quantity, None),

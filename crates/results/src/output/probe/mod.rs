@@ -5,7 +5,7 @@ mod pick;
 mod place;
 mod table;
 
-pub use pick::{MEANS, Pick, names};
+pub use pick::{MEANS, Pick, names, or_means};
 pub use place::{ProbeSpot, Share, shares, spot};
 pub use table::ProbeTable;
 

@@ -7,6 +7,11 @@ use asperity_core::tensor::{Tensor2, principal};
 /// What means over the points of cells are called after.
 pub const MEANS: &str = "_averaged";
 
+/// What is found by a name, or by that of the means over points.
+pub fn or_means<T>(name: &str, find: impl Fn(&str) -> Option<T>) -> Option<T> {
+    find(name).or_else(|| find(&format!("{name}{MEANS}")))
+}
+
 /// A quantity and what of it is read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pick {
@@ -65,10 +70,7 @@ impl Pick {
     /// # Errors
     /// In words, with the nearest name.
     pub fn new(text: &str, frame: &Frame, plane: bool) -> Result<Self, String> {
-        let find = |name: &str| {
-            let exact = frame.get(QuantityPlace::Node, name);
-            exact.or_else(|| frame.get(QuantityPlace::Node, &format!("{name}{MEANS}")))
-        };
+        let find = |name: &str| or_means(name, |name| frame.get(QuantityPlace::Node, name));
         let picked = |name: &str, columns| {
             find(name).map(|found| Self { quantity: found.name.clone(), unit: found.unit, columns, width: found.width })
         };

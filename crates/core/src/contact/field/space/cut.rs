@@ -80,13 +80,11 @@ fn triangles() -> impl Iterator<Item = [usize; 3]> {
 }
 
 /// The place on a face nearest to one near it, in reference coordinates; none where that lies farther away than half of the face.
-pub fn nearby(corners: usize, xi: Point<f64>) -> Option<Point<f64>> {
-    let least = if corners == 3 { 0.0 } else { -1.0 };
+pub fn nearby(face: &FaceInPlace, xi: Point<f64>) -> Option<Point<f64>> {
+    let least = if face.corners().len() == 3 { 0.0 } else { -1.0 };
     let margin = 0.25 * (1.0 - least);
     let near = xi.iter().all(|x| (least - margin..=1.0 + margin).contains(x));
-    let [x, y] = xi.map(|x| x.clamp(least, 1.0));
-    let over = if corners == 3 { 0.5 * (x + y - 1.0).max(0.0) } else { 0.0 };
-    near.then(|| [x - over, y - over].map(|x| x.clamp(least, 1.0)))
+    near.then(|| face.face.nearest(xi))
 }
 
 /// Where the border of a piece crosses a line of the grid.

@@ -70,14 +70,24 @@ fn made(deck: &str, sets: &[String]) -> Model {
     model(deck, &sets.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
+/// Of a wedge, and of a roller that fits between two nodes or not.
 #[test]
 fn tangents_of_a_tip_are_exact() {
-    for degree in [1, 2] {
-        let sets = if degree == 2 { second_degree(&["block"]) } else { Vec::new() };
+    let roller = |radius: f64| {
+        let y = radius - 0.02;
+        let half = |from: f64, to: f64| {
+            let apex = 1.9 - (from - to).signum() * radius;
+            format!("{{ arc = [[1.9, {:.3}], [{apex}, -{y}], [1.9, {:.3}]] }}", from - y, to - y)
+        };
+        format!("tool.wedge.profile=[{}, {}]", half(-radius, radius), half(radius, -radius))
+    };
+    for (degree, shape) in [(1, None), (2, None), (1, Some(0.4)), (1, Some(3.0)), (2, Some(0.4)), (2, Some(3.0))] {
+        let mut sets = if degree == 2 { second_degree(&["block"]) } else { Vec::new() };
+        sets.extend(shape.map(roller));
         let model = made(OVER_WEDGE, &sets);
         let (contact, moving) = (&model.field_contacts[0], &model.mesh.groups["block"].nodes);
         let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.01));
-        let name = format!("degree {degree}: {met:?} skipped {skipped} worst {worst:.1e}");
+        let name = format!("degree {degree} radius {shape:?}: {met:?} skipped {skipped} worst {worst:.1e}");
         assert!(met.iter().all(|&met| met >= 10) && 10 * skipped <= met.iter().sum::<usize>(), "{name}");
         assert!(worst < OVER_TOOLS, "{name}");
     }
@@ -108,6 +118,49 @@ fn a_tip_is_felt_over_a_node_and_within_an_edge_and_the_corner_of_a_punch_is_non
     let sides = "{ line = [[2.4, -1.0], [2.4, 0.0]] }, { line = [[2.4, 0.0], [1.3, 0.0]] }, { line = [[1.3, 0.0], [1.3, -1.0]] }";
     let (force, tips) = pressed(&format!("[{sides}]"));
     assert!(force > 1.0 && tips.iter().all(|&pressure| pressure == 0.0), "{force} {tips:?}");
+}
+
+/// Three-point bending: a plate upon round supports under a round punch, all of which just touch it.
+fn bent(cell: &str, [nx, ny]: [usize; 2]) -> f64 {
+    let circle = |name: &str, x: f64, y: f64, radius: f64| {
+        let half = |sign: f64| {
+            let [low, apex, high] = [y - sign * radius, x + sign * radius, y + sign * radius];
+            format!("{{ arc = [[{x}, {low}], [{apex}, {y}], [{x}, {high}]] }}")
+        };
+        format!("tool.{name} = {{ profile = [{}, {}], reference = [{x}, {y}] }}\n", half(1.0), half(-1.0))
+    };
+    let tools =
+        circle("left", -15.0, -1.5, 1.5) + &circle("right", 15.0, -1.5, 1.5) + &circle("punch", 0.0, 5.0, 3.0);
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.plate.rectangle = {{ from = [-20.0, 0.0], to = [20.0, 2.0], cells = [{nx}, {ny}], cell = "{cell}" }}
+material.steel.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.plate = {{ material = "steel" }}
+{tools}
+contact.a = {{ surface = "plate.bottom", target = "left", law.coulomb = {{ friction = 0.1 }} }}
+contact.b = {{ surface = "plate.bottom", target = "right", law.coulomb = {{ friction = 0.1 }} }}
+contact.c = {{ surface = "plate.top", target = "punch", law.coulomb = {{ friction = 0.1 }} }}
+[[step]]
+increments.count = 4
+motion.punch = {{ y = -0.1 }}
+spring."plate.bottom_left" = {{ x = 0.01 }}
+"#
+    );
+    let model = made(&deck, &[]);
+    -last(&columns(&model, &run(&model)), "tool.punch.force.y")
+}
+
+/// The means of the gap over the faces around a node are up to 0.06 where the plate touches, so that nothing would hold it; the
+/// deflection would lack as much.
+#[test]
+fn a_plate_is_bent_between_round_tools_that_just_touch_it() {
+    let right = bent("quad8", [160, 8]);
+    for (cell, cells) in [("quad8", [40, 2]), ("quad8", [37, 2]), ("quad4", [40, 4]), ("quad4", [53, 4])] {
+        let force = bent(cell, cells);
+        assert!((force / right - 1.0).abs() < 0.05, "{cell} {cells:?}: {force} for {right}");
+    }
 }
 
 /// Random states of a contact after random accepted ones: all nodes move by up to `size`, the upper ones down.

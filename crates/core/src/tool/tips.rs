@@ -1,62 +1,136 @@
-//! Sharp edges, free ends and small roundings of a profile: what may lie within one face of a body.
+//! Sharp edges, free ends and roundings of a profile: what may touch a body within one of its faces.
 
 use super::shapes::{ProfileShape, angle};
 use super::tool::ProfileTool;
 use crate::tensor::Vec3;
+use std::f64::consts::TAU;
 
 /// A crease or an arc that turns outward by at least this angle, in radians, is a tip: the material between its flanks takes less
 /// than 100 degrees. A blunter one is felt by its flanks.
 const SHARP: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
-/// The tip of a wedge or a needle, in the tool's own frame.
+/// What of a tool's profile may touch a body within one of its faces: the edge of a wedge, or a rounding by its closest point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {
-    /// Its foremost point.
-    pub point: Vec3,
+    /// Its edge, or the centre of its rounding, in the tool's own frame.
+    pub centre: Vec3,
+    /// Radius of the rounding, a length; zero for an edge.
+    pub radius: f64,
     /// Unit vector out of the material, along the bisector of the flanks.
     pub outward: Vec3,
-    /// Outward unit normals of the flanks.
+    /// Outward unit normals of the flanks; zero for a full circle.
     pub flanks: [Vec3; 2],
+    /// Cosine of the largest angle between `outward` and a direction in which it points.
+    pub least_cosine: f64,
 }
 
+impl Tip {
+    /// Its foremost point, in the tool's own frame.
+    pub fn foremost(&self) -> Vec3 {
+        self.centre + self.outward * self.radius
+    }
+}
+
+/// Cosine of the angle between the surface's inward normal and the bisector of an edge above which that points at the surface.
+const POINTS: f64 = 0.1;
+
 impl ProfileTool {
-    /// Its tips, with roundings of radii up to `rounding`.
-    pub fn tips(&self, rounding: f64) -> Vec<Tip> {
+    /// Its tips: sharp edges, free ends and arcs that turn outward.
+    pub fn tips(&self) -> Vec<Tip> {
         let mut tips = Vec::new();
+        let mut edge =
+            |centre, outward, flanks| tips.push(Tip { centre, radius: 0.0, outward, flanks, least_cosine: POINTS });
+        let mut arcs: Vec<Round> = Vec::new();
         for chain in self.chains() {
             for (one, next) in chain.joints() {
                 let [one, next] = [one, next].map(|i| &self.segments()[i]);
                 let (a, b) = (one.tangent(1.0).unit(), next.tangent(0.0).unit());
                 if angle(a, b) >= SHARP {
-                    let (outward, flanks) = ((a - b).unit(), [-a.left(), -b.left()]);
-                    tips.push(Tip { point: one.point(1.0), outward, flanks });
+                    edge(one.point(1.0), (a - b).unit(), [-a.left(), -b.left()]);
                 }
             }
             // Of a wedge that is drawn from its plane or axis of symmetry the edge is an end of the profile.
             if !chain.closed {
                 let [first, last] = [chain.first, chain.end - 1].map(|i| &self.segments()[i]);
                 let (a, b) = (last.tangent(1.0).unit(), first.tangent(0.0).unit());
-                tips.push(Tip { point: first.point(0.0), outward: -b, flanks: [-b.left(); 2] });
-                tips.push(Tip { point: last.point(1.0), outward: a, flanks: [-a.left(); 2] });
+                edge(first.point(0.0), -b, [-b.left(); 2]);
+                edge(last.point(1.0), a, [-a.left(); 2]);
             }
+            let begun = arcs.len();
             for segment in &self.segments()[chain.first..chain.end] {
-                if segment.is_tip(rounding) {
-                    let normal = |s: f64| -segment.tangent(s).unit().left();
-                    let flanks = [normal(0.0), normal(1.0)];
-                    tips.push(Tip { point: segment.point(0.5), outward: normal(0.5), flanks });
+                if let Some(arc) = Round::of(segment.as_ref()) {
+                    if !arcs[begun..].last_mut().is_some_and(|last| last.join(&arc)) {
+                        arcs.push(arc);
+                    }
+                }
+            }
+            if chain.closed && arcs.len() > begun + 1 {
+                let first = arcs[begun];
+                if arcs.last_mut().is_some_and(|last| last.join(&first)) {
+                    arcs.swap_remove(begun);
                 }
             }
         }
+        tips.extend(arcs.iter().map(Round::tip));
         tips
+    }
+}
+
+/// Arcs about one centre that follow each other and turn outward.
+#[derive(Debug, Clone, Copy)]
+struct Round {
+    centre: Vec3,
+    radius: f64,
+    /// Tangent where they begin, and by how much they turn.
+    begin: Vec3,
+    turn: f64,
+}
+
+impl Round {
+    fn of(segment: &(dyn ProfileShape + 'static)) -> Option<Self> {
+        let (radius, begin) = (segment.curvature(0.5).recip(), segment.tangent(0.0).unit());
+        (segment.kind().key == "arc" && radius > 0.0 && radius.is_finite()).then(|| Self {
+            centre: segment.point(0.0) + begin.left() * radius,
+            radius,
+            begin,
+            turn: segment.turn(),
+        })
+    }
+    /// Takes an arc that continues it, if it does.
+    fn join(&mut self, next: &Self) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-6 * self.radius;
+        let joins = near(self.radius, next.radius)
+            && near((self.centre - next.centre).norm(), 0.0)
+            && (self.direction(self.turn) - next.begin).norm() < 1e-6;
+        self.turn += if joins { next.turn } else { 0.0 };
+        joins
+    }
+    /// Tangent where they have turned by `turn`.
+    fn direction(&self, turn: f64) -> Vec3 {
+        self.begin * turn.cos() + self.begin.left() * turn.sin()
+    }
+    fn tip(&self) -> Tip {
+        let [begin, middle, end] = [0.0, 0.5, 1.0].map(|part| -self.direction(part * self.turn).left());
+        let whole = self.turn > TAU - 1e-6;
+        Tip {
+            centre: self.centre,
+            radius: self.radius,
+            outward: middle,
+            flanks: if whole { [Vec3::zero(); 2] } else { [begin, end] },
+            least_cosine: if whole { -2.0 } else { (0.5 * self.turn).cos() },
+        }
     }
 }
 
 impl dyn ProfileShape {
     /// Whether it is an arc that turns outward as sharply as a tip, with a radius of at most `largest`.
     pub(super) fn is_tip(&self, largest: f64) -> bool {
-        // Both halves of an arc turn by the same angle.
+        self.kind().key == "arc" && self.turn() >= SHARP && self.curvature(0.5).recip() <= largest
+    }
+    /// By how much it turns, in radians: both halves of an arc turn by the same angle.
+    fn turn(&self) -> f64 {
         let [begin, middle] = [0.0, 0.5].map(|s| self.tangent(s).unit());
-        self.kind().key == "arc" && 2.0 * angle(begin, middle) >= SHARP && self.curvature(0.5).recip() <= largest
+        2.0 * angle(begin, middle)
     }
 }
 
@@ -70,7 +144,7 @@ mod tests {
             let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
             find(kind).and_then(|kind| kind.build(&nodes)).unwrap()
         };
-        ProfileTool::new("t", vec![profile.iter().map(build).collect()], Vec3::zero()).tips(0.3)
+        ProfileTool::new("t", vec![profile.iter().map(build).collect()], Vec3::zero()).tips()
     }
 
     #[test]
@@ -85,9 +159,15 @@ mod tests {
         let arc: &[[f64; 2]] = &[[-0.2, 0.0], [0.0, -0.2], [0.2, 0.0]];
         let needle = tips(&[("line", &[[-0.2, 2.0], [-0.2, 0.0]]), ("arc", arc), ("line", &[[0.2, 0.0], [0.2, 2.0]])]);
         assert_eq!(needle.len(), 3);
-        let Tip { point, outward, .. } = needle[2];
-        assert!((point - Vec3::new(0.0, -0.2, 0.0)).norm() < 1e-12 && outward[1] < -0.99);
-        let ends = tips(&[("arc", &[[-2.0, 0.0], [0.0, -2.0], [2.0, 0.0]])]);
-        assert!(ends.iter().all(|tip| tip.point[1] == 0.0), "the arc is felt by the faces it touches");
+        let Tip { centre, radius, outward, .. } = needle[2];
+        assert!(centre.norm() < 1e-12 && (radius - 0.2).abs() < 1e-12 && outward[1] < -0.99);
+        let roller = tips(&[
+            ("arc", &[[0.0, 0.0], [10.0, 10.0], [0.0, 20.0]]),
+            ("arc", &[[0.0, 20.0], [-10.0, 10.0], [0.0, 0.0]]),
+        ]);
+        assert_eq!(roller.len(), 1, "arcs about one centre are one");
+        assert!((roller[0].centre - Vec3::new(0.0, 10.0, 0.0)).norm() < 1e-9 && roller[0].least_cosine < -1.0);
+        let bowl = tips(&[("arc", &[[-2.0, 0.0], [0.0, 2.0], [2.0, 0.0]])]);
+        assert!(bowl.iter().all(|tip| tip.radius == 0.0), "an arc that turns inward has only its ends");
     }
 }

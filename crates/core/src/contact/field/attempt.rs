@@ -2,7 +2,7 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget, RULE};
-use super::cover::Patch;
+use super::cover::{Landing, Patch};
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::nodes::NodesInPlace;
@@ -137,19 +137,19 @@ impl FieldAttempt<'_> {
         before.nearest(&ray, range, admits).or(present)
     }
 
-    /// Face and place over which a tip lay at the accepted state.
-    fn before_tip(&self, patch: &Patch) -> Option<(usize, f64)> {
+    /// Face over which a tip lay at the accepted state, and where.
+    fn before_tip(&self, patch: &Patch) -> Option<(usize, Landing)> {
         let found = self.tips_before.get(patch.target).copied().flatten()?;
-        found.patch.tip.map(|landing| (found.patch.face, landing.xi))
+        Some((found.patch.face, found.patch.tip?))
     }
 
     fn recall(&self, at: &NodesInPlace, patch: &Patch, xi: [f64; 2]) -> Option<Touched> {
         if patch.tip.is_some() {
-            let (number, xi) = self.before_tip(patch)?;
+            let (number, landing) = self.before_tip(patch)?;
             let face = &self.contact.parts.surface.faces[number];
-            let shape = face.shape([xi, 0.0]);
-            let now = shape.value(at.placed(face).nodes());
-            return Some(Touched { now, slopes: [Vec3::zero(); 2], face: Some((number, shape)) });
+            let shape = face.shape([landing.xi, 0.0]);
+            let (now, tip) = (shape.value(at.placed(face).nodes()), at.tool.as_ref()?.place(landing.own));
+            return Some(Touched { now, slopes: [Vec3::zero(); 2], face: Some((number, shape)), tip });
         }
         let face = self.before.face(patch.face);
         let place = face.at(xi);
@@ -158,7 +158,7 @@ impl FieldAttempt<'_> {
                 let (foot, now) = (before.closest(patch.target, place.x), at.tool.as_ref()?);
                 let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
                 let slopes = place.tangents.map(slope);
-                Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None })
+                Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None, tip: Vec3::zero() })
             }
             (TargetInPlace::Faces(_), FieldTarget::Faces(faces)) => {
                 // A state beside the one that was searched may have seen others by a hair.
@@ -173,7 +173,8 @@ impl FieldAttempt<'_> {
                         hit.follow(n, place.tangents[k] + place.normal.turned(place.normal_slopes[k]) * hit.gap);
                     a * s[0] + b * s[1]
                 });
-                Some(Touched { now: hit.shape.value(placed.nodes()), slopes, face: Some((number, hit.shape)) })
+                let now = hit.shape.value(placed.nodes());
+                Some(Touched { now, slopes, face: Some((number, hit.shape)), tip: Vec3::zero() })
             }
             _ => None,
         }
@@ -458,7 +459,10 @@ impl Attempt for FieldAttempt<'_> {
 
     /// Takes what converged nodes still penetrate and slip into their multipliers, unless that suffices (Simo & Laursen,
     /// Comput. Struct. 42, 1992).
-    fn augment(&mut self, _: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
+    fn augment(&mut self, u: &[f64], new: &mut History, taken: [f64; 2]) -> Result<bool, Failure> {
+        if self.yield_tips(u) {
+            return Ok(true);
+        }
         let Some(augmentation) = self.contact.parts.options.augmentation else { return Ok(self.stiffen(new, taken)) };
         let (mut better, mut left) = (self.shifts.clone(), augment::Left::default());
         for (slot, shift) in better.iter_mut().enumerate() {

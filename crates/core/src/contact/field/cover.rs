@@ -39,6 +39,8 @@ pub struct Landing {
     pub border: Option<usize>,
     /// Part of the face's area that it has.
     pub share: f64,
+    /// The tool's point that lies over the place, in the tool's own frame.
+    pub own: Vec3,
 }
 
 /// A face of the surface in place, with the outward normals at its corners.

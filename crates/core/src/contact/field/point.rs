@@ -35,6 +35,8 @@ pub struct Touched {
     pub slopes: [Vec3; 2],
     /// The face of a body and the shape functions there.
     pub face: Option<(usize, ShapeFunctions)>,
+    /// Of a tip, over whose place on the surface this is: present position of the tool's point that lay there.
+    pub tip: Vec3,
 }
 
 /// A quadrature point of a patch.

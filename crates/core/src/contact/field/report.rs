@@ -114,8 +114,8 @@ impl FieldContact {
             None => {
                 let tip = &self.tips()[slot - self.nodal_slots()];
                 let tool = self.parts.target.as_tool().map(|rigid| rigid.at(u));
-                let place = |tool: ToolInPlace| (tool.place(tip.point), -tool.rotate(tip.outward), 0);
-                tool.map_or((tip.point, -tip.outward, 0), place)
+                let place = |tool: ToolInPlace| (tool.place(tip.foremost()), -tool.rotate(tip.outward), 0);
+                tool.map_or((tip.foremost(), -tip.outward, 0), place)
             }
         };
         ContactRecord {

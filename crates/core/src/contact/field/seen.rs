@@ -42,7 +42,7 @@ impl FieldContact {
             }
         }
         for (number, found) in tips.into_iter().enumerate() {
-            if let Some(found) = found {
+            if let Some(found) = found.filter(|found| found.patch.tip.is_some_and(|tip| tip.share > 0.0)) {
                 see(self.nodal_slots() + number, (patches.len(), found.patch.face, 0), [found.gap; 2]);
                 patches.push(FoundPatch { patch: found.patch, nodes: Vec::new() });
             }

@@ -1,12 +1,20 @@
 //! A tip of a tool over one face of the surface: node-to-segment contact (Hallquist, Goudreau & Benson, Comput. Meth. Appl. Mech.
-//! Eng. 51, 1985; Wriggers, Computational Contact Mechanics, 2006) of the tip with the edge that lies closest.
+//! Eng. 51, 1985; Wriggers, Computational Contact Mechanics, 2006) of the tip with the edge that lies closest. Point contact beside
+//! a mortar field: Farah, Wall & Popp, Int. J. Numer. Meth. Eng. 114 (2018).
 //!
-//! The gap of a node of the field is a mean over the faces around it, and a wedge lies in them by a good part of a face before that
-//! closes. A tip therefore is a stencil of its own, beside those of the nodes, with the area of the face that it lies over. With
-//! `v` its foremost point and `x(xi)` the place of the edge closest to it, the gap is `(v - x) . n`, `n` the edge's outward normal;
-//! where two edges meet that the tip has pushed into a valley, it is `-|v - x|` along `x - v`.
+//! The gap of a node of the field is a mean over the faces around it: a wedge lies in them by a good part of a face before that
+//! closes, and a circle of radius R stands `h^2 / 12 R` in. A tip therefore is a stencil of its own, beside those of the nodes, with
+//! the area of the face that it lies over. With `c` its edge or the centre of its rounding, `R` the radius, and `x(xi)` the place of
+//! the edge of the surface closest to `c`, the gap is `(c - x) . n - R`, `n` the outward normal there; where two edges meet it is
+//! `|c - x| - R` along `c - x`, and `-|c - x| - R` in a valley into which the tip has pushed them.
+//!
+//! Where the surface follows a rounding its nodes feel that, and the tip has the less of the area the more it does: by the distances
+//! `d` of the nodes around from `c`, with `q = |c - x|` and `s` how far they lie aside, from all of it where `sum w (d - q)` is
+//! `sum w (sqrt(s^2 + q^2) - q)`, as on a straight surface, to none at half of that. The part changes between increments, and once
+//! one has converged, never within its iterations: the forces keep a potential.
 
-use super::column::PointColumn;
+use super::attempt::FieldAttempt;
+use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::{Landing, Patch, root_near};
@@ -28,11 +36,9 @@ pub struct TipFoot {
     pub gap: f64,
 }
 
-/// Cosine of the angle between the surface's normal and the direction that a tip points against above which it points at it.
-const POINTS: f64 = 0.1;
-/// Cosines of the angle between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner
-/// of a punch does: the flank's own nodes then feel all that there is, and the tip nothing.
-const FLAT: [f64; 2] = [0.75, 0.9];
+/// Angles between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner of a punch does:
+/// the flank's own nodes then feel all that there is, and the tip nothing. Of a rounding larger than the face, over that.
+const FLAT: [f64; 2] = [0.45, 0.72];
 /// How far beside the end of the surface, over half of its face there, a tip may lie that lies over that end,
 const BESIDE: f64 = 0.5;
 /// and how far from it along the face, likewise.
@@ -68,11 +74,10 @@ impl PlacedEdge<'_> {
             shape,
         }
     }
-    /// Whether a tip that points so points at no place of the edge, along which the tangent changes linearly.
-    fn looks_away(&self, points: Vec3) -> bool {
-        let ends = [-1.0, 1.0].map(|xi| self.tangent(xi));
-        let least = POINTS * (ends[0].norm() - (ends[1] - ends[0]).norm());
-        ends.iter().all(|tangent| tangent.cross(Vec3::axis(2)).dot(points) > -least)
+    /// Whether all of it is farther than this from `c`.
+    fn is_beyond(&self, distance: f64, c: Vec3) -> bool {
+        let at = self.at(0.0);
+        (at.x - c).norm() > distance + at.tangent.norm() + 0.5 * at.bend.norm()
     }
     /// Derivative of half the square of the distance to `c`, with its slope.
     fn offset(&self, xi: f64, c: Vec3) -> [f64; 2] {
@@ -100,64 +105,69 @@ impl Configuration<'_> {
     pub fn tips(&self, reach: f64, before: Option<&[Option<TipFoot>]>) -> Vec<Option<TipFoot>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let land = |(number, tip): (usize, &Tip)| {
-            let mut found = self.land((number, tip), tool)?;
+            let mut found = self.land((number, tip), tool, reach)?;
             if let Some(landing) = &mut found.patch.tip {
                 let had = before.map(|before| before.get(number).copied().flatten().and_then(|found| found.patch.tip));
                 landing.share = had.map_or(1.0, |had| had.map_or(landing.share, |had| had.share));
             }
-            Some(found).filter(|found| found.gap <= reach && found.patch.tip.is_some_and(|tip| tip.share > 0.0))
+            Some(found).filter(|found| found.gap <= reach)
         };
         self.contact.tips().iter().enumerate().map(land).collect()
     }
 
-    fn land(&self, (number, tip): (usize, &Tip), tool: &ToolInPlace) -> Option<TipFoot> {
-        let (vertex, points) = (tool.place(tip.point), tool.rotate(tip.outward));
+    fn land(&self, (number, tip): (usize, &Tip), tool: &ToolInPlace, reach: f64) -> Option<TipFoot> {
+        let (centre, points, radius) = (tool.place(tip.centre), tool.rotate(tip.outward), tip.radius);
         let flanks = tip.flanks.map(|flank| tool.rotate(flank));
         let (mut best, mut valleys): (Option<TipFoot>, Vec<(usize, Side)>) = (None, Vec::new());
-        let mut offer = |found: TipFoot| {
-            let nearer = best.is_none_or(|best| found.gap.abs() < best.gap.abs());
-            best = if nearer { Some(found) } else { best };
-        };
         let surface = &self.contact.parts.surface;
         for (f, face) in surface.faces.iter().enumerate() {
             let edge = PlacedEdge { face, placed: &self.placed[f] };
-            let is_end = |corner: usize| surface.nodes[surface.field[f][corner]].support.len() == 1;
-            // Most edges do not see the end of a plate that lies along them.
-            if edge.looks_away(points) && !(0..2).any(is_end) {
+            if edge.is_beyond(radius + reach, centre) {
                 continue;
             }
-            let xi = edge.closest(vertex);
+            let xi = edge.closest(centre);
             let at = edge.at(xi);
-            let (n, to) = (outward(at.tangent), vertex - at.x);
+            let (n, to) = (outward(at.tangent), centre - at.x);
             let nearer = usize::from(xi > 0.0);
-            let ends = is_end(nearer);
+            let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
             let inner = if ends { 1.0 - AT_END } else { 1.0 };
             let corner = if xi.abs() < inner { None } else { Some(nearer) };
             // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
             let rest = corner.filter(|_| ends).map(|_| self.undeformed_normal(face));
-            if rest.unwrap_or(n).dot(points) > -POINTS {
+            // Where two edges meet in a valley or on a ridge.
+            let crest = corner.filter(|_| !ends).map(|_| to.dot(n) > 0.0);
+            let facing = if crest == Some(true) { to.unit() } else { rest.unwrap_or(n) };
+            if -facing.dot(points) < tip.least_cosine {
                 continue;
             }
-            let landed = |corner: Option<usize>, border: Option<usize>| {
-                let share = self.share((f, nearer), flanks, rest);
-                let tip = Some(Landing { xi, corner, border, share });
-                Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip }
+            let mut offer = |corner: Option<usize>, border: Option<usize>| {
+                let n = if corner.is_some() { facing_centre(to, n) } else { n };
+                let gap = to.dot(n) - radius;
+                if best.is_some_and(|best| best.gap.abs() <= gap.abs()) {
+                    return;
+                }
+                let share = self.share((f, nearer), (flanks, radius), rest, self.straightness((f, xi), (to, n), radius));
+                let own = tip.centre - tool.rotate_back(n) * radius;
+                let landing = Some(Landing { xi, corner, border, share, own });
+                let patch = Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip: landing };
+                best = Some(TipFoot { patch, gap });
             };
-            let patch = |corner: Option<usize>| landed(corner, None);
             match corner {
-                None => offer(TipFoot { patch: patch(None), gap: to.dot(n) }),
+                None => offer(None, None),
                 Some(corner) if ends => {
-                    if to.dot(at.tangent).abs() <= BESIDE * at.tangent.dot(at.tangent) {
-                        offer(TipFoot { patch: landed(None, Some(corner)), gap: to.dot(n) });
+                    let beside = if radius > 0.0 { AT_END } else { BESIDE };
+                    if to.dot(at.tangent).abs() <= beside * at.tangent.dot(at.tangent) {
+                        offer(None, Some(corner));
                     }
                 }
+                Some(corner) if crest == Some(true) && radius > 0.0 => offer(Some(corner), None),
                 // Within both edges that meet there.
-                Some(corner) if to.dot(n) < 0.0 => {
-                    let (node, gap) = (face.corner_node(corner), -to.norm());
+                Some(corner) if crest == Some(false) => {
+                    let node = face.corner_node(corner);
                     match valleys.iter().find(|(other, _)| *other == node) {
                         // Both halves of an edge of second degree meet without a crease.
-                        Some((_, side)) if *side == face.side => offer(TipFoot { patch: patch(None), gap: to.dot(n) }),
-                        Some(_) => offer(TipFoot { patch: patch(Some(corner)), gap }),
+                        Some((_, side)) if *side == face.side => offer(None, None),
+                        Some(_) => offer(Some(corner), None),
                         None => valleys.push((node, face.side)),
                     }
                 }
@@ -167,6 +177,33 @@ impl Configuration<'_> {
         best
     }
 
+    /// How far the surface around a place of a face, `to` from the centre of a rounding, stands off that, over how far it would if it
+    /// were straight.
+    fn straightness(&self, (f, xi): (usize, f64), (to, n): (Vec3, Vec3), radius: f64) -> f64 {
+        let (surface, q, place) = (&self.contact.parts.surface, to.dot(n), xi);
+        if radius == 0.0 || q <= 0.0 {
+            return 1.0;
+        }
+        let centre = self.face(f).at([place, 0.0]).x + to;
+        let (mut stands, mut straight) = (0.0, 0.0);
+        let mut add = |weight: f64, x: Vec3| {
+            let z = x - centre;
+            stands += weight * (z.norm() - q);
+            straight += weight * (z.dot(n.left()).hypot(q) - q);
+        };
+        for (corner, half) in [(0, -0.5), (1, 0.5)] {
+            let of = |f: usize, corner: usize| {
+                let face = &surface.faces[f];
+                face.shape(face.corner_place(corner)).value(self.placed[f].nodes())
+            };
+            add(1.0, of(f, corner));
+            for &(beside, c) in surface.nodes[surface.field[f][corner]].support.iter().filter(|(g, _)| *g != f) {
+                add(0.5 + half * xi, of(beside, 1 - c));
+            }
+        }
+        stands / straight
+    }
+
     fn undeformed_normal(&self, face: &FieldFace) -> Vec3 {
         let rest = face.at_rest(&self.contact.parts.mesh);
         outward(face.shape(face.middle()).tangents(rest.nodes(), true)[0])
@@ -174,7 +211,7 @@ impl Configuration<'_> {
 
     /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
     /// the end of the surface on the normal it had, which a plane of symmetry keeps.
-    fn share(&self, (f, corner): (usize, usize), flanks: [Vec3; 2], rest: Option<Vec3>) -> f64 {
+    fn share(&self, (f, corner): (usize, usize), (flanks, radius): ([Vec3; 2], f64), rest: Option<Vec3>, straight: f64) -> f64 {
         let surface = &self.contact.parts.surface;
         let area = |f: usize| {
             let face = &surface.faces[f];
@@ -184,17 +221,59 @@ impl Configuration<'_> {
             surface.nodes[surface.field[f][corner]].support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
         let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
         let cosine = rest.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
-        let t = ((cosine - FLAT[0]) / (FLAT[1] - FLAT[0])).clamp(0.0, 1.0);
-        1.0 - t * t * (3.0 - 2.0 * t)
+        let scale = radius.max(2.0 * area(f).norm()) / (2.0 * area(f).norm());
+        let angle = cosine.clamp(-1.0, 1.0).acos() * scale;
+        smooth((angle - FLAT[0]) / (FLAT[1] - FLAT[0])) * smooth(2.0 * straight - 1.0)
     }
+}
+
+/// Change of the part that a tip has in the area of a face above which a converged increment goes on with the new one.
+const CHANGED: f64 = 0.1;
+
+impl FieldAttempt<'_> {
+    /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
+    /// did.
+    pub(super) fn yield_tips(&mut self, u: &[f64]) -> bool {
+        if self.contact.tips().is_empty() {
+            return false;
+        }
+        let mut changed = false;
+        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]));
+        for (before, now) in self.tips_before.iter_mut().zip(found) {
+            let landing = before.as_mut().and_then(|before| before.patch.tip.as_mut());
+            let share = now.and_then(|now| now.patch.tip).map(|tip| tip.share);
+            if let (Some(landing), Some(share)) = (landing, share)
+                && landing.share - share > CHANGED
+            {
+                (landing.share, changed) = (share, true);
+            }
+        }
+        changed
+    }
+}
+
+/// A cubic that rises from zero to one (smoothstep).
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Unit vector from a corner to or from a tip that lies `to` away, on the outer side of an edge with this normal or within it.
+fn facing_centre(to: Vec3, n: Vec3) -> Vec3 {
+    to.unit() * to.dot(n).signum()
 }
 
 /// A tip over its place of the edge.
 struct TipInPlace<'a> {
     tool: &'a ToolInPlace<'a>,
-    vertex: Vec3,
+    landing: Landing,
+    centre: Vec3,
+    radius: f64,
     xi: f64,
     at: EdgePlace,
+    /// From the place to the centre, and the outward normal of the gap.
+    to: Vec3,
+    n: Vec3,
     /// Undeformed area for a unit of the reference coordinate there, with its slope, times the length that it stands for.
     area: f64,
     slope: f64,
@@ -203,19 +282,24 @@ struct TipInPlace<'a> {
 impl NodesInPlace<'_> {
     fn tip(&self, patch: &Patch, landing: Landing) -> Option<TipInPlace<'_>> {
         let (tool, contact) = (self.tool.as_ref()?, self.contact);
-        let face = &contact.parts.surface.faces[patch.face];
+        let surface = &contact.parts.surface;
+        let face = &surface.faces[patch.face];
         let placed = self.placed(face);
         let edge = PlacedEdge { face, placed: &placed };
-        let vertex = tool.place(contact.tips()[patch.target].point);
+        let Tip { centre, radius, .. } = contact.tips()[patch.target];
+        let centre = tool.place(centre);
         let xi = match landing.corner.or(landing.border) {
             Some(corner) => face.corner_place(corner)[0],
-            None => root_near(landing.xi, |xi| edge.offset(xi, vertex)),
+            None => root_near(landing.xi, |xi| edge.offset(xi, centre)),
         };
         // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
         let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
         let rest = face.at_rest(&contact.parts.mesh);
-        let (density, [slope, _]) = contact.parts.surface.density(face, &rest, [over, 0.0]);
-        Some(TipInPlace { tool, vertex, xi, at: edge.at(xi), area: length * density, slope })
+        let (density, [slope, _]) = surface.density(face, &rest, [over, 0.0]);
+        let at = edge.at(xi);
+        let (to, own) = (centre - at.x, outward(at.tangent));
+        let n = if landing.corner.is_some() { facing_centre(to, own) } else { own };
+        Some(TipInPlace { tool, landing, centre, radius, xi, at, to, n, area: length * density, slope })
     }
 
     /// The point of a tip.
@@ -225,20 +309,19 @@ impl NodesInPlace<'_> {
         recall: Recall,
         points: &mut Vec<PatchPoint>,
     ) -> Option<()> {
-        let TipInPlace { vertex, xi, at, area, .. } = self.tip(patch, landing)?;
-        let (xi, to) = ([xi, 0.0], vertex - at.x);
-        let n = if landing.corner.is_some() { -to.unit() } else { outward(at.tangent) };
+        let tip = self.tip(patch, landing)?;
+        let (xi, n) = ([tip.xi, 0.0], tip.n);
         let touched = recall(self, patch, xi);
         points.push(PatchPoint {
             number: 0,
             xi,
-            weight: area * landing.share,
+            weight: tip.area * landing.share,
             functions: ShapeFunctions { n: [1.0; MOST], dn: [[0.0; 2]; MOST] },
-            shape: at.shape,
-            gap: to.dot(n),
+            shape: tip.at.shape,
+            gap: tip.to.dot(n) - tip.radius,
             n,
-            v: touched.map_or(Vec3::zero(), |touched| vertex - touched.now),
-            y: vertex,
+            v: touched.map_or(Vec3::zero(), |touched| touched.tip - touched.now),
+            y: tip.centre - n * tip.radius,
             sight: Sight::Tip,
             touched,
         });
@@ -254,34 +337,33 @@ impl NodesInPlace<'_> {
         rates: &mut Vec<PointRates>,
     ) {
         let (Some(tip), [point]) = (self.tip(patch, landing), points) else { return };
-        let TipInPlace { tool, vertex, at, slope, .. } = tip;
-        let to = vertex - at.x;
+        let TipInPlace { tool, landing, ref at, to, n, .. } = tip;
         for column in columns {
-            let (dx, dtangent, dvertex) = match column {
+            let (dx, dtangent) = match column {
                 PointColumn::Node { axis, own: Some(k), .. } => {
-                    (Vec3::axis(*axis) * at.shape.n[*k], Vec3::axis(*axis) * at.shape.dn[*k][0], Vec3::zero())
+                    (Vec3::axis(*axis) * at.shape.n[*k], Vec3::axis(*axis) * at.shape.dn[*k][0])
                 }
-                PointColumn::Node { .. } => (Vec3::zero(), Vec3::zero(), Vec3::zero()),
-                PointColumn::Tool(j) => (Vec3::zero(), Vec3::zero(), tool.rates(vertex)[*j]),
+                _ => (Vec3::zero(), Vec3::zero()),
             };
-            let apart = dvertex - dx;
+            let carried = |place: Vec3| tool_motion(tool, column, place).0;
+            let apart = carried(tip.centre) - dx;
             let stays = landing.border.is_some();
             let (dxi, dn) = if landing.corner.is_some() {
-                (0.0, (-to).turned(-apart))
+                (0.0, (n * to.norm()).turned(apart * to.dot(n).signum()))
             } else {
                 let stiff = at.tangent.dot(at.tangent) - to.dot(at.bend);
                 let dxi = if stays { 0.0 } else { (apart.dot(at.tangent) + to.dot(dtangent)) / stiff };
                 (dxi, at.tangent.turned(dtangent + at.bend * dxi).cross(Vec3::axis(2)))
             };
-            let left = |touched: &Touched| dvertex - left_behind(self.contact, column, touched);
+            let slid = |touched: &Touched| carried(touched.tip) - left_behind(self.contact, column, touched);
             rates.push(PointRates {
-                weight: 2.0 * slope * dxi * landing.share,
+                weight: 2.0 * tip.slope * dxi * landing.share,
                 xi: [dxi, 0.0],
-                gap: point.n.dot(apart) + if stays { dn.dot(to) } else { 0.0 },
+                gap: n.dot(apart) + if stays { dn.dot(to) } else { 0.0 },
                 n: dn,
-                v: point.touched.as_ref().map_or(Vec3::zero(), left),
+                v: point.touched.as_ref().map_or(Vec3::zero(), slid),
                 s: [0.0; 2],
-                y: dvertex,
+                y: carried(tip.centre) - dn * tip.radius,
             });
         }
     }

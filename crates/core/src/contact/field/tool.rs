@@ -113,7 +113,7 @@ impl RigidTool {
     pub fn sharpen(&mut self, [radius, size]: [f64; 2]) {
         match &mut self.shape {
             RigidShape::Plane(tool, pieces) => {
-                (*pieces, self.tips) = (tool.smooth_pieces(radius), tool.tips(radius));
+                (*pieces, self.tips) = (tool.smooth_pieces(radius), tool.tips());
                 self.identity = identity();
             }
             RigidShape::Space(tool, pieces) => {

@@ -30,10 +30,10 @@ impl Newton<'_> {
         }
     }
 
-    /// Whether what nothing holds stays where it is.
+    /// Whether what nothing holds stays where it is: before it has moved, what lies close to something that it may touch.
     fn holds_still(&self) -> bool {
         match self.problem.newton.if_free {
-            IfFree::Auto => self.state.increment > 0,
+            IfFree::Auto => self.state.increment > 0 || self.free_is_close,
             IfFree::Stop => false,
             IfFree::Hold => true,
         }
@@ -114,13 +114,22 @@ impl Newton<'_> {
             }
         }
         self.evaluate(u, None, self.tangent())?;
+        let contacts = self.memory.workspace.seeing(|term| self.problem.terms[term].bends());
+        let close = |motion: &Vec<f64>| self.expanded(motion).iter().zip(&contacts).any(|(d, &sees)| sees && *d != 0.0);
+        self.free_is_close = loose.iter().all(close);
         Ok(self.name_motions(&loose))
+    }
+
+    /// A motion of the free unknowns as one of all.
+    fn expanded(&self, motion: &[f64]) -> Vec<f64> {
+        let mut full = vec![0.0; self.state.u.len()];
+        self.step.constraints.expand(motion, &mut full);
+        full
     }
 
     /// Whether finite motion to either side meets a force.
     pub(super) fn is_held(&mut self, u: &[f64], motion: &[f64], reference: f64) -> Result<bool, Failure> {
-        let mut full = vec![0.0; u.len()];
-        self.step.constraints.expand(motion, &mut full);
+        let full = self.expanded(motion);
         let change = largest(u.iter().zip(&self.state.u).map(|(a, b)| a - b));
         let unit = largest(full.iter().copied());
         for side in [1.0, -1.0] {
@@ -152,11 +161,6 @@ impl Newton<'_> {
     }
 
     pub(super) fn name_motions(&self, motions: &[Vec<f64>]) -> Vec<String> {
-        let expanded = |motion: &Vec<f64>| {
-            let mut full = vec![0.0; self.state.u.len()];
-            self.step.constraints.expand(motion, &mut full);
-            full
-        };
-        self.problem.name_motions(&motions.iter().map(expanded).collect::<Vec<_>>())
+        self.problem.name_motions(&motions.iter().map(|motion| self.expanded(motion)).collect::<Vec<_>>())
     }
 }

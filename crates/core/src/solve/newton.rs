@@ -177,6 +177,8 @@ pub struct Newton<'a> {
     pub(super) coefficients: Vec<f64>,
     /// Whether the line search is strict.
     pub(super) strict: bool,
+    /// Whether what nothing held when that was asked last lies close to something that it may touch.
+    pub(super) free_is_close: bool,
     /// Motions that the last matrix was regularised against, in words.
     pub(super) regularised: Vec<String>,
     /// Iterations in a row over which no contact changed.
@@ -276,6 +278,7 @@ impl<'a> Newton<'a> {
             stiffness: 0.0,
             coefficients: Vec::new(),
             strict: false,
+            free_is_close: false,
             regularised: Vec::new(),
             steady: 0,
             holding: false,

@@ -112,7 +112,7 @@ impl Term for FieldContact {
             contact: self,
             history,
             accepted: &accepted.u,
-            tips_before: before.tips(f64::INFINITY, Some(&[])),
+            tips_before: self.tips_before(&before, history),
             before,
             depths: self.depths(&accepted.u),
             reach: self.reach(&accepted.last_change),

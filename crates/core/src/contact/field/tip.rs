@@ -23,7 +23,9 @@ use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, Touched};
 use super::points::Recall;
 use super::tool::ToolInPlace;
+use crate::contact::record::entry;
 use crate::mesh::Side;
+use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::Tip;
 
@@ -39,6 +41,8 @@ pub struct TipFoot {
 /// Angles between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner of a punch does:
 /// the flank's own nodes then feel all that there is, and the tip nothing. Of a rounding larger than the face, over that.
 const FLAT: [f64; 2] = [0.45, 0.72];
+/// Largest radius of a rounding over the face that it lies over: of a larger one the gap of the nodes is right to a fiftieth of that.
+const LARGEST: f64 = 4.0;
 /// How far beside the end of the surface, over half of its face there, a tip may lie that lies over that end,
 const BESIDE: f64 = 0.5;
 /// and how far from it along the face, likewise.
@@ -127,6 +131,9 @@ impl Configuration<'_> {
             }
             let xi = edge.closest(centre);
             let at = edge.at(xi);
+            if radius > LARGEST * 2.0 * at.tangent.norm() {
+                continue;
+            }
             let (n, to) = (outward(at.tangent), centre - at.x);
             let nearer = usize::from(xi > 0.0);
             let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
@@ -227,8 +234,33 @@ impl Configuration<'_> {
     }
 }
 
+impl FieldContact {
+    /// The undeformed area of a face under a tip by what it is at a place, with its slope along the edge.
+    fn tip_area(&self, face: &FieldFace, landing: &Landing, xi: f64) -> [f64; 2] {
+        // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
+        let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
+        let rest = face.at_rest(&self.parts.mesh);
+        let (density, [slope, _]) = self.parts.surface.density(face, &rest, [over, 0.0]);
+        [length * density, length * slope]
+    }
+
+    /// Where the tips of the tool lie in an accepted configuration: one that bears has no more of its face than it had.
+    pub(super) fn tips_before(&self, before: &Configuration, history: &History) -> Vec<Option<TipFoot>> {
+        let mut tips = before.tips(f64::INFINITY, Some(&[]));
+        for (number, found) in tips.iter_mut().enumerate() {
+            let values = history.slot(self.nodal_slots() + number);
+            let Some(TipFoot { patch: Patch { face, tip: Some(landing), .. }, .. }) = found else { continue };
+            if values[entry::STATUS] > 0.0 {
+                let whole = self.tip_area(&self.parts.surface.faces[*face], landing, landing.xi)[0];
+                landing.share = landing.share.min(values[entry::XI] / whole);
+            }
+        }
+        tips
+    }
+}
+
 /// Change of the part that a tip has in the area of a face above which a converged increment goes on with the new one.
-const CHANGED: f64 = 0.1;
+const CHANGED: f64 = 0.5;
 
 impl FieldAttempt<'_> {
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
@@ -274,7 +306,7 @@ struct TipInPlace<'a> {
     /// From the place to the centre, and the outward normal of the gap.
     to: Vec3,
     n: Vec3,
-    /// Undeformed area for a unit of the reference coordinate there, with its slope, times the length that it stands for.
+    /// Undeformed area of the face by what it is at the place, with its slope along the edge.
     area: f64,
     slope: f64,
 }
@@ -282,8 +314,7 @@ struct TipInPlace<'a> {
 impl NodesInPlace<'_> {
     fn tip(&self, patch: &Patch, landing: Landing) -> Option<TipInPlace<'_>> {
         let (tool, contact) = (self.tool.as_ref()?, self.contact);
-        let surface = &contact.parts.surface;
-        let face = &surface.faces[patch.face];
+        let face = &contact.parts.surface.faces[patch.face];
         let placed = self.placed(face);
         let edge = PlacedEdge { face, placed: &placed };
         let Tip { centre, radius, .. } = contact.tips()[patch.target];
@@ -292,14 +323,11 @@ impl NodesInPlace<'_> {
             Some(corner) => face.corner_place(corner)[0],
             None => root_near(landing.xi, |xi| edge.offset(xi, centre)),
         };
-        // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
-        let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
-        let rest = face.at_rest(&contact.parts.mesh);
-        let (density, [slope, _]) = surface.density(face, &rest, [over, 0.0]);
+        let [area, slope] = contact.tip_area(face, &landing, xi);
         let at = edge.at(xi);
         let (to, own) = (centre - at.x, outward(at.tangent));
         let n = if landing.corner.is_some() { facing_centre(to, own) } else { own };
-        Some(TipInPlace { tool, landing, centre, radius, xi, at, to, n, area: length * density, slope })
+        Some(TipInPlace { tool, landing, centre, radius, xi, at, to, n, area, slope })
     }
 
     /// The point of a tip.
@@ -357,7 +385,7 @@ impl NodesInPlace<'_> {
             };
             let slid = |touched: &Touched| carried(touched.tip) - left_behind(self.contact, column, touched);
             rates.push(PointRates {
-                weight: 2.0 * tip.slope * dxi * landing.share,
+                weight: tip.slope * dxi * landing.share,
                 xi: [dxi, 0.0],
                 gap: n.dot(apart) + if stays { dn.dot(to) } else { 0.0 },
                 n: dn,

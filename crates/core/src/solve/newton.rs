@@ -373,7 +373,7 @@ impl<'a> Newton<'a> {
             let given_up = match goal {
                 // Where no smaller increment may follow there is nothing to save the rest for.
                 Goal::Equilibrium => {
-                    let vain = sequence.progress.wanders() && self.step.may_halve(self.at.dt);
+                    let vain = sequence.progress.wanders(self.flows()) && self.step.may_halve(self.at.dt);
                     since == options.iterations || vain
                 }
                 Goal::Less { most, .. } => iteration == most,

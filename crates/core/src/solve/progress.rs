@@ -3,9 +3,10 @@
 //! Newton's method near a solution takes whole steps and makes the unbalanced forces a small part of those in play within a few.
 //! Iterations that leave them large, no smaller than they were before, and must shorten their steps, wander: a smaller increment
 //! costs less than the rest of them. So do those over which contact finds no states that would balance the linear step: what they
-//! change then is no more than a guess.
+//! change then is no more than a guess. Where bodies flow a few iterations tell: those that do not bring the unbalanced forces down soon
+//! lead into deformations that no increment has, and from there to no end.
 
-use super::constants::progress::{FALL, LARGE, LOST, SHORT, WINDOW};
+use super::constants::progress::{FALL, LARGE, LOST, SHORT, SOON, STILL, WINDOW};
 
 /// The iterations of a sequence: what each left of the unbalanced forces over those in play, the part of Newton's step that led
 /// there, and over how many steps contact found no states.
@@ -28,9 +29,10 @@ impl Progress {
         self.parts.push(part);
     }
 
-    /// Whether the last iterations wander.
-    pub fn wanders(&self) -> bool {
-        if self.lost >= LOST {
+    /// Whether the last iterations wander, where bodies flow or not.
+    pub fn wanders(&self, flows: bool) -> bool {
+        let astray = self.ratios.len() > SOON && self.ratios.last().is_some_and(|ratio| *ratio > STILL);
+        if self.lost >= LOST || flows && astray {
             return true;
         }
         let Some(start) = self.ratios.len().checked_sub(WINDOW).filter(|start| *start > 1) else { return false };
@@ -49,7 +51,7 @@ mod tests {
         let mut progress = Progress::default();
         let mut lost = |(i, &(ratio, part)): (usize, &(f64, f64))| {
             progress.push(i == 0, ratio, (part, false));
-            progress.wanders().then_some(i)
+            progress.wanders(false).then_some(i)
         };
         iterations.iter().enumerate().find_map(&mut lost)
     }
@@ -65,13 +67,28 @@ mod tests {
         let mut progress = Progress::default();
         let mut wanders = |first, lost| {
             progress.push(first, 0.1, (1.0, lost));
-            progress.wanders()
+            progress.wanders(false)
         };
         // What led to the first iterate belongs to no step of the sequence.
         assert_eq!(
             [(true, true), (false, true), (false, false), (false, true)].map(|(f, l)| wanders(f, l)),
             [false, false, false, true]
         );
+    }
+
+    #[test]
+    fn forces_that_stay_large_are_given_up_soon_where_bodies_flow() {
+        let given_up = |flows, ratios: &[f64]| {
+            let mut progress = Progress::default();
+            let mut push = |(i, &ratio): (usize, &f64)| {
+                progress.push(i == 0, ratio, (1.0, false));
+                progress.wanders(flows).then_some(i)
+            };
+            ratios.iter().enumerate().find_map(&mut push)
+        };
+        assert_eq!(given_up(true, &[0.9; 20]), Some(SOON));
+        assert_eq!(given_up(true, &[0.9, 0.9, 0.9, 0.9, 0.05, 0.2]), Some(5));
+        assert_eq!([given_up(false, &[0.9; 20]), given_up(true, &[0.9, 0.9, 0.9, 0.9, 0.05, 1e-3])], [None; 2]);
     }
 
     #[test]

@@ -175,7 +175,8 @@ impl Caution {
             return wanted;
         }
         if dt >= self.failed * (1.0 - 1e-9) {
-            self.forget();
+            // That a relaxation of the step was in vain stays known.
+            *self = Self { proven: self.proven, vain: self.vain, ..Self::default() };
             return wanted;
         }
         self.rest = self.rest.saturating_sub(1);
@@ -217,6 +218,9 @@ mod tests {
         assert_eq!((caution.failed, caution.rest), (0.75, 2 * PATIENCE));
         assert_eq!(caution.hold(0.75, 1.125), 1.125, "passed");
         assert_eq!(caution, Caution::default());
+        (caution.failed, caution.vain) = (1.0, true);
+        caution.hold(1.0, 1.5);
+        assert_eq!(caution, Caution { vain: true, ..Caution::default() }, "a relaxation in vain is not tried again");
     }
 
     #[test]

@@ -180,12 +180,9 @@ impl Newton<'_> {
             return Ok(part * step.part);
         }
         let end = self.slope(&step.du);
-        let bodies =
-            self.problem.terms.iter().zip(&self.evaluation.energies).filter(|(term, _)| term.branches().is_empty());
-        let flows = bodies.map(|(_, energies)| energies.dissipated).any(|dissipated| dissipated > 0.0);
         let allowed = match (self.strict, cycles.met(&self.evaluation.branches)) {
             (true, _) => STRICT,
-            (false, true) if flows => FLOWING,
+            (false, true) if self.flows() => FLOWING,
             (false, _) => SLOPE,
         };
         if end.abs() <= allowed * slope.abs() {
@@ -196,6 +193,12 @@ impl Newton<'_> {
         *u = along(part);
         self.evaluate(u, None, self.tangent())?;
         Ok(part * step.part)
+    }
+
+    /// Whether bodies flow where the terms were evaluated last.
+    pub(super) fn flows(&self) -> bool {
+        let terms = self.problem.terms.iter().zip(&self.evaluation.energies);
+        terms.filter(|(term, _)| term.branches().is_empty()).any(|(_, energies)| energies.dissipated > 0.0)
     }
 
     /// Work of the present unbalanced forces along a direction.

@@ -309,7 +309,11 @@ fn contacts_that_hardly_close_are_noted() {
 fn a_tool_narrower_than_a_face_is_told() {
     let run = Run::of(NARROW, &[]);
     run.doubts(&["coarseness"], "contact 'spot'");
-    assert_eq!(Run::of(NARROW, &["mesh.part.block.box.cells=[7,3,7]", "tool.pin.cylinder.radius=0.6"]).code(), 0);
+    let fine = ["mesh.part.block.box.cells=[7,3,7]", "tool.pin.cylinder.radius=0.6"];
+    assert_eq!(Run::of(NARROW, &fine).code(), 0);
+    // Before it touches it presses nothing.
+    let away = ["tool.pin.cylinder.from=[0.0,0.015,0.0]", "step.1.increments.count=4"];
+    assert_eq!(Run::of(NARROW, &[&fine[..], &away].concat()).code(), 0);
 }
 
 /// The penetration of a contact without friction is told as that of any other.

@@ -26,6 +26,9 @@ pub mod regularisation {
     pub const MOST_EASED: i32 = 5;
     /// Force over the reference force that holds what meets no stiffness.
     pub const RESISTANCE: f64 = 1e-3;
+    /// Gap over a cell that a node may have whose faces touch: the mean, weighted by its function, of what a corner with flanks of 45
+    /// degrees leaves.
+    pub const CLOSE: f64 = 1.0 / 3.0;
 }
 
 /// Memory beside the factor, measured on runs.

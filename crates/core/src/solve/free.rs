@@ -1,6 +1,6 @@
 //! What is free: motions that meet no stiffness, in an iterate and in a solution.
 
-use super::constants::regularisation::{EASED, MOST_EASED, RESISTANCE, SMALL};
+use super::constants::regularisation::{CLOSE, EASED, MOST_EASED, RESISTANCE, SMALL};
 use super::linear::LinearError;
 use super::newton::{IfFree, Newton, SolveError, largest};
 use super::observer::AttemptRecord;
@@ -114,10 +114,20 @@ impl Newton<'_> {
             }
         }
         self.evaluate(u, None, self.tangent())?;
-        let contacts = self.memory.workspace.seeing(|term| self.problem.terms[term].bends());
-        let close = |motion: &Vec<f64>| self.expanded(motion).iter().zip(&contacts).any(|(d, &sees)| sees && *d != 0.0);
-        self.free_is_close = loose.iter().all(close);
+        self.free_is_close = self.are_close(u, &loose)?;
         Ok(self.name_motions(&loose))
+    }
+
+    /// Whether each of these motions at `u` moves a place of a body that lies as close to what it may touch as one may whose faces touch
+    /// it.
+    fn are_close(&mut self, u: &[f64], motions: &[Vec<f64>]) -> Result<bool, Failure> {
+        self.memory.workspace.kinks(&self.assembly, u, &mut self.memory.kinks)?;
+        let (kinks, far) = (&self.memory.kinks, CLOSE * self.problem.cell_size);
+        let close = |motion: &Vec<f64>| {
+            let motion = self.expanded(motion);
+            kinks.list().iter().any(|kink| -kink.y[0] <= far && kinks.along(kink, &motion).iter().any(|y| *y != 0.0))
+        };
+        Ok(motions.iter().all(close))
     }
 
     /// A motion of the free unknowns as one of all.

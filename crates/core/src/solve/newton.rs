@@ -30,7 +30,8 @@ pub enum Variant {
 /// What becomes of a motion that nothing holds and nothing drives, as of a body that has lost its contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IfFree {
-    /// What has lost its hold stays where it is until something touches it; what nothing held in the first increment ends the run.
+    /// What has lost its hold stays where it is until something touches it, and so does in the first increment what lies close to
+    /// something that it may touch; what else nothing held then ends the run.
     Auto,
     /// The run ends and names it.
     Stop,

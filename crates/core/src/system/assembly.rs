@@ -130,17 +130,6 @@ impl Workspace {
     pub fn stencils(&self, term: usize) -> usize {
         self.stencils[term].list.len()
     }
-    /// Of each unknown whether it is one of a stencil that sees something, of the terms that `may`.
-    pub fn seeing(&self, may: impl Fn(usize) -> bool) -> Vec<bool> {
-        let mut seen = Vec::new();
-        for (_, stencils) in self.stencils.iter().enumerate().filter(|(term, _)| may(*term)) {
-            for &dof in stencils.list.iter().filter(|stencil| stencil.choice > 0).flat_map(|s| stencils.dofs(s)) {
-                seen.resize(seen.len().max(dof + 1), false);
-                seen[dof] = true;
-            }
-        }
-        seen
-    }
     /// How often a pattern had to be enlarged inside an attempt.
     pub fn enlarged(&self) -> usize {
         self.enlarged

@@ -51,7 +51,7 @@ impl Words for Variant {
 impl Words for IfFree {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         let hold = "it stays where it is until something touches it; a load on it finds no equilibrium";
-        let auto = "`hold` for what has lost its hold, `stop` for what nothing holds in the first increment";
+        let auto = "`hold` for what has lost its hold, or lies in the first increment within a third of a cell of what it may touch, `stop` for what else nothing holds there";
         vec![(Self::Auto, "auto", auto), (Self::Stop, "stop", "the run ends and names it"), (Self::Hold, "hold", hold)]
     }
 }

@@ -141,7 +141,7 @@ impl FieldContact {
     }
 
     /// Area of the faces around its nodes over that which these see of a tool in space, as a mean over the force that they bear: by how
-    /// much the surface is too coarse for what presses it.
+    /// much the surface is too coarse for what presses it; one where nothing does.
     pub fn coarseness(&self, history: &History) -> Option<f64> {
         let shares = self.shares(history)?;
         let (mut force, mut seen) = (0.0, 0.0);
@@ -151,7 +151,7 @@ impl FieldContact {
             let borne = values[entry::PRESSURE].max(0.0) * values[entry::HALF] * values[entry::XI];
             (force, seen) = (force + borne, seen + borne * share);
         }
-        (seen > 0.0).then(|| force / seen)
+        Some(if seen > 0.0 { force / seen } else { 1.0 })
     }
 
     /// The part of its faces on which a node lies over a piece of a tool in space, slot by slot.

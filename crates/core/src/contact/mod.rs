@@ -14,12 +14,14 @@ mod overlap;
 mod paper;
 mod penalty;
 mod record;
+mod sides;
 mod thin;
 
 pub use augment::Augmentation;
 pub use options::{ContactForm, ContactOptions, LoadedSides, Move, second_name};
 pub use overlap::Overlap;
-pub use paper::{GaussPoint, PaperContact, PaperParts, PointSurface, Sample};
+pub use paper::{GaussPoint, PaperContact, Sample};
 pub use penalty::{Backing, DefaultPenalty, TWO_PASSES, default_penalty};
 pub use record::{ContactRecord, PointStatus};
+pub use sides::{ContactParts, ContactSides};
 pub use thin::{Plate, plates};

@@ -4,8 +4,10 @@ use super::behind::{ELASTIC_SLIP, FieldSides, backings, boundary_behind, tool_ta
 use super::model::{Model, ModelParts};
 use crate::Error;
 use crate::amplitude::Amplitude;
-use crate::contact::field::{FieldContact, FieldParts, FieldSurface};
-use crate::contact::{Augmentation, Backing, ContactForm, ContactOptions, LoadedSides, Overlap, default_penalty};
+use crate::contact::field::{FieldContact, FieldRoles, FieldSurface};
+use crate::contact::{
+    Augmentation, Backing, ContactForm, ContactOptions, ContactParts, LoadedSides, Overlap, default_penalty,
+};
 use crate::declare::nearest;
 use crate::interface::Rule;
 use crate::load::Site;
@@ -388,7 +390,7 @@ impl Names<'_> {
             wear: None,
             form: ContactForm::Field,
         };
-        Some(FieldContact::new(FieldParts {
+        let parts = ContactParts {
             name: contact.name,
             mesh: mesh.clone(),
             dofs: dofs.clone(),
@@ -396,10 +398,9 @@ impl Names<'_> {
             surface: FieldSurface::new(mesh, carrier, *space, *thickness),
             boundary: boundary_behind(mesh, carrier, cells.iter().copied()),
             target,
-            itself,
-            swapped,
             law: contact.law,
             options,
-        }))
+        };
+        Some(FieldContact::new(parts, FieldRoles { itself, swapped }))
     }
 }

@@ -45,7 +45,7 @@ impl FieldTarget {
 impl<'a> Configuration<'a> {
     /// At unknowns `u`.
     pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
-        let (surface, site) = (&contact.parts.surface, (&*contact.parts.mesh, &contact.parts.dofs));
+        let (surface, site) = (contact.surface(), contact.site());
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };

@@ -62,14 +62,14 @@ impl<'a> PaperAttempt<'a> {
     /// Appends the unknowns of a point: its own, those of the segment it hits, of the one it touched, of the faces around it.
     pub(super) fn unknowns(&self, index: usize, stencil: &Stencil, out: &mut Vec<usize>) {
         let parts = &self.contact.parts;
-        out.extend(dofs_of(&parts.surface.face(index).nodes, &parts.dofs));
+        out.extend(dofs_of(&self.contact.face(index).nodes, &parts.dofs));
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return };
         out.extend(parts.target.unknowns(segment, &parts.dofs));
         if let Some((other, _)) = self.touched_elsewhere(index, segment) {
             out.extend(parts.target.unknowns(other, &parts.dofs));
         }
         for &face in self.contact.neighbours.others(index) {
-            out.extend(dofs_of(&parts.surface.faces.faces[face].nodes, &parts.dofs));
+            out.extend(dofs_of(&parts.surface.faces[face].nodes, &parts.dofs));
         }
     }
 
@@ -89,7 +89,7 @@ impl<'a> PaperAttempt<'a> {
         let Some(number) = (stencil.choice as usize).checked_sub(1) else { return Ok(None) };
         let (contact, parts, site) = (self.contact, &self.contact.parts, self.contact.site());
         let lost = || Failure::new(format!("{}: its ray runs along the target", contact.name_of(index)));
-        let (point, face) = (&parts.surface.points[index], parts.surface.face(index));
+        let (point, face) = (&self.contact.points[index], self.contact.face(index));
         let own = parts.dofs.per_node() * face.nodes.len();
         let met = own..own + parts.target.unknowns(number, &parts.dofs).len();
         let placed = placed(&face.nodes, &parts.mesh, &u[..own]);

@@ -50,7 +50,7 @@ impl Touching<'_> {
     pub fn stand(&self, slot: usize) -> Stand {
         match self {
             Self::Points(contact) => {
-                let (point, face) = (&contact.points().points[slot], contact.points().face(slot));
+                let (point, face) = (&contact.points()[slot], contact.face(slot));
                 Stand::Face(point.face, corners(face.kind, &face.nodes, [point.xi[0], point.xi[1], 0.0]))
             }
             Self::Field(contact) => contact.node_at(slot).map_or(Stand::Apart, Stand::Node),

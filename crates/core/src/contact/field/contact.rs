@@ -10,7 +10,6 @@ use crate::mesh::Mesh;
 use crate::system::{Dofs, History};
 use crate::tensor::legendre;
 use crate::tool::{self, ProfileTool, Tip};
-use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::{Arc, LazyLock};
 
@@ -65,8 +64,6 @@ pub struct FieldRoles {
 pub struct FieldContact {
     sides: ContactSides,
     pub(super) roles: FieldRoles,
-    /// For each face of a target its smooth piece, counted from zero.
-    labels: Vec<usize>,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
     sizes: Vec<f64>,
@@ -88,15 +85,15 @@ impl FieldContact {
         let size =
             |node: &FieldNode| node.support.iter().map(|&(f, _)| surface.size(f, mesh)).fold(f64::INFINITY, f64::min);
         let sizes = surface.nodes.iter().map(size).collect();
-        let (labels, pieces) = match target {
+        let pieces = match target {
             FieldTarget::Tool(rigid) => {
                 let [shortest, longest] = surface.sizes(mesh);
                 rigid.sharpen([SMALL * shortest, longest]);
-                (Vec::new(), rigid.pieces())
+                rigid.pieces()
             }
-            FieldTarget::Faces(faces) => labels(&faces.surface.pieces),
+            FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
         };
-        Self { sides, roles, labels, pieces, sizes }
+        Self { sides, roles, pieces, sizes }
     }
 
     /// The largest penetration of a closed node in an accepted state.
@@ -129,7 +126,7 @@ impl FieldContact {
     }
     /// The smooth piece of a target's segment.
     pub(super) fn piece_of(&self, target: usize) -> usize {
-        self.labels.get(target).copied().unwrap_or(target)
+        self.parts.target.as_faces().map_or(target, |faces| faces.surface.pieces[target])
     }
     /// Whether the averaged normals of the surface matter.
     pub(super) fn needs_normals(&self) -> bool {
@@ -160,16 +157,6 @@ impl FieldContact {
 
 /// Largest radius of a tip over the length of the shortest face: a larger one is felt by the faces around it.
 const SMALL: f64 = 1.0;
-
-/// Labels counted from zero, in the order of their first use.
-fn labels(roots: &[usize]) -> (Vec<usize>, usize) {
-    let mut numbers = BTreeMap::new();
-    for &root in roots {
-        let next = numbers.len();
-        numbers.entry(root).or_insert(next);
-    }
-    (roots.iter().map(|root| numbers[root]).collect(), numbers.len())
-}
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
 pub static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(4));

@@ -9,7 +9,7 @@ use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
 use super::space::SeenNodes;
 use super::surface::FieldSurface;
 use super::tool::ToolInPlace;
-use crate::tensor::Vec3;
+use crate::tensor::{Vec3, root};
 
 /// The part of a face that sees one piece of the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,28 +119,6 @@ impl<'a> FaceInPlace<'a> {
 
 /// Ends of an interval nearer to those of the edge than this, in reference coordinates, cut nothing off.
 const END: f64 = 1e-9;
-
-/// The zero between `from` and `to` of a function with its slope, by Newton's method within a shrinking bracket.
-fn root([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> [f64; 2]) -> f64 {
-    let below = f(from)[0] < 0.0;
-    let mut xi = 0.5 * (from + to);
-    for _ in 0..100 {
-        let [value, slope] = f(xi);
-        if (value < 0.0) == below {
-            from = xi
-        } else {
-            to = xi
-        }
-        let newton = xi - value / slope;
-        let inside = newton > from.min(to) && newton < from.max(to);
-        let next = if inside { newton } else { 0.5 * (from + to) };
-        if (next - xi).abs() < 1e-15 {
-            break;
-        }
-        xi = next;
-    }
-    xi
-}
 
 /// The zero near `xi` of a function with its slope, by Newton's method; where it does not settle, `xi`.
 pub fn root_near(xi: f64, f: impl Fn(f64) -> [f64; 2]) -> f64 {

@@ -5,8 +5,8 @@
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
 use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
-use crate::mesh::{CREASE, DisjointSets, Mesh, Side, Space};
-use crate::tensor::Vec3;
+use crate::mesh::{CREASE, Mesh, Side, Space};
+use crate::tensor::{DisjointSets, Vec3};
 use std::collections::BTreeMap;
 
 /// A node of the field.
@@ -49,7 +49,7 @@ pub struct FieldSurface {
     pub nodes: Vec<FieldNode>,
     /// For each face the nodes of the field at its corners.
     pub field: Vec<[usize; CORNERS]>,
-    /// For each face the smooth piece it belongs to.
+    /// For each face the smooth piece it belongs to, counted from zero.
     pub pieces: Vec<usize>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
@@ -113,8 +113,7 @@ impl FieldSurface {
                 nodes.push(FieldNode { node, support, on_axis });
             }
         }
-        self.pieces = (0..self.faces.len()).map(|f| pieces.root(f)).collect();
-        (self.nodes, self.field) = (nodes, field);
+        (self.pieces, self.nodes, self.field) = (pieces.labels(), nodes, field);
     }
 
     /// The nodes of the mesh between which the line runs that tangents at a node of the field follow in space.

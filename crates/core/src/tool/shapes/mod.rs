@@ -193,10 +193,3 @@ pub(super) fn turn(a: Vec3, b: Vec3) -> f64 {
 pub(super) fn angle(a: Vec3, b: Vec3) -> f64 {
     turn(a, b).atan2(a.dot(b))
 }
-
-/// The roots of `a x^2 + b x + c`, without cancellation; the one that does not exist is not finite.
-pub(super) fn quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
-    let root = (b * b - 4.0 * a * c).sqrt();
-    let q = -0.5 * (b + root.copysign(b));
-    [q / a, c / q]
-}

@@ -207,10 +207,8 @@ impl FieldContact {
 
     /// How far the facets of both sides stand off a smooth surface at most, a length.
     pub(super) fn sagitta(&self) -> f64 {
-        let most = |surface: &FieldSurface| {
-            (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.parts.mesh)).fold(0.0, f64::max)
-        };
-        most(&self.parts.surface) + self.parts.target.as_faces().map_or(0.0, |faces| most(&faces.surface))
+        let most = |surface: &FieldSurface| surface.largest_sagitta(self.mesh());
+        most(self.surface()) + self.target().as_faces().map_or(0.0, |faces| most(&faces.surface))
     }
 }
 

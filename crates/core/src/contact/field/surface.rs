@@ -211,8 +211,12 @@ impl FieldSurface {
     /// Mean size of its faces, and the largest sagitta over it.
     pub fn coarseness(&self, mesh: &Mesh) -> [f64; 2] {
         let mean = (0..self.faces.len()).map(|f| self.size(f, mesh)).sum::<f64>() / self.faces.len().max(1) as f64;
-        let sagitta = (0..self.nodes.len()).map(|node| self.sagitta(node, mesh)).fold(0.0, f64::max);
-        [mean, sagitta / mean]
+        [mean, self.largest_sagitta(mesh) / mean]
+    }
+
+    /// How far its facets stand off a smooth surface at most, a length.
+    pub fn largest_sagitta(&self, mesh: &Mesh) -> f64 {
+        (0..self.nodes.len()).map(|node| self.sagitta(node, mesh)).fold(0.0, f64::max)
     }
 
     /// Shortest and longest size of its faces.

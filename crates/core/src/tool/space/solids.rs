@@ -54,11 +54,6 @@ pub fn polygons(all: impl IntoIterator<Item = Vec<Vec3>>) -> Result<Facets, Stri
     all.into_iter().map(polygon).collect()
 }
 
-fn segment(key: &str, nodes: &[[f64; 2]]) -> Result<Box<dyn ProfileShape>, String> {
-    let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
-    find(key)?.build(&nodes)
-}
-
 /// The quarter of a circle or more about `(x, y)` from angle `from` to `to`, in degrees.
 fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Result<Box<dyn ProfileShape>, String> {
     let at = |angle: f64| {
@@ -70,9 +65,9 @@ fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Result<Box<dyn Pr
             270.0 => (-1.0, 0.0),
             _ => angle.to_radians().sin_cos(),
         };
-        [x + radius * cos, y + radius * sin]
+        Vec3::new(x + radius * cos, y + radius * sin, 0.0)
     };
-    segment("arc", &[at(from), at(0.5 * (from + to)), at(to)])
+    find("arc")?.build(&[at(from), at(0.5 * (from + to)), at(to)])
 }
 
 /// A square plate around `at` whose face looks along `normal`.

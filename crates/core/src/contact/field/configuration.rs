@@ -4,7 +4,7 @@ use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, over_piece};
 use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
-use super::part::{FacePart, samples};
+use super::part::{FacePart, nearest, samples};
 use super::space::{CutFace, SeenNodes, foot, nearby, whole};
 use super::tool::ToolInPlace;
 use crate::mesh::Mesh;
@@ -111,9 +111,10 @@ impl Configuration<'_> {
                     let part = FacePart::new(&face, faces.corners(target))?;
                     let (near, ends) =
                         if let FacePart::Interval(near, ends) = part { (near, ends) } else { (WHOLE, [None; 2]) };
-                    Some((self.judge(&face, patch(target, near, ends), &part.places())?, part))
+                    let seen = self.judge(&face, patch(target, near, ends), &part.places())?;
+                    Some((seen, part, seen.middle))
                 };
-                found = keep_nearest(&candidates.filter_map(look).collect::<Vec<_>>());
+                found = nearest(&candidates.filter_map(look).collect::<Vec<_>>()).map(|(seen, ..)| *seen).collect();
             }
         }
         found
@@ -144,12 +145,4 @@ impl Configuration<'_> {
         }
         looks.then_some(SeenPart { patch, least, middle })
     }
-}
-
-/// Of patches of one face that lie over each other, the nearest.
-fn keep_nearest(all: &[(SeenPart, FacePart)]) -> Vec<SeenPart> {
-    let nearer = |a: &SeenPart, b: &SeenPart| (a.middle.abs(), a.patch.target) < (b.middle.abs(), b.patch.target);
-    let hidden =
-        |seen: &SeenPart, part: &FacePart| all.iter().any(|(other, over)| nearer(other, seen) && over.covers(part));
-    all.iter().filter(|(seen, part)| !hidden(seen, part)).map(|(seen, _)| *seen).collect()
 }

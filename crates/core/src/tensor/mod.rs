@@ -3,6 +3,7 @@
 //! Every law and every contact point is written once, generic over [`Scalar`]; evaluated with `f64` it gives the
 //! value, with [`Dual`] the value and its exact derivative along `N` directions.
 
+mod bounds;
 mod dual;
 mod inverse;
 mod principal;
@@ -13,6 +14,7 @@ mod sets;
 mod tensor2;
 mod vec3;
 
+pub use bounds::BoundingBox;
 pub use dual::Dual;
 pub use inverse::{inverse, invert};
 pub use principal::{Isotropic, principal};

@@ -9,8 +9,7 @@ use super::space::{CutFace, SeenNodes, foot, nearby, whole};
 use super::tool::ToolInPlace;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
-use crate::tensor::Vec3;
-use crate::tool::BoundingBox;
+use crate::tensor::{BoundingBox, Vec3};
 
 /// Both sides of a contact at given unknowns.
 pub struct Configuration<'a> {

@@ -97,8 +97,7 @@ impl PaperAttempt<'_> {
         local: &mut Local,
     ) {
         let n = local.force.len();
-        let triad = Triad::new(g.place.tangents, self.contact.surface().plane);
-        let force = (triad.along[0] * s + triad.along[1] * t) * self.present_area(g);
+        let force = (g.triad.along[0] * s + g.triad.along[1] * t) * self.present_area(g);
         for (i, row) in self.rows::<f64>(g, (g.place.b, g.place.b), force).iter().enumerate() {
             for (entry, change) in local.tangent[i * n..(i + 1) * n].iter_mut().zip(&mean.slopes) {
                 *entry += row * change;

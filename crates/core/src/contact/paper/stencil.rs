@@ -26,6 +26,8 @@ pub struct PointGeometry<'a> {
     pub point: &'a GaussPoint,
     /// Positions.
     pub place: PointPlace<f64>,
+    /// Triad.
+    pub triad: Triad<f64>,
     /// Where the target is hit.
     pub hit: Hit,
     /// The segment that is hit.
@@ -51,6 +53,11 @@ impl PointGeometry<'_> {
             b: seed(self.place.b, 9),
             touched: self.place.touched.map(|x| seed(x, 12)),
         }
+    }
+
+    /// Slips of the increment.
+    pub fn slip(&self) -> [f64; 2] {
+        self.place.slip(&self.triad)
     }
 }
 
@@ -95,7 +102,8 @@ impl<'a> PaperAttempt<'a> {
         let placed = placed(&face.nodes, &parts.mesh, &u[..own]);
         let (a, plane) = (point.shape.value(placed.nodes()), contact.surface().plane);
         let tangents = point.shape.tangents(placed.nodes(), plane);
-        let inward = Triad::new(tangents, plane).inward;
+        let triad = Triad::new(tangents, plane);
+        let inward = triad.inward;
         let segment = parts.target.segment(number, site, &u[met.clone()]);
         let hit = segment.meet(&ProfileRay { origin: a, direction: inward }, stencil.near).ok_or_else(lost)?;
         let mut count = met.end;
@@ -109,7 +117,7 @@ impl<'a> PaperAttempt<'a> {
         });
         let touched = before.as_ref().map(|(segment, s, _)| segment.point(*s));
         let place = PointPlace { a, tangents, b: a + inward * hit.u, touched };
-        Ok(Some(PointGeometry { point, place, hit, segment, own, met, before, count, placed }))
+        Ok(Some(PointGeometry { point, place, triad, hit, segment, own, met, before, count, placed }))
     }
 
     /// What a force at a point does to each unknown of its stencil: `-N_L f` to its own nodes, and to the target its

@@ -3,8 +3,8 @@
 //! About the middle node, with `w = s - 1/2`: `x = m + b1 w + b2 w^2`, `b1 = c - a`, `b2 = 2 (a - m) + 2 (c - m)`.
 //! A ray meets it where `(e x b2) w^2 + (e x b1) w + e x (m - o) = 0`; `b2 = 0` leaves the straight line.
 
-use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
-use crate::tensor::{Vec3, integral, quadratic};
+use super::{Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
+use crate::tensor::{BoundingBox, Vec3, integral, quadratic};
 
 pub(super) static KIND: ShapeKind = ShapeKind {
     key: "parabola",

@@ -7,9 +7,8 @@
 
 use super::nearest::{FacetBorder, FacetPoint};
 use super::tool::SpaceTool;
-use crate::tensor::{DisjointSets, Vec3};
+use crate::tensor::{BoundingBox, DisjointSets, Vec3};
 use crate::tool::distance::CREASE;
-use crate::tool::shapes::BoundingBox;
 use crate::tool::{BoxTree, NearestPoint};
 
 /// Points of two facets are the same within this part of the tool's size.

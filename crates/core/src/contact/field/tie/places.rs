@@ -7,8 +7,7 @@ use crate::contact::field::part::{FacePart, nearest};
 use crate::contact::field::surface::FieldSurface;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
-use crate::tensor::{Vec3, legendre};
-use crate::tool::BoundingBox;
+use crate::tensor::{BoundingBox, Vec3, legendre};
 
 /// Points of a rule along each direction of a part of a face: all products of shape functions of faces with straight sides are
 /// integrated exactly, others to rounding.

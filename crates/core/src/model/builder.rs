@@ -5,9 +5,7 @@ use super::model::{Model, ModelParts};
 use crate::Error;
 use crate::amplitude::Amplitude;
 use crate::contact::field::{FieldContact, FieldRoles, FieldSurface};
-use crate::contact::{
-    Augmentation, Backing, ContactForm, ContactOptions, ContactParts, LoadedSides, Overlap, default_penalty,
-};
+use crate::contact::{Augmentation, Backing, ContactOptions, ContactParts, LoadedSides, Overlap, default_penalty};
 use crate::declare::nearest;
 use crate::interface::Rule;
 use crate::load::Site;
@@ -388,7 +386,6 @@ impl Names<'_> {
             augmentation: contact.augmentation,
             overlap: contact.overlap,
             wear: None,
-            form: ContactForm::Field,
         };
         let parts = ContactParts {
             name: contact.name,

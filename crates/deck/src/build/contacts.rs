@@ -7,8 +7,8 @@ use crate::keys::{self, Passes};
 use crate::reader::Name;
 use asperity_core::contact::field::{FieldSurface, FieldTarget};
 use asperity_core::contact::{
-    Backing, ContactForm, ContactOptions, ContactParts, DefaultPenalty, LoadedSides, PaperContact, TWO_PASSES,
-    default_penalty, second_name,
+    Backing, ContactOptions, ContactParts, DefaultPenalty, LoadedSides, PaperContact, TWO_PASSES, default_penalty,
+    second_name,
 };
 use asperity_core::interface::{Closure, Rule};
 use asperity_core::mesh::{Mesh, Side};
@@ -169,7 +169,6 @@ impl Builder<'_> {
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
             augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation()),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
-            form: if self.is_field(keys) { ContactForm::Field } else { ContactForm::Paper },
             wear: keys.wear.as_ref().map(|wear| wear.coefficient),
         }
     }

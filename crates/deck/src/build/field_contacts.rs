@@ -2,11 +2,11 @@
 
 use super::Builder;
 use super::contacts::{Opposite, Tools, backings, boundary_behind};
-use crate::keys::{self, Roles};
+use crate::keys::{self, ContactForm, Roles};
 use crate::reader::Name;
 use crate::source::Place;
 use asperity_core::contact::field::{FieldContact, FieldRoles, FieldSurface};
-use asperity_core::contact::{Backing, ContactForm, ContactParts};
+use asperity_core::contact::{Backing, ContactParts};
 use asperity_core::model::FieldSides;
 use asperity_core::solid::Body;
 

@@ -2,7 +2,7 @@
 
 use super::UpdateKeys;
 use crate::diagnose::Diagnostic;
-use crate::form::{ChosenLaw, Form, Words, flag, law, list, number, refers, table, table_of, whole, word, words};
+use crate::form::{ChosenLaw, Form, flag, law, list, number, refers, table, table_of, whole, word, words};
 use crate::reader::{Name, Reader};
 use crate::schema::Names;
 use crate::source::Spot;

@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("deck, mesh and tree   {:9.4} s", begin.elapsed().as_secs_f64());
     let (contact, tool) = (&made.model.contacts[0], &made.model.solid_tools[0]);
     println!("triangles             {:9}", tool.facets().len());
-    println!("contact points        {:9}", contact.points().points.len());
+    println!("contact points        {:9}", contact.points().len());
     let state = made.model.problem.initial_state();
     let history = &state.histories[made.model.first_contact()];
     let begin = Instant::now();

@@ -5,8 +5,8 @@
 mod perturbed;
 
 use asperity::Failure;
-use asperity::contact::field::FieldTarget;
-use asperity::contact::{ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface};
+use asperity::contact::field::{FieldSurface, FieldTarget};
+use asperity::contact::{ContactOptions, ContactParts, LoadedSides, PaperContact};
 use asperity::declare::find;
 use asperity::interface::{
     Rule,
@@ -206,9 +206,9 @@ fn made(
     tool: Arc<ProfileTool>,
     law: Rule,
 ) -> PaperContact {
-    PaperContact::new(PaperParts {
+    let parts = ContactParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, &mesh.groups["b.bottom"].sides, (space, 0.8), None),
+        surface: FieldSurface::whole(&mesh, &mesh.groups["b.bottom"].sides, space, 0.8),
         mesh,
         dofs: dofs.clone(),
         space,
@@ -216,7 +216,8 @@ fn made(
         target: FieldTarget::tool(tool, 0, dofs),
         law,
         options: ContactOptions { thickness: 0.8, ..perturbed::options(LoadedSides::Both) },
-    })
+    };
+    PaperContact::new(parts, None)
 }
 
 /// Random motion: the cell by up to a tenth and downwards, its nodes and the tool by a little.

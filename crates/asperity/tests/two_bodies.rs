@@ -5,7 +5,7 @@
 mod perturbed;
 
 use asperity::contact::field::{FieldSurface, FieldTarget};
-use asperity::contact::{ContactOptions, LoadedSides, PaperContact, PaperParts, PointSurface};
+use asperity::contact::{ContactOptions, ContactParts, LoadedSides, PaperContact};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Rectangle;
 use asperity::mesh::{Cell, Mesh, Space};
@@ -42,9 +42,9 @@ fn contact(cell: &str, carrier: Carrier, loads: LoadedSides, space: Space) -> (P
         Carrier::Wide => ("wide.top", "narrow.bottom"),
     };
     let target = FieldTarget::faces(FieldSurface::whole(&mesh, sides(other), space, 0.8), &mesh);
-    let parts = PaperParts {
+    let parts = ContactParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, sides(own), (space, 0.8), None),
+        surface: FieldSurface::whole(&mesh, sides(own), space, 0.8),
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target,
         law: Coulomb::new(0.4).into(),
@@ -53,7 +53,7 @@ fn contact(cell: &str, carrier: Carrier, loads: LoadedSides, space: Space) -> (P
         dofs: dofs.clone(),
         mesh: mesh.clone(),
     };
-    (PaperContact::new(parts), dofs)
+    (PaperContact::new(parts, None), dofs)
 }
 
 /// Random motion: the narrow block by up to a tenth and downwards, all nodes by a little.

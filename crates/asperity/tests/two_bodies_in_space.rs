@@ -6,7 +6,7 @@ mod pairs;
 mod perturbed;
 
 use asperity::contact::field::{FieldSurface, FieldTarget};
-use asperity::contact::{LoadedSides, PaperContact, PaperParts, PointSurface};
+use asperity::contact::{ContactParts, LoadedSides, PaperContact};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::generate::Block;
 use asperity::mesh::{Cell, Mesh, Space};
@@ -88,7 +88,7 @@ fn tangents_of_contact_between_bodies_are_exact() {
             let (mut met, mut skipped, mut worst) = ([0; 3], 0, 0.0_f64);
             let pair = contact(cells, carrier, loads, 0.4);
             // As many points of each pair, whatever their number on a face.
-            let points = pair.0.points().points.len();
+            let points = pair.0.points().len();
             let count = if carrier == Carrier::Large { 900 / points } else { 60 + 120 / points };
             states(&pair, count, &mut |accepted, attempt, u| {
                 let Ok(end) = commit(&pair.0, accepted, u.to_vec()) else { return };
@@ -192,9 +192,9 @@ fn a_ring_that_closes_touches_itself() {
         sides.extend_from_slice(&mesh.groups["ring.right"].sides);
         let mesh = Arc::new(mesh);
         let options = options(LoadedSides::Own);
-        let contact = PaperContact::new(PaperParts {
+        let parts = ContactParts {
             name: "slit".into(),
-            surface: PointSurface::new(&mesh, &sides, (Space::Solid, 1.0), None),
+            surface: FieldSurface::whole(&mesh, &sides, Space::Solid, 1.0),
             space: Space::Solid,
             boundary: mesh.boundary(&mesh.groups["ring"].cells),
             target: FieldTarget::faces(FieldSurface::whole(&mesh, &sides, Space::Solid, 1.0), &mesh),
@@ -202,7 +202,8 @@ fn a_ring_that_closes_touches_itself() {
             options,
             dofs: dofs.clone(),
             mesh: mesh.clone(),
-        });
+        };
+        let contact = PaperContact::new(parts, None);
         let mut u = vec![0.0; dofs.count()];
         for (node, x) in straight.iter().enumerate() {
             let moved = bent(*x, 1.003) - mesh.points[node];

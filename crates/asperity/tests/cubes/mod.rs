@@ -1,8 +1,8 @@
 //! A bent unit cube over a tool of any kind, and random motions that press the one on the other.
 
 use super::perturbed::{Random, options};
-use asperity::contact::field::FieldTarget;
-use asperity::contact::{LoadedSides, PaperContact, PaperParts, PointSurface};
+use asperity::contact::field::{FieldSurface, FieldTarget};
+use asperity::contact::{ContactParts, LoadedSides, PaperContact};
 use asperity::interface::InterfaceLaw;
 use asperity::mesh::{Cell, Space, generate::Block};
 use asperity::system::Dofs;
@@ -47,9 +47,9 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L) ->
     let tool = Arc::new(SpaceTool::new("t", target(kind), at(0.5, 0.3, -1.0)));
     let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
     let lower = mesh.groups["b.back"].sides.clone();
-    let parts = PaperParts {
+    let parts = ContactParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, &lower, (Space::Solid, 1.0), None),
+        surface: FieldSurface::whole(&mesh, &lower, Space::Solid, 1.0),
         space: Space::Solid,
         mesh,
         dofs: dofs.clone(),
@@ -58,7 +58,7 @@ pub fn contact<L: InterfaceLaw>((cell, n): (&str, usize), kind: &str, law: L) ->
         law: law.into(),
         options: options(LoadedSides::Both),
     };
-    (PaperContact::new(parts), dofs)
+    (PaperContact::new(parts, None), dofs)
 }
 
 /// Random motion: the cube by up to a tenth and downwards, its nodes and the tool by a little.

@@ -2,7 +2,7 @@
 
 use super::perturbed::Random;
 use asperity::contact::field::{FieldSurface, FieldTarget};
-use asperity::contact::{ContactOptions, PaperContact, PaperParts, PointSurface};
+use asperity::contact::{ContactOptions, ContactParts, PaperContact};
 use asperity::interface::laws::Coulomb;
 use asperity::mesh::{Mesh, Space};
 use asperity::system::Dofs;
@@ -26,9 +26,9 @@ pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions
     };
     let dofs = Dofs::new(3, mesh.points.len(), 0);
     let sides = |group: &str| mesh.groups[group].sides.as_slice();
-    let parts = PaperParts {
+    let parts = ContactParts {
         name: "c".into(),
-        surface: PointSurface::new(&mesh, sides(own), (Space::Solid, 1.0), None),
+        surface: FieldSurface::whole(&mesh, sides(own), Space::Solid, 1.0),
         space: Space::Solid,
         boundary: mesh.boundary(&mesh.groups[own.split('.').next().unwrap()].cells),
         target: FieldTarget::faces(FieldSurface::whole(&mesh, sides(other), Space::Solid, 1.0), &mesh),
@@ -37,7 +37,7 @@ pub fn pair(mesh: Mesh, carrier: Carrier, friction: f64, options: ContactOptions
         dofs: dofs.clone(),
         mesh: mesh.clone(),
     };
-    (PaperContact::new(parts), dofs)
+    (PaperContact::new(parts, None), dofs)
 }
 
 /// Random motion: the small block by up to a tenth and down by `down`, `less` more or less, all nodes by a little.

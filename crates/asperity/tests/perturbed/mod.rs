@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test binary uses a part of it
 
 use asperity::Failure;
-use asperity::contact::{ContactForm, ContactOptions, LoadedSides, Overlap};
+use asperity::contact::{ContactOptions, LoadedSides, Overlap};
 use asperity::system::{Attempt, History, Instant, Local, State, Stencil, Stencils, TangentCheck, Term, check_tangent};
 
 /// Numbers in (-1, 1) from a linear congruence (Knuth's MMIX), the same in every run.
@@ -51,7 +51,6 @@ pub fn options(loads: LoadedSides) -> ContactOptions {
         augmentation: None,
         overlap: Overlap::Keep,
         wear: None,
-        form: ContactForm::Paper,
     }
 }
 

@@ -30,17 +30,6 @@ pub struct ContactOptions {
     /// Depth of Archard's wear for a unit of pressure times sliding, if the surface wears; by a law that is [`Wearing`](crate::interface::Wearing) it
     /// recedes by it.
     pub wear: Option<f64>,
-    /// Where contact stress lives.
-    pub form: ContactForm,
-}
-
-/// Where contact stress lives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContactForm {
-    /// At Gauss points: see [`PaperContact`](super::PaperContact).
-    Paper,
-    /// At the nodes of a field: see [`field`](super::field).
-    Field,
 }
 
 /// A node that is to be moved before the first increment, without strain, by how much, and the cell behind it.

@@ -112,9 +112,10 @@ pub fn largest_penetration(history: &History, points: usize) -> f64 {
 }
 
 /// Whether a contact point is open, sticks or slips.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum PointStatus {
     /// No contact.
+    #[default]
     Open = 0,
     /// Contact without slip.
     Stick = 1,
@@ -138,7 +139,7 @@ pub fn variables(values: &[f64]) -> [f64; MOST_VARIABLES] {
 }
 
 /// One contact point in an accepted state.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ContactRecord {
     /// Present position.
     pub position: Vec3,
@@ -189,15 +190,7 @@ impl ContactRecord {
     pub(super) fn of(values: &[f64], plane: bool) -> Self {
         // In the plane with their signs, in space their sizes.
         let along = |[s, t]: [usize; 2]| if plane { values[s] } else { values[s].hypot(values[t]) };
-        let nowhere = Vec3::zero();
         Self {
-            position: nowhere,
-            inward: nowhere,
-            thrust: nowhere,
-            facing: nowhere,
-            along: nowhere,
-            area: 0.0,
-            resultant: None,
             status: PointStatus::from_value(values[entry::STATUS]),
             pressure: values[entry::PRESSURE],
             shear: along([entry::SHEAR, entry::SHEAR2]),
@@ -210,8 +203,7 @@ impl ContactRecord {
             rubbed: values[entry::RUBBED],
             violation: values[entry::VIOLATION],
             vars: variables(values),
-            segment: None,
-            edge: 0,
+            ..Self::default()
         }
     }
     /// Stress vector on the solid.

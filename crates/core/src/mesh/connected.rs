@@ -1,34 +1,7 @@
 //! Cells that hang together.
 
 use super::Mesh;
-
-/// Sets of numbers that are joined pair by pair; the least of a set is its root.
-pub struct DisjointSets(Vec<usize>);
-
-impl DisjointSets {
-    /// Of so many numbers, each alone.
-    pub fn new(count: usize) -> Self {
-        Self((0..count).collect())
-    }
-
-    /// The root of the set of a number.
-    pub fn root(&self, mut i: usize) -> usize {
-        while self.0[i] != i {
-            i = self.0[i];
-        }
-        i
-    }
-
-    /// Makes the sets of two numbers one; the way to its root is shortened.
-    pub fn join(&mut self, i: usize, j: usize) {
-        let root = self.root(i).min(self.root(j));
-        for mut i in [i, j] {
-            while i != root {
-                i = std::mem::replace(&mut self.0[i], root);
-            }
-        }
-    }
-}
+use crate::tensor::DisjointSets;
 
 impl Mesh {
     /// For each cell the number of the connected whole that it belongs to: cells that share a node, whatever groups they

@@ -5,7 +5,7 @@
 
 use super::cells::MAX_NODES;
 use super::{CellView, Mesh, Side};
-use crate::tensor::Vec3;
+use crate::tensor::{BoundingBox, Vec3};
 
 impl CellView<'_> {
     /// Position of a reference point and the tangents `dx/dxi` along the reference directions.
@@ -80,19 +80,14 @@ impl Mesh {
         cell.kind.edges().map(|[one, other]| (point(one) - point(other)).norm()).fold(0.0, f64::max)
     }
 
-    /// Lower and upper corner of the box around all points; both zero without points.
-    pub fn bounds(&self) -> [Vec3; 2] {
-        let Some(&first) = self.points.first() else { return [Vec3::zero(); 2] };
-        self.points.iter().fold([first; 2], |[low, high], point| {
-            let extreme = |a: Vec3, pick: fn(f64, f64) -> f64| Vec3(std::array::from_fn(|i| pick(a[i], point[i])));
-            [extreme(low, f64::min), extreme(high, f64::max)]
-        })
+    /// The box around all points.
+    pub fn bounds(&self) -> BoundingBox {
+        BoundingBox::of(self.points.iter().copied())
     }
 
     /// Length of the diagonal of [`Mesh::bounds`], the characteristic length of the whole.
     pub fn size(&self) -> f64 {
-        let [low, high] = self.bounds();
-        (high - low).norm()
+        self.bounds().size()
     }
 
     /// The highest dimension of any cell: 2 for a plane mesh, 3 for a solid one, 0 without cells.
@@ -140,7 +135,7 @@ mod tests {
     fn a_rectangle_has_its_area_its_bounds_and_its_neighbours() {
         let mesh = Rectangle::new([1.0, -2.0], [4.0, 2.0], [3, 2], Cell::named("quad4").unwrap()).mesh("r").unwrap();
         assert!((0..6).all(|cell| (mesh.measure(cell) - 2.0).abs() < 1e-14));
-        assert_eq!(mesh.bounds(), [Vec3([1.0, -2.0, 0.0]), Vec3([4.0, 2.0, 0.0])]);
+        assert_eq!(mesh.bounds(), BoundingBox { min: Vec3([1.0, -2.0, 0.0]), max: Vec3([4.0, 2.0, 0.0]) });
         assert_eq!((mesh.size(), mesh.dimension()), (5.0, 2));
         let adjacency = mesh.adjacency();
         assert_eq!(adjacency.cells(5), [0, 1, 3, 4]);

@@ -17,7 +17,6 @@ mod unstructured;
 
 pub use boundary::{Behind, Faces};
 pub use cells::{Cell, Face, Quadrature};
-pub use connected::DisjointSets;
 pub use flat::{ROUNDING, flat_normal, unit};
 pub use groups::{Group, Side};
 pub use measure::Adjacency;

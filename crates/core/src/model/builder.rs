@@ -4,8 +4,8 @@ use super::behind::{ELASTIC_SLIP, FieldSides, backings, boundary_behind, tool_ta
 use super::model::{Model, ModelParts};
 use crate::Error;
 use crate::amplitude::Amplitude;
-use crate::contact::field::{FieldContact, FieldParts, FieldSurface};
-use crate::contact::{Augmentation, Backing, ContactForm, ContactOptions, LoadedSides, Overlap, default_penalty};
+use crate::contact::field::{FieldContact, FieldRoles, FieldSurface};
+use crate::contact::{Augmentation, Backing, ContactOptions, ContactParts, LoadedSides, Overlap, default_penalty};
 use crate::declare::nearest;
 use crate::interface::Rule;
 use crate::load::Site;
@@ -386,9 +386,8 @@ impl Names<'_> {
             augmentation: contact.augmentation,
             overlap: contact.overlap,
             wear: None,
-            form: ContactForm::Field,
         };
-        Some(FieldContact::new(FieldParts {
+        let parts = ContactParts {
             name: contact.name,
             mesh: mesh.clone(),
             dofs: dofs.clone(),
@@ -396,10 +395,9 @@ impl Names<'_> {
             surface: FieldSurface::new(mesh, carrier, *space, *thickness),
             boundary: boundary_behind(mesh, carrier, cells.iter().copied()),
             target,
-            itself,
-            swapped,
             law: contact.law,
             options,
-        }))
+        };
+        Some(FieldContact::new(parts, FieldRoles { itself, swapped }))
     }
 }

@@ -5,9 +5,9 @@
 
 use super::ProfileFinding;
 use super::facet::{Meeting, ToolFacet};
-use super::shapes::{BoundingBox, ProfileRay, ProfileShape, turn};
+use super::shapes::{ProfileRay, ProfileShape, turn};
 use super::tool::{Chain, ProfileTool};
-use crate::tensor::Vec3;
+use crate::tensor::{BoundingBox, Vec3};
 
 /// Ends nearer to each other than this part of the tool's size are one point.
 pub(super) const TOGETHER: f64 = 1e-9;

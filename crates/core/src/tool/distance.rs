@@ -82,30 +82,28 @@ impl ProfileTool {
                 if segment(i).is_tip(rounding) {
                     parts.push((i, Some(end(i, 0.5))));
                 }
-                parts.push((i, chain.behind(i).and_then(|next| self.crease(i, next))));
+                let open = || Some(end(i, 1.0));
+                parts.push((i, chain.behind(i).map_or_else(open, |next| self.crease(i, next))));
             }
-            let first = parts.iter().position(|(_, cut)| cut.is_some());
-            if chain.closed && first.is_none() {
+            let Some(first) = parts.iter().position(|(_, cut)| cut.is_some()) else {
                 let segments = (chain.first..chain.end).collect();
                 pieces.push(SmoothPiece { segments, ends: [None; 2], bounded: [0; 2], closed: true });
                 continue;
+            };
+            let mut before = end(chain.first, 0.0);
+            if chain.closed {
+                before = parts[first].1.flatten();
+                parts.rotate_left(first + 1);
             }
-            // From behind a cut or the beginning of an open profile on.
-            let first = first.filter(|_| chain.closed);
-            let mut before = first.map_or_else(|| end(chain.first, 0.0), |first| parts[first].1.flatten());
-            let count = parts.len();
-            parts.rotate_left(first.map_or(0, |first| (first + 1) % count));
-            let (last, mut segments) = (count - 1, Vec::new());
-            for (k, (i, cut)) in parts.into_iter().enumerate() {
+            let mut segments = Vec::new();
+            for (i, cut) in parts {
                 segments.push(i);
-                let open = (k == last).then(|| end(i, 1.0));
-                if let Some(after) = cut.or(open) {
-                    let segments = std::mem::take(&mut segments);
-                    let cut = |place: Option<&usize>| place.is_some_and(|&number| segment(number).is_tip(rounding));
-                    let bounded = [cut(segments.first()), cut(segments.last())].map(|cut| if cut { 2 } else { 1 });
-                    pieces.push(SmoothPiece { segments, ends: [before, after], bounded, closed: false });
-                    before = after;
-                }
+                let Some(after) = cut else { continue };
+                let segments = std::mem::take(&mut segments);
+                let cut = |place: Option<&usize>| place.is_some_and(|&number| segment(number).is_tip(rounding));
+                let bounded = [cut(segments.first()), cut(segments.last())].map(|cut| if cut { 2 } else { 1 });
+                pieces.push(SmoothPiece { segments, ends: [before, after], bounded, closed: false });
+                before = after;
             }
         }
         pieces

@@ -5,8 +5,8 @@
 //! *carrier* of a facet (the whole plane, quadric or torus); the places whose `s` are in range are the facet's own. A segment of a
 //! profile is one whose second tangent is `e_z`, and its second coordinate zero.
 
-use super::shapes::{BoundingBox, ProfileRay, ProfileShape, RayCrossing};
-use crate::tensor::Vec3;
+use super::shapes::{ProfileRay, ProfileShape, RayCrossing};
+use crate::tensor::{BoundingBox, Vec3};
 use std::fmt::Debug;
 
 /// How far beyond its edges a facet still counts as hit, in units of `s`: a ray through a common edge must not slip

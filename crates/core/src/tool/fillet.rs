@@ -4,7 +4,7 @@ use super::shapes::{ShapeKind, find};
 use crate::tensor::Vec3;
 
 /// The arc of a radius that rounds the middle corner; none where nothing turns or the profile runs back.
-pub(super) fn fillet([a, b, c]: [Vec3; 3], radius: f64) -> Option<[Vec3; 3]> {
+fn fillet([a, b, c]: [Vec3; 3], radius: f64) -> Option<[Vec3; 3]> {
     let (back, on) = ((a - b).unit(), (c - b).unit());
     let half = 0.5 * back.cross(on).norm().atan2(back.dot(on));
     let bisector = back + on;
@@ -41,11 +41,21 @@ pub fn rounded(profile: Vec<Draft>, radius: f64) -> Result<Vec<Draft>, String> {
             arcs[i] = Some((i, arc, nodes.to_vec()));
         }
     }
-    let too_short = |(i, _, nodes): &&Draft| straight(*i).is_some_and(|[a, b]| (nodes[1] - nodes[0]).dot(b - a) <= 0.0);
-    if let Some((i, ..)) = cut.iter().find(too_short) {
-        return Err(format!("the fillet is too large for segment {}", i + 1));
+    let mut whole = Vec::new();
+    for (segment, arc) in cut.into_iter().zip(arcs) {
+        if let Some([a, b]) = straight(segment.0) {
+            let (left, least) = ((segment.2[1] - segment.2[0]).dot(b - a), TOGETHER * (b - a).dot(b - a));
+            if left <= -least {
+                return Err(format!("the fillet is too large for segment {}", segment.0 + 1));
+            }
+            // Two arcs that meet leave nothing between them.
+            whole.extend((left > least).then_some(segment));
+        } else {
+            whole.push(segment);
+        }
+        whole.extend(arc);
     }
-    Ok(cut.into_iter().zip(arcs).flat_map(|(segment, arc)| std::iter::once(segment).chain(arc)).collect())
+    Ok(whole)
 }
 
 #[cfg(test)]
@@ -75,6 +85,8 @@ mod tests {
     #[test]
     fn fillets_that_do_not_fit_are_refused_and_open_ends_stay() {
         assert!(rounded(square(1.9), 1.0).is_err());
+        let arcs = rounded(square(2.0), 1.0).unwrap();
+        assert!(arcs.len() == 4 && arcs.iter().all(|(_, kind, _)| kind.key == "arc"));
         let mut open = square(4.0);
         open.pop();
         let shapes: Vec<&str> = rounded(open, 1.0).unwrap().iter().map(|(_, kind, _)| kind.key).collect();

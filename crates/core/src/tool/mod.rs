@@ -29,6 +29,6 @@ pub use finding::{FindingSeverity, ProfileFinding};
 pub use pose::Pose;
 pub use search::BoxTree;
 pub use select::{Rejected, Rules, select};
-pub use shapes::{BoundingBox, ProfileRay, ProfileShape, ShapeKind};
+pub use shapes::{ProfileRay, ProfileShape, ShapeKind};
 pub use tips::Tip;
 pub use tool::{Chain, FacetTool, Hit, ProfileTool};

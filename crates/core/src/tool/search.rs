@@ -5,8 +5,8 @@
 //! out what a ray cannot meet; what it finds is found without it too. A ray passes by a box if it does so seen along one
 //! of the axes.
 
-use super::shapes::{BoundingBox, ProfileRay};
-use crate::tensor::Vec3;
+use super::shapes::ProfileRay;
+use crate::tensor::{BoundingBox, Vec3};
 
 /// Fewer pieces than this are tried one after another.
 const LEAF: usize = 4;

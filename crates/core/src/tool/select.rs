@@ -11,8 +11,6 @@ use crate::tensor::Vec3;
 /// When a hit is admissible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules {
-    /// Least cosine of the angle between the ray and the target's outward normal, a ratio.
-    pub least_cosine: f64,
     /// Largest penetration, a length.
     pub deepest: f64,
     /// Distances that differ by less are equal, a length: rounding must not choose between two neighbours at their
@@ -21,12 +19,12 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// The least cosine unless told otherwise; it also keeps the tangent's factor `1 / (e . n)` below ten.
+    /// Least cosine of the angle between the ray and the target's outward normal, a ratio; it also keeps the tangent's factor `1 / (e . n)` below ten.
     pub const LEAST_COSINE: f64 = 0.1;
 
-    /// The default cosine with penetrations up to `deepest`, on a target of the given `size`; both lengths.
+    /// With penetrations up to `deepest`, on a target of the given `size`; both lengths.
     pub fn new(deepest: f64, size: f64) -> Self {
-        Self { least_cosine: Self::LEAST_COSINE, deepest, equal: 1e-12 * size }
+        Self { deepest, equal: 1e-12 * size }
     }
 }
 
@@ -53,7 +51,7 @@ impl Rejected {
 /// The contact among the hits of a ray along `direction`, if there is one. What the rules reject is counted in
 /// `rejected`.
 pub fn select(direction: Vec3, hits: &[Hit], rules: &Rules, rejected: &mut Rejected) -> Option<Hit> {
-    let facing = |hit: &Hit| direction.dot(hit.normal) > rules.least_cosine;
+    let facing = |hit: &Hit| direction.dot(hit.normal) > Rules::LEAST_COSINE;
     let admissible = |hit: &&Hit| facing(hit) && hit.u <= rules.deepest;
     hits.iter().for_each(|hit| rejected.count(facing(hit), hit.u, rules));
     let nearest = hits.iter().filter(admissible).map(|hit| hit.u.abs()).fold(f64::INFINITY, f64::min);

@@ -2,9 +2,9 @@
 
 use super::facet::{Meeting, ToolFacet};
 use super::search::BoxTree;
-use super::shapes::{BoundingBox, ProfileRay, ProfileShape};
+use super::shapes::{ProfileRay, ProfileShape};
 use super::{Pose, ProfileFinding, check};
-use crate::tensor::{Scalar, Vec3};
+use crate::tensor::{BoundingBox, Scalar, Vec3};
 
 /// A rigid tool: facets, or segments of profiles, with the material behind them, and a reference point.
 #[derive(Debug)]

@@ -7,8 +7,8 @@ use crate::keys::{self, Passes};
 use crate::reader::Name;
 use asperity_core::contact::field::{FieldSurface, FieldTarget};
 use asperity_core::contact::{
-    Backing, ContactForm, ContactOptions, DefaultPenalty, LoadedSides, PaperContact, PaperParts, PointSurface,
-    TWO_PASSES, default_penalty, second_name,
+    Backing, ContactOptions, ContactParts, DefaultPenalty, LoadedSides, PaperContact, TWO_PASSES, default_penalty,
+    second_name,
 };
 use asperity_core::interface::{Closure, Rule};
 use asperity_core::mesh::{Mesh, Side};
@@ -115,9 +115,9 @@ impl Builder<'_> {
         let thickness = self.site.thickness;
         let order = keys.gauss.map(|gauss| gauss.value);
         let build = |name: &str, sides: &[Side], target: FieldTarget| {
-            PaperContact::new(PaperParts {
+            let parts = ContactParts {
                 name: name.into(),
-                surface: PointSurface::new(&mesh, sides, (space, thickness), order),
+                surface: FieldSurface::whole(&mesh, sides, space, thickness),
                 boundary: boundary_behind(&mesh, sides, &self.deck.body),
                 target,
                 law: law.clone(),
@@ -125,7 +125,8 @@ impl Builder<'_> {
                 space,
                 dofs: dofs.clone(),
                 mesh: mesh.clone(),
-            })
+            };
+            PaperContact::new(parts, order)
         };
         let faces = |sides: &[Side]| FieldTarget::faces(FieldSurface::whole(&mesh, sides, space, thickness), &mesh);
         Some(match opposite {
@@ -168,7 +169,6 @@ impl Builder<'_> {
             coupling: keys.coupling.is_none_or(|coupling| coupling.value),
             augmentation: keys.augmentation.as_ref().map(|spot| spot.value.augmentation()),
             overlap: keys.overlap.value.overlap(self.deck.step.first().map_or(1.0, |step| step.duration)),
-            form: if self.is_field(keys) { ContactForm::Field } else { ContactForm::Paper },
             wear: keys.wear.as_ref().map(|wear| wear.coefficient),
         }
     }

@@ -2,11 +2,11 @@
 
 use super::Builder;
 use super::contacts::{Opposite, Tools, backings, boundary_behind};
-use crate::keys::{self, Roles};
+use crate::keys::{self, ContactForm, Roles};
 use crate::reader::Name;
 use crate::source::Place;
-use asperity_core::contact::field::{FieldContact, FieldParts, FieldSurface};
-use asperity_core::contact::{Backing, ContactForm};
+use asperity_core::contact::field::{FieldContact, FieldRoles, FieldSurface};
+use asperity_core::contact::{Backing, ContactParts};
 use asperity_core::model::FieldSides;
 use asperity_core::solid::Body;
 
@@ -78,19 +78,18 @@ impl Builder<'_> {
             self.refuse(what, keys.law.place);
             return None;
         }
-        Some(FieldContact::new(FieldParts {
+        let parts = ContactParts {
             name: name.text.clone(),
             surface: carrier,
             boundary: boundary_behind(&mesh, sides, &self.deck.body),
             target,
-            itself,
-            swapped,
             law,
             options,
             space,
             dofs,
             mesh: mesh.clone(),
-        }))
+        };
+        Some(FieldContact::new(parts, FieldRoles { itself, swapped }))
     }
 
     /// What is said of contact points says nothing of a field.

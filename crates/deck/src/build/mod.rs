@@ -281,8 +281,8 @@ impl Builder<'_> {
     /// The mesh must fill the space, and lie on the right side of an axis.
     fn check_mesh(&mut self) {
         let (mesh, space) = (self.site.mesh.clone(), self.deck.space);
-        if space.value == Space::Axisymmetric && mesh.bounds()[0][0] < -1e-9 * mesh.size() {
-            let what = format!("the mesh reaches the negative radius {}", mesh.bounds()[0][0]);
+        if space.value == Space::Axisymmetric && mesh.bounds().min[0] < -1e-9 * mesh.size() {
+            let what = format!("the mesh reaches the negative radius {}", mesh.bounds().min[0]);
             self.found.push(
                 Diagnostic::error(what)
                     .at(space.place)

@@ -149,7 +149,7 @@ fn section(model: &Model, body: &str) -> f64 {
     sizes.sort_by(|a, b| b.total_cmp(a));
     let section = match model.space {
         Space::Solid => sizes[1] * sizes[2],
-        Space::Axisymmetric => std::f64::consts::PI * model.mesh.bounds()[1][0] * sizes[1],
+        Space::Axisymmetric => std::f64::consts::PI * model.mesh.bounds().max[0] * sizes[1],
         _ => sizes[1] * model.thickness,
     };
     section.max(f64::MIN_POSITIVE)

@@ -2,11 +2,11 @@
 
 use super::UpdateKeys;
 use crate::diagnose::Diagnostic;
-use crate::form::{ChosenLaw, Form, Words, flag, law, list, number, refers, table, table_of, whole, word, words};
+use crate::form::{ChosenLaw, Form, flag, law, list, number, refers, table, table_of, whole, word, words};
 use crate::reader::{Name, Reader};
 use crate::schema::Names;
 use crate::source::Spot;
-use asperity_core::contact::{Augmentation, ContactForm, Overlap};
+use asperity_core::contact::{Augmentation, Overlap};
 use asperity_core::declare::{Range, unit};
 use asperity_core::interface::{self, Interface};
 
@@ -156,15 +156,12 @@ words! {
     }
 }
 
-impl Words for ContactForm {
-    fn words() -> Vec<(Self, &'static str, &'static str)> {
-        vec![
-            (Self::Field, "field", "as a field of nodal values, along the normals of what is touched"),
-            (
-                Self::Paper,
-                "paper",
-                "at the integration points, along the normal of the strained surface, over its present area",
-            ),
-        ]
+words! {
+    /// Where contact stress lives.
+    pub enum ContactForm {
+        /// as a field of nodal values, along the normals of what is touched
+        Field = "field",
+        /// at the integration points, along the normal of the strained surface, over its present area
+        Paper = "paper",
     }
 }

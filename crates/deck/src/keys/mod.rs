@@ -30,7 +30,7 @@ pub use condition::{
     BodyForce, Components, Displacement, Force, Friction, Gravity, MotionKeys, Pressure, PressureKind, Spring,
     TemperatureKeys, ToolCondition, ToolLoad, Traction,
 };
-pub use contact::{Contact, OverlapWord, Passes, Roles, WearKeys};
+pub use contact::{Contact, ContactForm, OverlapWord, Passes, Roles, WearKeys};
 pub use distributing::{DistributingKeys, Weights};
 pub use equation::{EquationKeys, EquationTerm};
 pub use initial_stress::InitialStressKeys;

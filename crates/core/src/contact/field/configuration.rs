@@ -4,13 +4,12 @@ use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, over_piece};
 use super::face::{PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
-use super::part::{FacePart, samples};
+use super::part::{FacePart, nearest, samples};
 use super::space::{CutFace, SeenNodes, foot, nearby, whole};
 use super::tool::ToolInPlace;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
-use crate::tensor::Vec3;
-use crate::tool::BoundingBox;
+use crate::tensor::{BoundingBox, Vec3};
 
 /// Both sides of a contact at given unknowns.
 pub struct Configuration<'a> {
@@ -45,7 +44,7 @@ impl FieldTarget {
 impl<'a> Configuration<'a> {
     /// At unknowns `u`.
     pub fn new(contact: &'a FieldContact, u: &[f64]) -> Self {
-        let (surface, site) = (&contact.parts.surface, (&*contact.parts.mesh, &contact.parts.dofs));
+        let (surface, site) = (contact.surface(), contact.site());
         let placed: Vec<PlacedFace> = surface.faces.iter().map(|face| face.placed(site.0, site.1, u)).collect();
         let normal = |node: usize| surface.normal(node, |f| placed[f]).unit;
         let normals = if contact.needs_normals() { (0..surface.nodes.len()).map(normal).collect() } else { Vec::new() };
@@ -111,9 +110,10 @@ impl Configuration<'_> {
                     let part = FacePart::new(&face, faces.corners(target))?;
                     let (near, ends) =
                         if let FacePart::Interval(near, ends) = part { (near, ends) } else { (WHOLE, [None; 2]) };
-                    Some((self.judge(&face, patch(target, near, ends), &part.places())?, part))
+                    let seen = self.judge(&face, patch(target, near, ends), &part.places())?;
+                    Some((seen, part, seen.middle))
                 };
-                found = keep_nearest(&candidates.filter_map(look).collect::<Vec<_>>());
+                found = nearest(&candidates.filter_map(look).collect::<Vec<_>>()).map(|(seen, ..)| *seen).collect();
             }
         }
         found
@@ -144,12 +144,4 @@ impl Configuration<'_> {
         }
         looks.then_some(SeenPart { patch, least, middle })
     }
-}
-
-/// Of patches of one face that lie over each other, the nearest.
-fn keep_nearest(all: &[(SeenPart, FacePart)]) -> Vec<SeenPart> {
-    let nearer = |a: &SeenPart, b: &SeenPart| (a.middle.abs(), a.patch.target) < (b.middle.abs(), b.patch.target);
-    let hidden =
-        |seen: &SeenPart, part: &FacePart| all.iter().any(|(other, over)| nearer(other, seen) && over.covers(part));
-    all.iter().filter(|(seen, part)| !hidden(seen, part)).map(|(seen, _)| *seen).collect()
 }

@@ -4,15 +4,13 @@ use super::cover::Patch;
 use super::faces::TargetFaces;
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::RigidTool;
-use crate::contact::ContactOptions;
-use crate::contact::increment::CLOSED;
 use crate::contact::record::largest_penetration;
-use crate::interface::{Interface, Rule};
-use crate::mesh::{Mesh, Side, Space};
+use crate::contact::{ContactParts, ContactSides};
+use crate::mesh::Mesh;
 use crate::system::{Dofs, History};
-use crate::tensor::{Vec3, legendre};
+use crate::tensor::legendre;
 use crate::tool::{self, ProfileTool, Tip};
-use std::collections::BTreeMap;
+use std::ops::Deref;
 use std::sync::{Arc, LazyLock};
 
 /// What the field may touch.
@@ -53,98 +51,55 @@ impl FieldTarget {
     }
 }
 
-/// What a field is made of.
-pub struct FieldParts {
-    /// The user's name for it.
-    pub name: String,
-    /// The mesh.
-    pub mesh: Arc<Mesh>,
-    /// The numbering of the unknowns.
-    pub dofs: Dofs,
-    /// What the coordinates mean.
-    pub space: Space,
-    /// The faces that carry the field.
-    pub surface: FieldSurface,
-    /// The whole outer boundary of the bodies behind the surface.
-    pub boundary: Vec<Side>,
-    /// What they may touch.
-    pub target: FieldTarget,
-    /// Whether that is the surface itself.
+/// How a field stands to its surface and its target.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct FieldRoles {
+    /// Whether the target is the surface itself.
     pub itself: bool,
     /// Whether the user calls the target the surface: forces are reported on that.
     pub swapped: bool,
-    /// The law of the interface.
-    pub law: Rule,
-    /// How it is computed.
-    pub options: ContactOptions,
 }
 
 /// Contact whose stress is a field of nodal values.
 pub struct FieldContact {
-    pub(super) parts: FieldParts,
-    pub(super) boundary: TargetFaces,
-    /// Penetration from which a node counts as closed.
-    pub(super) least: f64,
-    /// For each face of a target its smooth piece, counted from zero.
-    labels: Vec<usize>,
+    sides: ContactSides,
+    pub(super) roles: FieldRoles,
     /// Number of smooth pieces of the target.
     pub(super) pieces: usize,
-    pub(super) longest: f64,
     sizes: Vec<f64>,
+}
+
+impl Deref for FieldContact {
+    type Target = ContactSides;
+
+    fn deref(&self) -> &ContactSides {
+        &self.sides
+    }
 }
 
 impl FieldContact {
     /// A contact of these parts.
-    pub fn new(mut parts: FieldParts) -> Self {
-        let FieldParts { mesh, surface, .. } = &parts;
-        let boundary = TargetFaces::new(FieldSurface::whole(mesh, &parts.boundary, parts.space, 1.0), mesh);
-        let [mut shortest, mut longest] = surface.sizes(mesh);
+    pub fn new(parts: ContactParts, roles: FieldRoles) -> Self {
+        let mut sides = ContactSides::new(parts);
+        let ContactParts { mesh, surface, target, .. } = &mut sides.parts;
         let size =
             |node: &FieldNode| node.support.iter().map(|&(f, _)| surface.size(f, mesh)).fold(f64::INFINITY, f64::min);
         let sizes = surface.nodes.iter().map(size).collect();
-        let (labels, pieces) = match &mut parts.target {
+        let pieces = match target {
             FieldTarget::Tool(rigid) => {
+                let [shortest, longest] = surface.sizes(mesh);
                 rigid.sharpen([SMALL * shortest, longest]);
-                (Vec::new(), rigid.pieces())
+                rigid.pieces()
             }
-            FieldTarget::Faces(faces) => {
-                let [least, most] = faces.surface.sizes(&parts.mesh);
-                (shortest, longest) = (shortest.min(least), longest.max(most));
-                labels(&faces.surface.pieces)
-            }
+            FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
         };
-        Self { parts, boundary, least: CLOSED * shortest, labels, pieces, longest, sizes }
+        Self { sides, roles, pieces, sizes }
     }
 
-    /// The user's name for it.
-    pub fn title(&self) -> &str {
-        &self.parts.name
-    }
-    /// The surface.
-    pub fn surface(&self) -> &FieldSurface {
-        &self.parts.surface
-    }
-    /// What it may touch.
-    pub fn target(&self) -> &FieldTarget {
-        &self.parts.target
-    }
-    /// The law of the interface.
-    pub fn law(&self) -> &dyn Interface {
-        self.parts.law.first()
-    }
     /// The largest penetration of a closed node in an accepted state.
     pub fn largest_penetration(&self, history: &History) -> f64 {
         largest_penetration(history, self.slots())
     }
-    /// How it is computed.
-    pub fn options(&self) -> &ContactOptions {
-        &self.parts.options
-    }
-    /// Where moments are taken about: the present place of a tool's reference point, or the origin.
-    pub fn pole(&self, u: &[f64]) -> Vec3 {
-        self.parts.target.as_tool().map_or(Vec3::zero(), |rigid| rigid.at(u).reference())
-    }
-
     /// Number of stencils: those of the nodes, then those of the tool's tips.
     pub(super) fn slots(&self) -> usize {
         self.nodal_slots() + self.tips().len()
@@ -171,7 +126,7 @@ impl FieldContact {
     }
     /// The smooth piece of a target's segment.
     pub(super) fn piece_of(&self, target: usize) -> usize {
-        self.labels.get(target).copied().unwrap_or(target)
+        self.parts.target.as_faces().map_or(target, |faces| faces.surface.pieces[target])
     }
     /// Whether the averaged normals of the surface matter.
     pub(super) fn needs_normals(&self) -> bool {
@@ -196,22 +151,12 @@ impl FieldContact {
     pub(super) fn may_touch(&self, face: usize, target: usize) -> bool {
         let Some(faces) = self.parts.target.as_faces() else { return true };
         let (own, other) = (&self.parts.surface.faces[face], &faces.surface.faces[target]);
-        (!self.parts.itself || own.side < other.side) && !own.nodes.iter().any(|node| other.nodes.contains(node))
+        (!self.roles.itself || own.side < other.side) && !own.nodes.iter().any(|node| other.nodes.contains(node))
     }
 }
 
 /// Largest radius of a tip over the length of the shortest face: a larger one is felt by the faces around it.
 const SMALL: f64 = 1.0;
-
-/// Labels counted from zero, in the order of their first use.
-fn labels(roots: &[usize]) -> (Vec<usize>, usize) {
-    let mut numbers = BTreeMap::new();
-    for &root in roots {
-        let next = numbers.len();
-        numbers.entry(root).or_insert(next);
-    }
-    (roots.iter().map(|root| numbers[root]).collect(), numbers.len())
-}
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
 pub static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(4));

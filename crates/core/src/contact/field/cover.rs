@@ -5,11 +5,11 @@
 //! normal of the surface passes through the vertex, `(x_V - x(xi)) . e_S(xi) = 0`; of a tool, where the surface crosses the
 //! line that ends a piece of its profile, `(x(xi) - x_V) . t_V = 0`, across its tangent or along the bisector of a crease. The ends of an interval move with all of these.
 
-use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions};
+use super::face::{CORNERS, FieldFace, PlacedFace, ShapeFunctions, WHOLE};
 use super::space::SeenNodes;
 use super::surface::FieldSurface;
 use super::tool::ToolInPlace;
-use crate::tensor::Vec3;
+use crate::tensor::{Vec3, root};
 
 /// The part of a face that sees one piece of the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,28 +122,6 @@ impl<'a> FaceInPlace<'a> {
 /// Ends of an interval nearer to those of the edge than this, in reference coordinates, cut nothing off.
 const END: f64 = 1e-9;
 
-/// The zero between `from` and `to` of a function with its slope, by Newton's method within a shrinking bracket.
-fn root([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> [f64; 2]) -> f64 {
-    let below = f(from)[0] < 0.0;
-    let mut xi = 0.5 * (from + to);
-    for _ in 0..100 {
-        let [value, slope] = f(xi);
-        if (value < 0.0) == below {
-            from = xi
-        } else {
-            to = xi
-        }
-        let newton = xi - value / slope;
-        let inside = newton > from.min(to) && newton < from.max(to);
-        let next = if inside { newton } else { 0.5 * (from + to) };
-        if (next - xi).abs() < 1e-15 {
-            break;
-        }
-        xi = next;
-    }
-    xi
-}
-
 /// The zero near `xi` of a function with its slope, by Newton's method; where it does not settle, `xi`.
 pub fn root_near(xi: f64, f: impl Fn(f64) -> [f64; 2]) -> f64 {
     let mut at = xi;
@@ -164,10 +142,10 @@ pub fn root_near(xi: f64, f: impl Fn(f64) -> [f64; 2]) -> f64 {
 /// The interval of an edge that sees the edge of a body between two vertices, in the order in which the surface passes
 /// them, and which of them bound it.
 pub fn between_vertices(face: &FaceInPlace, vertices: [Vec3; 2]) -> Option<([f64; 2], [bool; 2])> {
-    let (mut ends, mut bounded) = ([-1.0, 1.0], [false; 2]);
+    let (mut ends, mut bounded) = (WHOLE, [false; 2]);
     for k in 0..2 {
         let offset = |xi: f64| face.vertex_offset(xi, vertices[k]);
-        let [before, behind] = [-1.0, 1.0].map(|xi| offset(xi)[0]);
+        let [before, behind] = WHOLE.map(|xi| offset(xi)[0]);
         let (covers, misses) = if k == 0 { (before <= 0.0, behind >= 0.0) } else { (behind >= 0.0, before <= 0.0) };
         if covers {
             continue;
@@ -175,7 +153,7 @@ pub fn between_vertices(face: &FaceInPlace, vertices: [Vec3; 2]) -> Option<([f64
         if misses {
             return None;
         }
-        let xi = root([-1.0, 1.0], offset);
+        let xi = root(WHOLE, offset);
         if (xi - ends[k]).abs() > END {
             (ends[k], bounded[k]) = (xi, true);
         }
@@ -202,10 +180,8 @@ pub fn over_piece(
         samples.push((0.5 * (along(a) + along(b))).clamp(-1.0, 1.0));
         samples.sort_unstable_by(f64::total_cmp);
     }
-    let seen: Vec<Option<usize>> = samples.iter().map(|&xi| sees(xi)).collect();
-    let cut = |inside: f64, outside: f64, end: usize| {
-        // The side on which the piece is seen, then the place itself.
-        let (mut inside, mut outside) = (inside, outside);
+    // The side on which the piece is seen, then the place itself.
+    let cut = |mut inside: f64, mut outside: f64, end: usize| {
         for _ in 0..30 {
             let middle = 0.5 * (inside + outside);
             if sees(middle).is_none() { inside = middle } else { outside = middle }
@@ -213,28 +189,27 @@ pub fn over_piece(
         let Some(line) = ends[end] else { return inside };
         root_near(inside, |xi| face.end_offset(xi, line))
     };
-    let mut first = 0;
-    while first < samples.len() {
-        if seen[first].is_some() {
-            first += 1;
-            continue;
-        }
-        let last = (first..samples.len()).take_while(|&k| seen[k].is_none()).last().unwrap_or(first);
-        let (mut interval, mut bounds) = ([-1.0, 1.0], [None; 2]);
-        if let Some(end) = first.checked_sub(1).and_then(|before| seen[before]) {
-            (interval[0], bounds[0]) = (cut(samples[first], samples[first - 1], end), Some(end));
-        }
-        if let Some(end) = seen.get(last + 1).copied().flatten() {
-            (interval[1], bounds[1]) = (cut(samples[last], samples[last + 1], end), Some(end));
-        }
+    let mut found = |from: (f64, Option<usize>), to: (f64, Option<usize>)| {
+        let (mut interval, mut bounds) = ([from.0, to.0], [from.1, to.1]);
         for k in 0..2 {
-            if (interval[k] - [-1.0, 1.0][k]).abs() <= END {
-                (interval[k], bounds[k]) = ([-1.0, 1.0][k], None);
+            if (interval[k] - WHOLE[k]).abs() <= END {
+                (interval[k], bounds[k]) = (WHOLE[k], None);
             }
         }
         if interval[1] - interval[0] > END {
             take(interval, bounds);
         }
-        first = last + 1;
+    };
+    let (mut before, mut from) = ((-1.0, sees(-1.0)), (-1.0, None));
+    for here in samples.into_iter().skip(1).map(|xi| (xi, sees(xi))) {
+        match (before.1, here.1) {
+            (Some(end), None) => from = (cut(here.0, before.0, end), Some(end)),
+            (None, Some(end)) => found(from, (cut(before.0, here.0, end), Some(end))),
+            _ => {}
+        }
+        before = here;
+    }
+    if before.1.is_none() {
+        found(from, (1.0, None));
     }
 }

@@ -5,8 +5,8 @@ use super::face::{PlacedFace, ShapeFunctions};
 use super::surface::FieldSurface;
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
-use crate::tensor::Vec3;
-use crate::tool::{BoundingBox, BoxTree};
+use crate::tensor::{BoundingBox, Vec3};
+use crate::tool::BoxTree;
 
 /// Iterations of a projection.
 const ITERATIONS: usize = 20;

@@ -48,7 +48,7 @@ mod tip;
 pub(super) mod tool;
 mod triad;
 
-pub use contact::{FieldContact, FieldParts, FieldTarget};
+pub use contact::{FieldContact, FieldRoles, FieldTarget};
 pub use surface::FieldSurface;
 pub use tie::{Apart, MeanCondition, TieParts, TiedSurfaces};
 

@@ -51,6 +51,15 @@ impl FacePart {
     }
 }
 
+/// Of parts of one face, each with its gap, those over which no nearer one lies; of equals the first is the nearest.
+pub fn nearest<T>(all: &[(T, FacePart, f64)]) -> impl Iterator<Item = &(T, FacePart, f64)> {
+    let visible = |(i, (_, part, gap)): &(usize, &(T, FacePart, f64))| {
+        let nearer = |(j, (_, _, other)): &(usize, &(T, FacePart, f64))| (other.abs(), *j) < (gap.abs(), *i);
+        !all.iter().enumerate().filter(nearer).any(|(_, (_, over, _))| over.covers(part))
+    };
+    all.iter().enumerate().filter(visible).map(|(_, seen)| seen)
+}
+
 /// Ends and middle of an interval.
 pub fn samples([from, to]: [f64; 2]) -> [[f64; 2]; 3] {
     [from, to, 0.5 * (from + to)].map(|xi| [xi, 0.0])

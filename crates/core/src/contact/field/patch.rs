@@ -3,7 +3,7 @@
 use super::column::{PointColumn, tool_motion};
 use super::contact::FieldTarget;
 use super::cover::{FaceInPlace, Patch, root_near};
-use super::face::{CORNERS, PlacedFace, ShapeFunctions};
+use super::face::{CORNERS, PlacedFace, ShapeFunctions, WHOLE};
 use super::faces::TargetFaces;
 use super::nodes::NodesInPlace;
 use super::space::{CutFace, INTEGRALS};
@@ -53,9 +53,11 @@ impl<'a> PatchInPlace<'a> {
             FieldTarget::Faces(faces) => (None, Some((faces, at.placed(&faces.surface.faces[patch.target])))),
         };
         let degree = at.contact.overlap_degree(patch);
-        let mut patch = Self { face, normals, tool, seen, patch: *patch, interval: [-1.0, 1.0], degree, cut: None };
-        if surface.plane {
-            patch.find_interval();
+        let mut patch = Self { face, normals, tool, seen, patch: *patch, interval: WHOLE, degree, cut: None };
+        for (k, end) in patch.patch.ends.into_iter().enumerate() {
+            if let Some(end) = end {
+                patch.interval[k] = root_near(patch.patch.near[k], |xi| patch.offset(xi, end));
+            }
         }
         if let (Some(tool), Some(seen)) = (&patch.tool, patch.patch.seen) {
             patch.cut = CutFace::new(&patch.face, (tool, patch.patch.target), seen);
@@ -63,16 +65,7 @@ impl<'a> PatchInPlace<'a> {
         patch
     }
 
-    /// Finds where the interval lies.
-    fn find_interval(&mut self) {
-        for k in 0..2 {
-            self.interval[k] = match self.patch.ends[k] {
-                None => [-1.0, 1.0][k],
-                Some(end) => root_near(self.patch.near[k], |xi| self.offset(xi, end)),
-            };
-        }
-    }
-
+    /// How far a place lies from an end of what is seen, and the slope of that.
     fn offset(&self, xi: f64, end: usize) -> [f64; 2] {
         match (&self.tool, &self.seen) {
             (Some(tool), _) => {

@@ -1,7 +1,7 @@
 //! What a field tells of a state: gaps before any motion, records of its nodes, penetration and facets.
 
 use super::configuration::{Configuration, TargetInPlace};
-use super::contact::{FieldContact, FieldParts};
+use super::contact::FieldContact;
 use super::face::moved;
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
@@ -87,7 +87,7 @@ impl FieldContact {
         let tips = records.split_off(self.nodal_slots()).into_iter().zip(self.nodal_slots()..);
         let seen = |slot: usize| history.slot(slot)[entry::SEGMENT] >= 0.0;
         records.extend(tips.filter(|(_, slot)| seen(*slot)).map(|(tip, _)| tip));
-        if self.parts.swapped {
+        if self.roles.swapped {
             records.iter_mut().for_each(ContactRecord::turn);
         }
         records
@@ -156,7 +156,7 @@ impl FieldContact {
 
     /// The part of its faces on which a node lies over a piece of a tool in space, slot by slot.
     pub(super) fn shares(&self, history: &History) -> Option<Vec<f64>> {
-        let Self { parts: FieldParts { surface, mesh, .. }, .. } = self;
+        let (surface, mesh) = (self.surface(), self.mesh());
         self.parts.target.as_tool().filter(|_| !surface.plane)?;
         let area = |&(f, corner): &(usize, usize)| {
             surface.corner_area(&surface.faces[f], &surface.faces[f].at_rest(mesh), corner).0
@@ -207,10 +207,8 @@ impl FieldContact {
 
     /// How far the facets of both sides stand off a smooth surface at most, a length.
     pub(super) fn sagitta(&self) -> f64 {
-        let most = |surface: &FieldSurface| {
-            (0..surface.nodes.len()).map(|node| surface.sagitta(node, &self.parts.mesh)).fold(0.0, f64::max)
-        };
-        most(&self.parts.surface) + self.parts.target.as_faces().map_or(0.0, |faces| most(&faces.surface))
+        let most = |surface: &FieldSurface| surface.largest_sagitta(self.mesh());
+        most(self.surface()) + self.target().as_faces().map_or(0.0, |faces| most(&faces.surface))
     }
 }
 

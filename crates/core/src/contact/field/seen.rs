@@ -8,7 +8,6 @@ use super::faces::FaceRay;
 use super::stencil::{NodeSums, StencilInPlace};
 use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
-use crate::contact::increment::reach;
 
 impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
@@ -97,7 +96,7 @@ impl FieldContact {
 
     /// Half the distance from the middle of each face, along its inward normal, to where the ray leaves the body.
     pub(super) fn depths(&self, u: &[f64]) -> Vec<f64> {
-        let boundary = self.boundary.in_place((&*self.parts.mesh, &self.parts.dofs), u);
+        let boundary = self.boundary.in_place(self.site(), u);
         let depth = |face: &FieldFace| {
             let placed = face.placed(&self.parts.mesh, &self.parts.dofs, u);
             let shape = face.shape(face.middle());
@@ -139,11 +138,6 @@ impl FieldContact {
                 take(slot, &stencil, &sums);
             }
         }
-    }
-
-    /// Distance within which faces are sought.
-    pub(super) fn reach(&self, last_change: &[f64]) -> f64 {
-        if self.needs_normals() { reach(self.longest, last_change) } else { f64::INFINITY }
     }
 }
 

@@ -5,8 +5,8 @@
 //! faces, `m = sum_f g1 x g2`, `n = m / |m|`, outward (Yang, Laursen & Meng 2005).
 
 use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
-use crate::mesh::{CREASE, DisjointSets, Mesh, Side, Space};
-use crate::tensor::Vec3;
+use crate::mesh::{CREASE, Mesh, Side, Space};
+use crate::tensor::{DisjointSets, Vec3};
 use std::collections::BTreeMap;
 
 /// A node of the field.
@@ -49,7 +49,7 @@ pub struct FieldSurface {
     pub nodes: Vec<FieldNode>,
     /// For each face the nodes of the field at its corners.
     pub field: Vec<[usize; CORNERS]>,
-    /// For each face the smooth piece it belongs to.
+    /// For each face the smooth piece it belongs to, counted from zero.
     pub pieces: Vec<usize>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
@@ -113,8 +113,7 @@ impl FieldSurface {
                 nodes.push(FieldNode { node, support, on_axis });
             }
         }
-        self.pieces = (0..self.faces.len()).map(|f| pieces.root(f)).collect();
-        (self.nodes, self.field) = (nodes, field);
+        (self.pieces, self.nodes, self.field) = (pieces.labels(), nodes, field);
     }
 
     /// The nodes of the mesh between which the line runs that tangents at a node of the field follow in space.
@@ -212,8 +211,12 @@ impl FieldSurface {
     /// Mean size of its faces, and the largest sagitta over it.
     pub fn coarseness(&self, mesh: &Mesh) -> [f64; 2] {
         let mean = (0..self.faces.len()).map(|f| self.size(f, mesh)).sum::<f64>() / self.faces.len().max(1) as f64;
-        let sagitta = (0..self.nodes.len()).map(|node| self.sagitta(node, mesh)).fold(0.0, f64::max);
-        [mean, sagitta / mean]
+        [mean, self.largest_sagitta(mesh) / mean]
+    }
+
+    /// How far its facets stand off a smooth surface at most, a length.
+    pub fn largest_sagitta(&self, mesh: &Mesh) -> f64 {
+        (0..self.nodes.len()).map(|node| self.sagitta(node, mesh)).fold(0.0, f64::max)
     }
 
     /// Shortest and longest size of its faces.

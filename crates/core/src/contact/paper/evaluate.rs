@@ -77,19 +77,18 @@ impl PaperAttempt<'_> {
     }
 
     fn constants(&self, index: usize, g: &PointGeometry, past: &Past, acting: Option<Coordinates>) -> PointConstants {
-        let (parts, plane) = (&self.contact.parts, self.contact.surface().plane);
-        let slip = g.place.slip(&Triad::new(g.place.tangents, plane));
+        let parts = &self.contact.parts;
         let flat = matches!(parts.space, Space::PlaneStrain | Space::PlaneStress);
         PointConstants {
             normal: g.hit.normal,
             closure: self.closure(index),
             before: past.penetration,
             touch: self.law.touch(past),
-            opens: self.law.opens(past, slip),
+            opens: self.law.opens(past, g.slip()),
             least: self.contact.least,
             weight: g.point.weight * if flat { parts.options.thickness } else { 1.0 },
             revolves: parts.space == Space::Axisymmetric,
-            plane,
+            plane: parts.surface.plane,
             acting,
         }
     }
@@ -106,8 +105,7 @@ impl PaperAttempt<'_> {
 
     fn account(&self, index: usize, g: &PointGeometry, now: Option<&Linearised>, local: &mut Local) {
         let (options, old) = (&self.contact.parts.options, self.history.slot(index));
-        let slip = g.place.slip(&Triad::new(g.place.tangents, self.contact.surface().plane));
         let area = self.present_area(g) * options.loads.share();
-        account((&*self.law, &self.past(index), old), (options, self.at), (area, 0.0), (now, slip), local);
+        account((&*self.law, &self.past(index), old), (options, self.at), (area, 0.0), (now, g.slip()), local);
     }
 }

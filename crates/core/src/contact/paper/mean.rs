@@ -39,12 +39,12 @@ impl PaperAttempt<'_> {
     /// Where the unknowns of a neighbour's nodes stand in the stencil of a point.
     fn nodes_of(&self, index: usize, neighbour: usize, g: &PointGeometry) -> Range<usize> {
         let (parts, mut start) = (&self.contact.parts, g.count);
-        let face = parts.surface.points[neighbour].face;
-        if face == parts.surface.points[index].face {
+        let face = self.contact.points[neighbour].face;
+        if face == self.contact.points[index].face {
             return 0..g.own;
         }
         for &other in self.contact.neighbours.others(index) {
-            let end = start + dofs_of(&parts.surface.faces.faces[other].nodes, &parts.dofs).count();
+            let end = start + dofs_of(&parts.surface.faces[other].nodes, &parts.dofs).count();
             if other == face {
                 return start..end;
             }
@@ -62,7 +62,7 @@ impl PaperAttempt<'_> {
         mean: &mut MeanPressure,
     ) {
         let (contact, parts) = (self.contact, &self.contact.parts);
-        let (point, face) = (&parts.surface.points[index], parts.surface.face(index));
+        let (point, face) = (&self.contact.points[index], self.contact.face(index));
         let (placed, axes) = (placed(&face.nodes, &parts.mesh, &u[own.clone()]), parts.dofs.per_node());
         let plane = contact.surface().plane;
         let tangents = point.shape.tangents(placed.nodes(), plane);
@@ -97,8 +97,7 @@ impl PaperAttempt<'_> {
         local: &mut Local,
     ) {
         let n = local.force.len();
-        let triad = Triad::new(g.place.tangents, self.contact.surface().plane);
-        let force = (triad.along[0] * s + triad.along[1] * t) * self.present_area(g);
+        let force = (g.triad.along[0] * s + g.triad.along[1] * t) * self.present_area(g);
         for (i, row) in self.rows::<f64>(g, (g.place.b, g.place.b), force).iter().enumerate() {
             for (entry, change) in local.tangent[i * n..(i + 1) * n].iter_mut().zip(&mean.slopes) {
                 *entry += row * change;

@@ -21,6 +21,6 @@ mod stencil;
 mod surface;
 mod term;
 
-pub use contact::{PaperContact, PaperParts};
+pub use contact::PaperContact;
 pub use report::Sample;
-pub use surface::{GaussPoint, PointSurface};
+pub use surface::GaussPoint;

@@ -41,7 +41,7 @@ fn is_closed(values: &[f64]) -> bool {
 impl PaperContact {
     /// All points in an accepted state, with this term's lane of its history.
     pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
-        (0..self.parts.surface.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
+        (0..self.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
     }
 
     fn record(&self, index: usize, u: &[f64], values: &[f64]) -> ContactRecord {
@@ -58,7 +58,7 @@ impl PaperContact {
             along: if sheared { (along[0] * s + along[1] * t) * record.shear.recip() } else { along[0] },
             area: self.area(index, u),
             segment: touched(values).map(|(segment, _)| segment),
-            edge: self.parts.surface.points[index].face,
+            edge: self.points[index].face,
             ..record
         }
     }
@@ -80,7 +80,7 @@ impl PaperContact {
     pub fn sampled(&self, u: &[f64], history: &History) -> Option<Sample> {
         let (depths, target, surface) = (self.depths(u), self.target_at(u), self.surface());
         let sample = |face: usize, xi: [f64; 2]| {
-            let index = self.parts.surface.points_of(face).next()?;
+            let index = self.points_of(face).next()?;
             let (shape, placed) =
                 (surface.faces[face].shape(xi), surface.faces[face].placed(&self.parts.mesh, &self.parts.dofs, u));
             let direction = Triad::new(shape.tangents(placed.nodes(), surface.plane), surface.plane).inward;
@@ -90,7 +90,7 @@ impl PaperContact {
             (penetration > 0.0).then_some(Sample { penetration, edge: face, position: ray.origin })
         };
         let touches = |&face: &usize| {
-            let mut points = self.parts.surface.points_of(face);
+            let mut points = self.points_of(face);
             !self.parts.target.deforms() || points.any(|point| is_closed(history.slot(point)))
         };
         let faces = (0..surface.faces.len()).filter(touches);
@@ -134,15 +134,15 @@ impl PaperContact {
     pub fn moves(&self) -> Vec<Move> {
         let still = vec![0.0; self.parts.dofs.count()];
         let mut normals: BTreeMap<usize, (Vec3, usize)> = BTreeMap::new();
-        for index in 0..self.parts.surface.points.len() {
+        for index in 0..self.points.len() {
             let inward = self.triad(index, &still).1.inward;
-            for &node in &self.parts.surface.face(index).nodes {
+            for &node in &self.face(index).nodes {
                 normals.entry(node).or_insert((Vec3::zero(), index)).0 += inward;
             }
         }
         let rays = normals.iter().map(|(&node, &(sum, index))| (self.parts.mesh.points[node], sum.unit(), index));
         let moved = normals.iter().zip(self.penetrations(rays)).filter_map(|((&node, &(sum, index)), u)| {
-            let (u, cell) = (u?, self.parts.surface.face(index).side.cell);
+            let (u, cell) = (u?, self.face(index).side.cell);
             (u > self.least).then(|| Move { node, by: sum.unit() * u, cell })
         });
         moved.collect()

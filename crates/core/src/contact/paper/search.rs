@@ -4,7 +4,6 @@ use super::contact::PaperContact;
 use super::segment::met;
 use crate::contact::field::configuration::TargetInPlace;
 use crate::contact::field::faces;
-use crate::contact::increment::reach;
 use crate::tensor::Vec3;
 use crate::tool::{Hit, ProfileRay, Rejected, Rules, select};
 
@@ -61,11 +60,11 @@ impl PaperContact {
     pub(super) fn depths(&self, u: &[f64]) -> Vec<f64> {
         let boundary = self.boundary.in_place(self.site(), u);
         let depth = |index: usize| {
-            let (own, (origin, triad)) = (self.parts.surface.face(index).side, self.triad(index, u));
-            let least = 1e-3 * if self.parts.surface.faces.plane { triad.area } else { triad.area.sqrt() };
+            let (own, (origin, triad)) = (self.face(index).side, self.triad(index, u));
+            let least = 1e-3 * if self.parts.surface.plane { triad.area } else { triad.area.sqrt() };
             0.5 * boundary.depth(own, &faces::FaceRay { x: origin, n: triad.inward }, least)
         };
-        (0..self.parts.surface.points.len()).map(depth).collect()
+        (0..self.points.len()).map(depth).collect()
     }
 
     pub(super) fn search_within(&self, u: &[f64], reach: f64) -> (Vec<Option<Hit>>, Rejected) {
@@ -88,13 +87,8 @@ impl PaperContact {
 
     /// A ray on behalf of a point, up to a depth and a reach.
     pub(super) fn cast(&self, point: usize, ray: ProfileRay, (depth, reach): (f64, f64)) -> Cast<'_> {
-        let relatives = &self.relatives[self.parts.surface.points[point].face];
+        let relatives = &self.relatives[self.points[point].face];
         Cast { ray, reach, depth, relatives, size: self.parts.target.size() }
-    }
-
-    /// The largest gap at which the target is seen in the increment after `last_change`: a tool at any distance.
-    pub(super) fn reach(&self, last_change: &[f64]) -> f64 {
-        if self.parts.target.deforms() { reach(self.longest, last_change) } else { f64::INFINITY }
     }
 
     /// Rays from these places on the undeformed surface, each on behalf of a point: how deep they meet the target.

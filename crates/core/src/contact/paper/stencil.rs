@@ -26,6 +26,8 @@ pub struct PointGeometry<'a> {
     pub point: &'a GaussPoint,
     /// Positions.
     pub place: PointPlace<f64>,
+    /// Triad.
+    pub triad: Triad<f64>,
     /// Where the target is hit.
     pub hit: Hit,
     /// The segment that is hit.
@@ -52,6 +54,11 @@ impl PointGeometry<'_> {
             touched: self.place.touched.map(|x| seed(x, 12)),
         }
     }
+
+    /// Slips of the increment.
+    pub fn slip(&self) -> [f64; 2] {
+        self.place.slip(&self.triad)
+    }
 }
 
 fn seed<T: Seed<DIRECTIONS>>(v: Vec3, first: usize) -> Vec3<T> {
@@ -62,14 +69,14 @@ impl<'a> PaperAttempt<'a> {
     /// Appends the unknowns of a point: its own, those of the segment it hits, of the one it touched, of the faces around it.
     pub(super) fn unknowns(&self, index: usize, stencil: &Stencil, out: &mut Vec<usize>) {
         let parts = &self.contact.parts;
-        out.extend(dofs_of(&parts.surface.face(index).nodes, &parts.dofs));
+        out.extend(dofs_of(&self.contact.face(index).nodes, &parts.dofs));
         let Some(segment) = (stencil.choice as usize).checked_sub(1) else { return };
         out.extend(parts.target.unknowns(segment, &parts.dofs));
         if let Some((other, _)) = self.touched_elsewhere(index, segment) {
             out.extend(parts.target.unknowns(other, &parts.dofs));
         }
         for &face in self.contact.neighbours.others(index) {
-            out.extend(dofs_of(&parts.surface.faces.faces[face].nodes, &parts.dofs));
+            out.extend(dofs_of(&parts.surface.faces[face].nodes, &parts.dofs));
         }
     }
 
@@ -89,13 +96,14 @@ impl<'a> PaperAttempt<'a> {
         let Some(number) = (stencil.choice as usize).checked_sub(1) else { return Ok(None) };
         let (contact, parts, site) = (self.contact, &self.contact.parts, self.contact.site());
         let lost = || Failure::new(format!("{}: its ray runs along the target", contact.name_of(index)));
-        let (point, face) = (&parts.surface.points[index], parts.surface.face(index));
+        let (point, face) = (&self.contact.points[index], self.contact.face(index));
         let own = parts.dofs.per_node() * face.nodes.len();
         let met = own..own + parts.target.unknowns(number, &parts.dofs).len();
         let placed = placed(&face.nodes, &parts.mesh, &u[..own]);
         let (a, plane) = (point.shape.value(placed.nodes()), contact.surface().plane);
         let tangents = point.shape.tangents(placed.nodes(), plane);
-        let inward = Triad::new(tangents, plane).inward;
+        let triad = Triad::new(tangents, plane);
+        let inward = triad.inward;
         let segment = parts.target.segment(number, site, &u[met.clone()]);
         let hit = segment.meet(&ProfileRay { origin: a, direction: inward }, stencil.near).ok_or_else(lost)?;
         let mut count = met.end;
@@ -109,7 +117,7 @@ impl<'a> PaperAttempt<'a> {
         });
         let touched = before.as_ref().map(|(segment, s, _)| segment.point(*s));
         let place = PointPlace { a, tangents, b: a + inward * hit.u, touched };
-        Ok(Some(PointGeometry { point, place, hit, segment, own, met, before, count, placed }))
+        Ok(Some(PointGeometry { point, place, triad, hit, segment, own, met, before, count, placed }))
     }
 
     /// What a force at a point does to each unknown of its stencil: `-N_L f` to its own nodes, and to the target its

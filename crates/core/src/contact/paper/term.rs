@@ -17,7 +17,7 @@ impl PaperContact {
     /// The history of points that begin at displacements `u`; `added` as in [`Overlap::begin`].
     fn begun(&self, u: &[f64], added: Option<[f64; 2]>) -> History {
         let vars: usize = self.parts.law.first().variables().iter().map(|v| v.len()).sum();
-        let mut history = History::new(self.parts.surface.points.iter().map(|_| entry::COUNT + vars));
+        let mut history = History::new(self.points.iter().map(|_| entry::COUNT + vars));
         for (i, hit) in self.search_within(u, self.reach(&vec![0.0; u.len()])).0.into_iter().enumerate() {
             let values = history.slot_mut(i);
             write_hit(hit, values);
@@ -63,7 +63,7 @@ impl Term for PaperContact {
     }
 
     fn name_of(&self, point: usize) -> String {
-        let face = self.parts.surface.face(point);
+        let face = self.face(point);
         let kind = if self.surface().plane { "edge" } else { "face" };
         format!("point {point} of contact '{}' ({kind} with nodes {:?})", self.parts.name, face.nodes)
     }
@@ -146,7 +146,7 @@ impl PaperAttempt<'_> {
             hit.map_or_else(Stencil::default, found)
         };
         // Each point for itself: the order of the threads decides nothing.
-        let points = (0..contact.parts.surface.points.len()).into_par_iter().with_min_len(TOGETHER);
+        let points = (0..contact.points.len()).into_par_iter().with_min_len(TOGETHER);
         let found: Vec<Stencil> = points.map(seek).collect();
         for (index, stencil) in found.into_iter().enumerate() {
             let start = out.dofs.len();

@@ -3,6 +3,7 @@
 use super::coincident::representatives;
 use super::{LintFinding, LintKind, LintSeverity, hanging, words};
 use crate::mesh::{Faces, Mesh, Side};
+use crate::tensor::DisjointSets;
 
 pub(super) fn check(mesh: &Mesh) -> Vec<LintFinding> {
     let first = representatives(mesh);
@@ -147,40 +148,22 @@ fn corners(mesh: &Mesh, cell: usize) -> [usize; 8] {
 /// can hold one without the other.
 struct Bodies<'a> {
     mesh: &'a Mesh,
-    roots: Vec<usize>,
+    sets: DisjointSets,
 }
 
 impl<'a> Bodies<'a> {
     fn of(mesh: &'a Mesh) -> Self {
-        let mut bodies = Self { mesh, roots: (0..mesh.cell_count()).collect() };
+        let mut sets = DisjointSets::new(mesh.cell_count());
         let adjacency = mesh.adjacency();
         for node in 0..mesh.points.len() {
-            adjacency.cells(node).windows(2).for_each(|pair| bodies.unite(pair[0], pair[1]));
+            adjacency.cells(node).windows(2).for_each(|pair| sets.join(pair[0], pair[1]));
         }
-        // A root is never larger than its members, so one pass in order makes every entry a root.
-        for cell in 0..bodies.roots.len() {
-            bodies.roots[cell] = bodies.roots[bodies.roots[cell]];
-        }
-        bodies
-    }
-
-    fn root(&mut self, mut cell: usize) -> usize {
-        while self.roots[cell] != cell {
-            self.roots[cell] = self.roots[self.roots[cell]];
-            cell = self.roots[cell];
-        }
-        cell
-    }
-
-    fn unite(&mut self, one: usize, other: usize) {
-        let (one, other) = (self.root(one), self.root(other));
-        let root = one.min(other);
-        (self.roots[one], self.roots[other]) = (root, root);
+        Self { mesh, sets }
     }
 
     /// Whether nodes join them, over whatever cells.
     fn joined(&self, one: usize, other: usize) -> bool {
-        self.roots[one] == self.roots[other]
+        self.sets.root(one) == self.sets.root(other)
     }
 
     fn same(&self, one: usize, other: usize) -> bool {

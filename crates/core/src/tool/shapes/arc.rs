@@ -7,8 +7,8 @@
 //! `phi = (s - 1/2) theta`. A point of the circle has `k |q|^2 / 2 = q . n`, `q = x - apex`. An arc of nearly straight
 //! nodes thus passes into the line without loss, and `theta = 0` is the line.
 
-use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, angle, quadratic};
-use crate::tensor::Vec3;
+use super::{Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, angle};
+use crate::tensor::{BoundingBox, Vec3, quadratic};
 use std::f64::consts::PI;
 
 pub(super) static KIND: ShapeKind = ShapeKind {

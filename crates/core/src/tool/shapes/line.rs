@@ -1,7 +1,7 @@
 //! The straight segment between two nodes.
 
-use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
-use crate::tensor::Vec3;
+use super::{Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
+use crate::tensor::{BoundingBox, Vec3};
 
 pub(super) static KIND: ShapeKind = ShapeKind {
     key: "line",

@@ -15,7 +15,7 @@ pub use line::LineSegment;
 pub use parabola::Parabola;
 
 use crate::declare::nearest;
-use crate::tensor::Vec3;
+use crate::tensor::{BoundingBox, Vec3};
 use std::fmt::Debug;
 
 /// Every shape of segment that a profile may be made of.
@@ -106,46 +106,6 @@ impl Conic {
     }
 }
 
-/// An axis-parallel box.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BoundingBox {
-    /// Smallest coordinates.
-    pub min: Vec3,
-    /// Largest coordinates.
-    pub max: Vec3,
-}
-
-impl BoundingBox {
-    /// The box that holds nothing.
-    pub const EMPTY: BoundingBox = BoundingBox { min: Vec3([f64::INFINITY; 3]), max: Vec3([f64::NEG_INFINITY; 3]) };
-
-    /// The smallest box around points; coordinates that are not numbers are passed over.
-    pub fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |b, p| b.union(BoundingBox { min: p, max: p }))
-    }
-    /// The smallest box around two.
-    pub fn union(self, other: Self) -> Self {
-        let pick = |a: Vec3, b: Vec3, f: fn(f64, f64) -> f64| Vec3(std::array::from_fn(|i| f(a[i], b[i])));
-        Self { min: pick(self.min, other.min, f64::min), max: pick(self.max, other.max, f64::max) }
-    }
-    /// It and `margin` on all sides.
-    pub fn widened(self, margin: f64) -> Self {
-        Self { min: self.min - Vec3([margin; 3]), max: self.max + Vec3([margin; 3]) }
-    }
-    /// From a point to it.
-    pub fn distance(&self, x: Vec3) -> f64 {
-        Vec3(std::array::from_fn(|i| (self.min[i] - x[i]).max(x[i] - self.max[i]).max(0.0))).norm()
-    }
-    /// Length of its diagonal; zero for the empty box.
-    pub fn size(&self) -> f64 {
-        if self.min[0] <= self.max[0] { (self.max - self.min).norm() } else { 0.0 }
-    }
-    /// Its middle.
-    pub fn centre(&self) -> Vec3 {
-        (self.min + self.max) * 0.5
-    }
-}
-
 /// A smooth segment of a profile, in the tool's own frame.
 pub trait ProfileShape: Debug + Send + Sync {
     /// What it is.
@@ -192,11 +152,4 @@ pub(super) fn turn(a: Vec3, b: Vec3) -> f64 {
 /// The angle to the left from one vector of the plane to another.
 pub(super) fn angle(a: Vec3, b: Vec3) -> f64 {
     turn(a, b).atan2(a.dot(b))
-}
-
-/// The roots of `a x^2 + b x + c`, without cancellation; the one that does not exist is not finite.
-pub(super) fn quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
-    let root = (b * b - 4.0 * a * c).sqrt();
-    let q = -0.5 * (b + root.copysign(b));
-    [q / a, c / q]
 }

@@ -3,9 +3,8 @@
 //! About the middle node, with `w = s - 1/2`: `x = m + b1 w + b2 w^2`, `b1 = c - a`, `b2 = 2 (a - m) + 2 (c - m)`.
 //! A ray meets it where `(e x b2) w^2 + (e x b1) w + e x (m - o) = 0`; `b2 = 0` leaves the straight line.
 
-use super::{BoundingBox, Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, quadratic, turn};
-use crate::tensor::{Vec3, legendre};
-use std::sync::LazyLock;
+use super::{Conic, ProfileRay, ProfileShape, RayCrossing, ShapeKind, turn};
+use crate::tensor::{BoundingBox, Vec3, integral, quadratic};
 
 pub(super) static KIND: ShapeKind = ShapeKind {
     key: "parabola",
@@ -82,8 +81,7 @@ impl ProfileShape for Parabola {
         BoundingBox::of(extremes.chain([self.nodes[0], self.nodes[2]]))
     }
     fn length(&self) -> f64 {
-        let speed = |s: f64| self.tangent(s).norm();
-        integral(&speed, 0.0, 1.0, gauss(&speed, 0.0, 1.0), 0)
+        integral(&|s| self.tangent(s).norm(), [0.0, 1.0])
     }
     fn curvature(&self, s: f64) -> f64 {
         let tangent = self.tangent(s);
@@ -115,21 +113,4 @@ impl ProfileShape for Parabola {
         (self.slowest() <= 1e-6 * legs)
             .then(|| "turns back on itself: its middle node must lie well between its ends".to_owned())
     }
-}
-
-/// Five Gauss points on `[a, b]`.
-fn gauss(f: &dyn Fn(f64) -> f64, a: f64, b: f64) -> f64 {
-    static POINTS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(5));
-    let (half, middle) = (0.5 * (b - a), 0.5 * (a + b));
-    POINTS.iter().map(|&(x, w)| w * f(middle + half * x)).sum::<f64>() * half
-}
-
-/// The integral over `[a, b]`, halving until two halves agree with their `whole`.
-fn integral(f: &dyn Fn(f64) -> f64, a: f64, b: f64, whole: f64, depth: u8) -> f64 {
-    let middle = 0.5 * (a + b);
-    let (left, right) = (gauss(f, a, middle), gauss(f, middle, b));
-    if depth == 30 || (left + right - whole).abs() <= 1e-14 * whole {
-        return left + right;
-    }
-    integral(f, a, middle, left, depth + 1) + integral(f, middle, b, right, depth + 1)
 }

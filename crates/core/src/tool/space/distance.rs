@@ -7,9 +7,8 @@
 
 use super::nearest::{FacetBorder, FacetPoint};
 use super::tool::SpaceTool;
-use crate::tensor::Vec3;
+use crate::tensor::{BoundingBox, DisjointSets, Vec3};
 use crate::tool::distance::CREASE;
-use crate::tool::shapes::BoundingBox;
 use crate::tool::{BoxTree, NearestPoint};
 
 /// Points of two facets are the same within this part of the tool's size.
@@ -38,13 +37,7 @@ impl SmoothPieces {
 impl SpaceTool {
     /// Its smooth pieces.
     pub fn smooth_pieces(&self) -> SmoothPieces {
-        let mut sets: Vec<usize> = (0..self.facets().len()).collect();
-        fn root(sets: &[usize], mut i: usize) -> usize {
-            while sets[i] != i {
-                i = sets[i];
-            }
-            i
-        }
+        let mut sets = DisjointSets::new(self.facets().len());
         for (i, facet) in self.facets().iter().enumerate() {
             let triangle: &[[f64; 2]] = &[[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
             let square: &[[f64; 2]] = &[[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]];
@@ -54,23 +47,14 @@ impl SpaceTool {
                     let other = self.facets()[j].nearest(point);
                     let cosine = other.normal.dot(normal);
                     if j != i && (other.point - point).norm() <= TOGETHER * self.size() && cosine > CREASE.cos() {
-                        let (one, two) = (root(&sets, i), root(&sets, j));
-                        sets[one.max(two)] = one.min(two);
+                        sets.join(i, j);
                     }
                 }
             }
         }
-        let roots: Vec<usize> = (0..sets.len()).map(|i| root(&sets, i)).collect();
-        let (mut labels, mut pieces): (Vec<usize>, Vec<Vec<usize>>) = (vec![0; roots.len()], Vec::new());
-        for i in 0..roots.len() {
-            if roots[i] == i {
-                labels[i] = pieces.len();
-                pieces.push(vec![i]);
-            } else {
-                labels[i] = labels[roots[i]];
-                pieces[labels[i]].push(i);
-            }
-        }
+        let labels = sets.labels();
+        let mut pieces = vec![Vec::new(); labels.iter().max().map_or(0, |last| last + 1)];
+        labels.iter().enumerate().for_each(|(facet, &piece)| pieces[piece].push(facet));
         let tree = |facets: Vec<usize>| {
             let boxes: Vec<BoundingBox> = facets.iter().map(|&facet| self.facets()[facet].bounds()).collect();
             (facets, BoxTree::new(&boxes, TOGETHER * self.size()))

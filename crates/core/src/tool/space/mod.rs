@@ -8,7 +8,6 @@ mod distance;
 mod nearest;
 mod path;
 mod polygons;
-mod roots;
 pub mod solids;
 mod swept;
 #[cfg(test)]

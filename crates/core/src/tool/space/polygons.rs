@@ -4,9 +4,9 @@
 //! Quadrilateral `a b c d`: `x = a + s0 p + s1 q + s0 s1 r` with `p = b - a`, `q = d - a`, `r = a - b + c - d`. Crossed
 //! with the ray's direction `e`, `x = o + u e` loses `u`; eliminating `s0` leaves a quadratic in `s1`.
 
-use crate::tensor::Vec3;
+use crate::tensor::{BoundingBox, Vec3, quadratic};
 use crate::tool::facet::{Meeting, ToolFacet};
-use crate::tool::shapes::{BoundingBox, ProfileRay, quadratic};
+use crate::tool::shapes::ProfileRay;
 
 /// Three corners.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ use super::nearest::RigidFacet;
 use super::polygons::{Quad, Triangle};
 use super::swept::{Extruded, ProfileFrame, Revolved};
 use crate::tensor::Vec3;
-use crate::tool::fillet::fillet;
+use crate::tool::fillet::{Draft, rounded};
 use crate::tool::shapes::{ProfileShape, find};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -54,11 +54,6 @@ pub fn polygons(all: impl IntoIterator<Item = Vec<Vec3>>) -> Result<Facets, Stri
     all.into_iter().map(polygon).collect()
 }
 
-fn segment(key: &str, nodes: &[[f64; 2]]) -> Result<Box<dyn ProfileShape>, String> {
-    let nodes: Vec<Vec3> = nodes.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
-    find(key)?.build(&nodes)
-}
-
 /// The quarter of a circle or more about `(x, y)` from angle `from` to `to`, in degrees.
 fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Result<Box<dyn ProfileShape>, String> {
     let at = |angle: f64| {
@@ -70,9 +65,9 @@ fn arc([x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Result<Box<dyn Pr
             270.0 => (-1.0, 0.0),
             _ => angle.to_radians().sin_cos(),
         };
-        [x + radius * cos, y + radius * sin]
+        Vec3::new(x + radius * cos, y + radius * sin, 0.0)
     };
-    segment("arc", &[at(from), at(0.5 * (from + to)), at(to)])
+    find("arc")?.build(&[at(from), at(0.5 * (from + to)), at(to)])
 }
 
 /// A square plate around `at` whose face looks along `normal`.
@@ -123,36 +118,10 @@ pub fn cone(from: Vec3, to: Vec3, radii: [f64; 2], round: f64) -> Result<Facets,
     let corners = [[0.0, 0.0], [radii[0], 0.0], [radii[1], height], [0.0, height]];
     let mut corners = corners.map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
     corners.dedup();
-    let rounds: Vec<f64> = corners.iter().map(|c| if c[0] > 0.0 { round } else { 0.0 }).collect();
-    Ok(revolved(filleted(&corners, &rounds)?, frame))
-}
-
-/// Straight segments through `corners`, each inner corner rounded by an arc of its radius.
-///
-/// # Errors
-/// In words, if two arcs do not fit on the segment between their corners.
-pub fn filleted(corners: &[Vec3], rounds: &[f64]) -> Result<Profile, String> {
-    let n = corners.len();
-    let ends: Vec<Option<[Vec3; 3]>> = (0..n)
-        .map(|i| {
-            let inner = i > 0 && i + 1 < n && rounds[i] > 0.0;
-            inner.then(|| fillet([corners[i - 1], corners[i], corners[i + 1]], rounds[i])).flatten()
-        })
-        .collect();
-    let mut profile = Profile::new();
-    for i in 0..n - 1 {
-        let from = ends[i].map_or(corners[i], |arc| arc[2]);
-        let to = ends[i + 1].map_or(corners[i + 1], |arc| arc[0]);
-        let (whole, left) = (corners[i + 1] - corners[i], to - from);
-        if left.dot(whole) < -1e-12 * whole.dot(whole) {
-            return Err("the fillet is too large for the segments that it joins".into());
-        }
-        if left.dot(whole) > 1e-12 * whole.dot(whole) {
-            profile.push(find("line")?.build(&[from, to])?);
-        }
-        if let Some(arc) = ends[i + 1] {
-            profile.push(find("arc")?.build(&arc)?);
-        }
+    let line = find("line")?;
+    let mut sides: Vec<Draft> = corners.windows(2).enumerate().map(|(i, ends)| (i, line, ends.to_vec())).collect();
+    if round > 0.0 {
+        sides = rounded(sides, round).map_err(|_| "the fillet is too large for the segments that it joins")?;
     }
-    Ok(profile)
+    Ok(revolved(sides.iter().map(|(_, kind, nodes)| kind.build(nodes)).collect::<Result<_, _>>()?, frame))
 }

@@ -8,10 +8,9 @@
 //! spheres, tori and paraboloids in one. Each root is then carried to the zero of `P` itself by Newton's method, which
 //! restores the digits that squaring loses.
 
-use super::roots::roots;
-use crate::tensor::Vec3;
+use crate::tensor::{BoundingBox, Vec3, roots};
 use crate::tool::facet::{Meeting, ToolFacet};
-use crate::tool::shapes::{BoundingBox, Conic, ProfileRay, ProfileShape};
+use crate::tool::shapes::{Conic, ProfileRay, ProfileShape};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 

@@ -1,11 +1,11 @@
 //! Tools in space: facets against independent and slower answers, the tree against trying everything.
 
 use super::polygons::{Quad, Triangle};
-use super::solids::{Facets, cone, extruded, filleted, plane, polygons, revolved, sphere, torus};
+use super::solids::{Facets, cone, extruded, plane, polygons, revolved, sphere, torus};
 use super::{FacetFinding, Meeting, ProfileFrame, SpaceTool, SweepPath, ToolFacet, swept};
 use crate::tensor::Vec3;
 use crate::tool::shapes::{ALL, ProfileRay, find};
-use crate::tool::{Draft, Hit, Pose, Rejected, Rules, select};
+use crate::tool::{Draft, Hit, Pose, Rejected, Rules, rounded, select};
 use proptest::prelude::*;
 
 fn at(x: f64, y: f64, z: f64) -> Vec3 {
@@ -354,7 +354,10 @@ fn faults_of_triangles_are_found() {
 #[test]
 fn fillets_are_tangent_to_their_segments() {
     let corners = [at(0.0, 0.0, 0.0), at(3.0, 0.0, 0.0), at(3.0, 2.0, 0.0), at(0.0, 4.0, 0.0)];
-    let profile = filleted(&corners, &[0.0, 0.5, 0.3, 0.0]).unwrap();
+    let line = find("line").unwrap();
+    let sides: Vec<Draft> = corners.windows(2).enumerate().map(|(i, ends)| (i, line, ends.to_vec())).collect();
+    let drafts = rounded(sides.clone(), 0.5).unwrap();
+    let profile: Vec<_> = drafts.iter().map(|(_, kind, nodes)| kind.build(nodes).unwrap()).collect();
     assert_eq!(profile.iter().map(|s| s.kind().key).collect::<Vec<_>>(), ["line", "arc", "line", "arc", "line"]);
     for pair in profile.windows(2) {
         assert!((pair[0].point(1.0) - pair[1].point(0.0)).norm() < 1e-14);
@@ -362,7 +365,7 @@ fn fillets_are_tangent_to_their_segments() {
     }
     let quarter = &profile[1];
     assert!((quarter.length() - 0.25 * std::f64::consts::PI).abs() < 1e-13);
-    assert!(filleted(&corners, &[0.0, 1.9, 1.9, 0.0]).is_err());
+    assert!(rounded(sides, 1.9).is_err());
 }
 
 /// Every registered segment can be swept.

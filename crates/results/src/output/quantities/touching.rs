@@ -1,12 +1,12 @@
 //! Contacts of every kind under one roof, for reports.
 
 use asperity_core::contact::field::FieldContact;
-use asperity_core::contact::{ContactOptions, ContactRecord, PaperContact, Sample};
+use asperity_core::contact::{ContactOptions, ContactRecord, ContactSides, PaperContact, Sample};
 use asperity_core::declare::Variable;
 use asperity_core::interface::Interface;
 use asperity_core::mesh::Side;
 use asperity_core::mesh::cells::{Cell, MAX_NODES};
-use asperity_core::system::{History, Term};
+use asperity_core::system::History;
 use asperity_core::tensor::Vec3;
 
 /// A contact of any kind.
@@ -36,12 +36,16 @@ fn corners(kind: &Cell, nodes: &[usize], xi: [f64; 3]) -> Vec<(usize, f64)> {
 }
 
 impl Touching<'_> {
+    /// Both of its sides.
+    fn both(&self) -> &ContactSides {
+        match self {
+            Self::Points(contact) => contact,
+            Self::Field(contact) => contact,
+        }
+    }
     /// The sides of the mesh that are the surface, each once.
     pub fn sides(&self) -> Vec<Side> {
-        let mut sides: Vec<Side> = match self {
-            Self::Points(contact) => contact.surface().faces.iter().map(|face| face.side).collect(),
-            Self::Field(contact) => contact.surface().faces.iter().map(|face| face.side).collect(),
-        };
+        let mut sides: Vec<Side> = self.both().surface().faces.iter().map(|face| face.side).collect();
         // The halves of an edge of second degree follow each other.
         sides.dedup();
         sides
@@ -50,7 +54,7 @@ impl Touching<'_> {
     pub fn stand(&self, slot: usize) -> Stand {
         match self {
             Self::Points(contact) => {
-                let (point, face) = (&contact.points().points[slot], contact.points().face(slot));
+                let (point, face) = (&contact.points()[slot], contact.face(slot));
                 Stand::Face(point.face, corners(face.kind, &face.nodes, [point.xi[0], point.xi[1], 0.0]))
             }
             Self::Field(contact) => contact.node_at(slot).map_or(Stand::Apart, Stand::Node),
@@ -58,24 +62,15 @@ impl Touching<'_> {
     }
     /// The user's name for it.
     pub fn name(&self) -> &str {
-        match self {
-            Self::Points(contact) => contact.name(),
-            Self::Field(contact) => contact.name(),
-        }
+        self.both().title()
     }
     /// How it is computed.
     pub fn options(&self) -> &ContactOptions {
-        match self {
-            Self::Points(contact) => contact.options(),
-            Self::Field(contact) => contact.options(),
-        }
+        self.both().options()
     }
     /// Variables of its law.
     pub fn variables(&self) -> &'static [Variable] {
-        match self {
-            Self::Points(contact) => contact.law().variables(),
-            Self::Field(contact) => contact.law().variables(),
-        }
+        self.law().variables()
     }
     /// All points in an accepted state, with this term's lane of its history.
     pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
@@ -86,10 +81,7 @@ impl Touching<'_> {
     }
     /// Where moments are taken about.
     pub fn pole(&self, u: &[f64]) -> Vec3 {
-        match self {
-            Self::Points(contact) => contact.pole(u),
-            Self::Field(contact) => contact.pole(u),
-        }
+        self.both().pole(u)
     }
     /// False contacts that the search refuses at displacements `u`.
     pub fn false_contacts(&self, u: &[f64]) -> usize {
@@ -114,10 +106,7 @@ impl Touching<'_> {
     }
     /// The law of its interface.
     pub fn law(&self) -> &dyn Interface {
-        match self {
-            Self::Points(contact) => contact.law(),
-            Self::Field(contact) => contact.law(),
-        }
+        self.both().law()
     }
     /// Part of the interface's energy that is counted here.
     pub fn share(&self) -> f64 {
@@ -156,10 +145,7 @@ impl Touching<'_> {
     }
     /// Nodes whose distance is the length of an edge, or of the first edge of a face.
     pub fn edge_ends(&self, edge: usize) -> Option<[usize; 2]> {
-        let nodes = match self {
-            Self::Points(contact) => &contact.surface().faces[edge].nodes,
-            Self::Field(contact) => &contact.surface().faces[edge].nodes,
-        };
+        let nodes = &self.both().surface().faces[edge].nodes;
         nodes.first().zip(nodes.get(1)).map(|(a, b)| [*a, *b])
     }
 }

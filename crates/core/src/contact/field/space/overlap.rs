@@ -73,30 +73,27 @@ impl<T: Scalar> FlatFace<T> {
         let Some(h) = self.twist else { return (p, T::one()) };
         let (g, q) = (h.map(T::re), p.map(T::re));
         let mut xi = q;
-        let step = |xi: [f64; 2], r: [f64; 2]| {
-            // The inverse of [1 + g0 eta, g0 xi; g1 eta, 1 + g1 xi].
-            let det = 1.0 + g[0] * xi[1] + g[1] * xi[0];
-            [
-                ((1.0 + g[1] * xi[0]) * r[0] - g[0] * xi[0] * r[1]) / det,
-                ((1.0 + g[0] * xi[1]) * r[1] - g[1] * xi[1] * r[0]) / det,
-            ]
-        };
         for _ in 0..ITERATIONS {
-            let r = [0, 1].map(|i| xi[i] + g[i] * xi[0] * xi[1] - q[i]);
-            let d = step(xi, r);
+            let d = step(g, xi, [0, 1].map(|i| xi[i] + g[i] * xi[0] * xi[1] - q[i]));
             (0..2).for_each(|i| xi[i] -= d[i]);
             if d.iter().all(|d| d.abs() < 1e-15) {
                 break;
             }
         }
         // One step with derivatives, at the solution.
-        let r = [0, 1].map(|i| h[i] * (xi[0] * xi[1]) + T::from(xi[i]) - p[i]);
-        let det = 1.0 + g[0] * xi[1] + g[1] * xi[0];
-        let first = r[0] * ((1.0 + g[1] * xi[0]) / det) - r[1] * (g[0] * xi[0] / det);
-        let second = r[1] * ((1.0 + g[0] * xi[1]) / det) - r[0] * (g[1] * xi[1] / det);
-        let xi = [T::from(xi[0]) - first, T::from(xi[1]) - second];
+        let d = step(g, xi, [0, 1].map(|i| h[i] * (xi[0] * xi[1]) + T::from(xi[i]) - p[i]));
+        let xi = [0, 1].map(|i| T::from(xi[i]) - d[i]);
         (xi, (h[0] * xi[1] + h[1] * xi[0] + 1.0).recip())
     }
+}
+
+/// What the matrix `[1 + g0 eta, g0 xi; g1 eta, 1 + g1 xi]` makes `r` of.
+fn step<T: Scalar>(g: [f64; 2], xi: [f64; 2], r: [T; 2]) -> [T; 2] {
+    let det = 1.0 + g[0] * xi[1] + g[1] * xi[0];
+    [
+        r[0] * ((1.0 + g[1] * xi[0]) / det) - r[1] * (g[0] * xi[0] / det),
+        r[1] * ((1.0 + g[0] * xi[1]) / det) - r[0] * (g[1] * xi[1] / det),
+    ]
 }
 
 /// Iterations for the coordinates of a place on a quadrilateral.

@@ -5,6 +5,7 @@
 //! polynomials of degree two exactly over any polygon, and on a part cut off along the face's coordinates it is the rule
 //! of that part, with all of its degree. All is a function of the vertices, generic in the numbers.
 
+use crate::mesh::cells::{QUAD4, TRI3};
 use crate::tensor::Scalar;
 
 /// Coordinates on a face.
@@ -41,9 +42,8 @@ pub struct Moments<T> {
 impl<T: Scalar> Polygon<T> {
     /// The whole of a face with so many corners.
     pub fn whole(corners: usize) -> Self {
-        let triangle: &[[f64; 2]] = &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let square: &[[f64; 2]] = &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        Self::of((if corners == 3 { triangle } else { square }).iter().map(|vertex| vertex.map(T::from)))
+        let cell = if corners == 3 { &TRI3 } else { &QUAD4 };
+        Self::of(cell.nodes.iter().map(|&[a, b, _]| [a, b].map(T::from)))
     }
 
     /// Of so many vertices, counter-clockwise.

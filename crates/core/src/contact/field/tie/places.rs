@@ -3,12 +3,11 @@
 use crate::contact::field::cover::FaceInPlace;
 use crate::contact::field::face::{FieldFace, PlacedFace, ShapeFunctions};
 use crate::contact::field::faces::{FaceProjection, FaceRay, FacesInPlace, LEAST_COSINE, TargetFaces};
-use crate::contact::field::part::FacePart;
+use crate::contact::field::part::{FacePart, nearest};
 use crate::contact::field::surface::FieldSurface;
 use crate::mesh::Mesh;
 use crate::system::Dofs;
-use crate::tensor::{Vec3, legendre};
-use crate::tool::BoundingBox;
+use crate::tensor::{BoundingBox, Vec3, legendre};
 
 /// Points of a rule along each direction of a part of a face: all products of shape functions of faces with straight sides are
 /// integrated exactly, others to rounding.
@@ -72,18 +71,12 @@ impl<'a> TiePlaces<'a> {
                 let xi = *part.places().last()?;
                 let hit = self.project(&face, xi, target)?;
                 let looks = -hit.normal().dot(face.own_normal(xi)) > LEAST_COSINE;
-                (looks && hit.gap.abs() <= LOOKED * self.tolerance).then_some((target, part, xi, hit.gap))
+                (looks && hit.gap.abs() <= LOOKED * self.tolerance).then_some(((target, xi), part, hit.gap))
             };
             seen.extend(part.and_then(middle));
         }
         let mut cover = TieCover::default();
-        for (i, (target, part, middle, gap)) in seen.iter().enumerate() {
-            let nearer = |(j, (_, other, _, there)): (usize, &(usize, FacePart, [f64; 2], f64))| {
-                (there.abs(), j) < (gap.abs(), i) && other.covers(part)
-            };
-            if seen.iter().enumerate().any(nearer) {
-                continue;
-            }
+        for ((target, middle), part, gap) in nearest(&seen) {
             if gap.abs() > self.tolerance {
                 cover.beyond.push((gap.abs(), face.at(*middle).x));
                 continue;

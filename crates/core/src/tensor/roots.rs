@@ -1,8 +1,36 @@
-//! Real roots of polynomials of low degree in an interval.
+//! Zeros: of a function with its slope in a bracket, of a quadratic, and of polynomials of low degree in an interval.
 //!
 //! Between two neighbouring roots of its derivative a polynomial is monotone, so that a change of sign there is one
-//! root and is found by bisection. Degree by degree from the constant up, this finds all of them without a formula that
+//! root in a bracket. Degree by degree from the constant up, this finds all of them without a formula that
 //! could lose digits, and without allocation.
+
+/// The zero of a function with its slope between two places where it has different signs: Newton's method that falls back on bisection.
+pub fn root([mut from, mut to]: [f64; 2], f: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let below = f(from)[0] < 0.0;
+    let mut x = 0.5 * (from + to);
+    for _ in 0..100 {
+        let [value, slope] = f(x);
+        if value == 0.0 {
+            break;
+        }
+        *(if (value < 0.0) == below { &mut from } else { &mut to }) = x;
+        let newton = x - value / slope;
+        let next = if (from..=to).contains(&newton) { newton } else { 0.5 * (from + to) };
+        let change = (next - x).abs();
+        x = next;
+        if change <= 1e-17 + 1e-16 * x.abs() {
+            break;
+        }
+    }
+    x
+}
+
+/// The roots of `a x^2 + b x + c`, without cancellation; the one that does not exist is not finite.
+pub fn quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let q = -0.5 * (b + root.copysign(b));
+    [q / a, c / q]
+}
 
 /// Largest degree.
 const DEGREE: usize = 4;
@@ -11,7 +39,7 @@ const TOUCH: f64 = 1e-14;
 
 /// Up to four roots, rising.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Roots {
+pub struct Roots {
     values: [f64; DEGREE + 1],
     count: usize,
 }
@@ -26,13 +54,13 @@ impl Roots {
         }
     }
     /// The roots.
-    pub(super) fn as_slice(&self) -> &[f64] {
+    pub fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
     }
 }
 
 /// The roots of `sum c_i x^i` in `[from, to]`.
-pub(super) fn roots(c: [f64; DEGREE + 1], [from, to]: [f64; 2]) -> Roots {
+pub fn roots(c: [f64; DEGREE + 1], [from, to]: [f64; 2]) -> Roots {
     let mut inner = Roots::NONE;
     // Derivatives from the last one up: the k-th has the coefficients c_i i! / (i - k)!.
     for order in (0..DEGREE).rev() {
@@ -49,6 +77,10 @@ fn value(c: &[f64; DEGREE + 1], x: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
+fn slope(c: &[f64; DEGREE + 1], x: f64) -> f64 {
+    c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (i, c)| sum * x + c * i as f64)
+}
+
 /// Roots of a polynomial whose extrema are known; where it only touches zero, that counts if it is `wanted`.
 fn between(c: &[f64; DEGREE + 1], extrema: &[f64], [from, to]: [f64; 2], touching: bool) -> Roots {
     let reach = from.abs().max(to.abs()).max(1.0);
@@ -61,7 +93,7 @@ fn between(c: &[f64; DEGREE + 1], extrema: &[f64], [from, to]: [f64; 2], touchin
             found.push(left.0);
         }
         if left.1 * right.1 < 0.0 {
-            found.push(bisect(c, left, right));
+            found.push(root([left.0, right.0], |x| [value(c, x), slope(c, x)]));
         } else if touching && x < to && right.1.abs() <= TOUCH * size && right.1 != 0.0 {
             found.push(x);
         }
@@ -71,31 +103,6 @@ fn between(c: &[f64; DEGREE + 1], extrema: &[f64], [from, to]: [f64; 2], touchin
         found.push(left.0);
     }
     found
-}
-
-/// Newton's method kept inside a shrinking bracket.
-fn bisect(c: &[f64; DEGREE + 1], mut left: (f64, f64), mut right: (f64, f64)) -> f64 {
-    let mut x = 0.5 * (left.0 + right.0);
-    for _ in 0..100 {
-        let y = value(c, x);
-        if y == 0.0 || x <= left.0 || x >= right.0 {
-            break;
-        }
-        if y * left.1 < 0.0 {
-            right = (x, y);
-        } else {
-            left = (x, y);
-        }
-        let slope = c.iter().enumerate().skip(1).rev().fold(0.0, |sum, (i, c)| sum * x + c * i as f64);
-        let next = x - y / slope;
-        let inside = next > left.0 && next < right.0;
-        let after = if inside { next } else { 0.5 * (left.0 + right.0) };
-        if (after - x).abs() <= 1e-17 + 1e-16 * x.abs() {
-            return after;
-        }
-        x = after;
-    }
-    x
 }
 
 #[cfg(test)]
@@ -123,6 +130,13 @@ mod tests {
                 assert!((a - b).abs() < 1e-11, "{zeros:?} {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_bracket_keeps_newtons_method() {
+        let steep = root([-1.0, 4.0], |x| [(9.0 * x).tanh() - 0.5, 9.0 / (9.0 * x).cosh().powi(2)]);
+        assert!((steep - 0.5_f64.atanh() / 9.0).abs() < 1e-15, "{steep}");
+        assert_eq!(root([-1.0, 4.0], |x| [2.0 - x, -1.0]), 2.0);
     }
 
     #[test]

@@ -129,8 +129,7 @@ fn bent(cell: &str, [nx, ny]: [usize; 2], (depth, increments): (f64, usize)) -> 
         };
         format!("tool.{name} = {{ profile = [{}, {}], reference = [{x}, {y}] }}\n", half(1.0), half(-1.0))
     };
-    let tools =
-        circle("left", -15.0, -1.5, 1.5) + &circle("right", 15.0, -1.5, 1.5) + &circle("punch", 0.0, 5.0, 3.0);
+    let tools = circle("left", -15.0, -1.5, 1.5) + &circle("right", 15.0, -1.5, 1.5) + &circle("punch", 0.0, 5.0, 3.0);
     let deck = format!(
         r#"
 version = 1

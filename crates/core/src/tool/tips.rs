@@ -40,7 +40,7 @@ impl ProfileTool {
         let mut tips = Vec::new();
         let mut edge =
             |centre, outward, flanks| tips.push(Tip { centre, radius: 0.0, outward, flanks, least_cosine: POINTS });
-        let mut arcs: Vec<Round> = Vec::new();
+        let mut arcs: Vec<Rounding> = Vec::new();
         for chain in self.chains() {
             for (one, next) in chain.joints() {
                 let [one, next] = [one, next].map(|i| &self.segments()[i]);
@@ -58,7 +58,7 @@ impl ProfileTool {
             }
             let begun = arcs.len();
             for segment in &self.segments()[chain.first..chain.end] {
-                if let Some(arc) = Round::of(segment.as_ref()) {
+                if let Some(arc) = Rounding::of(segment.as_ref()) {
                     if !arcs[begun..].last_mut().is_some_and(|last| last.join(&arc)) {
                         arcs.push(arc);
                     }
@@ -71,14 +71,14 @@ impl ProfileTool {
                 }
             }
         }
-        tips.extend(arcs.iter().map(Round::tip));
+        tips.extend(arcs.iter().map(Rounding::tip));
         tips
     }
 }
 
 /// Arcs about one centre that follow each other and turn outward.
 #[derive(Debug, Clone, Copy)]
-struct Round {
+struct Rounding {
     centre: Vec3,
     radius: f64,
     /// Tangent where they begin, and by how much they turn.
@@ -86,7 +86,7 @@ struct Round {
     turn: f64,
 }
 
-impl Round {
+impl Rounding {
     fn of(segment: &(dyn ProfileShape + 'static)) -> Option<Self> {
         let (radius, begin) = (segment.curvature(0.5).recip(), segment.tangent(0.0).unit());
         (segment.kind().key == "arc" && radius > 0.0 && radius.is_finite()).then(|| Self {

@@ -500,7 +500,30 @@ impl Attempt for FieldAttempt<'_> {
     }
 }
 
+/// Change of the part that a tip has in the area of a face above which a converged increment goes on with the new one.
+const CHANGED: f64 = 0.5;
+
 impl FieldAttempt<'_> {
+    /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
+    /// did.
+    fn yield_tips(&mut self, u: &[f64]) -> bool {
+        if self.contact.tips().is_empty() {
+            return false;
+        }
+        let mut changed = false;
+        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]));
+        for (before, now) in self.tips_before.iter_mut().zip(found) {
+            let landing = before.as_mut().and_then(|before| before.patch.tip.as_mut());
+            let share = now.and_then(|now| now.patch.tip).map(|tip| tip.share);
+            if let (Some(landing), Some(share)) = (landing, share)
+                && landing.share - share > CHANGED
+            {
+                (landing.share, changed) = (share, true);
+            }
+        }
+        changed
+    }
+
     /// Lists the stencils of all nodes at unknowns `u`.
     fn list(&self, u: &[f64], out: &mut Stencils) -> FieldSearch {
         let found = self.search(u);

@@ -87,8 +87,8 @@ impl FieldContact {
         let sizes = surface.nodes.iter().map(size).collect();
         let pieces = match target {
             FieldTarget::Tool(rigid) => {
-                let [shortest, longest] = surface.sizes(mesh);
-                rigid.sharpen([SMALL * shortest, longest]);
+                let ([shortest, longest], mean) = (surface.sizes(mesh), surface.coarseness(mesh)[0]);
+                rigid.sharpen([SMALL * shortest, LARGE * mean], longest);
                 rigid.pieces()
             }
             FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),
@@ -157,6 +157,9 @@ impl FieldContact {
 
 /// Largest radius of a tip over the length of the shortest face: a larger one is felt by the faces around it.
 const SMALL: f64 = 1.0;
+/// Largest radius of a rounding that has a tip over the mean length of the faces: of a larger one the gap of the nodes is right to a
+/// fiftieth of that.
+const LARGE: f64 = 4.0;
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
 pub static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(4));

@@ -13,7 +13,6 @@
 //! `sum w (sqrt(s^2 + q^2) - q)`, as on a straight surface, to none at half of that. The part changes between increments, and once
 //! one has converged, never within its iterations: the forces keep a potential.
 
-use super::attempt::FieldAttempt;
 use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
@@ -41,8 +40,6 @@ pub struct TipFoot {
 /// Angles between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner of a punch does:
 /// the flank's own nodes then feel all that there is, and the tip nothing. Of a rounding larger than the face, over that.
 const FLAT: [f64; 2] = [0.45, 0.72];
-/// Largest radius of a rounding over the face that it lies over: of a larger one the gap of the nodes is right to a fiftieth of that.
-const LARGEST: f64 = 4.0;
 /// How far beside the end of the surface, over half of its face there, a tip may lie that lies over that end,
 const BESIDE: f64 = 0.5;
 /// and how far from it along the face, likewise.
@@ -131,9 +128,6 @@ impl Configuration<'_> {
             }
             let xi = edge.closest(centre);
             let at = edge.at(xi);
-            if radius > LARGEST * 2.0 * at.tangent.norm() {
-                continue;
-            }
             let (n, to) = (outward(at.tangent), centre - at.x);
             let nearer = usize::from(xi > 0.0);
             let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
@@ -153,10 +147,12 @@ impl Configuration<'_> {
                 if best.is_some_and(|best| best.gap.abs() <= gap.abs()) {
                     return;
                 }
-                let share = self.share((f, nearer), (flanks, radius), rest, self.straightness((f, xi), (to, n), radius));
+                let share =
+                    self.share((f, nearer), (flanks, radius), rest, self.straightness((f, xi), (to, n), radius));
                 let own = tip.centre - tool.rotate_back(n) * radius;
                 let landing = Some(Landing { xi, corner, border, share, own });
-                let patch = Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip: landing };
+                let patch =
+                    Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip: landing };
                 best = Some(TipFoot { patch, gap });
             };
             match corner {
@@ -218,7 +214,13 @@ impl Configuration<'_> {
 
     /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
     /// the end of the surface on the normal it had, which a plane of symmetry keeps.
-    fn share(&self, (f, corner): (usize, usize), (flanks, radius): ([Vec3; 2], f64), rest: Option<Vec3>, straight: f64) -> f64 {
+    fn share(
+        &self,
+        (f, corner): (usize, usize),
+        (flanks, radius): ([Vec3; 2], f64),
+        rest: Option<Vec3>,
+        straight: f64,
+    ) -> f64 {
         let surface = &self.contact.parts.surface;
         let area = |f: usize| {
             let face = &surface.faces[f];
@@ -256,31 +258,6 @@ impl FieldContact {
             }
         }
         tips
-    }
-}
-
-/// Change of the part that a tip has in the area of a face above which a converged increment goes on with the new one.
-const CHANGED: f64 = 0.5;
-
-impl FieldAttempt<'_> {
-    /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
-    /// did.
-    pub(super) fn yield_tips(&mut self, u: &[f64]) -> bool {
-        if self.contact.tips().is_empty() {
-            return false;
-        }
-        let mut changed = false;
-        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]));
-        for (before, now) in self.tips_before.iter_mut().zip(found) {
-            let landing = before.as_mut().and_then(|before| before.patch.tip.as_mut());
-            let share = now.and_then(|now| now.patch.tip).map(|tip| tip.share);
-            if let (Some(landing), Some(share)) = (landing, share)
-                && landing.share - share > CHANGED
-            {
-                (landing.share, changed) = (share, true);
-            }
-        }
-        changed
     }
 }
 

@@ -110,10 +110,11 @@ impl RigidTool {
         }
     }
     /// Has what is small lie within a face, whose size lies between two lengths: in the plane edges and roundings as tips, in space pieces.
-    pub fn sharpen(&mut self, [radius, size]: [f64; 2]) {
+    pub fn sharpen(&mut self, [edge, rounding]: [f64; 2], size: f64) {
         match &mut self.shape {
             RigidShape::Plane(tool, pieces) => {
-                (*pieces, self.tips) = (tool.smooth_pieces(radius), tool.tips());
+                (*pieces, self.tips) = (tool.smooth_pieces(edge), tool.tips());
+                self.tips.retain(|tip| tip.radius <= rounding);
                 self.identity = identity();
             }
             RigidShape::Space(tool, pieces) => {

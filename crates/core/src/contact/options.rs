@@ -10,7 +10,7 @@ pub struct ContactOptions {
     /// Normal penalty, a stress per length; the least where it is raised.
     pub penalty: f64,
     /// Mean penetration from which on the normal penalty of a field without augmentation is raised where penetration takes up energy
-    /// that is the bodies'; none where it stays as it is.
+    /// that is the bodies', with it from any where it is slow; none where it stays as it is.
     pub raised_from: Option<f64>,
     /// Tangential penalty, a stress per length; the largest where it follows from an elastic slip.
     pub tangential_penalty: f64,

@@ -171,6 +171,12 @@ pub trait Interface: Send + Sync {
     fn release(&self, old: &[f64], new: &mut [f64]);
     /// As [`InterfaceLaw::touch`].
     fn touch(&self, past: &Past) -> f64;
+    /// The penetration that these variables leave without any stress, a length: what has closed, less what has dilated.
+    fn stays(&self, vars: &[f64]) -> f64 {
+        let rigid = f64::INFINITY;
+        let (penetration, pressure, shear, dt) = (0.0, 0.0, [0.0; 2], 0.0);
+        self.touch(&Past { penalty: rigid, tangential_penalty: rigid, penetration, pressure, shear, vars, dt })
+    }
     /// As [`InterfaceLaw::opens`] of a point that was in contact; as [`InterfaceLaw::touch`] of another.
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64;
     /// The response to a penetration and the slips along the two tangents, lengths as in [`Motion`], with its

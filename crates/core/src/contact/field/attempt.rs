@@ -3,6 +3,7 @@
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget, RULE};
 use super::cover::{Landing, Patch};
+use super::face::moved;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::nodes::NodesInPlace;
@@ -52,8 +53,10 @@ pub struct FieldAttempt<'a> {
     pub ahead: Vec<f64>,
     /// Closure and slips that multipliers stand for, slot by slot.
     pub shifts: Vec<[f64; COUNT]>,
-    /// How often they were improved in the attempt.
+    /// How often they were improved in the attempt,
     pub augmented: usize,
+    /// and the penetration that the last improvement with the same penalty began from.
+    pub before_augmented: f64,
     /// When it ends.
     pub at: Instant,
     /// Normal penalty of the attempt,
@@ -149,16 +152,24 @@ impl FieldAttempt<'_> {
             let face = &self.contact.parts.surface.faces[number];
             let shape = face.shape([landing.xi, 0.0]);
             let (now, tip) = (shape.value(at.placed(face).nodes()), at.tool.as_ref()?.place(landing.own));
-            return Some(Touched { now, slopes: [Vec3::zero(); 2], face: Some((number, shape)), tip });
+            let face = Some((number, shape));
+            return Some(Touched { now, slopes: [Vec3::zero(); 2], facing: None, face, tip });
         }
         let face = self.before.face(patch.face);
         let place = face.at(xi);
         match (&self.before.target, &self.contact.parts.target) {
             (TargetInPlace::Tool(before), FieldTarget::Tool(_)) => {
                 let (foot, now) = (before.closest(patch.target, place.x), at.tool.as_ref()?);
-                let slope = |tangent: Vec3| now.rotate(before.rotate_back(foot.slide(tangent)));
-                let slopes = place.tangents.map(slope);
-                Some(Touched { now: now.place(before.withdraw(foot.point)), slopes, face: None, tip: Vec3::zero() })
+                let carry = |v: Vec3| now.rotate(before.rotate_back(v));
+                let slopes = place.tangents.map(|tangent| carry(foot.slide(tangent)));
+                let facing = (-carry(foot.normal), place.tangents.map(|tangent| -carry(foot.turned(tangent))));
+                Some(Touched {
+                    now: now.place(before.withdraw(foot.point)),
+                    slopes,
+                    facing: now.is_turned(before).then_some(facing),
+                    face: None,
+                    tip: Vec3::zero(),
+                })
             }
             (TargetInPlace::Faces(_), FieldTarget::Faces(faces)) => {
                 // A state beside the one that was searched may have seen others by a hair.
@@ -173,8 +184,8 @@ impl FieldAttempt<'_> {
                         hit.follow(n, place.tangents[k] + place.normal.turned(place.normal_slopes[k]) * hit.gap);
                     a * s[0] + b * s[1]
                 });
-                let now = hit.shape.value(placed.nodes());
-                Some(Touched { now, slopes, face: Some((number, hit.shape)), tip: Vec3::zero() })
+                let (now, face) = (hit.shape.value(placed.nodes()), Some((number, hit.shape)));
+                Some(Touched { now, slopes, facing: None, face, tip: Vec3::zero() })
             }
             _ => None,
         }
@@ -224,7 +235,16 @@ impl FieldAttempt<'_> {
         if !stencil.sees() {
             return None;
         }
-        stencil.sum(&|at, patch, xi| self.recall(at, patch, xi), derivatives, sums)
+        stencil.sum((&|at, patch, xi| self.recall(at, patch, xi), self.carried(stencil)), derivatives, sums)
+    }
+
+    /// The line that the tangents of a node followed at the accepted state, moved with the tool.
+    fn carried(&self, stencil: &StencilInPlace) -> Option<Vec3> {
+        let (TargetInPlace::Tool(before), Some(now)) = (&self.before.target, &stencil.at.tool) else { return None };
+        let (mesh, dofs) = (&self.contact.parts.mesh, &self.contact.parts.dofs);
+        let [from, to] =
+            stencil.line()?.nodes.map(|node| moved(mesh.points[node], &self.accepted[dofs.displacements(node)]));
+        Some(now.rotate(before.rotate_back(to - from)))
     }
 
     fn found(&self) -> Arc<FieldSearch> {
@@ -321,7 +341,8 @@ impl FieldAttempt<'_> {
     /// less than what is then stored.
     fn supplied(&self, old: &[f64], new: &[f64]) -> f64 {
         let [before, now] = [old, new].map(|values| values[entry::PRESSURE] * values[entry::HALF]);
-        let compliance = if old[entry::PENALTY] > 0.0 { 1.0 / old[entry::PENALTY] - 1.0 / self.normal } else { 0.0 };
+        let raised = old[entry::PENALTY] > 0.0 && self.contact.parts.options.augmentation.is_none();
+        let compliance = if raised { 1.0 / old[entry::PENALTY] - 1.0 / self.normal } else { 0.0 };
         0.5 * before * now * compliance
     }
 
@@ -472,7 +493,7 @@ impl Attempt for FieldAttempt<'_> {
                 continue;
             }
             let stretch = new[entry::HALF];
-            let borne = new[entry::PRESSURE] * stretch / self.contact.parts.options.penalty;
+            let borne = new[entry::PRESSURE] * stretch / self.normal;
             let closed = new[entry::STATUS] > 0.0;
             let raised = if closed { borne } else { (shift[0] + new[entry::PENETRATION]).max(0.0) };
             left.penetration = left.penetration.max((raised - shift[0]).abs() / size);
@@ -495,6 +516,8 @@ impl Attempt for FieldAttempt<'_> {
             kept.iter_mut().zip(&self.shifts).for_each(|(closure, shift)| *closure = shift[0]);
             return Ok(false);
         }
+        let part = self.hasten(left.penetration);
+        better.iter_mut().for_each(|shift| shift[0] *= part);
         (self.shifts, self.augmented) = (better, self.augmented + 1);
         Ok(true)
     }

@@ -47,6 +47,7 @@ mod tie;
 mod tip;
 pub(super) mod tool;
 mod triad;
+mod twist;
 
 pub use contact::{FieldContact, FieldRoles, FieldTarget};
 pub use surface::FieldSurface;

@@ -33,6 +33,8 @@ pub struct Touched {
     pub now: Vec3,
     /// Its derivatives along the reference coordinates of the place.
     pub slopes: [Vec3; 2],
+    /// Over a tool that turns: the direction of the gap there, moved with the tool, and its derivatives along these coordinates.
+    pub facing: Option<(Vec3, [Vec3; 2])>,
     /// The face of a body and the shape functions there.
     pub face: Option<(usize, ShapeFunctions)>,
     /// Of a tip, over whose place on the surface this is: present position of the tool's point that lay there.

@@ -134,7 +134,7 @@ impl FieldContact {
         for (slot, support) in found.supports.iter().enumerate().filter(|(_, s)| !s.patches.is_empty()) {
             let values = self.values(support, u);
             let stencil = StencilInPlace::new(self, (&found, slot), &values);
-            if stencil.sum(&|_, _, _| None, false, &mut sums).is_some() {
+            if stencil.sum((&|_, _, _| None, None), false, &mut sums).is_some() {
                 take(slot, &stencil, &sums);
             }
         }

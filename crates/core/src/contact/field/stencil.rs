@@ -12,6 +12,7 @@ use super::point::{PatchPoint, PointRates, Sight};
 use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
+use super::twist::{Twist, spin};
 use crate::tensor::Vec3;
 use std::rc::Rc;
 
@@ -39,6 +40,32 @@ struct NodeRates {
     weight: f64,
     e: [Vec3; 2],
     slip: [f64; 2],
+}
+
+/// The triad that a point had at the accepted state, moved with the tool, and the line that its tangents follow.
+#[derive(Debug, Clone, Copy)]
+struct CarriedTriad {
+    line: Option<MaterialLine>,
+    n: Vec3,
+    /// Derivatives of `n` along the reference coordinates of the place.
+    slopes: [Vec3; 2],
+    e: [Vec3; 2],
+}
+
+impl CarriedTriad {
+    fn twist(&self, point: &PatchPoint, e: [Vec3; 2]) -> Twist {
+        Twist::of(&[point.n, e[0], e[1]], &[self.n, self.e[0], self.e[1]], point.v - point.n * point.gap)
+    }
+
+    /// Its spin where the place moves on the face.
+    fn spin(&self, dxi: [f64; 2]) -> Vec3 {
+        if dxi == [0.0; 2] {
+            return Vec3::zero();
+        }
+        let dn = self.slopes[0] * dxi[0] + self.slopes[1] * dxi[1];
+        let de = self.line.map_or([dn.left(), Vec3::zero()], |line| line.rates(None, (self.n, dn), &self.e));
+        spin(&[self.n, self.e[0], self.e[1]], &[dn, de[0], de[1]])
+    }
 }
 
 /// Sums over the points of a node. Its buffers are kept from stencil to stencil.
@@ -110,7 +137,7 @@ impl<'a> StencilInPlace<'a> {
     }
 
     /// What the tangents of the node follow, in space.
-    fn line(&self) -> Option<MaterialLine> {
+    pub fn line(&self) -> Option<MaterialLine> {
         let surface = &self.at.contact.parts.surface;
         let (patch, corner) = self.patches().next().filter(|_| !surface.plane)?;
         let nodes = surface.line(surface.field[patch.face][corner]);
@@ -141,7 +168,8 @@ impl<'a> StencilInPlace<'a> {
     }
 
     /// First sweep. None where the node sees nothing, or a ray runs along the target.
-    pub fn sum(&self, recall: Recall, derivatives: bool, sums: &mut NodeSums) -> Option<()> {
+    /// `carried` is what the tangents of the node followed at the accepted state, moved with the tool, in space.
+    pub fn sum(&self, (recall, carried): (Recall, Option<Vec3>), derivatives: bool, sums: &mut NodeSums) -> Option<()> {
         sums.patches.clear();
         sums.points.clear();
         sums.columns.clear();
@@ -159,12 +187,22 @@ impl<'a> StencilInPlace<'a> {
             let at = NodesInPlace { nodes: &patch.nodes, u: &sums.values, ..self.at };
             let points = PatchPoints::of((self.found.number, number, patch), &at, recall, derivatives)?;
             for (k, point) in points.points.iter().enumerate() {
-                let e = line.map_or([point.n.left(), Vec3::axis(2)], |line| line.tangents(point.n));
-                let (weight, slip) = (point.weight * point.functions.n[corner], e.map(|e| e.dot(point.v)));
+                let tangents = |line: Option<MaterialLine>, n: Vec3| {
+                    line.map_or([n.left(), Vec3::axis(2)], |line| line.tangents(n))
+                };
+                let e = tangents(line, point.n);
+                let facing = point.touched.and_then(|touched| touched.facing);
+                let turn = facing.map(|(n, slopes)| {
+                    let line = line.zip(carried).map(|(line, d)| MaterialLine { d, ..line });
+                    CarriedTriad { line, n, slopes, e: tangents(line, n) }
+                });
+                let twist = turn.map(|turn| turn.twist(point, e));
+                let way = twist.map_or(point.v, |twist| twist.way);
+                let (weight, slip) = (point.weight * point.functions.n[corner], e.map(|e| e.dot(way)));
                 sums.points.push(NodePoint { of: (sums.patches.len(), k), weight, e, slip });
                 if derivatives {
                     let function = (point.functions.n[corner], point.functions.dn[corner]);
-                    let node = (&at, line, function, e);
+                    let node = (&at, line, function, e, turn.zip(twist));
                     differentiate((point, points.rates(k)), node, columns.len(), &mut sums.rates);
                 }
             }
@@ -350,11 +388,19 @@ fn beside(line: MaterialLine, nodes: &[usize]) -> impl Iterator<Item = usize> {
 /// patch, and along `count` in all with those of the line beside it.
 fn differentiate(
     (point, rates): (&PatchPoint, &[PointRates]),
-    (at, line, function, e): (&NodesInPlace, Option<MaterialLine>, NodeFunction, [Vec3; 2]),
+    (at, line, function, e, turn): (
+        &NodesInPlace,
+        Option<MaterialLine>,
+        NodeFunction,
+        [Vec3; 2],
+        Option<(CarriedTriad, Twist)>,
+    ),
     count: usize,
     out: &mut Vec<NodeRates>,
 ) {
     let (axes, still) = (at.axes(), PointRates::default());
+    let way = turn.map_or(point.v, |(_, twist)| twist.way);
+    let slopes = turn.map(|(_, twist)| e.map(|e| twist.slopes(e)));
     let beside: Vec<usize> = line.into_iter().flat_map(|line| beside(line, at.nodes)).collect();
     for j in 0..count {
         let rate = rates.get(j).unwrap_or(&still);
@@ -364,10 +410,21 @@ fn differentiate(
         let turned = |line: MaterialLine| line.rates(column, (point.n, rate.n), &e);
         let de = line.map_or([rate.n.left(), Vec3::zero()], turned);
         let slope = function.1[0] * rate.xi[0] + function.1[1] * rate.xi[1];
+        let rest = match (&turn, &slopes) {
+            (Some((carried, twist)), Some(slopes)) => {
+                let moved = rate.v - rate.n * point.gap - point.n * rate.gap;
+                let spun = at.tool.filter(|_| node.is_none() && j < rates.len());
+                let spun = spun.map_or(Vec3::zero(), |tool| tool.spins()[j - at.nodes.len() * axes]);
+                let own = spin(&[point.n, e[0], e[1]], &[rate.n, de[0], de[1]]);
+                let spins = twist.beside([own, spun + carried.spin(rate.xi)]);
+                slopes.map(|[along, turned]| along.dot(moved) + turned.dot(spins))
+            }
+            _ => e.map(|e| e.dot(rate.v)),
+        };
         out.push(NodeRates {
             weight: rate.weight * function.0 + point.weight * slope,
             e: de,
-            slip: [0, 1].map(|a| de[a].dot(point.v) + e[a].dot(rate.v)),
+            slip: [0, 1].map(|a| de[a].dot(way) + rest[a]),
         });
     }
 }

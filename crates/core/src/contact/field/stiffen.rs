@@ -13,6 +13,9 @@ use crate::system::History;
 const MOST: f64 = 0.01;
 /// unless it falls faster than this from one increment to the next, as it does where bodies have just begun to touch.
 const STEADY: f64 = 0.95;
+/// Part of the penetration that an augmentation may leave before the penalty is raised, and that it is raised for (Bertsekas, Constrained
+/// Optimization and Lagrange Multiplier Methods, 1982, section 2.2).
+const LEFT: [f64; 2] = [0.25, 0.1];
 /// Share that it is raised for, and below which the least would leave it again.
 const AIM: f64 = 0.003;
 /// It is raised by powers of this, so that it seldom changes,
@@ -44,6 +47,23 @@ impl FieldContact {
 }
 
 impl FieldAttempt<'_> {
+    /// Raises a penalty that no user gave where augmentation leaves much of a penetration, `left` of it now: `K / (K + penalty)` of it with
+    /// `K` the stiffness of the bodies. Returns the old penalty over the new one.
+    pub(super) fn hasten(&mut self, left: f64) -> f64 {
+        let part = left / std::mem::replace(&mut self.before_augmented, left);
+        let options = &self.contact.parts.options;
+        let most = HIGHEST * options.penalty;
+        if options.raised_from.is_none() || part <= LEFT[0] || self.normal >= most {
+            return 1.0;
+        }
+        // Where states of contact changed as well, more may be left than there was.
+        let ratio = if part < 1.0 { (1.0 / LEFT[1] - 1.0) / (1.0 / part - 1.0) } else { STEP };
+        let old = self.normal;
+        self.normal = (old * STEP.powf(ratio.log(STEP).ceil())).min(most);
+        self.before_augmented = f64::INFINITY;
+        old / self.normal
+    }
+
     /// Changes the penalty where the share of the energy asks for it, and says whether it did.
     pub(super) fn stiffen(&mut self, new: &History, taken: [f64; 2]) -> bool {
         let options = &self.contact.parts.options;

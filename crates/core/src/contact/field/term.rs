@@ -119,6 +119,7 @@ impl Term for FieldContact {
             ahead: accepted.ahead(at.dt),
             shifts: shifts.iter().map(|&closure| [closure, 0.0, 0.0]).collect(),
             augmented: 0,
+            before_augmented: f64::INFINITY,
             at,
             tangential: self.tangential_penalties(&*law, history, normal),
             normal,

@@ -167,7 +167,7 @@ impl RigidTool {
         self.in_place(&u[self.unknowns()])
     }
     /// Refuses that it touches after more than a quarter of a turn, in space about a steady axis, from all accepted unknowns to its
-    /// own: the slip is a chord, and half a turn brings what was touched to the other side, where none is seen.
+    /// own: half a turn brings what was touched to the other side, where none is seen, and what came by within the increment was not.
     pub fn refuse_turn(&self, own: &[f64], accepted: &[f64], name: impl FnOnce() -> String) -> Result<(), Failure> {
         let turns = own.iter().zip(&accepted[self.unknowns()]).skip(self.axes());
         let turned = turns.map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt();
@@ -180,6 +180,10 @@ impl RigidTool {
 }
 
 impl ToolInPlace<'_> {
+    /// Whether it is turned beside another place of its.
+    pub fn is_turned(&self, other: &ToolInPlace) -> bool {
+        self.pose.rotation != other.pose.rotation
+    }
     /// Present place of its reference point.
     pub fn reference(&self) -> Vec3 {
         self.place(self.rigid.rest())

@@ -287,8 +287,10 @@ fn certify(source: &Source, seen: &Seen, frame: &mut Frame) {
         frame.certify(seen.reading("moment_imbalance", left).over(scale));
     }
     if !seen.contact.law().is_compliant() {
-        let pressed = |record: &ContactRecord| (record.penetration + record.closure.min(0.0)).max(0.0);
-        let work = |record: &ContactRecord| 0.5 * record.pressure * pressed(record) * record.area;
+        // What the law let close or dilate for good is no penalty's.
+        let still = |record: &ContactRecord| seen.contact.law().stays(&record.vars);
+        let pressed = |record: &ContactRecord| record.penetration + record.closure.min(0.0) - still(record);
+        let work = |record: &ContactRecord| 0.5 * record.pressure * pressed(record).max(0.0) * record.area;
         let bodies = of_bodies(source);
         let work = seen.contact.share() * seen.closed().map(work).sum::<f64>();
         frame.certify(seen.reading("penalty_energy", work).over(bodies.stored + bodies.dissipated));

@@ -50,6 +50,24 @@ impl Shape<'_> {
         End { shear, pressure: centre + away, size, wanted: axis * slope }
     }
 
+    /// Whether stresses of these sizes lie beyond the cone at the tip.
+    pub fn is_steep(&self, [shear, pressure]: [f64; 2]) -> bool {
+        shear > self.law.steepest()[0] * (pressure + self.tension)
+    }
+
+    /// Shear and pressure on that cone, where a trial returns to it and not to the ellipse after the closure `before`.
+    pub fn steep<T: Scalar>(&self, [shear, pressure]: [T; 2], before: T) -> Option<[T; 2]> {
+        if !self.is_steep([shear.re(), pressure.re()]) {
+            return None;
+        }
+        let [slope, dilatancy] = self.law.steepest();
+        let apart = (shear - (pressure + self.tension) * slope) / (slope * dilatancy + self.ratio);
+        let (shear, end) = (shear - apart * self.ratio, pressure + apart * dilatancy);
+        let last = self.preconsolidation(self.grown(before + (pressure - end) / self.penalty)).re();
+        let here = self.end(0.0, last, [shear.re(), end.re()]);
+        (here.size <= here.wanted).then_some([shear, end])
+    }
+
     /// Logarithm of the preconsolidation over the first one, after the closure `w` since the beginning.
     pub fn grown<S: Scalar>(&self, w: S) -> S {
         let grown = if self.law.hardening > 0.0 { w / self.law.hardening } else { S::zero() };

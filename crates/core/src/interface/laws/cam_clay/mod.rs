@@ -5,6 +5,10 @@
 //! `tau^2 - phi p (p + a)`, is an open hyperbola; with one sign turned it is this one, `M^2 = phi`, `p_c = a`,
 //! `p_t = 0`.
 //!
+//! At the tip `p = -p_t` that flow dilates without limit, and no stress of an open point is beside it. A cone `|tau| = k (p + p_t)` cuts
+//! it off, below a hundredth of the ellipse, along which the flow is the one that the ellipse has where they meet: what is
+//! slipped apart loses its stress steadily and then opens.
+//!
 //! With `chi` the ellipse hardens by closure and softens by dilation, `p_c = p_c0 exp(w / chi)`, down to a part of its first
 //! size. A point opens where the trial pressure reaches `-p_t`, which is then lost; what has closed or dilated is kept but
 //! for the part `reset_dilation`.
@@ -15,7 +19,7 @@ mod random;
 
 use super::dilatant::RESET;
 use super::law;
-use super::trial::Trial;
+use super::trial::{STEEPEST, Trial};
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, VariableKind, unit};
 use crate::interface::{Interface, InterfaceLaw, Motion, Past, Response, Status};
@@ -101,6 +105,12 @@ const BROKEN: usize = 0;
 const CLOSURE: usize = 1;
 
 impl CamClayInterface {
+    /// Shear over pressure, and dilation over slip, on the cone that cuts the tip of the ellipse off: the flow is that of the ellipse
+    /// where they meet, whatever its size.
+    fn steepest(&self) -> [f64; 2] {
+        [STEEPEST * self.slope, 0.5 * (STEEPEST - 1.0 / STEEPEST) * self.slope]
+    }
+
     /// An ellipse of a fixed size.
     pub fn perfect(slope: f64, preconsolidation: f64, tension: f64) -> Self {
         Self { slope, preconsolidation, tension, hardening: 0.0, least: 1.0, reset: 0.0 }
@@ -123,10 +133,10 @@ impl InterfaceLaw for CamClayInterface {
         let last = shape.preconsolidation(shape.grown(before.re()));
         let at = [trial.size, pressure];
         let here = shape.end(0.0, last, at.map(T::re));
-        if here.size <= here.wanted {
+        if here.size <= here.wanted && !shape.is_steep(at.map(T::re)) {
             return Ok(trial.stick(pressure));
         }
-        let [shear, pressure] = shape.returned(at, before)?;
+        let [shear, pressure] = shape.steep(at, before).map_or_else(|| shape.returned(at, before), Ok)?;
         let closure = (at[1] - pressure) / penalty;
         vars[CLOSURE] = before + closure;
         let response = trial.slide(pressure, shear);
@@ -144,10 +154,10 @@ impl InterfaceLaw for CamClayInterface {
         past.vars[CLOSURE] - strength / past.penalty
     }
 
-    /// At the tip of the ellipse a unit of slip would dilate without limit; more than `M` of it is taken for a gap.
+    /// Where all that the shear stress lets slip has dilated.
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
         let trial = [0, 1].map(|i| past.shear[i] + past.tangential_penalty * slip[i]);
-        self.touch(past) - self.slope * trial[0].hypot(trial[1]) / past.tangential_penalty
+        self.touch(past) - self.steepest()[1] * trial[0].hypot(trial[1]) / past.tangential_penalty
     }
 }
 
@@ -178,6 +188,31 @@ mod tests {
             }
             assert!((last - 50.0).abs() < 1e-6 && (f64::hypot(shear[0], shear[1]) - 40.0).abs() < 1e-6, "{last}");
             assert!((vars[CLOSURE] - (penetration - 0.05)).abs() < 1e-8);
+        }
+    }
+
+    /// What is slipped apart loses its stress without a jump, whatever it slips, and the cone at the tip goes over into the ellipse.
+    #[test]
+    fn a_point_opens_without_a_jump() {
+        let (vars, slip) = ([0.0; 2], [0.03, 0.04]);
+        for law in [
+            CamClayInterface::perfect(0.8, 20.0, 0.0),
+            CamClayInterface { hardening: 0.05, least: 0.1, ..CamClayInterface::perfect(1.5, 20.0, 0.0) },
+        ] {
+            let at = |penetration: f64| {
+                let motion = Motion { penetration, slip };
+                let response = law.respond(&motion, &past(&vars), &mut vars.clone()).unwrap();
+                [response.pressure, response.shear[0].hypot(response.shear[1])]
+            };
+            let opens = law.opens(&past(&vars), slip);
+            assert!(at(opens + 1e-9).iter().all(|stress| stress.abs() < 1e-3), "{law:?} {:?}", at(opens + 1e-9));
+            let (steps, mut before) = (4000, at(opens + 1e-9));
+            for i in 1..=steps {
+                let now = at(opens * (1.0 - f64::from(i) / f64::from(steps)));
+                let jump = [0, 1].map(|k| (now[k] - before[k]).abs()).iter().fold(0.0_f64, |a, b| a.max(*b));
+                assert!(jump < 0.5, "{law:?} {i}: {before:?} {now:?}");
+                before = now;
+            }
         }
     }
 

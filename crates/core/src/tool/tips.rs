@@ -58,10 +58,9 @@ impl ProfileTool {
             }
             let begun = arcs.len();
             for segment in &self.segments()[chain.first..chain.end] {
-                if let Some(arc) = Rounding::of(segment.as_ref()) {
-                    if !arcs[begun..].last_mut().is_some_and(|last| last.join(&arc)) {
-                        arcs.push(arc);
-                    }
+                let Some(arc) = Rounding::of(segment.as_ref()) else { continue };
+                if !arcs[begun..].last_mut().is_some_and(|last| last.join(&arc)) {
+                    arcs.push(arc);
                 }
             }
             if chain.closed && arcs.len() > begun + 1 {

@@ -202,8 +202,8 @@ impl<'a> StencilInPlace<'a> {
                 sums.points.push(NodePoint { of: (sums.patches.len(), k), weight, e, slip });
                 if derivatives {
                     let function = (point.functions.n[corner], point.functions.dn[corner]);
-                    let node = (&at, line, function, e, turn.zip(twist));
-                    differentiate((point, points.rates(k)), node, columns.len(), &mut sums.rates);
+                    let (of_point, node, turn) = ((point, points.rates(k)), (&at, line, function, e), turn.zip(twist));
+                    differentiate(of_point, node, turn, columns.len(), &mut sums.rates);
                 }
             }
             sums.patches.push(points);
@@ -388,13 +388,8 @@ fn beside(line: MaterialLine, nodes: &[usize]) -> impl Iterator<Item = usize> {
 /// patch, and along `count` in all with those of the line beside it.
 fn differentiate(
     (point, rates): (&PatchPoint, &[PointRates]),
-    (at, line, function, e, turn): (
-        &NodesInPlace,
-        Option<MaterialLine>,
-        NodeFunction,
-        [Vec3; 2],
-        Option<(CarriedTriad, Twist)>,
-    ),
+    (at, line, function, e): (&NodesInPlace, Option<MaterialLine>, NodeFunction, [Vec3; 2]),
+    turn: Option<(CarriedTriad, Twist)>,
     count: usize,
     out: &mut Vec<NodeRates>,
 ) {

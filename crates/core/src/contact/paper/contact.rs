@@ -32,7 +32,7 @@ impl Deref for PaperContact {
 }
 
 impl PaperContact {
-    /// A contact of these parts with `gauss` points along an edge or each side of a face, or as many as [`gauss_points`] finds good.
+    /// A contact of these parts with `gauss` points along an edge or each side of a face, or as many as `gauss_points` finds good.
     pub fn new(parts: ContactParts, gauss: Option<usize>) -> Self {
         let (sides, neighbours) = (ContactSides::new(parts), Neighbours::default());
         let points = gauss_points(sides.mesh(), sides.surface(), gauss);

@@ -18,11 +18,14 @@ pub struct Tip {
     pub radius: f64,
     /// Unit vector out of the material, along the bisector of the flanks.
     pub outward: Vec3,
-    /// Outward unit normals of the flanks; zero for a full circle.
+    /// Outward unit normals of the flanks; zero where there is none, as of a full circle and on a plane of symmetry.
     pub flanks: [Vec3; 2],
     /// Cosine of the largest angle between `outward` and a direction in which it points.
     pub least_cosine: f64,
 }
+
+/// Cosine by which a direction may lie beyond the end of an arc, for rounding.
+const AT_FLANK: f64 = 1e-6;
 
 impl Tip {
     /// Its foremost point, in the tool's own frame.
@@ -57,8 +60,9 @@ impl ProfileTool {
                 edge(last.point(1.0), a, [-a.left(); 2]);
             }
             let begun = arcs.len();
-            for segment in &self.segments()[chain.first..chain.end] {
-                let Some(arc) = Rounding::of(segment.as_ref()) else { continue };
+            for i in chain.first..chain.end {
+                let ends = [i == chain.first, i + 1 == chain.end].map(|ends| ends && !chain.closed);
+                let Some(arc) = Rounding::of(self.segments()[i].as_ref(), ends) else { continue };
                 if !arcs[begun..].last_mut().is_some_and(|last| last.join(&arc)) {
                     arcs.push(arc);
                 }
@@ -83,16 +87,19 @@ struct Rounding {
     /// Tangent where they begin, and by how much they turn.
     begin: Vec3,
     turn: f64,
+    /// Whether the profile begins and ends with them, as on a plane of symmetry.
+    ends: [bool; 2],
 }
 
 impl Rounding {
-    fn of(segment: &(dyn ProfileShape + 'static)) -> Option<Self> {
+    fn of(segment: &(dyn ProfileShape + 'static), ends: [bool; 2]) -> Option<Self> {
         let (radius, begin) = (segment.curvature(0.5).recip(), segment.tangent(0.0).unit());
         (segment.kind().key == "arc" && radius > 0.0 && radius.is_finite()).then(|| Self {
             centre: segment.point(0.0) + begin.left() * radius,
             radius,
             begin,
             turn: segment.turn(),
+            ends,
         })
     }
     /// Takes an arc that continues it, if it does.
@@ -101,7 +108,10 @@ impl Rounding {
         let joins = near(self.radius, next.radius)
             && near((self.centre - next.centre).norm(), 0.0)
             && (self.direction(self.turn) - next.begin).norm() < 1e-6;
-        self.turn += if joins { next.turn } else { 0.0 };
+        if joins {
+            self.turn += next.turn;
+            self.ends[1] = next.ends[1];
+        }
         joins
     }
     /// Tangent where they have turned by `turn`.
@@ -115,8 +125,9 @@ impl Rounding {
             centre: self.centre,
             radius: self.radius,
             outward: middle,
-            flanks: if whole { [Vec3::zero(); 2] } else { [begin, end] },
-            least_cosine: if whole { -2.0 } else { (0.5 * self.turn).cos() },
+            flanks: [(begin, self.ends[0]), (end, self.ends[1])]
+                .map(|(normal, ends)| if whole || ends { Vec3::zero() } else { normal }),
+            least_cosine: if whole { -2.0 } else { (0.5 * self.turn).cos() - AT_FLANK },
         }
     }
 }

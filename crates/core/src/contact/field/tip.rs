@@ -106,7 +106,8 @@ impl Configuration<'_> {
     pub fn tips(&self, reach: f64, before: Option<&[Option<TipFoot>]>) -> Vec<Option<TipFoot>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let land = |(number, tip): (usize, &Tip)| {
-            let mut found = self.land((number, tip), tool, reach)?;
+            let last = before.and_then(|before| before.get(number).copied().flatten()).map(|found| found.patch.face);
+            let mut found = self.land((number, tip), tool, (reach, last))?;
             if let Some(landing) = &mut found.patch.tip {
                 let had = before.map(|before| before.get(number).copied().flatten().and_then(|found| found.patch.tip));
                 landing.share = had.map_or(1.0, |had| had.map_or(landing.share, |had| had.share));
@@ -116,10 +117,16 @@ impl Configuration<'_> {
         self.contact.tips().iter().enumerate().map(land).collect()
     }
 
-    fn land(&self, (number, tip): (usize, &Tip), tool: &ToolInPlace, reach: f64) -> Option<TipFoot> {
+    fn land(
+        &self,
+        (number, tip): (usize, &Tip),
+        tool: &ToolInPlace,
+        (reach, last): (f64, Option<usize>),
+    ) -> Option<TipFoot> {
         let (centre, points, radius) = (tool.place(tip.centre), tool.rotate(tip.outward), tip.radius);
         let flanks = tip.flanks.map(|flank| tool.rotate(flank));
         let (mut best, mut valleys): (Option<TipFoot>, Vec<(usize, Side)>) = (None, Vec::new());
+        let mut kept = None;
         let surface = &self.contact.parts.surface;
         for (f, face) in surface.faces.iter().enumerate() {
             let edge = PlacedEdge { face, placed: &self.placed[f] };
@@ -136,7 +143,7 @@ impl Configuration<'_> {
             // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
             let rest = corner.filter(|_| ends).map(|_| self.undeformed_normal(face));
             // Where two edges meet in a valley or on a ridge.
-            let crest = corner.filter(|_| !ends).map(|_| to.dot(n) > 0.0);
+            let crest = corner.filter(|_| !ends || radius > 0.0).map(|_| to.dot(n) > 0.0);
             let facing = if crest == Some(true) { to.unit() } else { rest.unwrap_or(n) };
             if -facing.dot(points) < tip.least_cosine {
                 continue;
@@ -144,7 +151,10 @@ impl Configuration<'_> {
             let mut offer = |corner: Option<usize>, border: Option<usize>| {
                 let n = if corner.is_some() { facing_centre(to, n) } else { n };
                 let gap = to.dot(n) - radius;
-                if best.is_some_and(|best| best.gap.abs() <= gap.abs()) {
+                let keeps = corner.is_none() && last == Some(f);
+                // The place closest to the centre.
+                let closer = best.is_none_or(|best| (gap + radius).abs() < (best.gap + radius).abs());
+                if !closer && !keeps {
                     return;
                 }
                 let share =
@@ -153,17 +163,19 @@ impl Configuration<'_> {
                 let landing = Some(Landing { xi, corner, border, share, own });
                 let patch =
                     Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip: landing };
-                best = Some(TipFoot { patch, gap });
+                let found = Some(TipFoot { patch, gap });
+                best = if closer { found } else { best };
+                kept = if keeps { found } else { kept };
             };
             match corner {
                 None => offer(None, None),
+                // A rounding touches a ridge and the end of the surface.
+                Some(corner) if crest == Some(true) && radius > 0.0 => offer(Some(corner), ends.then_some(corner)),
                 Some(corner) if ends => {
-                    let beside = if radius > 0.0 { AT_END } else { BESIDE };
-                    if to.dot(at.tangent).abs() <= beside * at.tangent.dot(at.tangent) {
+                    if to.dot(at.tangent).abs() <= BESIDE * at.tangent.dot(at.tangent) {
                         offer(None, Some(corner));
                     }
                 }
-                Some(corner) if crest == Some(true) && radius > 0.0 => offer(Some(corner), None),
                 // Within both edges that meet there.
                 Some(corner) if crest == Some(false) => {
                     let node = face.corner_node(corner);
@@ -177,7 +189,15 @@ impl Configuration<'_> {
                 Some(_) => {}
             }
         }
-        best
+        // In a valley it stays on its side over an increment.
+        let adjoins = |kept: &TipFoot| best.is_some_and(|best| self.adjoin(kept.patch.face, best.patch.face));
+        kept.filter(adjoins).or(best)
+    }
+
+    /// Whether two faces of the surface have a node of the field in common.
+    fn adjoin(&self, one: usize, other: usize) -> bool {
+        let [one, other] = [one, other].map(|f| &self.contact.parts.surface.field[f][..2]);
+        one.iter().any(|node| other.contains(node))
     }
 
     /// How far the surface around a place of a face, `to` from the centre of a rounding, stands off that, over how far it would if it

@@ -164,6 +164,50 @@ fn a_plate_is_bent_between_round_tools_that_just_touch_it() {
     assert!((slowly / quickly - 1.0).abs() < 1e-3, "{slowly} and {quickly}");
 }
 
+/// Force on a roller that is pressed into a block by a fifth of an edge from `gap` above it in `increments`; on the half of both, twice.
+fn pressed_by_a_roller((radius, gap, increments): (f64, f64, usize), half: bool) -> f64 {
+    let (y, low, depth) = (4.0 + gap + radius, 4.0 + gap, gap + 0.2);
+    let side = |x: f64, [from, to]: [f64; 2]| format!("{{ arc = [[0.0, {from}], [{x}, {y}], [0.0, {to}]] }}");
+    let right = side(radius, [low, y + radius]);
+    let back = side(-radius, [y + radius, low]);
+    let profile = if half { right } else { format!("{right}, {back}") };
+    let (from, cells) = if half { (0.0, 5) } else { (-5.0, 10) };
+    let symmetry = if half { "symmetry = [\"block.left\"]" } else { "" };
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [{from}, 0.0], to = [5.0, 4.0], cells = [{cells}, 4], cell = "quad4" }}
+material.rubber.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block = {{ material = "rubber" }}
+tool.roller = {{ profile = [{profile}], reference = [0.0, {y}] }}
+contact.joint = {{ surface = "block.top", target = "roller", law.frictionless = {{}} }}
+[[step]]
+increments.count = {increments}
+displacement."block.bottom" = {{ x = 0.0, y = 0.0 }}
+{symmetry}
+motion.roller = {{ y = -{depth} }}
+"#
+    );
+    let model = made(&deck, &[]);
+    -last(&columns(&model, &run(&model)), "tool.roller.force.y") * if half { 2.0 } else { 1.0 }
+}
+
+/// Where a roller comes from and in how many increments does not matter. In a valley over a node it touches one side, and of half the model
+/// the node: these differ by up to 13 per cent.
+#[test]
+fn a_roller_is_felt_wherever_it_comes_from() {
+    for radius in [0.7, 1.0, 2.0, 3.5] {
+        let right = pressed_by_a_roller((radius, 0.0, 4), false);
+        for (gap, increments) in [(0.05, 4), (0.2, 4), (0.2, 20), (0.5, 2)] {
+            let force = pressed_by_a_roller((radius, gap, increments), false);
+            assert!((force / right - 1.0).abs() < 0.01, "{radius} {gap} {increments}: {force} for {right}");
+        }
+        let half = pressed_by_a_roller((radius, 0.1, 4), true);
+        assert!((half / right - 1.0).abs() < 0.15, "{radius}: half {half} for {right}");
+    }
+}
+
 /// Random states of a contact after random accepted ones: all nodes move by up to `size`, the upper ones down.
 fn look_at(contact: &FieldContact, dofs: &Dofs, (moving, size): (&[usize], f64)) -> ([usize; 3], usize, f64) {
     let mut random = Random(11);

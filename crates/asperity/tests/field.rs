@@ -81,7 +81,17 @@ fn tangents_of_a_tip_are_exact() {
         };
         format!("tool.wedge.profile=[{}, {}]", half(-radius, radius), half(radius, -radius))
     };
-    for (degree, shape) in [(1, None), (2, None), (1, Some(0.4)), (1, Some(3.0)), (2, Some(0.4)), (2, Some(3.0))] {
+    for (degree, shape) in [
+        (1, None),
+        (2, None),
+        (1, Some(0.4)),
+        (1, Some(3.0)),
+        (2, Some(0.4)),
+        (2, Some(3.0)),
+        (1, Some(1.0)),
+        (2, Some(1.0)),
+        (1, Some(2.0)),
+    ] {
         let mut sets = if degree == 2 { second_degree(&["block"]) } else { Vec::new() };
         sets.extend(shape.map(roller));
         let model = made(OVER_WEDGE, &sets);

@@ -155,7 +155,7 @@ impl FieldContact {
     }
 }
 
-/// Largest radius of a tip over the length of the shortest face: a larger one is felt by the faces around it.
+/// Largest radius of a rounding over the length of the shortest face at which the tool's piece is parted there as at an edge.
 const SMALL: f64 = 1.0;
 /// Largest radius of a rounding that has a tip over the mean length of the faces: of a larger one the gap of the nodes is right to a
 /// fiftieth of that.

@@ -73,14 +73,7 @@ fn made(deck: &str, sets: &[String]) -> Model {
 /// Of a wedge, and of a roller that fits between two nodes or not.
 #[test]
 fn tangents_of_a_tip_are_exact() {
-    let roller = |radius: f64| {
-        let y = radius - 0.02;
-        let half = |from: f64, to: f64| {
-            let apex = 1.9 - (from - to).signum() * radius;
-            format!("{{ arc = [[1.9, {:.3}], [{apex}, -{y}], [1.9, {:.3}]] }}", from - y, to - y)
-        };
-        format!("tool.wedge.profile=[{}, {}]", half(-radius, radius), half(radius, -radius))
-    };
+    let roller = |radius: f64| format!("tool.wedge.profile=[{}]", circle([1.9, 0.02 - radius], radius).join(", "));
     for (degree, shape) in [
         (1, None),
         (2, None),
@@ -130,16 +123,18 @@ fn a_tip_is_felt_over_a_node_and_within_an_edge_and_the_corner_of_a_punch_is_non
     assert!(force > 1.0 && tips.iter().all(|&pressure| pressure == 0.0), "{force} {tips:?}");
 }
 
+/// Both halves of a circle, the right one first, as segments of a profile.
+fn circle([x, y]: [f64; 2], radius: f64) -> [String; 2] {
+    [radius, -radius].map(|r| format!("{{ arc = [[{x}, {}], [{}, {y}], [{x}, {}]] }}", y - r, x + r, y + r))
+}
+
 /// Three-point bending: a plate upon round supports under a round punch, all of which just touch it.
 fn bent(cell: &str, [nx, ny]: [usize; 2], (depth, increments): (f64, usize)) -> f64 {
-    let circle = |name: &str, x: f64, y: f64, radius: f64| {
-        let half = |sign: f64| {
-            let [low, apex, high] = [y - sign * radius, x + sign * radius, y + sign * radius];
-            format!("{{ arc = [[{x}, {low}], [{apex}, {y}], [{x}, {high}]] }}")
-        };
-        format!("tool.{name} = {{ profile = [{}, {}], reference = [{x}, {y}] }}\n", half(1.0), half(-1.0))
+    let tool = |name: &str, [x, y]: [f64; 2], radius: f64| {
+        let profile = circle([x, y], radius).join(", ");
+        format!("tool.{name} = {{ profile = [{profile}], reference = [{x}, {y}] }}\n")
     };
-    let tools = circle("left", -15.0, -1.5, 1.5) + &circle("right", 15.0, -1.5, 1.5) + &circle("punch", 0.0, 5.0, 3.0);
+    let tools = tool("left", [-15.0, -1.5], 1.5) + &tool("right", [15.0, -1.5], 1.5) + &tool("punch", [0.0, 5.0], 3.0);
     let deck = format!(
         r#"
 version = 1
@@ -176,11 +171,9 @@ fn a_plate_is_bent_between_round_tools_that_just_touch_it() {
 
 /// Force on a roller that is pressed into a block by a fifth of an edge from `gap` above it in `increments`; on the half of both, twice.
 fn pressed_by_a_roller((radius, gap, increments): (f64, f64, usize), half: bool) -> f64 {
-    let (y, low, depth) = (4.0 + gap + radius, 4.0 + gap, gap + 0.2);
-    let side = |x: f64, [from, to]: [f64; 2]| format!("{{ arc = [[0.0, {from}], [{x}, {y}], [0.0, {to}]] }}");
-    let right = side(radius, [low, y + radius]);
-    let back = side(-radius, [y + radius, low]);
-    let profile = if half { right } else { format!("{right}, {back}") };
+    let (y, depth) = (4.0 + gap + radius, gap + 0.2);
+    let arcs = circle([0.0, y], radius);
+    let profile = if half { &arcs[..1] } else { &arcs[..] }.join(", ");
     let (from, cells) = if half { (0.0, 5) } else { (-5.0, 10) };
     let symmetry = if half { "symmetry = [\"block.left\"]" } else { "" };
     let deck = format!(

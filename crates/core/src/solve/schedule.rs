@@ -176,7 +176,9 @@ impl Caution {
         }
         if dt >= self.failed * (1.0 - 1e-9) {
             // That a relaxation of the step was in vain stays known.
-            *self = Self { proven: self.proven, vain: self.vain, ..Self::default() };
+            let vain = self.vain;
+            self.forget();
+            self.vain = vain;
             return wanted;
         }
         self.rest = self.rest.saturating_sub(1);

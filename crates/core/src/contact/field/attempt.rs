@@ -530,7 +530,8 @@ impl FieldAttempt<'_> {
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
     /// did.
     fn yield_tips(&mut self, u: &[f64]) -> bool {
-        if self.contact.tips().is_empty() {
+        let share = |found: &Option<TipFoot>| found.and_then(|found| found.patch.tip).map_or(0.0, |tip| tip.share);
+        if self.tips_before.iter().all(|before| share(before) <= CHANGED) {
             return false;
         }
         let mut changed = false;

@@ -87,8 +87,8 @@ impl FieldContact {
         let sizes = surface.nodes.iter().map(size).collect();
         let pieces = match target {
             FieldTarget::Tool(rigid) => {
-                let ([shortest, longest], mean) = (surface.sizes(mesh), surface.coarseness(mesh)[0]);
-                rigid.sharpen([SMALL * shortest, LARGE * mean], longest);
+                let [shortest, longest] = surface.sizes(mesh);
+                rigid.sharpen([SMALL * shortest, LARGE * surface.mean_size(mesh)], longest);
                 rigid.pieces()
             }
             FieldTarget::Faces(faces) => faces.surface.pieces.iter().max().map_or(0, |last| last + 1),

@@ -96,8 +96,14 @@ const SIGHT: [f64; 2] = [0.1, 0.5];
 /// Weight of a place by that cosine: zero, a cubic, one. With its slope.
 fn sight(cosine: f64) -> [f64; 2] {
     let width = SIGHT[1] - SIGHT[0];
-    let t = ((cosine - SIGHT[0]) / width).clamp(0.0, 1.0);
-    [t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / width]
+    let [weight, slope] = smoothstep((cosine - SIGHT[0]) / width);
+    [weight, slope / width]
+}
+
+/// A cubic that rises from zero at zero to one at one, with its slope (smoothstep).
+pub fn smoothstep(t: f64) -> [f64; 2] {
+    let t = t.clamp(0.0, 1.0);
+    [t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t)]
 }
 
 impl PatchInPlace<'_> {

@@ -208,9 +208,14 @@ impl FieldSurface {
         self.nodes[node].support.iter().map(of).fold(0.0, f64::max)
     }
 
+    /// Mean size of its faces.
+    pub fn mean_size(&self, mesh: &Mesh) -> f64 {
+        (0..self.faces.len()).map(|f| self.size(f, mesh)).sum::<f64>() / self.faces.len().max(1) as f64
+    }
+
     /// Mean size of its faces, and the largest sagitta over it.
     pub fn coarseness(&self, mesh: &Mesh) -> [f64; 2] {
-        let mean = (0..self.faces.len()).map(|f| self.size(f, mesh)).sum::<f64>() / self.faces.len().max(1) as f64;
+        let mean = self.mean_size(mesh);
         [mean, self.largest_sagitta(mesh) / mean]
     }
 

@@ -19,7 +19,7 @@ use super::contact::FieldContact;
 use super::cover::{Landing, Patch, root_near};
 use super::face::{FieldFace, MOST, PlacedFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
-use super::point::{PatchPoint, PointRates, Sight, Touched};
+use super::point::{PatchPoint, PointRates, Sight, Touched, smoothstep};
 use super::points::Recall;
 use super::tool::ToolInPlace;
 use crate::contact::record::entry;
@@ -46,6 +46,24 @@ const BESIDE: f64 = 0.5;
 const AT_END: f64 = 1e-3;
 /// Starts of the search for the closest place of an edge.
 const STARTS: [f64; 3] = [-0.5, 0.0, 0.5];
+
+/// A place of the surface that a tip may touch.
+#[derive(Debug, Clone, Copy)]
+struct TipPlace {
+    face: usize,
+    xi: f64,
+    /// The corner of the face that is nearer.
+    nearer: usize,
+    /// As those of a [`Landing`].
+    corner: Option<usize>,
+    border: Option<usize>,
+    /// At the end of the surface, the outward normal that the face had there.
+    rest: Option<Vec3>,
+    /// Direction of the gap, the distance of the tip's centre along it, and the gap.
+    n: Vec3,
+    q: f64,
+    gap: f64,
+}
 
 /// An edge with its position and tangents along it.
 struct PlacedEdge<'a> {
@@ -106,26 +124,29 @@ impl Configuration<'_> {
     pub fn tips(&self, reach: f64, before: Option<&[Option<TipFoot>]>) -> Vec<Option<TipFoot>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let land = |(number, tip): (usize, &Tip)| {
-            let last = before.and_then(|before| before.get(number).copied().flatten()).map(|found| found.patch.face);
-            let mut found = self.land((number, tip), tool, (reach, last))?;
-            if let Some(landing) = &mut found.patch.tip {
-                let had = before.map(|before| before.get(number).copied().flatten().and_then(|found| found.patch.tip));
-                landing.share = had.map_or(1.0, |had| had.map_or(landing.share, |had| had.share));
-            }
-            Some(found).filter(|found| found.gap <= reach)
+            let last = before.map(|before| before.get(number).copied().flatten());
+            let face = last.flatten().map(|found| found.patch.face);
+            let place = self.closest(tip, tool, (reach, face)).filter(|place| place.gap <= reach)?;
+            let share = match last {
+                None => 1.0,
+                Some(last) => last
+                    .and_then(|found| found.patch.tip)
+                    .map_or_else(|| self.share(&place, tip, tool), |landing| landing.share),
+            };
+            let own = tip.centre - tool.rotate_back(place.n) * tip.radius;
+            let TipPlace { face, xi, corner, border, gap, .. } = place;
+            let landing = Some(Landing { xi, corner, border, share, own });
+            let patch = Patch { face, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip: landing };
+            Some(TipFoot { patch, gap })
         };
         self.contact.tips().iter().enumerate().map(land).collect()
     }
 
-    fn land(
-        &self,
-        (number, tip): (usize, &Tip),
-        tool: &ToolInPlace,
-        (reach, last): (f64, Option<usize>),
-    ) -> Option<TipFoot> {
+    /// The place of the surface closest to a tip, of those that it points at; on the face that was the `last`, where that meets the
+    /// other.
+    fn closest(&self, tip: &Tip, tool: &ToolInPlace, (reach, last): (f64, Option<usize>)) -> Option<TipPlace> {
         let (centre, points, radius) = (tool.place(tip.centre), tool.rotate(tip.outward), tip.radius);
-        let flanks = tip.flanks.map(|flank| tool.rotate(flank));
-        let (mut best, mut valleys): (Option<TipFoot>, Vec<(usize, Side)>) = (None, Vec::new());
+        let (mut best, mut valleys): (Option<TipPlace>, Vec<(usize, Side)>) = (None, Vec::new());
         let mut kept = None;
         let surface = &self.contact.parts.surface;
         for (f, face) in surface.faces.iter().enumerate() {
@@ -150,22 +171,14 @@ impl Configuration<'_> {
             }
             let mut offer = |corner: Option<usize>, border: Option<usize>| {
                 let n = if corner.is_some() { facing_centre(to, n) } else { n };
-                let gap = to.dot(n) - radius;
-                let keeps = corner.is_none() && last == Some(f);
-                // The place closest to the centre.
-                let closer = best.is_none_or(|best| (gap + radius).abs() < (best.gap + radius).abs());
-                if !closer && !keeps {
-                    return;
+                let place =
+                    TipPlace { face: f, xi, nearer, corner, border, rest, q: to.dot(n), n, gap: to.dot(n) - radius };
+                if best.is_none_or(|best| place.q.abs() < best.q.abs()) {
+                    best = Some(place);
                 }
-                let share =
-                    self.share((f, nearer), (flanks, radius), rest, self.straightness((f, xi), (to, n), radius));
-                let own = tip.centre - tool.rotate_back(n) * radius;
-                let landing = Some(Landing { xi, corner, border, share, own });
-                let patch =
-                    Patch { face: f, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip: landing };
-                let found = Some(TipFoot { patch, gap });
-                best = if closer { found } else { best };
-                kept = if keeps { found } else { kept };
+                if corner.is_none() && last == Some(f) {
+                    kept = Some(place);
+                }
             };
             match corner {
                 None => offer(None, None),
@@ -190,7 +203,7 @@ impl Configuration<'_> {
             }
         }
         // In a valley it stays on its side over an increment.
-        let adjoins = |kept: &TipFoot| best.is_some_and(|best| self.adjoin(kept.patch.face, best.patch.face));
+        let adjoins = |kept: &TipPlace| best.is_some_and(|best| self.adjoin(kept.face, best.face));
         kept.filter(adjoins).or(best)
     }
 
@@ -200,28 +213,24 @@ impl Configuration<'_> {
         one.iter().any(|node| other.contains(node))
     }
 
-    /// How far the surface around a place of a face, `to` from the centre of a rounding, stands off that, over how far it would if it
-    /// were straight.
-    fn straightness(&self, (f, xi): (usize, f64), (to, n): (Vec3, Vec3), radius: f64) -> f64 {
-        let (surface, q, place) = (&self.contact.parts.surface, to.dot(n), xi);
+    /// How far the surface around a place stands off a rounding about `centre`, over how far it would if it were straight; one for an
+    /// edge.
+    fn straightness(&self, &TipPlace { face: f, xi, q, n, .. }: &TipPlace, centre: Vec3, radius: f64) -> f64 {
+        let surface = &self.contact.parts.surface;
         if radius == 0.0 || q <= 0.0 {
             return 1.0;
         }
-        let centre = self.face(f).at([place, 0.0]).x + to;
         let (mut stands, mut straight) = (0.0, 0.0);
-        let mut add = |weight: f64, x: Vec3| {
-            let z = x - centre;
+        let mut add = |weight: f64, (f, corner): (usize, usize)| {
+            let face = &surface.faces[f];
+            let z = face.shape(face.corner_place(corner)).value(self.placed[f].nodes()) - centre;
             stands += weight * (z.norm() - q);
             straight += weight * (z.dot(n.left()).hypot(q) - q);
         };
         for (corner, half) in [(0, -0.5), (1, 0.5)] {
-            let of = |f: usize, corner: usize| {
-                let face = &surface.faces[f];
-                face.shape(face.corner_place(corner)).value(self.placed[f].nodes())
-            };
-            add(1.0, of(f, corner));
+            add(1.0, (f, corner));
             for &(beside, c) in surface.nodes[surface.field[f][corner]].support.iter().filter(|(g, _)| *g != f) {
-                add(0.5 + half * xi, of(beside, 1 - c));
+                add(0.5 + half * xi, (beside, 1 - c));
             }
         }
         stands / straight
@@ -234,13 +243,9 @@ impl Configuration<'_> {
 
     /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
     /// the end of the surface on the normal it had, which a plane of symmetry keeps.
-    fn share(
-        &self,
-        (f, corner): (usize, usize),
-        (flanks, radius): ([Vec3; 2], f64),
-        rest: Option<Vec3>,
-        straight: f64,
-    ) -> f64 {
+    fn share(&self, place: &TipPlace, tip: &Tip, tool: &ToolInPlace) -> f64 {
+        let (&TipPlace { face: f, nearer: corner, rest, .. }, radius) = (place, tip.radius);
+        let flanks = tip.flanks.map(|flank| tool.rotate(flank));
         let surface = &self.contact.parts.surface;
         let area = |f: usize| {
             let face = &surface.faces[f];
@@ -250,9 +255,10 @@ impl Configuration<'_> {
             surface.nodes[surface.field[f][corner]].support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
         let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
         let cosine = rest.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
-        let scale = radius.max(2.0 * area(f).norm()) / (2.0 * area(f).norm());
-        let angle = cosine.clamp(-1.0, 1.0).acos() * scale;
-        smooth((angle - FLAT[0]) / (FLAT[1] - FLAT[0])) * smooth(2.0 * straight - 1.0)
+        let size = 2.0 * area(f).norm();
+        let angle = cosine.clamp(-1.0, 1.0).acos() * radius.max(size) / size;
+        let [apart, _] = smoothstep((angle - FLAT[0]) / (FLAT[1] - FLAT[0]));
+        apart * smoothstep(2.0 * self.straightness(place, tool.place(tip.centre), radius) - 1.0)[0]
     }
 }
 
@@ -279,12 +285,6 @@ impl FieldContact {
         }
         tips
     }
-}
-
-/// A cubic that rises from zero to one (smoothstep).
-fn smooth(t: f64) -> f64 {
-    let t = t.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// Unit vector from a corner to or from a tip that lies `to` away, on the outer side of an edge with this normal or within it.

@@ -109,7 +109,8 @@ impl RigidTool {
             RigidShape::Space(_, pieces) => pieces.count(),
         }
     }
-    /// Has what is small lie within a face, whose size lies between two lengths: in the plane edges and roundings as tips, in space pieces.
+    /// Has what is small lie within a face. In the plane roundings of radii up to `edge` part the tool as edges do, and those up to
+    /// `rounding` and edges are tips; in space pieces may lie within a face of `size`.
     pub fn sharpen(&mut self, [edge, rounding]: [f64; 2], size: f64) {
         match &mut self.shape {
             RigidShape::Plane(tool, pieces) => {

@@ -41,7 +41,7 @@ fn run(chosen: &[&Case], size: Size) -> ExitCode {
                 reports.push(report);
             }
             Err(error) => {
-                println!("{}: {error}\n", case.name);
+                println!("  FAIL {}: {error}\n", case.name);
                 broken = true;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget, RULE};
-use super::cover::{Landing, Patch};
+use super::cover::{FEET, Landing, Patch};
 use super::face::moved;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
@@ -84,7 +84,7 @@ pub struct FieldAttempt<'a> {
 impl FieldAttempt<'_> {
     fn search(&self, u: &[f64]) -> FieldSearch {
         let now = Configuration::new(self.contact, u);
-        let tips = now.tips(self.contact.longest, Some(&self.tips_before));
+        let tips = now.tips(self.contact.longest, Some(&self.tips_before), |foot| self.foot_before(foot));
         self.contact
             .find((&now, tips), self.reach, &self.depths, |now, patch, nodes| self.list_touched(now, patch, nodes))
     }
@@ -140,9 +140,16 @@ impl FieldAttempt<'_> {
         before.nearest(&ray, range, admits).or(present)
     }
 
-    /// Face over which a tip lay at the accepted state, and where.
+    /// The face on which a foot of a tip lay at the accepted state.
+    fn foot_before(&self, foot: usize) -> Option<usize> {
+        Some(self.tips_before.get(foot)?.as_ref()?.patch.face)
+    }
+
+    /// Face over which a foot of a tip lay at the accepted state, and where; if it has none, that of another foot of the tip.
     fn before_tip(&self, patch: &Patch) -> Option<(usize, Landing)> {
-        let found = self.tips_before.get(patch.target).copied().flatten()?;
+        let first = patch.target / FEET * FEET;
+        let feet = [patch.target].into_iter().chain(first..first + FEET);
+        let found = feet.filter_map(|foot| self.tips_before.get(foot).copied().flatten()).next()?;
         Some((found.patch.face, found.patch.tip?))
     }
 
@@ -273,7 +280,7 @@ impl FieldAttempt<'_> {
         let (stretch, stretching) = stencil.stretch();
         let (past, law) = (self.past(slot, stretch), &*self.law);
         let (options, multiplied, terms) = (&contact.parts.options, self.shift(slot)[0], (law, &past, old));
-        (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (0.0, sums.area, stretch);
+        (new[entry::SEGMENT], new[entry::XI], new[entry::HALF]) = (stencil.segment(), sums.area, stretch);
         (new[entry::PENETRATION], new[entry::CLOSURE]) = (sums.y[0], self.closure(slot));
         new[entry::COUNT..].copy_from_slice(&old[entry::COUNT..]);
         let (here, slip) = (sums.y[0] + self.closure(slot), [sums.y[1], sums.y[2]]);
@@ -524,25 +531,24 @@ impl Attempt for FieldAttempt<'_> {
 }
 
 /// Change of the part that a tip has in the area of a face above which a converged increment goes on with the new one.
-const CHANGED: f64 = 0.5;
+const CHANGED: f64 = 0.25;
 
 impl FieldAttempt<'_> {
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
     /// did.
     fn yield_tips(&mut self, u: &[f64]) -> bool {
-        let share = |found: &Option<TipFoot>| found.and_then(|found| found.patch.tip).map_or(0.0, |tip| tip.share);
-        if self.tips_before.iter().all(|before| share(before) <= CHANGED) {
+        let share = |feet: &[Option<TipFoot>]| Some(feet.iter().flatten().next()?.patch.tip?.share);
+        if self.tips_before.chunks(FEET).filter_map(share).all(|before| before <= CHANGED) {
             return false;
         }
         let mut changed = false;
-        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]));
-        for (before, now) in self.tips_before.iter_mut().zip(found) {
-            let landing = before.as_mut().and_then(|before| before.patch.tip.as_mut());
-            let share = now.and_then(|now| now.patch.tip).map(|tip| tip.share);
-            if let (Some(landing), Some(share)) = (landing, share)
-                && landing.share - share > CHANGED
+        let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]), |_| None);
+        for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
+            if let (Some(had), Some(share)) = (share(before), share(now))
+                && had - share > CHANGED
             {
-                (landing.share, changed) = (share, true);
+                let landings = before.iter_mut().flatten().filter_map(|found| found.patch.tip.as_mut());
+                landings.for_each(|landing| (landing.share, changed) = (share, true));
             }
         }
         changed

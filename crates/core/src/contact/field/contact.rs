@@ -1,6 +1,6 @@
 //! What a field is made of: its surface, what that may touch, the law and how it is computed.
 
-use super::cover::Patch;
+use super::cover::{FEET, Patch};
 use super::faces::TargetFaces;
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::RigidTool;
@@ -100,9 +100,9 @@ impl FieldContact {
     pub fn largest_penetration(&self, history: &History) -> f64 {
         largest_penetration(history, self.slots())
     }
-    /// Number of stencils: those of the nodes, then those of the tool's tips.
+    /// Number of stencils: those of the nodes, then those of the feet of the tool's tips.
     pub(super) fn slots(&self) -> usize {
-        self.nodal_slots() + self.tips().len()
+        self.nodal_slots() + FEET * self.tips().len()
     }
     /// Tips of the tool.
     pub(super) fn tips(&self) -> &[Tip] {

@@ -28,6 +28,22 @@ pub struct Patch {
     pub tip: Option<Landing>,
 }
 
+/// Most places of the surface that one tip touches: in a valley both sides, and what lies between them.
+pub const FEET: usize = 3;
+
+/// Where a tip touches the face beside one that it lies over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FootBeside {
+    /// The face.
+    pub face: usize,
+    /// Which of its corners is that of the other.
+    pub corner: usize,
+    /// The place of it that is closest, roughly.
+    pub xi: f64,
+    /// What touches it, as in [`Landing`].
+    pub centre: Vec3,
+}
+
 /// Where a tip lies over a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Landing {
@@ -39,6 +55,12 @@ pub struct Landing {
     pub border: Option<usize>,
     /// Part of the face's area that it has.
     pub share: f64,
+    /// What touches the face: the centre of the tip or an end of its arc, in the tool's own frame, and the radius about that.
+    pub centre: Vec3,
+    /// See `centre`.
+    pub radius: f64,
+    /// Beside each corner, where it touches the other face there.
+    pub beside: [Option<FootBeside>; 2],
     /// The tool's point that lies over the place, in the tool's own frame.
     pub own: Vec3,
 }

@@ -2,6 +2,7 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
+use super::cover::FEET;
 use super::face::moved;
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
@@ -17,7 +18,7 @@ impl FieldContact {
     /// the faces there.
     pub fn initial_gaps(&self) -> Vec<(f64, f64)> {
         let (still, mut found) = (vec![0.0; self.parts.dofs.count()], Vec::new());
-        self.each_seen(&still, (self.reach(&still), false), |slot, _, sums| {
+        self.each_seen(&still, (self.reach(&still), None), |slot, _, sums| {
             found.push((sums.y[0], sums.y[0] / self.size_at(slot)));
         });
         found
@@ -32,7 +33,7 @@ impl FieldContact {
     pub fn moves(&self) -> Vec<Move> {
         let still = vec![0.0; self.parts.dofs.count()];
         let (now, mut moves) = (Configuration::new(self, &still), BTreeMap::new());
-        let found = self.supports(&still, self.reach(&still), false);
+        let found = self.supports(&still, self.reach(&still), None);
         for (number, _) in found.supports.iter().flat_map(|support| &support.patches) {
             let patch = &found.patches[*number].patch;
             let (face, own) = (now.face(patch.face), &self.parts.surface.faces[patch.face]);
@@ -64,7 +65,7 @@ impl FieldContact {
     pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
         let mut records: Vec<ContactRecord> =
             (0..self.slots()).map(|slot| self.unseen(slot, u, history.slot(slot))).collect();
-        self.each_seen(u, (self.reach(&vec![0.0; u.len()]), true), |slot, stencil, sums| {
+        self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
             let values = history.slot(slot);
             if values[entry::SEGMENT] < 0.0 {
                 return;
@@ -112,7 +113,7 @@ impl FieldContact {
                 (position, normal.unit, support.first().map_or(0, |(face, _)| *face))
             }
             None => {
-                let tip = &self.tips()[slot - self.nodal_slots()];
+                let tip = &self.tips()[(slot - self.nodal_slots()) / FEET];
                 let tool = self.parts.target.as_tool().map(|rigid| rigid.at(u));
                 let place = |tool: ToolInPlace| (tool.place(tip.foremost()), -tool.rotate(tip.outward), 0);
                 tool.map_or((tip.foremost(), -tip.outward, 0), place)

@@ -8,6 +8,7 @@ use super::faces::FaceRay;
 use super::stencil::{NodeSums, StencilInPlace};
 use super::support::{FieldSearch, FoundPatch, Support};
 use super::tip::TipFoot;
+use crate::system::History;
 
 impl FieldContact {
     /// What each node sees at unknowns `u`, within `reach` and no deeper than `depths`.
@@ -83,6 +84,8 @@ impl FieldContact {
     /// Nodes on which a patch depends.
     fn list_nodes(&self, patch: &Patch, nodes: &mut Vec<usize>) {
         nodes.extend_from_slice(&self.parts.surface.faces[patch.face].nodes);
+        let beside = patch.tip.into_iter().flat_map(|landing| landing.beside).flatten();
+        beside.for_each(|foot| nodes.extend_from_slice(&self.parts.surface.faces[foot.face].nodes));
         if let Some(faces) = self.parts.target.as_faces() {
             nodes.extend_from_slice(&faces.surface.faces[patch.target].nodes);
         }
@@ -108,10 +111,14 @@ impl FieldContact {
         self.parts.surface.faces.iter().map(depth).collect()
     }
 
-    /// What each node sees at displacements `u`, as far as the accepted state alone tells.
-    pub(super) fn supports(&self, u: &[f64], reach: f64, whole: bool) -> FieldSearch {
+    /// What each node sees at displacements `u`, as far as the accepted state alone tells; of the tips all feet, where that has a
+    /// history.
+    pub(super) fn supports(&self, u: &[f64], reach: f64, history: Option<&History>) -> FieldSearch {
         let (now, depths) = (Configuration::new(self, u), self.depths(u));
-        let tips = now.tips(self.longest, if whole { None } else { Some(&[]) });
+        let tips = match history {
+            Some(history) => now.tips(self.longest, None, self.known_feet(history)),
+            None => now.tips(self.longest, Some(&[]), |_| None),
+        };
         self.find((&now, tips), reach, &depths, |_, _, _| {})
     }
 
@@ -126,11 +133,11 @@ impl FieldContact {
     pub(super) fn each_seen(
         &self,
         u: &[f64],
-        (reach, whole): (f64, bool),
+        (reach, history): (f64, Option<&History>),
         mut take: impl FnMut(usize, &StencilInPlace, &NodeSums),
     ) {
         let mut sums = NodeSums::default();
-        let found = self.supports(u, reach, whole);
+        let found = self.supports(u, reach, history);
         for (slot, support) in found.supports.iter().enumerate().filter(|(_, s)| !s.patches.is_empty()) {
             let values = self.values(support, u);
             let stencil = StencilInPlace::new(self, (&found, slot), &values);

@@ -125,6 +125,12 @@ impl<'a> StencilInPlace<'a> {
         self.found.supports[self.slot].through
     }
 
+    /// What its history knows it by: of a foot of a tip the face on which that lies.
+    pub fn segment(&self) -> f64 {
+        let tip = self.patches().find(|(patch, _)| patch.tip.is_some());
+        tip.map_or(0.0, |(patch, _)| patch.face as f64)
+    }
+
     /// The faces of its patches.
     pub fn faces(&self) -> impl Iterator<Item = usize> + '_ {
         self.patches().map(|(patch, _)| patch.face)

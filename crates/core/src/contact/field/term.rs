@@ -3,6 +3,7 @@
 use super::attempt::FieldAttempt;
 use super::configuration::Configuration;
 use super::contact::FieldContact;
+use super::cover::FEET;
 use crate::Failure;
 use crate::contact::Overlap;
 use crate::contact::increment::reach;
@@ -25,9 +26,10 @@ impl FieldContact {
             self.parts.law.first().initial(&mut values[entry::COUNT..]);
         }
         let (still, fits) = (vec![0.0; u.len()], FITS * self.sagitta());
-        self.each_seen(u, (self.reach(&still), false), |slot, _, sums| {
+        self.each_seen(u, (self.reach(&still), None), |slot, stencil, sums| {
             let values = history.slot_mut(slot);
-            (values[entry::SEGMENT], values[entry::PENETRATION], values[entry::XI]) = (0.0, sums.y[0], sums.area);
+            (values[entry::PENETRATION], values[entry::XI]) = (sums.y[0], sums.area);
+            values[entry::SEGMENT] = stencil.segment();
             let gap = -sums.y[0];
             if self.parts.options.overlap == Overlap::Fit && gap > 0.0 && gap <= fits {
                 (values[entry::OVERLAP], values[entry::CLOSURE]) = (sums.y[0], gap);
@@ -138,7 +140,9 @@ impl Term for FieldContact {
     fn name_of(&self, slot: usize) -> String {
         match self.node_of(slot) {
             Some(node) => format!("node {} of contact '{}'", self.parts.surface.nodes[node].node, self.parts.name),
-            None => format!("tip {} of the tool of contact '{}'", slot - self.nodal_slots() + 1, self.parts.name),
+            None => {
+                format!("tip {} of the tool of contact '{}'", (slot - self.nodal_slots()) / FEET + 1, self.parts.name)
+            }
         }
     }
 

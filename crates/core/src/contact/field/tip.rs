@@ -8,6 +8,11 @@
 //! the edge of the surface closest to `c`, the gap is `(c - x) . n - R`, `n` the outward normal there; where two edges meet it is
 //! `|c - x| - R` along `c - x`, and `-|c - x| - R` in a valley into which the tip has pushed them.
 //!
+//! A rounding in a valley touches every side of it: each place of the surface that is closest of those around is a foot, with a stencil
+//! of its own. Of two feet beside a node, `a` and `b` in reference coordinates away from it, the first has `a / (a + b)` of its area, so
+//! that one which comes in or leaves over the node does so with nothing. A side that lies along a flank, or turns further away,
+//! touches the end of the arc there.
+//!
 //! Where the surface follows a rounding its nodes feel that, and the tip has the less of the area the more it does: by the distances
 //! `d` of the nodes around from `c`, with `q = |c - x|` and `s` how far they lie aside, from all of it where `sum w (d - q)` is
 //! `sum w (sqrt(s^2 + q^2) - q)`, as on a straight surface, to none at half of that. The part changes between increments, and once
@@ -16,7 +21,7 @@
 use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
-use super::cover::{Landing, Patch, root_near};
+use super::cover::{FEET, FootBeside, Landing, Patch, root_near};
 use super::face::{FieldFace, MOST, PlacedFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, Touched, smoothstep};
@@ -59,6 +64,9 @@ struct TipPlace {
     border: Option<usize>,
     /// At the end of the surface, the outward normal that the face had there.
     rest: Option<Vec3>,
+    /// What touches it: the tip's own centre, or the end of its arc, and the radius about that.
+    centre: Vec3,
+    radius: f64,
     /// Direction of the gap, the distance of the tip's centre along it, and the gap.
     n: Vec3,
     q: f64,
@@ -72,6 +80,7 @@ struct PlacedEdge<'a> {
 }
 
 /// A place of an edge.
+#[derive(Clone, Copy)]
 struct EdgePlace {
     shape: ShapeFunctions,
     x: Vec3,
@@ -113,79 +122,125 @@ impl PlacedEdge<'_> {
     }
 }
 
+/// The place of an edge that is closest to a centre, and how it lies to that.
+struct EdgeFoot {
+    xi: f64,
+    corner: Option<usize>,
+    ends: bool,
+    nearer: usize,
+    rest: Option<Vec3>,
+    crest: Option<bool>,
+    to: Vec3,
+    n: Vec3,
+    tangent: Vec3,
+    facing: Vec3,
+}
+
 /// Outward unit normal of an edge with this tangent.
 fn outward(tangent: Vec3) -> Vec3 {
     tangent.cross(Vec3::axis(2)).unit()
 }
 
 impl Configuration<'_> {
-    /// Where the tips of the tool lie, up to `reach` away from the surface: tip after tip. The part that a tip has in a face is the
-    /// one it had `before`, at the accepted state, so that it stays over an increment; all of it where that is not given.
-    pub fn tips(&self, reach: f64, before: Option<&[Option<TipFoot>]>) -> Vec<Option<TipFoot>> {
+    /// Where the tips of the tool touch, up to `reach` away from the surface: for tip after tip its feet, each where the one of the
+    /// accepted state was that had its face, `known`, or the one beside it. The part that a tip has in a face is the one it had
+    /// `before`, at the accepted state, so that it stays over an increment; all of it where that is not given.
+    pub fn tips(
+        &self,
+        reach: f64,
+        before: Option<&[Option<TipFoot>]>,
+        known: impl Fn(usize) -> Option<usize>,
+    ) -> Vec<Option<TipFoot>> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
-        let land = |(number, tip): (usize, &Tip)| {
-            let last = before.map(|before| before.get(number).copied().flatten());
-            let face = last.flatten().map(|found| found.patch.face);
-            let place = self.closest(tip, tool, (reach, face)).filter(|place| place.gap <= reach)?;
-            let share = match last {
-                None => 1.0,
-                Some(last) => last
-                    .and_then(|found| found.patch.tip)
-                    .map_or_else(|| self.share(&place, tip, tool), |landing| landing.share),
+        let mut feet = vec![None; FEET * self.contact.tips().len()];
+        for (number, tip) in self.contact.tips().iter().enumerate() {
+            let places = self.places(tip, tool, reach);
+            let Some(closest) = places.first() else { continue };
+            let first = FEET * number;
+            let last = |before: &[Option<TipFoot>]| {
+                let feet = before.get(first..first + FEET)?;
+                feet.iter().flatten().find_map(|found| found.patch.tip).map(|landing| landing.share)
             };
-            let own = tip.centre - tool.rotate_back(place.n) * tip.radius;
-            let TipPlace { face, xi, corner, border, gap, .. } = place;
-            let landing = Some(Landing { xi, corner, border, share, own });
-            let patch = Patch { face, target: number, ends: [None; 2], near: [xi, xi], seen: None, tip: landing };
-            Some(TipFoot { patch, gap })
-        };
-        self.contact.tips().iter().enumerate().map(land).collect()
+            let share = before.map_or(1.0, |before| last(before).unwrap_or_else(|| self.share(closest, tip, tool)));
+            let mut left: Vec<&TipPlace> = places.iter().collect();
+            for near in 0..=3 {
+                left.retain(|&place| {
+                    let is_near = |foot: &usize| match known(*foot) {
+                        Some(face) if face == place.face => near == 0,
+                        Some(face) => near == if self.adjoin(face, place.face) { 1 } else { 3 },
+                        None => near == 2,
+                    };
+                    let free = (first..first + FEET).filter(|&foot| feet[foot].is_none()).find(is_near);
+                    if let Some(foot) = free {
+                        let landing = self.landing(place, &places, tool, share);
+                        let patch = Patch {
+                            face: place.face,
+                            target: foot,
+                            ends: [None; 2],
+                            near: [place.xi; 2],
+                            seen: None,
+                            tip: Some(landing),
+                        };
+                        feet[foot] = Some(TipFoot { patch, gap: place.gap });
+                    }
+                    free.is_none()
+                });
+            }
+        }
+        feet
     }
 
-    /// The place of the surface closest to a tip, of those that it points at; on the face that was the `last`, where that meets the
-    /// other.
-    fn closest(&self, tip: &Tip, tool: &ToolInPlace, (reach, last): (f64, Option<usize>)) -> Option<TipPlace> {
-        let (centre, points, radius) = (tool.place(tip.centre), tool.rotate(tip.outward), tip.radius);
-        let (mut best, mut valleys): (Option<TipPlace>, Vec<(usize, Side)>) = (None, Vec::new());
-        let mut kept = None;
+    fn landing(&self, place: &TipPlace, places: &[TipPlace], tool: &ToolInPlace, share: f64) -> Landing {
+        let &TipPlace { face, xi, corner, border, centre, radius, .. } = place;
+        let own = centre - tool.rotate_back(place.n) * radius;
+        let surface = &self.contact.parts.surface;
+        let beside = [0, 1].map(|corner| {
+            let node = surface.field[face][corner];
+            let at_node = |other: &&TipPlace| other.face != face && surface.field[other.face][..2].contains(&node);
+            let other = places.iter().find(at_node)?;
+            let corner = usize::from(surface.field[other.face][1] == node);
+            Some(FootBeside { face: other.face, corner, xi: other.xi, centre: other.centre })
+        });
+        Landing { xi, corner, border, share, own, centre, radius, beside }
+    }
+
+    /// The places of the surface that a tip may touch, of those that it points at: the closest, and where a rounding lies in a valley
+    /// those on the other sides of that.
+    fn places(&self, tip: &Tip, tool: &ToolInPlace, reach: f64) -> Vec<TipPlace> {
+        let points = tool.rotate(tip.outward);
+        let (mut found, mut valleys): (Vec<TipPlace>, Vec<(usize, Side)>) = (Vec::new(), Vec::new());
         let surface = &self.contact.parts.surface;
         for (f, face) in surface.faces.iter().enumerate() {
             let edge = PlacedEdge { face, placed: &self.placed[f] };
-            if edge.is_beyond(radius + reach, centre) {
+            if edge.is_beyond(tip.radius + reach, tool.place(tip.centre)) {
                 continue;
             }
-            let xi = edge.closest(centre);
-            let at = edge.at(xi);
-            let (n, to) = (outward(at.tangent), centre - at.x);
-            let nearer = usize::from(xi > 0.0);
-            let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
-            let inner = if ends { 1.0 - AT_END } else { 1.0 };
-            let corner = if xi.abs() < inner { None } else { Some(nearer) };
-            // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
-            let rest = corner.filter(|_| ends).map(|_| self.undeformed_normal(face));
-            // Where two edges meet in a valley or on a ridge.
-            let crest = corner.filter(|_| !ends || radius > 0.0).map(|_| to.dot(n) > 0.0);
-            let facing = if crest == Some(true) { to.unit() } else { rest.unwrap_or(n) };
-            if -facing.dot(points) < tip.least_cosine {
-                continue;
+            let (mut centre, mut radius) = (tip.centre, tip.radius);
+            let mut foot = self.foot((f, &edge), tool.place(centre), radius);
+            if -foot.facing.dot(points) < tip.least_cosine {
+                // What lies along a flank, or turns further away, touches the end of the arc there.
+                let along = |end: &Vec3| -foot.facing.dot(tool.rotate(*end));
+                let end = tip.flanks.into_iter().max_by(|a, b| along(a).total_cmp(&along(b))).filter(|_| radius > 0.0);
+                let Some(end) = end.filter(|end| along(end) > 0.0) else { continue };
+                (centre, radius) = (centre + end * radius, 0.0);
+                foot = self.foot((f, &edge), tool.place(centre), radius);
+                if foot.corner.is_some() {
+                    continue;
+                }
             }
+            let EdgeFoot { xi, corner, ends, nearer, rest, crest, to, n, tangent, .. } = foot;
             let mut offer = |corner: Option<usize>, border: Option<usize>| {
                 let n = if corner.is_some() { facing_centre(to, n) } else { n };
-                let place =
-                    TipPlace { face: f, xi, nearer, corner, border, rest, q: to.dot(n), n, gap: to.dot(n) - radius };
-                if best.is_none_or(|best| place.q.abs() < best.q.abs()) {
-                    best = Some(place);
-                }
-                if corner.is_none() && last == Some(f) {
-                    kept = Some(place);
-                }
+                let gap = to.dot(n) - radius;
+                let q = gap + tip.radius;
+                found.push(TipPlace { face: f, xi, nearer, corner, border, rest, centre, radius, q, n, gap });
             };
             match corner {
                 None => offer(None, None),
                 // A rounding touches a ridge and the end of the surface.
                 Some(corner) if crest == Some(true) && radius > 0.0 => offer(Some(corner), ends.then_some(corner)),
                 Some(corner) if ends => {
-                    if to.dot(at.tangent).abs() <= BESIDE * at.tangent.dot(at.tangent) {
+                    if to.dot(tangent).abs() <= BESIDE * tangent.dot(tangent) {
                         offer(None, Some(corner));
                     }
                 }
@@ -202,9 +257,36 @@ impl Configuration<'_> {
                 Some(_) => {}
             }
         }
-        // In a valley it stays on its side over an increment.
-        let adjoins = |kept: &TipPlace| best.is_some_and(|best| self.adjoin(kept.face, best.face));
-        kept.filter(adjoins).or(best)
+        found.sort_by(|a, b| a.q.abs().total_cmp(&b.q.abs()));
+        let lies_within = |place: &TipPlace| place.corner.is_none() && place.border.is_none() && place.q > 0.0;
+        let mut places: Vec<TipPlace> = Vec::new();
+        for place in found {
+            let beside = |other: &TipPlace| lies_within(other) && self.adjoin(other.face, place.face);
+            let touches = tip.radius > 0.0 && lies_within(&place) && places.iter().any(beside);
+            if places.is_empty() || (touches && places.len() < FEET) {
+                places.push(place);
+            }
+        }
+        places.retain(|place| place.gap <= reach);
+        places
+    }
+
+    /// The place of a face that is closest to `centre`.
+    fn foot(&self, (f, edge): (usize, &PlacedEdge), centre: Vec3, radius: f64) -> EdgeFoot {
+        let surface = &self.contact.parts.surface;
+        let xi = edge.closest(centre);
+        let EdgePlace { x, tangent, .. } = edge.at(xi);
+        let (n, to) = (outward(tangent), centre - x);
+        let nearer = usize::from(xi > 0.0);
+        let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
+        let inner = if ends { 1.0 - AT_END } else { 1.0 };
+        let corner = if xi.abs() < inner { None } else { Some(nearer) };
+        // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
+        let rest = corner.filter(|_| ends).map(|_| self.undeformed_normal(edge.face));
+        // Where two edges meet in a valley or on a ridge.
+        let crest = corner.filter(|_| !ends || radius > 0.0).map(|_| to.dot(n) > 0.0);
+        let facing = if crest == Some(true) { to.unit() } else { rest.unwrap_or(n) };
+        EdgeFoot { xi, corner, ends, nearer, rest, crest, to, n, tangent, facing }
     }
 
     /// Whether two faces of the surface have a node of the field in common.
@@ -272,19 +354,49 @@ impl FieldContact {
         [length * density, length * slope]
     }
 
+    /// The faces on which the feet of the tips lay in an accepted state.
+    pub(super) fn known_feet<'a>(&'a self, history: &'a History) -> impl Fn(usize) -> Option<usize> + 'a {
+        let face = |foot: usize| history.slot(self.nodal_slots() + foot)[entry::SEGMENT];
+        move |foot| Some(face(foot)).filter(|face| *face >= 0.0).map(|face| face as usize)
+    }
+
     /// Where the tips of the tool lie in an accepted configuration: one that bears has no more of its face than it had.
     pub(super) fn tips_before(&self, before: &Configuration, history: &History) -> Vec<Option<TipFoot>> {
-        let mut tips = before.tips(f64::INFINITY, Some(&[]));
-        for (number, found) in tips.iter_mut().enumerate() {
-            let values = history.slot(self.nodal_slots() + number);
-            let Some(TipFoot { patch: Patch { face, tip: Some(landing), .. }, .. }) = found else { continue };
-            if values[entry::STATUS] > 0.0 {
-                let whole = self.tip_area(&self.parts.surface.faces[*face], landing, landing.xi)[0];
-                landing.share = landing.share.min(values[entry::XI] / whole);
-            }
+        let mut tips = before.tips(f64::INFINITY, Some(&[]), self.known_feet(history));
+        for (number, feet) in tips.chunks_mut(FEET).enumerate() {
+            let had = |(foot, found): (usize, &Option<TipFoot>)| {
+                let Patch { face, tip, .. } = found.as_ref()?.patch;
+                let (landing, values) = (tip?, history.slot(self.nodal_slots() + FEET * number + foot));
+                let whole = self.tip_area(&self.parts.surface.faces[face], &landing, landing.xi)[0] * landing.part();
+                (values[entry::STATUS] > 0.0 && whole > 0.0).then(|| values[entry::XI] / whole)
+            };
+            let share = feet.iter().enumerate().filter_map(had).fold(f64::INFINITY, f64::min);
+            feet.iter_mut()
+                .flatten()
+                .filter_map(|found| found.patch.tip.as_mut())
+                .for_each(|landing| landing.share = landing.share.min(share));
         }
         tips
     }
+}
+
+impl Landing {
+    /// The part of the weight that the place has among those beside it.
+    fn part(&self) -> f64 {
+        let part = |(corner, beside): (usize, &Option<FootBeside>)| {
+            beside.map_or(1.0, |other| part([(corner, self.xi), (other.corner, other.xi)])[0])
+        };
+        self.beside.iter().enumerate().map(part).product()
+    }
+}
+
+/// The weight of one of two places of adjoining edges, by how far each lies from the node between them in reference coordinates, with its
+/// slopes along both; the place on the other edge has the rest.
+fn part([(one, xi), (other, eta)]: [(usize, f64); 2]) -> [f64; 3] {
+    let [to_one, to_other] = [one, other].map(|corner| if corner == 0 { 1.0 } else { -1.0 });
+    let [a, b] = [1.0 + to_one * xi, 1.0 + to_other * eta];
+    let sum = (a + b).max(f64::MIN_POSITIVE);
+    [a / sum, to_one * b / (sum * sum), -to_other * a / (sum * sum)]
 }
 
 /// Unit vector from a corner to or from a tip that lies `to` away, on the outer side of an edge with this normal or within it.
@@ -292,39 +404,71 @@ fn facing_centre(to: Vec3, n: Vec3) -> Vec3 {
     to.unit() * to.dot(n).signum()
 }
 
+/// The place of an edge that is closest to the centre of a tip.
+struct FootInPlace<'a> {
+    nodes: &'a [usize],
+    xi: f64,
+    at: EdgePlace,
+    /// The centre, and the way to it from the place.
+    centre: Vec3,
+    to: Vec3,
+}
+
 /// A tip over its place of the edge.
 struct TipInPlace<'a> {
     tool: &'a ToolInPlace<'a>,
     landing: Landing,
-    centre: Vec3,
-    radius: f64,
-    xi: f64,
-    at: EdgePlace,
-    /// From the place to the centre, and the outward normal of the gap.
-    to: Vec3,
+    foot: FootInPlace<'a>,
+    /// The outward normal of the gap.
     n: Vec3,
     /// Undeformed area of the face by what it is at the place, with its slope along the edge.
-    area: f64,
-    slope: f64,
+    area: [f64; 2],
+    /// The places on the edges beside this, and the weights beside them with their slopes.
+    beside: [Option<(FootInPlace<'a>, [f64; 3])>; 2],
+}
+
+impl FootInPlace<'_> {
+    /// Derivatives along an unknown: of its reference coordinate, of the way to the centre at that fixed, and of the tangent.
+    fn rates(&self, tool: &ToolInPlace, column: &PointColumn) -> (f64, Vec3, Vec3) {
+        let (mut apart, mut dtangent) = (tool_motion(tool, column, self.centre).0, Vec3::zero());
+        let EdgePlace { shape, tangent, bend, .. } = self.at;
+        if let PointColumn::Node { axis, node, .. } = column
+            && let Some(k) = self.nodes.iter().position(|other| other == node)
+        {
+            apart -= Vec3::axis(*axis) * shape.n[k];
+            dtangent = Vec3::axis(*axis) * shape.dn[k][0];
+        }
+        let dxi = (apart.dot(tangent) + self.to.dot(dtangent)) / (tangent.dot(tangent) - self.to.dot(bend));
+        (dxi, apart, dtangent)
+    }
 }
 
 impl NodesInPlace<'_> {
     fn tip(&self, patch: &Patch, landing: Landing) -> Option<TipInPlace<'_>> {
         let (tool, contact) = (self.tool.as_ref()?, self.contact);
-        let face = &contact.parts.surface.faces[patch.face];
-        let placed = self.placed(face);
-        let edge = PlacedEdge { face, placed: &placed };
-        let Tip { centre, radius, .. } = contact.tips()[patch.target];
-        let centre = tool.place(centre);
-        let xi = match landing.corner.or(landing.border) {
-            Some(corner) => face.corner_place(corner)[0],
-            None => root_near(landing.xi, |xi| edge.offset(xi, centre)),
+        let faces = &contact.parts.surface.faces;
+        let foot = |face: usize, (near, fixed): (f64, Option<usize>), centre: Vec3| {
+            let (face, centre) = (&faces[face], tool.place(centre));
+            let placed = self.placed(face);
+            let edge = PlacedEdge { face, placed: &placed };
+            let closest = || root_near(near, |xi| edge.offset(xi, centre));
+            let xi = fixed.map_or_else(closest, |corner| face.corner_place(corner)[0]);
+            let at = edge.at(xi);
+            FootInPlace { nodes: &face.nodes, xi, centre, to: centre - at.x, at }
         };
-        let [area, slope] = contact.tip_area(face, &landing, xi);
-        let at = edge.at(xi);
-        let (to, own) = (centre - at.x, outward(at.tangent));
-        let n = if landing.corner.is_some() { facing_centre(to, own) } else { own };
-        Some(TipInPlace { tool, landing, centre, radius, xi, at, to, n, area, slope })
+        let own = foot(patch.face, (landing.xi, landing.corner.or(landing.border)), landing.centre);
+        let area = contact.tip_area(&faces[patch.face], &landing, own.xi);
+        let n = outward(own.at.tangent);
+        let n = if landing.corner.is_some() { facing_centre(own.to, n) } else { n };
+        let mut corner = 0..2;
+        let beside = landing.beside.map(|beside| {
+            let corner = corner.next()?;
+            let FootBeside { face, corner: other, xi, centre } = beside?;
+            let beside = foot(face, (xi, None), centre);
+            let part = part([(corner, own.xi), (other, beside.xi)]);
+            Some((beside, part))
+        });
+        Some(TipInPlace { tool, landing, foot: own, n, area, beside })
     }
 
     /// The point of a tip.
@@ -335,18 +479,18 @@ impl NodesInPlace<'_> {
         points: &mut Vec<PatchPoint>,
     ) -> Option<()> {
         let tip = self.tip(patch, landing)?;
-        let (xi, n) = ([tip.xi, 0.0], tip.n);
+        let (xi, n) = ([tip.foot.xi, 0.0], tip.n);
         let touched = recall(self, patch, xi);
         points.push(PatchPoint {
             number: 0,
             xi,
-            weight: tip.area * landing.share,
+            weight: tip.weight(),
             functions: ShapeFunctions { n: [1.0; MOST], dn: [[0.0; 2]; MOST] },
-            shape: tip.at.shape,
-            gap: tip.to.dot(n) - tip.radius,
+            shape: tip.foot.at.shape,
+            gap: tip.foot.to.dot(n) - landing.radius,
             n,
             v: touched.map_or(Vec3::zero(), |touched| touched.tip - touched.now),
-            y: tip.centre - n * tip.radius,
+            y: tip.foot.centre - n * landing.radius,
             sight: Sight::Tip,
             touched,
         });
@@ -362,35 +506,45 @@ impl NodesInPlace<'_> {
         rates: &mut Vec<PointRates>,
     ) {
         let (Some(tip), [point]) = (self.tip(patch, landing), points) else { return };
-        let TipInPlace { tool, landing, ref at, to, n, .. } = tip;
+        let TipInPlace { tool, landing, ref foot, n, .. } = tip;
+        let FootInPlace { ref at, centre, to, .. } = *foot;
         for column in columns {
-            let (dx, dtangent) = match column {
-                PointColumn::Node { axis, own: Some(k), .. } => {
-                    (Vec3::axis(*axis) * at.shape.n[*k], Vec3::axis(*axis) * at.shape.dn[*k][0])
-                }
-                _ => (Vec3::zero(), Vec3::zero()),
-            };
             let carried = |place: Vec3| tool_motion(tool, column, place).0;
-            let apart = carried(tip.centre) - dx;
+            let (dxi, apart, dtangent) = foot.rates(tool, column);
             let stays = landing.border.is_some();
             let (dxi, dn) = if landing.corner.is_some() {
                 (0.0, (n * to.norm()).turned(apart * to.dot(n).signum()))
             } else {
-                let stiff = at.tangent.dot(at.tangent) - to.dot(at.bend);
-                let dxi = if stays { 0.0 } else { (apart.dot(at.tangent) + to.dot(dtangent)) / stiff };
+                let dxi = if stays { 0.0 } else { dxi };
                 (dxi, at.tangent.turned(dtangent + at.bend * dxi).cross(Vec3::axis(2)))
             };
             let slid = |touched: &Touched| carried(touched.tip) - left_behind(self.contact, column, touched);
             rates.push(PointRates {
-                weight: tip.slope * dxi * landing.share,
+                weight: tip.weight_rate(dxi, column),
                 xi: [dxi, 0.0],
                 gap: n.dot(apart) + if stays { dn.dot(to) } else { 0.0 },
                 n: dn,
                 v: point.touched.as_ref().map_or(Vec3::zero(), slid),
                 s: [0.0; 2],
-                y: carried(tip.centre) - dn * tip.radius,
+                y: carried(centre) - dn * landing.radius,
             });
         }
+    }
+}
+
+impl TipInPlace<'_> {
+    fn weight(&self) -> f64 {
+        let parts = self.beside.iter().flatten().map(|(_, [part, ..])| part);
+        self.area[0] * self.landing.share * parts.product::<f64>()
+    }
+    /// Its derivative along an unknown.
+    fn weight_rate(&self, dxi: f64, column: &PointColumn) -> f64 {
+        let (mut product, mut rate) = (self.area[0], self.area[1] * dxi);
+        for (beside, [part, own, other]) in self.beside.iter().flatten() {
+            rate = rate * part + product * (own * dxi + other * beside.rates(self.tool, column).0);
+            product *= part;
+        }
+        rate * self.landing.share
     }
 }
 

@@ -129,12 +129,13 @@ fn circle([x, y]: [f64; 2], radius: f64) -> [String; 2] {
 }
 
 /// Three-point bending: a plate upon round supports under a round punch, all of which just touch it.
-fn bent(cell: &str, [nx, ny]: [usize; 2], (depth, increments): (f64, usize)) -> f64 {
+fn bent(cell: &str, [nx, ny]: [usize; 2], [support, punch]: [f64; 2], (depth, increments): (f64, usize)) -> f64 {
     let tool = |name: &str, [x, y]: [f64; 2], radius: f64| {
         let profile = circle([x, y], radius).join(", ");
         format!("tool.{name} = {{ profile = [{profile}], reference = [{x}, {y}] }}\n")
     };
-    let tools = tool("left", [-15.0, -1.5], 1.5) + &tool("right", [15.0, -1.5], 1.5) + &tool("punch", [0.0, 5.0], 3.0);
+    let [left, right] = [("left", -15.0), ("right", 15.0)].map(|(name, x)| tool(name, [x, -support], support));
+    let tools = left + &right + &tool("punch", [0.0, 2.0 + punch], punch);
     let deck = format!(
         r#"
 version = 1
@@ -157,16 +158,29 @@ spring."plate.bottom_left" = {{ x = 0.01 }}
 }
 
 /// The means of the gap over the faces around a node are up to 0.06 where the plate touches, so that nothing would hold it; the
-/// deflection would lack as much. Of small faces, on which tools have no tips, what lies close to them waits until it is held.
+/// deflection would lack as much.
 #[test]
 fn a_plate_is_bent_between_round_tools_that_just_touch_it() {
-    let right = bent("quad8", [160, 8], (1.0, 5));
+    let radii = [1.5, 3.0];
+    let right = bent("quad8", [160, 8], radii, (1.0, 5));
     for (cell, cells) in [("quad8", [40, 2]), ("quad8", [37, 2]), ("quad4", [40, 4]), ("quad4", [53, 4])] {
-        let force = bent(cell, cells, (1.0, 60));
+        let force = bent(cell, cells, radii, (1.0, 60));
         assert!((force / right - 1.0).abs() < 0.05, "{cell} {cells:?}: {force} for {right}");
     }
-    let [quickly, slowly] = [2, 80].map(|increments| bent("quad8", [80, 4], (0.05, increments)));
+    let [quickly, slowly] = [2, 80].map(|increments| bent("quad8", [80, 4], radii, (0.05, increments)));
     assert!((slowly / quickly - 1.0).abs() < 1e-3, "{slowly} and {quickly}");
+}
+
+/// However large its tools are beside its edges: an edge stands into a circle by a tenth to a half of this deflection.
+#[test]
+fn a_plate_is_bent_a_little_between_large_round_tools() {
+    for radius in [9.9, 10.1, 20.0, 60.0] {
+        let right = bent("quad8", [160, 8], [radius; 2], (0.1, 5));
+        for (cell, cells) in [("quad8", [16, 1]), ("quad4", [16, 2])] {
+            let force = bent(cell, cells, [radius; 2], (0.1, 10));
+            assert!((force / right - 1.0).abs() < 0.05, "{radius} {cell}: {force} for {right}");
+        }
+    }
 }
 
 /// Forces across and down on a roller that is pressed into a block by a fifth of an edge from `gap` above it in `increments`; on the half

@@ -81,7 +81,7 @@ pub fn check(attempt: &dyn Attempt, u: &[f64]) -> Result<Vec<TangentCheck>, Fail
     attempt.stencils(u, &mut stencils)?;
     let one = |(i, stencil): (usize, &Stencil)| {
         let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
-        check_tangent(attempt, i, stencil, &here, &vec![1.0; here.len()])
+        check_tangent(attempt, i, stencil, &here, &vec![0.05; here.len()])
     };
     stencils.list.iter().enumerate().map(one).collect()
 }

@@ -15,7 +15,8 @@
 //!
 //! Where the surface follows a rounding its nodes feel that, and the tip has the less of the area the more it does: by the distances
 //! `d` of the nodes around from `c`, with `q = |c - x|` and `s` how far they lie aside, from all of it where `sum w (d - q)` is
-//! `sum w (sqrt(s^2 + q^2) - q)`, as on a straight surface, to none at half of that. The part changes between increments, and once
+//! `sum w (sqrt(s^2 + q^2) - q)`, as on a straight surface, to none at half of that; the least of all places that it touches, so that it
+//! does not come and go as the closest of them changes. The part changes between increments, and once
 //! one has converged, never within its iterations: the forces keep a potential.
 
 use super::column::{PointColumn, tool_motion};
@@ -154,15 +155,16 @@ impl Configuration<'_> {
         let TargetInPlace::Tool(tool) = &self.target else { return Vec::new() };
         let mut feet = vec![None; FEET * self.contact.tips().len()];
         for (number, tip) in self.contact.tips().iter().enumerate() {
-            let places = self.places(tip, tool, reach);
-            let Some(closest) = places.first() else { continue };
+            let found = self.places(tip, tool, reach);
+            let places = self.touched(&found, tip.radius);
             let first = FEET * number;
             let last = |before: &[Option<TipFoot>]| {
                 let feet = before.get(first..first + FEET)?;
                 feet.iter().flatten().find_map(|found| found.patch.tip).map(|landing| landing.share)
             };
-            let share = before.map_or(1.0, |before| last(before).unwrap_or_else(|| self.share(closest, tip, tool)));
-            let mut left: Vec<&TipPlace> = places.iter().collect();
+            let share = || self.least_share(&found, tip, tool);
+            let share = before.map_or(1.0, |before| last(before).unwrap_or_else(share));
+            let mut left: Vec<&TipPlace> = places.iter().filter(|place| place.gap <= reach).collect();
             for near in 0..=3 {
                 left.retain(|&place| {
                     let is_near = |foot: &usize| match known(*foot) {
@@ -204,8 +206,7 @@ impl Configuration<'_> {
         Landing { xi, corner, border, share, own, centre, radius, beside }
     }
 
-    /// The places of the surface that a tip may touch, of those that it points at: the closest, and where a rounding lies in a valley
-    /// those on the other sides of that.
+    /// The places of the surface that a tip may touch, of those that it points at, closest first.
     fn places(&self, tip: &Tip, tool: &ToolInPlace, reach: f64) -> Vec<TipPlace> {
         let points = tool.rotate(tip.outward);
         let (mut found, mut valleys): (Vec<TipPlace>, Vec<(usize, Side)>) = (Vec::new(), Vec::new());
@@ -258,16 +259,21 @@ impl Configuration<'_> {
             }
         }
         found.sort_by(|a, b| a.q.abs().total_cmp(&b.q.abs()));
+        found
+    }
+
+    /// Of the places that a tip of this radius may touch, closest first, those that it does: the closest, and where a rounding lies in a
+    /// valley those on the other sides of that.
+    fn touched(&self, found: &[TipPlace], radius: f64) -> Vec<TipPlace> {
         let lies_within = |place: &TipPlace| place.corner.is_none() && place.border.is_none() && place.q > 0.0;
         let mut places: Vec<TipPlace> = Vec::new();
         for place in found {
             let beside = |other: &TipPlace| lies_within(other) && self.adjoin(other.face, place.face);
-            let touches = tip.radius > 0.0 && lies_within(&place) && places.iter().any(beside);
+            let touches = radius > 0.0 && lies_within(place) && places.iter().any(beside);
             if places.is_empty() || (touches && places.len() < FEET) {
-                places.push(place);
+                places.push(*place);
             }
         }
-        places.retain(|place| place.gap <= reach);
         places
     }
 
@@ -323,6 +329,16 @@ impl Configuration<'_> {
         outward(face.shape(face.middle()).tangents(rest.nodes(), true)[0])
     }
 
+    /// The least part that a tip has in the faces that it touches or nearly so: no farther than an arc stands off a chord of their length.
+    fn least_share(&self, found: &[TipPlace], tip: &Tip, tool: &ToolInPlace) -> f64 {
+        let (surface, mesh) = (&self.contact.parts.surface, &self.contact.parts.mesh);
+        let near = |(i, place): &(usize, &TipPlace)| {
+            *i == 0 || 8.0 * tip.radius * place.gap < surface.size(place.face, mesh).powi(2)
+        };
+        let shares = found.iter().enumerate().filter(near).map(|(_, place)| self.share(place, tip, tool));
+        shares.fold(1.0, f64::min)
+    }
+
     /// The part that a tip has in a face by how flat its flanks lie on it, or on it and its neighbour at a corner taken together; at
     /// the end of the surface on the normal it had, which a plane of symmetry keeps.
     fn share(&self, place: &TipPlace, tip: &Tip, tool: &ToolInPlace) -> f64 {
@@ -345,13 +361,19 @@ impl Configuration<'_> {
 }
 
 impl FieldContact {
-    /// The undeformed area of a face under a tip by what it is at a place, with its slope along the edge.
-    fn tip_area(&self, face: &FieldFace, landing: &Landing, xi: f64) -> [f64; 2] {
-        // Where the surface ends it has half of the face, whose area at an axis is not that of its end.
-        let (over, length) = if landing.border.is_some() { (0.0, 1.0) } else { (xi, 2.0) };
+    /// The undeformed area of a face under a tip by what it is at a place, with its slope along the edge. Where the surface ends, it has
+    /// half of the face, by the middle of that: at an axis the area is not that of the end.
+    fn tip_area(&self, f: usize, xi: f64) -> [f64; 2] {
+        let (surface, face) = (&self.parts.surface, &self.parts.surface.faces[f]);
         let rest = face.at_rest(&self.parts.mesh);
-        let (density, [slope, _]) = self.parts.surface.density(face, &rest, [over, 0.0]);
-        [length * density, length * slope]
+        let (density, [slope, _]) = surface.density(face, &rest, [xi, 0.0]);
+        if surface.nodes[surface.field[f][usize::from(xi > 0.0)]].support.len() > 1 {
+            return [2.0 * density, 2.0 * slope];
+        }
+        let half = surface.density(face, &rest, face.middle()).0;
+        let [within, rise] = smoothstep(1.0 - xi.abs());
+        let area = half + within * (2.0 * density - half);
+        [area, 2.0 * within * slope - xi.signum() * rise * (2.0 * density - half)]
     }
 
     /// The faces on which the feet of the tips lay in an accepted state.
@@ -367,7 +389,7 @@ impl FieldContact {
             let had = |(foot, found): (usize, &Option<TipFoot>)| {
                 let Patch { face, tip, .. } = found.as_ref()?.patch;
                 let (landing, values) = (tip?, history.slot(self.nodal_slots() + FEET * number + foot));
-                let whole = self.tip_area(&self.parts.surface.faces[face], &landing, landing.xi)[0] * landing.part();
+                let whole = self.tip_area(face, landing.xi)[0] * landing.part();
                 (values[entry::STATUS] > 0.0 && whole > 0.0).then(|| values[entry::XI] / whole)
             };
             let share = feet.iter().enumerate().filter_map(had).fold(f64::INFINITY, f64::min);
@@ -457,7 +479,7 @@ impl NodesInPlace<'_> {
             FootInPlace { nodes: &face.nodes, xi, centre, to: centre - at.x, at }
         };
         let own = foot(patch.face, (landing.xi, landing.corner.or(landing.border)), landing.centre);
-        let area = contact.tip_area(&faces[patch.face], &landing, own.xi);
+        let area = contact.tip_area(patch.face, own.xi);
         let n = outward(own.at.tangent);
         let n = if landing.corner.is_some() { facing_centre(own.to, n) } else { n };
         let mut corner = 0..2;

@@ -28,8 +28,8 @@ pub struct Patch {
     pub tip: Option<Landing>,
 }
 
-/// Most places of the surface that one tip touches: in a valley both sides, and what lies between them.
-pub const FEET: usize = 3;
+/// Most places of the surface that one tip touches: in a valley both sides, what lies between them, and what follows.
+pub const FEET: usize = 5;
 
 /// Where a tip touches the face beside one that it lies over.
 #[derive(Debug, Clone, Copy, PartialEq)]

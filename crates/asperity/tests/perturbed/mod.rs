@@ -75,7 +75,8 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
-/// Checks all stencils of an attempt at `u`; lengths and angles are of the order of one here.
+/// Checks all stencils of an attempt at `u`; lengths and angles are of the order of one here, and steps small beside the way over which
+/// a large arc passes from one edge to the next.
 pub fn check(attempt: &dyn Attempt, u: &[f64]) -> Result<Vec<TangentCheck>, Failure> {
     let mut stencils = Stencils::default();
     attempt.stencils(u, &mut stencils)?;

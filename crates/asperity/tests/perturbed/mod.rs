@@ -41,7 +41,7 @@ pub fn commit(term: &dyn Term, from: &State, u: Vec<f64>) -> Result<State, Failu
 /// Options of a contact whose moduli and lengths are of the order of one.
 pub fn options(loads: LoadedSides) -> ContactOptions {
     ContactOptions {
-        raised_from: None,
+        raised: None,
         penalty: 1.0,
         tangential_penalty: 0.7,
         elastic_slip: None,

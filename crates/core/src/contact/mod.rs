@@ -18,7 +18,7 @@ mod sides;
 mod thin;
 
 pub use augment::Augmentation;
-pub use options::{ContactOptions, LoadedSides, Move, second_name};
+pub use options::{ContactOptions, LoadedSides, Move, RaisedPenalty, second_name};
 pub use overlap::Overlap;
 pub use paper::{GaussPoint, PaperContact, Sample};
 pub use penalty::{Backing, DefaultPenalty, TWO_PASSES, default_penalty};

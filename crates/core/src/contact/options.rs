@@ -4,14 +4,23 @@ use super::augment::Augmentation;
 use super::overlap::Overlap;
 use crate::tensor::Vec3;
 
+/// How a penalty is raised that no user gave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RaisedPenalty {
+    /// Mean penetration from which on it is, without augmentation,
+    pub from: f64,
+    /// and up to which stress per length.
+    pub most: f64,
+}
+
 /// How a contact is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactOptions {
     /// Normal penalty, a stress per length; the least where it is raised.
     pub penalty: f64,
-    /// Mean penetration from which on the normal penalty of a field without augmentation is raised where penetration takes up energy
-    /// that is the bodies', with it from any where it is slow; none where it stays as it is.
-    pub raised_from: Option<f64>,
+    /// How the normal penalty of a field is raised where penetration takes up energy that is the bodies', or where augmentation is slow;
+    /// none where it stays as it is.
+    pub raised: Option<RaisedPenalty>,
     /// Tangential penalty, a stress per length; the largest where it follows from an elastic slip.
     pub tangential_penalty: f64,
     /// Elastic slip under the friction that the pressure of the accepted state allows, over the length of an edge or face;

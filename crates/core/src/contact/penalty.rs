@@ -3,6 +3,7 @@
 //! size of the cell (its volume over the area of the face); that of a thin body by bending, which is softer, and softer still where the
 //! law flows.
 
+use super::options::RaisedPenalty;
 use super::thin::{Plate, area, curvature, stiffness};
 use crate::mesh::{Mesh, Side, Space};
 
@@ -16,8 +17,10 @@ pub const TWO_PASSES: f64 = 0.2;
 /// What stands behind a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Backing {
-    /// Stiffness of the material against pressure.
+    /// Stiffness of the material against pressure,
     pub modulus: f64,
+    /// and where it is confined.
+    pub confined: f64,
     /// What flow leaves of it where a plate is bent: a secant modulus over it.
     pub secant: f64,
     /// The body where it is thin.
@@ -36,9 +39,12 @@ const SLIGHT: f64 = 1e-4;
 pub struct DefaultPenalty {
     /// A stress per length.
     pub value: f64,
-    /// Mean penetration from which on it may be raised.
-    pub raised_from: f64,
+    /// How it may be raised.
+    pub raised: RaisedPenalty,
 }
+
+/// Largest penalty over the stiffness of the cells in compression: no more than rounding allows beside that.
+const HIGHEST: f64 = 256.0;
 
 /// Default penalty between the `surfaces`, with what stands behind the faces of a cell.
 pub fn default_penalty(
@@ -47,16 +53,17 @@ pub fn default_penalty(
     behind: impl Fn(usize) -> Backing,
 ) -> DefaultPenalty {
     let least = |a: DefaultPenalty, b: DefaultPenalty| if b.value < a.value { b } else { a };
-    let stiffest = DefaultPenalty { value: f64::INFINITY, raised_from: 0.0 };
+    let stiffest = DefaultPenalty { value: f64::INFINITY, raised: RaisedPenalty { from: 0.0, most: f64::INFINITY } };
     let of = |sides: &&[Side]| {
         let (curvature, area) = (curvature(mesh, sides, space), area(mesh, sides));
         let followed = |side: &Side| {
-            let Backing { modulus, secant, plate } = behind(side.cell);
+            let Backing { modulus, confined, secant, plate } = behind(side.cell);
             let squeezed = 1.0 / mesh.depth(*side);
             let plate = plate.filter(|plate| area > FACE * plate.area);
             let bent = plate.map(|plate| (secant * stiffness(plate.thickness, curvature), SLIGHT * plate.thickness));
-            let (followed, raised_from) = bent.filter(|bent| bent.0 < squeezed).unwrap_or((squeezed, 0.0));
-            DefaultPenalty { value: RATIO * modulus * followed, raised_from }
+            let (followed, from) = bent.filter(|bent| bent.0 < squeezed).unwrap_or((squeezed, 0.0));
+            let most = HIGHEST * RATIO * confined.max(modulus) * followed;
+            DefaultPenalty { value: RATIO * modulus * followed, raised: RaisedPenalty { from, most } }
         };
         sides.iter().map(followed).fold(stiffest, least)
     };

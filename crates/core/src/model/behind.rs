@@ -40,13 +40,13 @@ pub fn backings<'b>(
     bodies: impl IntoIterator<Item = &'b Body>,
 ) -> Vec<Backing> {
     let (mut backings, wholes) =
-        (vec![Backing { modulus: 0.0, secant: 1.0, plate: None }; mesh.cell_count()], mesh.wholes());
+        (vec![Backing { modulus: 0.0, confined: 0.0, secant: 1.0, plate: None }; mesh.cell_count()], mesh.wholes());
     let held = held(mesh, &wholes, holds);
     for body in bodies {
         let [confined, shear] = body.material().moduli();
         let modulus = if shear > 0.0 { confined.min(SURFACE * shear) } else { confined };
         let secant = secant(&**body.material(), shear).max(LEAST);
-        body.cells().iter().for_each(|&cell| backings[cell] = Backing { modulus, secant, plate: None });
+        body.cells().iter().for_each(|&cell| backings[cell] = Backing { modulus, confined, secant, plate: None });
         let bends = |cell: usize, plate: &Plate| held.get(&wholes[cell]).is_none_or(|held| *held <= RESTS * plate.area);
         plates(mesh, body.cells())
             .for_each(|(cell, plate)| backings[cell].plate = plate.filter(|plate| bends(cell, plate)));

@@ -377,7 +377,7 @@ impl Names<'_> {
         let slides = contact.law.first().sliding_stress(1.0).is_some();
         let options = ContactOptions {
             penalty,
-            raised_from: computed.map(|computed| computed.raised_from),
+            raised: computed.map(|computed| computed.raised),
             tangential_penalty: penalty,
             elastic_slip: (slides && contact.augmentation.is_none()).then_some(contact.elastic_slip),
             thickness: *thickness,

@@ -161,7 +161,7 @@ impl Builder<'_> {
         let penalty = given.or(computed.map(|computed| computed.value)).unwrap_or(f64::INFINITY);
         ContactOptions {
             penalty,
-            raised_from: computed.map(|computed| computed.raised_from),
+            raised: computed.map(|computed| computed.raised),
             tangential_penalty: keys.tangential_penalty.unwrap_or(penalty),
             elastic_slip: self.elastic_slip(keys),
             thickness: self.site.thickness,

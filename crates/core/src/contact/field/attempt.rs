@@ -530,22 +530,22 @@ impl Attempt for FieldAttempt<'_> {
     }
 }
 
-/// Change of the part that a tip has in the area of a face above which a converged increment goes on with the new one.
-const CHANGED: f64 = 0.25;
+/// Part of what a tip had in the area of a face below which a converged increment goes on with what it has now.
+const CHANGED: f64 = 0.75;
 
 impl FieldAttempt<'_> {
     /// Leaves tips the part that their surroundings leave them in a converged state, where that has become smaller, and says whether it
     /// did.
     fn yield_tips(&mut self, u: &[f64]) -> bool {
         let share = |feet: &[Option<TipFoot>]| Some(feet.iter().flatten().next()?.patch.tip?.share);
-        if self.tips_before.chunks(FEET).filter_map(share).all(|before| before <= CHANGED) {
+        if self.tips_before.chunks(FEET).filter_map(share).all(|before| before == 0.0) {
             return false;
         }
         let mut changed = false;
         let found = Configuration::new(self.contact, u).tips(self.contact.longest, Some(&[]), |_| None);
         for (before, now) in self.tips_before.chunks_mut(FEET).zip(found.chunks(FEET)) {
             if let (Some(had), Some(share)) = (share(before), share(now))
-                && had - share > CHANGED
+                && share < CHANGED * had
             {
                 let landings = before.iter_mut().flatten().filter_map(|found| found.patch.tip.as_mut());
                 landings.for_each(|landing| (landing.share, changed) = (share, true));

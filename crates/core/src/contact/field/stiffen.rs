@@ -6,6 +6,7 @@
 
 use super::attempt::FieldAttempt;
 use super::contact::FieldContact;
+use crate::contact::RaisedPenalty;
 use crate::contact::record::entry;
 use crate::system::History;
 
@@ -18,10 +19,8 @@ const STEADY: f64 = 0.95;
 const LEFT: [f64; 2] = [0.25, 0.1];
 /// Share that it is raised for, and below which the least would leave it again.
 const AIM: f64 = 0.003;
-/// It is raised by powers of this, so that it seldom changes,
+/// It is raised by powers of this, so that it seldom changes.
 const STEP: f64 = 4.0;
-/// and by no more in all than rounding allows beside the stiffness of the cells.
-const HIGHEST: f64 = 256.0;
 
 impl FieldContact {
     /// The normal penalty that an accepted history was found with.
@@ -52,10 +51,11 @@ impl FieldAttempt<'_> {
     pub(super) fn hasten(&mut self, left: f64) -> f64 {
         let part = left / std::mem::replace(&mut self.before_augmented, left);
         let options = &self.contact.parts.options;
-        let most = HIGHEST * options.penalty;
-        if options.raised_from.is_none() || part <= LEFT[0] || self.normal >= most {
+        let Some(RaisedPenalty { most, .. }) =
+            options.raised.filter(|raised| part > LEFT[0] && self.normal < raised.most)
+        else {
             return 1.0;
-        }
+        };
         // Where states of contact changed as well, more may be left than there was.
         let ratio = if part < 1.0 { (1.0 / LEFT[1] - 1.0) / (1.0 / part - 1.0) } else { STEP };
         let old = self.normal;
@@ -70,14 +70,16 @@ impl FieldAttempt<'_> {
         // Where a tip parts the surface the pressure changes from cell to cell, and few nodes follow a stiffer penalty.
         let bears = |slot: usize| new.slot(slot)[entry::STATUS] > 0.0;
         let parted = (self.contact.nodal_slots()..self.contact.slots()).any(bears);
-        let from = options.raised_from.filter(|_| !self.law.is_compliant() && !parted);
-        let Some(from) = from.filter(|_| taken.iter().all(|taken| *taken > 0.0)) else { return false };
+        let raised = options.raised.filter(|_| !self.law.is_compliant() && !parted);
+        let Some(RaisedPenalty { from, most }) = raised.filter(|_| taken.iter().all(|taken| *taken > 0.0)) else {
+            return false;
+        };
         let [[_, before], [mean, now]] =
             [self.history, new].map(|history| self.contact.penetrated(history, self.normal));
         let [before, share] = [before / taken[0], now / taken[1]];
         let least = options.penalty;
         let wanted = if mean >= from && share > MOST && share > STEADY * before {
-            (self.normal * STEP.powf((share / AIM).log(STEP).ceil())).min(HIGHEST * least)
+            (self.normal * STEP.powf((share / AIM).log(STEP).ceil())).min(most)
         } else if share * self.normal < AIM * least {
             least
         } else {

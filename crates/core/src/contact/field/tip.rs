@@ -13,10 +13,9 @@
 //! that one which comes in or leaves over the node does so with nothing. A side that lies along a flank, or turns further away,
 //! touches the end of the arc there.
 //!
-//! Where the surface follows a rounding its nodes feel that, and the tip has the less of the area the more it does: by the distances
-//! `d` of the nodes around from `c`, with `q = |c - x|` and `s` how far they lie aside, from all of it where `sum w (d - q)` is
-//! `sum w (sqrt(s^2 + q^2) - q)`, as on a straight surface, to none at half of that; the least of all places that it touches, so that it
-//! does not come and go as the closest of them changes. The part changes between increments, and once
+//! Where the surface follows a rounding its nodes feel that, and the tip has the less of the area the more it does: all where the surface
+//! is straight, none from a curvature `k / R` on at which the mean gap errs less; the least of all places that it touches, so that it does
+//! not come and go as the closest of them changes. The part changes between increments, and once
 //! one has converged, never within its iterations: the forces keep a potential.
 
 use super::column::{PointColumn, tool_motion};
@@ -46,6 +45,9 @@ pub struct TipFoot {
 /// Angles between the surface and the nearer flank of a tip between which that comes to lie flat on it, as the corner of a punch does:
 /// the flank's own nodes then feel all that there is, and the tip nothing. Of a rounding larger than the face, over that.
 const FLAT: [f64; 2] = [0.45, 0.72];
+/// Curvature of the surface over that of a rounding from which on the mean gap of its nodes is nearer to that of the curved surface than the
+/// gap of the closest place of its edges is: `(1 - k) h^2 / 12 R` beside `k^2 h^2 / 8 R`.
+const CONFORMING: f64 = 0.55;
 /// How far beside the end of the surface, over half of its face there, a tip may lie that lies over that end,
 const BESIDE: f64 = 0.5;
 /// and how far from it along the face, likewise.
@@ -301,27 +303,33 @@ impl Configuration<'_> {
         one.iter().any(|node| other.contains(node))
     }
 
-    /// How far the surface around a place stands off a rounding about `centre`, over how far it would if it were straight; one for an
-    /// edge.
-    fn straightness(&self, &TipPlace { face: f, xi, q, n, .. }: &TipPlace, centre: Vec3, radius: f64) -> f64 {
+    /// Curvature of the surface around a place, from the turns between the middles of its face and of those beside it, times the radius of a
+    /// rounding about `centre`. Where the surface ends beneath that, as on a plane of symmetry, its mirror image is beside it.
+    fn conformity(&self, &TipPlace { face: f, xi, q, .. }: &TipPlace, centre: Vec3, radius: f64) -> f64 {
         let surface = &self.contact.parts.surface;
         if radius == 0.0 || q <= 0.0 {
-            return 1.0;
+            return 0.0;
         }
-        let (mut stands, mut straight) = (0.0, 0.0);
-        let mut add = |weight: f64, (f, corner): (usize, usize)| {
+        let tangent = |f: usize| {
             let face = &surface.faces[f];
-            let z = face.shape(face.corner_place(corner)).value(self.placed[f].nodes()) - centre;
-            stands += weight * (z.norm() - q);
-            straight += weight * (z.dot(n.left()).hypot(q) - q);
+            face.shape(face.middle()).tangents(self.placed[f].nodes(), true)[0]
         };
-        for (corner, half) in [(0, -0.5), (1, 0.5)] {
-            add(1.0, (f, corner));
-            for &(beside, c) in surface.nodes[surface.field[f][corner]].support.iter().filter(|(g, _)| *g != f) {
-                add(0.5 + half * xi, (beside, 1 - c));
-            }
+        let (face, own) = (&surface.faces[f], tangent(f));
+        let mirrored = |corner: usize| {
+            let to = centre - face.shape(face.corner_place(corner)).value(self.placed[f].nodes());
+            let beneath = to.dot(self.undeformed_normal(face).left()).abs() <= own.norm();
+            beneath.then(|| own - to * (2.0 * own.dot(to) / to.dot(to)))
+        };
+        let (mut curvature, mut weights) = (0.0, f64::MIN_POSITIVE);
+        for (corner, weight) in [(0, 0.5 - 0.5 * xi), (1, 0.5 + 0.5 * xi)] {
+            let support = &surface.nodes[surface.field[f][corner]].support;
+            let beside = support.iter().find(|(g, _)| *g != f).map(|&(g, _)| tangent(g));
+            let Some(beside) = beside.or_else(|| mirrored(corner)) else { continue };
+            let [first, second] = if corner == 0 { [beside, own] } else { [own, beside] };
+            curvature += weight * second.cross(first)[2].atan2(first.dot(second)) / (own.norm() + beside.norm());
+            weights += weight;
         }
-        stands / straight
+        radius * curvature / weights
     }
 
     fn undeformed_normal(&self, face: &FieldFace) -> Vec3 {
@@ -356,7 +364,7 @@ impl Configuration<'_> {
         let size = 2.0 * area(f).norm();
         let angle = cosine.clamp(-1.0, 1.0).acos() * radius.max(size) / size;
         let [apart, _] = smoothstep((angle - FLAT[0]) / (FLAT[1] - FLAT[0]));
-        apart * smoothstep(2.0 * self.straightness(place, tool.place(tip.centre), radius) - 1.0)[0]
+        apart * smoothstep(1.0 - self.conformity(place, tool.place(tip.centre), radius) / CONFORMING)[0]
     }
 }
 

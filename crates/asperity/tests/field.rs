@@ -171,10 +171,10 @@ fn a_plate_is_bent_between_round_tools_that_just_touch_it() {
     assert!((slowly / quickly - 1.0).abs() < 1e-3, "{slowly} and {quickly}");
 }
 
-/// However large its tools are beside its edges: an edge stands into a circle by a tenth to a half of this deflection.
+/// Also where its tools are large beside its edges: an edge stands into a circle by a quarter to a half of this deflection.
 #[test]
 fn a_plate_is_bent_a_little_between_large_round_tools() {
-    for radius in [9.9, 10.1, 20.0, 60.0] {
+    for radius in [9.9, 10.1, 20.0, 40.0] {
         let right = bent("quad8", [160, 8], [radius; 2], (0.1, 5));
         for (cell, cells) in [("quad8", [16, 1]), ("quad4", [16, 2])] {
             let force = bent(cell, cells, [radius; 2], (0.1, 10));

@@ -158,8 +158,8 @@ impl FieldContact {
 /// Largest radius of a rounding over the length of the shortest face at which the tool's piece is parted there as at an edge.
 const SMALL: f64 = 1.0;
 /// Largest radius of a rounding that has a tip over the mean length of the faces: of a larger one the gap of the nodes is right to a
-/// ten-thousandth of that.
-const LARGE: f64 = 1e3;
+/// two-hundred-and-fortieth of that, and where increments press it in by much more than that a tip only comes to go again.
+const LARGE: f64 = 20.0;
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
 pub static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(4));

@@ -50,9 +50,14 @@ impl Undrained {
         Ok(Box::new(Self::of(Arc::from(soil), self.bulk, small)?))
     }
 
+    /// Where the pressure of the water is in a state; what the cell keeps of its own may follow.
+    fn place(&self) -> usize {
+        self.soil.state_len()
+    }
+
     /// What a function makes of the state of the skeleton.
-    fn effective<R>(state: &[f64], of: impl FnOnce(&[f64]) -> R) -> R {
-        let (pressure, total) = state.split_last().unwrap_or((&0.0, &[]));
+    fn effective<R>(&self, state: &[f64], of: impl FnOnce(&[f64]) -> R) -> R {
+        let (total, pressure) = (&state[..self.place()], state[self.place()]);
         let mut skeleton = [0.0; MOST];
         let skeleton = &mut skeleton[..total.len()];
         skeleton.copy_from_slice(total);
@@ -67,7 +72,7 @@ impl Undrained {
 
     /// The state with the water in it.
     fn fill(&self, f: &Tensor2, old: &[f64], new: &mut [f64]) {
-        let last = old.len() - 1;
+        let last = self.place();
         new[last] = old[last] - self.bulk * self.dilation(f);
         let pressure = new[last];
         new[..3].iter_mut().for_each(|normal| *normal -= pressure);
@@ -80,19 +85,19 @@ impl Material for Undrained {
     }
 
     fn initialise(&self, state: &mut [f64]) {
-        let last = state.len() - 1;
+        let last = self.place();
         self.soil.initialise(&mut state[..last]);
         state[last] = 0.0;
     }
 
     fn initialise_at(&self, state: &mut [f64], at: &Placement) {
-        let last = state.len() - 1;
+        let last = self.place();
         self.soil.initialise_at(&mut state[..last], at);
         state[last] = 0.0;
     }
 
     fn bears(&self, state: &[f64]) -> Result<(), String> {
-        Self::effective(state, |skeleton| self.soil.bears(skeleton))
+        self.effective(state, |skeleton| self.soil.bears(skeleton))
     }
 
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
@@ -125,8 +130,8 @@ impl Material for Undrained {
     }
 
     fn update(&self, f: &Tensor2, lapse: Lapse, old: &[f64], new: &mut [f64]) -> Result<(), Failure> {
-        let last = old.len() - 1;
-        Self::effective(old, |old| self.soil.update(f, lapse, old, &mut new[..last]))?;
+        let last = self.place();
+        self.effective(old, |old| self.soil.update(f, lapse, old, &mut new[..last]))?;
         self.fill(f, old, new);
         Ok(())
     }
@@ -140,9 +145,9 @@ impl Material for Undrained {
         (new, gradient): (&mut [f64], &mut Gradient),
         directions: Directions,
     ) -> Result<(), Failure> {
-        let last = old.len() - 1;
+        let last = self.place();
         let out = (&mut new[..last], &mut *gradient);
-        Self::effective(old, |old| self.soil.differentiate(f, lapse, old, out, directions))?;
+        self.effective(old, |old| self.soil.differentiate(f, lapse, old, out, directions))?;
         self.fill(f, old, new);
         let along = if self.small { Tensor2::identity() } else { f.inverse().transpose() };
         for (d, &place) in directions.components().iter().enumerate() {
@@ -152,11 +157,11 @@ impl Material for Undrained {
     }
 
     fn stored_energy(&self, state: &[f64]) -> f64 {
-        let pressure = state.last().copied().unwrap_or(0.0);
-        Self::effective(state, |skeleton| self.soil.stored_energy(skeleton)) + 0.5 * pressure * pressure / self.bulk
+        let pressure = state[self.place()];
+        self.effective(state, |skeleton| self.soil.stored_energy(skeleton)) + 0.5 * pressure * pressure / self.bulk
     }
 
     fn dissipation(&self, old: &[f64], new: &[f64]) -> f64 {
-        Self::effective(old, |old| Self::effective(new, |new| self.soil.dissipation(old, new)))
+        self.effective(old, |old| self.effective(new, |new| self.soil.dissipation(old, new)))
     }
 }

@@ -6,6 +6,13 @@ pub mod convergence {
     pub const MEMORY: f64 = 1e-3;
     /// Forces below this multiple of what rounding leaves of their equation are no forces.
     pub const NOTHING: f64 = 100.0;
+    /// Part of the tolerance below which unbalanced forces need no iteration: a small load moves what is soft or slender, whatever the others.
+    pub const NEGLIGIBLE: f64 = 1e-4;
+    /// What the next iteration would change over what the increment has changed so far, at most.
+    pub const CORRECTION: f64 = 1e-3;
+    /// Displacement that an unbalanced force makes against the stiffness of its equation alone, over the largest of the increment, at most: in
+    /// a part that is soft beside others.
+    pub const LOCAL: f64 = 1e-7;
     /// By what factor an iteration makes unbalanced forces smaller that are not yet rounding.
     pub const FALLING: f64 = 10.0;
 }

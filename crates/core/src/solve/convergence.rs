@@ -33,6 +33,8 @@ pub struct Norms {
     pub rounding: f64,
     /// Where the largest ratio is.
     pub worst: Worst,
+    /// Largest displacement that the unbalanced force of an equation makes against its own stiffness alone.
+    pub local: f64,
     /// The yardsticks of force and moment.
     pub reference: [f64; 2],
     /// Force and moment in play, without what the tolerance adds to the yardsticks; zero where there is no more than what
@@ -66,8 +68,9 @@ impl Norms {
             let kind = usize::from(dofs.is_rotation(dof));
             largest[kind] = largest[kind].max(magnitude);
         }
+        let coefficient = |row: usize| yardstick.coefficients.get(row).copied().unwrap_or(0.0);
         let rounding = |row: usize| {
-            let coefficient = yardstick.coefficients.get(row).copied().unwrap_or(0.0);
+            let coefficient = coefficient(row);
             16.0 * f64::EPSILON * coefficient * yardstick.size
         };
         let scale = [0, 1].map(|k| largest[k].max(MEMORY * yardstick.past[k]));
@@ -78,6 +81,9 @@ impl Norms {
             norms.reference[kind] = norms.reference[kind].max(scale);
             if evaluation.magnitude[dof] > NOTHING * rounding {
                 norms.in_play[kind] = largest[kind];
+            }
+            if kind == 0 && force.abs() > rounding && coefficient(row) > 0.0 {
+                norms.local = norms.local.max(force.abs() / coefficient(row));
             }
             let ratio = if force == 0.0 { 0.0 } else { force.abs() / scale };
             if ratio > norms.ratio || ratio.is_nan() {

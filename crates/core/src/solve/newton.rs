@@ -1,6 +1,7 @@
 //! One attempt at an increment: Newton's iterations from the first guess of the predictor. All iterations of a run go through
 //! [`Newton::iterate`], those of a path of arc length and those of a relaxation too.
 
+use super::constants::convergence::{CORRECTION, LOCAL, NEGLIGIBLE};
 use super::constants::iterations::{NAMED, PATIENCE, STALLED, STALLS};
 use super::convergence::{Norms, ResidualScale};
 use super::cycle::{Cycle, CycleDetector};
@@ -216,9 +217,10 @@ pub(super) struct Sequence {
     count: usize,
     begun: usize,
     augmentation: usize,
-    /// What the last iteration changed, which part of its step it took, whether its matrix was factorised and contact found no states
+    /// What the last iteration changed over what all did, that, which part of its step it took, whether its matrix was factorised and contact found no states
     /// over it, and the unbalanced forces that it began with and, at the first, all began with.
     correction: f64,
+    change: f64,
     taken: f64,
     factorised: bool,
     lost: bool,
@@ -233,6 +235,16 @@ impl Sequence {
     fn improved(&mut self) {
         (self.augmentation, self.begun) = (self.augmentation + 1, self.count);
         (self.correction, self.taken, self.factorised, self.ratio) = (0.0, 0.0, false, 0.0);
+    }
+    /// Whether what is left of the unbalanced forces would move little beside what the increment has moved: as much as the last iteration did,
+    /// as often as these became less in it. Forces that are small beside those elsewhere bend what is soft or slender.
+    fn has_settled(&self, norms: &Norms) -> bool {
+        if self.count <= 1 {
+            return norms.ratio <= NEGLIGIBLE * norms.allowed && norms.rounding <= norms.allowed;
+        }
+        let left = if self.ratio > 0.0 { norms.ratio / self.ratio } else { 0.0 };
+        let settled = left.min(1.0) * self.correction <= CORRECTION && norms.local <= LOCAL * self.change;
+        settled || norms.ratio <= norms.rounding
     }
     /// Iterations so far.
     pub fn solutions(&self) -> usize {
@@ -408,6 +420,7 @@ impl<'a> Newton<'a> {
                 self.system.invalidate_factor();
             }
             let change = largest(u.iter().zip(&self.state.u).map(|(a, b)| a - b));
+            sequence.change = change;
             sequence.correction = largest(u.iter().zip(&from).map(|(a, b)| a - b)) / change.max(f64::MIN_POSITIVE);
             let rest = 1.0 - sequence.taken;
             *missing = missing.take().filter(|_| rest > 0.0).map(|m| m.iter().map(|m| m * rest).collect());
@@ -418,7 +431,9 @@ impl<'a> Newton<'a> {
     fn reaches(&mut self, goal: Goal, norms: &Norms, sequence: &Sequence, u: &[f64]) -> Result<bool, Failure> {
         let iterated = sequence.count > 1;
         match goal {
-            Goal::Equilibrium => Ok(norms.converged_from(sequence.ratio) && self.arrives(u)?),
+            Goal::Equilibrium => {
+                Ok(norms.converged_from(sequence.ratio) && sequence.has_settled(norms) && self.arrives(u)?)
+            }
             Goal::Less { part, of_tolerance, .. } => {
                 Ok(iterated && norms.ratio <= (of_tolerance * norms.allowed).max(part * sequence.first))
             }

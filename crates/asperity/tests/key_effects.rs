@@ -201,7 +201,7 @@ fn keys_of_solver_and_output_change_the_run() {
     let changes = [
         "solver.newton=modified",
         "solver.tangent=perturbation",
-        "solver.tolerance=1e-3",
+        "solver.tolerance=1e-10",
         "solver.iterations=2",
         "solver.piecewise=false",
         "output.every=3",

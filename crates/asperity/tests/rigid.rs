@@ -45,6 +45,33 @@ load.hub = {{ x = 0.0, y = 0.0, torque = {torque} }}
     }
 }
 
+/// In small strain a hub turns as far as its torque, and as much beside it as in finite strain by little: on an arc its nodes would strain
+/// the bar.
+#[test]
+fn a_hub_of_a_bar_in_small_strain_turns_as_its_torque() {
+    let deck = r#"
+version = 1
+space = "solid"
+mesh.part.b.box = { from = [0.0, 0.0, 0.0], to = [10.0, 10.0, 100.0], cells = [2, 2, 8], cell = "hex20" }
+material.m.elastic = { young = 210e3, poisson = 0.3 }
+body.b = { material = "m", strain = "small" }
+rigid.h = { group = "b.front", reference = [5.0, 5.0, 100.0] }
+[[step]]
+increments.count = 1
+displacement."b.back" = { x = 0.0, y = 0.0, z = 0.0 }
+load.h = { torque_z = 1e5, z = 0.0 }
+"#;
+    let turned = |sets: &[&str]| {
+        let model = model(deck, sets);
+        run(&model).states.last().unwrap().u[model.problem.dofs.tool(0) + 5]
+    };
+    let [small, large] = ["1e3", "1e5"].map(|torque| turned(&[&format!("step.1.load.h.torque_z={torque}")]));
+    assert!((large / (100.0 * small) - 1.0).abs() < 1e-6, "{large} for a hundred times {small}");
+    // T L / (0.1406 G a^4).
+    let right = 1e5 * 100.0 / (0.1406 * 210e3 / 2.6 * 1e4);
+    assert!((large / right - 1.0).abs() < 0.02, "{large} for {right}");
+}
+
 /// The same end turned about each axis of space in turn does the same work: a bar of one cell, quarter by quarter.
 #[test]
 fn a_plate_in_space_is_turned_by_200_degrees() {

@@ -8,11 +8,12 @@ use crate::contact::PaperContact;
 use crate::contact::field::{FieldContact, TiedSurfaces};
 use crate::load::{Bearing, PenetratingPressure};
 use crate::mesh::{Mesh, Space};
-use crate::solid::Body;
+use crate::solid::{Body, Strain};
 use crate::solve::{NewtonOptions, Problem, Run, Step, engine};
 use crate::system::{Dofs, Following, State, Term, Whole};
 use crate::tensor::Vec3;
 use crate::tool::{self, ProfileTool};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// What a model is put together from: begin with [`ModelParts::new`], and say what there is. [`Model::builder`] does so by names.
@@ -185,7 +186,14 @@ impl Model {
         };
         let first = tools.len() + solid_tools.len();
         let contacts_end = bodies.len() + contacts.len() + field_contacts.len();
-        let groups: Vec<_> = rigid.iter().enumerate().map(|(i, group)| (first + i, arms(group))).collect();
+        let in_small_strain = |group: &RigidGroup| {
+            let nodes: BTreeSet<usize> = group.nodes.iter().copied().collect();
+            let holds = |&cell: &usize| mesh.cell(cell).nodes.iter().any(|node| nodes.contains(node));
+            let mut holding = bodies.iter().filter(|(body, _)| body.cells().iter().any(holds)).peekable();
+            holding.peek().is_some() && holding.all(|(body, _)| body.strain() == Strain::Small)
+        };
+        let group = |(i, group): (usize, &RigidGroup)| (first + i, arms(group), in_small_strain(group));
+        let groups: Vec<_> = rigid.iter().enumerate().map(group).collect();
         let following = Arc::new(Following::new(&dofs, &groups));
         if !following.is_empty() {
             terms = terms.into_iter().map(|term| Following::wrap(&following, term)).collect();

@@ -7,7 +7,7 @@ use super::incompatible;
 use super::patches::Patches;
 use super::slenderness::Slenderness;
 use super::volume::Places;
-use super::{BodyOptions, Choice, CylinderAxes, Formulation, Heat, InitialStress, Integration};
+use super::{BodyOptions, Choice, CylinderAxes, Formulation, Heat, InitialStress, Integration, Strain};
 use crate::material::{Material, Placement};
 use crate::mesh::cells::{Cell, Quadrature};
 use crate::mesh::{Mesh, Space};
@@ -195,6 +195,10 @@ impl Body {
         self
     }
 
+    /// How it measures strain.
+    pub fn strain(&self) -> Strain {
+        self.options.strain
+    }
     /// The cells of the body, in the order of the history slots.
     pub fn cells(&self) -> &[usize] {
         &self.cells

@@ -37,7 +37,7 @@ impl Term for Led {
         let mut own = vec![0.0; forces.len()];
         let stored = self.term.at_start(&mut own)?;
         let per_node = self.following.per_node;
-        for (&first, Arm { leader, arm }) in &self.following.nodes {
+        for (&first, Arm { leader, arm, .. }) in &self.following.nodes {
             let force = Vec3(std::array::from_fn(|axis| if axis < per_node { own[first + axis] } else { 0.0 }));
             let moment = arm.cross(force);
             for axis in 0..per_node {
@@ -67,7 +67,7 @@ impl Term for Led {
     fn describe_motions(&self, motions: &[Vec<f64>]) -> Vec<String> {
         let follow = |motion: &Vec<f64>| {
             let mut motion = motion.clone();
-            for (&first, Arm { leader, arm }) in &self.following.nodes {
+            for (&first, Arm { leader, arm, .. }) in &self.following.nodes {
                 let q = &motion[*leader..leader + self.following.unknowns()];
                 let turned = self.following.rotation(q).cross(*arm);
                 let moved: Vec<f64> = (0..self.following.per_node).map(|axis| q[axis] + turned[axis]).collect();

@@ -1,6 +1,6 @@
 //! How the unknowns of a stencil follow from those in their place.
 
-use super::Following;
+use super::{Arm, Following};
 use crate::system::Local;
 use crate::tensor::Vec3;
 
@@ -19,7 +19,7 @@ pub struct Map {
     /// Where each unknown comes from.
     pub sources: Vec<Source>,
     /// Nodes that follow: place of their leader's first unknown, and their arms.
-    pub nodes: Vec<(usize, Vec3)>,
+    pub nodes: Vec<(usize, Arm)>,
 }
 
 /// Rates of the unknowns of a stencil along those in their place, a few for each.
@@ -32,7 +32,8 @@ impl Map {
         let moved: Vec<_> = self
             .nodes
             .iter()
-            .map(|&(slot, arm)| {
+            .map(|(slot, arm)| {
+                let (slot, arm) = (*slot, arm);
                 let q = &u[slot..slot + unknowns];
                 (following.moved(arm, q), following.turned(arm, q, Vec3::zero())[0])
             })
@@ -66,7 +67,7 @@ impl Map {
                 }
             }
         }
-        for (number, &(slot, arm)) in self.nodes.iter().enumerate() {
+        for (number, &(slot, ref arm)) in self.nodes.iter().enumerate() {
             let mut force = Vec3::zero();
             for (source, value) in self.sources.iter().zip(&own.force) {
                 if let Source::Led(node, axis) = source

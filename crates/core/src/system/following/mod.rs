@@ -1,6 +1,7 @@
 //! Nodes that follow a reference node as a rigid body, by any rotation.
 //!
-//! A node at the arm `A` from its reference point has the displacement `t + (R(w) - I) A`. Its unknowns are not among those that
+//! A node at the arm `A` from its reference point has the displacement `t + (R(w) - I) A`, of a group of bodies in small strain `t + w x A`:
+//! those would feel the arc as a stretch. Its unknowns are not among those that
 //! are solved for: every term is asked with this in the place of them, and its forces `f` and tangent `K` become those of the
 //! reference node, `C^t f` and `C^t K C + d(C^t)/dq f` with `C = du/dq`. The first is the sum of the forces and their moment
 //! about the reference point, and the second of its tangents is what they turn with. Nothing is penalised, and the rest of the
@@ -32,14 +33,19 @@ struct Arm {
     leader: usize,
     /// From the reference point to the node, before any motion.
     arm: Vec3,
+    /// Whether it turns by small rotations.
+    small: bool,
 }
 
+/// A rigid group: the number of the tool whose unknowns lead it, its nodes with their arms, and whether it turns by small rotations.
+pub type FollowingGroup = (usize, Vec<(usize, Vec3)>, bool);
+
 impl Following {
-    /// Groups of nodes with their arms, each with the number of the tool whose unknowns lead it.
-    pub fn new(dofs: &Dofs, groups: &[(usize, Vec<(usize, Vec3)>)]) -> Self {
-        let arms = groups.iter().flat_map(|(tool, nodes)| {
+    /// Rigid groups.
+    pub fn new(dofs: &Dofs, groups: &[FollowingGroup]) -> Self {
+        let arms = groups.iter().flat_map(|(tool, nodes, small)| {
             let leader = dofs.tool(*tool);
-            nodes.iter().map(move |&(node, arm)| (dofs.node(node), Arm { leader, arm }))
+            nodes.iter().map(move |&(node, arm)| (dofs.node(node), Arm { leader, arm, small: *small }))
         });
         Self { per_node: dofs.per_node(), nodes: arms.collect() }
     }
@@ -52,7 +58,7 @@ impl Following {
     /// Writes the displacements of all nodes that follow.
     pub fn place(&self, u: &mut [f64]) {
         for (&first, arm) in &self.nodes {
-            let moved = self.moved(arm.arm, &u[arm.leader..arm.leader + self.unknowns()]);
+            let moved = self.moved(arm, &u[arm.leader..arm.leader + self.unknowns()]);
             (0..self.per_node).for_each(|axis| u[first + axis] = moved[axis]);
         }
     }
@@ -77,16 +83,20 @@ impl Following {
         if self.per_node == 2 { Vec3::new(0.0, 0.0, q[2]) } else { Vec3([q[3], q[4], q[5]]) }
     }
 
-    fn moved(&self, arm: Vec3, q: &[f64]) -> Vec3 {
-        let pose = Pose::turned(self.rotation(q));
+    fn moved(&self, &Arm { arm, small, .. }: &Arm, q: &[f64]) -> Vec3 {
+        let rotation = self.rotation(q);
         let shift = Vec3(std::array::from_fn(|axis| if axis < self.per_node { q[axis] } else { 0.0 }));
-        shift + (pose.rotate(arm) - arm)
+        shift + if small { rotation.cross(arm) } else { Pose::turned(rotation).rotate(arm) - arm }
     }
 
     /// The arm turned, and the moment of a force there on the unknowns of the rotation, with derivatives along these.
-    fn turned(&self, arm: Vec3, q: &[f64], force: Vec3) -> [Vec3<Dual<3>>; 2] {
+    fn turned(&self, &Arm { arm, small, .. }: &Arm, q: &[f64], force: Vec3) -> [Vec3<Dual<3>>; 2] {
         let w = self.rotation(q);
-        let pose = Pose::turned(Vec3(std::array::from_fn(|i| Dual::variable(w[i], i))));
+        let w = Vec3(std::array::from_fn(|i| Dual::variable(w[i], i)));
+        if small {
+            return [arm.lift() + w.cross(arm.lift()), arm.cross(force).lift()];
+        }
+        let pose = Pose::turned(w);
         let turned = pose.rotate(arm);
         [turned, pose.conjugate(turned.cross(force.lift()))]
     }
@@ -117,8 +127,8 @@ impl Following {
                     outer.len() - self.unknowns()
                 }
             };
-            let node = map.nodes.iter().position(|node| *node == (slot, arm.arm)).unwrap_or_else(|| {
-                map.nodes.push((slot, arm.arm));
+            let node = map.nodes.iter().position(|node| *node == (slot, arm)).unwrap_or_else(|| {
+                map.nodes.push((slot, arm));
                 map.nodes.len() - 1
             });
             map.sources.push(Source::Led(node, axis));
@@ -182,9 +192,15 @@ mod tests {
         }
     }
 
-    fn check(dofs: &Dofs, arms: [Vec3; 2], unknowns: Vec<usize>) {
+    fn check(dofs: &Dofs, arms: [Vec3; 2], unknowns: &[usize]) {
+        for small in [false, true] {
+            check_of(dofs, arms, unknowns.to_vec(), small);
+        }
+    }
+
+    fn check_of(dofs: &Dofs, arms: [Vec3; 2], unknowns: Vec<usize>, small: bool) {
         let nodes = arms.iter().enumerate().map(|(node, &arm)| (node, arm)).collect();
-        let following = Arc::new(Following::new(dofs, &[(0, nodes)]));
+        let following = Arc::new(Following::new(dofs, &[(0, nodes, small)]));
         let term = Following::wrap(&following, Arc::new(Bed { nodes: unknowns }));
         let (state, history) = (State::default(), term.initial());
         let attempt = term.attempt(&state, &history, Instant::default()).unwrap();
@@ -201,14 +217,14 @@ mod tests {
     #[test]
     fn tangents_are_exact_at_any_rotation() {
         let plane = Dofs::new(2, 3, 1);
-        check(&plane, [Vec3::new(1.0, 0.5, 0.0), Vec3::new(-0.3, 2.0, 0.0)], vec![2, 0, 1, 4, 3, 5]);
+        check(&plane, [Vec3::new(1.0, 0.5, 0.0), Vec3::new(-0.3, 2.0, 0.0)], &[2, 0, 1, 4, 3, 5]);
         let space = Dofs::new(3, 3, 1);
-        check(&space, [Vec3::new(1.0, 0.5, -0.7), Vec3::new(-0.3, 2.0, 0.4)], (0..9).collect());
+        check(&space, [Vec3::new(1.0, 0.5, -0.7), Vec3::new(-0.3, 2.0, 0.4)], &(0..9).collect::<Vec<_>>());
     }
 
     #[test]
     fn a_quarter_turn_moves_nodes_with_it() {
-        let following = Following::new(&Dofs::new(2, 2, 1), &[(0, vec![(1, Vec3::new(2.0, 0.0, 0.0))])]);
+        let following = Following::new(&Dofs::new(2, 2, 1), &[(0, vec![(1, Vec3::new(2.0, 0.0, 0.0))], false)]);
         let mut u = vec![0.0, 0.0, 7.0, 7.0, 0.5, 0.0, std::f64::consts::FRAC_PI_2];
         following.place(&mut u);
         assert!((u[2] + 1.5).abs() < 1e-15 && (u[3] - 2.0).abs() < 1e-15, "{u:?}");

@@ -45,8 +45,7 @@ load.hub = {{ x = 0.0, y = 0.0, torque = {torque} }}
     }
 }
 
-/// In small strain a hub turns as far as its torque, and as much beside it as in finite strain by little: on an arc its nodes would strain
-/// the bar.
+/// In small strain a hub turns as far as its torque: on an arc its nodes would strain the bar.
 #[test]
 fn a_hub_of_a_bar_in_small_strain_turns_as_its_torque() {
     let deck = r#"
@@ -67,9 +66,9 @@ load.h = { torque_z = 1e5, z = 0.0 }
     };
     let [small, large] = ["1e3", "1e5"].map(|torque| turned(&[&format!("step.1.load.h.torque_z={torque}")]));
     assert!((large / (100.0 * small) - 1.0).abs() < 1e-6, "{large} for a hundred times {small}");
-    // T L / (0.1406 G a^4).
+    // T L / (0.1406 G a^4) where ends may warp, which these two may not.
     let right = 1e5 * 100.0 / (0.1406 * 210e3 / 2.6 * 1e4);
-    assert!((large / right - 1.0).abs() < 0.02, "{large} for {right}");
+    assert!((0.95..1.0).contains(&(large / right)), "{large} for {right}");
 }
 
 /// The same end turned about each axis of space in turn does the same work: a bar of one cell, quarter by quarter.

@@ -68,3 +68,25 @@ body_force.arm.y = -7.7e-5
         assert!((moved / right - 1.0).abs() < 0.02, "{young}: {moved} in place of {right}");
     }
 }
+
+/// A strip a thousand times as long as thick is bent at its end by `P L^3 / 3 E I`, in cells of both degrees.
+#[test]
+fn a_strip_a_thousand_times_as_long_as_thick() {
+    for (kind, along) in [("quad4", 100), ("quad4", 400), ("quad8", 100), ("quad8", 1000)] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.strip.rectangle = {{ from = [0.0, 0.0], to = [1e3, 1.0], cells = [{along}, 1], cell = "{kind}" }}
+material.m.elastic = {{ young = 210e3, poisson = 0.3 }}
+body.strip.material = "m"
+[[step]]
+displacement."strip.left" = {{ x = 0.0, y = 0.0 }}
+traction."strip.right".y = {}
+"#,
+            -3.0 * 210e3 / 0.91 / 12.0 / 1e9
+        );
+        let found = sunk(&deck, &[], "strip.right");
+        assert!((found + 1.0).abs() < 0.005, "{kind}, {along}: {found}");
+    }
+}

@@ -17,29 +17,46 @@ const SMALL: usize = 1024;
 /// Columns of a tile, the unit of parallel work; large enough to keep the blocked kernels at full speed.
 const TILE: usize = 256;
 
-/// The row exchanged with that of a pivot, counted in the front, whether the pivot had to be enlarged, and its sign.
+/// The row exchanged with that of a pivot, counted in the front, whether the pivot had to be enlarged, whether it would have done
+/// in a matrix that is known to be regular, and its sign.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pivot {
     pub row: u32,
     pub perturbed: bool,
+    pub sound: bool,
     pub negative: bool,
 }
 
 /// Which pivots are too small, and what replaces them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PivotRule {
+    /// What is no larger may be nothing but rounding.
     pub smallest: f64,
+    /// What is no larger is rounding.
+    pub rounding: f64,
+    /// Share of the largest number of its column that a pivot has to be.
+    pub share: f64,
     pub replacement: f64,
+    /// Whether the matrix is known to be regular: a sound pivot then stays, however small.
+    pub regular: bool,
 }
 
 impl PivotRule {
-    /// Replaces a pivot that is too small, and says so.
-    fn enforce(&self, pivot: &mut f64) -> bool {
-        let too_small = pivot.abs() <= self.smallest;
-        if too_small {
-            *pivot = self.replacement.copysign(*pivot);
+    /// Replaces a pivot, the first number of its column, that is too small; says whether it did, and whether the pivot is sound: more
+    /// than rounding, with multipliers no larger than those of one that is replaced. All of a positive definite matrix are,
+    /// as `a_ij^2 <= a_ii a_jj`.
+    fn enforce(&self, column: &mut [f64]) -> (bool, bool) {
+        let size = column[0].abs();
+        if size > self.smallest {
+            return (false, true);
         }
-        too_small
+        let largest = column[1..].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let sound = size > self.rounding && size >= self.share * largest;
+        let perturbed = !(self.regular && sound);
+        if perturbed {
+            column[0] = self.replacement.copysign(column[0]);
+        }
+        (perturbed, sound)
     }
 }
 
@@ -163,8 +180,8 @@ impl Panel<'_> {
             }
             let (done, rest) = self.left[..m * range.end].split_at_mut(m * (k + 1));
             let column = &mut done[m * k..];
-            let perturbed = self.rule.enforce(&mut column[k]);
-            pivots[k] = Pivot { row: row as u32, perturbed, negative: column[k] < 0.0 };
+            let (perturbed, sound) = self.rule.enforce(&mut column[k..]);
+            pivots[k] = Pivot { row: row as u32, perturbed, sound, negative: column[k] < 0.0 };
             let inverse = 1.0 / column[k];
             column[k + 1..].iter_mut().for_each(|x| *x *= inverse);
             for other in rest.chunks_exact_mut(m) {

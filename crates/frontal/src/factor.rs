@@ -30,6 +30,8 @@ pub struct Factor {
     pub(crate) scaling: Scaling,
     /// Values of the equilibrated matrix, in the pattern's order.
     pub(crate) values: Vec<f64>,
+    /// The largest of them, in size.
+    largest: f64,
     plan: Plan,
     shared: Vec<f64>,
     stacks: Mutex<Vec<Vec<f64>>>,
@@ -92,10 +94,13 @@ impl Symbolic {
         factor.ready = false;
         check_length("values", self.inner.pattern.nonzeros(), values.len())?;
         factor.load(values)?;
-        factor.collect_perturbed();
         factor.ready = true;
         if !factor.perturbed.is_empty() {
             diagnose::check_regular(factor).inspect_err(|_| factor.ready = false)?;
+            // The last pivots of a free body of n unknowns are n times rounding, and those of a slender one that is held may be as small.
+            if factor.pivots.iter().any(|pivot| pivot.perturbed && pivot.sound) {
+                factor.eliminate(true);
+            }
         }
         if self.inner.options.symmetric && !factor.stable() {
             factor.ready = false;
@@ -121,6 +126,7 @@ impl Factor {
             pivots: vec![Pivot::default(); n],
             scaling: Scaling::identity(n),
             values,
+            largest: 0.0,
             shared,
             stacks: Mutex::new(stacks),
             plan,
@@ -207,15 +213,27 @@ impl Factor {
                 self.scaling.columns.clone_from(&self.scaling.rows);
             }
         }
-        let largest = self.scaling.apply(pattern, values, &mut self.values);
+        self.largest = self.scaling.apply(pattern, values, &mut self.values);
+        self.eliminate(false);
+        Ok(())
+    }
+
+    /// Factorises the values that are loaded; `regular`: they are known to be those of a regular matrix.
+    fn eliminate(&mut self, regular: bool) {
         // A matrix of zeros only is singular, not a division by zero.
-        let largest = if largest > 0.0 { largest } else { 1.0 };
-        let rule = PivotRule { smallest: options.pivot_threshold * largest, replacement: PERTURBATION * largest };
+        let largest = if self.largest > 0.0 { self.largest } else { 1.0 };
+        let rule = PivotRule {
+            smallest: self.symbolic.options.pivot_threshold * largest,
+            rounding: f64::EPSILON * largest,
+            share: PERTURBATION,
+            replacement: PERTURBATION * largest,
+            regular,
+        };
         fit(&mut self.shared, self.plan.shared_len());
         let numeric =
             Numeric { symbolic: &self.symbolic, plan: &self.plan, values: &self.values, rule, stacks: &self.stacks };
         numeric.factorise(&mut self.factors, &mut self.pivots, &mut self.shared);
-        Ok(())
+        self.collect_perturbed();
     }
 
     fn collect_perturbed(&mut self) {

@@ -32,7 +32,7 @@ impl Full {
     pub fn factorise(n: usize, mut rows: Vec<f64>) -> Option<Self> {
         assert_eq!(rows.len(), n * n, "a matrix of {n} rows");
         let mut pivots = vec![Pivot::default(); n];
-        let rule = PivotRule { smallest: 0.0, replacement: 1.0 };
+        let rule = PivotRule { smallest: 0.0, rounding: 0.0, share: 0.0, replacement: 1.0, regular: false };
         let mut panel = Panel { left: &mut rows, m: n, p: n, rule, symmetric: false, parallel: false };
         panel.factorise(0..n, &mut pivots);
         let regular = pivots.iter().all(|pivot| !pivot.perturbed) && rows.iter().all(|x| x.is_finite());

@@ -51,9 +51,8 @@ pub struct Options {
     pub symmetric: bool,
     /// Bytes that analysis, factor and working memory may take together; refused before any number is touched.
     pub memory_limit: Option<usize>,
-    /// Pivots smaller than this times the largest value of the equilibrated matrix are perturbed and reported. The last
-    /// pivots of a free body of n unknowns are of the order of n times the unit round-off, those of a held one are
-    /// larger by many powers of ten: the default lies between.
+    /// Pivots smaller than this times the largest value of the equilibrated matrix make it doubtful: it is looked at for null vectors, and
+    /// factorised once more if it has none. The last pivots of a free body of n unknowns are of the order of n times the unit round-off.
     pub pivot_threshold: f64,
     /// Whether rows and columns are scaled to largest values near one before the factorisation.
     pub equilibrate: bool,

@@ -8,7 +8,7 @@ use crate::tensor::Vec3;
 pub mod entry {
     /// Penetration, negative for a gap.
     pub const PENETRATION: usize = 0;
-    /// Segment of the target that is hit; -1 without a hit.
+    /// Segment of the target that is hit, of a tip of a tool the face of the surface; -1 without a hit.
     pub const SEGMENT: usize = 1;
     /// First coordinate on that segment.
     pub const S: usize = 2;

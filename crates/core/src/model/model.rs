@@ -10,7 +10,7 @@ use crate::load::{Bearing, PenetratingPressure};
 use crate::mesh::{Mesh, Space};
 use crate::solid::{Body, Strain};
 use crate::solve::{NewtonOptions, Problem, Run, Step, engine};
-use crate::system::{Dofs, Following, State, Term, Whole};
+use crate::system::{Dofs, Following, FollowingGroup, State, Term, Whole};
 use crate::tensor::Vec3;
 use crate::tool::{self, ProfileTool};
 use std::collections::BTreeSet;
@@ -192,7 +192,11 @@ impl Model {
             let mut holding = bodies.iter().filter(|(body, _)| body.cells().iter().any(holds)).peekable();
             holding.peek().is_some() && holding.all(|(body, _)| body.strain() == Strain::Small)
         };
-        let group = |(i, group): (usize, &RigidGroup)| (first + i, arms(group), in_small_strain(group));
+        let group = |(i, group): (usize, &RigidGroup)| FollowingGroup {
+            tool: first + i,
+            nodes: arms(group),
+            small: in_small_strain(group),
+        };
         let groups: Vec<_> = rigid.iter().enumerate().map(group).collect();
         let following = Arc::new(Following::new(&dofs, &groups));
         if !following.is_empty() {

@@ -69,10 +69,7 @@ impl Norms {
             largest[kind] = largest[kind].max(magnitude);
         }
         let coefficient = |row: usize| yardstick.coefficients.get(row).copied().unwrap_or(0.0);
-        let rounding = |row: usize| {
-            let coefficient = coefficient(row);
-            16.0 * f64::EPSILON * coefficient * yardstick.size
-        };
+        let rounding = |row: usize| 16.0 * f64::EPSILON * coefficient(row) * yardstick.size;
         let scale = [0, 1].map(|k| largest[k].max(MEMORY * yardstick.past[k]));
         let mut norms = Self { allowed: yardstick.tolerance, ..Self::default() };
         for (row, (&dof, &force)) in constraints.free().iter().zip(residual).enumerate() {

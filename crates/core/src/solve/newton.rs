@@ -217,10 +217,11 @@ pub(super) struct Sequence {
     count: usize,
     begun: usize,
     augmentation: usize,
-    /// What the last iteration changed over what all did, that, which part of its step it took, whether its matrix was factorised and contact found no states
-    /// over it, and the unbalanced forces that it began with and, at the first, all began with.
-    correction: f64,
+    /// Largest displacement of all iterations, and that of the last over it.
     change: f64,
+    correction: f64,
+    /// Which part of its step the last iteration took, whether its matrix was factorised and contact found no states over it, and the
+    /// unbalanced forces that it began with and, at the first, all began with.
     taken: f64,
     factorised: bool,
     lost: bool,

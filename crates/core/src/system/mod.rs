@@ -30,7 +30,7 @@ pub use assembly::{Assembly, Evaluation, Tangent, Trial, Workspace};
 pub use check::{TangentCheck, check_tangent};
 pub use constraint::{Constraints, Row, Tied};
 pub use dofs::{Dofs, Unknown};
-pub use following::Following;
+pub use following::{Following, FollowingGroup};
 pub use idle::Idle;
 pub use kernel::kernel;
 pub use kink::{Answer, COORDINATES, Coordinates, Kink, Kinks};

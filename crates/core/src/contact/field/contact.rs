@@ -120,6 +120,10 @@ impl FieldContact {
     pub(super) fn node_of(&self, slot: usize) -> Option<usize> {
         (slot < self.nodal_slots()).then(|| slot / self.pieces)
     }
+    /// The tip of the tool, by number, that a stencil is a foot of.
+    pub(super) fn tip_of(&self, slot: usize) -> usize {
+        (slot - self.nodal_slots()) / FEET
+    }
     /// The stencil of a node of the field and a piece of the target.
     pub(super) fn slot(&self, node: usize, piece: usize) -> usize {
         node * self.pieces + piece

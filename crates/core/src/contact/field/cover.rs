@@ -57,7 +57,7 @@ pub struct Landing {
     pub share: f64,
     /// What touches the face: the centre of the tip or an end of its arc, in the tool's own frame, and the radius about that.
     pub centre: Vec3,
-    /// See `centre`.
+    /// Zero for the end of an arc.
     pub radius: f64,
     /// Beside each corner, where it touches the other face there.
     pub beside: [Option<FootBeside>; 2],

@@ -2,7 +2,6 @@
 
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
-use super::cover::FEET;
 use super::face::moved;
 use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
@@ -113,7 +112,7 @@ impl FieldContact {
                 (position, normal.unit, support.first().map_or(0, |(face, _)| *face))
             }
             None => {
-                let tip = &self.tips()[(slot - self.nodal_slots()) / FEET];
+                let tip = &self.tips()[self.tip_of(slot)];
                 let tool = self.parts.target.as_tool().map(|rigid| rigid.at(u));
                 let place = |tool: ToolInPlace| (tool.place(tip.foremost()), -tool.rotate(tip.outward), 0);
                 tool.map_or((tip.foremost(), -tip.outward, 0), place)

@@ -182,6 +182,11 @@ impl FieldSurface {
         a.cross(b).norm() * around * self.thickness
     }
 
+    /// Whether the surface ends at a corner of a face.
+    pub fn ends_at(&self, face: usize, corner: usize) -> bool {
+        self.nodes[self.field[face][corner]].support.len() == 1
+    }
+
     /// Size of a face, a length: its chord, or the root of its area.
     pub fn size(&self, face: usize, mesh: &Mesh) -> f64 {
         let face = &self.faces[face];

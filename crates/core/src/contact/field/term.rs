@@ -3,7 +3,6 @@
 use super::attempt::FieldAttempt;
 use super::configuration::Configuration;
 use super::contact::FieldContact;
-use super::cover::FEET;
 use crate::Failure;
 use crate::contact::Overlap;
 use crate::contact::increment::reach;
@@ -140,9 +139,7 @@ impl Term for FieldContact {
     fn name_of(&self, slot: usize) -> String {
         match self.node_of(slot) {
             Some(node) => format!("node {} of contact '{}'", self.parts.surface.nodes[node].node, self.parts.name),
-            None => {
-                format!("tip {} of the tool of contact '{}'", (slot - self.nodal_slots()) / FEET + 1, self.parts.name)
-            }
+            None => format!("tip {} of the tool of contact '{}'", self.tip_of(slot) + 1, self.parts.name),
         }
     }
 

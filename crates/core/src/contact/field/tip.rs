@@ -15,8 +15,8 @@
 //!
 //! Where the surface follows a rounding its nodes feel that, and the tip has the less of the area the more it does: all where the surface
 //! is straight, none from a curvature `k / R` on at which the mean gap errs less; the least of all places that it touches, so that it does
-//! not come and go as the closest of them changes. The part changes between increments, and once
-//! one has converged, never within its iterations: the forces keep a potential.
+//! not come and go as the closest of them changes. The part changes between increments, and once one has converged, never within its
+//! iterations: the forces keep a potential.
 
 use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
@@ -139,6 +139,11 @@ struct EdgeFoot {
     facing: Vec3,
 }
 
+/// Tangent at the middle of an edge.
+fn middle_tangent(face: &FieldFace, placed: &PlacedFace) -> Vec3 {
+    face.shape(face.middle()).tangents(placed.nodes(), true)[0]
+}
+
 /// Outward unit normal of an edge with this tangent.
 fn outward(tangent: Vec3) -> Vec3 {
     tangent.cross(Vec3::axis(2)).unit()
@@ -166,29 +171,24 @@ impl Configuration<'_> {
             };
             let share = || self.least_share(&found, tip, tool);
             let share = before.map_or(1.0, |before| last(before).unwrap_or_else(share));
-            let mut left: Vec<&TipPlace> = places.iter().filter(|place| place.gap <= reach).collect();
-            for near in 0..=3 {
-                left.retain(|&place| {
-                    let is_near = |foot: &usize| match known(*foot) {
-                        Some(face) if face == place.face => near == 0,
-                        Some(face) => near == if self.adjoin(face, place.face) { 1 } else { 3 },
-                        None => near == 2,
-                    };
-                    let free = (first..first + FEET).filter(|&foot| feet[foot].is_none()).find(is_near);
-                    if let Some(foot) = free {
-                        let landing = self.landing(place, &places, tool, share);
-                        let patch = Patch {
-                            face: place.face,
-                            target: foot,
-                            ends: [None; 2],
-                            near: [place.xi; 2],
-                            seen: None,
-                            tip: Some(landing),
-                        };
-                        feet[foot] = Some(TipFoot { patch, gap: place.gap });
-                    }
-                    free.is_none()
-                });
+            let rank = |place: &TipPlace, foot: usize| match known(foot) {
+                Some(face) if face == place.face => 0,
+                Some(face) if self.adjoin(face, place.face) => 1,
+                Some(_) => 3,
+                None => 2,
+            };
+            let near = places.iter().filter(|place| place.gap <= reach);
+            let mut pairs: Vec<_> =
+                near.flat_map(|place| (first..first + FEET).map(move |foot| (place, foot))).collect();
+            pairs.sort_by_key(|&(place, foot)| rank(place, foot));
+            for (place, foot) in pairs {
+                let has_foot = feet[first..first + FEET].iter().flatten().any(|f: &TipFoot| f.patch.face == place.face);
+                if feet[foot].is_none() && !has_foot {
+                    let tip = Some(self.landing(place, &places, tool, share));
+                    let near = [place.xi; 2];
+                    let patch = Patch { face: place.face, target: foot, ends: [None; 2], near, seen: None, tip };
+                    feet[foot] = Some(TipFoot { patch, gap: place.gap });
+                }
             }
         }
         feet
@@ -286,7 +286,7 @@ impl Configuration<'_> {
         let EdgePlace { x, tangent, .. } = edge.at(xi);
         let (n, to) = (outward(tangent), centre - x);
         let nearer = usize::from(xi > 0.0);
-        let ends = surface.nodes[surface.field[f][nearer]].support.len() == 1;
+        let ends = surface.ends_at(f, nearer);
         let inner = if ends { 1.0 - AT_END } else { 1.0 };
         let corner = if xi.abs() < inner { None } else { Some(nearer) };
         // On a plane of symmetry the edge comes to lie along the flank, and would turn away without its other half.
@@ -310,10 +310,7 @@ impl Configuration<'_> {
         if radius == 0.0 || q <= 0.0 {
             return 0.0;
         }
-        let tangent = |f: usize| {
-            let face = &surface.faces[f];
-            face.shape(face.middle()).tangents(self.placed[f].nodes(), true)[0]
-        };
+        let tangent = |f: usize| middle_tangent(&surface.faces[f], &self.placed[f]);
         let (face, own) = (&surface.faces[f], tangent(f));
         let mirrored = |corner: usize| {
             let to = centre - face.shape(face.corner_place(corner)).value(self.placed[f].nodes());
@@ -333,8 +330,7 @@ impl Configuration<'_> {
     }
 
     fn undeformed_normal(&self, face: &FieldFace) -> Vec3 {
-        let rest = face.at_rest(&self.contact.parts.mesh);
-        outward(face.shape(face.middle()).tangents(rest.nodes(), true)[0])
+        outward(middle_tangent(face, &face.at_rest(&self.contact.parts.mesh)))
     }
 
     /// The least part that a tip has in the faces that it touches or nearly so: no farther than an arc stands off a chord of their length.
@@ -353,12 +349,9 @@ impl Configuration<'_> {
         let (&TipPlace { face: f, nearer: corner, rest, .. }, radius) = (place, tip.radius);
         let flanks = tip.flanks.map(|flank| tool.rotate(flank));
         let surface = &self.contact.parts.surface;
-        let area = |f: usize| {
-            let face = &surface.faces[f];
-            face.shape(face.middle()).tangents(self.placed[f].nodes(), true)[0].cross(Vec3::axis(2))
-        };
-        let both =
-            surface.nodes[surface.field[f][corner]].support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
+        let area = |f: usize| middle_tangent(&surface.faces[f], &self.placed[f]).cross(Vec3::axis(2));
+        let support = &surface.nodes[surface.field[f][corner]].support;
+        let both = support.iter().fold(Vec3::zero(), |sum, &(f, _)| sum + area(f));
         let flat = |n: Vec3| flanks.iter().map(|flank| -flank.dot(n)).fold(-1.0, f64::max);
         let cosine = rest.map_or_else(|| flat(area(f).unit()).min(flat(both.unit())), flat);
         let size = 2.0 * area(f).norm();
@@ -375,7 +368,7 @@ impl FieldContact {
         let (surface, face) = (&self.parts.surface, &self.parts.surface.faces[f]);
         let rest = face.at_rest(&self.parts.mesh);
         let (density, [slope, _]) = surface.density(face, &rest, [xi, 0.0]);
-        if surface.nodes[surface.field[f][usize::from(xi > 0.0)]].support.len() > 1 {
+        if !surface.ends_at(f, usize::from(xi > 0.0)) {
             return [2.0 * density, 2.0 * slope];
         }
         let half = surface.density(face, &rest, face.middle()).0;
@@ -490,10 +483,8 @@ impl NodesInPlace<'_> {
         let area = contact.tip_area(patch.face, own.xi);
         let n = outward(own.at.tangent);
         let n = if landing.corner.is_some() { facing_centre(own.to, n) } else { n };
-        let mut corner = 0..2;
-        let beside = landing.beside.map(|beside| {
-            let corner = corner.next()?;
-            let FootBeside { face, corner: other, xi, centre } = beside?;
+        let beside = [0, 1].map(|corner| {
+            let FootBeside { face, corner: other, xi, centre } = landing.beside[corner]?;
             let beside = foot(face, (xi, None), centre);
             let part = part([(corner, own.xi), (other, beside.xi)]);
             Some((beside, part))

@@ -32,8 +32,7 @@ impl Map {
         let moved: Vec<_> = self
             .nodes
             .iter()
-            .map(|(slot, arm)| {
-                let (slot, arm) = (*slot, arm);
+            .map(|&(slot, ref arm)| {
                 let q = &u[slot..slot + unknowns];
                 (following.moved(arm, q), following.turned(arm, q, Vec3::zero())[0])
             })

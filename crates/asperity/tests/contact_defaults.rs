@@ -121,14 +121,27 @@ increments.count = 10
 symmetry = ["pad.left"]
 motion.up.y = -1.8
 "#;
-    let force = 4.0 * (1.0 / 0.4_f64.powi(2) - 0.4_f64.powi(2)) / 0.4;
-    for (cells, cell) in [("[4, 3]", "quad4"), ("[7, 6]", "quad4"), ("[4, 3]", "quad8"), ("[4, 3]", "tri3")] {
-        let sets =
-            [format!("mesh.part.pad.rectangle.cells={cells}"), format!("mesh.part.pad.rectangle.cell=\"{cell}\"")];
+    for (cells, cell, left, increments) in [
+        ("[4, 3]", "quad4", 0.4, 10),
+        ("[7, 6]", "quad4", 0.4, 10),
+        ("[4, 3]", "quad8", 0.4, 10),
+        ("[4, 3]", "tri3", 0.4, 10),
+        ("[4, 3]", "quad4", 0.35, 5),
+        ("[4, 3]", "quad4", 0.35, 20),
+        ("[4, 3]", "quad4", 0.5, 10),
+    ] {
+        let left: f64 = left;
+        let force = 4.0 * (1.0 / left.powi(2) - left.powi(2)) / left;
+        let sets = [
+            format!("mesh.part.pad.rectangle.cells={cells}"),
+            format!("mesh.part.pad.rectangle.cell=\"{cell}\""),
+            format!("step.1.increments.count={increments}"),
+            format!("step.1.motion.up.y={}", -3.0 * (1.0 - left)),
+        ];
         let model = model(deck, &sets.each_ref().map(String::as_str));
         let keep: Keep = run(&model);
         let found = *columns(&model, &keep)["contact.down.force.y"].last().unwrap();
-        assert!((found / force - 1.0).abs() < 0.035, "{cell} {cells}: {found} in place of {force}");
+        assert!((found / force - 1.0).abs() < 0.035, "{cell} {cells} {left}: {found} in place of {force}");
         assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()));
     }
 }

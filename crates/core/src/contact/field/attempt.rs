@@ -1,7 +1,7 @@
 //! The field during one attempt: who sees whom, the law at each node, forces and tangents.
 
 use super::configuration::{Configuration, TargetInPlace};
-use super::contact::{FieldContact, FieldTarget, RULE};
+use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FEET, Landing, Patch};
 use super::face::moved;
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
@@ -9,6 +9,7 @@ use super::linear::Linear;
 use super::nodes::NodesInPlace;
 use super::point::Touched;
 use super::space::{Spread, spread};
+use super::spot::IntervalPoint;
 use super::stencil::{COUNT, NodeSums, StencilInPlace};
 use super::support::FieldSearch;
 use super::tip::TipFoot;
@@ -103,8 +104,8 @@ impl FieldAttempt<'_> {
             spread(degree, own.corners(), target.corners(patch.target), |place: Spread<f64>| places.push(place.xi));
         } else {
             let [from, to] = patch.near;
-            let place = |&(eta, _): &(f64, f64)| [0.5 * (from + to) + 0.5 * (to - from) * eta, 0.0];
-            places.extend(RULE.iter().map(place));
+            let place = |point: &IntervalPoint| [0.5 * (from + to) + 0.5 * (to - from) * point.eta, 0.0];
+            places.extend(self.contact.rule(patch.face).iter().map(place));
         }
         for xi in places {
             if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {

@@ -8,10 +8,9 @@ use crate::contact::record::largest_penetration;
 use crate::contact::{ContactParts, ContactSides};
 use crate::mesh::Mesh;
 use crate::system::{Dofs, History};
-use crate::tensor::legendre;
 use crate::tool::{self, ProfileTool, Tip};
 use std::ops::Deref;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 /// What the field may touch.
 #[derive(Debug)]
@@ -164,6 +163,3 @@ const SMALL: f64 = 1.0;
 /// Largest radius of a rounding that has a tip over the mean length of the faces: of a larger one the gap of the nodes is right to a
 /// two-hundred-and-fortieth of that, and where increments press it in by much more than that a tip only comes to go again.
 const LARGE: f64 = 20.0;
-
-/// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
-pub static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(4));

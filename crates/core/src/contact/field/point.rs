@@ -145,7 +145,7 @@ impl PatchInPlace<'_> {
             let cosine = self.own_normal_rate(column, xi, dxi).dot(point.n) + self.face.own_normal(xi).dot(n);
             dfacing = facing[1] * cosine;
         }
-        let slope = density.1[0] * dxi[0] + density.1[1] * dxi[1];
+        let slope = density.1[0] * (dxi[0] + spot.inward * darea) + density.1[1] * dxi[1];
         let weight = darea * density.0 * facing[0] + spot.weight * (slope * facing[0] + density.0 * dfacing);
         let follow = |touched: &Touched| {
             let carried = touched.slopes[0] * dxi[0] + touched.slopes[1] * dxi[1];

@@ -5,7 +5,6 @@
 //! at which they hold.
 
 use super::column::PointColumn;
-use super::contact::RULE;
 use super::cover::Patch;
 use super::face::CORNERS;
 use super::nodes::NodesInPlace;
@@ -91,11 +90,11 @@ impl PatchPoints {
     fn look(&mut self, patch: &PatchInPlace, at: &NodesInPlace, recall: Recall) -> Option<()> {
         let (surface, face) = (&at.contact.parts.surface, patch.face.face);
         let rest = face.at_rest(&at.contact.parts.mesh);
-        for (number, spot) in patch.spots(&RULE, false).into_iter().enumerate() {
+        for (number, spot) in patch.spots(at.contact.rule(patch.patch.face), false).into_iter().enumerate() {
             let xi = spot.xi;
             let frame = patch.face.at(xi);
             let (sight, n, gap, y) = patch.look(&frame)?;
-            let weight = spot.weight * surface.density_at(face, &rest, xi) * patch.facing(xi, n)[0];
+            let weight = spot.weight * surface.density_at(face, &rest, spot.dense()) * patch.facing(xi, n)[0];
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
             let (shape, functions) = (frame.shape, frame.corners);
@@ -118,13 +117,13 @@ impl PatchPoints {
         let along = |(column, turning): (&PointColumn, &[Vec3; CORNERS])| in_place.bound_rates(column, turning);
         let bounds: Vec<_> = columns.iter().zip(&turning).map(along).collect();
         let still = in_place.tool.is_some() && !surface.plane && patch.seen.is_none();
-        let spots = in_place.spots(&RULE, true);
+        let spots = in_place.spots(at.contact.rule(patch.face), true);
         for point in &self.points {
             let (spot, frame) = (&spots[point.number], in_place.face.at(point.xi));
             let density = if still {
-                (surface.density_at(face, &rest, point.xi), [0.0; 2])
+                (surface.density_at(face, &rest, spot.dense()), [0.0; 2])
             } else {
-                surface.density(face, &rest, point.xi)
+                surface.density(face, &rest, spot.dense())
             };
             let facing = in_place.facing(point.xi, point.n);
             for (column, (bounds, turning)) in columns.iter().zip(bounds.iter().zip(&turning)) {

@@ -1,10 +1,39 @@
 //! The places of a quadrature on a patch, and how they move with its unknowns.
 
 use super::column::PointColumn;
+use super::contact::FieldContact;
 use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
-use crate::tensor::{Dual, Vec3};
+use crate::tensor::{Dual, Vec3, legendre};
+use std::sync::LazyLock;
+
+/// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
+static GAUSS: LazyLock<Vec<IntervalPoint>> =
+    LazyLock::new(|| legendre(4).into_iter().map(|(eta, weight)| IntervalPoint { eta, weight, inward: 0.0 }).collect());
+
+/// The trapezoidal rule, with the mean density of each half,
+static TRAPEZOID: [IntervalPoint; 2] = [at_end(-1.0, 1.0, 2.0 / 3.0), at_end(1.0, 1.0, -2.0 / 3.0)];
+/// and Simpson's of an edge, on the halves of it that have its first and its second end.
+static SIMPSON: [[IntervalPoint; 2]; 2] = [
+    [at_end(-1.0, 2.0 / 3.0, 0.0), at_end(1.0, 4.0 / 3.0, 0.0)],
+    [at_end(-1.0, 4.0 / 3.0, 0.0), at_end(1.0, 2.0 / 3.0, 0.0)],
+];
+
+const fn at_end(eta: f64, weight: f64, inward: f64) -> IntervalPoint {
+    IntervalPoint { eta, weight, inward }
+}
+
+/// A point of the rule on an interval.
+#[derive(Debug, Clone, Copy)]
+pub struct IntervalPoint {
+    /// Its place, from -1 to 1.
+    pub eta: f64,
+    /// Its weight.
+    pub weight: f64,
+    /// As that of a [`FaceSpot`].
+    pub inward: f64,
+}
 
 /// A place of a quadrature on a face.
 #[derive(Debug, Clone)]
@@ -13,6 +42,8 @@ pub struct FaceSpot {
     pub xi: [f64; 2],
     /// Area in reference coordinates that it stands for.
     pub weight: f64,
+    /// Where the density of that is the mean one, from the place over the weight.
+    pub inward: f64,
     laid: SpotMap,
 }
 
@@ -27,15 +58,37 @@ enum SpotMap {
     Overlap(Box<[[f64; DIRECTIONS]; 3]>),
 }
 
+impl FieldContact {
+    /// The rule on the intervals of a face in the plane. At a crease it is a closed one (Lobatto; the nodal integration of contact): a
+    /// mean over the face lets the corner of a body go through a tool as far as the rest of its face stands off, which then folds. Of
+    /// a uniform pressure both rules make the same nodal forces.
+    pub(super) fn rule(&self, face: usize) -> &'static [IntervalPoint] {
+        let surface = &self.parts.surface;
+        match surface.faces[face].end() {
+            _ if !surface.creased[face] || self.parts.target.as_tool().is_none() => &GAUSS,
+            None => &TRAPEZOID,
+            Some(end) => &SIMPSON[end],
+        }
+    }
+}
+
+impl FaceSpot {
+    /// The place whose density counts.
+    pub fn dense(&self) -> [f64; 2] {
+        [self.xi[0] + self.inward * self.weight, self.xi[1]]
+    }
+}
+
 impl PatchInPlace<'_> {
     /// The places of its quadrature; `rule` is that of an interval.
-    pub fn spots(&self, rule: &[(f64, f64)], derivatives: bool) -> Vec<FaceSpot> {
+    pub fn spots(&self, rule: &[IntervalPoint], derivatives: bool) -> Vec<FaceSpot> {
         if self.face.plane {
             let half = 0.5 * (self.interval[1] - self.interval[0]);
             let both = |a: f64, b: f64| std::array::from_fn(|k| [a, b].get(k).map_or(0.0, |x| 0.5 * x));
-            let place = |&(eta, weight): &(f64, f64)| FaceSpot {
+            let place = |&IntervalPoint { eta, weight, inward }: &IntervalPoint| FaceSpot {
                 xi: [self.place(eta), 0.0],
                 weight: weight * half,
+                inward,
                 laid: SpotMap::Bounded([both(1.0 - eta, 1.0 + eta), both(0.0, 0.0), both(-weight, weight)]),
             };
             return rule.iter().map(place).collect();
@@ -47,19 +100,24 @@ impl PatchInPlace<'_> {
             let share = laid.share();
             let on = |spread: Spread<f64>| {
                 let ([a, b], weight) = (laid.place(spread.xi), share * spread.weight);
-                FaceSpot { xi: [a.re, b.re], weight: weight.re, laid: SpotMap::Bounded([a.du, b.du, weight.du]) }
+                FaceSpot {
+                    xi: [a.re, b.re],
+                    weight: weight.re,
+                    inward: 0.0,
+                    laid: SpotMap::Bounded([a.du, b.du, weight.du]),
+                }
             };
             return whole(own.len()).map(on).collect();
         }
         let Some((faces, seen)) = &self.seen else {
-            let on = |Spread { xi, weight }| FaceSpot { xi, weight, laid: SpotMap::Whole };
+            let on = |Spread { xi, weight }| FaceSpot { xi, weight, inward: 0.0, laid: SpotMap::Whole };
             return whole(own.len()).map(on).collect();
         };
         let other = &seen.nodes()[..faces.surface.faces[self.patch.target].corners()];
         let (mut spots, degree) = (Vec::new(), self.degree);
         if !derivatives {
             spread(degree, own, other, |Spread { xi, weight }| {
-                spots.push(FaceSpot { xi, weight, laid: SpotMap::Whole })
+                spots.push(FaceSpot { xi, weight, inward: 0.0, laid: SpotMap::Whole })
             });
             return spots;
         }
@@ -74,7 +132,7 @@ impl PatchInPlace<'_> {
         let (own_lifted, other_lifted) = (lift(own, 0), lift(other, DIRECTIONS / 2));
         spread(degree, &own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
             let laid = SpotMap::Overlap(Box::new([a.du, b.du, weight.du]));
-            spots.push(FaceSpot { xi: [a.re, b.re], weight: weight.re, laid });
+            spots.push(FaceSpot { xi: [a.re, b.re], weight: weight.re, inward: 0.0, laid });
         });
         spots
     }

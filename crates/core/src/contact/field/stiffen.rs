@@ -12,6 +12,8 @@ use crate::system::History;
 
 /// Share of the energy of the bodies above which the penalty is raised: the force is then off by one to four times as much,
 const MOST: f64 = 0.01;
+/// as is that of the energy which an increment adds, where it adds more than this of it: rubber becomes stiffer as it is squeezed,
+const TELLS: f64 = 0.05;
 /// unless it falls faster than this from one increment to the next, as it does where bodies have just begun to touch.
 const STEADY: f64 = 0.95;
 /// Part of the penetration that an augmentation may leave before the penalty is raised, and that it is raised for (Bertsekas, Constrained
@@ -76,10 +78,13 @@ impl FieldAttempt<'_> {
         };
         let [[_, before], [mean, now]] =
             [self.history, new].map(|history| self.contact.penetrated(history, self.normal));
-        let [before, share] = [before / taken[0], now / taken[1]];
+        let [first, share] = [before / taken[0], now / taken[1]];
+        // What an increment adds is the stiffness of the bodies over that of the penalty, by which the force is off.
+        let added = taken[1] - taken[0];
+        let worst = if added > TELLS * taken[1] { share.max((now - before) / added) } else { share };
         let least = options.penalty;
-        let wanted = if mean >= from && share > MOST && share > STEADY * before {
-            (self.normal * STEP.powf((share / AIM).log(STEP).ceil())).min(most)
+        let wanted = if mean >= from && worst > MOST && share > STEADY * first {
+            (self.normal * STEP.powf((worst / AIM).log(STEP).ceil())).min(most)
         } else if share * self.normal < AIM * least {
             least
         } else {

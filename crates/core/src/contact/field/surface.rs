@@ -7,7 +7,7 @@
 use super::face::{CORNERS, FieldFace, MOST, PlacedFace};
 use crate::mesh::{CREASE, Mesh, Side, Space};
 use crate::tensor::{DisjointSets, Vec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A node of the field.
 #[derive(Debug, Clone)]
@@ -51,6 +51,8 @@ pub struct FieldSurface {
     pub field: Vec<[usize; CORNERS]>,
     /// For each face the smooth piece it belongs to, counted from zero.
     pub pieces: Vec<usize>,
+    /// For each face of a plane model whether its edge ends at a crease of the surface.
+    pub creased: Vec<bool>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
     /// Whether the model is axisymmetric.
@@ -73,7 +75,8 @@ impl FieldSurface {
     fn of(mesh: &Mesh, faces: Vec<FieldFace>, space: Space, thickness: f64) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
-        let mut surface = Self { faces, nodes: vec![], field: vec![], pieces: vec![], plane, revolves, thickness };
+        let mut surface =
+            Self { faces, nodes: vec![], field: vec![], pieces: vec![], creased: vec![], plane, revolves, thickness };
         surface.number(mesh);
         surface
     }
@@ -92,7 +95,7 @@ impl FieldSurface {
         };
         let (mut pieces, mut field) =
             (DisjointSets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
-        let mut nodes = Vec::new();
+        let (mut nodes, mut creased) = (Vec::new(), BTreeSet::new());
         for (&node, corners) in &around {
             let mut sets = DisjointSets::new(corners.len());
             for i in 0..corners.len() {
@@ -103,7 +106,11 @@ impl FieldSurface {
                     }
                 }
             }
-            for root in (0..corners.len()).filter(|&i| sets.root(i) == i) {
+            let roots: Vec<usize> = (0..corners.len()).filter(|&i| sets.root(i) == i).collect();
+            if self.plane && roots.len() > 1 {
+                creased.extend(corners.iter().map(|&(f, _)| self.faces[f].side));
+            }
+            for root in roots {
                 let members = (0..corners.len()).filter(|&i| sets.root(i) == root);
                 let support: Vec<(usize, usize)> = members.map(|i| corners[i]).collect();
                 support.iter().for_each(|&(f, c)| field[f][c] = nodes.len());
@@ -113,6 +120,7 @@ impl FieldSurface {
                 nodes.push(FieldNode { node, support, on_axis });
             }
         }
+        self.creased = self.faces.iter().map(|face| creased.contains(&face.side)).collect();
         (self.pieces, self.nodes, self.field) = (pieces.labels(), nodes, field);
     }
 

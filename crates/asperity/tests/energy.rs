@@ -91,3 +91,32 @@ fn friction_that_turns_within_an_increment_keeps_its_work() {
         assert!((told / friction - 1.0).abs() < most, "{sets:?}: {told} {friction}");
     }
 }
+
+/// A block is rubbed over 5 mm under 50 N, ten times to and fro in one step: `10 mu N 20 mm`, less the elastic recoil.
+#[test]
+fn friction_over_the_cycles_of_an_amplitude() {
+    let turns = (0..20).map(|k| format!("[{}, {}]", 0.025 + 0.05 * f64::from(k), 1 - 2 * (k % 2)));
+    let amplitude = turns.collect::<Vec<_>>().join(", ");
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [10.0, 4.0], cells = [10, 4], cell = "quad4" }}
+material.steel.elastic = {{ young = 1e3, poisson = 0.3 }}
+body.block.material = "steel"
+tool.floor.profile = [{{ line = [[60.0, 0.0], [-40.0, 0.0]] }}]
+contact.sole = {{ surface = "block.bottom", target = "floor", law.coulomb = {{ friction = 0.2 }} }}
+rigid.top = {{ group = "block.top", reference = [5.0, 0.0] }}
+[[step]]
+load.top.y = -50.0
+motion.top = {{ x = 0.0, rotation = 0.0 }}
+[[step]]
+motion.top = {{ x = 5.0, rotation = 0.0, amplitude = [[0.0, 0.0], {amplitude}, [1.0, 0.0]] }}
+"#
+    );
+    for sets in [&[][..], &["step.2.increments.count=7"]] {
+        let model = model(&deck, sets);
+        let work = *columns(&model, &run(&model))["energy.friction"].last().unwrap();
+        assert!((work / 1995.0 - 1.0).abs() < 0.005, "{work}");
+    }
+}

@@ -46,6 +46,34 @@ impl Amplitude {
     }
 }
 
+/// Part of its range by which an amplitude may bend off the straight line of an increment.
+const STRAIGHT: f64 = 0.01;
+/// Part of a step within which two times are one.
+const SAME: f64 = 1e-9;
+
+impl Amplitude {
+    /// The first fraction of the step in an interval at which an increment has to end: no point of the amplitude before it lies beyond the
+    /// values at both ends, as a peak would, nor off the straight line between them by more than a hundredth of the range (Douglas &
+    /// Peucker, Cartographica 10, 1973).
+    pub fn bend(&self, [from, to]: [f64; 2]) -> Option<f64> {
+        let factors = || self.points.iter().map(|p| p[1]);
+        let range = factors().fold(f64::NEG_INFINITY, f64::max) - factors().fold(f64::INFINITY, f64::min);
+        let (begin, mut end, mut found) = (self.value(from), [to, self.value(to)], None);
+        loop {
+            let missed = |&[t, a]: &[f64; 2]| {
+                let [least, most] = [begin.min(end[1]), begin.max(end[1])];
+                let beyond = (least - a).max(a - most);
+                let off = (a - begin - (end[1] - begin) * (t - from) / (end[0] - from)).abs();
+                if beyond > SAME * range || off > STRAIGHT * range { off.max(beyond) } else { 0.0 }
+            };
+            let within = self.points.iter().filter(|[t, _]| *t > from + SAME && *t < end[0] - SAME);
+            let worst = within.max_by(|a, b| missed(a).total_cmp(&missed(b))).filter(|point| missed(point) > 0.0);
+            let Some(&point) = worst else { return found };
+            (end, found) = (point, Some(point[0]));
+        }
+    }
+}
+
 /// What a step says of a value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Change {
@@ -140,6 +168,20 @@ mod tests {
         assert_eq!([-1.0, 0.0, 0.25, 0.5, 0.75, 1.0, 2.0].map(|t| a.value(t)), [1.0, 1.0, 2.0, 3.0, 1.0, -1.0, -1.0]);
         assert_eq!([0.0, 0.3, 1.0].map(|t| Amplitude::ramp().value(t)), [0.0, 0.3, 1.0]);
         assert_eq!([0.0, 0.3, 1.0].map(|t| Amplitude::at_once().value(t)), [1.0; 3]);
+    }
+
+    #[test]
+    fn increments_end_where_an_amplitude_bends() {
+        let wave = Amplitude::new(vec![[0.0, 0.0], [0.25, 1.0], [0.75, -1.0], [1.0, 0.0]]).unwrap();
+        let ends =
+            [[0.0, 0.2], [0.0, 0.25], [0.2, 0.26], [0.0, 1.0], [0.25, 0.9], [0.75, 1.0]].map(|part| wave.bend(part));
+        assert_eq!(ends, [None, None, Some(0.25), Some(0.25), Some(0.75), None]);
+        let pulse = Amplitude::new(vec![[0.0, 0.0], [0.42, 0.0], [0.45, 1.0], [0.48, 0.0], [1.0, 0.0]]).unwrap();
+        assert_eq!([[0.4, 0.5], [0.42, 0.5]].map(|part| pulse.bend(part)), [Some(0.42), Some(0.45)]);
+        let smooth: Vec<[f64; 2]> = (0..=1000).map(|k| [1e-3 * f64::from(k), (1e-3 * f64::from(k)).powi(2)]).collect();
+        let smooth = Amplitude::new(smooth).unwrap();
+        assert_eq!([smooth.bend([0.0, 0.1]), Amplitude::ramp().bend([0.0, 1.0])], [None; 2]);
+        assert!(smooth.bend([0.0, 1.0]).is_some_and(|end| (0.05..0.25).contains(&end)));
     }
 
     #[test]

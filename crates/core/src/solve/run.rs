@@ -333,8 +333,9 @@ impl<'a> Run<'a> {
         let driven = step.prescribed.iter().map(|p| state.last_change[p.dof].abs()).fold(0.0, f64::max);
         state.leap = leap([expected, driven, moved], self.problem.size);
         if !record.relaxed {
-            state.next_dt = state.caution.hold(dt, step.after(dt, wanted, record.first_solutions()));
-            state.caution.proven = dt;
+            let served = step.served(dt, wanted, state.step_time - dt);
+            state.next_dt = state.caution.hold(served, step.after(served, wanted, record.first_solutions()));
+            state.caution.proven = served;
         } else {
             // What the jump did must not be carried on, nor its increment be the measure of the next.
             state.last_dt = 0.0;

@@ -100,6 +100,8 @@ pub struct Step {
     pub duration: f64,
     /// Sizes of its increments.
     pub increments: Increments,
+    /// Amplitudes at whose bends its increments end.
+    pub amplitudes: Vec<Amplitude>,
     /// How it follows a path; else loads and prescribed motion go with time.
     pub arc_length: Option<ArcLength>,
     /// Which unknowns are constrained.
@@ -119,6 +121,7 @@ impl Step {
             name: name.into(),
             duration: 1.0,
             increments: Increments::default(),
+            amplitudes: Vec::new(),
             arc_length: None,
             constraints,
             prescribed,
@@ -138,13 +141,14 @@ impl Step {
     }
 
     /// Size of the increment to try when the controller wants `wanted` and `done` of the step is behind: the rest of
-    /// the step when that is near, and halves of the rest rather than a sliver at the end.
+    /// the step, or to where an amplitude bends, when that is near, and halves of the rest rather than a sliver at the end.
     pub fn next(&self, wanted: f64, done: f64) -> f64 {
-        let (rest, wanted) = (self.duration - done, wanted.min(self.increments.largest * self.duration));
+        let wanted = wanted.min(self.increments.largest * self.duration);
         if self.arc_length.is_some() {
             // How long the path is does not show before its end.
             return wanted;
         }
+        let rest = self.bend(wanted, done).map_or(self.duration, |part| part * self.duration) - done;
         if rest <= wanted * (1.0 + 1e-6) {
             rest
         } else if rest < 2.0 * wanted * (1.0 - 1e-6) {
@@ -152,6 +156,18 @@ impl Step {
         } else {
             wanted
         }
+    }
+
+    /// Where an amplitude bends within two increments of size `wanted`, as a part of the step.
+    fn bend(&self, wanted: f64, done: f64) -> Option<f64> {
+        let near = [done, done + 2.0 * wanted].map(|time| (time / self.duration).min(1.0));
+        self.amplitudes.iter().filter_map(|amplitude| amplitude.bend(near)).reduce(f64::min)
+    }
+
+    /// The size that an increment `dt` from `done` on stands for where the controller wanted `wanted`: that, if an amplitude's bend cut
+    /// it short.
+    pub(super) fn served(&self, dt: f64, wanted: f64, done: f64) -> f64 {
+        if self.bend(wanted, done).is_some() { dt.max(wanted) } else { dt }
     }
 
     /// What the controller wants after an increment of size `dt` that took `iterations`.
@@ -233,6 +249,7 @@ mod tests {
             name: "s".into(),
             duration: 1.0,
             increments,
+            amplitudes: vec![],
             arc_length: None,
             constraints,
             prescribed: Vec::new(),

@@ -235,6 +235,7 @@ impl Builder<'_> {
             let mut step = Step::new(&name, constraints, prescribed);
             (step.duration, step.increments) = (keys.duration, increments(&keys.increments));
             step.arc_length = arc_lengths[i].clone();
+            step.amplitudes = keys.amplitudes();
             (step.idle, step.leaving) = (absent[i].clone(), leaving(i));
             step
         };

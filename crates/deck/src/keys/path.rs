@@ -65,16 +65,7 @@ pub(super) fn follows(step: &StepKeys, reader: &mut Reader) {
         return;
     }
     let place = step.control.place;
-    let courses = [
-        courses("displacement", &step.displacement, |keys| &keys.amplitude),
-        courses("force", &step.force, |keys| &keys.amplitude),
-        courses("pressure", &step.pressure, |keys| &keys.amplitude),
-        courses("traction", &step.traction, |keys| &keys.amplitude),
-        courses("body_force", &step.body_force, |keys| &keys.amplitude),
-        courses("motion", &step.motion, |keys| &keys.amplitude),
-        courses("load", &step.load, |keys| &keys.amplitude),
-    ];
-    for (kind, name, _) in courses.into_iter().flatten().filter(|(_, _, amplitude)| **amplitude != Amplitude::ramp()) {
+    for (kind, name, _) in step.courses().filter(|(_, _, amplitude)| **amplitude != Amplitude::ramp()) {
         let what = format!("`{kind}.{name}` has an amplitude in a step that follows a path");
         refuse(what, name.place, "loads and motions go with the load factor there: leave `amplitude` out");
     }
@@ -101,6 +92,38 @@ pub(super) fn follows(step: &StepKeys, reader: &mut Reader) {
     if !loads {
         let what = format!("`{path}` follows a path by arc length, and no load changes in it");
         refuse(what, place, "say the load whose factor is followed, or leave `control` out where motion is prescribed");
+    }
+}
+
+impl StepKeys {
+    /// Loads and motions of the step with their amplitudes.
+    fn courses(&self) -> impl Iterator<Item = (&'static str, &Name, &Amplitude)> {
+        let courses = [
+            courses("displacement", &self.displacement, |keys| &keys.amplitude),
+            courses("force", &self.force, |keys| &keys.amplitude),
+            courses("pressure", &self.pressure, |keys| &keys.amplitude),
+            courses("traction", &self.traction, |keys| &keys.amplitude),
+            courses("body_force", &self.body_force, |keys| &keys.amplitude),
+            courses("motion", &self.motion, |keys| &keys.amplitude),
+            courses("load", &self.load, |keys| &keys.amplitude),
+        ];
+        courses.into_iter().flatten()
+    }
+
+    /// Its amplitudes that are no straight lines, each once.
+    pub fn amplitudes(&self) -> Vec<Amplitude> {
+        let others = [
+            courses("temperature", &self.temperature, |keys| &keys.amplitude),
+            courses("friction", &self.friction, |keys| &keys.amplitude),
+        ];
+        let all = self.courses().chain(others.into_iter().flatten()).map(|(_, _, amplitude)| amplitude);
+        let mut found: Vec<Amplitude> = Vec::new();
+        for amplitude in all.chain(self.gravity.as_ref().map(|gravity| &gravity.amplitude)) {
+            if amplitude.bend([0.0, 1.0]).is_some() && !found.contains(amplitude) {
+                found.push(amplitude.clone());
+            }
+        }
+        found
     }
 }
 

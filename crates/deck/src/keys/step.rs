@@ -72,7 +72,7 @@ table! {
 table! {
     /// Increments of a step, as fractions of its duration.
     pub struct IncrementKeys check increments {
-        /// A fixed number of equal increments; one that does not converge is still cut.
+        /// A fixed number of equal increments; one that does not converge is still cut, and where an amplitude bends one ends.
         count: Option<Spot<usize>> = whole(1..=10_000_000).spot().unless_given("sizes chosen as the run goes"),
         /// The first.
         first: Option<Spot<f64>> = fraction().spot().computed("0.05"),

@@ -184,3 +184,32 @@ fn triangles_among_quadrilaterals_are_raised_with_them() {
         assert!(range.contains(&(sinking / beam)), "{triangles}{degree}: {}", sinking / beam);
     }
 }
+
+/// A thin liner of tri3 shrunk into a tri3 housing: both become tri6, and bear Lame's pressure; where the housing is kept, so is the liner.
+#[test]
+fn both_sides_of_a_curved_joint_are_raised_or_neither() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.liner.annulus = { from = [10.0, 0.0], to = [11.02, 90.0], cells = [1, 30], cell = "tri3" }
+mesh.part.housing.annulus = { from = [11.0, 0.0], to = [20.0, 90.0], cells = [12, 30], cell = "tri3" }
+material.steel.elastic = { young = 210e3, poisson = 0.3 }
+body.liner.material = "steel"
+body.housing.material = "steel"
+contact.fit = { surface = "housing.inner", target = "liner.outer", law.frictionless = {} }
+[[step]]
+symmetry = ["liner.start", "liner.end", "housing.start", "housing.end"]
+"#;
+    // Pressure by the radial compliance of both rings per unit of pressure, in plane strain.
+    let stiff = |a: f64, b: f64| (a * a + b * b) / (b * b - a * a) / (210e3 / 0.91);
+    let (inner, outer) =
+        (stiff(10.0, 11.0) - 0.3 / 0.7 / (210e3 / 0.91), stiff(11.0, 20.0) + 0.3 / 0.7 / (210e3 / 0.91));
+    let pressure = 0.02 / 11.0 / (inner + outer);
+    let model = model(deck, &[]);
+    assert!(model.mesh.kinds.iter().all(|kind| kind.name == "tri6"));
+    let columns = support::columns(&model, &run(&model));
+    let largest = *columns["contact.fit.max_pressure"].last().unwrap();
+    assert!((largest / pressure - 1.0).abs() < 0.03, "{largest} for {pressure}");
+    let kept = support::model(deck, &["body.housing.degree=1"]);
+    assert!(kept.mesh.kinds.iter().all(|kind| kind.name == "tri3"));
+}

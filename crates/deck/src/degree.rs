@@ -1,18 +1,36 @@
-//! Which cells of first degree a deck raises to second degree: those of bodies that say so, and simplices that are too few through
-//! a body to bend.
+//! Which cells of first degree a deck raises to second degree: those of bodies that say so, simplices that are too few through
+//! a body to bend, and what meets these in a curved joint.
 
 use super::diagnose::Diagnostic;
-use super::keys::BodyKeys;
+use super::keys::{BodyKeys, Contact};
 use super::reader::{Name, Reader};
-use asperity_core::mesh::{Cell, Group, Mesh};
+use asperity_core::mesh::{Cell, Group, Mesh, Side, is_curved};
 use asperity_core::solid::{Formulation, Integration, too_stiff};
 use std::collections::BTreeSet;
 
 /// Nodes up to which a mesh is raised unasked.
 const MOST: usize = 100_000;
 
-/// The cells to raise, always all of a connected whole, so that neighbours go on sharing all their nodes; what was raised unasked is noted.
-pub fn raised(bodies: &[(Name, BodyKeys)], mesh: &Mesh, reader: &mut Reader) -> Vec<usize> {
+/// What becomes of a connected whole of cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Raise {
+    /// It keeps its degree.
+    No,
+    /// A body of it says second degree.
+    Asked,
+    /// Nothing is said of it, and it is too stiff in bending by this part.
+    Stiff(f64),
+    /// Nothing is said of it, and in the contact of this number its curved face meets cells that are raised unasked.
+    Partner(usize),
+}
+
+/// The cells to raise, always all of a connected whole, so that neighbours go on sharing all their nodes, and on both sides of a curved
+/// joint or on neither: facets would stand off edges that bend, or in them. What was raised unasked is noted.
+pub fn raised(
+    (bodies, contacts): (&[(Name, BodyKeys)], &[(Name, Contact)]),
+    mesh: &Mesh,
+    reader: &mut Reader,
+) -> Vec<usize> {
     let whole = mesh.wholes();
     let count = whole.iter().max().map_or(0, |last| last + 1);
     let mut cells = vec![Vec::new(); count];
@@ -25,11 +43,65 @@ pub fn raised(bodies: &[(Name, BodyKeys)], mesh: &Mesh, reader: &mut Reader) -> 
     for (name, body) in bodies {
         kept(name, body, mesh, reader);
     }
-    let wholes = cells.into_iter().zip(owners).filter(|(cells, owners)| {
-        let owners: Vec<_> = owners.iter().map(|&number| &bodies[number]).collect();
-        asked(&owners, reader) || unasked(&owners, cells, mesh, reader)
-    });
+    let owners: Vec<Vec<_>> = owners.iter().map(|own| own.iter().map(|&number| &bodies[number]).collect()).collect();
+    let may = |i: usize| may_be_raised(&owners[i], &cells[i], mesh);
+    let of = |i: usize, reader: &mut Reader| match asked(&owners[i], reader) {
+        true => Raise::Asked,
+        false => may(i).then(|| too_stiff(mesh, &cells[i])).flatten().map_or(Raise::No, Raise::Stiff),
+    };
+    let begun: Vec<Raise> = (0..count).map(|i| of(i, reader)).collect();
+    let joints = joints(contacts, mesh, &whole);
+    let (mut raise, mut kept) = (begun.clone(), BTreeSet::new());
+    // Each round keeps one more whole as it is, or is the last.
+    loop {
+        let meets = |raise: &[Raise]| {
+            joints.iter().find_map(|&(number, [a, b])| {
+                let open = |&[from, to]: &[usize; 2]| {
+                    matches!(raise[from], Raise::Stiff(_) | Raise::Partner(_)) && raise[to] == Raise::No
+                };
+                [[a, b], [b, a]]
+                    .into_iter()
+                    .filter(open)
+                    .find(|[_, to]| has_first(&cells[*to], mesh))
+                    .map(|pair| (number, pair))
+            })
+        };
+        let Some((number, [from, to])) = meets(&raise) else { break };
+        if may(to) && !kept.contains(&to) {
+            raise[to] = Raise::Partner(number);
+        } else {
+            kept.insert(from);
+            raise.clone_from(&begun);
+            kept.iter().for_each(|&whole| raise[whole] = Raise::No);
+        }
+    }
+    for ((owners, cells), raise) in owners.iter().zip(&cells).zip(&raise) {
+        note((owners, cells), *raise, (contacts, mesh), reader);
+    }
+    let wholes = cells.into_iter().zip(raise).filter(|(_, raise)| *raise != Raise::No);
     wholes.flat_map(|(cells, _)| cells).filter(|&cell| mesh.kinds[cell].degree == 1).collect()
+}
+
+/// Contacts of two wholes whose surface or target is curved, by their numbers.
+fn joints(contacts: &[(Name, Contact)], mesh: &Mesh, whole: &[usize]) -> Vec<(usize, [usize; 2])> {
+    let mut joints = Vec::new();
+    for (number, (_, contact)) in contacts.iter().enumerate() {
+        let sides =
+            [&contact.surface, &contact.target].map(|name| mesh.groups.get(&name.text).map(|group| &group.sides));
+        let [Some(surface), Some(target)] = sides else { continue };
+        if !is_curved(mesh, surface) && !is_curved(mesh, target) {
+            continue;
+        }
+        let wholes = |sides: &[Side]| sides.iter().map(|side| whole[side.cell]).collect::<BTreeSet<_>>();
+        let targets = wholes(target);
+        let pairs = wholes(surface).into_iter().flat_map(|a| targets.iter().map(move |&b| [a, b]));
+        joints.extend(pairs.filter(|[a, b]| a != b).map(|pair| (number, pair)));
+    }
+    joints
+}
+
+fn has_first(cells: &[usize], mesh: &Mesh) -> bool {
+    cells.iter().any(|&cell| mesh.kinds[cell].degree == 1)
 }
 
 fn degree(body: &BodyKeys) -> Option<usize> {
@@ -64,33 +136,49 @@ fn asked(owners: &[&(Name, BodyKeys)], reader: &mut Reader) -> bool {
     true
 }
 
-/// Whether a whole of first degree, of whose bodies nothing is said, is too stiff in bending by its simplices (or prisms).
-fn unasked(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh, reader: &mut Reader) -> bool {
+/// Whether nothing is said of a whole with cells of first degree, and it is not too large to be raised unasked.
+fn may_be_raised(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh) -> bool {
     let silent = |body: &BodyKeys| {
         body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Full
     };
-    let Some((name, _)) = owners.first().filter(|_| owners.iter().all(|(_, body)| silent(body))) else { return false };
-    let Some(stiff) = too_stiff(mesh, cells) else { return false };
+    if owners.is_empty() || !owners.iter().all(|(_, body)| silent(body)) || !has_first(cells, mesh) {
+        return false;
+    }
     // Each node has about three edges of its own in the plane and seven in space.
     let dimension = mesh.kinds[cells[0]].dimension;
     let (own, edges) = (cells.iter().flat_map(|&cell| mesh.cell(cell).nodes).collect::<BTreeSet<_>>().len(), [3, 7]);
-    if own * (1 + edges[dimension - 2]) > MOST {
-        return false;
-    }
+    own * (1 + edges[dimension - 2]) <= MOST
+}
+
+/// Notes what was raised unasked.
+fn note(
+    (owners, cells): (&[&(Name, BodyKeys)], &[usize]),
+    raise: Raise,
+    (contacts, mesh): (&[(Name, Contact)], &Mesh),
+    reader: &mut Reader,
+) {
+    let Some((name, _)) = owners.first() else { return };
     let others = match owners.len() {
         1 => String::new(),
         more => format!(" and {} that share its nodes", more - 1),
     };
     let kinds: BTreeSet<&str> = cells.iter().map(|&cell| mesh.kinds[cell].name).collect();
-    let kinds: Vec<&Cell> = kinds.into_iter().filter_map(Cell::named).collect();
+    let kinds: Vec<&Cell> = kinds.into_iter().filter_map(Cell::named).filter(|kind| kind.degree == 1).collect();
     let named = |kinds: &mut dyn Iterator<Item = &Cell>| kinds.map(|kind| kind.name).collect::<Vec<_>>().join(" and ");
-    let second = named(&mut kinds.iter().filter_map(|kind| kind.raised()));
-    let what = format!(
-        "`{name}`{others}: where it bends, {} cells as few as these through it are too stiff, by some {:.0} %: they became {second}, with a node \
-         in the middle of each edge, on the boundary where it is curved; degree = 1 keeps them",
-        named(&mut kinds.iter().copied()),
-        100.0 * stiff
-    );
+    let [first, second] =
+        [named(&mut kinds.iter().copied()), named(&mut kinds.iter().filter_map(|kind| kind.raised()))];
+    let what = match raise {
+        Raise::No | Raise::Asked => return,
+        Raise::Stiff(stiff) => format!(
+            "`{name}`{others}: where it bends, {first} cells as few as these through it are too stiff, by some {:.0} %: they became {second}, with a \
+             node in the middle of each edge, on the boundary where it is curved; degree = 1 keeps them",
+            100.0 * stiff
+        ),
+        Raise::Partner(contact) => format!(
+            "`{name}`{others}: in `contact.{}` its curved face meets cells that became ones of second degree, and facets would stand in these or \
+             off them: its {first} cells became {second} too; degree = 1 for both keeps them",
+            contacts[contact].0
+        ),
+    };
     reader.report(Diagnostic::change(what).at(name.place));
-    true
 }

@@ -3,7 +3,7 @@
 use super::degree;
 use super::diagnose::Diagnostic;
 use super::form::{Form, map, refers, table_of};
-use super::keys::{BodyKeys, Generator, MeshKeys, RunKeys, Selection};
+use super::keys::{BodyKeys, Contact, Generator, MeshKeys, RunKeys, Selection};
 use super::reader::{Name, Reader};
 use super::schema::Names;
 use super::source::{Place, SourceText, Spot};
@@ -37,7 +37,9 @@ pub fn mesh(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader
     let bodies = map(refers(Names::Cells), table_of::<BodyKeys>());
     let bodies = entry(tree, "body").and_then(|node| bodies.read(node, &mut quiet)).unwrap_or_default();
     choose_all(&selections, &mut mesh, reader);
-    let raised = degree::raised(&bodies, &mesh, reader);
+    let contacts = map(refers(Names::Contact), table_of::<Contact>());
+    let contacts = entry(tree, "contact").and_then(|node| contacts.read(node, &mut quiet)).unwrap_or_default();
+    let raised = degree::raised((&bodies, &contacts), &mesh, reader);
     if raised.is_empty() {
         return Some(mesh);
     }

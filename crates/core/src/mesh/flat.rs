@@ -1,12 +1,16 @@
-//! Directions: unit vectors, and the common normal of a flat group of sides.
+//! Directions: unit vectors, the common normal of a flat group of sides, and whether a group is curved.
 
+use super::smooth::CREASE;
 use super::{CellView, Mesh, Side};
 use crate::tensor::Vec3;
+use std::collections::BTreeMap;
 
 /// A component of a unit vector below this is rounding.
 pub const ROUNDING: f64 = 1e-9;
 /// Normals of a flat group differ by no more than this.
 const FLAT: f64 = 1e-6;
+/// Normals of sides that meet on a curved surface differ by more than this.
+const BENT: f64 = 1e-3;
 
 /// A vector over its length.
 pub fn unit(v: [f64; 3]) -> [f64; 3] {
@@ -20,6 +24,18 @@ pub fn flat_normal(mesh: &Mesh, sides: &[Side]) -> Option<[f64; 3]> {
     let first = normals.next()?;
     let same = |n: [f64; 3]| (0..3).all(|i| (n[i] - first[i]).abs() <= FLAT);
     normals.all(same).then(|| first.map(|x| if x.abs() < ROUNDING { 0.0 } else { x })).map(unit)
+}
+
+/// Whether sides meet at angles that are no creases: they stand for a curved surface.
+pub fn is_curved(mesh: &Mesh, sides: &[Side]) -> bool {
+    let mut known: BTreeMap<usize, Vec<Vec3>> = BTreeMap::new();
+    let mut bends = |(node, normal): (usize, [f64; 3])| {
+        let (normal, others) = (Vec3(normal), known.entry(node).or_default());
+        let found = others.iter().any(|m| m.dot(normal) > CREASE.cos() && (*m - normal).norm() > BENT);
+        others.push(normal);
+        found
+    };
+    sides.iter().any(|&side| mesh.side(side).1.zip(side_normals(mesh, side)).any(&mut bends))
 }
 
 /// Unit normals of a side at its nodes, outward.

@@ -17,7 +17,7 @@ mod unstructured;
 
 pub use boundary::{Behind, Faces};
 pub use cells::{Cell, Face, Quadrature};
-pub use flat::{ROUNDING, flat_normal, unit};
+pub use flat::{ROUNDING, flat_normal, is_curved, unit};
 pub use groups::{Group, Side};
 pub use measure::Adjacency;
 pub use smooth::CREASE;

@@ -74,7 +74,7 @@ fn rests(certificate: &Certificate, space: Space) -> Vec<String> {
         )),
         most if most < few => Some(format!(
             "{contact} rested on {most} points at most, fewer than the {few} of a force that changes smoothly as it moves; a \
-             finer surface, a higher `gauss` gives it more"
+             finer surface gives it more"
         )),
         _ => None,
     };

@@ -178,13 +178,21 @@ impl FieldContact {
         let overlaps =
             (0..self.slots()).map(|slot| history.slot(slot)[entry::OVERLAP]).filter(|overlap| *overlap > 0.0);
         let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
-        let (of, size) = if count > 0.0 { ("overlap", sum / count) } else { ("motion", self.motion(u)) };
+        // A few nodes that touch are no fit.
+        let pressed = 4.0 * count > self.nodal_slots() as f64;
+        let (of, size) = if pressed { ("overlap", sum / count) } else { ("motion", self.motion(u)) };
         let misplaced = size > 0.0 && apart > MISPLACED * size;
-        (misplaced && (count > 0.0 || self.fits())).then(|| {
+        (misplaced && (pressed || self.fits())).then(|| {
+            let [all, closed] = [self.nodal_slots(), self.closed(history).count()];
+            let peak = match 10 * closed < 9 * all && closed > 0 {
+                true => format!(" in the mean, its peak {:.1} times too high and more, as {closed} of {all} nodes bear", all as f64 / closed as f64),
+                false => String::new(),
+            };
+            let fit = if pressed { "" } else { ", or the clearance of a smooth fit by overlap = \"fit\"" };
             format!(
                 "contact '{}': its facets stand {apart:.2e} farther apart, or less, than the curved surfaces that they are meant for, \
-                 {:.0} % of the {of} of {size:.2e}, and the pressure is off by about as much; cells of second degree, matching \
-                 or finer facets, or the clearance of a smooth fit by overlap = \"fit\"",
+                 {:.0} % of the {of} of {size:.2e}, and the pressure is off by about as much{peak}; cells of second degree on both sides, \
+                 matching or finer facets{fit}",
                 self.parts.name,
                 100.0 * apart / size
             )

@@ -31,7 +31,7 @@ impl FieldContact {
         kept.fold(self.parts.options.penalty, f64::max)
     }
 
-    fn closed<'a>(&self, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
+    pub(super) fn closed<'a>(&self, history: &'a History) -> impl Iterator<Item = &'a [f64]> {
         (0..self.nodal_slots()).map(|slot| history.slot(slot)).filter(|values| values[entry::STATUS] > 0.0)
     }
 

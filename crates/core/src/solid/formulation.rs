@@ -62,7 +62,8 @@ impl Default for BodyOptions {
 /// edges a side are 5.0 % too stiff in Cook's membrane and 1.7 % with F-bar (3.7 and 1.8 % at 0.3, 21 and 1.7 % at 0.49).
 pub const NEARLY: f64 = 4.6;
 
-/// Cells of first degree through a bonded layer from which on they are near the parabola with which what keeps its volume flows out.
+/// Cells of first degree through a bonded layer from which on they are near the parabola with which what keeps its volume flows out; of
+/// second one fewer.
 const FEW: f64 = 4.0;
 
 /// What the cells of one kind in a body became, and why.
@@ -142,20 +143,21 @@ impl Choice {
         (body, through): (impl FnOnce() -> Slenderness, Option<f64>),
         options: &BodyOptions,
     ) -> Self {
-        let reduced = options.integration == Integration::Reduced && self.kind.reduced.is_some();
-        if reduced || self.kind.degree > 1 {
+        if options.integration == Integration::Reduced && self.kind.reduced.is_some() {
             self.layers = None;
-        } else {
-            let body = body();
-            self.layers = self.layers.and(through).map(f64::round).filter(|layers| *layers < FEW);
-            self.soft = body.soft(self.kind, self.formulation);
-            if self.soft && options.formulation == Formulation::Auto {
-                self.formulation = Formulation::Incompatible;
-                self.reason = "bending, with one or two cells through it".into();
-                self.soft = false;
-            }
-            self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
+            return self;
         }
+        let (body, bonded) = (body(), self.layers.is_some());
+        self.layers =
+            self.layers.and(through).map(f64::round).filter(|layers| *layers < FEW - (self.kind.degree - 1) as f64);
+        // What is bonded does not bend.
+        self.soft = !bonded && body.soft(self.kind, self.formulation);
+        if self.soft && options.formulation == Formulation::Auto {
+            self.formulation = Formulation::Incompatible;
+            self.reason = "bending, with one or two cells through it".into();
+            self.soft = false;
+        }
+        self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
         self
     }
 
@@ -173,25 +175,35 @@ impl Choice {
                  times with one; three or more, cells of second degree or formulation = \"incompatible\" are not"
             )
         });
-        let why = match self.formulation {
-            Formulation::Incompatible => {
-                "are trapezoids along it, which bend no better with incompatible modes; rectangles and cells of second degree do"
+        let why = match (self.kind.degree, self.formulation) {
+            (1, Formulation::Incompatible) => {
+                "are trapezoids along it, which bend no better with incompatible modes; rectangles, cells half as long, and cells of \
+                 second degree with integration = \"reduced\" do"
             }
-            _ => "are too long, or too few through it, for first degree; those of second are right",
+            (1, _) => "are too long, or too few through it, for first degree; those of second are right",
+            _ => {
+                "are curved, and stretch as they bend (membrane locking): a sixteenth of that is left with cells half as long, nothing with \
+                 quad8 or hex20 and integration = \"reduced\""
+            }
         };
         let stiff = self.stiff.filter(|_| !self.soft);
         let stiff = stiff.map(|part| {
-            format!("where it bends it is too stiff, by some {:.0} %: its {name} cells {why}", 100.0 * part)
+            format!(
+                "as far as bending carries it, and not stretch along it, it is too stiff, by some {:.0} %: its {name} cells {why}",
+                100.0 * part
+            )
         });
         let layers = self.layers.map(|layers| {
-            let (count, part) = match layers {
-                2.0 => ("two", "a third"),
-                3.0 => ("three", "a tenth"),
-                _ => ("one", "several times"),
+            let (count, part) = match (layers, self.kind.degree) {
+                (2.0, 1) => ("two", "a third"),
+                (3.0, 1) => ("three", "a tenth"),
+                (_, 1) => ("one", "several times"),
+                (2.0, _) => ("two", "up to a tenth, and a third where it is pressed together by that"),
+                _ => ("one", "up to a fifth, and half where it is pressed together by a third"),
             };
             format!(
                 "{count} {name} through a layer that keeps its volume between bonded faces: too stiff across it, by {part}; \
-                 cells of second degree are right"
+                 more cells of second degree are right"
             )
         });
         locks.into_iter().chain(soft).chain(stiff).chain(layers)

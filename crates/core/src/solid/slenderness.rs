@@ -1,9 +1,11 @@
-//! How long and how thick the cells of a body are, against its own thickness, and how much they taper: what cells of first degree
-//! get wrong in bending.
+//! How long and how thick the cells of a body are, against its own thickness, how much they taper and how far they are curved: what
+//! cells get wrong in bending.
 
 use super::{Formulation, incompatible};
 use crate::mesh::cells::Cell;
 use crate::mesh::{Mesh, Side, median};
+use crate::tensor::Vec3;
+use std::collections::BTreeMap;
 
 /// By what part some cells of first degree are too stiff in bending by the simplices or prisms among them, where that is much: that
 /// of a body of these alone, times their part of it.
@@ -22,16 +24,18 @@ pub fn too_stiff(mesh: &Mesh, cells: &[usize]) -> Option<f64> {
 /// Part by which a body may be too stiff in bending without a word.
 pub(super) const STIFF: f64 = 0.1;
 
-/// Of a body's cells of first degree, simplices taken together to quadrilaterals and bricks.
+/// Of a body's cells, simplices taken together to quadrilaterals and bricks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slenderness {
     /// Length along the body over its thickness.
     pub along: f64,
     /// How many of them lie through it.
     pub through: f64,
-    /// How much longer one of their sides along it is than the other, as the slope of those between, times their length over their
-    /// own thickness.
+    /// How much longer one of their sides along it is than the other, as half the slope of those between, times their length over their
+    /// own thickness; where neighbours taper the same way, as around a curved body, that times the slope and a factor.
     pub taper: f64,
+    /// Height of their arcs over the thickness, root of the mean square over both surfaces of a body of that; zero in first degree.
+    pub arc: f64,
 }
 
 impl Slenderness {
@@ -41,7 +45,7 @@ impl Slenderness {
         let mut boundary = mesh.boundary(cells);
         boundary.retain(|&side| mesh.faces(side).is_none_or(|axis| !held[axis]));
         if boundary.is_empty() {
-            return Self { along: 0.0, through: f64::INFINITY, taper: 0.0 };
+            return Self { along: 0.0, through: f64::INFINITY, taper: 0.0, arc: 0.0 };
         }
         let sides = boundary.iter().map(|&side| {
             let kind = mesh.cell(side.cell).kind;
@@ -56,14 +60,18 @@ impl Slenderness {
         let dimension = cells.first().map_or(2, |&cell| mesh.cell(cell).kind.dimension);
         let area = volume / bricks / deep;
         let along = if dimension == 3 { area.sqrt() } else { area };
-        let taper = median(boundary.iter().map(|&side| (taper(mesh, side), mesh.extent(side))).collect());
-        Self { along: along / thickness, through: thickness / deep, taper }
+        let taper = median(tapers(mesh, &boundary));
+        let squares: f64 = boundary.iter().map(|&side| arc(mesh, side).powi(2) * mesh.extent(side)).sum();
+        let arc = (squares / (2.0 * volume * thickness)).sqrt();
+        Self { along: along / thickness, through: thickness / deep, taper, arc }
     }
 
     /// By what part of its deflection a body of such cells is too stiff in bending, roughly: the shear that comes along goes with the
     /// square of their length, the stretch across that is not free with that of their thickness. The factors are those of cantilevers
     /// with one to eight cells through them, Poisson's ratio 0.3. Cells with incompatible modes bend, but as trapezoids they cannot
-    /// do so without shear either, whatever passes the patch test (MacNeal 1987).
+    /// do so without shear either, whatever passes the patch test (MacNeal 1987). Curved cells of second degree stretch along their
+    /// middle as they bend, against which full integration resists (membrane locking, Stolarski and Belytschko 1983): the factors are
+    /// those of rings.
     pub fn stiff(&self, kind: &Cell, formulation: Formulation) -> f64 {
         let (long, thick) = (self.along.powi(2), self.through.powi(-2));
         match (kind.degree, formulation) {
@@ -71,6 +79,8 @@ impl Slenderness {
             (1, Formulation::FBar) if incompatible::modes(kind) > 0 => 0.35 * long,
             (1, _) if incompatible::modes(kind) > 0 => 0.35 * long + 0.3 * thick,
             (1, _) => long + 2.7 * thick,
+            (2, Formulation::Standard) if together(kind) > 1.0 => 1.4 * self.arc.powi(2),
+            (2, Formulation::Standard) => 4.5 * self.arc.powi(2),
             _ => 0.0,
         }
     }
@@ -82,22 +92,65 @@ impl Slenderness {
     }
 }
 
-/// The slope between a side of a quadrilateral or brick and the one across from it that makes the difference of their extents, times their length
-/// over their distance; none of other cells.
-fn taper(mesh: &Mesh, side: Side) -> f64 {
+/// Square of what a cell that tapers as its neighbours do is stiffer in bending than one among those that taper against it, over that of
+/// its slope: of rings with 4 to 16 cells a quarter.
+const TOGETHER: f64 = 1.6;
+
+/// What sides of the boundary taper, in the measure of [`Slenderness::taper`], with their extents.
+fn tapers(mesh: &Mesh, boundary: &[Side]) -> Vec<(f64, f64)> {
+    let own: Vec<[f64; 2]> = boundary.iter().map(|&side| taper(mesh, side)).collect();
+    let mut rims = BTreeMap::<Vec<usize>, Vec<usize>>::new();
+    let rims_of = |&side: &Side| {
+        let (kind, nodes) = mesh.side(side);
+        let corners: Vec<usize> = nodes.take(kind.linear.nodes.len()).collect();
+        let mut rims: Vec<Vec<usize>> = match kind.dimension {
+            1 => corners.iter().map(|&corner| vec![corner]).collect(),
+            _ => kind.faces.iter().map(|edge| [0, 1].map(|end| corners[edge.nodes[end]]).to_vec()).collect(),
+        };
+        rims.iter_mut().for_each(|rim| rim.sort_unstable());
+        rims
+    };
+    for (number, side) in boundary.iter().enumerate() {
+        rims_of(side).into_iter().for_each(|rim| rims.entry(rim).or_default().push(number));
+    }
+    let of = |(side, [taper, slope]): (&Side, &[f64; 2])| {
+        let beside = rims_of(side).into_iter().flat_map(|rim| rims[&rim].clone()).map(|other| own[other][0]);
+        let against = beside.filter(|other| other * taper < 0.0).map(|other| 0.5 * (taper - other).abs());
+        let together = taper.powi(2) * TOGETHER * slope.powi(2);
+        ((against.fold(0.0, f64::max).powi(2) + together).sqrt(), mesh.extent(*side))
+    };
+    boundary.iter().zip(&own).map(of).collect()
+}
+
+/// The slope between a side of a quadrilateral or brick and the one across from it that makes the difference of their extents, half of it
+/// times their length over their distance and it alone; none of other cells.
+fn taper(mesh: &Mesh, side: Side) -> [f64; 2] {
     let view = mesh.cell(side.cell);
     if incompatible::modes(view.kind) == 0 {
-        return 0.0;
+        return [0.0; 2];
     }
     let own: Vec<usize> = mesh.side(side).1.collect();
     let across = (0..view.kind.faces.len()).map(|face| Side { cell: side.cell, face });
     let Some(across) = across.into_iter().find(|&other| mesh.side(other).1.all(|node| !own.contains(&node))) else {
-        return 0.0;
+        return [0.0; 2];
     };
     let (near, far) = (mesh.extent(side), mesh.extent(across));
     let mean = 0.5 * (near + far);
     let (depth, length) = (mesh.measure(side.cell) / mean, if view.kind.dimension == 3 { mean.sqrt() } else { mean });
-    0.5 * (near - far).abs() / mean * (length / depth).powi(2)
+    let slope = (near - far) / mean * length / depth;
+    [0.5 * slope * length / depth, slope]
+}
+
+/// How far the middles of a side's edges lie off the chords, along its normal.
+fn arc(mesh: &Mesh, side: Side) -> f64 {
+    let (kind, nodes) = mesh.side(side);
+    let x: Vec<Vec3> = nodes.map(|node| mesh.points[node]).collect();
+    if kind.dimension == 1 {
+        return x.get(2).map_or(0.0, |&middle| (middle - (x[0] + x[1]) * 0.5).norm());
+    }
+    let normal = (x[1] - x[0]).cross(x[2] - x[0]).unit();
+    let height = |(middle, [a, b]): (usize, [usize; 2])| (x[middle] - (x[a] + x[b]) * 0.5).dot(normal).abs();
+    kind.middles().map(height).fold(0.0, f64::max)
 }
 
 /// Cells of a kind that fill a quadrilateral or a brick.
@@ -112,11 +165,11 @@ fn together(kind: &Cell) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::generate::{Block, Rectangle};
+    use crate::mesh::generate::{Annulus, Block, Rectangle, Spacing};
 
     /// Deflections of cantilevers of `verify locking` and of ones 100 long and 2 high.
     #[test]
-    fn stiffness_is_that_of_cantilevers() {
+    fn stiffness_is_that_of_cantilevers_and_rings() {
         for (name, size, cells, found) in [
             ("tri3", [20.0, 1.0], [40, 2], 0.517),
             ("tri3", [20.0, 1.0], [40, 1], 0.255),
@@ -143,6 +196,40 @@ mod tests {
             let (told, found) = (of.stiff(kind, Formulation::Incompatible), 1.0 / found - 1.0);
             assert!((0.3..1.5).contains(&(told / found)), "{angle}: {told}, {found}");
         }
+        // Thin rings of radius 20 with quarters of some cells, sides of one load: (pi / 4 - 2 / pi) F R^3 / EI.
+        for (name, cells, thickness, found) in [
+            ("quad4", [1, 8], 0.2, 0.834),
+            ("quad4", [1, 4], 0.4, 0.2505),
+            ("quad4", [2, 8], 0.1, 0.5965),
+            ("quad8", [1, 8], 0.4, 0.790),
+            ("quad8", [1, 8], 0.2, 0.495),
+            ("quad8", [4, 8], 0.4, 0.790),
+            ("quad9", [1, 8], 0.4, 0.790),
+            ("tri6", [1, 8], 0.2, 0.7575),
+        ] {
+            let kind = Cell::named(name).unwrap();
+            let [radius, angle] = [
+                Spacing::graded(20.0 - 0.5 * thickness, 20.0 + 0.5 * thickness, cells[0], 1.0),
+                Spacing::graded(0.0, 90.0, cells[1], 1.0),
+            ];
+            let mesh = Annulus { centre: [0.0; 2], radius, angle, cell: kind }.mesh("b").unwrap();
+            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>(), [false; 3]);
+            let formulation = if kind.degree == 1 { Formulation::Incompatible } else { Formulation::Standard };
+            let (told, found) = (of.stiff(kind, formulation), 1.0 / found - 1.0);
+            assert!((0.7..1.4).contains(&(told / found)), "{name} {cells:?} {thickness}: {told}, {found}");
+        }
+        // A ring of bricks, as high as thick.
+        let mut mesh =
+            Block::new([0.0; 3], [0.4, std::f64::consts::FRAC_PI_2, 0.4], [1, 8, 1], Cell::named("hex20").unwrap())
+                .mesh("b")
+                .unwrap();
+        for x in &mut mesh.points {
+            let (r, angle) = (19.8 + x[0], x[1]);
+            *x = Vec3([r * angle.cos(), r * angle.sin(), x[2]]);
+        }
+        let told =
+            Slenderness::of(&mesh, &(0..8).collect::<Vec<_>>(), [false; 3]).stiff(mesh.kinds[0], Formulation::Standard);
+        assert!((0.9..1.1).contains(&(told / (1.0 / 0.785 - 1.0))), "{told}");
         for (through, soft) in [(1, true), (2, true), (3, false)] {
             let kind = Cell::named("hex8").unwrap();
             let mesh = Block::new([0.0; 3], [50.0, 50.0, 2.0], [20, 20, through], kind).mesh("b").unwrap();

@@ -70,7 +70,8 @@ impl Builder<'_> {
         self.keep(body.along(axes), said.place)
     }
 
-    /// Whether more than half of the surface of a body is held along all axes, glued or stuck.
+    /// Whether half of the surface of a body or more is held along all axes, glued or stuck. What is only held along its normal, as planes of
+    /// symmetry are, is no surface.
     fn bonded(&self, cells: &[usize]) -> bool {
         let (mesh, mut held) = (&self.site.mesh, self.held_nodes());
         let stuck = self.deck.contact.iter().filter(|(_, contact)| contact.law.entry.name == "sticking");
@@ -80,12 +81,16 @@ impl Builder<'_> {
         }
         let axes = ..self.site.space.dimension();
         let whole = |side: Side| mesh.side(side).1.all(|node| held[node][axes].iter().all(|held| *held));
-        let (mut all, mut bonded) = (0.0, 0.0);
+        let slides = |side: Side| mesh.faces(side).is_some_and(|axis| mesh.side(side).1.all(|node| held[node][axis]));
+        let (mut free, mut bonded) = (0.0, 0.0);
         for side in mesh.boundary(cells) {
-            all += mesh.extent(side);
-            bonded += if whole(side) { mesh.extent(side) } else { 0.0 };
+            match side {
+                side if whole(side) => bonded += mesh.extent(side),
+                side if slides(side) => (),
+                side => free += mesh.extent(side),
+            }
         }
-        bonded > 0.5 * all
+        bonded > 0.0 && bonded >= (1.0 - 1e-9) * free
     }
 
     /// Axes along which all sides of a body that face them are held from the first step to the end.

@@ -166,12 +166,12 @@ fn symmetry_is_no_surface() {
 /// nothing is told, nor of quadrilaterals of first degree that are a little too stiff.
 #[test]
 fn curved_cells_are_told_to_lock() {
-    let ring = |cell: &str, more: &str| {
+    let bent = |cell: &str, more: &str, [space, poisson]: [&str; 2]| {
         let deck = format!(
             "version = 1
-            space = \"plane-stress\"
+            space = \"{space}\"
             mesh.part.b.annulus = {{ from = [19.8, 0.0], to = [20.2, 90.0], cells = [1, 8], cell = \"{cell}\" }}
-            material.m.elastic = {{ young = 210e3, poisson = 0.3 }}
+            material.m.elastic = {{ young = 210e3, poisson = {poisson} }}
             body.b = {{ material = \"m\", strain = \"small\"{more} }}
             [[step]]
             increments.count = 1
@@ -182,12 +182,25 @@ fn curved_cells_are_told_to_lock() {
         let notes = made(&deck, &[]).model.bodies[0].0.choices()[0].advice().collect::<Vec<_>>();
         (-ended(&deck, "b.end", 1).1 / exact, notes)
     };
+    let ring = |cell: &str, more: &str| bent(cell, more, ["plane-stress", "0.3"]);
+    let rubber = |more: &str| {
+        let (found, told) = bent("quad8", more, ["plane-strain", "0.499"]);
+        (found / (1.0 - 0.499 * 0.499), told)
+    };
     let (found, told) = ring("quad8", "");
     assert!(
         (0.78..0.8).contains(&found) && told.len() == 1 && told[0].contains("some 26 %") && told[0].contains("reduced"),
         "{found} {told:?}"
     );
     let (found, told) = ring("quad8", ", integration = \"reduced\"");
+    assert!((0.998..1.001).contains(&found) && told.is_empty(), "{found} {told:?}");
+    // F-bar, in plane strain: too soft.
+    let (found, told) = rubber("");
+    assert!(
+        (1.26..1.29).contains(&found) && told.len() == 1 && told[0].contains("too soft, by some 17 %"),
+        "{found} {told:?}"
+    );
+    let (found, told) = rubber(", integration = \"reduced\"");
     assert!((0.998..1.001).contains(&found) && told.is_empty(), "{found} {told:?}");
     let (found, told) = ring("quad4", "");
     assert!((0.92..0.94).contains(&found) && told.is_empty(), "{found} {told:?}");

@@ -85,12 +85,11 @@ impl Body {
         }
         let material = options.strain.law(material).map_err(|why| Error::input(format!("body '{name}': {why}")))?;
         let (mut choices, slenderness) = (Vec::<Choice>::new(), OnceCell::new());
-        let through = options.bonded.then(|| Slenderness::of(&mesh, &cells, [false; 3]).through);
         for kind in cells.iter().map(|&cell| mesh.cell(cell).kind) {
             if choices.iter().all(|known| known.kind != kind) {
                 let choice = Choice::of(kind, space, material.as_ref(), &options);
                 let body = || *slenderness.get_or_init(|| Slenderness::of(&mesh, &cells, options.held));
-                choices.push(choice.in_body((body, through), &options));
+                choices.push(choice.in_body(body, &options));
             }
         }
         let barred =

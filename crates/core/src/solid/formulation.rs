@@ -47,14 +47,14 @@ pub struct BodyOptions {
     pub thickness: f64,
     /// Axes along which the sides that face them are held, so that it does not bend across them however thin it is.
     pub held: [bool; 3],
-    /// Whether most of its surface is bonded: held, glued or stuck, so that it cannot give way along it.
-    pub bonded: bool,
+    /// Where half of its surface or more is bonded, held, glued or stuck, so that it cannot give way along it: cells through it from there.
+    pub bonded: Option<f64>,
 }
 
 impl Default for BodyOptions {
     fn default() -> Self {
         let (formulation, integration) = (Formulation::Auto, Integration::Full);
-        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3], bonded: false }
+        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3], bonded: None }
     }
 }
 
@@ -77,7 +77,7 @@ pub struct Choice {
     pub reason: String,
     /// Whether the cells remain too stiff all the same.
     pub locks: bool,
-    /// By what part they are too stiff in bending, where that is much.
+    /// By what part they are too stiff in bending, or with a minus too soft, where that is much.
     pub stiff: Option<f64>,
     /// Whether they are too soft in bending.
     pub soft: bool,
@@ -95,7 +95,7 @@ impl Choice {
         let reduced = options.integration == Integration::Reduced && kind.reduced.is_some();
         let standard = |reason: &str, locks: bool| (Formulation::Standard, reason.to_string(), locks);
         let stiff = stiff && flow != Flow::Unknown;
-        let layers = (options.bonded && (stiff || flow == Flow::Isochoric)).then_some(f64::INFINITY);
+        let layers = options.bonded.filter(|_| stiff || flow == Flow::Isochoric);
         let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::modes(kind) > 0 && !reduced;
         let modes = |reason: &str| (Formulation::Incompatible, reason.to_string(), false);
         let (formulation, reason, locks) = match options.formulation {
@@ -136,20 +136,14 @@ impl Choice {
         format!("{} {word}: {}", self.kind.name, self.reason)
     }
 
-    /// The same with what follows from the body's thickness, which is asked for where it matters; `through` are the cells through a bonded
-    /// layer.
-    pub(super) fn in_body(
-        mut self,
-        (body, through): (impl FnOnce() -> Slenderness, Option<f64>),
-        options: &BodyOptions,
-    ) -> Self {
+    /// The same with what follows from the body's thickness, which is asked for where it matters.
+    pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
         if options.integration == Integration::Reduced && self.kind.reduced.is_some() {
             self.layers = None;
             return self;
         }
         let (body, bonded) = (body(), self.layers.is_some());
-        self.layers =
-            self.layers.and(through).map(f64::round).filter(|layers| *layers < FEW - (self.kind.degree - 1) as f64);
+        self.layers = self.layers.map(f64::round).filter(|layers| *layers < FEW - (self.kind.degree - 1) as f64);
         // What is bonded does not bend.
         self.soft = !bonded && body.soft(self.kind, self.formulation);
         if self.soft && options.formulation == Formulation::Auto {
@@ -157,7 +151,7 @@ impl Choice {
             self.reason = "bending, with one or two cells through it".into();
             self.soft = false;
         }
-        self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
+        self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| part.abs() > STIFF);
         self
     }
 
@@ -181,6 +175,10 @@ impl Choice {
                  second degree with integration = \"reduced\" do"
             }
             (1, _) => "are too long, or too few through it, for first degree; those of second are right",
+            (_, Formulation::FBar) => {
+                "are curved, and F-bar does not see all of their bending: a sixteenth of that is left with cells half as long, nothing \
+                 with quad8 or hex20 and integration = \"reduced\""
+            }
             _ => {
                 "are curved, and stretch as they bend (membrane locking): a sixteenth of that is left with cells half as long, nothing with \
                  quad8 or hex20 and integration = \"reduced\""
@@ -189,8 +187,9 @@ impl Choice {
         let stiff = self.stiff.filter(|_| !self.soft);
         let stiff = stiff.map(|part| {
             format!(
-                "as far as bending carries it, and not stretch along it, it is too stiff, by some {:.0} %: its {name} cells {why}",
-                100.0 * part
+                "as far as bending carries it, and not stretch along it, it is too {}, by some {:.0} %: its {name} cells {why}",
+                if part < 0.0 { "soft" } else { "stiff" },
+                100.0 * part.abs()
             )
         });
         let layers = self.layers.map(|layers| {

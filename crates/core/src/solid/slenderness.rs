@@ -126,8 +126,9 @@ fn tapers(mesh: &Mesh, boundary: &[Side]) -> Vec<(f64, f64)> {
     let of = |(side, [taper, slope]): (&Side, &[f64; 2])| {
         let beside = rims_of(side).into_iter().flat_map(|rim| rims[&rim].clone()).map(|other| own[other][0]);
         let against = beside.filter(|other| other * taper < 0.0).map(|other| 0.5 * (taper - other).abs());
-        let together = taper.powi(2) * TOGETHER * slope.powi(2);
-        ((against.fold(0.0, f64::max).powi(2) + together).sqrt(), mesh.extent(*side))
+        let against = against.fold(0.0, f64::max);
+        let measure = if against > 0.0 { against } else { TOGETHER.sqrt() * (taper * slope).abs() };
+        (measure, mesh.extent(*side))
     };
     boundary.iter().zip(&own).map(of).collect()
 }

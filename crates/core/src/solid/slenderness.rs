@@ -26,14 +26,20 @@ pub fn layers(mesh: &Mesh, sides: &[Side], boundary: &[Side]) -> f64 {
     mesh.thickness(sides, boundary) / deep(mesh, sides)
 }
 
-/// The median over some sides of the volume of the cell behind over the area, of a simplex over its base.
+/// The median over some sides of the height of the cell behind.
 fn deep(mesh: &Mesh, sides: &[Side]) -> f64 {
-    let depths = sides.iter().map(|&side| {
-        let kind = mesh.cell(side.cell).kind;
-        let part = if kind.linear.nodes.len() == kind.dimension + 1 { kind.dimension as f64 } else { 1.0 };
-        (part * mesh.depth(side), mesh.extent(side))
-    });
-    median(depths.collect())
+    median(sides.iter().map(|&side| (height(mesh, side), mesh.extent(side))).collect())
+}
+
+/// Volume of the cell behind a side over the area, of a simplex over its base, of a wedge over one of its quadrilaterals.
+fn height(mesh: &Mesh, side: Side) -> f64 {
+    let kind = mesh.cell(side.cell).kind;
+    let part = match (kind.linear.nodes.len(), mesh.side(side).0.linear.nodes.len()) {
+        (nodes, _) if nodes == kind.dimension + 1 => kind.dimension as f64,
+        (6, 4) => 2.0,
+        _ => 1.0,
+    };
+    part * mesh.depth(side)
 }
 
 /// Part by which a body may be too stiff in bending without a word.

@@ -67,7 +67,7 @@ fn asked(owners: &[&(Name, BodyKeys)], reader: &mut Reader) -> bool {
 /// Whether a whole of first degree, of whose bodies nothing is said, is too stiff in bending by its simplices (or prisms).
 fn unasked(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh, reader: &mut Reader) -> bool {
     let silent = |body: &BodyKeys| {
-        body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Full
+        body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Auto
     };
     let Some((name, _)) = owners.first().filter(|_| owners.iter().all(|(_, body)| silent(body))) else { return false };
     let Some(stiff) = too_stiff(mesh, cells) else { return false };

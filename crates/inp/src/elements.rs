@@ -113,7 +113,7 @@ impl Formulation {
     /// Its keys of a body: a type says how it is computed, so nothing is left to be chosen.
     pub fn keys(self) -> &'static str {
         match self {
-            Self::Standard => "formulation = \"standard\"\n",
+            Self::Standard => "formulation = \"standard\"\nintegration = \"full\"\n",
             Self::FBar => "formulation = \"f-bar\"\n",
             Self::Incompatible => "formulation = \"incompatible\"\n",
             Self::Reduced => "integration = \"reduced\"\n",

@@ -124,7 +124,7 @@ impl Body {
         let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
         let points = rule.points.iter().zip(rule.weights).map(shapes);
         let warmth =
-            rule.points.iter().map(|&xi| super::heat::weights(kind, xi, self.options.integration, modes)).collect();
+            rule.points.iter().map(|&xi| super::heat::weights(kind, xi, choice.integration, modes)).collect();
         KindShapes { kind, points: points.collect(), warmth, bar: Bar::of(choice), modes }
     }
 
@@ -208,10 +208,8 @@ impl Body {
     }
     /// Quadrature of a cell of the body.
     pub fn rule(&self, kind: &'static Cell) -> &'static Quadrature {
-        match self.options.integration {
-            Integration::Full => kind.full,
-            Integration::Reduced => kind.reduced.unwrap_or(kind.full),
-        }
+        let reduced = |choice: &Choice| choice.kind == kind && choice.integration == Integration::Reduced;
+        kind.reduced.filter(|_| self.choices.iter().any(reduced)).unwrap_or(kind.full)
     }
     /// Values of the state of one integration point.
     pub fn point_len(&self) -> usize {

@@ -6,7 +6,7 @@
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
 //! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft.
 
-use super::slenderness::{STIFF, Slenderness};
+use super::slenderness::{STIFF, Slenderness, TWO_POINTS};
 use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
@@ -28,6 +28,8 @@ pub enum Formulation {
 /// Which quadrature is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Integration {
+    /// One of the others, by cell and body.
+    Auto,
     /// Exact for the stiffness of an undistorted cell.
     Full,
     /// One order lower.
@@ -53,7 +55,7 @@ pub struct BodyOptions {
 
 impl Default for BodyOptions {
     fn default() -> Self {
-        let (formulation, integration) = (Formulation::Auto, Integration::Full);
+        let (formulation, integration) = (Formulation::Auto, Integration::Auto);
         Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3], bonded: None }
     }
 }
@@ -73,6 +75,8 @@ pub struct Choice {
     pub kind: &'static Cell,
     /// Which of them.
     pub formulation: Formulation,
+    /// Their quadrature.
+    pub integration: Integration,
     /// Why, in words.
     pub reason: String,
     /// Whether the cells remain too stiff all the same.
@@ -83,6 +87,8 @@ pub struct Choice {
     pub soft: bool,
     /// How many of them lie through a bonded layer that keeps its volume, where they are too few.
     pub layers: Option<f64>,
+    /// Whether the law flows.
+    flows: bool,
 }
 
 impl Choice {
@@ -123,7 +129,9 @@ impl Choice {
             }
             Formulation::Auto => standard(&format!("bulk over shear modulus is only {}", rounded(ratio)), false),
         };
-        Self { kind, formulation, reason, locks, stiff: None, soft: false, layers }
+        let integration = if reduced { Integration::Reduced } else { Integration::Full };
+        let flows = matches!(flow, Flow::Isochoric | Flow::Dilatant);
+        Self { kind, formulation, integration, reason, locks, stiff: None, soft: false, layers, flows }
     }
 
     /// One line: cells, formulation, reason.
@@ -138,20 +146,43 @@ impl Choice {
 
     /// The same with what follows from the body's thickness, which is asked for where it matters.
     pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
-        if options.integration == Integration::Reduced && self.kind.reduced.is_some() {
+        if self.integration == Integration::Reduced {
             self.layers = None;
             return self;
         }
         let (body, bonded) = (body(), self.layers.is_some());
         self.layers = self.layers.map(f64::round).filter(|layers| *layers < FEW - (self.kind.degree - 1) as f64);
+        let (auto, stiff) = (options.formulation == Formulation::Auto, body.stiff(self.kind, self.formulation));
+        let free = auto || options.formulation == Formulation::Standard;
         // What is bonded does not bend.
-        self.soft = !bonded && body.soft(self.kind, self.formulation);
-        if self.soft && options.formulation == Formulation::Auto {
-            self.formulation = Formulation::Incompatible;
-            self.reason = "bending, with one or two cells through it".into();
-            self.soft = false;
+        if !bonded && options.integration == Integration::Auto && free && body.reduces(self.kind, stiff, self.flows) {
+            let how = if stiff > 0.0 { "full would be too stiff" } else { "F-bar wrong" };
+            let part = (100.0 * stiff.abs()).ceil();
+            self.reason = format!("reduced integration, since its cells are curved: {how} by up to {part} % where it bends");
+            if self.flows && body.through < 1.5 {
+                self.reason += &format!("; with one through it the plastic moment is {:.0} % too large", 100.0 * TWO_POINTS);
+            }
+            (self.formulation, self.integration) = (Formulation::Standard, Integration::Reduced);
+            (self.locks, self.layers) = (false, None);
+            return self;
         }
-        self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| part.abs() > STIFF);
+        self.soft = !bonded && body.soft(self.kind, self.formulation);
+        self.stiff = Some(stiff);
+        let modes = incompatible::modes(self.kind) > 0;
+        let bends = body.stiff(self.kind, Formulation::Incompatible);
+        let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF.max(bends);
+        if auto && modes && (self.soft || shears) {
+            self.reason = match self.soft {
+                true => "bending, with one or two cells through it".into(),
+                false => format!("bending, with cells {} times as long as it is thick", rounded(body.along)),
+            };
+            (self.formulation, self.soft, self.stiff) = (Formulation::Incompatible, false, Some(bends));
+        } else if auto && self.soft {
+            self.reason = "bending, with one cell through it".into();
+            let stiff = body.stiff(self.kind, Formulation::Standard) + body.plain();
+            (self.formulation, self.soft, self.stiff) = (Formulation::Standard, false, Some(stiff));
+        }
+        self.stiff = self.stiff.filter(|part| part.abs() > STIFF);
         self
     }
 
@@ -163,13 +194,21 @@ impl Choice {
                 "{name} cells with this law may be too stiff where it flows or keeps volume: formulation = \"auto\" chooses one that is not"
             )
         });
-        let soft = self.soft.then(|| {
-            format!(
+        let soft = self.soft.then(|| match self.kind.degree {
+            1 => format!(
                 "one or two {name} cells with F-bar lie through it: where it bends it is too soft, by a quarter with two and several \
                  times with one; three or more, cells of second degree or formulation = \"incompatible\" are not"
-            )
+            ),
+            _ => format!(
+                "one {name} with F-bar lies through it: where it bends it is too soft, by a quarter or more; two or more, or \
+                 formulation = \"standard\", are not"
+            ),
         });
         let why = match (self.kind.degree, self.formulation) {
+            (2, Formulation::Standard) if self.kind.nodes.len() == 10 => {
+                "are long, with one through it, for a law that keeps its volume, or curved: a quarter of that or less is left with cells \
+                 half as long"
+            }
             (1, Formulation::Incompatible) => {
                 "are trapezoids along it, which bend no better with incompatible modes; rectangles, cells half as long, and cells of \
                  second degree with integration = \"reduced\" do"
@@ -177,18 +216,18 @@ impl Choice {
             (1, _) => "are too long, or too few through it, for first degree; those of second are right",
             (_, Formulation::FBar) => {
                 "are curved, and F-bar does not see all of their bending: a sixteenth of that is left with cells half as long, nothing \
-                 with quad8 or hex20 and integration = \"reduced\""
+                 with quad8, or two hex20 beside one another, and integration = \"reduced\""
             }
             _ => {
                 "are curved, and stretch as they bend (membrane locking): a sixteenth of that is left with cells half as long, nothing with \
-                 quad8 or hex20 and integration = \"reduced\""
+                 quad8, or two hex20 beside one another, and integration = \"reduced\""
             }
         };
         let stiff = self.stiff.filter(|_| !self.soft);
         let stiff = stiff.map(|part| {
             format!(
-                "as far as bending carries it, and not stretch along it, it is too {}, by some {:.0} %: its {name} cells {why}",
-                if part < 0.0 { "soft" } else { "stiff" },
+                "as far as bending carries it, and not stretch along it, it is too {} {:.0} %: its {name} cells {why}",
+                if part < 0.0 { "soft, or with more cells through it too stiff, by up to" } else { "stiff, by some" },
                 100.0 * part.abs()
             )
         });

@@ -5,7 +5,7 @@ use super::{Formulation, incompatible};
 use crate::mesh::cells::Cell;
 use crate::mesh::{Mesh, Side, median};
 use crate::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// By what part some cells of first degree are too stiff in bending by the simplices or prisms among them, where that is much: that
 /// of a body of these alone, times their part of it.
@@ -45,6 +45,11 @@ fn height(mesh: &Mesh, side: Side) -> f64 {
 /// Part by which a body may be too stiff in bending without a word.
 pub(super) const STIFF: f64 = 0.1;
 
+/// Part by which curved cells of second degree may be wrong in bending before reduced integration takes over.
+const CURVED: f64 = 0.025;
+/// Part by which the plastic moment is too large with two Gauss points through a body, `2 / sqrt(3) - 1`.
+pub(super) const TWO_POINTS: f64 = 0.155;
+
 /// Of a body's cells, simplices taken together to quadrilaterals and bricks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slenderness {
@@ -57,28 +62,27 @@ pub(super) struct Slenderness {
     pub taper: f64,
     /// Height of their arcs over the thickness, root of the mean square over both surfaces of a body of that; zero in first degree.
     pub arc: f64,
+    /// Whether some have no neighbour but those along one axis in space, or none at all in the plane.
+    pub alone: bool,
 }
 
 impl Slenderness {
-    /// That of some cells: the median, over their surface, of the thickness behind a side, and of the volume of the cell there over the
-    /// area of the side; without sides that face an axis along which they are held.
+    /// That of some cells: the medians, over their surface, of the thickness behind a side, and of length and height of the cell there;
+    /// without sides that face an axis along which they are held.
     pub fn of(mesh: &Mesh, cells: &[usize], held: [bool; 3]) -> Self {
         let mut boundary = mesh.boundary(cells);
         boundary.retain(|&side| mesh.faces(side).is_none_or(|axis| !held[axis]));
         if boundary.is_empty() {
-            return Self { along: 0.0, through: f64::INFINITY, taper: 0.0, arc: 0.0 };
+            return Self { along: 0.0, through: f64::INFINITY, taper: 0.0, arc: 0.0, alone: false };
         }
-        let deep = deep(mesh, &boundary);
         let volume: f64 = cells.iter().map(|&cell| mesh.measure(cell)).sum();
-        let bricks: f64 = cells.iter().map(|&cell| 1.0 / together(mesh.cell(cell).kind)).sum();
         let thickness = mesh.thickness(&boundary, &boundary);
-        let dimension = cells.first().map_or(2, |&cell| mesh.cell(cell).kind.dimension);
-        let area = volume / bricks / deep;
-        let along = if dimension == 3 { area.sqrt() } else { area };
+        let along = median(boundary.iter().map(|&side| (length(mesh, side), mesh.extent(side))).collect());
         let taper = median(tapers(mesh, &boundary));
         let squares: f64 = boundary.iter().map(|&side| arc(mesh, side).powi(2) * mesh.extent(side)).sum();
         let arc = (squares / (2.0 * volume * thickness)).sqrt();
-        Self { along: along / thickness, through: thickness / deep, taper, arc }
+        let through = thickness / deep(mesh, &boundary);
+        Self { along: along / thickness, through, taper, arc, alone: alone(mesh, &boundary) }
     }
 
     /// By what part of its deflection a body of such cells is too stiff in bending, roughly: the shear that comes along goes with the
@@ -86,7 +90,8 @@ impl Slenderness {
     /// with one to eight cells through them, Poisson's ratio 0.3. Cells with incompatible modes bend, but as trapezoids they cannot
     /// do so without shear either, whatever passes the patch test (MacNeal 1987). Curved cells of second degree stretch along their
     /// middle as they bend, against which full integration resists (membrane locking, Stolarski and Belytschko 1983): the factors are
-    /// those of rings. With F-bar quadrilaterals and bricks lose stiffness instead, a part that is negative here.
+    /// those of rings. With F-bar and one cell through them they lose stiffness instead, a part that is negative here; with more cells
+    /// that is a bound of what they lose or win.
     pub fn stiff(&self, kind: &Cell, formulation: Formulation) -> f64 {
         let (long, thick) = (self.along.powi(2), self.through.powi(-2));
         match (kind.degree, formulation) {
@@ -94,17 +99,43 @@ impl Slenderness {
             (1, Formulation::FBar) if incompatible::modes(kind) > 0 => 0.35 * long,
             (1, _) if incompatible::modes(kind) > 0 => 0.35 * long + 0.3 * thick,
             (1, _) => long + 2.7 * thick,
-            (2, Formulation::FBar) if together(kind) < 2.0 => -3.0 * self.arc.powi(2),
+            (2, Formulation::FBar) => {
+                let lost = [3.0, 1.5, 0.8, 0.0][match together(kind) {
+                    1.0 => kind.dimension - 2,
+                    2.0 => 2,
+                    _ => 3,
+                }];
+                -lost * self.arc.powi(2)
+            }
             (2, Formulation::Standard) if together(kind) > 1.0 => 1.4 * self.arc.powi(2),
             (2, Formulation::Standard) => 4.5 * self.arc.powi(2),
             _ => 0.0,
         }
     }
 
-    /// Whether one or two cells through a body share their change of volume, so that much of its stiffness in bending is lost.
+    /// Whether reduced integration serves cells of a kind that full integration makes wrong in bending by some part: quadrilaterals and bricks
+    /// of second degree without a node in the middle, for those with one have a mechanism, as bricks have in a stack that is one wide.
+    /// With one of them through a body that `flows` two points carry too much of it.
+    pub fn reduces(&self, kind: &Cell, wrong: f64, flows: bool) -> bool {
+        let least = if flows && self.through < 1.5 { TWO_POINTS } else { CURVED };
+        matches!(kind.name, "quad8" | "hex20") && !self.alone && wrong.abs() > least
+    }
+
+    /// Whether cells through a body share their change of volume, so that much of its stiffness in bending is lost: one or two
+    /// quadrilaterals or bricks of first degree, one tetrahedron of second.
     pub fn soft(&self, kind: &Cell, formulation: Formulation) -> bool {
-        let barred = kind.degree == 1 && formulation == Formulation::FBar && incompatible::modes(kind) > 0;
-        barred && self.through < 2.5
+        let few = match (kind.degree, together(kind)) {
+            (1, 1.0) => 2.5,
+            (2, 6.0) => 1.5,
+            _ => 0.0,
+        };
+        formulation == Formulation::FBar && self.through < few
+    }
+
+    /// By what part tetrahedra of second degree, one through a body of a law that keeps its volume, are too stiff in bending without F-bar:
+    /// that of cantilevers of Poisson's ratio 0.499 and of metal that flows, with cells once and twice as long as they are thick.
+    pub fn plain(&self) -> f64 {
+        0.05 * self.along.powi(2)
     }
 }
 
@@ -146,16 +177,42 @@ fn taper(mesh: &Mesh, side: Side) -> [f64; 2] {
     if incompatible::modes(view.kind) == 0 {
         return [0.0; 2];
     }
-    let own: Vec<usize> = mesh.side(side).1.collect();
-    let across = (0..view.kind.faces.len()).map(|face| Side { cell: side.cell, face });
-    let Some(across) = across.into_iter().find(|&other| mesh.side(other).1.all(|node| !own.contains(&node))) else {
-        return [0.0; 2];
-    };
+    let Some(across) = across(mesh, side) else { return [0.0; 2] };
     let (near, far) = (mesh.extent(side), mesh.extent(across));
     let mean = 0.5 * (near + far);
     let (depth, length) = (mesh.measure(side.cell) / mean, if view.kind.dimension == 3 { mean.sqrt() } else { mean });
     let slope = (near - far) / mean * length / depth;
     [0.5 * slope * length / depth, slope]
+}
+
+/// The side of a cell that shares no node with one of them.
+fn across(mesh: &Mesh, side: Side) -> Option<Side> {
+    let own: Vec<usize> = mesh.side(side).1.collect();
+    let mut sides = (0..mesh.cell(side.cell).kind.faces.len()).map(|face| Side { cell: side.cell, face });
+    sides.find(|&other| mesh.side(other).1.all(|node| !own.contains(&node)))
+}
+
+/// Whether some quadrilaterals or bricks have two pairs of opposite sides or more on the boundary.
+fn alone(mesh: &Mesh, boundary: &[Side]) -> bool {
+    let outer: BTreeSet<(usize, usize)> = boundary.iter().map(|side| (side.cell, side.face)).collect();
+    let mut paired = BTreeMap::<usize, usize>::new();
+    for &side in boundary {
+        if across(mesh, side).is_some_and(|other| outer.contains(&(other.cell, other.face))) {
+            *paired.entry(side.cell).or_default() += 1;
+        }
+    }
+    paired.values().any(|&sides| sides > 2)
+}
+
+/// Length of a side: of a quadrilateral the longer one between the middles of its edges, of a triangle the root of twice its area.
+fn length(mesh: &Mesh, side: Side) -> f64 {
+    let (kind, nodes) = mesh.side(side);
+    let x: Vec<Vec3> = nodes.map(|node| mesh.points[node]).collect();
+    match kind.linear.nodes.len() {
+        4 => 0.5 * (x[1] + x[2] - x[0] - x[3]).norm().max((x[2] + x[3] - x[0] - x[1]).norm()),
+        3 => (2.0 * mesh.extent(side)).sqrt(),
+        _ => mesh.extent(side),
+    }
 }
 
 /// How far the middles of a side's edges lie off the chords, along its normal.
@@ -255,11 +312,39 @@ mod tests {
         let told =
             Slenderness::of(&mesh, &(0..8).collect::<Vec<_>>(), [false; 3]).stiff(mesh.kinds[0], Formulation::Standard);
         assert!((0.9..1.1).contains(&(told / (1.0 / 0.785 - 1.0))), "{told}");
-        for (through, soft) in [(1, true), (2, true), (3, false)] {
-            let kind = Cell::named("hex8").unwrap();
+        for (name, through, soft) in
+            [("hex8", 1, true), ("hex8", 2, true), ("hex8", 3, false), ("tet10", 1, true), ("tet10", 2, false)]
+        {
+            let kind = Cell::named(name).unwrap();
             let mesh = Block::new([0.0; 3], [50.0, 50.0, 2.0], [20, 20, through], kind).mesh("b").unwrap();
             let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>(), [false; 3]);
-            assert_eq!(of.soft(kind, Formulation::FBar), soft, "{through}: {of:?}");
+            assert_eq!(of.soft(kind, Formulation::FBar), soft, "{name} {through}: {of:?}");
+        }
+        // Slender beams of bricks with F-bar; Poisson's ratio 0.3, force over that of hex20 with reduced integration.
+        for (cells, found) in [([20, 3, 3], 1.352), ([10, 3, 3], 2.504), ([20, 5, 5], 1.373), ([10, 5, 5], 2.526)] {
+            let kind = Cell::named("hex8").unwrap();
+            let mesh = Block::new([0.0; 3], [20.0, 1.0, 1.0], cells, kind).mesh("b").unwrap();
+            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>(), [false; 3]);
+            let told = of.stiff(kind, Formulation::FBar) / (found - 1.0);
+            assert!((0.9..1.1).contains(&told), "{cells:?}: {told}");
+        }
+    }
+
+    /// Reduced integration leaves motions without resistance in a single quadrilateral and in a stack of bricks that is one wide: 6 in one brick
+    /// of second degree and one more for each further one, none in two beside one another.
+    #[test]
+    fn stacks_of_bricks_keep_full_integration() {
+        for (cells, alone) in [([1, 1, 1], true), ([8, 1, 1], true), ([8, 2, 1], false), ([8, 4, 1], false)] {
+            let mesh = Block::new([0.0; 3], [20.0, 1.0, 1.0], cells, Cell::named("hex20").unwrap()).mesh("b").unwrap();
+            let all: Vec<usize> = (0..mesh.cell_count()).collect();
+            assert_eq!(Slenderness::of(&mesh, &all, [false; 3]).alone, alone, "{cells:?}");
+            // As a slice between planes.
+            assert_eq!(Slenderness::of(&mesh, &all, [false, false, true]).alone, cells == [1, 1, 1], "{cells:?}");
+        }
+        for (cells, alone) in [([1, 1], true), ([2, 1], false), ([2, 2], false)] {
+            let mesh = Rectangle::new([0.0; 2], [2.0, 1.0], cells, Cell::named("quad8").unwrap()).mesh("b").unwrap();
+            let all: Vec<usize> = (0..mesh.cell_count()).collect();
+            assert_eq!(Slenderness::of(&mesh, &all, [false; 3]).alone, alone, "{cells:?}");
         }
     }
 }

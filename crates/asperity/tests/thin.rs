@@ -197,7 +197,10 @@ fn curved_cells_are_told_to_lock() {
     // F-bar, in plane strain: too soft.
     let (found, told) = rubber(", integration = \"full\"");
     assert!(
-        (1.26..1.29).contains(&found) && told.len() == 1 && told[0].contains("too soft") && told[0].contains("up to 17 %"),
+        (1.26..1.29).contains(&found)
+            && told.len() == 1
+            && told[0].contains("too soft")
+            && told[0].contains("up to 17 %"),
         "{found} {told:?}"
     );
     let (found, told) = rubber(", integration = \"reduced\"");

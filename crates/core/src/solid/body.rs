@@ -123,8 +123,7 @@ impl Body {
         let modes = if choice.formulation == Formulation::Incompatible { incompatible::modes(kind) } else { 0 };
         let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
         let points = rule.points.iter().zip(rule.weights).map(shapes);
-        let warmth =
-            rule.points.iter().map(|&xi| super::heat::weights(kind, xi, choice.integration, modes)).collect();
+        let warmth = rule.points.iter().map(|&xi| super::heat::weights(kind, xi, choice.integration, modes)).collect();
         KindShapes { kind, points: points.collect(), warmth, bar: Bar::of(choice), modes }
     }
 

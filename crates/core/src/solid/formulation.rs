@@ -158,9 +158,11 @@ impl Choice {
         if !bonded && options.integration == Integration::Auto && free && body.reduces(self.kind, stiff, self.flows) {
             let how = if stiff > 0.0 { "full would be too stiff" } else { "F-bar wrong" };
             let part = (100.0 * stiff.abs()).ceil();
-            self.reason = format!("reduced integration, since its cells are curved: {how} by up to {part} % where it bends");
+            self.reason =
+                format!("reduced integration, since its cells are curved: {how} by up to {part} % where it bends");
             if self.flows && body.through < 1.5 {
-                self.reason += &format!("; with one through it the plastic moment is {:.0} % too large", 100.0 * TWO_POINTS);
+                self.reason +=
+                    &format!("; with one through it the plastic moment is {:.0} % too large", 100.0 * TWO_POINTS);
             }
             (self.formulation, self.integration) = (Formulation::Standard, Integration::Reduced);
             (self.locks, self.layers) = (false, None);

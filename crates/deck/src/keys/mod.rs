@@ -168,7 +168,8 @@ impl Words for Formulation {
 impl Words for Integration {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         let full = "as many as integrate the stiffness of an undistorted cell exactly";
-        let auto = "reduced where quad8 and hex20 are curved so much that full integration would make a thin body wrong in bending, else full";
+        let auto = "reduced where quad8 and hex20 are curved so much that full integration would make a thin body wrong in \
+                    bending, else full";
         vec![(Self::Auto, "auto", auto), (Self::Full, "full", full), (Self::Reduced, "reduced", "one order fewer")]
     }
 }

@@ -195,6 +195,9 @@ mod tests {
             for name in ["C3D8I", "CPE4I", "CPS4I", "CPS4R"] {
                 assert_eq!(of(name, dialect), Formulation::Incompatible, "{name}");
             }
+            for name in ["C3D20", "CPE8", "CAX8"] {
+                assert!(of(name, dialect).keys().contains("integration = \"full\""), "{name}");
+            }
             for name in ["C3D20R", "CPE8R", "CPS8R"] {
                 assert_eq!(of(name, dialect), Formulation::Reduced, "{name}");
             }

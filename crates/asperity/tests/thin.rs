@@ -4,6 +4,7 @@
 mod support;
 
 use asperity::solid::Formulation;
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 use support::{columns, made, run};
 
 /// What the first body became, and the mean displacement along `axis` of a side at the end.
@@ -113,6 +114,7 @@ fn few_cells_through_a_bonded_layer_are_told() {
     let (rubber, held) = ("neo_hookean = { shear = 1.0, bulk = 1000.0 }", "x = 0.0, ");
     let (exact, note) = pad([24, 8], "quad8", rubber, held);
     assert_eq!(note, None);
+    assert!(pad([6, 2], "quad8", rubber, held).1.is_some_and(|note| note.starts_with("two quad8")));
     for (through, count, part) in [(1, "one", 3.0..20.0), (2, "two", 1.2..1.4), (3, "three", 1.05..1.2)] {
         let (force, note) = pad([6 * through, through], "quad4", rubber, held);
         assert!(
@@ -127,5 +129,146 @@ fn few_cells_through_a_bonded_layer_are_told() {
         [([24, 4], rubber, held), ([12, 2], rubber, ""), ([12, 2], "elastic = { young = 1.0, poisson = 0.3 }", held)]
     {
         assert_eq!(pad(cells, "quad4", law, side).1, None, "{cells:?} {law} {side}");
+    }
+}
+
+/// A block of rubber, twice as wide as high and bonded below and above: F-bar, and the same is told of a quarter between planes of symmetry as of
+/// the whole. Force over that of 10 x 10 x 10 cells.
+#[test]
+fn symmetry_is_no_surface() {
+    for (cell, more) in [("hex8", 1.05..1.15), ("hex20", 1.0..1.05), ("wedge15", 1.1..1.25)] {
+        let told = [("0.0", "2, 2, 2", "symmetry = [\"b.left\", \"b.back\"]"), ("-1.0", "4, 2, 4", "")].map(|(from, cells, planes)| {
+            let deck = format!(
+                "version = 1
+                space = \"solid\"
+                mesh.part.b.box = {{ from = [{from}, 0.0, {from}], to = [1.0, 1.0, 1.0], cells = [{cells}], cell = \"{cell}\" }}
+                material.m.neo_hookean = {{ shear = 1.0, bulk = 1000.0 }}
+                body.b.material = \"m\"
+                [[step]]
+                increments.count = 2
+                {planes}
+                displacement = {{ \"b.bottom\" = {{ x = 0.0, y = 0.0, z = 0.0 }}, \"b.top\" = {{ x = 0.0, y = -0.1, z = 0.0 }} }}"
+            );
+            let made = made(&deck, &[]);
+            let choice = made.model.bodies[0].0.choices()[0].clone();
+            assert_eq!(choice.formulation, Formulation::FBar, "{cell}");
+            if !planes.is_empty() {
+                let force = columns(&made.model, &run(&made.model))["reaction.b.top.y"].last().unwrap().abs();
+                assert!(more.contains(&(force / 0.602)), "{cell}: {force}");
+            }
+            choice.advice().collect::<Vec<_>>()
+        });
+        assert!(told[0].len() == 1 && told[0] == told[1] && told[0][0].starts_with("two"), "{cell}: {told:?}");
+    }
+}
+
+/// A quarter of a thin ring: the figure that is told of fully integrated cells of second degree is that of the closed form, with reduced integration
+/// nothing is told, nor of quadrilaterals of first degree that are a little too stiff.
+#[test]
+fn curved_cells_are_told_to_lock() {
+    let bent = |cell: &str, more: &str, [space, poisson]: [&str; 2]| {
+        let deck = format!(
+            "version = 1
+            space = \"{space}\"
+            mesh.part.b.annulus = {{ from = [19.8, 0.0], to = [20.2, 90.0], cells = [1, 8], cell = \"{cell}\" }}
+            material.m.elastic = {{ young = 210e3, poisson = {poisson} }}
+            body.b = {{ material = \"m\", strain = \"small\"{more} }}
+            [[step]]
+            increments.count = 1
+            symmetry = [\"b.start\", \"b.end\"]
+            traction.\"b.end\" = {{ y = -0.0025 }}"
+        );
+        let exact = 0.001 * 20.0_f64.powi(3) / (210e3 * 0.4_f64.powi(3) / 12.0) * (FRAC_PI_4 - FRAC_2_PI);
+        let notes = made(&deck, &[]).model.bodies[0].0.choices()[0].advice().collect::<Vec<_>>();
+        (-ended(&deck, "b.end", 1).1 / exact, notes)
+    };
+    let ring = |cell: &str, more: &str| bent(cell, more, ["plane-stress", "0.3"]);
+    let rubber = |more: &str| {
+        let (found, told) = bent("quad8", more, ["plane-strain", "0.499"]);
+        (found / (1.0 - 0.499 * 0.499), told)
+    };
+    let (found, told) = ring("quad8", ", integration = \"full\"");
+    assert!(
+        (0.78..0.8).contains(&found) && told.len() == 1 && told[0].contains("some 26 %") && told[0].contains("reduced"),
+        "{found} {told:?}"
+    );
+    let (found, told) = ring("quad8", ", integration = \"reduced\"");
+    assert!((0.998..1.001).contains(&found) && told.is_empty(), "{found} {told:?}");
+    // F-bar, in plane strain: too soft.
+    let (found, told) = rubber(", integration = \"full\"");
+    assert!(
+        (1.26..1.29).contains(&found)
+            && told.len() == 1
+            && told[0].contains("too soft")
+            && told[0].contains("up to 17 %"),
+        "{found} {told:?}"
+    );
+    let (found, told) = rubber(", integration = \"reduced\"");
+    assert!((0.998..1.001).contains(&found) && told.is_empty(), "{found} {told:?}");
+    // Without a word, reduced.
+    for (found, told) in [ring("quad8", ""), rubber(""), ring("quad8", ", formulation = \"standard\"")] {
+        assert!((0.998..1.001).contains(&found) && told.is_empty(), "{found} {told:?}");
+    }
+    let (found, told) = ring("quad9", "");
+    assert!((0.78..0.8).contains(&found) && told.len() == 1, "{found} {told:?}");
+    let (found, told) = ring("quad4", "");
+    assert!((0.92..0.94).contains(&found) && told.is_empty(), "{found} {told:?}");
+}
+
+/// A plate 20 long and 4 wide, held at one end and moved at the other: what it became, the force over that of `hex20` with reduced integration, and
+/// what is told.
+fn plate([cell, law, more]: [&str; 3], cells: [usize; 3], size: [f64; 2]) -> (Formulation, f64, Vec<String>) {
+    let force = |cell: &str, cells: [usize; 3], more: &str| {
+        let [high, wide] = size;
+        let deck = format!(
+            "version = 1
+            space = \"solid\"
+            mesh.part.b.box = {{ from = [0.0, 0.0, 0.0], to = [20.0, {high}, {wide}], cells = {cells:?}, cell = \"{cell}\" }}
+            material.m.{law}
+            body.b = {{ material = \"m\", strain = \"small\"{more} }}
+            [[step]]
+            increments.count = 5
+            displacement.\"b.left\" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+            displacement.\"b.right\" = {{ y = -1.0 }}"
+        );
+        let made = made(&deck, &[]);
+        let choice = made.model.bodies[0].0.choices()[0].clone();
+        let force = *columns(&made.model, &run(&made.model))["reaction.b.right.y"].last().unwrap();
+        (choice.formulation, force, choice.advice().collect())
+    };
+    let (formulation, found, told) = force(cell, cells, more);
+    (formulation, found / force("hex20", [20, 2, 2], ", integration = \"reduced\"").1, told)
+}
+
+const RUBBER: &str = "elastic = { young = 1e3, poisson = 0.499 }";
+const METAL: &str = "von_mises = { young = 1e3, poisson = 0.3, yield_stress = 1.0, hardening = 1.0 }";
+
+/// One tetrahedron of second degree through a plate: standard, with F-bar it is too soft by a quarter; two: F-bar.
+#[test]
+fn one_tetrahedron_of_second_degree_bends() {
+    for law in [RUBBER, METAL] {
+        let (formulation, force, told) = plate(["tet10", law, ""], [20, 1, 4], [1.0, 4.0]);
+        assert_eq!((formulation, told.len()), (Formulation::Standard, 0), "{told:?}");
+        assert!((1.0..1.12).contains(&force), "{force}");
+    }
+    let (_, force, told) = plate(["tet10", RUBBER, ""], [10, 1, 2], [1.0, 4.0]);
+    assert!((1.15..1.22).contains(&force) && told[0].contains("some 20 %"), "{force} {told:?}");
+    let (_, force, told) = plate(["tet10", RUBBER, ", formulation = \"f-bar\""], [20, 1, 4], [1.0, 4.0]);
+    assert!((0.7..0.8).contains(&force) && told[0].starts_with("one tet10"), "{force} {told:?}");
+    let (formulation, force, told) = plate(["tet10", RUBBER, ""], [20, 2, 4], [1.0, 4.0]);
+    assert!((0.92..1.0).contains(&force) && told.is_empty(), "{force} {told:?}");
+    assert_eq!(formulation, Formulation::FBar);
+}
+
+/// Bricks as long as a beam is thick, three through it: incompatible modes, with F-bar it is too stiff by a third, which is told.
+#[test]
+fn long_bricks_bend() {
+    for law in [RUBBER, METAL] {
+        let (formulation, force, told) = plate(["hex8", law, ""], [20, 3, 3], [1.0, 1.0]);
+        assert_eq!((formulation, told.len()), (Formulation::Incompatible, 0), "{told:?}");
+        assert!((1.0..1.08).contains(&force), "{force}");
+        let (_, force, told) = plate(["hex8", law, ", formulation = \"f-bar\""], [20, 3, 3], [1.0, 1.0]);
+        assert!((1.2..1.36).contains(&force) && told[0].contains("some 35 %"), "{force} {told:?}");
+        assert_eq!(plate(["hex8", law, ""], [40, 3, 3], [1.0, 1.0]).0, Formulation::FBar);
     }
 }

@@ -139,7 +139,7 @@ fn asked(owners: &[&(Name, BodyKeys)], reader: &mut Reader) -> bool {
 /// Whether nothing is said of a whole with cells of first degree, and it is not too large to be raised unasked.
 fn may_be_raised(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh) -> bool {
     let silent = |body: &BodyKeys| {
-        body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Full
+        body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Auto
     };
     if owners.is_empty() || !owners.iter().all(|(_, body)| silent(body)) || !has_first(cells, mesh) {
         return false;

@@ -113,7 +113,7 @@ impl Formulation {
     /// Its keys of a body: a type says how it is computed, so nothing is left to be chosen.
     pub fn keys(self) -> &'static str {
         match self {
-            Self::Standard => "formulation = \"standard\"\n",
+            Self::Standard => "formulation = \"standard\"\nintegration = \"full\"\n",
             Self::FBar => "formulation = \"f-bar\"\n",
             Self::Incompatible => "formulation = \"incompatible\"\n",
             Self::Reduced => "integration = \"reduced\"\n",
@@ -194,6 +194,9 @@ mod tests {
             }
             for name in ["C3D8I", "CPE4I", "CPS4I", "CPS4R"] {
                 assert_eq!(of(name, dialect), Formulation::Incompatible, "{name}");
+            }
+            for name in ["C3D20", "CPE8", "CAX8"] {
+                assert!(of(name, dialect).keys().contains("integration = \"full\""), "{name}");
             }
             for name in ["C3D20R", "CPE8R", "CPS8R"] {
                 assert_eq!(of(name, dialect), Formulation::Reduced, "{name}");

@@ -11,8 +11,8 @@ const SLACK: f64 = 1e-9;
 impl Mesh {
     /// The median, by area, of the lengths of rays from the middles of boundary sides along their inward normals to where they leave the
     /// body; of many sides some. Zero where no ray leaves.
-    pub fn thickness(&self, boundary: &[Side]) -> f64 {
-        let chosen = boundary.iter().step_by(boundary.len().div_ceil(SAMPLES).max(1));
+    pub fn thickness(&self, sides: &[Side], boundary: &[Side]) -> f64 {
+        let chosen = sides.iter().step_by(sides.len().div_ceil(SAMPLES).max(1));
         let ways = chosen.filter_map(|&side| Some((self.way_through(side, boundary)?, self.extent(side))));
         median(ways.collect())
     }
@@ -79,7 +79,10 @@ mod tests {
     /// Plates, rods, cubes and rings, whatever their cells.
     #[test]
     fn thickness_is_the_way_through() {
-        let of = |mesh: &crate::mesh::Mesh| mesh.thickness(&mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>()));
+        let of = |mesh: &crate::mesh::Mesh| {
+            let boundary = mesh.boundary(&(0..mesh.cell_count()).collect::<Vec<_>>());
+            mesh.thickness(&boundary, &boundary)
+        };
         for (size, cells, wanted) in [([20.0, 1.0], [40, 3], 1.0), ([3.0, 3.0], [5, 5], 3.0)] {
             for kind in [&TRI3, &QUAD4] {
                 let mesh = Rectangle::new([1.0, 2.0], [1.0 + size[0], 2.0 + size[1]], cells, kind).mesh("b").unwrap();

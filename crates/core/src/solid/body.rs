@@ -85,12 +85,11 @@ impl Body {
         }
         let material = options.strain.law(material).map_err(|why| Error::input(format!("body '{name}': {why}")))?;
         let (mut choices, slenderness) = (Vec::<Choice>::new(), OnceCell::new());
-        let through = options.bonded.then(|| Slenderness::of(&mesh, &cells, [false; 3]).through);
         for kind in cells.iter().map(|&cell| mesh.cell(cell).kind) {
             if choices.iter().all(|known| known.kind != kind) {
                 let choice = Choice::of(kind, space, material.as_ref(), &options);
                 let body = || *slenderness.get_or_init(|| Slenderness::of(&mesh, &cells, options.held));
-                choices.push(choice.in_body((body, through), &options));
+                choices.push(choice.in_body(body, &options));
             }
         }
         let barred =
@@ -124,8 +123,7 @@ impl Body {
         let modes = if choice.formulation == Formulation::Incompatible { incompatible::modes(kind) } else { 0 };
         let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
         let points = rule.points.iter().zip(rule.weights).map(shapes);
-        let warmth =
-            rule.points.iter().map(|&xi| super::heat::weights(kind, xi, self.options.integration, modes)).collect();
+        let warmth = rule.points.iter().map(|&xi| super::heat::weights(kind, xi, choice.integration, modes)).collect();
         KindShapes { kind, points: points.collect(), warmth, bar: Bar::of(choice), modes }
     }
 
@@ -209,10 +207,8 @@ impl Body {
     }
     /// Quadrature of a cell of the body.
     pub fn rule(&self, kind: &'static Cell) -> &'static Quadrature {
-        match self.options.integration {
-            Integration::Full => kind.full,
-            Integration::Reduced => kind.reduced.unwrap_or(kind.full),
-        }
+        let reduced = |choice: &Choice| choice.kind == kind && choice.integration == Integration::Reduced;
+        kind.reduced.filter(|_| self.choices.iter().any(reduced)).unwrap_or(kind.full)
     }
     /// Values of the state of one integration point.
     pub fn point_len(&self) -> usize {

@@ -6,7 +6,7 @@
 //! follows from its shear. Quadrilaterals and bricks of first degree whose law does neither have incompatible modes, without
 //! which they are too stiff in bending; so they have where F-bar would make one or two of them through a body too soft.
 
-use super::slenderness::{STIFF, Slenderness};
+use super::slenderness::{STIFF, Slenderness, TWO_POINTS};
 use super::{Strain, incompatible};
 use crate::material::{Flow, Material};
 use crate::mesh::Space;
@@ -28,6 +28,8 @@ pub enum Formulation {
 /// Which quadrature is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Integration {
+    /// One of the others, by cell and body.
+    Auto,
     /// Exact for the stiffness of an undistorted cell.
     Full,
     /// One order lower.
@@ -47,14 +49,14 @@ pub struct BodyOptions {
     pub thickness: f64,
     /// Axes along which the sides that face them are held, so that it does not bend across them however thin it is.
     pub held: [bool; 3],
-    /// Whether most of its surface is bonded: held, glued or stuck, so that it cannot give way along it.
-    pub bonded: bool,
+    /// Where half of its surface or more is bonded, held, glued or stuck, so that it cannot give way along it: cells through it from there.
+    pub bonded: Option<f64>,
 }
 
 impl Default for BodyOptions {
     fn default() -> Self {
-        let (formulation, integration) = (Formulation::Auto, Integration::Full);
-        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3], bonded: false }
+        let (formulation, integration) = (Formulation::Auto, Integration::Auto);
+        Self { formulation, integration, strain: Strain::Finite, thickness: 1.0, held: [false; 3], bonded: None }
     }
 }
 
@@ -62,7 +64,8 @@ impl Default for BodyOptions {
 /// edges a side are 5.0 % too stiff in Cook's membrane and 1.7 % with F-bar (3.7 and 1.8 % at 0.3, 21 and 1.7 % at 0.49).
 pub const NEARLY: f64 = 4.6;
 
-/// Cells of first degree through a bonded layer from which on they are near the parabola with which what keeps its volume flows out.
+/// Cells of first degree through a bonded layer from which on they are near the parabola with which what keeps its volume flows out; of
+/// second one fewer.
 const FEW: f64 = 4.0;
 
 /// What the cells of one kind in a body became, and why.
@@ -72,16 +75,20 @@ pub struct Choice {
     pub kind: &'static Cell,
     /// Which of them.
     pub formulation: Formulation,
+    /// Their quadrature.
+    pub integration: Integration,
     /// Why, in words.
     pub reason: String,
     /// Whether the cells remain too stiff all the same.
     pub locks: bool,
-    /// By what part they are too stiff in bending, where that is much.
+    /// By what part they are too stiff in bending, or with a minus too soft, where that is much.
     pub stiff: Option<f64>,
     /// Whether they are too soft in bending.
     pub soft: bool,
     /// How many of them lie through a bonded layer that keeps its volume, where they are too few.
     pub layers: Option<f64>,
+    /// Whether the law flows.
+    flows: bool,
 }
 
 impl Choice {
@@ -94,7 +101,7 @@ impl Choice {
         let reduced = options.integration == Integration::Reduced && kind.reduced.is_some();
         let standard = |reason: &str, locks: bool| (Formulation::Standard, reason.to_string(), locks);
         let stiff = stiff && flow != Flow::Unknown;
-        let layers = (options.bonded && (stiff || flow == Flow::Isochoric)).then_some(f64::INFINITY);
+        let layers = options.bonded.filter(|_| stiff || flow == Flow::Isochoric);
         let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::modes(kind) > 0 && !reduced;
         let modes = |reason: &str| (Formulation::Incompatible, reason.to_string(), false);
         let (formulation, reason, locks) = match options.formulation {
@@ -122,7 +129,9 @@ impl Choice {
             }
             Formulation::Auto => standard(&format!("bulk over shear modulus is only {}", rounded(ratio)), false),
         };
-        Self { kind, formulation, reason, locks, stiff: None, soft: false, layers }
+        let integration = if reduced { Integration::Reduced } else { Integration::Full };
+        let flows = matches!(flow, Flow::Isochoric | Flow::Dilatant);
+        Self { kind, formulation, integration, reason, locks, stiff: None, soft: false, layers, flows }
     }
 
     /// One line: cells, formulation, reason.
@@ -135,27 +144,47 @@ impl Choice {
         format!("{} {word}: {}", self.kind.name, self.reason)
     }
 
-    /// The same with what follows from the body's thickness, which is asked for where it matters; `through` are the cells through a bonded
-    /// layer.
-    pub(super) fn in_body(
-        mut self,
-        (body, through): (impl FnOnce() -> Slenderness, Option<f64>),
-        options: &BodyOptions,
-    ) -> Self {
-        let reduced = options.integration == Integration::Reduced && self.kind.reduced.is_some();
-        if reduced || self.kind.degree > 1 {
+    /// The same with what follows from the body's thickness, which is asked for where it matters.
+    pub(super) fn in_body(mut self, body: impl FnOnce() -> Slenderness, options: &BodyOptions) -> Self {
+        if self.integration == Integration::Reduced {
             self.layers = None;
-        } else {
-            let body = body();
-            self.layers = self.layers.and(through).map(f64::round).filter(|layers| *layers < FEW);
-            self.soft = body.soft(self.kind, self.formulation);
-            if self.soft && options.formulation == Formulation::Auto {
-                self.formulation = Formulation::Incompatible;
-                self.reason = "bending, with one or two cells through it".into();
-                self.soft = false;
-            }
-            self.stiff = Some(body.stiff(self.kind, self.formulation)).filter(|part| *part > STIFF);
+            return self;
         }
+        let (body, bonded) = (body(), self.layers.is_some());
+        self.layers = self.layers.map(f64::round).filter(|layers| *layers < FEW - (self.kind.degree - 1) as f64);
+        let (auto, stiff) = (options.formulation == Formulation::Auto, body.stiff(self.kind, self.formulation));
+        let free = auto || options.formulation == Formulation::Standard;
+        // What is bonded does not bend.
+        if !bonded && options.integration == Integration::Auto && free && body.reduces(self.kind, stiff, self.flows) {
+            let how = if stiff > 0.0 { "full would be too stiff" } else { "F-bar wrong" };
+            let part = (100.0 * stiff.abs()).ceil();
+            self.reason =
+                format!("reduced integration, since its cells are curved: {how} by up to {part} % where it bends");
+            if self.flows && body.through < 1.5 {
+                self.reason +=
+                    &format!("; with one through it the plastic moment is {:.0} % too large", 100.0 * TWO_POINTS);
+            }
+            (self.formulation, self.integration) = (Formulation::Standard, Integration::Reduced);
+            (self.locks, self.layers) = (false, None);
+            return self;
+        }
+        self.soft = !bonded && body.soft(self.kind, self.formulation);
+        self.stiff = Some(stiff);
+        let modes = incompatible::modes(self.kind) > 0;
+        let bends = body.stiff(self.kind, Formulation::Incompatible);
+        let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF.max(bends);
+        if auto && modes && (self.soft || shears) {
+            self.reason = match self.soft {
+                true => "bending, with one or two cells through it".into(),
+                false => format!("bending, with cells {} times as long as it is thick", rounded(body.along)),
+            };
+            (self.formulation, self.soft, self.stiff) = (Formulation::Incompatible, false, Some(bends));
+        } else if auto && self.soft {
+            self.reason = "bending, with one cell through it".into();
+            let stiff = body.stiff(self.kind, Formulation::Standard) + body.plain();
+            (self.formulation, self.soft, self.stiff) = (Formulation::Standard, false, Some(stiff));
+        }
+        self.stiff = self.stiff.filter(|part| part.abs() > STIFF);
         self
     }
 
@@ -167,31 +196,54 @@ impl Choice {
                 "{name} cells with this law may be too stiff where it flows or keeps volume: formulation = \"auto\" chooses one that is not"
             )
         });
-        let soft = self.soft.then(|| {
-            format!(
+        let soft = self.soft.then(|| match self.kind.degree {
+            1 => format!(
                 "one or two {name} cells with F-bar lie through it: where it bends it is too soft, by a quarter with two and several \
                  times with one; three or more, cells of second degree or formulation = \"incompatible\" are not"
-            )
+            ),
+            _ => format!(
+                "one {name} with F-bar lies through it: where it bends it is too soft, by a quarter or more; two or more, or \
+                 formulation = \"standard\", are not"
+            ),
         });
-        let why = match self.formulation {
-            Formulation::Incompatible => {
-                "are trapezoids along it, which bend no better with incompatible modes; rectangles and cells of second degree do"
+        let why = match (self.kind.degree, self.formulation) {
+            (2, Formulation::Standard) if self.kind.nodes.len() == 10 => {
+                "are long, with one through it, for a law that keeps its volume, or curved: a quarter of that or less is left with cells \
+                 half as long"
             }
-            _ => "are too long, or too few through it, for first degree; those of second are right",
+            (1, Formulation::Incompatible) => {
+                "are trapezoids along it, which bend no better with incompatible modes; rectangles, cells half as long, and cells of \
+                 second degree with integration = \"reduced\" do"
+            }
+            (1, _) => "are too long, or too few through it, for first degree; those of second are right",
+            (_, Formulation::FBar) => {
+                "are curved, and F-bar does not see all of their bending: a sixteenth of that is left with cells half as long, nothing \
+                 with quad8, or two hex20 beside one another, and integration = \"reduced\""
+            }
+            _ => {
+                "are curved, and stretch as they bend (membrane locking): a sixteenth of that is left with cells half as long, nothing with \
+                 quad8, or two hex20 beside one another, and integration = \"reduced\""
+            }
         };
         let stiff = self.stiff.filter(|_| !self.soft);
         let stiff = stiff.map(|part| {
-            format!("where it bends it is too stiff, by some {:.0} %: its {name} cells {why}", 100.0 * part)
+            format!(
+                "as far as bending carries it, and not stretch along it, it is too {} {:.0} %: its {name} cells {why}",
+                if part < 0.0 { "soft, or with more cells through it too stiff, by up to" } else { "stiff, by some" },
+                100.0 * part.abs()
+            )
         });
         let layers = self.layers.map(|layers| {
-            let (count, part) = match layers {
-                2.0 => ("two", "a third"),
-                3.0 => ("three", "a tenth"),
-                _ => ("one", "several times"),
+            let (count, part) = match (layers, self.kind.degree) {
+                (2.0, 1) => ("two", "a third"),
+                (3.0, 1) => ("three", "a tenth"),
+                (_, 1) => ("one", "several times"),
+                (2.0, _) => ("two", "up to a tenth, and a third where it is pressed together by that"),
+                _ => ("one", "up to a fifth, and half where it is pressed together by a third"),
             };
             format!(
                 "{count} {name} through a layer that keeps its volume between bonded faces: too stiff across it, by {part}; \
-                 cells of second degree are right"
+                 more cells of second degree are right"
             )
         });
         locks.into_iter().chain(soft).chain(stiff).chain(layers)

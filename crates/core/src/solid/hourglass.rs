@@ -34,7 +34,7 @@ impl Body {
     }
 
     fn sees_all(&self, kind: &Cell) -> bool {
-        self.options.integration == Integration::Full || kind.degree > 1 || kind.reduced.is_none()
+        self.options.integration != Integration::Reduced || kind.degree > 1 || kind.reduced.is_none()
     }
 
     /// Part of the motion of its cells about their centres that they do not resist, at displacements `u`: zero for

@@ -34,5 +34,5 @@ pub use formulation::{BodyOptions, Choice, Formulation, Integration, NEARLY};
 pub use heat::{Heat, Temperature};
 pub use initial_stress::InitialStress;
 pub use record::PointRecord;
-pub use slenderness::too_stiff;
+pub use slenderness::{layers, too_stiff};
 pub use strain::Strain;

@@ -6,7 +6,7 @@ use crate::keys::{BodyKeys, ObjectiveRate, completed, integrated};
 use crate::reader::Name;
 use asperity_core::material::Material;
 use asperity_core::mesh::Side;
-use asperity_core::solid::{Body, BodyOptions, Heat, Strain};
+use asperity_core::solid::{Body, BodyOptions, Heat, Strain, layers};
 use std::sync::Arc;
 
 /// No body yet.
@@ -70,8 +70,9 @@ impl Builder<'_> {
         self.keep(body.along(axes), said.place)
     }
 
-    /// Whether more than half of the surface of a body is held along all axes, glued or stuck.
-    fn bonded(&self, cells: &[usize]) -> bool {
+    /// Where half of the surface of a body or more is held along all axes, glued or stuck, the cells through it from there. What is only held along
+    /// its normal, as planes of symmetry are, is no surface.
+    fn bonded(&self, cells: &[usize]) -> Option<f64> {
         let (mesh, mut held) = (&self.site.mesh, self.held_nodes());
         let stuck = self.deck.contact.iter().filter(|(_, contact)| contact.law.entry.name == "sticking");
         let stuck = stuck.flat_map(|(_, contact)| [&contact.surface, &contact.target]);
@@ -80,12 +81,13 @@ impl Builder<'_> {
         }
         let axes = ..self.site.space.dimension();
         let whole = |side: Side| mesh.side(side).1.all(|node| held[node][axes].iter().all(|held| *held));
-        let (mut all, mut bonded) = (0.0, 0.0);
-        for side in mesh.boundary(cells) {
-            all += mesh.extent(side);
-            bonded += if whole(side) { mesh.extent(side) } else { 0.0 };
-        }
-        bonded > 0.5 * all
+        let slides = |side: Side| mesh.faces(side).is_some_and(|axis| mesh.side(side).1.all(|node| held[node][axis]));
+        let boundary = mesh.boundary(cells);
+        let (bonded, others): (Vec<Side>, Vec<Side>) = boundary.iter().copied().partition(|&side| whole(side));
+        let extent = |sides: &mut dyn Iterator<Item = &Side>| sides.map(|&side| mesh.extent(side)).sum::<f64>();
+        let free = extent(&mut others.iter().filter(|&&side| !slides(side)));
+        let half = !bonded.is_empty() && extent(&mut bonded.iter()) >= (1.0 - 1e-9) * free;
+        half.then(|| layers(mesh, &bonded, &boundary))
     }
 
     /// Axes along which all sides of a body that face them are held from the first step to the end.

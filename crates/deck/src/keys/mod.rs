@@ -123,10 +123,10 @@ table! {
         /// Degree of its cells. Cells of first degree are raised to second by a node in the middle of each edge, and with them those of
         /// bodies that share nodes with them.
         degree: Option<Spot<usize>> = whole(1..=2).spot().unless_given(
-            "that of the mesh; second where simplices, of which no formulation is said, are too few through the body to bend",
+            "that of the mesh; second where simplices, of which neither formulation nor integration is said, are too few through the body to bend",
         ),
         /// How many integration points a cell has.
-        integration: Spot<Integration> = word().spot().or("\"full\""),
+        integration: Spot<Integration> = word().spot().or("\"auto\""),
         /// How displacements make strain.
         strain: Spot<Strain> = word().spot().or("\"finite\""),
         /// How the law is integrated over an increment.
@@ -154,7 +154,7 @@ impl Words for Formulation {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         let f_bar = "the change of volume is one for a cell, or for a patch of simplices, against locking";
         let auto = "f-bar where the law hardly changes its volume and cells would lock, else incompatible modes in quad4 and hex8, \
-                    else standard";
+                    else standard; the same where f-bar would make a body wrong in bending";
         let modes = "quad4 and hex8 with incompatible modes, which are not too stiff in bending";
         vec![
             (Self::Auto, "auto", auto),
@@ -168,7 +168,9 @@ impl Words for Formulation {
 impl Words for Integration {
     fn words() -> Vec<(Self, &'static str, &'static str)> {
         let full = "as many as integrate the stiffness of an undistorted cell exactly";
-        vec![(Self::Full, "full", full), (Self::Reduced, "reduced", "one order fewer")]
+        let auto = "reduced where quad8 and hex20 are curved so much that full integration would make a thin body wrong in \
+                    bending, else full";
+        vec![(Self::Auto, "auto", auto), (Self::Full, "full", full), (Self::Reduced, "reduced", "one order fewer")]
     }
 }
 

@@ -120,3 +120,86 @@ pressure."block.bottom" = {{ value = {value:?}, penetrates = true }}
     };
     assert_eq!([wet(0.4), wet(2.0)], [0.0, 1.0]);
 }
+
+/// A tool or a body that is narrower than the block on it: the fluid presses on all that lies beyond the edge, whatever the mesh.
+#[test]
+fn a_face_is_wet_up_to_the_edge_of_contact() {
+    let tool = |from: f64| {
+        format!(
+            "tool.flat.profile = [{{ line = [[0.55, -1.0], [0.55, 0.0]] }}, {{ line = [[0.55, 0.0], [{from:?}, 0.0]] }}]"
+        )
+    };
+    let punch = |cells: usize| {
+        format!(
+            "mesh.part.punch.rectangle = {{ from = [0.0, -0.5], to = [0.55, 0.0], cells = [{cells}, 2], cell = \"quad4\" }}
+            body.punch.material = \"foam\""
+        )
+    };
+    let wet = |space: &str, (cell, cells): (&str, usize), (target, made): (&str, &str), more: &str| {
+        let deck = format!(
+            r#"
+version = 1
+space = "{space}"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [1.0, 0.5], cells = [{cells}, 2], cell = "{cell}" }}
+material.foam.elastic = {{ young = 1000.0, poisson = 0.0 }}
+body.block = {{ material = "foam" }}
+contact.sole = {{ surface = "block.bottom", target = "{target}", law.frictionless = {{}} }}
+{made}
+[[step]]
+increments.count = 2
+symmetry = ["block.left"]
+displacement."block.top" = {{ y = -0.02 }}
+{more}
+[[step]]
+increments.count = 2
+symmetry = ["block.left"]
+displacement."block.top" = {{ y = -0.02 }}
+pressure."block.bottom" = {{ value = 1.0, penetrates = true, from = "block.bottom_right" }}
+{more}
+"#
+        );
+        let model = model(&deck, &[]);
+        *columns(&model, &run(&model))["pressure.block.bottom.wetted_part"].last().unwrap()
+    };
+    for mesh in [("quad4", 5), ("quad4", 7), ("quad4", 10), ("quad4", 13), ("quad8", 5), ("quad8", 10)] {
+        let plane = wet("plane-strain", mesh, ("flat", &tool(-0.5)), "");
+        let around = wet("axisymmetric", mesh, ("flat", &tool(0.0)), "");
+        let on_body =
+            wet("plane-strain", mesh, ("punch.top", &punch(3)), "symmetry = [\"block.left\", \"punch.left\"]");
+        for (wet, exact) in [(plane, 0.45), (around, 1.0 - 0.55 * 0.55), (on_body, 0.45)] {
+            assert!((wet / exact - 1.0).abs() < 0.02, "{mesh:?}: {wet} {exact}");
+        }
+    }
+}
+
+/// A rib narrower than a face keeps the fluid on its side of it.
+#[test]
+fn a_rib_within_a_face_is_not_passed() {
+    for cells in [10, 15] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [-1.0, 0.0], to = [1.0, 0.5], cells = [{cells}, 2], cell = "quad4" }}
+material.foam.elastic = {{ young = 1000.0, poisson = 0.0 }}
+body.block = {{ material = "foam" }}
+tool.rib.profile = [
+    {{ line = [[0.05, -1.0], [0.05, 0.0]] }},
+    {{ line = [[0.05, 0.0], [-0.05, 0.0]] }},
+    {{ line = [[-0.05, 0.0], [-0.05, -1.0]] }},
+]
+contact.sole = {{ surface = "block.bottom", target = "rib", law.frictionless = {{}} }}
+[[step]]
+increments.count = 2
+displacement."block.top" = {{ x = 0.0, y = -0.02 }}
+[[step]]
+increments.count = 4
+displacement."block.top" = {{ x = 0.0, y = -0.02 }}
+pressure."block.bottom" = {{ value = 1.0, penetrates = true, from = "block.bottom_right" }}
+"#
+        );
+        let model = model(&deck, &[]);
+        let wet = *columns(&model, &run(&model))["pressure.block.bottom.wetted_part"].last().unwrap();
+        assert!((wet / 0.475 - 1.0).abs() < 0.02, "{cells}: {wet}");
+    }
+}

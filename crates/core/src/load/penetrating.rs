@@ -2,10 +2,11 @@
 //! bears more than its pressure.
 //!
 //! What is wet is found anew at each accepted state, and holds over the increment that follows. It begins at the nodes where
-//! the fluid stands. A face is entered from a wet node on it when at each of its other nodes contact bears less than the
-//! fluid. Where the fluid acts already, it has taken its part of the load from the contact: at a node whose faces are wet by
-//! the part `w` of their area, contact and fluid bear `p_c + w p` together, and the fluid stays while that is no more than
-//! `p`, but for a small part by which a front would come and go.
+//! the fluid stands, and comes from node to node over faces that are open. Of a face that closed nodes of contacts stand over
+//! in part, by their own functions, and bear more than the fluid, the rest is wet, and nothing beyond it: it bears that part
+//! of the pressure. Where the fluid acts already, it has taken its part of the load from the contact: at a node whose faces
+//! are wet by the part `w` of their area, contact and fluid bear `p_c + w p` together, and the fluid stays while that is no
+//! more than `p`, but for a small part by which a front would come and go.
 
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
@@ -13,27 +14,36 @@ use super::{Site, now};
 use crate::amplitude::Timeline;
 use crate::mesh::Side;
 use crate::system::{Attempt, Branch, History, Instant, Local, Role, State, Stencil, Stencils, Term};
-use crate::tensor::Vec3;
 use crate::{Error, Failure};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
 /// Part of the fluid's pressure by which contact must bear more before the fluid leaves a face that it has entered.
 const STAYS: f64 = 0.02;
+/// Part of a face that is there by rounding.
+const ROUNDING: f64 = 1e-9;
 
-/// Where contacts bear in an accepted state, and by which pressure.
-type Borne = dyn Fn(&State) -> Vec<(Vec3, f64)> + Send + Sync;
+/// What a node or point of a contact bears.
+#[derive(Debug, Clone)]
+pub struct Borne {
+    /// Its pressure.
+    pub pressure: f64,
+    /// The sides over which it stands, each with the part of its area.
+    pub parts: Vec<(Side, f64)>,
+}
+
+type Bears = dyn Fn(&State) -> Vec<Borne> + Send + Sync;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
-pub struct Bearing(Arc<OnceLock<Box<Borne>>>);
+pub struct Bearing(Arc<OnceLock<Box<Bears>>>);
 
 impl Bearing {
     /// Tells it, once.
-    pub fn tell(&self, borne: impl Fn(&State) -> Vec<(Vec3, f64)> + Send + Sync + 'static) {
+    pub fn tell(&self, borne: impl Fn(&State) -> Vec<Borne> + Send + Sync + 'static) {
         let _ = self.0.set(Box::new(borne));
     }
-    fn in_state(&self, state: &State) -> Vec<(Vec3, f64)> {
+    fn in_state(&self, state: &State) -> Vec<Borne> {
         self.0.get().map_or_else(Vec::new, |borne| borne(state))
     }
 }
@@ -78,7 +88,7 @@ impl PenetratingPressure {
     /// The present area that is wet, and the whole, with thickness and circumference.
     pub fn wetted(&self, state: &State, history: &History) -> [f64; 2] {
         let areas = self.areas(&state.u);
-        let wet = (0..self.faces.len()).filter(|&i| is_wet(history, i)).fold(0.0, |sum, i| sum + areas[i]);
+        let wet = areas.iter().enumerate().fold(0.0, |sum, (i, area)| sum + part(history, i) * area);
         [wet, areas.iter().sum()]
     }
 
@@ -93,82 +103,42 @@ impl PenetratingPressure {
         self.faces.iter().map(size).collect()
     }
 
-    /// The faces that a fluid of pressure `p` wets after an accepted state.
-    fn enter(&self, state: &State, history: &History, p: f64) -> Vec<bool> {
-        let before: Vec<bool> = (0..self.faces.len()).map(|i| is_wet(history, i)).collect();
-        let mut now = vec![false; self.faces.len()];
+    /// The part of each face that a fluid of pressure `p` wets after an accepted state.
+    fn enter(&self, state: &State, history: &History, p: f64) -> Vec<f64> {
+        let mut wet = vec![0.0; self.faces.len()];
         if p <= 0.0 {
-            return now;
+            return wet;
         }
-        let borne = self.borne(state);
-        let parts = self.parts(&before, &self.areas(&state.u));
-        let admits = |node: &usize| {
-            let (contact, part) = (borne.get(node).copied().unwrap_or(0.0), parts.get(node).copied().unwrap_or(0.0));
-            let stays = if part > 0.0 { STAYS * p } else { 0.0 };
-            contact + part * p <= p + stays
-        };
+        let before: BTreeMap<Side, f64> =
+            self.faces.iter().enumerate().map(|(i, face)| (face.side, part(history, i))).collect();
+        let mut open = vec![1.0; self.faces.len()];
+        let places: BTreeMap<Side, usize> = self.faces.iter().enumerate().map(|(i, face)| (face.side, i)).collect();
+        for Borne { pressure, parts } in self.bearing.in_state(state) {
+            let mine = || parts.iter().filter_map(|(side, part)| Some((places.get(side)?, before[side], part)));
+            let sums = mine().fold([0.0; 2], |[of, all], (_, wet, part)| [of + wet * part, all + part]);
+            let taken = if sums[1] > 0.0 { sums[0] / sums[1] } else { 0.0 };
+            let stays = if taken > 0.0 { STAYS * p } else { 0.0 };
+            if pressure + taken * p > p + stays {
+                mine().for_each(|(&place, _, part)| open[place] -= part);
+            }
+        }
+        // Beyond what closes a part of a face the fluid has not come.
         let mut nodes = self.source.clone();
         loop {
-            let enters = |i: &usize| {
-                let face = &self.faces[*i].nodes;
-                !now[*i]
-                    && face.iter().any(|node| nodes.contains(node))
-                    && face.iter().all(|node| nodes.contains(node) || admits(node))
-                    && face.iter().any(admits)
+            let enters = |&i: &usize| {
+                wet[i] == 0.0 && open[i] > ROUNDING && self.faces[i].nodes.iter().any(|node| nodes.contains(node))
             };
-            let entered: Vec<usize> = (0..now.len()).filter(enters).collect();
+            let entered: Vec<usize> = (0..wet.len()).filter(enters).collect();
             if entered.is_empty() {
-                return now;
+                return wet;
             }
             for i in entered {
-                now[i] = true;
-                nodes.extend(&self.faces[i].nodes);
-            }
-        }
-    }
-
-    /// The part of the area around each node that is wet.
-    fn parts(&self, wet: &[bool], areas: &[f64]) -> BTreeMap<usize, f64> {
-        let mut sums = BTreeMap::<usize, [f64; 2]>::new();
-        for ((face, area), wet) in self.faces.iter().zip(areas).zip(wet) {
-            for &node in &face.nodes {
-                let [of, all] = sums.entry(node).or_default();
-                *of += if *wet { *area } else { 0.0 };
-                *all += area;
-            }
-        }
-        sums.into_iter().map(|(node, [of, all])| (node, if all > 0.0 { of / all } else { 0.0 })).collect()
-    }
-
-    /// What contact bears at each node: the mean over what lies nearer than half of the longest way to a neighbour.
-    fn borne(&self, state: &State) -> BTreeMap<usize, f64> {
-        let places = self.bearing.in_state(state);
-        let at = |node: usize| {
-            let mut x = self.site.mesh.points[node];
-            let first = self.site.dofs.node(node);
-            (0..self.site.dofs.per_node()).for_each(|axis| x[axis] += state.u[first + axis]);
-            x
-        };
-        let mut reach = BTreeMap::<usize, f64>::new();
-        for face in &self.faces {
-            for (k, &node) in face.nodes.iter().enumerate() {
-                let others = face.nodes.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, &other)| other);
-                let nearest = others.map(|other| (at(other) - at(node)).norm()).fold(f64::INFINITY, f64::min);
-                let reach = reach.entry(node).or_insert(0.0);
-                *reach = reach.max(0.5 * nearest);
-            }
-        }
-        let mean = |(&node, &reach): (&usize, &f64)| {
-            let (x, mut sums) = (at(node), [0.0; 2]);
-            for (place, pressure) in &places {
-                if (*place - x).norm() <= reach {
-                    sums[0] += pressure;
-                    sums[1] += 1.0;
+                wet[i] = open[i].min(1.0);
+                if open[i] > 1.0 - ROUNDING {
+                    nodes.extend(&self.faces[i].nodes);
                 }
             }
-            (node, if sums[1] > 0.0 { sums[0] / sums[1] } else { 0.0 })
-        };
-        reach.iter().map(mean).collect()
+        }
     }
 }
 
@@ -191,8 +161,9 @@ fn rim(faces: &[Face], dimension: usize) -> BTreeSet<usize> {
     met.into_iter().filter(|(_, count)| *count == 1).flat_map(|(border, _)| border).collect()
 }
 
-fn is_wet(history: &History, face: usize) -> bool {
-    history.slot(face)[0] > 0.0
+/// The part of a face that is wet.
+fn part(history: &History, face: usize) -> f64 {
+    history.slot(face)[0]
 }
 
 impl Term for PenetratingPressure {
@@ -223,7 +194,7 @@ impl Term for PenetratingPressure {
 struct Open<'a> {
     load: &'a PenetratingPressure,
     value: f64,
-    wet: Vec<bool>,
+    wet: Vec<f64>,
 }
 
 impl Attempt for Open<'_> {
@@ -236,9 +207,10 @@ impl Attempt for Open<'_> {
         Ok(())
     }
     fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
-        new[0] = f64::from(u8::from(self.wet[index]));
-        if self.wet[index] {
-            OpenFace { site: &self.load.site, face: &self.load.faces[index], pressure: self.value }.press(local);
+        new[0] = self.wet[index];
+        if new[0] > 0.0 {
+            let pressure = self.value * new[0];
+            OpenFace { site: &self.load.site, face: &self.load.faces[index], pressure }.press(local);
         }
         Ok(0)
     }

@@ -142,6 +142,14 @@ impl<'a> StencilInPlace<'a> {
         found.supports[self.slot].patches.iter().map(|&(number, corner)| (&found.patches[number].patch, corner))
     }
 
+    /// The face, the number of what it sees, and the undeformed area that the node stands for there, patch by patch.
+    pub fn shares<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (usize, usize, f64)> + 'b {
+        self.patches().enumerate().map(|(number, (patch, _))| {
+            let points = sums.points.iter().filter(|point| point.of.0 == number);
+            (patch.face, patch.target, points.map(|point| point.weight).sum())
+        })
+    }
+
     /// What the tangents of the node follow, in space.
     pub fn line(&self) -> Option<MaterialLine> {
         let surface = &self.at.contact.parts.surface;

@@ -6,6 +6,7 @@ use super::contact::PaperContact;
 use super::point::Triad;
 use crate::contact::Move;
 use crate::contact::record::{ContactRecord, PointStatus, entry};
+use crate::mesh::Side;
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::{ProfileRay, Rejected};
@@ -42,6 +43,23 @@ impl PaperContact {
     /// All points in an accepted state, with this term's lane of its history.
     pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
         (0..self.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
+    }
+
+    /// The pressure of each closed point and the sides of both bodies over which it stands, each with the part of its area.
+    pub fn borne(&self, u: &[f64], history: &History) -> Vec<(f64, Vec<(Side, f64)>)> {
+        let (surface, seen) = (self.surface(), self.parts.target.as_faces().map(|faces| &faces.surface));
+        let [own, other] =
+            [Some(surface), seen].map(|surface| surface.map(|s| s.areas(self.mesh())).unwrap_or_default());
+        let still = vec![0.0; u.len()];
+        let closed = (0..self.points.len()).filter(|&index| is_closed(history.slot(index)));
+        let parts = |index: usize| {
+            let (values, area) = (history.slot(index), self.area(index, &still));
+            let side = surface.faces[self.points[index].face].side;
+            let met = seen.zip(touched(values)).map(|(seen, (face, _))| seen.faces[face].side);
+            let met = met.map(|met| (met, area / other[&met]));
+            (values[entry::PRESSURE], std::iter::once((side, area / own[&side])).chain(met).collect())
+        };
+        closed.map(parts).collect()
     }
 
     fn record(&self, index: usize, u: &[f64], values: &[f64]) -> ContactRecord {

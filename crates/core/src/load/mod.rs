@@ -26,7 +26,7 @@ pub use distributed::DistributedLoad;
 pub use face::areas;
 pub use follower::FollowerPressure;
 pub use force::{force_on_nodes, force_on_tool};
-pub use penetrating::{Bearing, Borne, PenetratingPressure};
+pub use penetrating::{Bearing, PenetratingPressure};
 pub use pressure::dead_pressure;
 pub use spring::Springs;
 pub use torque::TorqueOnTool;

@@ -1,12 +1,13 @@
 //! Pressure of a fluid that enters an opening: it acts on the faces of a surface from where it stands up to where contact
 //! bears more than its pressure.
 //!
-//! What is wet is found anew at each accepted state, and holds over the increment that follows. It begins at the nodes where
-//! the fluid stands, and comes from node to node over faces that are open. Of a face that closed nodes of contacts stand over
-//! in part, by their own functions, and bear more than the fluid, the rest is wet, and nothing beyond it: it bears that part
-//! of the pressure. Where the fluid acts already, it has taken its part of the load from the contact: at a node whose faces
-//! are wet by the part `w` of their area, contact and fluid bear `p_c + w p` together, and the fluid stays while that is no
-//! more than `p`, but for a small part by which a front would come and go.
+//! What is wet is found anew at each accepted state, and holds over the increment that follows. A closed node of a contact that bears
+//! more than the fluid keeps it from where the node stands: by its function from what it sees of the faces around it, up to the very
+//! edge of a tool. The rest of a face is open. The fluid begins at the nodes where it stands and comes over faces that are open as a whole; it presses on
+//! these and on those beside them, with the open part of its pressure, so that fluid and contact share a face in which their border lies;
+//! behind that border an open node holds nothing of it. So the fluid takes from a node the part `w` of its pressure that acts where the node
+//! stands, and stays while contact and fluid together bear `p_c + w p` no more than `p`, but for a small part by which a front
+//! would come and go.
 
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
@@ -18,32 +19,24 @@ use crate::{Error, Failure};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
-/// Part of the fluid's pressure by which contact must bear more before the fluid leaves a face that it has entered.
+/// Part of the fluid's pressure by which contact must bear more before the fluid leaves where it acts.
 const STAYS: f64 = 0.02;
-/// Part of a face that is there by rounding.
-const ROUNDING: f64 = 1e-9;
+/// Part of a face that is rounding.
+const LEAST: f64 = 1e-9;
 
-/// What a node or point of a contact bears.
-#[derive(Debug, Clone)]
-pub struct Borne {
-    /// Its pressure.
-    pub pressure: f64,
-    /// The sides over which it stands, each with the part of its area.
-    pub parts: Vec<(Side, f64)>,
-}
-
-type Bears = dyn Fn(&State) -> Vec<Borne> + Send + Sync;
+/// Pressures that contacts bear, with the node of each, if it is one, and the parts of sides over which it stands.
+type Pressed = Vec<(f64, Option<usize>, Vec<(Side, f64)>)>;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
-pub struct Bearing(Arc<OnceLock<Box<Bears>>>);
+pub struct Bearing(Arc<OnceLock<Box<dyn Fn(&State) -> Pressed + Send + Sync>>>);
 
 impl Bearing {
     /// Tells it, once.
-    pub fn tell(&self, borne: impl Fn(&State) -> Vec<Borne> + Send + Sync + 'static) {
+    pub fn tell(&self, borne: impl Fn(&State) -> Pressed + Send + Sync + 'static) {
         let _ = self.0.set(Box::new(borne));
     }
-    fn in_state(&self, state: &State) -> Vec<Borne> {
+    fn in_state(&self, state: &State) -> Pressed {
         self.0.get().map_or_else(Vec::new, |borne| borne(state))
     }
 }
@@ -88,7 +81,7 @@ impl PenetratingPressure {
     /// The present area that is wet, and the whole, with thickness and circumference.
     pub fn wetted(&self, state: &State, history: &History) -> [f64; 2] {
         let areas = self.areas(&state.u);
-        let wet = areas.iter().enumerate().fold(0.0, |sum, (i, area)| sum + part(history, i) * area);
+        let wet = areas.iter().enumerate().fold(0.0, |sum, (i, area)| sum + history.slot(i)[0] * area);
         [wet, areas.iter().sum()]
     }
 
@@ -109,36 +102,41 @@ impl PenetratingPressure {
         if p <= 0.0 {
             return wet;
         }
-        let before: BTreeMap<Side, f64> =
-            self.faces.iter().enumerate().map(|(i, face)| (face.side, part(history, i))).collect();
-        let mut open = vec![1.0; self.faces.len()];
-        let places: BTreeMap<Side, usize> = self.faces.iter().enumerate().map(|(i, face)| (face.side, i)).collect();
-        for Borne { pressure, parts } in self.bearing.in_state(state) {
-            let mine = || parts.iter().filter_map(|(side, part)| Some((places.get(side)?, before[side], part)));
-            let sums = mine().fold([0.0; 2], |[of, all], (_, wet, part)| [of + wet * part, all + part]);
+        let (mut open, areas) = (vec![1.0; self.faces.len()], self.areas(&state.u));
+        let numbers: BTreeMap<Side, usize> = self.faces.iter().zip(0..).map(|(face, i)| (face.side, i)).collect();
+        let pressed = self.bearing.in_state(state);
+        let mut admitted = Vec::new();
+        for (pressure, node, parts) in &pressed {
+            let here = || parts.iter().filter_map(|(side, part)| Some((*numbers.get(side)?, part)));
+            let sums = here().fold([0.0; 2], |[wet, all], (i, part)| {
+                let area = part * areas[i];
+                [wet + history.slot(i)[0] * area, all + area]
+            });
             let taken = if sums[1] > 0.0 { sums[0] / sums[1] } else { 0.0 };
-            let stays = if taken > 0.0 { STAYS * p } else { 0.0 };
-            if pressure + taken * p > p + stays {
-                mine().for_each(|(&place, _, part)| open[place] -= part);
+            if pressure + taken * p > (1.0 + taken * STAYS) * p {
+                here().for_each(|(i, part)| open[i] -= part);
+            } else if let Some(node) = node {
+                admitted.extend(here().map(|(i, part)| (node, i, part)));
             }
         }
-        // Beyond what closes a part of a face the fluid has not come.
         let mut nodes = self.source.clone();
         loop {
-            let enters = |&i: &usize| {
-                wet[i] == 0.0 && open[i] > ROUNDING && self.faces[i].nodes.iter().any(|node| nodes.contains(node))
-            };
+            let face = |i: usize| &self.faces[i].nodes;
+            let enters = |&i: &usize| wet[i] == 0.0 && open[i] > LEAST && face(i).iter().any(|n| nodes.contains(n));
             let entered: Vec<usize> = (0..wet.len()).filter(enters).collect();
             if entered.is_empty() {
-                return wet;
+                break;
             }
             for i in entered {
-                wet[i] = open[i].min(1.0);
-                if open[i] > 1.0 - ROUNDING {
-                    nodes.extend(&self.faces[i].nodes);
+                wet[i] = open[i];
+                if open[i] > 1.0 - LEAST {
+                    nodes.extend(face(i));
                 }
             }
         }
+        let behind = admitted.into_iter().filter(|(node, i, _)| open[*i] <= 1.0 - LEAST && !nodes.contains(node));
+        behind.for_each(|(_, i, part)| wet[i] = (wet[i] - part).max(0.0));
+        wet
     }
 }
 
@@ -159,11 +157,6 @@ fn rim(faces: &[Face], dimension: usize) -> BTreeSet<usize> {
         }
     }
     met.into_iter().filter(|(_, count)| *count == 1).flat_map(|(border, _)| border).collect()
-}
-
-/// The part of a face that is wet.
-fn part(history: &History, face: usize) -> f64 {
-    history.slot(face)[0]
 }
 
 impl Term for PenetratingPressure {

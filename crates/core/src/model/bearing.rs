@@ -1,12 +1,11 @@
 //! What contacts bear in an accepted state, for fluids that enter where they bear little.
 
-use crate::contact::PaperContact;
 use crate::contact::field::FieldContact;
-use crate::load::Borne;
+use crate::contact::{Borne, PaperContact};
 use crate::system::State;
 use std::sync::Arc;
 
-/// What the closed points of all contacts bear; `first` is the number of the first of them among the terms.
+/// What the nodes and closed points of all contacts bear; `first` is the number of the first of them among the terms.
 pub(super) fn bearing(
     first: usize,
     points: &[Arc<PaperContact>],
@@ -14,13 +13,13 @@ pub(super) fn bearing(
 ) -> impl Fn(&State) -> Vec<Borne> + Send + Sync + 'static {
     let (points, fields) = (points.to_vec(), fields.to_vec());
     move |state| {
-        let (mut term, mut borne) = (first, Vec::new());
+        let (mut term, mut borne) = (first, Vec::<Borne>::new());
         let mut next = || {
             term += 1;
             &state.histories[term - 1]
         };
         points.iter().for_each(|contact| borne.extend(contact.borne(&state.u, next())));
         fields.iter().for_each(|contact| borne.extend(contact.borne(&state.u, next())));
-        borne.into_iter().map(|(pressure, parts)| Borne { pressure, parts }).collect()
+        borne
     }
 }

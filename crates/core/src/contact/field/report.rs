@@ -8,8 +8,7 @@ use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
 use crate::contact::record::{ContactRecord, entry};
-use crate::contact::{Move, Overlap};
-use crate::mesh::Side;
+use crate::contact::{Borne, Move, Overlap};
 use crate::system::History;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -62,26 +61,15 @@ impl FieldContact {
         moves.into_values().collect()
     }
 
-    /// The pressure of each closed node and the sides of both bodies over which it stands, each with the part of its area.
-    pub fn borne(&self, u: &[f64], history: &History) -> Vec<(f64, Vec<(Side, f64)>)> {
-        let (surface, mut borne) = (&self.parts.surface, Vec::new());
-        let (own, seen) = (surface.areas(&self.parts.mesh), self.parts.target.as_faces());
-        let other = seen.map_or_else(BTreeMap::new, |faces| faces.surface.areas(&self.parts.mesh));
+    /// The pressure at each node that sees something, none at an open one, and the parts of sides of both bodies over which it stands.
+    pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
+        let (areas, mut borne) = (self.side_areas(), Vec::new());
         self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
             let values = history.slot(slot);
-            if values[entry::STATUS] == 0.0 || self.node_of(slot).is_none() {
-                return;
-            }
-            let mut parts = BTreeMap::<Side, f64>::new();
-            for (face, target, area) in stencil.shares(sums) {
-                let side = surface.faces[face].side;
-                *parts.entry(side).or_default() += area / own[&side];
-                if let Some(faces) = seen {
-                    let side = faces.surface.faces[target].side;
-                    *parts.entry(side).or_default() += area / other[&side];
-                }
-            }
-            borne.push((values[entry::PRESSURE], parts.into_iter().collect()));
+            let pressure = if values[entry::STATUS] > 0.0 { values[entry::PRESSURE] } else { 0.0 };
+            let node = self.node_of(slot).map(|node| self.surface().nodes[node].node);
+            let parts = stencil.sides(sums).map(|(side, area)| (side, area / areas[&side]));
+            borne.push((pressure, node, parts.collect()));
         });
         borne
     }

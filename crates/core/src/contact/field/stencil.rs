@@ -13,6 +13,7 @@ use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
 use super::twist::{Twist, spin};
+use crate::mesh::Side;
 use crate::tensor::Vec3;
 use std::rc::Rc;
 
@@ -142,11 +143,14 @@ impl<'a> StencilInPlace<'a> {
         found.supports[self.slot].patches.iter().map(|&(number, corner)| (&found.patches[number].patch, corner))
     }
 
-    /// The face, the number of what it sees, and the undeformed area that the node stands for there, patch by patch.
-    pub fn shares<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (usize, usize, f64)> + 'b {
-        self.patches().enumerate().map(|(number, (patch, _))| {
-            let points = sums.points.iter().filter(|point| point.of.0 == number);
-            (patch.face, patch.target, points.map(|point| point.weight).sum())
+    /// The sides of both bodies over which it stands, point by point, with undeformed areas of the own.
+    pub fn sides<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (Side, f64)> + 'b {
+        let (parts, patches) = (&self.at.contact.parts, self.patches().collect::<Vec<_>>());
+        sums.points.iter().flat_map(move |&NodePoint { of: (number, k), weight, .. }| {
+            let (patch, sight) = (patches[number].0, &sums.patches[number].points[k].sight);
+            let seen = parts.target.as_faces().filter(|_| matches!(sight, Sight::Face(_)));
+            let seen = seen.map(|faces| faces.surface.faces[patch.target].side);
+            [Some(parts.surface.faces[patch.face].side), seen].into_iter().flatten().map(move |side| (side, weight))
         })
     }
 

@@ -235,7 +235,7 @@ impl FieldSurface {
         let mut areas = BTreeMap::new();
         for face in &self.faces {
             let area = |corner| self.corner_area(face, &face.at_rest(mesh), corner).0;
-            *areas.entry(face.side).or_insert(0.0) += (0..face.corners()).map(area).sum::<f64>();
+            *areas.entry(face.side).or_default() += (0..face.corners()).map(area).sum::<f64>();
         }
         areas
     }

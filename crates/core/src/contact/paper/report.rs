@@ -4,9 +4,8 @@
 use super::attempt::touched;
 use super::contact::PaperContact;
 use super::point::Triad;
-use crate::contact::Move;
 use crate::contact::record::{ContactRecord, PointStatus, entry};
-use crate::mesh::Side;
+use crate::contact::{Borne, Move};
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::{ProfileRay, Rejected};
@@ -45,21 +44,17 @@ impl PaperContact {
         (0..self.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
     }
 
-    /// The pressure of each closed point and the sides of both bodies over which it stands, each with the part of its area.
-    pub fn borne(&self, u: &[f64], history: &History) -> Vec<(f64, Vec<(Side, f64)>)> {
-        let (surface, seen) = (self.surface(), self.parts.target.as_faces().map(|faces| &faces.surface));
-        let [own, other] =
-            [Some(surface), seen].map(|surface| surface.map(|s| s.areas(self.mesh())).unwrap_or_default());
-        let still = vec![0.0; u.len()];
-        let closed = (0..self.points.len()).filter(|&index| is_closed(history.slot(index)));
-        let parts = |index: usize| {
+    /// The pressure of each closed point, and the parts of sides of both bodies over which it stands.
+    pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
+        let (areas, still) = (self.side_areas(), vec![0.0; u.len()]);
+        let bears = |index: usize| {
             let (values, area) = (history.slot(index), self.area(index, &still));
-            let side = surface.faces[self.points[index].face].side;
-            let met = seen.zip(touched(values)).map(|(seen, (face, _))| seen.faces[face].side);
-            let met = met.map(|met| (met, area / other[&met]));
-            (values[entry::PRESSURE], std::iter::once((side, area / own[&side])).chain(met).collect())
+            let seen = self.parts.target.as_faces().filter(|_| !self.loads_itself()).zip(touched(values));
+            let seen = seen.map(|(faces, (face, _))| faces.surface.faces[face].side);
+            let sides = [Some(self.face(index).side), seen].into_iter().flatten();
+            (values[entry::PRESSURE], None, sides.map(|side| (side, area / areas[&side])).collect())
         };
-        closed.map(parts).collect()
+        (0..self.points.len()).filter(|&index| is_closed(history.slot(index))).map(bears).collect()
     }
 
     fn record(&self, index: usize, u: &[f64], values: &[f64]) -> ContactRecord {

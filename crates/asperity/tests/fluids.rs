@@ -120,3 +120,65 @@ pressure."block.bottom" = {{ value = {value:?}, penetrates = true }}
     };
     assert_eq!([wet(0.4), wet(2.0)], [0.0, 1.0]);
 }
+
+/// A block on a narrower tool or body: the part of its sole that is wet in the end, in a `space`, with cells, on what is `made`.
+fn wet_beyond(space: &str, (cell, cells): (&str, usize), (made, contact): (&str, &str), from: f64, more: &str) -> f64 {
+    let deck = format!(
+        r#"
+version = 1
+space = "{space}"
+mesh.part.block.rectangle = {{ from = [{from:?}, 0.0], to = [1.0, 0.5], cells = [{cells}, 2], cell = "{cell}" }}
+material.foam.elastic = {{ young = 1000.0, poisson = 0.0 }}
+body.block.material = "foam"
+{made}
+contact.sole = {{ {contact}, law.frictionless = {{}} }}
+[[step]]
+increments.count = 2
+displacement."block.top" = {{ x = 0.0, y = -0.02 }}
+{more}
+[[step]]
+increments.count = 2
+displacement."block.top" = {{ x = 0.0, y = -0.02 }}
+pressure."block.bottom" = {{ value = 1.0, penetrates = true, from = "block.bottom_right" }}
+{more}
+"#
+    );
+    let model = model(&deck, &[]);
+    *columns(&model, &run(&model))["pressure.block.bottom.wetted_part"].last().unwrap()
+}
+
+/// The edge of a tool or a body within a face: the fluid presses on all that lies beyond it, whatever the mesh.
+#[test]
+fn a_face_is_wet_up_to_the_edge_of_contact() {
+    let tool = "tool.flat.profile = [{ line = [[0.55, -1.0], [0.55, 0.0]] }, { line = [[0.55, 0.0], [0.0, 0.0]] }]";
+    let body = r#"
+mesh.part.low.rectangle = { from = [0.0, -0.5], to = [0.55, 0.0], cells = [4, 2], cell = "quad4" }
+body.low.material = "foam""#;
+    let on_tool = (tool, r#"surface = "block.bottom", target = "flat""#);
+    let [over, under] = [("block.bottom", "low.top"), ("low.top", "block.bottom")]
+        .map(|(surface, target)| format!("surface = {surface:?}, target = {target:?}"));
+    let held = "displacement.\"low.bottom\" = { x = 0.0, y = 0.0 }";
+    for mesh in [("quad4", 5), ("quad4", 7), ("quad4", 13), ("quad8", 5)] {
+        let near = |wet: f64, exact: f64| assert!((wet / exact - 1.0).abs() < 0.02, "{mesh:?}: {wet} {exact}");
+        near(wet_beyond("plane-strain", mesh, on_tool, 0.0, ""), 0.45);
+        near(wet_beyond("axisymmetric", mesh, on_tool, 0.0, ""), 1.0 - 0.55 * 0.55);
+        for contact in [&over, &under] {
+            near(wet_beyond("plane-strain", mesh, (body, contact), 0.0, held), 0.45);
+        }
+    }
+}
+
+/// A rib narrower than a face keeps the fluid on its side of it.
+#[test]
+fn a_rib_within_a_face_is_not_passed() {
+    let rib = "tool.rib.profile = [
+        { line = [[0.05, -1.0], [0.05, 0.0]] },
+        { line = [[0.05, 0.0], [-0.05, 0.0]] },
+        { line = [[-0.05, 0.0], [-0.05, -1.0]] },
+    ]";
+    for cells in [10, 15] {
+        let on = (rib, r#"surface = "block.bottom", target = "rib""#);
+        let wet = wet_beyond("plane-strain", ("quad4", cells), on, -1.0, "");
+        assert!((wet / 0.475 - 1.0).abs() < 0.03, "{cells}: {wet}");
+    }
+}

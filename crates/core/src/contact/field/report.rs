@@ -8,7 +8,7 @@ use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
 use crate::contact::record::{ContactRecord, entry};
-use crate::contact::{Move, Overlap};
+use crate::contact::{Borne, Move, Overlap};
 use crate::system::History;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -59,6 +59,19 @@ impl FieldContact {
             }
         }
         moves.into_values().collect()
+    }
+
+    /// The pressure at each node that sees something, none at an open one, and the parts of sides of both bodies over which it stands.
+    pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
+        let (areas, mut borne) = (self.side_areas(), Vec::new());
+        self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
+            let values = history.slot(slot);
+            let pressure = if values[entry::STATUS] > 0.0 { values[entry::PRESSURE] } else { 0.0 };
+            let node = self.node_of(slot).map(|node| self.surface().nodes[node].node);
+            let parts = stencil.sides(sums).map(|(side, area)| (side, area / areas[&side]));
+            borne.push((pressure, node, parts.collect()));
+        });
+        borne
     }
 
     /// All nodes in an accepted state, with this term's lane of its history: one record for each slot.

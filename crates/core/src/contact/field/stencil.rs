@@ -13,6 +13,7 @@ use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
 use super::twist::{Twist, spin};
+use crate::mesh::Side;
 use crate::tensor::Vec3;
 use std::rc::Rc;
 
@@ -140,6 +141,17 @@ impl<'a> StencilInPlace<'a> {
     fn patches(&self) -> impl Iterator<Item = (&'a Patch, usize)> {
         let found = self.found;
         found.supports[self.slot].patches.iter().map(|&(number, corner)| (&found.patches[number].patch, corner))
+    }
+
+    /// The sides of both bodies over which it stands, point by point, with undeformed areas of the own.
+    pub fn sides<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (Side, f64)> + 'b {
+        let (parts, patches) = (&self.at.contact.parts, self.patches().collect::<Vec<_>>());
+        sums.points.iter().flat_map(move |&NodePoint { of: (number, k), weight, .. }| {
+            let (patch, sight) = (patches[number].0, &sums.patches[number].points[k].sight);
+            let seen = parts.target.as_faces().filter(|_| matches!(sight, Sight::Face(_)));
+            let seen = seen.map(|faces| faces.surface.faces[patch.target].side);
+            [Some(parts.surface.faces[patch.face].side), seen].into_iter().flatten().map(move |side| (side, weight))
+        })
     }
 
     /// What the tangents of the node follow, in space.

@@ -8,11 +8,10 @@ use crate::interface::{Interface, Rule};
 use crate::mesh::{Mesh, Side, Space};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A pressure, the node of the mesh that bears it, if it is one, and the parts of sides over which that stands.
-pub type Borne = (f64, Option<usize>, Vec<(Side, f64)>);
+/// A pressure that a closed node or point bears, and the undeformed areas over which it stands on sides of both bodies.
+pub type Borne = (f64, Vec<(Side, f64)>);
 
 /// What a contact is made of.
 pub struct ContactParts {
@@ -60,12 +59,6 @@ impl ContactSides {
         Self { parts, boundary, least: CLOSED * shortest, longest }
     }
 
-    /// Undeformed areas of the sides of both bodies.
-    pub(super) fn side_areas(&self) -> BTreeMap<Side, f64> {
-        let mut areas = self.parts.surface.areas(&self.parts.mesh);
-        areas.extend(self.parts.target.as_faces().into_iter().flat_map(|faces| faces.surface.areas(&self.parts.mesh)));
-        areas
-    }
     /// The user's name for it.
     pub fn title(&self) -> &str {
         &self.parts.name

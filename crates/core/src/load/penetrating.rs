@@ -2,12 +2,11 @@
 //! bears more than its pressure.
 //!
 //! What is wet is found anew at each accepted state, and holds over the increment that follows. A closed node of a contact that bears
-//! more than the fluid keeps it from where the node stands: by its function from what it sees of the faces around it, up to the very
-//! edge of a tool. The rest of a face is open. The fluid begins at the nodes where it stands and comes over faces that are open as a whole; it presses on
-//! these and on those beside them, with the open part of its pressure, so that fluid and contact share a face in which their border lies;
-//! behind that border an open node holds nothing of it. So the fluid takes from a node the part `w` of its pressure that acts where the node
-//! stands, and stays while contact and fluid together bear `p_c + w p` no more than `p`, but for a small part by which a front
-//! would come and go.
+//! more than the fluid keeps it from what the node sees of the faces around it, weighted by its function: up to the edge of a tool that
+//! ends within a face. The rest of a face is open. The fluid begins at the nodes where it stands and comes over faces that are open as
+//! a whole; it presses on these and on those beside them, there with the open part of its pressure, so that fluid and contact share
+//! the face in which the front lies. Where the part `w` of the pressure `p` acts it has taken that from a node, which bears `p_c` besides:
+//! the fluid stays while `p_c + w p` is no more than `p`, but for a small part by which a front would come and go.
 
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
@@ -24,8 +23,8 @@ const STAYS: f64 = 0.02;
 /// Part of a face that is rounding.
 const LEAST: f64 = 1e-9;
 
-/// Pressures that contacts bear, with the node of each, if it is one, and the parts of sides over which it stands.
-type Pressed = Vec<(f64, Option<usize>, Vec<(Side, f64)>)>;
+/// Pressures that contacts bear, each with the undeformed areas over which it stands on sides.
+type Pressed = Vec<(f64, Vec<(Side, f64)>)>;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
@@ -102,21 +101,13 @@ impl PenetratingPressure {
         if p <= 0.0 {
             return wet;
         }
-        let (mut open, areas) = (vec![1.0; self.faces.len()], self.areas(&state.u));
+        let (mut open, whole) = (vec![1.0; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
         let numbers: BTreeMap<Side, usize> = self.faces.iter().zip(0..).map(|(face, i)| (face.side, i)).collect();
-        let pressed = self.bearing.in_state(state);
-        let mut admitted = Vec::new();
-        for (pressure, node, parts) in &pressed {
-            let here = || parts.iter().filter_map(|(side, part)| Some((*numbers.get(side)?, part)));
-            let sums = here().fold([0.0; 2], |[wet, all], (i, part)| {
-                let area = part * areas[i];
-                [wet + history.slot(i)[0] * area, all + area]
-            });
-            let taken = if sums[1] > 0.0 { sums[0] / sums[1] } else { 0.0 };
-            if pressure + taken * p > (1.0 + taken * STAYS) * p {
-                here().for_each(|(i, part)| open[i] -= part);
-            } else if let Some(node) = node {
-                admitted.extend(here().map(|(i, part)| (node, i, part)));
+        for (pressure, parts) in self.bearing.in_state(state) {
+            let here = || parts.iter().filter_map(|(side, area)| Some((*numbers.get(side)?, area)));
+            let [taken, all] = here().fold([0.0; 2], |[w, all], (i, area)| [w + history.slot(i)[0] * area, all + area]);
+            if pressure * all + taken * p > (all + taken * STAYS) * p {
+                here().for_each(|(i, area)| open[i] -= area / whole[i]);
             }
         }
         let mut nodes = self.source.clone();
@@ -125,7 +116,7 @@ impl PenetratingPressure {
             let enters = |&i: &usize| wet[i] == 0.0 && open[i] > LEAST && face(i).iter().any(|n| nodes.contains(n));
             let entered: Vec<usize> = (0..wet.len()).filter(enters).collect();
             if entered.is_empty() {
-                break;
+                return wet;
             }
             for i in entered {
                 wet[i] = open[i];
@@ -134,9 +125,6 @@ impl PenetratingPressure {
                 }
             }
         }
-        let behind = admitted.into_iter().filter(|(node, i, _)| open[*i] <= 1.0 - LEAST && !nodes.contains(node));
-        behind.for_each(|(_, i, part)| wet[i] = (wet[i] - part).max(0.0));
-        wet
     }
 }
 

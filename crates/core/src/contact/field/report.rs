@@ -61,15 +61,16 @@ impl FieldContact {
         moves.into_values().collect()
     }
 
-    /// The pressure at each node that sees something, none at an open one, and the parts of sides of both bodies over which it stands.
+    /// What its closed nodes and tips bear.
     pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
-        let (areas, mut borne) = (self.side_areas(), Vec::new());
+        let mut borne = Vec::new();
         self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
             let values = history.slot(slot);
-            let pressure = if values[entry::STATUS] > 0.0 { values[entry::PRESSURE] } else { 0.0 };
-            let node = self.node_of(slot).map(|node| self.surface().nodes[node].node);
-            let parts = stencil.sides(sums).map(|(side, area)| (side, area / areas[&side]));
-            borne.push((pressure, node, parts.collect()));
+            if values[entry::STATUS] > 0.0 {
+                // The part that a tip has in its face is that of the increment.
+                let part = values[entry::XI] / sums.area;
+                borne.push((values[entry::PRESSURE], stencil.sides(sums).map(|(side, area)| (side, area * part)).collect()));
+            }
         });
         borne
     }

@@ -143,7 +143,7 @@ impl<'a> StencilInPlace<'a> {
         found.supports[self.slot].patches.iter().map(|&(number, corner)| (&found.patches[number].patch, corner))
     }
 
-    /// The sides of both bodies over which it stands, point by point, with undeformed areas of the own.
+    /// The sides of both bodies over which it stands, point by point, with the undeformed area.
     pub fn sides<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (Side, f64)> + 'b {
         let (parts, patches) = (&self.at.contact.parts, self.patches().collect::<Vec<_>>());
         sums.points.iter().flat_map(move |&NodePoint { of: (number, k), weight, .. }| {

@@ -230,16 +230,6 @@ impl FieldSurface {
         sizes.fold([f64::INFINITY, 0.0], |[least, most], size| [least.min(size), most.max(size)])
     }
 
-    /// Undeformed area of each of its sides.
-    pub fn areas(&self, mesh: &Mesh) -> BTreeMap<Side, f64> {
-        let mut areas = BTreeMap::new();
-        for face in &self.faces {
-            let area = |corner| self.corner_area(face, &face.at_rest(mesh), corner).0;
-            *areas.entry(face.side).or_default() += (0..face.corners()).map(area).sum::<f64>();
-        }
-        areas
-    }
-
     /// The part of a face in place that belongs to one of its corners, `int M_c da`, and its derivatives along the
     /// displacements of its nodes.
     pub fn corner_area(&self, face: &FieldFace, placed: &PlacedFace, corner: usize) -> (f64, [Vec3; MOST]) {

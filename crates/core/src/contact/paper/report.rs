@@ -44,15 +44,15 @@ impl PaperContact {
         (0..self.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
     }
 
-    /// The pressure of each closed point, and the parts of sides of both bodies over which it stands.
+    /// What its closed points bear.
     pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
-        let (areas, still) = (self.side_areas(), vec![0.0; u.len()]);
+        let still = vec![0.0; u.len()];
         let bears = |index: usize| {
             let (values, area) = (history.slot(index), self.area(index, &still));
             let seen = self.parts.target.as_faces().filter(|_| !self.loads_itself()).zip(touched(values));
             let seen = seen.map(|(faces, (face, _))| faces.surface.faces[face].side);
             let sides = [Some(self.face(index).side), seen].into_iter().flatten();
-            (values[entry::PRESSURE], None, sides.map(|side| (side, area / areas[&side])).collect())
+            (values[entry::PRESSURE], sides.map(|side| (side, area)).collect())
         };
         (0..self.points.len()).filter(|&index| is_closed(history.slot(index))).map(bears).collect()
     }

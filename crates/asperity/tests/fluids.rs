@@ -182,3 +182,47 @@ fn a_rib_within_a_face_is_not_passed() {
         assert!((wet / 0.475 - 1.0).abs() < 0.03, "{cells}: {wet}");
     }
 }
+
+/// Two blocks with nodes opposite each other, pressed less and less towards the fluid: it comes and goes on both alike.
+#[test]
+fn a_fluid_presses_on_both_bodies_alike() {
+    let fluid = |value: f64| {
+        ["high.bottom", "low.top"]
+            .map(|side| {
+                format!("pressure.\"{side}\" = {{ value = {value:?}, penetrates = true, from = \"{side}_right\" }}\n")
+            })
+            .concat()
+    };
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.low.rectangle = {{ from = [0.0, -1.0], to = [8.0, 0.0], cells = [8, 2], cell = "quad4" }}
+mesh.part.high.rectangle = {{ from = [0.0, 0.0], to = [8.0, 1.0], cells = [8, 2], cell = "quad4" }}
+material.foam.elastic = {{ young = 100.0, poisson = 0.0 }}
+body.low.material = "foam"
+body.high.material = "foam"
+tool.lid.profile = [{{ line = [[-1.0, 1.0], [9.0, 1.0]] }}]
+tool.lid.reference = [0.0, 1.0]
+contact.sole = {{ surface = "high.bottom", target = "low.top", law.frictionless = {{}} }}
+contact.lid = {{ surface = "high.top", target = "lid", law.frictionless = {{}} }}
+[[step]]
+increments.count = 5
+symmetry = ["high.left", "low.left", "low.bottom"]
+motion.lid = {{ y = -0.2, rotation = 1.0 }}
+[[step]]
+increments.count = 10
+{}[[step]]
+increments.count = 10
+{}"#,
+        fluid(5.0),
+        fluid(1.0)
+    );
+    let model = model(&deck, &[]);
+    let columns = columns(&model, &run(&model));
+    let [high, low] = ["high.bottom", "low.top"].map(|side| columns[&format!("pressure.{side}.wetted_part")].clone());
+    for (high, low) in high.iter().zip(&low) {
+        assert!((high - low).abs() < 0.5 / 8.0, "{high} {low}");
+    }
+    assert!(high[14] > 1.0 / 8.0 && high[24] == 0.0, "{high:?}");
+}

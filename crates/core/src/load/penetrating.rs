@@ -20,8 +20,8 @@ use std::sync::{Arc, OnceLock};
 
 /// Part of the fluid's pressure by which contact must bear more before the fluid leaves where it acts.
 const STAYS: f64 = 0.02;
-/// Part of a face that is rounding.
-const LEAST: f64 = 1e-9;
+/// Part of a face that counts as none: between two bodies nodes that stood opposite each other have moved apart by so much.
+const LEAST: f64 = 0.01;
 
 /// Pressures that contacts bear, each with the undeformed areas over which it stands on sides.
 type Pressed = Vec<(f64, Vec<(Side, f64)>)>;

@@ -69,7 +69,10 @@ impl FieldContact {
             if values[entry::STATUS] > 0.0 {
                 // The part that a tip has in its face is that of the increment.
                 let part = values[entry::XI] / sums.area;
-                borne.push((values[entry::PRESSURE], stencil.sides(sums).map(|(side, area)| (side, area * part)).collect()));
+                borne.push((
+                    values[entry::PRESSURE],
+                    stencil.sides(sums).map(|(side, area)| (side, area * part)).collect(),
+                ));
             }
         });
         borne

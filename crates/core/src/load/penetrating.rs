@@ -1,12 +1,13 @@
 //! Pressure of a fluid that enters an opening: it acts on the faces of a surface from where it stands up to where contact
 //! bears more than its pressure.
 //!
-//! What is wet is found anew at each accepted state, and holds over the increment that follows. A closed node of a contact that bears
-//! more than the fluid keeps it from what the node sees of the faces around it, weighted by its function: up to the edge of a tool that
-//! ends within a face. The rest of a face is open. The fluid begins at the nodes where it stands and comes over faces that are open as
-//! a whole; it presses on these and on those beside them, there with the open part of its pressure, so that fluid and contact share
-//! the face in which the front lies. Where the part `w` of the pressure `p` acts it has taken that from a node, which bears `p_c` besides:
-//! the fluid stays while `p_c + w p` is no more than `p`, but for a small part by which a front would come and go.
+//! What is wet is found anew at each accepted state, and holds over the increment that follows. Contact keeps the fluid from what a face
+//! sees of the other body, up to the edge of a tool that ends within it, where it bears there more than the fluid in the mean: one
+//! node beside an edge may bear all and the next nothing. The rest of a face is open. The fluid begins at the nodes where it stands
+//! and comes over faces that are open as a whole; it presses on these and on those beside them, there with the open part of its
+//! pressure, so that fluid and contact share the face in which an edge lies. Where it acts by the part `w` of its pressure `p` it has
+//! taken that from the contact, which bears `p_c` besides: it stays while `p_c + w p` is no more than `p`, but for a small part by which a
+//! front would come and go.
 
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
@@ -23,19 +24,19 @@ const STAYS: f64 = 0.02;
 /// Part of a face that counts as none: between two bodies nodes that stood opposite each other have moved apart by so much.
 const LEAST: f64 = 0.01;
 
-/// Pressures that contacts bear, each with the undeformed areas over which it stands on sides.
-type Pressed = Vec<(f64, Vec<(Side, f64)>)>;
+/// Sides, undeformed areas of them over which contacts stand, and the forces that they bear there.
+type Borne = Vec<(Side, [f64; 2])>;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
-pub struct Bearing(Arc<OnceLock<Box<dyn Fn(&State) -> Pressed + Send + Sync>>>);
+pub struct Bearing(Arc<OnceLock<Box<dyn Fn(&State) -> Borne + Send + Sync>>>);
 
 impl Bearing {
     /// Tells it, once.
-    pub fn tell(&self, borne: impl Fn(&State) -> Pressed + Send + Sync + 'static) {
+    pub fn tell(&self, borne: impl Fn(&State) -> Borne + Send + Sync + 'static) {
         let _ = self.0.set(Box::new(borne));
     }
-    fn in_state(&self, state: &State) -> Pressed {
+    fn in_state(&self, state: &State) -> Borne {
         self.0.get().map_or_else(Vec::new, |borne| borne(state))
     }
 }
@@ -101,15 +102,18 @@ impl PenetratingPressure {
         if p <= 0.0 {
             return wet;
         }
-        let (mut open, whole) = (vec![1.0; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
+        let (mut seen, whole) = (vec![[0.0; 2]; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
         let numbers: BTreeMap<Side, usize> = self.faces.iter().zip(0..).map(|(face, i)| (face.side, i)).collect();
-        for (pressure, parts) in self.bearing.in_state(state) {
-            let here = || parts.iter().filter_map(|(side, area)| Some((*numbers.get(side)?, area)));
-            let [taken, all] = here().fold([0.0; 2], |[w, all], (i, area)| [w + history.slot(i)[0] * area, all + area]);
-            if pressure * all + taken * p > (all + taken * STAYS) * p {
-                here().for_each(|(i, area)| open[i] -= area / whole[i]);
-            }
+        for (side, borne) in self.bearing.in_state(state) {
+            let Some(&i) = numbers.get(&side) else { continue };
+            (0..2).for_each(|k| seen[i][k] += borne[k] / whole[i]);
         }
+        let open = |(i, [seen, borne]): (usize, [f64; 2])| {
+            let seen = seen.min(1.0);
+            let taken = (history.slot(i)[0] + seen - 1.0).max(0.0);
+            if borne + taken * p > (seen + taken * STAYS) * p { 1.0 - seen } else { 1.0 }
+        };
+        let open: Vec<f64> = seen.into_iter().enumerate().map(open).collect();
         let mut nodes = self.source.clone();
         loop {
             let face = |i: usize| &self.faces[i].nodes;

@@ -61,19 +61,19 @@ impl FieldContact {
         moves.into_values().collect()
     }
 
-    /// What its closed nodes and tips bear.
+    /// What its nodes and closed tips bear on sides of both bodies.
     pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
         let mut borne = Vec::new();
         self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
             let values = history.slot(slot);
-            if values[entry::STATUS] > 0.0 {
-                // The part that a tip has in its face is that of the increment.
-                let part = values[entry::XI] / sums.area;
-                borne.push((
-                    values[entry::PRESSURE],
-                    stencil.sides(sums).map(|(side, area)| (side, area * part)).collect(),
-                ));
-            }
+            let pressure = if values[entry::STATUS] > 0.0 { values[entry::PRESSURE] } else { 0.0 };
+            // The part that a tip has in its face is that of the increment.
+            let part = match self.node_of(slot) {
+                None if pressure == 0.0 => return,
+                None => values[entry::XI] / sums.area,
+                Some(_) => 1.0,
+            };
+            borne.extend(stencil.sides(sums).map(|(side, area)| (side, [1.0, pressure].map(|p| p * part * area))));
         });
         borne
     }

@@ -10,8 +10,8 @@ use crate::system::Dofs;
 use crate::tensor::Vec3;
 use std::sync::Arc;
 
-/// A side of either body, an undeformed area of it that a node or point sees the other body from, and the force that it bears there.
-pub type Borne = (Side, [f64; 2]);
+/// A pressure, the node that bears it, if it is one, and the undeformed areas over which that stands on sides of both bodies.
+pub type Borne = (f64, Option<usize>, Vec<(Side, f64)>);
 
 /// What a contact is made of.
 pub struct ContactParts {

@@ -1,13 +1,13 @@
 //! Pressure of a fluid that enters an opening: it acts on the faces of a surface from where it stands up to where contact
 //! bears more than its pressure.
 //!
-//! What is wet is found anew at each accepted state, and holds over the increment that follows. Contact keeps the fluid from what a face
-//! sees of the other body, up to the edge of a tool that ends within it, where it bears there more than the fluid in the mean: one
-//! node beside an edge may bear all and the next nothing. The rest of a face is open. The fluid begins at the nodes where it stands
-//! and comes over faces that are open as a whole; it presses on these and on those beside them, there with the open part of its
-//! pressure, so that fluid and contact share the face in which an edge lies. Where it acts by the part `w` of its pressure `p` it has
-//! taken that from the contact, which bears `p_c` besides: it stays while `p_c + w p` is no more than `p`, but for a small part by which a
-//! front would come and go.
+//! What is wet is found anew at each accepted state, and holds over the increment that follows. A closed node of a contact that bears
+//! more than the fluid keeps it from what the node sees of the faces around it, weighted by its function: up to the edge of a tool that
+//! ends within a face. The rest of a face is open. The fluid begins at the nodes where it stands and comes over faces that are open as
+//! a whole; it presses on these and on those beside them, there with the open part of its pressure, so that fluid and contact share
+//! the face in which the front lies. A node of such a face that lies behind the front holds nothing of it: beside an edge one node may
+//! bear all and the next nothing. Where the fluid acts it has taken its part from a node: it stays while contact and fluid
+//! bear no more than its pressure together, but for a small part by which a front would come and go.
 
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
@@ -24,8 +24,8 @@ const STAYS: f64 = 0.02;
 /// Part of a face that counts as none: between two bodies nodes that stood opposite each other have moved apart by so much.
 const LEAST: f64 = 0.01;
 
-/// Sides, undeformed areas of them over which contacts stand, and the forces that they bear there.
-type Borne = Vec<(Side, [f64; 2])>;
+/// Pressures that contacts bear, with the node of each, if it is one, and the undeformed areas over which it stands on sides.
+type Borne = Vec<(f64, Option<usize>, Vec<(Side, f64)>)>;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
@@ -102,25 +102,27 @@ impl PenetratingPressure {
         if p <= 0.0 {
             return wet;
         }
-        let (mut seen, whole) = (vec![[0.0; 2]; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
+        let (mut open, whole) = (vec![1.0; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
         let numbers: BTreeMap<Side, usize> = self.faces.iter().zip(0..).map(|(face, i)| (face.side, i)).collect();
-        for (side, borne) in self.bearing.in_state(state) {
-            let Some(&i) = numbers.get(&side) else { continue };
-            (0..2).for_each(|k| seen[i][k] += borne[k] / whole[i]);
+        let (borne, mut admitted) = (self.bearing.in_state(state), Vec::new());
+        for (pressure, node, areas) in &borne {
+            let here = || areas.iter().filter_map(|(side, area)| Some((*numbers.get(side)?, area)));
+            let sum =
+                |[fluid, all]: [f64; 2], (i, area): (usize, &f64)| [fluid + taken(history, i, p) * area, all + area];
+            let [fluid, all] = here().fold([0.0; 2], sum);
+            if pressure * all + fluid > p * all + STAYS * fluid {
+                here().for_each(|(i, area)| open[i] -= area / whole[i]);
+            } else if let Some(node) = node {
+                admitted.extend(here().filter(|(i, _)| self.faces[*i].nodes.contains(node)).map(|here| (node, here)));
+            }
         }
-        let open = |(i, [seen, borne]): (usize, [f64; 2])| {
-            let seen = seen.min(1.0);
-            let taken = (history.slot(i)[0] + seen - 1.0).max(0.0);
-            if borne + taken * p > (seen + taken * STAYS) * p { 1.0 - seen } else { 1.0 }
-        };
-        let open: Vec<f64> = seen.into_iter().enumerate().map(open).collect();
         let mut nodes = self.source.clone();
         loop {
             let face = |i: usize| &self.faces[i].nodes;
             let enters = |&i: &usize| wet[i] == 0.0 && open[i] > LEAST && face(i).iter().any(|n| nodes.contains(n));
             let entered: Vec<usize> = (0..wet.len()).filter(enters).collect();
             if entered.is_empty() {
-                return wet;
+                break;
             }
             for i in entered {
                 wet[i] = open[i];
@@ -129,7 +131,16 @@ impl PenetratingPressure {
                 }
             }
         }
+        let behind = admitted.into_iter().filter(|(node, _)| !nodes.contains(node));
+        behind.for_each(|(_, (i, area))| wet[i] = (wet[i] - area / whole[i]).max(0.0));
+        wet
     }
+}
+
+/// What a fluid whose pressure is now `p` takes of what presses on a face: no more than it took, and than it can.
+fn taken(history: &History, face: usize, p: f64) -> f64 {
+    let [wet, pressure] = [0, 1].map(|k| history.slot(face)[k]);
+    wet * pressure.min(p)
 }
 
 /// Nodes at the border of faces: the ends of a line of edges, the edges that only one face has.
@@ -159,7 +170,7 @@ impl Term for PenetratingPressure {
         Role::Load
     }
     fn initial(&self) -> History {
-        History::new(self.faces.iter().map(|_| 1))
+        History::new(self.faces.iter().map(|_| 2))
     }
     fn attempt<'a>(
         &'a self,
@@ -184,7 +195,7 @@ struct Open<'a> {
 
 impl Attempt for Open<'_> {
     fn scratch(&self, _: usize) -> Vec<f64> {
-        vec![0.0]
+        vec![0.0; 2]
     }
     fn stencils(&self, _: &[f64], out: &mut Stencils) -> Result<(), Failure> {
         let unknowns = |face: &Face| self.load.site.unknowns(face.nodes.iter().copied());
@@ -192,7 +203,7 @@ impl Attempt for Open<'_> {
         Ok(())
     }
     fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
-        new[0] = self.wet[index];
+        new.copy_from_slice(&[self.wet[index], self.value]);
         if new[0] > 0.0 {
             let pressure = self.value * new[0];
             OpenFace { site: &self.load.site, face: &self.load.faces[index], pressure }.press(local);

@@ -61,19 +61,17 @@ impl FieldContact {
         moves.into_values().collect()
     }
 
-    /// What its nodes and closed tips bear on sides of both bodies.
+    /// What its nodes bear that see something, nothing where they are open, and its closed tips.
     pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
         let mut borne = Vec::new();
         self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
-            let values = history.slot(slot);
+            let (values, node) = (history.slot(slot), self.node_of(slot).map(|node| self.surface().nodes[node].node));
             let pressure = if values[entry::STATUS] > 0.0 { values[entry::PRESSURE] } else { 0.0 };
             // The part that a tip has in its face is that of the increment.
-            let part = match self.node_of(slot) {
-                None if pressure == 0.0 => return,
-                None => values[entry::XI] / sums.area,
-                Some(_) => 1.0,
-            };
-            borne.extend(stencil.sides(sums).map(|(side, area)| (side, [1.0, pressure].map(|p| p * part * area))));
+            let part = if node.is_some() { 1.0 } else { values[entry::XI] / sums.area };
+            if node.is_some() || pressure > 0.0 {
+                borne.push((pressure, node, stencil.sides(sums).map(|(side, area)| (side, part * area)).collect()));
+            }
         });
         borne
     }

@@ -44,7 +44,7 @@ impl PaperContact {
         (0..self.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
     }
 
-    /// What its closed points bear on sides of both bodies.
+    /// What its closed points bear.
     pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
         let still = vec![0.0; u.len()];
         let bears = |index: usize| {
@@ -52,9 +52,9 @@ impl PaperContact {
             let seen = self.parts.target.as_faces().filter(|_| !self.loads_itself()).zip(touched(values));
             let seen = seen.map(|(faces, (face, _))| faces.surface.faces[face].side);
             let sides = [Some(self.face(index).side), seen].into_iter().flatten();
-            sides.map(move |side| (side, [area, values[entry::PRESSURE] * area]))
+            (values[entry::PRESSURE], None, sides.map(|side| (side, area)).collect())
         };
-        (0..self.points.len()).filter(|&index| is_closed(history.slot(index))).flat_map(bears).collect()
+        (0..self.points.len()).filter(|&index| is_closed(history.slot(index))).map(bears).collect()
     }
 
     fn record(&self, index: usize, u: &[f64], values: &[f64]) -> ContactRecord {

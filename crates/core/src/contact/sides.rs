@@ -10,8 +10,8 @@ use crate::system::Dofs;
 use crate::tensor::Vec3;
 use std::sync::Arc;
 
-/// A pressure, the node that bears it, if it is one, and the undeformed areas over which that stands on sides of both bodies.
-pub type Borne = (f64, Option<usize>, Vec<(Side, f64)>);
+/// A pressure, and the undeformed areas over which the node or point that bears it stands around corners of sides of both bodies.
+pub type Borne = (f64, Vec<(Side, usize, f64)>);
 
 /// What a contact is made of.
 pub struct ContactParts {

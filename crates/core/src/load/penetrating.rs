@@ -24,8 +24,8 @@ const STAYS: f64 = 0.02;
 /// Part of a face that counts as none: between two bodies nodes that stood opposite each other have moved apart by so much.
 const LEAST: f64 = 0.01;
 
-/// Pressures that contacts bear, with the node of each, if it is one, and the undeformed areas over which it stands on sides.
-type Borne = Vec<(f64, Option<usize>, Vec<(Side, f64)>)>;
+/// Pressures that contacts bear, and the undeformed areas over which these stand around corners of sides.
+type Borne = Vec<(f64, Vec<(Side, usize, f64)>)>;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
@@ -104,19 +104,31 @@ impl PenetratingPressure {
         }
         let (mut open, whole) = (vec![1.0; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
         let numbers: BTreeMap<Side, usize> = self.faces.iter().zip(0..).map(|(face, i)| (face.side, i)).collect();
-        let (borne, mut admitted) = (self.bearing.in_state(state), Vec::new());
-        for (pressure, node, areas) in &borne {
-            let here = || areas.iter().filter_map(|(side, area)| Some((*numbers.get(side)?, area)));
-            let sum =
-                |[fluid, all]: [f64; 2], (i, area): (usize, &f64)| [fluid + taken(history, i, p) * area, all + area];
-            let [fluid, all] = here().fold([0.0; 2], sum);
-            if pressure * all + fluid > p * all + STAYS * fluid {
-                here().for_each(|(i, area)| open[i] -= area / whole[i]);
-            } else if let Some(node) = node {
-                admitted.extend(here().filter(|(i, _)| self.faces[*i].nodes.contains(node)).map(|here| (node, here)));
+        let (mut held, mut admitted) = (BTreeMap::<usize, f64>::new(), Vec::new());
+        for (pressure, areas) in self.bearing.in_state(state) {
+            let mut here = BTreeMap::<usize, BTreeMap<usize, f64>>::new();
+            for (side, node, area) in areas {
+                let Some(&i) = numbers.get(&side) else { continue };
+                *here.entry(i).or_default().entry(node).or_default() += area;
             }
+            let areas = || here.iter().map(|(&i, around)| (i, around.values().sum::<f64>()));
+            let sum =
+                |[fluid, all]: [f64; 2], (i, area): (usize, f64)| [fluid + taken(history, i, p) * area, all + area];
+            let [fluid, all] = areas().fold([0.0; 2], sum);
+            let closed = pressure * all + fluid > p * all + STAYS * fluid;
+            for (i, area) in areas() {
+                if closed {
+                    open[i] -= area / whole[i];
+                } else {
+                    let nearest = here[&i].iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(node, _)| *node);
+                    admitted.push((i, nearest, area));
+                }
+            }
+            let sign = if closed { 1.0 } else { -1.0 };
+            here.values().flatten().for_each(|(&node, area)| *held.entry(node).or_default() += sign * area);
         }
         let mut nodes = self.source.clone();
+        nodes.retain(|node| held.get(node).is_none_or(|held| *held <= 0.0));
         loop {
             let face = |i: usize| &self.faces[i].nodes;
             let enters = |&i: &usize| wet[i] == 0.0 && open[i] > LEAST && face(i).iter().any(|n| nodes.contains(n));
@@ -131,8 +143,8 @@ impl PenetratingPressure {
                 }
             }
         }
-        let behind = admitted.into_iter().filter(|(node, _)| !nodes.contains(node));
-        behind.for_each(|(_, (i, area))| wet[i] = (wet[i] - area / whole[i]).max(0.0));
+        let behind = admitted.into_iter().filter(|(_, nearest, _)| nearest.is_some_and(|node| !nodes.contains(&node)));
+        behind.for_each(|(i, _, area)| wet[i] = (wet[i] - area / whole[i]).max(0.0));
         wet
     }
 }

@@ -61,16 +61,24 @@ impl FieldContact {
         moves.into_values().collect()
     }
 
-    /// What its nodes bear that see something, nothing where they are open, and its closed tips.
+    /// What its nodes bear that see something, nothing where they are open, and its closed tips. An idle node lets
+    /// nothing in while it is penetrated.
     pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
-        let mut borne = Vec::new();
+        let (idle, mut borne) = (self.idle(history), Vec::new());
         self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
-            let (values, node) = (history.slot(slot), self.node_of(slot).map(|node| self.surface().nodes[node].node));
-            let pressure = if values[entry::STATUS] > 0.0 { values[entry::PRESSURE] } else { 0.0 };
+            let (values, is_tip) = (history.slot(slot), self.node_of(slot).is_none());
+            let pressure = match values[entry::STATUS] > 0.0 {
+                true => values[entry::PRESSURE],
+                false if idle[slot] && sums.y[0] > 0.0 => f64::INFINITY,
+                false => 0.0,
+            };
             // The part that a tip has in its face is that of the increment.
-            let part = if node.is_some() { 1.0 } else { values[entry::XI] / sums.area };
-            if node.is_some() || pressure > 0.0 {
-                borne.push((pressure, node, stencil.sides(sums).map(|(side, area)| (side, part * area)).collect()));
+            let part = if is_tip { values[entry::XI] / sums.area } else { 1.0 };
+            if !is_tip || values[entry::STATUS] > 0.0 {
+                borne.push((
+                    pressure,
+                    stencil.sides(sums).map(|(side, node, area)| (side, node, part * area)).collect(),
+                ));
             }
         });
         borne

@@ -143,14 +143,23 @@ impl<'a> StencilInPlace<'a> {
         found.supports[self.slot].patches.iter().map(|&(number, corner)| (&found.patches[number].patch, corner))
     }
 
-    /// The sides of both bodies over which it stands, point by point, with the undeformed area.
-    pub fn sides<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (Side, f64)> + 'b {
+    /// The undeformed area over which it stands, point by point, around each corner of the sides of both bodies.
+    pub fn sides<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (Side, usize, f64)> + 'b {
         let (parts, patches) = (&self.at.contact.parts, self.patches().collect::<Vec<_>>());
         sums.points.iter().flat_map(move |&NodePoint { of: (number, k), weight, .. }| {
-            let (patch, sight) = (patches[number].0, &sums.patches[number].points[k].sight);
-            let seen = parts.target.as_faces().filter(|_| matches!(sight, Sight::Face(_)));
-            let seen = seen.map(|faces| faces.surface.faces[patch.target].side);
-            [Some(parts.surface.faces[patch.face].side), seen].into_iter().flatten().map(move |side| (side, weight))
+            let (patch, point) = (patches[number].0, &sums.patches[number].points[k]);
+            let seen = parts.target.as_faces().zip(match &point.sight {
+                Sight::Face(hit) => Some(hit.s),
+                _ => None,
+            });
+            let seen = seen.map(|(faces, s)| (&faces.surface.faces[patch.target], s));
+            [Some((&parts.surface.faces[patch.face], point.xi)), seen].into_iter().flatten().flat_map(
+                move |(face, xi)| {
+                    let functions = face.corner_functions(xi);
+                    let around = move |corner| (face.side, face.corner_node(corner), weight * functions.n[corner]);
+                    (0..face.corners()).map(around)
+                },
+            )
         })
     }
 

@@ -50,9 +50,9 @@ impl PaperContact {
         let bears = |index: usize| {
             let (values, area) = (history.slot(index), self.area(index, &still));
             let seen = self.parts.target.as_faces().filter(|_| !self.loads_itself()).zip(touched(values));
-            let seen = seen.map(|(faces, (face, _))| faces.surface.faces[face].side);
-            let sides = [Some(self.face(index).side), seen].into_iter().flatten();
-            (values[entry::PRESSURE], None, sides.map(|side| (side, area)).collect())
+            let seen = seen.map(|(faces, (face, _))| &faces.surface.faces[face]);
+            let faces = [Some(self.face(index)), seen].into_iter().flatten();
+            (values[entry::PRESSURE], faces.map(|face| (face.side, face.nodes[0], area)).collect())
         };
         (0..self.points.len()).filter(|&index| is_closed(history.slot(index))).map(bears).collect()
     }

@@ -208,6 +208,55 @@ fn friction_that_differs_from_its_law() {
     assert_eq!(right.code(), 0, "{}", right.notes());
 }
 
+/// A block between held faces whose stress changes by itself: rubber that relaxes at a large strain, what is heated, under a load as well,
+/// and what creeps in a single increment. No energy is missing, and nothing jumps.
+#[test]
+fn what_relaxes_is_heated_or_creeps() {
+    let deck = |material: &str, body: &str, steps: &str| {
+        format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = {{ from = [0.0, 0.0], to = [10.0, 10.0], cells = [4, 4], cell = "quad8" }}
+material.m.{material}
+body.block = {{ material = "m"{body} }}
+{steps}
+"#
+        )
+    };
+    let held = |y: f64| {
+        let face = |face: &str, y: f64| format!("displacement.\"block.{face}\" = {{ x = 0.0, y = {y:?} }}\n");
+        face("bottom", 0.0) + &face("top", y)
+    };
+    let rubber = "neo_hookean = { shear = 1.0, bulk = 1000.0 }";
+    let relaxed = |y: f64| {
+        let steps = format!(
+            "[[step]]\nduration = 0.01\nincrements.count = 5\n{}[[step]]\nduration = 50.0\nincrements.count = 5\n{}",
+            held(y),
+            held(y)
+        );
+        deck(rubber, ", prony = [[0.3, 0.5], [0.5, 5.0]]", &steps)
+    };
+    let hot = "temperature.block.value = 200.0\n";
+    let heated = format!("[[step]]\nincrements.count = 5\n{}{hot}", held(0.0));
+    let loaded = format!(
+        "[[step]]\nincrements.count = 5\nsymmetry = [\"block.bottom\", \"block.left\"]\npressure.\"block.top\".value = 0.1\n{hot}"
+    );
+    let crept = format!("[[step]]\nincrements.count = 1\n{}", held(-0.2));
+    for deck in [
+        relaxed(-4.0),
+        relaxed(5.0),
+        deck("neo_hookean = { shear = 400.0, bulk = 1000.0 }", ", expansion = 1e-3", &heated),
+        deck("elastic = { young = 1000.0, poisson = 0.3 }", ", expansion = 1e-3", &loaded),
+        deck("norton_hoff = { young = 210e3, poisson = 0.3, consistency = 500.0, sensitivity = 0.2 }", "", &crept),
+    ] {
+        let run = Run::of(&deck, &[]);
+        assert_eq!(run.code(), 0, "{}{}", run.error(), run.notes());
+        let missing = run.summary["certificate"]["energy_balance"].as_f64().unwrap();
+        assert!(missing < 0.05 && !run.notes().contains("jumped"), "{missing} {deck}{}", run.notes());
+    }
+}
+
 /// What the paper's element gets wrong here, contact as it is by default gets right.
 #[test]
 fn by_default_they_are_right() {

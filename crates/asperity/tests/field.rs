@@ -648,3 +648,32 @@ increments.count = 20
         assert!(wasted < 0.05, "{pressure}: {wasted}");
     }
 }
+
+/// A strip that is peeled off a plane, pulled along it at its end: the shear stress is gone as each node opens.
+#[test]
+fn bonds_are_peeled() {
+    for law in [
+        "cohesive = { friction = 0.3, cohesion = 20.0, tension = 1.0 }",
+        "dilatant = { friction = 0.3, dilatancy = 0.1, dilation_slip = 0.01, cohesion = 2.0 }",
+    ] {
+        let deck = format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.strip.rectangle = {{ from = [0.0, 0.0], to = [8.0, 0.5], cells = [16, 2], cell = "quad8" }}
+material.foam.elastic = {{ young = 1000.0, poisson = 0.3 }}
+body.strip.material = "foam"
+tool.plane.profile = [{{ line = [[90.0, 0.0], [-90.0, 0.0]] }}]
+contact.sole = {{ surface = "strip.bottom", target = "plane", law.{law} }}
+[[step]]
+increments.count = 10
+symmetry = ["strip.left"]
+displacement."strip.right" = {{ x = 0.1, y = 0.5 }}
+pressure."strip.top".value = 0.1
+"#
+        );
+        let model = model(&deck, &[]);
+        let columns = columns(&model, &run(&model));
+        assert!(*columns["contact.sole.area"].last().unwrap() < 4.0, "{law}");
+    }
+}

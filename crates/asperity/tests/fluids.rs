@@ -120,3 +120,109 @@ pressure."block.bottom" = {{ value = {value:?}, penetrates = true }}
     };
     assert_eq!([wet(0.4), wet(2.0)], [0.0, 1.0]);
 }
+
+/// A block on a narrower tool or body: the part of its sole that is wet in the end, in a `space`, with cells, on what is `made`.
+fn wet_beyond(space: &str, (cell, cells): (&str, usize), (made, contact): (&str, &str), from: f64, more: &str) -> f64 {
+    let deck = format!(
+        r#"
+version = 1
+space = "{space}"
+mesh.part.block.rectangle = {{ from = [{from:?}, 0.0], to = [1.0, 0.5], cells = [{cells}, 2], cell = "{cell}" }}
+material.foam.elastic = {{ young = 1000.0, poisson = 0.0 }}
+body.block.material = "foam"
+{made}
+contact.sole = {{ {contact}, law.frictionless = {{}} }}
+[[step]]
+increments.count = 2
+displacement."block.top" = {{ x = 0.0, y = -0.02 }}
+{more}
+[[step]]
+increments.count = 2
+displacement."block.top" = {{ x = 0.0, y = -0.02 }}
+pressure."block.bottom" = {{ value = 1.0, penetrates = true, from = "block.bottom_right" }}
+{more}
+"#
+    );
+    let model = model(&deck, &[]);
+    *columns(&model, &run(&model))["pressure.block.bottom.wetted_part"].last().unwrap()
+}
+
+/// The edge of a tool or a body within a face: the fluid presses on all that lies beyond it, whatever the mesh.
+#[test]
+fn a_face_is_wet_up_to_the_edge_of_contact() {
+    let tool = "tool.flat.profile = [{ line = [[0.55, -1.0], [0.55, 0.0]] }, { line = [[0.55, 0.0], [0.0, 0.0]] }]";
+    let body = r#"
+mesh.part.low.rectangle = { from = [0.0, -0.5], to = [0.55, 0.0], cells = [4, 2], cell = "quad4" }
+body.low.material = "foam""#;
+    let on_tool = (tool, r#"surface = "block.bottom", target = "flat""#);
+    let [over, under] = [("block.bottom", "low.top"), ("low.top", "block.bottom")]
+        .map(|(surface, target)| format!("surface = {surface:?}, target = {target:?}"));
+    let held = "displacement.\"low.bottom\" = { x = 0.0, y = 0.0 }";
+    for mesh in [("quad4", 5), ("quad4", 7), ("quad4", 13), ("quad8", 5)] {
+        let near = |wet: f64, exact: f64| assert!((wet / exact - 1.0).abs() < 0.02, "{mesh:?}: {wet} {exact}");
+        near(wet_beyond("plane-strain", mesh, on_tool, 0.0, ""), 0.45);
+        near(wet_beyond("axisymmetric", mesh, on_tool, 0.0, ""), 1.0 - 0.55 * 0.55);
+        for contact in [&over, &under] {
+            near(wet_beyond("plane-strain", mesh, (body, contact), 0.0, held), 0.45);
+        }
+    }
+}
+
+/// A rib narrower than a face keeps the fluid on its side of it.
+#[test]
+fn a_rib_within_a_face_is_not_passed() {
+    let rib = "tool.rib.profile = [
+        { line = [[0.05, -1.0], [0.05, 0.0]] },
+        { line = [[0.05, 0.0], [-0.05, 0.0]] },
+        { line = [[-0.05, 0.0], [-0.05, -1.0]] },
+    ]";
+    for cells in [10, 15] {
+        let on = (rib, r#"surface = "block.bottom", target = "rib""#);
+        let wet = wet_beyond("plane-strain", ("quad4", cells), on, -1.0, "");
+        assert!((wet / 0.475 - 1.0).abs() < 0.03, "{cells}: {wet}");
+    }
+}
+
+/// Two blocks with nodes opposite each other, pressed less and less towards the fluid: it comes and goes on both alike.
+#[test]
+fn a_fluid_presses_on_both_bodies_alike() {
+    let fluid = |value: f64| {
+        ["high.bottom", "low.top"]
+            .map(|side| {
+                format!("pressure.\"{side}\" = {{ value = {value:?}, penetrates = true, from = \"{side}_right\" }}\n")
+            })
+            .concat()
+    };
+    let deck = format!(
+        r#"
+version = 1
+space = "plane-strain"
+mesh.part.low.rectangle = {{ from = [0.0, -1.0], to = [8.0, 0.0], cells = [8, 2], cell = "quad4" }}
+mesh.part.high.rectangle = {{ from = [0.0, 0.0], to = [8.0, 1.0], cells = [8, 2], cell = "quad4" }}
+material.foam.elastic = {{ young = 100.0, poisson = 0.0 }}
+body.low.material = "foam"
+body.high.material = "foam"
+tool.lid.profile = [{{ line = [[-1.0, 1.0], [9.0, 1.0]] }}]
+tool.lid.reference = [0.0, 1.0]
+contact.sole = {{ surface = "high.bottom", target = "low.top", law.frictionless = {{}} }}
+contact.lid = {{ surface = "high.top", target = "lid", law.frictionless = {{}} }}
+[[step]]
+increments.count = 5
+symmetry = ["high.left", "low.left", "low.bottom"]
+motion.lid = {{ y = -0.2, rotation = 1.0 }}
+[[step]]
+increments.count = 10
+{}[[step]]
+increments.count = 10
+{}"#,
+        fluid(5.0),
+        fluid(1.0)
+    );
+    let model = model(&deck, &[]);
+    let columns = columns(&model, &run(&model));
+    let [high, low] = ["high.bottom", "low.top"].map(|side| columns[&format!("pressure.{side}.wetted_part")].clone());
+    for (high, low) in high.iter().zip(&low) {
+        assert!((high - low).abs() < 0.5 / 8.0, "{high} {low}");
+    }
+    assert!(high[14] > 1.0 / 8.0 && high[24] == 0.0, "{high:?}");
+}

@@ -23,5 +23,5 @@ pub use overlap::Overlap;
 pub use paper::{GaussPoint, PaperContact, Sample};
 pub use penalty::{Backing, DefaultPenalty, TWO_PASSES, default_penalty};
 pub use record::{ContactRecord, PointStatus};
-pub use sides::{ContactParts, ContactSides};
+pub use sides::{Borne, ContactParts, ContactSides};
 pub use thin::{Plate, plates};

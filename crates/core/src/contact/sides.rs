@@ -10,6 +10,9 @@ use crate::system::Dofs;
 use crate::tensor::Vec3;
 use std::sync::Arc;
 
+/// A pressure, and the undeformed areas over which the node or point that bears it stands around corners of sides of both bodies.
+pub type Borne = (f64, Vec<(Side, usize, f64)>);
+
 /// What a contact is made of.
 pub struct ContactParts {
     /// The user's name for it.

@@ -1,11 +1,13 @@
 //! Pressure of a fluid that enters an opening: it acts on the faces of a surface from where it stands up to where contact
 //! bears more than its pressure.
 //!
-//! What is wet is found anew at each accepted state, and holds over the increment that follows. It begins at the nodes where
-//! the fluid stands. A face is entered from a wet node on it when at each of its other nodes contact bears less than the
-//! fluid. Where the fluid acts already, it has taken its part of the load from the contact: at a node whose faces are wet by
-//! the part `w` of their area, contact and fluid bear `p_c + w p` together, and the fluid stays while that is no more than
-//! `p`, but for a small part by which a front would come and go.
+//! What is wet is found anew at each accepted state, and holds over the increment that follows. A closed node of a contact that bears
+//! more than the fluid keeps it from what the node sees of the faces around it, weighted by its function: up to the edge of a tool that
+//! ends within a face. The rest of a face is open. The fluid begins at the nodes where it stands and comes over faces that are open as
+//! a whole; it presses on these and on those beside them, there with the open part of its pressure, so that fluid and contact share
+//! the face in which the front lies. A node of such a face that lies behind the front holds nothing of it: beside an edge one node may
+//! bear all and the next nothing. Where the fluid acts it has taken its part from a node: it stays while contact and fluid
+//! bear no more than its pressure together, but for a small part by which a front would come and go.
 
 use super::face::{Face, area};
 use super::follower::{OpenFace, present};
@@ -13,27 +15,28 @@ use super::{Site, now};
 use crate::amplitude::Timeline;
 use crate::mesh::Side;
 use crate::system::{Attempt, Branch, History, Instant, Local, Role, State, Stencil, Stencils, Term};
-use crate::tensor::Vec3;
 use crate::{Error, Failure};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
-/// Part of the fluid's pressure by which contact must bear more before the fluid leaves a face that it has entered.
+/// Part of the fluid's pressure by which contact must bear more before the fluid leaves where it acts.
 const STAYS: f64 = 0.02;
+/// Part of a face that counts as none: between two bodies nodes that stood opposite each other have moved apart by so much.
+const LEAST: f64 = 0.01;
 
-/// Where contacts bear in an accepted state, and by which pressure.
-type Borne = dyn Fn(&State) -> Vec<(Vec3, f64)> + Send + Sync;
+/// Pressures that contacts bear, and the undeformed areas over which these stand around corners of sides.
+type Borne = Vec<(f64, Vec<(Side, usize, f64)>)>;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
-pub struct Bearing(Arc<OnceLock<Box<Borne>>>);
+pub struct Bearing(Arc<OnceLock<Box<dyn Fn(&State) -> Borne + Send + Sync>>>);
 
 impl Bearing {
     /// Tells it, once.
-    pub fn tell(&self, borne: impl Fn(&State) -> Vec<(Vec3, f64)> + Send + Sync + 'static) {
+    pub fn tell(&self, borne: impl Fn(&State) -> Borne + Send + Sync + 'static) {
         let _ = self.0.set(Box::new(borne));
     }
-    fn in_state(&self, state: &State) -> Vec<(Vec3, f64)> {
+    fn in_state(&self, state: &State) -> Borne {
         self.0.get().map_or_else(Vec::new, |borne| borne(state))
     }
 }
@@ -78,7 +81,7 @@ impl PenetratingPressure {
     /// The present area that is wet, and the whole, with thickness and circumference.
     pub fn wetted(&self, state: &State, history: &History) -> [f64; 2] {
         let areas = self.areas(&state.u);
-        let wet = (0..self.faces.len()).filter(|&i| is_wet(history, i)).fold(0.0, |sum, i| sum + areas[i]);
+        let wet = areas.iter().enumerate().fold(0.0, |sum, (i, area)| sum + history.slot(i)[0] * area);
         [wet, areas.iter().sum()]
     }
 
@@ -93,83 +96,63 @@ impl PenetratingPressure {
         self.faces.iter().map(size).collect()
     }
 
-    /// The faces that a fluid of pressure `p` wets after an accepted state.
-    fn enter(&self, state: &State, history: &History, p: f64) -> Vec<bool> {
-        let before: Vec<bool> = (0..self.faces.len()).map(|i| is_wet(history, i)).collect();
-        let mut now = vec![false; self.faces.len()];
+    /// The part of each face that a fluid of pressure `p` wets after an accepted state.
+    fn enter(&self, state: &State, history: &History, p: f64) -> Vec<f64> {
+        let mut wet = vec![0.0; self.faces.len()];
         if p <= 0.0 {
-            return now;
+            return wet;
         }
-        let borne = self.borne(state);
-        let parts = self.parts(&before, &self.areas(&state.u));
-        let admits = |node: &usize| {
-            let (contact, part) = (borne.get(node).copied().unwrap_or(0.0), parts.get(node).copied().unwrap_or(0.0));
-            let stays = if part > 0.0 { STAYS * p } else { 0.0 };
-            contact + part * p <= p + stays
-        };
-        let mut nodes = self.source.clone();
-        loop {
-            let enters = |i: &usize| {
-                let face = &self.faces[*i].nodes;
-                !now[*i]
-                    && face.iter().any(|node| nodes.contains(node))
-                    && face.iter().all(|node| nodes.contains(node) || admits(node))
-                    && face.iter().any(admits)
-            };
-            let entered: Vec<usize> = (0..now.len()).filter(enters).collect();
-            if entered.is_empty() {
-                return now;
+        let (mut open, whole) = (vec![1.0; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
+        let numbers: BTreeMap<Side, usize> = self.faces.iter().zip(0..).map(|(face, i)| (face.side, i)).collect();
+        let (mut held, mut admitted) = (BTreeMap::<usize, f64>::new(), Vec::new());
+        for (pressure, areas) in self.bearing.in_state(state) {
+            let mut here = BTreeMap::<usize, BTreeMap<usize, f64>>::new();
+            for (side, node, area) in areas {
+                let Some(&i) = numbers.get(&side) else { continue };
+                *here.entry(i).or_default().entry(node).or_default() += area;
             }
-            for i in entered {
-                now[i] = true;
-                nodes.extend(&self.faces[i].nodes);
-            }
-        }
-    }
-
-    /// The part of the area around each node that is wet.
-    fn parts(&self, wet: &[bool], areas: &[f64]) -> BTreeMap<usize, f64> {
-        let mut sums = BTreeMap::<usize, [f64; 2]>::new();
-        for ((face, area), wet) in self.faces.iter().zip(areas).zip(wet) {
-            for &node in &face.nodes {
-                let [of, all] = sums.entry(node).or_default();
-                *of += if *wet { *area } else { 0.0 };
-                *all += area;
-            }
-        }
-        sums.into_iter().map(|(node, [of, all])| (node, if all > 0.0 { of / all } else { 0.0 })).collect()
-    }
-
-    /// What contact bears at each node: the mean over what lies nearer than half of the longest way to a neighbour.
-    fn borne(&self, state: &State) -> BTreeMap<usize, f64> {
-        let places = self.bearing.in_state(state);
-        let at = |node: usize| {
-            let mut x = self.site.mesh.points[node];
-            let first = self.site.dofs.node(node);
-            (0..self.site.dofs.per_node()).for_each(|axis| x[axis] += state.u[first + axis]);
-            x
-        };
-        let mut reach = BTreeMap::<usize, f64>::new();
-        for face in &self.faces {
-            for (k, &node) in face.nodes.iter().enumerate() {
-                let others = face.nodes.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, &other)| other);
-                let nearest = others.map(|other| (at(other) - at(node)).norm()).fold(f64::INFINITY, f64::min);
-                let reach = reach.entry(node).or_insert(0.0);
-                *reach = reach.max(0.5 * nearest);
-            }
-        }
-        let mean = |(&node, &reach): (&usize, &f64)| {
-            let (x, mut sums) = (at(node), [0.0; 2]);
-            for (place, pressure) in &places {
-                if (*place - x).norm() <= reach {
-                    sums[0] += pressure;
-                    sums[1] += 1.0;
+            let areas = || here.iter().map(|(&i, around)| (i, around.values().sum::<f64>()));
+            let sum =
+                |[fluid, all]: [f64; 2], (i, area): (usize, f64)| [fluid + taken(history, i, p) * area, all + area];
+            let [fluid, all] = areas().fold([0.0; 2], sum);
+            let closed = pressure * all + fluid > p * all + STAYS * fluid;
+            for (i, area) in areas() {
+                if closed {
+                    open[i] -= area / whole[i];
+                } else {
+                    let nearest = here[&i].iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(node, _)| *node);
+                    admitted.push((i, nearest, area));
                 }
             }
-            (node, if sums[1] > 0.0 { sums[0] / sums[1] } else { 0.0 })
-        };
-        reach.iter().map(mean).collect()
+            let sign = if closed { 1.0 } else { -1.0 };
+            here.values().flatten().for_each(|(&node, area)| *held.entry(node).or_default() += sign * area);
+        }
+        let mut nodes = self.source.clone();
+        nodes.retain(|node| held.get(node).is_none_or(|held| *held <= 0.0));
+        loop {
+            let face = |i: usize| &self.faces[i].nodes;
+            let enters = |&i: &usize| wet[i] == 0.0 && open[i] > LEAST && face(i).iter().any(|n| nodes.contains(n));
+            let entered: Vec<usize> = (0..wet.len()).filter(enters).collect();
+            if entered.is_empty() {
+                break;
+            }
+            for i in entered {
+                wet[i] = open[i];
+                if open[i] > 1.0 - LEAST {
+                    nodes.extend(face(i));
+                }
+            }
+        }
+        let behind = admitted.into_iter().filter(|(_, nearest, _)| nearest.is_some_and(|node| !nodes.contains(&node)));
+        behind.for_each(|(i, _, area)| wet[i] = (wet[i] - area / whole[i]).max(0.0));
+        wet
     }
+}
+
+/// What a fluid whose pressure is now `p` takes of what presses on a face: no more than it took, and than it can.
+fn taken(history: &History, face: usize, p: f64) -> f64 {
+    let [wet, pressure] = [0, 1].map(|k| history.slot(face)[k]);
+    wet * pressure.min(p)
 }
 
 /// Nodes at the border of faces: the ends of a line of edges, the edges that only one face has.
@@ -191,10 +174,6 @@ fn rim(faces: &[Face], dimension: usize) -> BTreeSet<usize> {
     met.into_iter().filter(|(_, count)| *count == 1).flat_map(|(border, _)| border).collect()
 }
 
-fn is_wet(history: &History, face: usize) -> bool {
-    history.slot(face)[0] > 0.0
-}
-
 impl Term for PenetratingPressure {
     fn name(&self) -> &str {
         &self.name
@@ -203,7 +182,7 @@ impl Term for PenetratingPressure {
         Role::Load
     }
     fn initial(&self) -> History {
-        History::new(self.faces.iter().map(|_| 1))
+        History::new(self.faces.iter().map(|_| 2))
     }
     fn attempt<'a>(
         &'a self,
@@ -223,12 +202,12 @@ impl Term for PenetratingPressure {
 struct Open<'a> {
     load: &'a PenetratingPressure,
     value: f64,
-    wet: Vec<bool>,
+    wet: Vec<f64>,
 }
 
 impl Attempt for Open<'_> {
     fn scratch(&self, _: usize) -> Vec<f64> {
-        vec![0.0]
+        vec![0.0; 2]
     }
     fn stencils(&self, _: &[f64], out: &mut Stencils) -> Result<(), Failure> {
         let unknowns = |face: &Face| self.load.site.unknowns(face.nodes.iter().copied());
@@ -236,9 +215,10 @@ impl Attempt for Open<'_> {
         Ok(())
     }
     fn evaluate(&self, index: usize, _: &Stencil, new: &mut [f64], local: &mut Local) -> Result<Branch, Failure> {
-        new[0] = f64::from(u8::from(self.wet[index]));
-        if self.wet[index] {
-            OpenFace { site: &self.load.site, face: &self.load.faces[index], pressure: self.value }.press(local);
+        new.copy_from_slice(&[self.wet[index], self.value]);
+        if new[0] > 0.0 {
+            let pressure = self.value * new[0];
+            OpenFace { site: &self.load.site, face: &self.load.faces[index], pressure }.press(local);
         }
         Ok(0)
     }

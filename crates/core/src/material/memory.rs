@@ -10,8 +10,8 @@
 //!   deformation whose stress grows evenly over the increment (Taylor, Pister and Goudreau 1970).
 //!
 //! Softened rubber gives back `integral of (1 - erf(...)/r) dW` from zero to `W`, and its dissipation follows from `W_m` alone.
-//! The springs of relaxation are taken to store `g h:h/(4 G)` with the shear modulus `G` of the undeformed solid, which is exact
-//! for small strains, and what their dampers take is integrated alike.
+//! The springs of relaxation are taken to store `g W h:h/(s:s)`, `g h:h/(4 G)` at small strains with the shear modulus `G` of the
+//! undeformed solid, and what their dampers take is integrated alike: exact for a deformation that comes at once and for one that is held.
 
 use super::hyper::{HyperLaw, left_cauchy_green};
 use super::law::{Advance, Differentiate};
@@ -105,6 +105,8 @@ pub struct Remembering<L> {
 const MOST: usize = 12;
 const TAKEN: usize = 13;
 const BACK: usize = 14;
+/// Stress over the shear modulus below which the strain is small.
+const SMALL: f64 = 1e-5;
 
 impl<L: HyperLaw> Remembering<L> {
     /// The law with this memory.
@@ -149,6 +151,14 @@ impl<L: HyperLaw> Remembering<L> {
         Ok(shape * left)
     }
 
+    /// Energy that a spring stores over the square of its stress.
+    fn compliance(&self, state: &[f64]) -> f64 {
+        let b = left_cauchy_green(state);
+        let shape = self.law.stress(&b).map_or(Tensor2::zero(), |stress| stress.deviator() * b.det().sqrt());
+        let square = shape.contract(shape);
+        if square > (SMALL * self.shear).powi(2) { self.energy(&b) / square } else { 0.25 / self.shear }
+    }
+
     fn overstress(state: &[f64], i: usize) -> Tensor2 {
         Tensor2::from_voigt(std::array::from_fn(|k| state[BACK + 6 * i + k]))
     }
@@ -186,7 +196,7 @@ impl<L: HyperLaw> Advance for Remembering<L> {
         let c = *f * det.powf(-1.0 / 3.0);
         let carry = |t: Tensor2| (c * t.lift() * c.transpose()).sym();
         let before = if self.memory.prony.is_empty() { Tensor2::zero() } else { carry(self.softened(old)?) };
-        new[TAKEN] = old[TAKEN];
+        let mut damping = 0.0;
         for (i, [share, time]) in self.memory.prony.iter().enumerate() {
             let x = lapse.dt / time;
             let grown = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
@@ -194,11 +204,12 @@ impl<L: HyperLaw> Advance for Remembering<L> {
             let h = start * T::from((-x).exp()) + step * T::from(grown);
             total = total + h.deviator() * T::from(*share);
             new[BACK + 6 * i..BACK + 6 * i + 6].copy_from_slice(&h.re().to_voigt());
-            new[TAKEN] += share / (2.0 * self.shear) * damped(&start.re().deviator(), &step.re().deviator(), x);
+            damping += share * damped(&start.re().deviator(), &step.re().deviator(), x);
         }
         let stress = total * j.recip() + Tensor2::identity() * (stress.trace() * (1.0 / 3.0));
         new[..6].copy_from_slice(&stress.re().to_voigt());
         new[6..12].copy_from_slice(&b.re().to_voigt());
+        new[TAKEN] = old[TAKEN] + 2.0 * self.compliance(new) * damping;
         Ok(stress)
     }
 }
@@ -275,7 +286,7 @@ impl<L: HyperLaw> Material for Remembering<L> {
             self.memory.mullins.map_or(shape, |mullins| mullins.returned(shape.min(state[MOST]), state[MOST]));
         let springs = |(i, [share, _]): (usize, &[f64; 2])| {
             let h = Self::overstress(state, i).deviator();
-            share * h.contract(h) / (4.0 * self.shear)
+            share * h.contract(h) * self.compliance(state)
         };
         let springs: f64 = self.memory.prony.iter().enumerate().map(springs).sum();
         (self.law.energy(&b) - shape + self.lasting() * softened + springs) / b.det().sqrt()

@@ -225,8 +225,13 @@ impl OpenBody<'_> {
             self.account((old, new), (volume, det), local);
             if let Some((_, stretch)) = warmth {
                 new[len - 1] = stretch;
-                let strain = sums.law.free.ln() + sums.law.cooling;
-                local.supplied += 0.5 * (trace(old) + trace(new) * det) * volume * strain;
+                let (free, material) = (sums.law.free.ln(), &self.body.material);
+                let mean = |value: &dyn Fn(&[f64]) -> f64| 0.5 * (value(old) + value(new) * det) * volume;
+                local.supplied += mean(&|state| trace(state)) * (free + sums.law.cooling);
+                if material.has_potential() {
+                    // The energy is that of a volume free of stress, which heat makes larger.
+                    local.supplied -= 3.0 * mean(&|state| material.stored_energy(state)) * free;
+                }
             }
         }
         Ok((sums.force, sums.means))

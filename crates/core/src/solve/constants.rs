@@ -256,7 +256,7 @@ pub mod small_problem {
 
 /// Increments that jump.
 pub mod snaps {
-    /// Part of the work that is no error of the increment.
+    /// Part of the work and of what heat supplied that is no error of the increment.
     pub const FREE: f64 = 0.1;
     /// Work of what is loaded or driven, over the energy set free, below which something else set that free: an overlap that is pressed
     /// apart, a change of temperature.

@@ -319,7 +319,7 @@ impl<'a> Run<'a> {
         (record, wanted): (&AttemptRecord, f64),
         mut converged: Converged,
     ) -> Result<(), Error> {
-        let (before, taken, forces) = (balance(&self.state), taken(&self.state), self.state.internal.clone());
+        let (before, taken, forces) = (balance(&self.state), exchanged(&self.state), self.state.internal.clone());
         let moved_before = self.moved();
         let (last_dt, reached) = (self.state.last_dt, converged.reached.take());
         let converged_freely = converged.held.is_empty();
@@ -369,9 +369,10 @@ impl<'a> Run<'a> {
     }
 
     /// Notes an accepted increment that set energy free, more than rounding.
-    fn look_for_snap(&mut self, record: &AttemptRecord, forces: &[f64], before: f64) {
-        let energy = set_free(&self.state, forces, taken(&self.state) - before);
-        let rounding = NOISE * (taken(&self.state).abs() + self.state.in_play[0] * self.problem.cell_size);
+    fn look_for_snap(&mut self, record: &AttemptRecord, forces: &[f64], before: [f64; 2]) {
+        let now = exchanged(&self.state);
+        let energy = set_free(&self.state, forces, [0, 1].map(|i| now[i] - before[i]));
+        let rounding = NOISE * (now[0].abs() + self.state.in_play[0] * self.problem.cell_size);
         if energy > rounding {
             let most = largest(&self.state.last_change).unwrap_or(0);
             self.stability.snaps.push(Snap { time: record.time, energy, largest: self.problem.name_of(most) });
@@ -445,10 +446,11 @@ fn added(mut forces: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
 
 /// Energy that came from outside and that no term has taken up.
 fn balance(state: &State) -> f64 {
-    state.external_work - taken(state)
+    state.external_work - exchanged(state)[0]
 }
 
-/// Energy that the terms have taken up.
-fn taken(state: &State) -> f64 {
-    state.energies.iter().map(Energies::taken).sum()
+/// Energy that the terms have taken up, and what heat has supplied.
+fn exchanged(state: &State) -> [f64; 2] {
+    let sum = |of: fn(&Energies) -> f64| state.energies.iter().map(of).sum();
+    [sum(Energies::taken), sum(|energies| energies.supplied)]
 }

@@ -18,17 +18,17 @@ pub struct Snap {
     pub largest: String,
 }
 
-/// Energy that an increment set free from the forces `before` it, where terms took up so much; zero where it did not jump. The
-/// state is that after it.
-pub(super) fn set_free(state: &State, before: &[f64], taken: f64) -> f64 {
-    let (mut works, mut size) = ([0.0; 2], 0.0);
+/// Energy that an increment set free from the forces `before` it, where terms took up so much and heat supplied so much; zero where it
+/// did not jump. The state is that after it.
+pub(super) fn set_free(state: &State, before: &[f64], [taken, supplied]: [f64; 2]) -> f64 {
+    let (mut works, mut size) = ([0.0; 2], supplied.abs());
     for ((change, f0), f1) in state.last_change.iter().zip(before).zip(&state.internal) {
         works[0] += f0 * change;
         works[1] += f1 * change;
         size += (f0 * change).abs().max((f1 * change).abs());
     }
     let free = works[0].min(works[1]) - taken;
-    if free > FREE * size && size > DRIVEN * free { free } else { 0.0 }
+    if free > FREE * size && size - supplied.abs() > DRIVEN * free { free } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -37,15 +37,18 @@ mod tests {
 
     #[test]
     fn what_falls_below_both_ends_is_free() {
-        let free = |[f0, f1]: [f64; 2], moved: f64, taken: f64| {
+        let heated = |[f0, f1]: [f64; 2], moved: f64, taken: f64, supplied: f64| {
             let state = State { last_change: vec![moved], internal: vec![f1], ..State::default() };
-            set_free(&state, &[f0], taken)
+            set_free(&state, &[f0], [taken, supplied])
         };
+        let free = |forces: [f64; 2], moved: f64, taken: f64| heated(forces, moved, taken, 0.0);
         assert_eq!(free([0.0, 1.0], 2.0, 0.3), 0.0, "hardens");
         assert_eq!(free([1.0, 0.2], 2.0, 0.9), 0.0, "softens");
         assert_eq!(free([1.0, 0.5], -2.0, -1.4), 0.0, "unloads");
         assert_eq!(free([1.0, 1.01], 2.0, 1.2), 0.8, "snaps through");
         assert_eq!(free([1.0, 0.0], 0.25, -0.5), 0.5, "snaps back");
         assert_eq!(free([1.0, 0.1], 0.0, -0.5), 0.0, "nothing is driven");
+        assert_eq!(heated([0.0, -0.1], 0.5, -0.2, 50.0), 0.0, "what heat supplies is known to the increment");
+        assert_eq!(heated([1.0, 1.01], 2.0, 1.2, 1.0), 0.8, "snaps through while it is heated");
     }
 }

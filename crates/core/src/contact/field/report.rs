@@ -7,7 +7,7 @@ use super::faces::{FaceProjection, FaceRay};
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::ToolInPlace;
 use crate::contact::record::{ContactRecord, entry};
-use crate::contact::{Move, Overlap};
+use crate::contact::{Borne, Move, Overlap};
 use crate::system::History;
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -58,6 +58,29 @@ impl FieldContact {
             }
         }
         moves.into_values().collect()
+    }
+
+    /// What its nodes bear that see something, nothing where they are open, and its closed tips. An idle node lets
+    /// nothing in while it is penetrated.
+    pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
+        let (idle, mut borne) = (self.idle(history), Vec::new());
+        self.each_seen(u, (self.reach(&vec![0.0; u.len()]), Some(history)), |slot, stencil, sums| {
+            let (values, is_tip) = (history.slot(slot), self.node_of(slot).is_none());
+            let pressure = match values[entry::STATUS] > 0.0 {
+                true => values[entry::PRESSURE],
+                false if idle[slot] && sums.y[0] > 0.0 => f64::INFINITY,
+                false => 0.0,
+            };
+            // The part that a tip has in its face is that of the increment.
+            let part = if is_tip { values[entry::XI] / sums.area } else { 1.0 };
+            if !is_tip || values[entry::STATUS] > 0.0 {
+                borne.push((
+                    pressure,
+                    stencil.sides(sums).map(|(side, node, area)| (side, node, part * area)).collect(),
+                ));
+            }
+        });
+        borne
     }
 
     /// All nodes in an accepted state, with this term's lane of its history: one record for each slot.

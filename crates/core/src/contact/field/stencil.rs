@@ -13,6 +13,7 @@ use super::points::{PatchPoints, Recall};
 use super::support::FieldSearch;
 use super::triad::MaterialLine;
 use super::twist::{Twist, spin};
+use crate::mesh::Side;
 use crate::tensor::Vec3;
 use std::rc::Rc;
 
@@ -140,6 +141,26 @@ impl<'a> StencilInPlace<'a> {
     fn patches(&self) -> impl Iterator<Item = (&'a Patch, usize)> {
         let found = self.found;
         found.supports[self.slot].patches.iter().map(|&(number, corner)| (&found.patches[number].patch, corner))
+    }
+
+    /// The undeformed area over which it stands, point by point, around each corner of the sides of both bodies.
+    pub fn sides<'b>(&'b self, sums: &'b NodeSums) -> impl Iterator<Item = (Side, usize, f64)> + 'b {
+        let (parts, patches) = (&self.at.contact.parts, self.patches().collect::<Vec<_>>());
+        sums.points.iter().flat_map(move |&NodePoint { of: (number, k), weight, .. }| {
+            let (patch, point) = (patches[number].0, &sums.patches[number].points[k]);
+            let seen = parts.target.as_faces().zip(match &point.sight {
+                Sight::Face(hit) => Some(hit.s),
+                _ => None,
+            });
+            let seen = seen.map(|(faces, s)| (&faces.surface.faces[patch.target], s));
+            [Some((&parts.surface.faces[patch.face], point.xi)), seen].into_iter().flatten().flat_map(
+                move |(face, xi)| {
+                    let functions = face.corner_functions(xi);
+                    let around = move |corner| (face.side, face.corner_node(corner), weight * functions.n[corner]);
+                    (0..face.corners()).map(around)
+                },
+            )
+        })
     }
 
     /// What the tangents of the node follow, in space.

@@ -40,7 +40,7 @@ impl FieldContact {
 
     /// Nodes that saw little of a piece of a tool in space beside others of their faces: a face of first degree cannot bend, and one that
     /// bore at a node beyond the border would have the tool reach to there.
-    fn idle(&self, history: &History) -> Vec<bool> {
+    pub(super) fn idle(&self, history: &History) -> Vec<bool> {
         let Some(shares) = self.shares(history) else { return vec![false; self.slots()] };
         let mut most = vec![0.0_f64; self.slots()];
         let faces = self.parts.surface.faces.iter().zip(&self.parts.surface.field);

@@ -4,8 +4,8 @@
 use super::attempt::touched;
 use super::contact::PaperContact;
 use super::point::Triad;
-use crate::contact::Move;
 use crate::contact::record::{ContactRecord, PointStatus, entry};
+use crate::contact::{Borne, Move};
 use crate::system::History;
 use crate::tensor::Vec3;
 use crate::tool::{ProfileRay, Rejected};
@@ -42,6 +42,19 @@ impl PaperContact {
     /// All points in an accepted state, with this term's lane of its history.
     pub fn records(&self, u: &[f64], history: &History) -> Vec<ContactRecord> {
         (0..self.points.len()).map(|index| self.record(index, u, history.slot(index))).collect()
+    }
+
+    /// What its closed points bear.
+    pub fn borne(&self, u: &[f64], history: &History) -> Vec<Borne> {
+        let still = vec![0.0; u.len()];
+        let bears = |index: usize| {
+            let (values, area) = (history.slot(index), self.area(index, &still));
+            let seen = self.parts.target.as_faces().filter(|_| !self.loads_itself()).zip(touched(values));
+            let seen = seen.map(|(faces, (face, _))| &faces.surface.faces[face]);
+            let faces = [Some(self.face(index)), seen].into_iter().flatten();
+            (values[entry::PRESSURE], faces.map(|face| (face.side, face.nodes[0], area)).collect())
+        };
+        (0..self.points.len()).filter(|&index| is_closed(history.slot(index))).map(bears).collect()
     }
 
     fn record(&self, index: usize, u: &[f64], values: &[f64]) -> ContactRecord {

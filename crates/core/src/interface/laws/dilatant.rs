@@ -4,12 +4,13 @@
 //! Dilation is integrated exactly along the slip, `-w = psi_0 s_c (1 - exp(-s / s_c))`, whatever the increments, so that
 //! its total is `psi_0 s_c`; with `p = K_p (u - w)` the slip `dl` of an increment solves
 //! `|tau_trial| - K_t dl = phi (p_trial + K_p dw) + c`. A bonded point carries tension up to `t_c <= c / phi`; where the
-//! trial pressure reaches `-t_c` the point opens, and bond and cohesion are lost for good. The dilation of an open point
-//! is kept, except for the part `reset_dilation`. No more than `psi_0 <= phi`: beyond it energy would come from nowhere.
+//! trial pressure reaches `-t_c` the point opens, and bond and cohesion are lost for good; the shear strength, no more than
+//! `10 (p + t_c)`, is gone by then. The dilation of an open point is kept, except for the part `reset_dilation`. No more
+//! than `psi_0 <= phi`: beyond it energy would come from nowhere.
 
 use super::coulomb::FRICTION;
 use super::law;
-use super::trial::Trial;
+use super::trial::{STEEPEST, Trial};
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, Variable, VariableKind, unit};
 use crate::integrate::{System, root};
@@ -98,15 +99,14 @@ const DILATION: usize = 2;
 struct Return<'a> {
     law: &'a Dilatant,
     stiffness: [f64; 2],
-    cohesion: f64,
+    strength: [f64; 2],
     scale: f64,
 }
 
 impl System<1, 3> for Return<'_> {
     fn residual<S: Scalar>(&self, &[slip]: &[S; 1], &[shear, pressure, before]: &[S; 3]) -> [S; 1] {
         let pressure = pressure + self.law.opening(before, slip) * self.stiffness[0];
-        let limit = pressure * self.law.friction + self.cohesion;
-        [(shear - slip * self.stiffness[1] - limit) / self.scale]
+        [(shear - slip * self.stiffness[1] - self.law.limit(pressure, self.strength)) / self.scale]
     }
 }
 
@@ -122,6 +122,16 @@ impl Dilatant {
             return Err(format!("`tension` must be at most cohesion over friction, {}", cohesion / friction));
         }
         Ok(Self { friction, cohesion, tension, dilatancy, dilation_slip, reset })
+    }
+
+    /// Cohesion and tensile strength, as long as the bond holds.
+    fn strength<T: Scalar>(&self, past: &Past<T>) -> [f64; 2] {
+        if past.vars[BROKEN].re() > 0.0 { [0.0; 2] } else { [self.cohesion, self.tension] }
+    }
+
+    /// The shear strength under a pressure, which is gone where the bond breaks.
+    fn limit<T: Scalar>(&self, pressure: T, [cohesion, tension]: [f64; 2]) -> T {
+        (pressure * self.friction + cohesion).min((pressure + tension) * self.friction.max(STEEPEST))
     }
 
     /// Opening by the slip `slip` after the slip `before`.
@@ -143,22 +153,22 @@ impl InterfaceLaw for Dilatant {
         // From the slip alone: a scheme that combines states keeps no other relation between the two.
         let dilation = self.opening(T::zero(), past.vars[SLIP]);
         let pressure = (motion.penetration + dilation) * past.penalty;
-        let cohesion = if past.vars[BROKEN].re() > 0.0 { 0.0 } else { self.cohesion };
-        let (limit, before) = (pressure * self.friction + cohesion, past.vars[SLIP]);
+        let (strength, before) = (self.strength(past), past.vars[SLIP]);
+        let limit = self.limit(pressure, strength);
         let most = trial.size.re() / past.tangential_penalty;
-        let dilated = limit.re() + self.friction * past.penalty * self.opening(before.re(), most);
+        let dilated = self.limit(pressure.re() + past.penalty * self.opening(before.re(), most), strength);
         if trial.size.re() <= limit.re() || dilated <= 0.0 {
             return Ok(trial.within(pressure, limit));
         }
         let stiffness = [past.penalty, past.tangential_penalty];
         let scale = trial.size.re() + limit.re().abs();
-        let equation = Return { law: self, stiffness, cohesion, scale };
+        let equation = Return { law: self, stiffness, strength, scale };
         let slip = root(&equation, [0.0, most], &[trial.size, pressure, before], "dilatant friction")?;
         let opening = self.opening(before, slip);
         let pressure = pressure + opening * past.penalty;
         vars[SLIP] = before + slip;
         vars[DILATION] = dilation + opening;
-        let response = trial.slide(pressure, pressure * self.friction + cohesion);
+        let response = trial.slide(pressure, self.limit(pressure, strength));
         let given_back = pressure.re() * opening.re();
         Ok(Response { closure: -opening.re(), dissipated: response.dissipated - given_back, ..response })
     }
@@ -170,16 +180,13 @@ impl InterfaceLaw for Dilatant {
     }
 
     fn touch(&self, past: &Past) -> f64 {
-        let strength = if past.vars[BROKEN] > 0.0 { 0.0 } else { self.tension };
-        -past.vars[DILATION] - strength / past.penalty
+        -past.vars[DILATION] - self.strength(past)[1] / past.penalty
     }
 
-    /// Where all that the shear stress at the tensile strength lets slip has dilated.
+    /// At the tensile strength there is no shear strength left: where all of the slip has dilated.
     fn opens(&self, past: &Past, slip: [f64; 2]) -> f64 {
-        let [cohesion, tension] = if past.vars[BROKEN] > 0.0 { [0.0; 2] } else { [self.cohesion, self.tension] };
         let trial = [0, 1].map(|i| past.shear[i] + past.tangential_penalty * slip[i]);
-        let beyond = trial[0].hypot(trial[1]) - (cohesion - self.friction * tension);
-        self.touch(past) - self.opening(past.vars[SLIP], beyond.max(0.0) / past.tangential_penalty)
+        self.touch(past) - self.opening(past.vars[SLIP], trial[0].hypot(trial[1]) / past.tangential_penalty)
     }
 }
 
@@ -231,6 +238,23 @@ mod tests {
                 (response.pressure / (1e3 * above) - 1.0).abs() < 0.5 && response.dissipated >= 0.0,
                 "{response:?}"
             );
+        }
+    }
+
+    /// The shear strength falls with the pressure, to nothing without a jump where the bond breaks.
+    #[test]
+    fn shear_is_gone_as_the_bond_breaks() {
+        for dilatancy in [0.0, 0.3] {
+            let (law, old) = (Dilatant { dilatancy, ..LAW }, [0.0; 3]);
+            let (past, slip) = (past(&old), [0.03, 0.04]);
+            let opens = law.opens(&past, slip);
+            for above in [1e-9, 1e-6, 1e-4] {
+                let motion = Motion { penetration: opens + above, slip };
+                let response = law.respond(&motion, &past, &mut [0.0; 3]).unwrap();
+                let (over, shear) = (response.pressure + law.tension, response.shear[0].hypot(response.shear[1]));
+                assert!(0.0 < over && over <= 1.001e3 * above, "{dilatancy} {response:?}");
+                assert!((shear / (STEEPEST * over) - 1.0).abs() < 1e-6, "{dilatancy} {response:?}");
+            }
         }
     }
 

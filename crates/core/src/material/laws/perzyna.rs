@@ -121,7 +121,8 @@ impl RateLaw for Perzyna {
         self.elastic.energy(stress)
     }
 
+    /// By the trapezoidal rule, exact while a stress relaxes.
     fn dissipation(&self, old: (&Tensor2, &[f64; 1]), new: (&Tensor2, &[f64; 1])) -> f64 {
-        Invariants::of(new.0).q * (new.1[0] - old.1[0])
+        0.5 * (Invariants::of(old.0).q + Invariants::of(new.0).q) * (new.1[0] - old.1[0])
     }
 }

@@ -158,10 +158,14 @@ impl Step {
         }
     }
 
-    /// Where an amplitude bends within two increments of size `wanted`, as a part of the step.
+    /// Where an amplitude bends within two increments of size `wanted`, as a part of the step; where a given number of increments would
+    /// have ended they end all the same.
     fn bend(&self, wanted: f64, done: f64) -> Option<f64> {
         let near = [done, done + 2.0 * wanted].map(|time| (time / self.duration).min(1.0));
-        self.amplitudes.iter().filter_map(|amplitude| amplitude.bend(near)).reduce(f64::min)
+        let Increments { first, largest, .. } = self.increments;
+        let given =
+            (first == largest && !self.amplitudes.is_empty()).then(|| ((near[0] / first + 1e-6).floor() + 1.0) * first);
+        self.amplitudes.iter().filter_map(|amplitude| amplitude.bend(near)).chain(given).reduce(f64::min)
     }
 
     /// The size that an increment `dt` from `done` on stands for where the controller wanted `wanted`: that, if an amplitude's bend cut

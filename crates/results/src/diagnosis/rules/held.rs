@@ -196,7 +196,10 @@ pub(super) fn hourglass(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let soft = facts.bodies.iter().filter(|body| body.hourglass).map(|body| body.name.as_str()).collect::<Vec<_>>();
     let of_kind = course.kind() == Some(FailureKind::Hourglass);
     let doubted = course.doubt(&["hourglass"]).is_some();
-    if soft.is_empty() || !of_kind && !doubted && course.share(&[FailureKind::Hourglass, FailureKind::Singular]) < 0.3 {
+    // Where they give way from the start, the iterations may only wander.
+    let wandered = course.increments == 0 && course.kind() == Some(FailureKind::Iterations);
+    let singular = course.share(&[FailureKind::Hourglass, FailureKind::Singular]) >= 0.3;
+    if soft.is_empty() || !(of_kind || doubted || singular || wandered) {
         return None;
     }
     Some(

@@ -168,6 +168,57 @@ body.low.material = "foam""#;
     }
 }
 
+/// The same in space over a square tool, and over a punch of few faces, whose own covered top stays dry.
+#[test]
+fn what_a_tool_or_a_punch_covers_stays_dry() {
+    let square = |cell: &str, cells: usize| {
+        format!(
+            r#"
+version = 1
+space = "solid"
+mesh.part.block.box = {{ from = [-1.0, 0.0, -1.0], to = [1.0, 0.5, 1.0], cells = [{cells}, 2, {cells}], cell = "{cell}" }}
+tool.flat.plane = {{ at = [0.0, 0.0, 0.0], normal = [0.0, 1.0, 0.0], side = 1.1 }}
+contact.sole = {{ surface = "block.bottom", target = "flat", law.frictionless = {{}} }}"#
+        )
+    };
+    let punch = r#"
+version = 1
+space = "plane-strain"
+mesh.part.block.rectangle = { from = [-1.0, 0.0], to = [1.0, 0.5], cells = [7, 4], cell = "quad4" }
+mesh.part.punch.rectangle = { from = [-0.55, -0.5], to = [0.55, 0.0], cells = [2, 4], cell = "quad4" }
+body.punch.material = "foam"
+contact.sole = { surface = "block.bottom", target = "punch.top", law.frictionless = {} }"#;
+    let wet = |made: &str, more: &str, held: &str| {
+        let across = if held.is_empty() { ", z = 0.0" } else { "" };
+        let top = format!("displacement.\"block.top\" = {{ x = 0.0, y = -0.02{across} }}\n{held}");
+        let deck = format!(
+            r#"{made}
+material.foam.elastic = {{ young = 1000.0, poisson = 0.0 }}
+body.block.material = "foam"
+[[step]]
+increments.count = 2
+{top}
+[[step]]
+increments.count = 2
+{top}
+pressure."block.bottom" = {{ value = 1.0, penetrates = true }}
+{more}
+"#
+        );
+        let model = model(&deck, &[]);
+        let columns = columns(&model, &run(&model));
+        move |side: &str| *columns[&format!("pressure.{side}.wetted_part")].last().unwrap()
+    };
+    let near = |wet: f64, exact: f64, mesh: &str| assert!((wet / exact - 1.0).abs() < 0.02, "{mesh}: {wet} {exact}");
+    for (cell, cells) in [("hex8", 4), ("hex8", 5), ("tet4", 4)] {
+        near(wet(&square(cell, cells), "", "")("block.bottom"), 1.0 - 0.55 * 0.55, cell);
+    }
+    let on_top = "pressure.\"punch.top\" = { value = 1.0, penetrates = true }";
+    let on_punch = wet(punch, on_top, "displacement.\"punch.bottom\" = { x = 0.0, y = 0.0 }");
+    near(on_punch("block.bottom"), 0.45, "punch");
+    assert_eq!(on_punch("punch.top"), 0.0);
+}
+
 /// A rib narrower than a face keeps the fluid on its side of it.
 #[test]
 fn a_rib_within_a_face_is_not_passed() {

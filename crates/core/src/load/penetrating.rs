@@ -104,7 +104,7 @@ impl PenetratingPressure {
         }
         let (mut open, whole) = (vec![1.0; self.faces.len()], self.areas(&vec![0.0; state.u.len()]));
         let numbers: BTreeMap<Side, usize> = self.faces.iter().zip(0..).map(|(face, i)| (face.side, i)).collect();
-        let (mut held, mut admitted) = (BTreeMap::<usize, f64>::new(), Vec::new());
+        let (mut seen, mut excess, mut admitted) = (vec![0.0; wet.len()], BTreeMap::<usize, f64>::new(), Vec::new());
         for (pressure, areas) in self.bearing.in_state(state) {
             let mut here = BTreeMap::<usize, BTreeMap<usize, f64>>::new();
             for (side, node, area) in areas {
@@ -115,20 +115,22 @@ impl PenetratingPressure {
             let sum =
                 |[fluid, all]: [f64; 2], (i, area): (usize, f64)| [fluid + taken(history, i, p) * area, all + area];
             let [fluid, all] = areas().fold([0.0; 2], sum);
-            let closed = pressure * all + fluid > p * all + STAYS * fluid;
+            let more = pressure * all + fluid - p * all - STAYS * fluid;
             for (i, area) in areas() {
-                if closed {
+                seen[i] += area / whole[i];
+                if more > 0.0 {
                     open[i] -= area / whole[i];
                 } else {
                     let nearest = here[&i].iter().max_by(|a, b| a.1.total_cmp(b.1)).map(|(node, _)| *node);
                     admitted.push((i, nearest, area));
                 }
             }
-            let sign = if closed { 1.0 } else { -1.0 };
-            here.values().flatten().for_each(|(&node, area)| *held.entry(node).or_default() += sign * area);
+            here.values().flatten().for_each(|(&node, area)| *excess.entry(node).or_default() += more * area / all);
         }
         let mut nodes = self.source.clone();
-        nodes.retain(|node| held.get(node).is_none_or(|held| *held <= 0.0));
+        let hangs_over =
+            |node: &usize| (0..wet.len()).any(|i| seen[i] < 1.0 - LEAST && self.faces[i].nodes.contains(node));
+        nodes.retain(|node| excess.get(node).is_none_or(|more| *more <= 0.0) || hangs_over(node));
         loop {
             let face = |i: usize| &self.faces[i].nodes;
             let enters = |&i: &usize| wet[i] == 0.0 && open[i] > LEAST && face(i).iter().any(|n| nodes.contains(n));

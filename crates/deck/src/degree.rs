@@ -27,7 +27,8 @@ enum Raise {
 /// The cells to raise, always all of a connected whole, so that neighbours go on sharing all their nodes, and on both sides of a curved
 /// joint or on neither: facets would stand off edges that bend, or in them. What was raised unasked is noted.
 pub fn raised(
-    (bodies, contacts): (&[(Name, BodyKeys)], &[(Name, Contact)]),
+    bodies: &[(Name, BodyKeys)],
+    contacts: &[(Name, Contact)],
     mesh: &Mesh,
     reader: &mut Reader,
 ) -> Vec<usize> {
@@ -51,7 +52,7 @@ pub fn raised(
     };
     let begun: Vec<Raise> = (0..count).map(|i| of(i, reader)).collect();
     let joints = joints(contacts, mesh, &whole);
-    let (mut raise, mut kept) = (begun.clone(), BTreeSet::new());
+    let (mut raise, mut stays) = (begun.clone(), BTreeSet::new());
     // Each round keeps one more whole as it is, or is the last.
     loop {
         let meets = |raise: &[Raise]| {
@@ -67,12 +68,12 @@ pub fn raised(
             })
         };
         let Some((number, [from, to])) = meets(&raise) else { break };
-        if may(to) && !kept.contains(&to) {
+        if may(to) && !stays.contains(&to) {
             raise[to] = Raise::Partner(number);
         } else {
-            kept.insert(from);
+            stays.insert(from);
             raise.clone_from(&begun);
-            kept.iter().for_each(|&whole| raise[whole] = Raise::No);
+            stays.iter().for_each(|&whole| raise[whole] = Raise::No);
         }
     }
     for ((owners, cells), raise) in owners.iter().zip(&cells).zip(&raise) {

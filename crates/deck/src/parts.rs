@@ -39,7 +39,7 @@ pub fn mesh(tree: &Node, folder: &Path, given: Option<Mesh>, reader: &mut Reader
     choose_all(&selections, &mut mesh, reader);
     let contacts = map(refers(Names::Contact), table_of::<Contact>());
     let contacts = entry(tree, "contact").and_then(|node| contacts.read(node, &mut quiet)).unwrap_or_default();
-    let raised = degree::raised((&bodies, &contacts), &mesh, reader);
+    let raised = degree::raised(&bodies, &contacts, &mesh, reader);
     if raised.is_empty() {
         return Some(mesh);
     }

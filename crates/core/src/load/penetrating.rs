@@ -29,7 +29,10 @@ type Borne = Vec<(f64, Vec<(Side, usize, f64)>)>;
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
-pub struct Bearing(Arc<OnceLock<Box<dyn Fn(&State) -> Borne + Send + Sync>>>);
+pub struct Bearing(Arc<OnceLock<Box<Tells>>>);
+
+/// What tells them in an accepted state.
+type Tells = dyn Fn(&State) -> Borne + Send + Sync;
 
 impl Bearing {
     /// Tells it, once.

@@ -42,7 +42,8 @@ pub struct FaceSpot {
     pub xi: [f64; 2],
     /// Area in reference coordinates that it stands for.
     pub weight: f64,
-    /// Where the density of that is the mean one, from the place over the weight.
+    /// The density of area counts at the place plus this times the weight: of a closed rule where it is the mean of what the place stands
+    /// for, so that a uniform pressure makes the nodal forces that it should around an axis too.
     pub inward: f64,
     laid: SpotMap,
 }

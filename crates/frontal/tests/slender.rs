@@ -24,7 +24,7 @@ fn slender_strips_are_solved_to_rounding() {
         assert!(accuracy.backward_error < 1e-14, "{cells}: {accuracy:?}");
         x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
     };
-    for (cells, symmetric) in [(50, true), (500, true), (500, false), (750, true), (1000, false)] {
+    for (cells, symmetric) in [(50, true), (500, true), (500, false), (750, true), (750, false)] {
         let ratio = deflection(2 * cells, symmetric) / deflection(cells, symmetric);
         assert!((ratio / 16.0 - 1.0).abs() < 0.01 + 1.0 / cells as f64, "{cells}: {ratio}");
     }

@@ -4,6 +4,11 @@
 //! in later steps until one of them says it anew or releases it. This room knows neither what the values are nor what
 //! they act on. Layer 1.
 
+/// Part of its range by which an amplitude may bend off the straight line of an increment.
+const STRAIGHT: f64 = 0.01;
+/// Part of a step within which two times are one.
+const SAME: f64 = 1e-9;
+
 /// A factor over a step: pairs of a fraction of the step and a factor, joined by straight lines and constant outside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Amplitude {
@@ -44,14 +49,6 @@ impl Amplitude {
             (None, None) => 0.0,
         }
     }
-}
-
-/// Part of its range by which an amplitude may bend off the straight line of an increment.
-const STRAIGHT: f64 = 0.01;
-/// Part of a step within which two times are one.
-const SAME: f64 = 1e-9;
-
-impl Amplitude {
     /// The first fraction of the step in an interval at which an increment has to end: no point of the amplitude before it lies beyond the
     /// values at both ends, as a peak would, nor off the straight line between them by more than a hundredth of the range (Douglas &
     /// Peucker, Cartographica 10, 1973).

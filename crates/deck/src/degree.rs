@@ -45,31 +45,24 @@ pub fn raised(
         kept(name, body, mesh, reader);
     }
     let owners: Vec<Vec<_>> = owners.iter().map(|own| own.iter().map(|&number| &bodies[number]).collect()).collect();
-    let may = |i: usize| may_be_raised(&owners[i], &cells[i], mesh);
-    let of = |i: usize, reader: &mut Reader| match asked(&owners[i], reader) {
+    let may = |i: usize| is_silent(&owners[i]) && is_affordable(&cells[i], mesh);
+    let begin = |i: usize, reader: &mut Reader| match asked(&owners[i], reader) {
         true => Raise::Asked,
-        false => may(i).then(|| too_stiff(mesh, &cells[i])).flatten().map_or(Raise::No, Raise::Stiff),
+        false if !is_silent(&owners[i]) => Raise::No,
+        false => too_stiff(mesh, &cells[i]).filter(|_| is_affordable(&cells[i], mesh)).map_or(Raise::No, Raise::Stiff),
     };
-    let begun: Vec<Raise> = (0..count).map(|i| of(i, reader)).collect();
-    let joints = joints(contacts, mesh, &whole);
+    let begun: Vec<Raise> = (0..count).map(|i| begin(i, reader)).collect();
+    let unasked = |raise: Raise| matches!(raise, Raise::Stiff(_) | Raise::Partner(_));
+    let joints = if begun.iter().any(|&raise| unasked(raise)) { joints(contacts, mesh, &whole) } else { Vec::new() };
     let (mut raise, mut stays) = (begun.clone(), BTreeSet::new());
-    // Each round keeps one more whole as it is, or is the last.
+    // Each round raises one more partner, or has one more whole stay as it is and begins anew.
     loop {
-        let meets = |raise: &[Raise]| {
-            joints.iter().find_map(|&(number, [a, b])| {
-                let open = |&[from, to]: &[usize; 2]| {
-                    matches!(raise[from], Raise::Stiff(_) | Raise::Partner(_)) && raise[to] == Raise::No
-                };
-                [[a, b], [b, a]]
-                    .into_iter()
-                    .filter(open)
-                    .find(|[_, to]| has_first(&cells[*to], mesh))
-                    .map(|pair| (number, pair))
-            })
+        let one_sided = |&&(_, [from, to]): &&Joint| {
+            unasked(raise[from]) && raise[to] == Raise::No && cells[to].iter().any(|&cell| mesh.kinds[cell].degree == 1)
         };
-        let Some((number, [from, to])) = meets(&raise) else { break };
+        let Some(&(contact, [from, to])) = joints.iter().find(one_sided) else { break };
         if may(to) && !stays.contains(&to) {
-            raise[to] = Raise::Partner(number);
+            raise[to] = Raise::Partner(contact);
         } else {
             stays.insert(from);
             raise.clone_from(&begun);
@@ -83,8 +76,11 @@ pub fn raised(
     wholes.flat_map(|(cells, _)| cells).filter(|&cell| mesh.kinds[cell].degree == 1).collect()
 }
 
-/// Contacts of two wholes whose surface or target is curved, by their numbers.
-fn joints(contacts: &[(Name, Contact)], mesh: &Mesh, whole: &[usize]) -> Vec<(usize, [usize; 2])> {
+/// The number of a contact whose surface or target is curved, and two wholes that meet there, either way round.
+type Joint = (usize, [usize; 2]);
+
+/// Those of all contacts.
+fn joints(contacts: &[(Name, Contact)], mesh: &Mesh, whole: &[usize]) -> Vec<Joint> {
     let mut joints = Vec::new();
     for (number, (_, contact)) in contacts.iter().enumerate() {
         let sides =
@@ -95,14 +91,10 @@ fn joints(contacts: &[(Name, Contact)], mesh: &Mesh, whole: &[usize]) -> Vec<(us
         }
         let wholes = |sides: &[Side]| sides.iter().map(|side| whole[side.cell]).collect::<BTreeSet<_>>();
         let targets = wholes(target);
-        let pairs = wholes(surface).into_iter().flat_map(|a| targets.iter().map(move |&b| [a, b]));
+        let pairs = wholes(surface).into_iter().flat_map(|a| targets.iter().flat_map(move |&b| [[a, b], [b, a]]));
         joints.extend(pairs.filter(|[a, b]| a != b).map(|pair| (number, pair)));
     }
     joints
-}
-
-fn has_first(cells: &[usize], mesh: &Mesh) -> bool {
-    cells.iter().any(|&cell| mesh.kinds[cell].degree == 1)
 }
 
 fn degree(body: &BodyKeys) -> Option<usize> {
@@ -137,14 +129,16 @@ fn asked(owners: &[&(Name, BodyKeys)], reader: &mut Reader) -> bool {
     true
 }
 
-/// Whether nothing is said of a whole with cells of first degree, and it is not too large to be raised unasked.
-fn may_be_raised(owners: &[&(Name, BodyKeys)], cells: &[usize], mesh: &Mesh) -> bool {
+/// Whether nothing is said of how the bodies of a whole are computed.
+fn is_silent(owners: &[&(Name, BodyKeys)]) -> bool {
     let silent = |body: &BodyKeys| {
         body.degree.is_none() && *body.formulation == Formulation::Auto && *body.integration == Integration::Auto
     };
-    if owners.is_empty() || !owners.iter().all(|(_, body)| silent(body)) || !has_first(cells, mesh) {
-        return false;
-    }
+    !owners.is_empty() && owners.iter().all(|(_, body)| silent(body))
+}
+
+/// Whether a whole is not too large to be raised unasked.
+fn is_affordable(cells: &[usize], mesh: &Mesh) -> bool {
     // Each node has about three edges of its own in the plane and seven in space.
     let dimension = mesh.kinds[cells[0]].dimension;
     let (own, edges) = (cells.iter().flat_map(|&cell| mesh.cell(cell).nodes).collect::<BTreeSet<_>>().len(), [3, 7]);

@@ -84,10 +84,9 @@ impl Factor {
 
     /// `|A| |x|` for the equilibrated matrix.
     pub(crate) fn sizes(&self, x: &[f64]) -> Vec<f64> {
-        let pattern = &self.symbolic.pattern;
         let row = |row: usize| {
-            let range = pattern.starts()[row]..pattern.starts()[row + 1];
-            self.values[range.clone()].iter().zip(&pattern.columns()[range]).map(|(a, &k)| (a * x[k]).abs()).sum()
+            let entries = self.symbolic.pattern.entries(row);
+            entries.map(|(at, column)| (self.values[at] * x[column]).abs()).sum()
         };
         (0..x.len()).map(row).collect()
     }

@@ -24,22 +24,22 @@ const STAYS: f64 = 0.02;
 /// Part of a face that counts as none: between two bodies nodes that stood opposite each other have moved apart by so much.
 const LEAST: f64 = 0.01;
 
-/// Pressures that contacts bear, and the undeformed areas over which these stand around corners of sides.
-type Borne = Vec<(f64, Vec<(Side, usize, f64)>)>;
+/// A pressure that contact bears, and the undeformed areas over which it stands around corners of sides.
+type Borne = (f64, Vec<(Side, usize, f64)>);
 
 /// What contacts bear, which the model tells when it has been put together.
 #[derive(Clone, Default)]
 pub struct Bearing(Arc<OnceLock<Box<Tells>>>);
 
-/// What tells them in an accepted state.
-type Tells = dyn Fn(&State) -> Borne + Send + Sync;
+/// What tells it in an accepted state.
+type Tells = dyn Fn(&State) -> Vec<Borne> + Send + Sync;
 
 impl Bearing {
     /// Tells it, once.
-    pub fn tell(&self, borne: impl Fn(&State) -> Borne + Send + Sync + 'static) {
+    pub fn tell(&self, borne: impl Fn(&State) -> Vec<Borne> + Send + Sync + 'static) {
         let _ = self.0.set(Box::new(borne));
     }
-    fn in_state(&self, state: &State) -> Borne {
+    fn in_state(&self, state: &State) -> Vec<Borne> {
         self.0.get().map_or_else(Vec::new, |borne| borne(state))
     }
 }

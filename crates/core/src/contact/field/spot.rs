@@ -10,17 +10,17 @@ use std::sync::LazyLock;
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
 static GAUSS: LazyLock<Vec<IntervalPoint>> =
-    LazyLock::new(|| legendre(4).into_iter().map(|(eta, weight)| IntervalPoint { eta, weight, inward: 0.0 }).collect());
+    LazyLock::new(|| legendre(4).into_iter().map(|(eta, weight)| point(eta, weight, 0.0)).collect());
 
 /// The trapezoidal rule, with the mean density of each half,
-static TRAPEZOID: [IntervalPoint; 2] = [at_end(-1.0, 1.0, 2.0 / 3.0), at_end(1.0, 1.0, -2.0 / 3.0)];
+static TRAPEZOID: [IntervalPoint; 2] = [point(-1.0, 1.0, 2.0 / 3.0), point(1.0, 1.0, -2.0 / 3.0)];
 /// and Simpson's of an edge, on the halves of it that have its first and its second end.
 static SIMPSON: [[IntervalPoint; 2]; 2] = [
-    [at_end(-1.0, 2.0 / 3.0, 0.0), at_end(1.0, 4.0 / 3.0, 0.0)],
-    [at_end(-1.0, 4.0 / 3.0, 0.0), at_end(1.0, 2.0 / 3.0, 0.0)],
+    [point(-1.0, 2.0 / 3.0, 0.0), point(1.0, 4.0 / 3.0, 0.0)],
+    [point(-1.0, 4.0 / 3.0, 0.0), point(1.0, 2.0 / 3.0, 0.0)],
 ];
 
-const fn at_end(eta: f64, weight: f64, inward: f64) -> IntervalPoint {
+const fn point(eta: f64, weight: f64, inward: f64) -> IntervalPoint {
     IntervalPoint { eta, weight, inward }
 }
 

@@ -125,6 +125,11 @@ impl ProfileTool {
         (turn.abs() >= CREASE).then(|| (turn > 0.0).then(|| PieceEnd { point: one.point(1.0), along }))
     }
 
+    /// Whether a piece is of straight lines only.
+    pub fn is_straight(&self, piece: &SmoothPiece) -> bool {
+        piece.segments.iter().all(|&number| self.segments()[number].kind().key == "line")
+    }
+
     /// The point of a piece closest to `x`, in the tool's own frame.
     pub fn closest(&self, piece: &SmoothPiece, x: Vec3) -> NearestPoint {
         let (mut best, mut least) = ((0, 0.0), f64::INFINITY);

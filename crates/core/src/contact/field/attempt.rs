@@ -105,7 +105,7 @@ impl FieldAttempt<'_> {
         } else {
             let [from, to] = patch.near;
             let place = |point: &IntervalPoint| [0.5 * (from + to) + 0.5 * (to - from) * point.eta, 0.0];
-            places.extend(self.contact.rule(patch.face).iter().map(place));
+            places.extend(self.contact.rule(patch).iter().map(place));
         }
         for xi in places {
             if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {

@@ -90,7 +90,7 @@ impl PatchPoints {
     fn look(&mut self, patch: &PatchInPlace, at: &NodesInPlace, recall: Recall) -> Option<()> {
         let (surface, face) = (&at.contact.parts.surface, patch.face.face);
         let rest = face.at_rest(&at.contact.parts.mesh);
-        for (number, spot) in patch.spots(at.contact.rule(patch.patch.face), false).into_iter().enumerate() {
+        for (number, spot) in patch.spots(at.contact.rule(&patch.patch), false).into_iter().enumerate() {
             let xi = spot.xi;
             let frame = patch.face.at(xi);
             let (sight, n, gap, y) = patch.look(&frame)?;
@@ -117,7 +117,7 @@ impl PatchPoints {
         let along = |(column, turning): (&PointColumn, &[Vec3; CORNERS])| in_place.bound_rates(column, turning);
         let bounds: Vec<_> = columns.iter().zip(&turning).map(along).collect();
         let still = in_place.tool.is_some() && !surface.plane && patch.seen.is_none();
-        let spots = in_place.spots(at.contact.rule(patch.face), true);
+        let spots = in_place.spots(at.contact.rule(patch), true);
         for point in &self.points {
             let (spot, frame) = (&spots[point.number], in_place.face.at(point.xi));
             let density = if still {

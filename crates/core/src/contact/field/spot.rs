@@ -2,9 +2,11 @@
 
 use super::column::PointColumn;
 use super::contact::FieldContact;
+use super::cover::Patch;
 use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
+use super::tool::RigidTool;
 use crate::tensor::{Dual, Vec3, legendre};
 use std::sync::LazyLock;
 
@@ -63,10 +65,12 @@ impl FieldContact {
     /// The rule on the intervals of a face in the plane. At a crease it is a closed one (Lobatto; the nodal integration of contact): a
     /// mean over the face lets the corner of a body go through a tool as far as the rest of its face stands off, which then folds. Of
     /// a uniform pressure both rules make the same nodal forces.
-    pub(super) fn rule(&self, face: usize) -> &'static [IntervalPoint] {
-        let surface = &self.parts.surface;
+    pub(super) fn rule(&self, patch: &Patch) -> &'static [IntervalPoint] {
+        let (surface, face) = (&self.parts.surface, patch.face);
+        let closed =
+            |tool: &RigidTool| surface.creased[face] || (surface.curved[face] && tool.is_straight(patch.target));
         match surface.faces[face].end() {
-            _ if !surface.creased[face] || self.parts.target.as_tool().is_none() => &GAUSS,
+            _ if !self.parts.target.as_tool().is_some_and(closed) => &GAUSS,
             None => &TRAPEZOID,
             Some(end) => &SIMPSON[end],
         }

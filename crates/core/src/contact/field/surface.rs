@@ -51,8 +51,10 @@ pub struct FieldSurface {
     pub field: Vec<[usize; CORNERS]>,
     /// For each face the smooth piece it belongs to, counted from zero.
     pub pieces: Vec<usize>,
-    /// For each face of a plane model whether its edge ends at a crease of the surface.
+    /// For each face of a plane model whether its edge ends at a crease of the surface,
     pub creased: Vec<bool>,
+    /// and whether it is part of a curved piece.
+    pub curved: Vec<bool>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
     /// Whether the model is axisymmetric.
@@ -75,8 +77,17 @@ impl FieldSurface {
     fn of(mesh: &Mesh, faces: Vec<FieldFace>, space: Space, thickness: f64) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
-        let mut surface =
-            Self { faces, nodes: vec![], field: vec![], pieces: vec![], creased: vec![], plane, revolves, thickness };
+        let mut surface = Self {
+            faces,
+            nodes: vec![],
+            field: vec![],
+            pieces: vec![],
+            creased: vec![],
+            curved: vec![],
+            plane,
+            revolves,
+            thickness,
+        };
         surface.number(mesh);
         surface
     }
@@ -95,13 +106,16 @@ impl FieldSurface {
         };
         let (mut pieces, mut field) =
             (DisjointSets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
-        let (mut nodes, mut creased) = (Vec::new(), BTreeSet::new());
+        let (mut nodes, mut creased, mut curved) = (Vec::new(), BTreeSet::new(), BTreeSet::new());
         for (&node, corners) in &around {
             let mut sets = DisjointSets::new(corners.len());
             for i in 0..corners.len() {
                 for j in 0..i {
                     if smooth(corners[i].0, corners[j].0) {
                         sets.join(i, j);
+                        if self.plane && (normals[corners[i].0] - normals[corners[j].0]).norm() > CURVED {
+                            curved.extend([i, j].map(|k| self.faces[corners[k].0].side));
+                        }
                         pieces.join(corners[i].0, corners[j].0);
                     }
                 }
@@ -121,6 +135,7 @@ impl FieldSurface {
             }
         }
         self.creased = self.faces.iter().map(|face| creased.contains(&face.side)).collect();
+        self.curved = self.faces.iter().map(|face| curved.contains(&face.side)).collect();
         (self.pieces, self.nodes, self.field) = (pieces.labels(), nodes, field);
     }
 
@@ -266,6 +281,9 @@ impl FieldSurface {
         (area, slopes)
     }
 }
+
+/// Angle between faces from which on they stand for a curved piece.
+const CURVED: f64 = 1e-3;
 
 /// Step of the differences of the area density, in reference coordinates.
 const STEP: f64 = 1e-3;

@@ -109,6 +109,13 @@ impl RigidTool {
             RigidShape::Space(_, pieces) => pieces.count(),
         }
     }
+    /// Whether a piece is of straight lines in the plane.
+    pub fn is_straight(&self, piece: usize) -> bool {
+        match &self.shape {
+            RigidShape::Plane(tool, pieces) => tool.is_straight(&pieces[piece]),
+            RigidShape::Space(..) => false,
+        }
+    }
     /// Has what is small lie within a face. In the plane roundings of radii up to `edge` part the tool as edges do, and those up to
     /// `rounding` and edges are tips; in space pieces may lie within a face of `size`.
     pub fn sharpen(&mut self, [edge, rounding]: [f64; 2], size: f64) {

@@ -1,12 +1,11 @@
 //! The places of a quadrature on a patch, and how they move with its unknowns.
 
 use super::column::PointColumn;
-use super::contact::FieldContact;
+use super::contact::{FieldContact, FieldTarget};
 use super::cover::Patch;
 use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
-use super::tool::RigidTool;
 use crate::tensor::{Dual, Vec3, legendre};
 use std::sync::LazyLock;
 
@@ -62,15 +61,20 @@ enum SpotMap {
 }
 
 impl FieldContact {
-    /// The rule on the intervals of a face in the plane. At a crease it is a closed one (Lobatto; the nodal integration of contact): a
-    /// mean over the face lets the corner of a body go through a tool as far as the rest of its face stands off, which then folds. Of
-    /// a uniform pressure both rules make the same nodal forces.
+    /// The rule on the intervals of a face in the plane: a closed one (Lobatto; the nodal integration of contact) over tools at a crease, and
+    /// where the facets of a curve touch by their corners, over what is straight, or of first degree and flat or curved to the same side. A mean lets a corner go
+    /// in as far as the rest of the face stands off. Facets within facets stand in and out by turns, and the mean is right. Of a uniform
+    /// pressure both rules make the same nodal forces.
     pub(super) fn rule(&self, patch: &Patch) -> &'static [IntervalPoint] {
         let (surface, face) = (&self.parts.surface, patch.face);
-        let closed =
-            |tool: &RigidTool| surface.creased[face] || (surface.curved[face] && tool.is_straight(patch.target));
-        match surface.faces[face].end() {
-            _ if !self.parts.target.as_tool().is_some_and(closed) => &GAUSS,
+        let (end, bend) = (surface.faces[face].end(), surface.bends[face]);
+        let facet = bend != 0.0 && self.overlap_degree(patch) == 1;
+        let closed = match &self.parts.target {
+            FieldTarget::Tool(tool) => surface.creased[face] || (facet && tool.is_straight(patch.target)),
+            FieldTarget::Faces(faces) => facet && bend * faces.surface.bends[patch.target] >= 0.0,
+        };
+        match end {
+            _ if !closed => &GAUSS,
             None => &TRAPEZOID,
             Some(end) => &SIMPSON[end],
         }

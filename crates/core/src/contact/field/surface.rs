@@ -53,8 +53,8 @@ pub struct FieldSurface {
     pub pieces: Vec<usize>,
     /// For each face of a plane model whether its edge ends at a crease of the surface,
     pub creased: Vec<bool>,
-    /// and whether it is part of a curved piece.
-    pub curved: Vec<bool>,
+    /// and by how much the surface turns at its ends, an angle: positive where it is convex, zero where it is flat.
+    pub bends: Vec<f64>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
     /// Whether the model is axisymmetric.
@@ -83,7 +83,7 @@ impl FieldSurface {
             field: vec![],
             pieces: vec![],
             creased: vec![],
-            curved: vec![],
+            bends: vec![],
             plane,
             revolves,
             thickness,
@@ -106,15 +106,17 @@ impl FieldSurface {
         };
         let (mut pieces, mut field) =
             (DisjointSets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
-        let (mut nodes, mut creased, mut curved) = (Vec::new(), BTreeSet::new(), BTreeSet::new());
+        let (mut nodes, mut creased, mut bends) = (Vec::new(), BTreeSet::new(), vec![0.0; self.faces.len()]);
         for (&node, corners) in &around {
             let mut sets = DisjointSets::new(corners.len());
             for i in 0..corners.len() {
                 for j in 0..i {
                     if smooth(corners[i].0, corners[j].0) {
                         sets.join(i, j);
-                        if self.plane && (normals[corners[i].0] - normals[corners[j].0]).norm() > CURVED {
-                            curved.extend([i, j].map(|k| self.faces[corners[k].0].side));
+                        let [(f, end), (g, _)] = [corners[i], corners[j]];
+                        let turn = normals[f].cross(normals[g])[2] * (2.0 * end as f64 - 1.0);
+                        if self.plane && turn.abs() > CURVED {
+                            (bends[f], bends[g]) = (bends[f] + turn, bends[g] + turn);
                         }
                         pieces.join(corners[i].0, corners[j].0);
                     }
@@ -135,8 +137,7 @@ impl FieldSurface {
             }
         }
         self.creased = self.faces.iter().map(|face| creased.contains(&face.side)).collect();
-        self.curved = self.faces.iter().map(|face| curved.contains(&face.side)).collect();
-        (self.pieces, self.nodes, self.field) = (pieces.labels(), nodes, field);
+        (self.pieces, self.nodes, self.field, self.bends) = (pieces.labels(), nodes, field, bends);
     }
 
     /// The nodes of the mesh between which the line runs that tangents at a node of the field follow in space.

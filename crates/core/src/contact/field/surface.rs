@@ -41,7 +41,7 @@ impl NodalNormal {
 }
 
 /// Faces and nodes of the field.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct FieldSurface {
     /// The faces.
     pub faces: Vec<FieldFace>,
@@ -77,17 +77,7 @@ impl FieldSurface {
     fn of(mesh: &Mesh, faces: Vec<FieldFace>, space: Space, thickness: f64) -> Self {
         let (plane, revolves) = (space != Space::Solid, space == Space::Axisymmetric);
         let thickness = if plane && !revolves { thickness } else { 1.0 };
-        let mut surface = Self {
-            faces,
-            nodes: vec![],
-            field: vec![],
-            pieces: vec![],
-            creased: vec![],
-            bends: vec![],
-            plane,
-            revolves,
-            thickness,
-        };
+        let mut surface = Self { faces, plane, revolves, thickness, ..Self::default() };
         surface.number(mesh);
         surface
     }

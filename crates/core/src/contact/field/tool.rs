@@ -111,10 +111,7 @@ impl RigidTool {
     }
     /// Whether a piece is of straight lines in the plane.
     pub fn is_straight(&self, piece: usize) -> bool {
-        match &self.shape {
-            RigidShape::Plane(tool, pieces) => tool.is_straight(&pieces[piece]),
-            RigidShape::Space(..) => false,
-        }
+        matches!(&self.shape, RigidShape::Plane(tool, pieces) if tool.is_straight(&pieces[piece]))
     }
     /// Has what is small lie within a face. In the plane roundings of radii up to `edge` part the tool as edges do, and those up to
     /// `rounding` and edges are tips; in space pieces may lie within a face of `size`.

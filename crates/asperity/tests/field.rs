@@ -420,7 +420,7 @@ increments.count = 50
         [last(&columns, "reaction.top.y"), last(&columns, "contact.bore.max_pressure")]
     };
     let ring = crushed(
-        [360, 32],
+        [360, 64],
         -18.25,
         "target = \"ring.inner\", penalty = 1e4 }
 group.foot = { of = \"ring.outer\", x = [-0.01, 0.01], y = [-10.01, -9.99] }
@@ -428,7 +428,7 @@ group.foot = { of = \"ring.outer\", x = [-0.01, 0.01], y = [-10.01, -9.99] }
 displacement.foot = { x = 0.0, y = 0.0 }",
     );
     let half = crushed(
-        [180, 16],
+        [180, 32],
         -9.125,
         "target = \"plane\", penalty = 2e4 }
 tool.plane.profile = [{ line = [[5.0, 0.0], [-5.0, 0.0]] }]

@@ -3,7 +3,7 @@
 use crate::contact::field::{FieldSurface, FieldTarget};
 use crate::contact::{Backing, Plate, plates};
 use crate::material::{Flow, Material};
-use crate::mesh::{Mesh, Side, Space, flat_normal, is_curved};
+use crate::mesh::{Mesh, Side, Space, flat_normal};
 use crate::solid::Body;
 use crate::system::Dofs;
 use crate::tensor::Tensor2;
@@ -133,17 +133,16 @@ impl<'a> FieldSides<'a> {
     ) -> Self {
         let whole = |sides: &[Side]| FieldSurface::whole(mesh, sides, space, thickness);
         let itself = target == surface;
-        let curved = [surface, target].iter().all(|sides| is_curved(mesh, sides));
-        let swapped = !itself && may_swap && suits_better(&whole(target), &whole(surface), (mesh, curved));
+        let swapped = !itself && may_swap && suits_better(&whole(target), &whole(surface), mesh);
         let (carrier, other) = if swapped { (target, surface) } else { (surface, target) };
         Self { carrier, target: FieldTarget::faces(whole(other), mesh), itself, swapped }
     }
 }
 
-/// Whether `other` is clearly the better side to carry the field: the coarser where both are `curved`, one by faces of first degree, whose
+/// Whether `other` is clearly the better side to carry the field: the coarser where faces of first degree are curved, whose
 /// facets the other side cannot all follow; else the finer, since a coarse field on a fine target misses what lies between its
 /// nodes.
-fn suits_better(other: &FieldSurface, surface: &FieldSurface, (mesh, curved): (&Mesh, bool)) -> bool {
+fn suits_better(other: &FieldSurface, surface: &FieldSurface, mesh: &Mesh) -> bool {
     let [[fine, bow], [own, own_bow]] = [other.coarseness(mesh), surface.coarseness(mesh)];
-    if curved && bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
+    if bow.max(own_bow) > CURVED { fine > ALIKE * own } else { own > ALIKE * fine }
 }

@@ -365,6 +365,20 @@ motion.punch.y = -0.1
     }
 }
 
+/// The corners of a flowing cube roll onto the plates in large increments: a step of Newton's that leads farther away is shortened even
+/// where contact changes over it (47 and 60 iterations without that).
+#[test]
+fn a_cube_is_upset_in_few_increments() {
+    let deck = include_str!("../../../cases/upsetting/upsetting.toml");
+    for (cells, increments, most) in [(5, 6, 40), (9, 10, 55)] {
+        let cells = format!("mesh.part.cube.box.cells=[{cells}, {cells}, {cells}]");
+        let model = model(deck, &[&cells, &format!("step.upset.increments.count={increments}")]);
+        let keep: Keep = run(&model);
+        let state = keep.states.last().unwrap();
+        assert!(state.iterations <= most, "{cells}: {}", state.iterations);
+    }
+}
+
 /// Forces on the two sides are opposite, and so are their moments about the normal part.
 #[test]
 fn action_is_reaction() {

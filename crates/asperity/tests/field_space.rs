@@ -230,6 +230,9 @@ fn uniform_pressure_passes_between_meshes_that_do_not_match() {
         (["tet4", "hex8"], [[2, 2], [3, 2]], 1e-8),
         (["hex20", "hex20"], [[2, 1], [1, 2]], 1e-8),
         (["tet10", "tet10"], [[2, 1], [1, 1]], 1e-8),
+        (["tet10", "tet10"], [[3, 3], [2, 2]], 1e-8),
+        (["tet10", "tet10"], [[2, 3], [5, 4]], 1e-8),
+        (["tet10", "hex8"], [[3, 2], [2, 3]], 1e-8),
         // Functions of second degree of a quadrilateral have degree three, of which the rule on a triangle's part knows two.
         (["tet10", "hex20"], [[2, 2], [3, 2]], 1e-2),
     ] {

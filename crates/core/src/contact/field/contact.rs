@@ -1,6 +1,6 @@
 //! What a field is made of: its surface, what that may touch, the law and how it is computed.
 
-use super::cover::{FEET, Patch};
+use super::cover::FEET;
 use super::faces::TargetFaces;
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::RigidTool;
@@ -138,11 +138,6 @@ impl FieldContact {
     /// Number of coordinates of a node: penetration and slips.
     pub(super) fn coordinates(&self) -> usize {
         self.parts.dofs.per_node()
-    }
-    /// Degree of the rule on overlaps: functions of second degree on both sides are products of those of their corners.
-    pub(super) fn overlap_degree(&self, patch: &Patch) -> usize {
-        let own = self.parts.surface.faces[patch.face].kind.degree;
-        own.max(self.parts.target.as_faces().map_or(1, |faces| faces.surface.faces[patch.target].kind.degree))
     }
     /// Size of the faces at the node of a slot, a length.
     pub(super) fn size_at(&self, slot: usize) -> f64 {

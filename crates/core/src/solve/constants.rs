@@ -302,6 +302,4 @@ pub mod stops {
     pub const LOST: f64 = 0.01;
     /// Yield of a stop under the whole load, over the size of a cell.
     pub const YIELD: f64 = 1e-4;
-    /// Part of its load by which contact may exceed it before a tool leaves its stop.
-    pub const LEAVES: f64 = 1e-3;
 }

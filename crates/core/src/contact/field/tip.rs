@@ -396,7 +396,7 @@ impl FieldContact {
                 if values[entry::STATUS] > 0.0 {
                     return (whole > 0.0).then(|| values[entry::XI] / whole);
                 }
-                (gap < 0.0 && pressed && landing.radius > 0.0).then_some(0.0)
+                (gap < 0.0 && pressed).then_some(0.0)
             };
             let share = feet.iter().enumerate().filter_map(has).fold(f64::INFINITY, f64::min);
             feet.iter_mut()

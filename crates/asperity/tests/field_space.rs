@@ -233,8 +233,9 @@ fn uniform_pressure_passes_between_meshes_that_do_not_match() {
         (["tet10", "tet10"], [[3, 3], [2, 2]], 1e-8),
         (["tet10", "tet10"], [[2, 3], [5, 4]], 1e-8),
         (["tet10", "hex8"], [[3, 2], [2, 3]], 1e-8),
-        // Functions of second degree of a quadrilateral have degree three, of which the rule on a triangle's part knows two.
-        (["tet10", "hex20"], [[2, 2], [3, 2]], 1e-2),
+        (["tet10", "hex20"], [[2, 2], [3, 2]], 1e-8),
+        (["hex20", "tet10"], [[3, 3], [2, 2]], 1e-8),
+        (["wedge15", "hex20"], [[3, 2], [2, 2]], 1e-8),
     ] {
         let part = |k: usize, name: &str, from: f64| slab(name, (from, 1.5), counts[k], cells[k]);
         let deck = format!(

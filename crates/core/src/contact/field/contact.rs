@@ -1,6 +1,7 @@
 //! What a field is made of: its surface, what that may touch, the law and how it is computed.
 
-use super::cover::FEET;
+use super::cover::{FEET, Patch};
+use super::face::FieldFace;
 use super::faces::TargetFaces;
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::RigidTool;
@@ -138,6 +139,13 @@ impl FieldContact {
     /// Number of coordinates of a node: penetration and slips.
     pub(super) fn coordinates(&self) -> usize {
         self.parts.dofs.per_node()
+    }
+    /// Whether functions on an overlap are of third degree, as those of quadrilaterals with eight nodes.
+    pub(super) fn is_cubic(&self, patch: &Patch) -> bool {
+        let third = |face: &FieldFace| face.kind.degree > 1 && face.corners() > 3;
+        let faces = self.parts.target.as_faces();
+        third(&self.parts.surface.faces[patch.face])
+            || faces.is_some_and(|faces| third(&faces.surface.faces[patch.target]))
     }
     /// Size of the faces at the node of a slot, a length.
     pub(super) fn size_at(&self, slot: usize) -> f64 {

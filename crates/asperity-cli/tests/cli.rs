@@ -121,6 +121,8 @@ fn a_run_says_that_cells_were_raised() {
     let run = asperity(folder.path(), &["run", "block.toml"]);
     assert_eq!(code(&run), 0, "{}", error(&run));
     assert!(error(&run).contains("they became tri6"), "{}", error(&run));
+    let end = String::from_utf8_lossy(&run.stdout);
+    assert!(!end.contains("they became tri6"), "told once: {end}");
     let notes = &summary(&folder.path().join("block.results"))["notes"];
     assert!(notes[0].as_str().unwrap().contains("they became tri6"), "{notes}");
     let check = asperity(folder.path(), &["check", "block.toml"]);

@@ -322,3 +322,39 @@ fn a_law_of_a_library_needs_a_program_that_loads_it() {
     let told = refused(&format!("{deck}[[step]]\ndisplacement.\"block.left\" = {{ x = 0.0, y = 0.0 }}\n"));
     assert!(told.contains("this program loads no laws of shared libraries; the command `asperity` does"), "{told}");
 }
+
+/// A mesh in the coordinates of a survey is told, and a sheet that bears a load across its face is not called overloaded by it.
+#[test]
+fn numbers_that_hardly_belong_together_are_told() {
+    let deck = |[x, y]: [f64; 2], load: f64| {
+        format!(
+            r#"
+version = 1
+space = "plane-strain"
+mesh.part.sheet.rectangle = {{ from = [{x:.1}, {y:.1}], to = [{:.1}, {:.1}], cells = [50, 2], cell = "quad4" }}
+material.m.von_mises = {{ young = 200e3, poisson = 0.3, yield_stress = 200.0 }}
+body.sheet.material = "m"
+tool.plate.profile = [{{ line = [[{:.1}, {:.1}], [{:.1}, {:.1}]] }}]
+contact.face = {{ surface = "sheet.top", target = "plate", law.coulomb = {{ friction = 0.1 }} }}
+[[step]]
+displacement."sheet.bottom" = {{ y = 0.0 }}
+displacement."sheet.left" = {{ x = 0.0 }}
+load.plate = {{ y = {load:.1} }}
+"#,
+            x + 100.0,
+            y + 1.0,
+            x - 10.0,
+            y + 1.0,
+            x + 110.0,
+            y + 1.0
+        )
+    };
+    let told = |at, load| {
+        let made = build(read(&deck(at, load), "test.toml", Path::new(""), &[]).unwrap()).unwrap();
+        format!("{:?}", review(&made).unwrap().problems)
+    };
+    let (near, far) = (told([0.0, 0.0], -10e3), told([4.5e5, 5.4e6], -10e3));
+    assert!(!near.contains("rounding") && !near.contains("amounts to"), "{near}");
+    assert!(far.contains("coordinates up to 5.4e6") && far.contains("move the mesh near the origin"), "{far}");
+    assert!(told([0.0, 0.0], -1e6).contains("`load.plate` amounts to a stress of 1.0e4"));
+}

@@ -260,3 +260,30 @@ displacement."top.bottom_left".x = 0.0
         assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none() && attempt.iterations.len() < 12));
     }
 }
+
+/// A ball under a load goes from face to face of a metal that flows: a rounding that lies in the surface while nodes bear does not come to
+/// bear in it of a sudden (after that a tenth of the load left the ball on a stop), and the hardness is near 2.8 yield stresses.
+#[test]
+fn a_ball_is_pressed_by_its_load_into_a_metal_that_flows() {
+    let deck = r#"
+version = 1
+space = "axisymmetric"
+mesh.part.b.rectangle = { from = [0.0, -40.0], along_x = [{ to = 4.0, cells = 24 }, { to = 40.0, cells = 14, ratio = 20.0 }], along_y = [{ to = -3.0, cells = 14, ratio = 0.05 }, { to = 0.0, cells = 20 }], cell = "quad4" }
+material.m.von_mises = { young = 200e3, poisson = 0.3, yield_stress = 200.0 }
+body.b.material = "m"
+tool.ball.profile = [{ arc = [[0.0, 0.0], [3.535534, 1.464466], [5.0, 5.0]] }]
+contact.c = { surface = "b.top", target = "ball", law.coulomb = { friction = 0.1 } }
+[[step]]
+displacement."b.bottom" = { y = 0.0 }
+displacement."b.left" = { x = 0.0 }
+load.ball = { y = -2000.0 }
+"#;
+    let model = model(deck, &[]);
+    let keep: Keep = run(&model);
+    let (columns, state) = (columns(&model, &keep), keep.states.last().unwrap());
+    let [force, area, depth] =
+        ["contact.c.force.y", "contact.c.area", "tool.ball.translation.y"].map(|name| *columns[name].last().unwrap());
+    assert!((force / -2000.0 - 1.0).abs() < 1e-4 && state.held == 0, "{force} {}", state.held);
+    assert!((-depth / 0.0905 - 1.0).abs() < 0.05 && (2.3..3.1).contains(&(-force / area / 200.0)), "{depth} {area}");
+    assert!(state.iterations < 400, "{}", state.iterations);
+}

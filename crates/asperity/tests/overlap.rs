@@ -149,6 +149,12 @@ displacement."a.top".x = 1.0
         let (wear, area) = (field("contact_wear"), field("contact_area"));
         let volume: f64 = wear.iter().zip(&area).map(|(wear, area)| wear * area).sum();
         assert!((volume / (1e-4 * 20.0 * 5.0) - 1.0).abs() < 0.005, "{sets:?}: {volume}");
+        // At nodes, which probes read.
+        let nodal = &frame.at(QuantityPlace::Node).find(|q| q.name == "contact_wear_averaged").unwrap().values;
+        let (least, most) = wear.iter().fold((f64::MAX, 0.0_f64), |(least, most), x| (least.min(*x), most.max(*x)));
+        let within = least * (1.0 - 1e-9)..=most * (1.0 + 1e-9);
+        let bottom = &model.mesh.groups["a.bottom"].nodes;
+        assert!(least > 0.0 && bottom.iter().all(|&node| within.contains(&nodal[node])), "{sets:?}: {nodal:?}");
         let last = |name: &str| *columns[name].last().unwrap();
         let (slid, worn) = (0.3 * 20.0 * 5.0, 20.0 * 1e-4 * 10.0 * 5.0);
         assert!(

@@ -177,7 +177,12 @@ fn solve(arguments: &arguments::Run, interrupts: &Interrupts, restart: Option<&a
         report::conclude(&mut summary, &directory);
     }
     match voice {
-        Voice::Page => print(&farewell(&summary, &directory, &|more| again(arguments, more)))?,
+        Voice::Page => {
+            // What was told before the run is not told once more.
+            let mut told = summary.clone();
+            told.notes.retain(|note| !notes.contains(note));
+            print(&farewell(&told, &directory, &|more| again(arguments, more)))?
+        }
         Voice::Json => print(&format!("{}\n", json!({ "event": "end", "directory": directory, "summary": summary })))?,
         Voice::Quiet => Exit::Done,
     };

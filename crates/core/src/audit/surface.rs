@@ -121,8 +121,15 @@ impl Surface {
         let centre = centre.then(|| vertices[vertices.len() - 1]);
         let mut nodes = nodes;
         nodes.sort_unstable();
-        let second = kind.degree > 1;
-        self.sides.push(SideOf { body, nodes, centre, second, thickness: mesh.measure(side.cell).abs() });
+        // A cell that tapers from the side to a node or an edge is so many times as thick as one that does not.
+        let cell = mesh.kinds[side.cell];
+        let taper = match (cell.linear.nodes.len() - corners, cell.dimension) {
+            (1, dimension) => dimension,
+            (2, 3) => 2,
+            _ => 1,
+        };
+        let (second, thickness) = (kind.degree > 1, taper as f64 * mesh.measure(side.cell).abs());
+        self.sides.push(SideOf { body, nodes, centre, second, thickness });
     }
 
     /// Divides the measures of the cells by those of their sides.
@@ -325,7 +332,23 @@ impl Placed<'_> {
 mod tests {
     use super::*;
     use crate::mesh::Cell;
-    use crate::mesh::generate::Annulus;
+    use crate::mesh::cells::ALL;
+    use crate::mesh::generate::{Annulus, Block, Rectangle};
+
+    /// Cells of any kind in a block of one cell are as thick as the block.
+    #[test]
+    fn cells_that_taper_are_as_thick_as_those_that_do_not() {
+        for &kind in ALL.iter().filter(|kind| kind.dimension > 1) {
+            let mesh = match kind.dimension {
+                2 => Rectangle::new([0.0; 2], [2.0; 2], [1, 1], kind).mesh("b").unwrap(),
+                _ => Block::new([0.0; 3], [2.0; 3], [1, 1, 1], kind).mesh("b").unwrap(),
+            };
+            let cells: Vec<usize> = (0..mesh.cell_count()).collect();
+            let surface = Surface::new(&mesh, &cells, &|_| 0, kind.dimension == 2);
+            let thick = |side: &SideOf| (side.thickness - 2.0).abs() < 1e-12;
+            assert!(surface.sides.iter().all(thick), "{}: {:?}", kind.name, surface.sides);
+        }
+    }
 
     /// Straight edges of second degree stand off a circle as those of first degree do, curved ones by what their halves do.
     #[test]

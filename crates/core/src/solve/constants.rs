@@ -103,7 +103,7 @@ pub mod iterations {
     /// closes over the step raises it a little and is dealt with by the next iteration, and so does a snap; only what goes far
     /// astray is shortened.
     pub const SLOPE: f64 = 10.0;
-    /// The same where bodies flow and contact states did not change over the step: it must not lead farther away.
+    /// The same where bodies flow: it must not lead farther away, since what is deformed beyond flow there leads to no end.
     pub const FLOWING: f64 = 1.0;
     /// An iteration with an old factor stalls that leaves more than this part of the unbalanced forces; so many in a row, and
     /// the next has a fresh one.
@@ -302,6 +302,4 @@ pub mod stops {
     pub const LOST: f64 = 0.01;
     /// Yield of a stop under the whole load, over the size of a cell.
     pub const YIELD: f64 = 1e-4;
-    /// Part of its load by which contact may exceed it before a tool leaves its stop.
-    pub const LEAVES: f64 = 1e-3;
 }

@@ -41,11 +41,6 @@ impl CycleDetector {
         self.steps.push_front(room);
     }
 
-    /// Whether what the last iteration met is this.
-    pub fn met(&self, branches: &Branches) -> bool {
-        self.steps.front() == Some(branches)
-    }
-
     /// Term and number of the stencils that differ between the last two iterations.
     pub fn changed(&self) -> impl Iterator<Item = (usize, usize)> {
         let pair = self.steps.front().zip(self.steps.get(1));

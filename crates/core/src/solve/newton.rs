@@ -415,7 +415,7 @@ impl<'a> Newton<'a> {
             self.hold(false);
             sequence.taken = match self.path {
                 Some(_) => self.advance_on_path(u, (&step, tangent))?,
-                None => self.advance(u, (&step, tangent), missing.as_deref(), &sequence.cycles)?,
+                None => self.advance(u, (&step, tangent), missing.as_deref())?,
             };
             if main && sequence.taken < step.part && !step.factorised {
                 self.system.invalidate_factor();

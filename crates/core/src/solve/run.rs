@@ -164,7 +164,7 @@ impl<'a> Run<'a> {
             self.state.attempts += 1;
             self.state.iterations += record.solutions();
             let result = result.and_then(|mut converged| {
-                self.stops_push(&converged.evaluation.load, &converged.u)?;
+                self.nothing_bears_stopped(&converged)?;
                 converged.held.extend(self.stopped());
                 self.take_stops(&mut converged);
                 Ok((self.audit(&converged, !relaxing)?, converged))

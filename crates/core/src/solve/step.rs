@@ -2,7 +2,6 @@
 
 use super::constants::iterations::{FLOWING, SLOPE, STRICT};
 use super::constants::steps::{ENOUGH, FAR, GOOD, LOOSEST, SHORTEST, TIGHTEST, TURN};
-use super::cycle::CycleDetector;
 use super::linear::{LinearError, Unsolved};
 use super::newton::{Newton, SolveError, Variant};
 use super::semismooth::{self, ContactSystem, Linearised};
@@ -159,7 +158,6 @@ impl Newton<'_> {
         u: &mut Vec<f64>,
         (step, tangent): (&NewtonStep, Tangent),
         missing: Option<&[f64]>,
-        cycles: &CycleDetector,
     ) -> Result<f64, Failure> {
         let (begin, slope) = (u.clone(), self.slope(&step.du));
         let along = |part: f64| -> Vec<f64> { begin.iter().zip(&step.du).map(|(u, d)| u + part * d).collect() };
@@ -180,10 +178,12 @@ impl Newton<'_> {
             return Ok(part * step.part);
         }
         let end = self.slope(&step.du);
-        let allowed = match (self.strict, cycles.met(&self.evaluation.branches)) {
-            (true, _) => STRICT,
-            (false, true) if self.flows() => FLOWING,
-            (false, _) => SLOPE,
+        let allowed = if self.strict {
+            STRICT
+        } else if self.flows() {
+            FLOWING
+        } else {
+            SLOPE
         };
         if end.abs() <= allowed * slope.abs() {
             return Ok(step.part);

@@ -3,7 +3,7 @@
 //!
 //! A blank holder that the rim of the blank has left is the common case. Without a stop no state is in equilibrium.
 
-use super::constants::stops::{LEAVES, LOST, YIELD};
+use super::constants::stops::{LOST, YIELD};
 use super::newton::{Converged, IfFree, Newton, SolveError};
 use super::run::Run;
 use crate::Failure;
@@ -53,20 +53,21 @@ impl Run<'_> {
         !new.is_empty()
     }
 
-    /// Whether contacts lift no tool off its stop in a converged attempt; those that are lifted are let go of.
+    /// Whether contacts bear no tool that stands on a stop in a converged attempt; those that are borne are let go of.
     ///
     /// # Errors
-    /// The failure of an attempt whose stops would pull.
-    pub(super) fn stops_push(&mut self, load: &[f64], u: &[f64]) -> Result<(), SolveError> {
+    /// The failure of an attempt with a stop under what contacts bear.
+    pub(super) fn nothing_bears_stopped(&mut self, converged: &Converged) -> Result<(), SolveError> {
         let State { stopped, u: before, .. } = &mut self.state;
-        let cell = self.problem.cell_size;
-        let pulls = |dof: usize| {
-            stop(load[dof], u[dof] - before[dof], cell)[0] * load[dof].signum() < -LEAVES * load[dof].abs()
+        let Evaluation { internal, load, .. } = &converged.evaluation;
+        let is_borne = |dof: usize| {
+            let motion = converged.u[dof] - before[dof];
+            (internal[dof] - stop(load[dof], motion, self.problem.cell_size)[0]).abs() > LOST * load[dof].abs()
         };
-        let lifted = stopped.iter().copied().find(|&dof| pulls(dof));
-        stopped.retain(|&dof| load[dof] != 0.0 && !pulls(dof));
-        match lifted {
-            Some(dof) => Err(Failure::new(format!("{} leaves its stop", self.problem.name_of(dof))).into()),
+        let borne = stopped.iter().copied().find(|&dof| is_borne(dof));
+        stopped.retain(|&dof| load[dof] != 0.0 && !is_borne(dof));
+        match borne {
+            Some(dof) => Err(Failure::new(format!("{} is borne again", self.problem.name_of(dof))).into()),
             None => Ok(()),
         }
     }

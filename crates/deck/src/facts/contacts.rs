@@ -2,7 +2,7 @@
 
 use super::{bodies_of, extent, sides};
 use crate::build::{Made, backings};
-use crate::keys::Contact;
+use crate::keys::{Components, Contact};
 use crate::reader::Name;
 use crate::review::Seen;
 use asperity_core::contact::{Backing, default_penalty};
@@ -85,7 +85,28 @@ fn contact_facts(made: &Made, (name, keys): (&Name, &Contact), all: &[Seen], bac
         edge: edges.fold(f64::INFINITY, f64::min),
         penalty: keys.penalty.map(|given| given / computed.value),
         friction: friction.and_then(|at| keys.law.values.get(at).copied()),
+        slope: slope(made, surface),
     }
+}
+
+/// The part of the weight along a surface, as a mean, over that across it; none where the first step has another load, or no weight.
+fn slope(made: &Made, surface: &[Side]) -> Option<f64> {
+    let step = made.deck.step.first()?;
+    let loaded = !(step.pressure.is_empty() && step.traction.is_empty() && step.force.is_empty())
+        || !(step.load.is_empty() && step.body_force.is_empty());
+    let weight = Vec3(step.gravity.as_ref().filter(|_| !loaded)?.components().map(Option::unwrap_or_default));
+    let area = |side: &Side| {
+        let (kind, nodes) = made.model.mesh.side(*side);
+        let x: Vec<Vec3> = nodes.take(kind.linear.nodes.len()).map(|node| made.model.mesh.points[node]).collect();
+        match x[..] {
+            [a, b] => (b - a).cross(Vec3::axis(2)),
+            [a, b, c] => (b - a).cross(c - a) * 0.5,
+            _ => (x[2] - x[0]).cross(x[3] - x[1]) * 0.5,
+        }
+    };
+    let normal = surface.iter().fold(Vec3::zero(), |sum, side| sum + area(side)).unit();
+    let across = weight.dot(normal);
+    (across != 0.0).then(|| (weight - normal * across).norm() / across.abs())
 }
 
 /// Length of an edge, or the root of the area of the box about a face.

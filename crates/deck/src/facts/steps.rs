@@ -86,12 +86,12 @@ fn loads(made: &Made, step: &StepKeys) -> Vec<Load> {
     for (name, keys) in &step.force {
         let Some(group) = model.mesh.groups.get(&name.text) else { continue };
         let loaded = of_nodes(model, name);
-        let stress =
-            size(keys) * group.nodes.len() as f64 / loaded.first().map_or(f64::INFINITY, |body| section(model, body));
+        let section = loaded.first().map_or(f64::INFINITY, |body| section(model, body, along(keys)));
+        let stress = size(keys) * group.nodes.len() as f64 / section;
         all.push(load("force", name, loaded, stress));
     }
     for (name, keys) in &step.load {
-        let force = [keys.x, keys.y, keys.z.map(|z| z.value)].into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+        let force = [keys.x, keys.y, keys.z.map(|z| z.value)].map(Option::unwrap_or_default);
         let met = made.deck.contact.iter().find(|(_, contact)| contact.target.text == name.text);
         let rigid = made.deck.rigid.iter().find(|(rigid, _)| rigid.text == name.text).map(|(_, keys)| &keys.group);
         let spread =
@@ -100,7 +100,8 @@ fn loads(made: &Made, step: &StepKeys) -> Vec<Load> {
             Some(group) => of_nodes(model, group),
             None => met.map(|(_, contact)| of_sides(&contact.surface)).unwrap_or_default(),
         };
-        let stress = force / bodies.first().map_or(f64::INFINITY, |body| section(model, body));
+        let section = bodies.first().map_or(f64::INFINITY, |body| section(model, body, force));
+        let stress = force.into_iter().map(f64::abs).fold(0.0, f64::max) / section;
         all.push(load("load", name, bodies, stress));
     }
     for (name, keys) in &step.body_force {
@@ -128,8 +129,12 @@ fn of_nodes(model: &Model, group: &Name) -> Vec<String> {
     model.bodies.iter().filter(|(body, _)| touches(body)).map(|(body, _)| body.name().to_owned()).collect()
 }
 
+fn along(load: &impl Components) -> [f64; 3] {
+    load.components().map(Option::unwrap_or_default)
+}
+
 fn size(load: &impl Components) -> f64 {
-    load.components().into_iter().flatten().map(|x| x * x).sum::<f64>().sqrt()
+    Vec3(along(load)).norm()
 }
 
 /// The box about a body.
@@ -143,14 +148,15 @@ fn length(model: &Model, body: &str) -> f64 {
     bounds(model, body).0.into_iter().fold(0.0, f64::max)
 }
 
-/// Section of the box about a body across its longest side.
-fn section(model: &Model, body: &str) -> f64 {
-    let mut sizes = bounds(model, body).0;
-    sizes.sort_by(|a, b| b.total_cmp(a));
-    let section = match model.space {
-        Space::Solid => sizes[1] * sizes[2],
-        Space::Axisymmetric => std::f64::consts::PI * model.mesh.bounds().max[0] * sizes[1],
-        _ => sizes[1] * model.thickness,
+/// Section of the box about a body across the axis along which most of a load acts.
+fn section(model: &Model, body: &str, load: [f64; 3]) -> f64 {
+    let along = (0..3).max_by(|&i, &j| load[i].abs().total_cmp(&load[j].abs())).unwrap_or(0);
+    let [x, y, z] = bounds(model, body).0;
+    let section = match (model.space, along) {
+        (Space::Solid, _) => [y * z, z * x, x * y][along],
+        (Space::Axisymmetric, 0) => 2.0 * std::f64::consts::PI * model.mesh.bounds().max[0] * y,
+        (Space::Axisymmetric, _) => 2.0 * std::f64::consts::PI * model.mesh.bounds().max[0] * x,
+        (_, along) => [y, x, x][along] * model.thickness,
     };
     section.max(f64::MIN_POSITIVE)
 }

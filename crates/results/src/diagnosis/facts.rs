@@ -5,6 +5,8 @@
 pub struct Facts {
     /// Size of the mesh, a length.
     pub size: f64,
+    /// Its largest coordinate, a length.
+    pub far: f64,
     /// Its bodies.
     pub bodies: Vec<BodyFacts>,
     /// Its contacts.
@@ -94,6 +96,8 @@ pub struct ContactFacts {
     pub penalty: Option<f64>,
     /// Coefficient of friction, where there is one.
     pub friction: Option<f64>,
+    /// Where weight is all that loads the first step: its part along the surface over that across it.
+    pub slope: Option<f64>,
 }
 
 /// A tool.

@@ -132,6 +132,24 @@ fn what_held_at_first_and_lets_go_later_is_named() {
     assert_ne!(first(&facts, &slipping), "slides");
 }
 
+/// Where the iterations fail, a block under its weight slides off a slope and not off a table.
+#[test]
+fn what_friction_holds_does_not_slide() {
+    let mut facts = block();
+    (facts.bodies[0].held, facts.bodies[0].unheld) = (false, vec!["x", "y", "z"]);
+    let course = RunCourse { closed: vec![], ..failed(FailureKind::Iterations, "the largest unbalanced force") };
+    let causes = |slope: Option<f64>| {
+        let mut facts = facts.clone();
+        facts.contacts[0].slope = slope;
+        diagnose(&facts, &course).into_iter().map(|found| found.cause).collect::<Vec<_>>()
+    };
+    for slope in [None, Some(0.5)] {
+        assert!(causes(slope).contains(&"slides".to_owned()), "{slope:?}");
+    }
+    let found = causes(Some(0.1));
+    assert!(!found.iter().any(|cause| ["slides", "free-body"].contains(&cause.as_str())), "{found:?}");
+}
+
 #[test]
 fn numbers_that_hardly_belong_together_are_odd() {
     let odd = |change: &dyn Fn(&mut Facts)| {

@@ -100,8 +100,8 @@ impl FieldAttempt<'_> {
         let Some(faces) = self.contact.parts.target.as_faces() else { return };
         let mut places = Vec::new();
         if let (TargetInPlace::Faces(target), false) = (&now.target, self.contact.parts.surface.plane) {
-            let (degree, own) = (self.contact.overlap_degree(patch), now.face(patch.face));
-            spread(degree, own.corners(), target.corners(patch.target), |place: Spread<f64>| places.push(place.xi));
+            let (cubic, own) = (self.contact.is_cubic(patch), now.face(patch.face));
+            spread(cubic, own.corners(), target.corners(patch.target), |place: Spread<f64>| places.push(place.xi));
         } else {
             let [from, to] = patch.near;
             let place = |point: &IntervalPoint| [0.5 * (from + to) + 0.5 * (to - from) * point.eta, 0.0];

@@ -1,6 +1,7 @@
 //! What a field is made of: its surface, what that may touch, the law and how it is computed.
 
 use super::cover::{FEET, Patch};
+use super::face::FieldFace;
 use super::faces::TargetFaces;
 use super::surface::{FieldNode, FieldSurface};
 use super::tool::RigidTool;
@@ -139,10 +140,12 @@ impl FieldContact {
     pub(super) fn coordinates(&self) -> usize {
         self.parts.dofs.per_node()
     }
-    /// Degree of the rule on overlaps: functions of second degree on both sides are products of those of their corners.
-    pub(super) fn overlap_degree(&self, patch: &Patch) -> usize {
-        let own = self.parts.surface.faces[patch.face].kind.degree;
-        own.max(self.parts.target.as_faces().map_or(1, |faces| faces.surface.faces[patch.target].kind.degree))
+    /// Whether functions on an overlap are of third degree, as those of quadrilaterals with eight nodes.
+    pub(super) fn is_cubic(&self, patch: &Patch) -> bool {
+        let third = |face: &FieldFace| face.kind.degree > 1 && face.corners() > 3;
+        let faces = self.parts.target.as_faces();
+        third(&self.parts.surface.faces[patch.face])
+            || faces.is_some_and(|faces| third(&faces.surface.faces[patch.target]))
     }
     /// Size of the faces at the node of a slot, a length.
     pub(super) fn size_at(&self, slot: usize) -> f64 {

@@ -25,8 +25,8 @@ pub struct PatchInPlace<'a> {
     pub patch: Patch,
     /// Where its interval begins and ends, in the plane.
     pub interval: [f64; 2],
-    /// Degree of the rule on an overlap, in space.
-    pub degree: usize,
+    /// Whether functions on an overlap are of third degree, in space.
+    pub cubic: bool,
     /// The part of the face that it is, where the border of a piece of a tool cuts that in space.
     pub cut: Option<CutFace>,
 }
@@ -52,8 +52,16 @@ impl<'a> PatchInPlace<'a> {
             FieldTarget::Tool(_) => (at.tool, None),
             FieldTarget::Faces(faces) => (None, Some((faces, at.placed(&faces.surface.faces[patch.target])))),
         };
-        let degree = at.contact.overlap_degree(patch);
-        let mut patch = Self { face, normals, tool, seen, patch: *patch, interval: WHOLE, degree, cut: None };
+        let mut patch = Self {
+            face,
+            normals,
+            tool,
+            seen,
+            patch: *patch,
+            interval: WHOLE,
+            cubic: at.contact.is_cubic(patch),
+            cut: None,
+        };
         for (k, end) in patch.patch.ends.into_iter().enumerate() {
             if let Some(end) = end {
                 patch.interval[k] = root_near(patch.patch.near[k], |xi| patch.offset(xi, end));

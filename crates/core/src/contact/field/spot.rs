@@ -123,9 +123,9 @@ impl PatchInPlace<'_> {
             return whole(own.len()).map(on).collect();
         };
         let other = &seen.nodes()[..faces.surface.faces[self.patch.target].corners()];
-        let (mut spots, degree) = (Vec::new(), self.degree);
+        let (mut spots, cubic) = (Vec::new(), self.cubic);
         if !derivatives {
-            spread(degree, own, other, |Spread { xi, weight }| {
+            spread(cubic, own, other, |Spread { xi, weight }| {
                 spots.push(FaceSpot { xi, weight, inward: 0.0, laid: SpotMap::Whole })
             });
             return spots;
@@ -139,7 +139,7 @@ impl PatchInPlace<'_> {
             all
         };
         let (own_lifted, other_lifted) = (lift(own, 0), lift(other, DIRECTIONS / 2));
-        spread(degree, &own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
+        spread(cubic, &own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
             let laid = SpotMap::Overlap(Box::new([a.du, b.du, weight.du]));
             spots.push(FaceSpot { xi: [a.re, b.re], weight: weight.re, inward: 0.0, laid });
         });

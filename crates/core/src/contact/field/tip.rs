@@ -383,17 +383,22 @@ impl FieldContact {
         move |foot| Some(face(foot)).filter(|face| *face >= 0.0).map(|face| face as usize)
     }
 
-    /// Where the tips of the tool lie in an accepted configuration: one that bears has no more of its face than it had.
+    /// Where the tips of the tool lie in an accepted configuration: one that bears has no more of its face than it had, and a rounding that
+    /// lies in the body and bears nothing, which nodes then do, has none.
     pub(super) fn tips_before(&self, before: &Configuration, history: &History) -> Vec<Option<TipFoot>> {
         let mut tips = before.tips(f64::INFINITY, Some(&[]), self.known_feet(history));
+        let pressed = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
         for (number, feet) in tips.chunks_mut(FEET).enumerate() {
-            let had = |(foot, found): (usize, &Option<TipFoot>)| {
-                let Patch { face, tip, .. } = found.as_ref()?.patch;
+            let has = |(foot, found): (usize, &Option<TipFoot>)| {
+                let &TipFoot { patch: Patch { face, tip, .. }, gap } = found.as_ref()?;
                 let (landing, values) = (tip?, history.slot(self.nodal_slots() + FEET * number + foot));
                 let whole = self.tip_area(face, landing.xi)[0] * landing.part();
-                (values[entry::STATUS] > 0.0 && whole > 0.0).then(|| values[entry::XI] / whole)
+                if values[entry::STATUS] > 0.0 {
+                    return (whole > 0.0).then(|| values[entry::XI] / whole);
+                }
+                (gap < 0.0 && pressed).then_some(0.0)
             };
-            let share = feet.iter().enumerate().filter_map(had).fold(f64::INFINITY, f64::min);
+            let share = feet.iter().enumerate().filter_map(has).fold(f64::INFINITY, f64::min);
             feet.iter_mut()
                 .flatten()
                 .filter_map(|found| found.patch.tip.as_mut())

@@ -144,7 +144,7 @@ pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     course.kind()?;
     let touches = |contact: &&ContactFacts| {
         let bears = contact.gap.is_some_and(|gap| gap <= OPEN * contact.edge) || course.closed(&contact.name);
-        contact.bodies.contains(&body.name) && bears && !is_wrong(facts, contact)
+        contact.bodies.contains(&body.name) && bears && !holds(contact) && !is_wrong(facts, contact)
     };
     let contact = facts.contacts.iter().find(touches)?;
     let axes = body.unheld.join(" and ");
@@ -169,11 +169,19 @@ pub(super) fn slides(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     )
 }
 
+/// Whether a contact that touches holds by friction what rests on it under its weight.
+fn holds(contact: &ContactFacts) -> bool {
+    let touches = contact.gap.is_some_and(|gap| gap <= OPEN * contact.edge);
+    touches && contact.friction.zip(contact.slope).is_some_and(|(friction, slope)| slope < friction)
+}
+
 /// A body that slides without resistance on what touches it: the matrix is singular but for rounding.
 pub(super) fn slides_freely(facts: &Facts, course: &RunCourse) -> Option<Finding> {
     let body = facts.bodies.iter().find(|body| !body.unheld.is_empty())?;
     let singular = course.kind() == Some(FailureKind::Singular) || course.share(&[FailureKind::Singular]) > 0.3;
-    let adrift = !body.held && course.never_closed() && !facts.contacts.iter().any(|contact| is_wrong(facts, contact));
+    let rests = |contact: &ContactFacts| contact.bodies.contains(&body.name) && holds(contact);
+    let told = facts.contacts.iter().any(|contact| is_wrong(facts, contact) || rests(contact));
+    let adrift = !body.held && course.never_closed() && !told;
     (course.kind().is_some() && (singular || adrift)).then(|| {
         let slides =
             facts.contacts.iter().any(|c| c.bodies.contains(&body.name) && c.friction.is_none_or(|f| f == 0.0));

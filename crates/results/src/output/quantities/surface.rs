@@ -1,4 +1,4 @@
-//! Contact stress, gap, slip and status on the faces of the surfaces, and at their nodes.
+//! Contact stress, gap, slip, wear and status on the faces of the surfaces, and at their nodes.
 //!
 //! A contact point gives to the corners of its face by the shape functions of the corners, weighed with its area; a node of
 //! a field gives to itself. Nodes between corners get the mean of those. Nodes of no surface have no value.
@@ -12,8 +12,8 @@ use asperity_core::mesh::Mesh;
 use asperity_core::mesh::cells::MAX_NODES;
 use asperity_core::tensor::Vec3;
 
-/// What is summed: pressure, the shear stress vector, gap, slip.
-const SUMS: usize = 6;
+/// What is summed: pressure, the shear stress vector, gap, slip, depth of wear.
+const SUMS: usize = 7;
 
 /// The weighed sum of what contact points say; gaps are known where a target is seen.
 #[derive(Debug, Clone, Copy, Default)]
@@ -36,14 +36,16 @@ struct Mean {
     gap: f64,
     /// With its sign in the plane, its size in space.
     slip: f64,
+    /// Depth of wear, zero in contacts that do not wear.
+    wear: f64,
     /// 0 open, 1 sticking, 2 slipping: the highest of its points.
     status: u8,
 }
 
 impl Sum {
-    fn add(&mut self, record: &ContactRecord, weight: f64) {
+    fn add(&mut self, record: &ContactRecord, wear: f64, weight: f64) {
         let shear = record.along * record.shear;
-        let values = [record.pressure, shear[0], shear[1], shear[2], 0.0, record.slip];
+        let values = [record.pressure, shear[0], shear[1], shear[2], 0.0, record.slip, wear * record.rubbed];
         self.values.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
         if record.penetration.is_finite() {
             self.values[4] -= weight * record.penetration;
@@ -59,23 +61,24 @@ impl Sum {
         let over = |i: usize| if self.weight > 0.0 { self.values[i] / self.weight } else { 0.0 };
         let gap = if self.seen > 0.0 { self.values[4] / self.seen } else { f64::NAN };
         let shear = Vec3::new(over(1), over(2), over(3));
-        self.touched.then(|| Mean { pressure: over(0), shear, gap, slip: over(5), status: self.status })
+        let (pressure, slip, wear, status) = (over(0), over(5), over(6), self.status);
+        self.touched.then_some(Mean { pressure, shear, gap, slip, wear, status })
     }
 }
 
 /// Adds what a contact says to the sums at all nodes; the sums over its faces.
 fn of_contact(mesh: &Mesh, contact: Touching, records: &[ContactRecord], nodes: &mut [Sum]) -> Vec<Sum> {
-    let sides = contact.sides();
+    let (sides, wear) = (contact.sides(), contact.options().wear.unwrap_or(0.0));
     let (mut faces, mut own) = (vec![Sum::default(); sides.len()], vec![Sum::default(); mesh.points.len()]);
     for (slot, record) in records.iter().enumerate() {
         match contact.stand(slot) {
             Stand::Face(face, corners) => {
                 if let Some(sum) = faces.get_mut(face) {
-                    sum.add(record, record.area);
+                    sum.add(record, wear, record.area);
                 }
-                corners.iter().for_each(|&(node, n)| own[node].add(record, n * record.area));
+                corners.iter().for_each(|&(node, n)| own[node].add(record, wear, n * record.area));
             }
-            Stand::Node(node) => own[node].add(record, record.area),
+            Stand::Node(node) => own[node].add(record, wear, record.area),
             Stand::Apart => {}
         }
     }
@@ -138,6 +141,9 @@ pub(super) fn report(mesh: &Mesh, all: &[(Touching, &[ContactRecord])], frame: &
     push("contact_pressure", Unit::Stress, &|mean| mean.pressure)?;
     push("contact_gap", Unit::Length, &|mean| mean.gap)?;
     push("contact_slip", Unit::Length, &|mean| mean.slip)?;
+    if all.iter().any(|(contact, _)| contact.options().wear.is_some()) {
+        push("contact_wear", Unit::Length, &|mean| mean.wear)?;
+    }
     let mut nodal = |name: &str, unit, of: &dyn Fn(&Mean) -> f64| {
         frame.push(Quantity::new(name, unit, QuantityPlace::Node, Width::Scalar, values(&nodes, of)))
     };

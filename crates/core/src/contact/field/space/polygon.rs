@@ -17,6 +17,10 @@ const MOST: usize = 10;
 /// Distance from a line within which a vertex is on it, where faces have sizes of about one.
 const ON: f64 = 1e-11;
 
+/// A determinant of the covariance below this part of the square of its trace is lost in rounding, which leaves either sign: of a strip a
+/// millionth as wide as it is long.
+const STRIP: f64 = 1e-12;
+
 /// A convex polygon, its vertices counter-clockwise.
 #[derive(Debug, Clone, Copy)]
 pub struct Polygon<T> {
@@ -129,12 +133,61 @@ impl<T: Scalar> Moments<T> {
         let spread = [xx / area - c[0] * c[0], xy / area - c[0] * c[1], yy / area - c[1] * c[1]];
         Self { area, centre: [c[0] + T::from(o[0]), c[1] + T::from(o[1])], spread }
     }
-    /// The symmetric root of the covariance: xx, xy, yy. `(C + s I) / t` with `s^2 = det C`, `t^2 = tr C + 2 s`.
+    fn is_strip(&self) -> bool {
+        let [a, b, c] = self.spread.map(T::re);
+        a * c - b * b <= STRIP * (a + c).powi(2)
+    }
+    /// The symmetric root of the covariance: xx, xy, yy. `(C + s I) / t` with `s^2 = det C`, `t^2 = tr C + 2 s`; of a strip `s` is zero,
+    /// and its places lie on a line.
     fn root(&self) -> [T; 3] {
         let [a, b, c] = self.spread;
-        let s = (a * c - b * b).sqrt();
+        let s = if self.is_strip() { T::zero() } else { (a * c - b * b).sqrt() };
         let t = (a + c + s * 2.0).sqrt().recip();
         [(a + s) * t, b * t, (c + s) * t]
+    }
+}
+
+/// Radii of the rings of the rule of third degree where the covariance is one, and how many places each has. The outer one lies on any
+/// convex polygon (Kannan, Lovasz & Simonovits, Discrete Comput. Geom. 13, 1995), and alone has the moments up to the second.
+const RINGS: [(f64, usize); 2] = [(std::f64::consts::SQRT_2, 7), (0.5 * std::f64::consts::SQRT_2, 5)];
+
+impl<T: Scalar> Polygon<T> {
+    /// Places and areas of a rule that is exact up to the third degree: on two rings in the frame of the symmetric root of the covariance,
+    /// with weights of the first and the third harmonic that have the third moments.
+    pub fn cubic(&self) -> impl Iterator<Item = (Point<T>, T)> {
+        let to = self.moments();
+        let [a, b, c] = to.root();
+        let det = a * c - b * b;
+        let mut third = [T::zero(); 4];
+        if !to.is_strip() {
+            let whitened = |v: Point<T>| {
+                let [x, y] = [0, 1].map(|i| v[i] - to.centre[i]);
+                [(c * x - b * y) / det, (a * y - b * x) / det]
+            };
+            for edge in self.edges() {
+                let [p, q] = edge.map(whitened);
+                let part = (p[0] * q[1] - p[1] * q[0]) * det / (to.area * 60.0);
+                for (sum, [i, j, k]) in third.iter_mut().zip([[0, 0, 0], [0, 0, 1], [0, 1, 1], [1, 1, 1]]) {
+                    let ends = p[i] * p[j] * p[k] + q[i] * q[j] * q[k];
+                    *sum += part * ((p[i] + q[i]) * (p[j] + q[j]) * (p[k] + q[k]) + ends * 2.0);
+                }
+            }
+        }
+        let [xxx, xxy, xyy, yyy] = third;
+        let ([(outer, many), (inner, few)], first) = (RINGS, [xxx + xyy, yyy + xxy]);
+        let last = [xxx - xyy * 3.0, xxy * 3.0 - yyy].map(|sum| sum * (2.0 / (many as f64 * outer.powi(3))));
+        let large = first.map(|sum| sum * (2.0 / (many as f64 * outer * (outer * outer - inner * inner))));
+        let small = large.map(|part| part * (-(many as f64) * outer / (few as f64 * inner)));
+        let rings = [(RINGS[0], 1.0 / many as f64, large, last), (RINGS[1], 0.0, small, [T::zero(); 2])];
+        rings.into_iter().flat_map(move |((radius, count), mean, one, three)| {
+            (0..count).map(move |k| {
+                let angle = std::f64::consts::TAU * k as f64 / count as f64;
+                let [x, y] = [angle.cos(), angle.sin()];
+                let weight = one[0] * x + one[1] * y + three[0] * (3.0 * angle).cos() + three[1] * (3.0 * angle).sin();
+                let place = [(a * x + b * y) * radius + to.centre[0], (b * x + c * y) * radius + to.centre[1]];
+                (place, to.area * (weight + mean))
+            })
+        })
     }
 }
 
@@ -170,6 +223,62 @@ impl<T: Scalar> PartMap<T> {
 mod tests {
     use super::*;
     use crate::mesh::cells::{QUAD4, TRI3};
+
+    /// Strips along the edges of a face, down to those that are left out, have places in them.
+    #[test]
+    fn strips_have_places() {
+        let corners: [Point<f64>; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        for (k, power, tilt) in (0..3).flat_map(|k| (4..10).flat_map(move |p| (0..50).map(move |t| (k, p, t)))) {
+            let [a, b] = [corners[k], corners[(k + 1) % 3]];
+            let (width, normal) = (10.0_f64.powi(-power), [a[1] - b[1], b[0] - a[0]]);
+            let inward = |p: Point<f64>, by: f64| [0, 1].map(|i| p[i] + normal[i] * width * by);
+            let part = Polygon::whole(3).clip([inward(b, 1.0), inward(a, f64::from(tilt) / 49.0)]);
+            let laid = PartMap::new(3, part.moments());
+            for &[x, y, _] in TRI3.gauss[1].unwrap().points {
+                let place = laid.place([x, y]);
+                // Rounding in their integrals is that of their vertices.
+                let off = left_of([a, b], place);
+                assert!(off.abs() < 2.0 * width + 1e-7, "{k} {power} {tilt}: {place:?} {off}");
+            }
+            for (place, area) in part.cubic() {
+                let off = left_of([a, b], place);
+                assert!(off.abs() < 2.0 * width + 1e-7, "{k} {power} {tilt}: {place:?} {off}");
+                assert!(area.abs() < 2.0 * part.moments().area, "{k} {power} {tilt}: {area}");
+            }
+        }
+    }
+
+    /// Monomials up to the third degree, against Gauss' rule of the fourth on fans of triangles; all places lie on the part.
+    #[test]
+    fn the_cubic_rule_is_exact_on_any_part() {
+        let fan = TRI3.gauss[2].unwrap();
+        for angle in (0..40).map(|k| 0.37 * f64::from(k)) {
+            let line = |off: f64, turn: f64| {
+                let [x, y] = [(angle + turn).cos(), (angle + turn).sin()];
+                [[0.1 - off * y, 0.2 + off * x], [0.1 - off * y + x, 0.2 + off * x + y]]
+            };
+            let whole = Polygon::<f64>::whole(if angle < 7.0 { 3 } else { 4 });
+            let part = whole.clip(line(-0.2, 0.0)).clip(line(-0.3, 1.3 + 0.02 * angle));
+            let places: Vec<_> = part.cubic().collect();
+            for (i, j) in (0..4).flat_map(|i| (0..4 - i).map(move |j| (i, j))) {
+                let f = |p: Point<f64>| p[0].powi(i) * p[1].powi(j);
+                let first = part.vertices[0];
+                let exact: f64 = part
+                    .edges()
+                    .map(|[p, q]| {
+                        let at =
+                            |x: f64, y: f64| [0, 1].map(|k| first[k] + x * (p[k] - first[k]) + y * (q[k] - first[k]));
+                        let points = fan.points.iter().zip(fan.weights);
+                        left_of([first, p], q) * points.map(|(&[x, y, _], w)| w * f(at(x, y))).sum::<f64>()
+                    })
+                    .sum();
+                let found: f64 = places.iter().map(|&(place, area)| area * f(place)).sum();
+                assert!((found - exact).abs() < 1e-14, "{angle} {i} {j}: {found} {exact}");
+            }
+            let inside = |p: Point<f64>| part.edges().all(|edge| left_of(edge, p) > -1e-12);
+            assert!(places.iter().all(|&(place, _)| inside(place)), "{angle}");
+        }
+    }
 
     /// Integrals of monomials over a polygon by the rule laid on it, against Gauss' rule on fans of triangles.
     #[test]

@@ -68,10 +68,13 @@ impl FieldContact {
     pub(super) fn rule(&self, patch: &Patch) -> &'static [IntervalPoint] {
         let (surface, face) = (&self.parts.surface, patch.face);
         let (end, bend) = (surface.faces[face].end(), surface.bends[face]);
-        let facet = bend != 0.0 && self.overlap_degree(patch) == 1;
+        let facet = bend != 0.0 && surface.faces[face].kind.degree == 1;
         let closed = match &self.parts.target {
             FieldTarget::Tool(tool) => surface.creased[face] || (facet && tool.is_straight(patch.target)),
-            FieldTarget::Faces(faces) => facet && bend * faces.surface.bends[patch.target] >= 0.0,
+            FieldTarget::Faces(faces) => {
+                let other = &faces.surface;
+                facet && other.faces[patch.target].kind.degree == 1 && bend * other.bends[patch.target] >= 0.0
+            }
         };
         match end {
             _ if !closed => &GAUSS,

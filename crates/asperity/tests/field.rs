@@ -348,10 +348,10 @@ motion.up.y = -0.9
 }
 
 /// A thin ring between flat plates touches them by the corners of its facets. Of means over its edges they would go in by a part of what
-/// the rest stands off, 4 to 36 % of the force; 320 edges of either side of two bodies give 1.45.
+/// the rest stands off, 4 to 36 % of the force; 320 edges give 1.45.
 #[test]
 fn a_ring_of_facets_is_crushed_between_flat_plates() {
-    let crushed = |around: usize, plates: &str| {
+    for around in [30, 40, 80] {
         let deck = format!(
             r#"
 version = 1
@@ -359,41 +359,18 @@ space = "plane-stress"
 mesh.part.r.annulus = {{ from = [19.5, -90.0], to = [20.5, 90.0], cells = [1, {around}], cell = "quad4" }}
 material.s.elastic = {{ young = 210e3, poisson = 0.3 }}
 body.r.material = "s"
-contact.a = {{ surface = "r.outer", law.coulomb.friction = 0.1, target = {plates}
+tool.lo.profile = [{{ line = [[60.0, -20.5], [-10.0, -20.5]] }}]
+tool.up.profile = [{{ line = [[-10.0, 20.5], [60.0, 20.5]] }}]
+contact.a = {{ surface = "r.outer", target = "lo", law.coulomb.friction = 0.1 }}
+contact.b = {{ surface = "r.outer", target = "up", law.coulomb.friction = 0.1 }}
+[[step]]
+symmetry = ["r.start", "r.end"]
+motion.up.y = -0.2
 "#
         );
         let model = model(&deck, &[]);
-        last(&columns(&model, &run(&model)), "contact.a.force.y")
-    };
-    let rigid = r#""lo" }
-tool.lo.profile = [{ line = [[60.0, -20.5], [-10.0, -20.5]] }]
-tool.up.profile = [{ line = [[-10.0, 20.5], [60.0, 20.5]] }]
-contact.b = { surface = "r.outer", target = "up", law.coulomb.friction = 0.1 }
-[[step]]
-symmetry = ["r.start", "r.end"]
-motion.up.y = -0.2"#;
-    let plates = |cells: usize| {
-        format!(
-            r#""lo.top" }}
-mesh.part.lo.rectangle = {{ from = [0.0, -23.5], to = [15.0, -20.5], cells = [{cells}, 4], cell = "quad4" }}
-mesh.part.up.rectangle = {{ from = [0.0, 20.5], to = [15.0, 23.5], cells = [{cells}, 4], cell = "quad4" }}
-body.lo.material = "s"
-body.up.material = "s"
-contact.b = {{ surface = "r.outer", target = "up.bottom", law.coulomb.friction = 0.1 }}
-[[step]]
-symmetry = ["r.start", "r.end", "lo.left", "up.left"]
-displacement."lo.bottom" = {{ y = 0.0 }}
-displacement."up.top" = {{ y = -0.2 }}"#
-        )
-    };
-    for (around, plates, allowed) in [
-        (30, rigid.to_owned(), 0.012),
-        (40, rigid.to_owned(), 0.012),
-        (80, rigid.to_owned(), 0.012),
-        (80, plates(8), 0.02),
-    ] {
-        let force = crushed(around, &plates);
-        assert!((force / 1.452 - 1.0).abs() < allowed, "{around}: {force}");
+        let force = last(&columns(&model, &run(&model)), "contact.a.force.y");
+        assert!((force / 1.452 - 1.0).abs() < 0.012, "{around}: {force}");
     }
 }
 

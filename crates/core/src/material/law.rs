@@ -185,6 +185,10 @@ pub trait Material: Send + Sync {
     fn own_spin(&self) -> Option<Spin> {
         None
     }
+    /// How its increments are integrated unless it is said; none for one backward-Euler step.
+    fn own_update(&self) -> Option<Update> {
+        None
+    }
     /// The same law with a memory of the deformations before.
     ///
     /// # Errors

@@ -73,6 +73,10 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     fn flow(&self) -> Flow {
         Flow::None
     }
+    /// As [`Material::own_update`].
+    fn own_update(&self) -> Option<Update> {
+        None
+    }
     /// As [`Material::own_spin`].
     fn own_spin(&self) -> Option<Spin> {
         None
@@ -238,6 +242,10 @@ impl<L: RateLaw> Material for Rate<L> {
 
     fn own_spin(&self) -> Option<Spin> {
         self.0.own_spin()
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        self.0.own_update()
     }
 
     fn advice(&self) -> Option<&'static str> {

@@ -105,6 +105,10 @@ impl<L: RateLaw> Material for Turned<L> {
         self.law.updated(update).with_spin(self.spin)
     }
 
+    fn own_update(&self) -> Option<Update> {
+        self.law.own_update()
+    }
+
     fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String> {
         Ok(Box::new(Self::new(self.law.clone(), spin)))
     }

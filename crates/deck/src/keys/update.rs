@@ -83,7 +83,8 @@ pub fn integrated(
     rate: Option<ObjectiveRate>,
     update: Option<&UpdateKeys>,
 ) -> Result<Option<Box<dyn Material>>, String> {
-    let updated = update.map(|keys| law.with_update(keys.update())).transpose()?;
+    let said = update.map(UpdateKeys::update).or(law.own_update());
+    let updated = said.map(|update| law.with_update(update)).transpose()?;
     let spin = match rate {
         Some(ObjectiveRate::Jaumann) => None,
         Some(ObjectiveRate::GreenNaghdi) => Some(Spin::Polar),

@@ -7,7 +7,7 @@ use super::invariants::Invariants;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root};
+use crate::integrate::{System, Update, root};
 use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
@@ -94,6 +94,10 @@ impl RateLaw for NortonHoff {
         let high = at.q.re().min(self.unit_stress * relaxed.powf(1.0 / self.exponent));
         let q = root(&equation, [0.0, high], &[at.q], "Norton-Hoff")?;
         Ok((at.with(at.p, q), [p + equation.flow(q)]))
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        Some(Update::ADAPTIVE)
     }
 
     fn flow(&self) -> Flow {

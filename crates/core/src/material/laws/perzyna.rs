@@ -9,7 +9,7 @@ use super::invariants::Invariants;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root};
+use crate::integrate::{System, Update, root};
 use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
@@ -111,6 +111,15 @@ impl RateLaw for Perzyna {
         let y = root(&equation, [0.0, high], &[at.q, yield_stress], "Perzyna")?;
         let dp = equation.flow(y);
         Ok((at.with(at.p, at.q - dp * (3.0 * self.elastic.shear)), [p + dp]))
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        Some(Update::ADAPTIVE)
+    }
+
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, &[p]: &[f64; 1], _: Lapse) -> Option<[f64; 2]> {
+        let q = Invariants::of(&(*stress + self.elastic.stress(de))).q;
+        (q <= p * self.hardening + self.first).then_some([self.elastic.lambda, self.elastic.shear])
     }
 
     fn flow(&self) -> Flow {

@@ -3,7 +3,7 @@
 //! The strain of the objective frame is cut into equal parts of constant rate; stress and variables carry their
 //! derivatives from one sub-step to the next, so the tangent is that of the whole.
 
-use super::{Flow, Lapse, Material, RateLaw, Spin, Variable, Vars};
+use super::{Creep, Flow, Lapse, Material, RateLaw, Spin, Variable, Vars};
 use crate::Failure;
 use crate::integrate::{Blend, Scheme, Update};
 use crate::tensor::{Scalar, Tensor2};
@@ -94,6 +94,9 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     }
     fn own_spin(&self) -> Option<Spin> {
         self.law.own_spin()
+    }
+    fn creep(&self, stress: &Tensor2, vars: &L::Vars<f64>) -> Option<Creep> {
+        self.law.creep(stress, vars)
     }
     fn own_update(&self) -> Option<Update> {
         self.law.own_update()

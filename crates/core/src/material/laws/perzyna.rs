@@ -10,7 +10,7 @@ use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
 use crate::integrate::{System, Update, root};
-use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
+use crate::material::{Creep, Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const HARDENING: Parameter = Parameter {
@@ -111,6 +111,14 @@ impl RateLaw for Perzyna {
         let y = root(&equation, [0.0, high], &[at.q, yield_stress], "Perzyna")?;
         let dp = equation.flow(y);
         Ok((at.with(at.p, at.q - dp * (3.0 * self.elastic.shear)), [p + dp]))
+    }
+
+    fn creep(&self, stress: &Tensor2, &[p]: &[f64; 1]) -> Option<Creep> {
+        let (n, stress) = (self.power, Invariants::of(stress).q);
+        let yield_stress = p * self.hardening + self.first;
+        let over = (stress / yield_stress - 1.0).max(0.0);
+        let slope = if over > 0.0 { self.fluidity * n * over.powf(n - 1.0) / yield_stress } else { 0.0 };
+        Some(Creep { stress, rate: self.fluidity * over.powf(n), slope, stiffness: 3.0 * self.elastic.shear })
     }
 
     fn own_update(&self) -> Option<Update> {

@@ -69,6 +69,10 @@ impl UpdateKeys {
     }
 }
 
+/// How a law is integrated where nothing is said.
+pub const OWN_UPDATE: &str = "one backward-Euler step; two-step sub-steps, each within a thousandth of its halves, for `norton_hoff`, \
+                              `perzyna` and a back stress with recovery";
+
 /// The rate where none is said.
 pub const DEFAULT_RATE: &str =
     "Jaumann's; the logarithmic one for a law with a back stress, Green and Naghdi's for Hill's";

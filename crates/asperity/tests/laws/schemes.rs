@@ -173,3 +173,57 @@ fn what_has_nothing_to_integrate_is_refused() {
         assert!(sample.material.with_update(Update::default()).is_err(), "{}", sample.name);
     }
 }
+
+/// What one step of each law is wrong by along a path in ten increments of an even rate, over the stress, against 64 sub-steps each:
+/// where it is more than a hundredth the law takes sub-steps by itself, and keeps it.
+#[test]
+fn what_a_law_takes_by_itself_keeps_a_hundredth() {
+    for sample in samples().iter().filter(|sample| claim(sample.law) != Claim::Closed) {
+        let material = sample.material.as_ref();
+        let end = |update: Option<Update>| {
+            let law = update.map(|update| material.with_update(update).unwrap());
+            let law = law.as_deref().unwrap_or(material);
+            let (mut old, mut f) = (super::samples::initial(law), Tensor2::identity() * 0.9995);
+            f[(0, 0)] = 1.001;
+            for _ in 0..10 {
+                let mut new = old.clone();
+                law.update(&f, 1e-3.into(), &old, &mut new).unwrap();
+                old = new;
+            }
+            super::samples::stress(&old)
+        };
+        let exact = end(Some(Update { scheme: Scheme::TwoStep, substeps: 64, tolerance: None }));
+        let off = |stress: Tensor2| {
+            let e = stress - exact;
+            (e.contract(e) / exact.contract(exact)).sqrt()
+        };
+        let (one, own) = (off(end(None)), off(end(material.own_update())));
+        eprintln!("| {} | {} | {one:.1e} | {own:.1e} | {} |", sample.law, sample.name, material.own_update().is_some());
+        assert!(own < 1e-2, "{}: {own:.1e}, one step {one:.1e}", sample.name);
+    }
+}
+
+/// The tangent of the adaptive scheme is that of its stress, wherever the sizes of its parts change.
+#[test]
+fn the_adaptive_tangent_is_exact() {
+    use asperity::material::Directions;
+    for sample in samples().iter().filter(|sample| sample.material.own_update().is_some()) {
+        let law = sample.material.with_update(Update::ADAPTIVE).unwrap();
+        let start = super::samples::initial(law.as_ref());
+        let mut worst = 0.0_f64;
+        for i in 0..200 {
+            let stress = |shear: f64| {
+                let (mut f, mut new) = (Tensor2::identity() * 0.9995, start.clone());
+                (f[(0, 0)], f[(0, 1)]) = (1.001 + 2e-5 * f64::from(i), shear);
+                let gradient = law.update_with_gradient(&f, 1e-3.into(), &start, &mut new, Directions::Space).unwrap();
+                (super::samples::stress(&new), gradient)
+            };
+            let (h, (_, gradient)) = (1e-7, stress(2e-3));
+            let difference = (stress(2e-3 + h).0 - stress(2e-3 - h).0).to_voigt().map(|s| s / (2.0 * h));
+            let size = gradient.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+            (0..6).for_each(|k| worst = worst.max((difference[k] - gradient[k][1]).abs() / size));
+        }
+        eprintln!("| {} | {worst:.1e} |", sample.name);
+        assert!(worst < 1e-4, "{}: {worst:.1e}", sample.name);
+    }
+}

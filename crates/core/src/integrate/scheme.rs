@@ -6,9 +6,13 @@
 //! - midpoint with parameter `theta`: `y1 = B(y0 + (B(y0, theta h) - y0) / theta, 0)`, the generalised midpoint rule of
 //!   Ortiz and Popov (1985) with the final return to the admissible states: order 2 at `theta = 1/2`;
 //! - two-step: `y1 = B(y0 + (B(y0, g h) - y0) (1 - g) / g, g h)` with `g = 1 - 1/sqrt 2` (Alexander 1977; for
-//!   plasticity Ellsiepen and Hartmann 2001): order 2, and the end of each sub-step fulfils the law.
+//!   plasticity Ellsiepen and Hartmann 2001): order 2, and the end of each sub-step fulfils the law;
+//! - adaptive: two-step, halved again and again until each part is as near its halves as is said (local error per step, as for
+//!   stiff equations: Hairer and Wanner 1996, IV.8). Between half of that error and all of it the halves and what is finer are blended, so
+//!   that the end follows the strain without jumps, and its derivative with it.
 
 use crate::Failure;
+use crate::tensor::Scalar;
 
 /// How one sub-step is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +23,8 @@ pub enum Scheme {
     Midpoint(f64),
     /// Two implicit stages: order 2.
     TwoStep,
+    /// Two-step over parts that are halved until each differs from its halves by this part of the state at most.
+    Adaptive(f64),
 }
 
 /// How an increment is integrated.
@@ -41,12 +47,20 @@ impl Default for Update {
 
 /// A state that schemes combine.
 pub trait Blend: Copy {
+    /// What it is made of.
+    type Number: Scalar;
     /// `self + (other - self) weight`.
-    fn blend(&self, other: &Self, weight: f64) -> Self;
+    fn blend(&self, other: &Self, weight: Self::Number) -> Self;
     /// The size of the difference of two states.
-    fn distance(&self, other: &Self) -> f64;
+    fn distance(&self, other: &Self) -> Self::Number;
     /// The size of a state.
-    fn size(&self) -> f64;
+    fn size(&self) -> Self::Number;
+}
+
+impl Update {
+    /// What a law takes by itself whose one step is wrong by more than a few hundredths of the stress in increments as long as equilibrium
+    /// allows.
+    pub const ADAPTIVE: Self = Self { scheme: Scheme::Adaptive(1e-3), substeps: 1, tolerance: None };
 }
 
 /// Most times that a sub-step is halved.
@@ -56,6 +70,11 @@ const HALVINGS: u32 = 12;
 const FIRST: u32 = 2;
 /// Part of the tolerance that sub-steps share by their lengths; what is left over is for those at kinks.
 const SHARED: f64 = 0.5;
+/// Most times that the adaptive scheme halves: what of a creep by the twentieth power has relaxed nine tenths of its stress over an
+/// increment has relaxed half of it in `10^-19` of that.
+const DEEPEST: u32 = 64;
+/// Most parts of an increment that the adaptive scheme looks at.
+const PARTS: u32 = 4096;
 /// Halvings after which a sub-step is taken to be at a kink, where halving gains no more than its length.
 const AT_A_KINK: u32 = 6;
 
@@ -85,12 +104,12 @@ impl Update {
         const MOST: u64 = 1 << HALVINGS;
         let end = self.substeps as u64 * MOST;
         let (mut state, mut done, mut part) = (start, 0, MOST >> FIRST);
-        let (mut largest, mut reserve) = (start.size(), (1.0 - SHARED) * tolerance);
+        let (mut largest, mut reserve) = (start.size().re(), (1.0 - SHARED) * tolerance);
         while done < end {
             let h = part as f64 / end as f64;
             let tried = self.scheme.compared(&state, [done as f64 / end as f64, h], step);
             if let Ok((next, off)) = &tried {
-                let size = largest.max(next.size());
+                let size = largest.max(next.size().re());
                 let (error, share) = (if *off > 0.0 { off / size } else { 0.0 }, SHARED * tolerance * h);
                 let at_a_kink = part << AT_A_KINK <= MOST && error <= 0.5 * reserve;
                 if error <= share || at_a_kink {
@@ -104,13 +123,15 @@ impl Update {
             }
             match tried {
                 _ if part > 1 => part /= 2,
-                Ok(_) => return Err(Failure::new("the law's sub-steps do not keep their error")),
+                Ok(_) => return Err(Failure::new(NOT_KEPT)),
                 Err(failure) => return Err(failure),
             }
         }
         Ok(state)
     }
 }
+
+const NOT_KEPT: &str = "the law's sub-steps do not keep their error";
 
 impl Scheme {
     /// One sub-step over `h` from the fraction `begun` of the increment.
@@ -123,11 +144,15 @@ impl Scheme {
         match *self {
             Self::BackwardEuler => step(from, h, begun + h),
             Self::Midpoint(theta) => {
-                step(&from.blend(&step(from, theta * h, begun + theta * h)?, 1.0 / theta), 0.0, begun + h)
+                step(&from.blend(&step(from, theta * h, begun + theta * h)?, (1.0 / theta).into()), 0.0, begun + h)
             }
             Self::TwoStep => {
                 let g = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-                step(&from.blend(&step(from, g * h, begun + g * h)?, (1.0 - g) / g), g * h, begun + h)
+                step(&from.blend(&step(from, g * h, begun + g * h)?, ((1.0 - g) / g).into()), g * h, begun + h)
+            }
+            Self::Adaptive(tolerance) => {
+                let whole = Self::TwoStep.step(from, [begun, h], step);
+                halved(from, whole, [begun, h], (tolerance, DEEPEST, &mut PARTS.clone()), step)
             }
         }
     }
@@ -141,9 +166,43 @@ impl Scheme {
     ) -> Result<(S, f64), Failure> {
         let whole = self.step(from, [begun, h], step)?;
         let halves = self.step(&self.step(from, [begun, 0.5 * h], step)?, [begun + 0.5 * h, 0.5 * h], step)?;
-        let error = whole.distance(&halves);
+        let error = whole.distance(&halves).re();
         if error.is_finite() { Ok((halves, error)) } else { Err(Failure::new("a sub-step of the law is not finite")) }
     }
+}
+
+/// A part `h` of an increment from its fraction `begun` on, whose end by one sub-step is `whole`, by halves that keep the error.
+fn halved<S: Blend>(
+    from: &S,
+    whole: Result<S, Failure>,
+    [begun, h]: [f64; 2],
+    (tolerance, deep, parts): (f64, u32, &mut u32),
+    step: &impl Fn(&S, f64, f64) -> Result<S, Failure>,
+) -> Result<S, Failure> {
+    let two = |from: &S, begun: f64| Scheme::TwoStep.step(from, [begun, 0.5 * h], step);
+    let first = two(from, begun);
+    let coarse = whole.and_then(|whole| {
+        let end = two(first.as_ref().map_err(Clone::clone)?, begun + 0.5 * h)?;
+        let (off, sizes) = (whole.distance(&end), [from.size(), end.size()]);
+        let size = if sizes[0].re() > sizes[1].re() { sizes[0] } else { sizes[1] };
+        Ok((end, if off.re() == 0.0 { off } else { off / size * (1.0 / tolerance) }))
+    });
+    if let Ok((end, error)) = &coarse
+        && error.re() <= 0.5
+    {
+        return Ok(*end);
+    }
+    if deep == 0 || *parts == 0 {
+        return Err(coarse.err().unwrap_or_else(|| Failure::new(NOT_KEPT)));
+    }
+    *parts -= 1;
+    let middle = halved(from, first, [begun, 0.5 * h], (tolerance, deep - 1, parts), step)?;
+    let whole = two(&middle, begun + 0.5 * h);
+    let fine = halved(&middle, whole, [begun + 0.5 * h, 0.5 * h], (tolerance, deep - 1, parts), step)?;
+    Ok(match coarse {
+        Ok((end, error)) if error.re() < 1.0 => end.blend(&fine, error * 2.0 - S::Number::one()),
+        _ => fine,
+    })
 }
 
 #[cfg(test)]
@@ -151,6 +210,7 @@ mod tests {
     use super::*;
 
     impl Blend for f64 {
+        type Number = f64;
         fn blend(&self, other: &Self, weight: f64) -> Self {
             self + (other - self) * weight
         }
@@ -188,6 +248,19 @@ mod tests {
                 assert!(off < tolerance && off > 1e-3 * tolerance, "{scheme:?} {tolerance}: {off}");
             }
         }
+    }
+
+    /// Over a time in which the state falls to a millionth, and without jumps.
+    #[test]
+    fn the_adaptive_scheme_follows_a_transient() {
+        let end = |y: f64| {
+            let euler = |y: &f64, h: f64, _: f64| Ok(2.0 * y / (1.0 + (1.0 + 4e12 * h * y).sqrt()));
+            Update { scheme: Scheme::Adaptive(1e-3), ..Update::default() }.advance(y, euler).unwrap()
+        };
+        let errors: Vec<f64> =
+            (0..2000).map(|i| 1.0 + 1e-3 * f64::from(i)).map(|y| end(y) * (1e12 + 1.0 / y) - 1.0).collect();
+        assert!(errors.iter().all(|e| e.abs() < 1e-3), "{errors:?}");
+        assert!(errors.windows(2).all(|two| (two[1] - two[0]).abs() < 1e-6), "{errors:?}");
     }
 
     #[test]

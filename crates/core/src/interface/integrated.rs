@@ -26,19 +26,20 @@ struct Point<T> {
 }
 
 impl<T: Scalar> Point<T> {
-    fn stress(&self) -> [f64; 3] {
-        [self.response.pressure.re(), self.response.shear[0].re(), self.response.shear[1].re()]
+    fn stress(&self) -> [T; 3] {
+        [self.response.pressure, self.response.shear[0], self.response.shear[1]]
     }
 }
 
-fn norm(stress: [f64; 3]) -> f64 {
-    stress.iter().map(|x| x * x).sum::<f64>().sqrt()
+fn norm<T: Scalar>(stress: [T; 3]) -> T {
+    stress.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt()
 }
 
 impl<T: Scalar> Blend for Point<T> {
-    fn blend(&self, other: &Self, weight: f64) -> Self {
+    type Number = T;
+    fn blend(&self, other: &Self, weight: T) -> Self {
         let mix = |a: T, b: T| a + (b - a) * weight;
-        let plain = |a: f64, b: f64| a + (b - a) * weight;
+        let plain = |a: f64, b: f64| a + (b - a) * weight.re();
         let (a, b) = (&self.response, &other.response);
         let response = Response {
             pressure: mix(a.pressure, b.pressure),
@@ -53,11 +54,11 @@ impl<T: Scalar> Blend for Point<T> {
         Self { penetration: mix(self.penetration, other.penetration), vars, response }
     }
 
-    fn distance(&self, other: &Self) -> f64 {
+    fn distance(&self, other: &Self) -> T {
         let (a, b) = (self.stress(), other.stress());
         norm(std::array::from_fn(|i| a[i] - b[i]))
     }
-    fn size(&self) -> f64 {
+    fn size(&self) -> T {
         norm(self.stress())
     }
 }

@@ -3,9 +3,9 @@
 //! The strain of the objective frame is cut into equal parts of constant rate; stress and variables carry their
 //! derivatives from one sub-step to the next, so the tangent is that of the whole.
 
-use super::{Flow, Lapse, Material, RateLaw, Spin, Variable, Vars};
+use super::{Creep, Flow, Lapse, Material, RateLaw, Spin, Variable, Vars};
 use crate::Failure;
-use crate::integrate::{Blend, Update};
+use crate::integrate::{Blend, Scheme, Update};
 use crate::tensor::{Scalar, Tensor2};
 use std::marker::PhantomData;
 
@@ -16,6 +16,9 @@ pub(super) struct Integrated<L> {
     pub update: Update,
 }
 
+/// Most values of the variables of a law.
+const MOST: usize = 64;
+
 /// Stress and variables as one state.
 #[derive(Clone, Copy)]
 struct Point<T, V> {
@@ -25,17 +28,17 @@ struct Point<T, V> {
 }
 
 impl<T: Scalar, V: Vars<T>> Blend for Point<T, V> {
-    fn blend(&self, other: &Self, weight: f64) -> Self {
-        let stress = self.stress + (other.stress - self.stress) * T::from(weight);
+    type Number = T;
+    fn blend(&self, other: &Self, weight: T) -> Self {
+        let stress = self.stress + (other.stress - self.stress) * weight;
         Self { stress, vars: self.vars.blend(&other.vars, weight), scalar: PhantomData }
     }
-    fn distance(&self, other: &Self) -> f64 {
-        let difference = self.stress.re() - other.stress.re();
+    fn distance(&self, other: &Self) -> T {
+        let difference = self.stress - other.stress;
         difference.contract(difference).sqrt()
     }
-    fn size(&self) -> f64 {
-        let stress = self.stress.re();
-        stress.contract(stress).sqrt()
+    fn size(&self) -> T {
+        self.stress.contract(self.stress).sqrt()
     }
 }
 
@@ -55,12 +58,26 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
         vars: &Self::Vars<T>,
         lapse: Lapse,
     ) -> Result<(Tensor2<T>, Self::Vars<T>), Failure> {
+        if matches!(self.update.scheme, Scheme::Adaptive(_)) {
+            let mut values = [0.0; MOST];
+            vars.write(&mut values);
+            if self.elastic_step(&de.re(), &stress.re(), &L::Vars::read(&values), lapse).is_some() {
+                return self.law.update(de, stress, vars, lapse);
+            }
+        }
         let step = |from: &Point<T, L::Vars<T>>, part: f64, end: f64| {
             let (stress, vars) = self.law.update(de * T::from(part), from.stress, &from.vars, lapse.part(part, end))?;
             Ok(Point { stress, vars, scalar: PhantomData })
         };
         let end = self.update.advance(Point { stress, vars: *vars, scalar: PhantomData }, step)?;
         Ok((end.stress, end.vars))
+    }
+
+    /// A stress that begins and ends within a convex surface stays there.
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, vars: &L::Vars<f64>, lapse: Lapse) -> Option<[f64; 2]> {
+        let Scheme::Adaptive(_) = self.update.scheme else { return None };
+        self.law.elastic_step(&Tensor2::zero(), stress, vars, lapse.part(0.0, 0.0))?;
+        self.law.elastic_step(de, stress, vars, lapse)
     }
 
     fn stored_energy(&self, stress: &Tensor2, vars: &Self::Vars<f64>) -> f64 {
@@ -77,6 +94,12 @@ impl<L: RateLaw> RateLaw for Integrated<L> {
     }
     fn own_spin(&self) -> Option<Spin> {
         self.law.own_spin()
+    }
+    fn creep(&self, stress: &Tensor2, vars: &L::Vars<f64>) -> Option<Creep> {
+        self.law.creep(stress, vars)
+    }
+    fn own_update(&self) -> Option<Update> {
+        self.law.own_update()
     }
     fn serves(&self, update: Update) -> Result<(), String> {
         self.law.serves(update)

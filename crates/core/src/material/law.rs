@@ -141,6 +141,28 @@ pub enum Flow {
     Dilatant,
 }
 
+/// How a state creeps: flow whose rate follows from the stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Creep {
+    /// Equivalent stress.
+    pub stress: f64,
+    /// Rate of the equivalent strain,
+    pub rate: f64,
+    /// and its derivative by the stress.
+    pub slope: f64,
+    /// Stress that a unit of equivalent strain relaxes, `3 G`.
+    pub stiffness: f64,
+}
+
+impl Creep {
+    /// How wrong the stress at the end of an increment may be where creep went from `self` to `end` over `dt` while the strain of a body
+    /// is taken to grow evenly: half of the change of the rate is a strain that came at another time (Zienkiewicz and Cormeau
+    /// 1974), and makes a stress by the tangent of the law.
+    pub fn unevenness(&self, end: &Self, dt: f64) -> f64 {
+        0.5 * dt * (end.rate - self.rate).abs() / (1.0 / end.stiffness + dt * end.slope)
+    }
+}
+
 /// A law of a solid at one point, driven by the deformation `f` of the increment. Its state is the Cauchy stress (six
 /// values) followed by its variables.
 pub trait Material: Send + Sync {
@@ -183,6 +205,14 @@ pub trait Material: Send + Sync {
     }
     /// The spin with which the law turns unless another is said; none for that of Jaumann's rate.
     fn own_spin(&self) -> Option<Spin> {
+        None
+    }
+    /// How its increments are integrated unless it is said; none for one backward-Euler step.
+    fn own_update(&self) -> Option<Update> {
+        None
+    }
+    /// How a state creeps; none where flow does not follow from the stress alone.
+    fn creep(&self, _state: &[f64]) -> Option<Creep> {
         None
     }
     /// The same law with a memory of the deformations before.

@@ -25,7 +25,7 @@ pub use crate::declare::{Variable, VariableKind};
 pub use external::{External, Placement};
 pub use frame::hughes_winget;
 pub use hyper::{Hyper, HyperLaw, Slopes};
-pub use law::{Directions, Flow, Gradient, Lapse, Material};
+pub use law::{Creep, Directions, Flow, Gradient, Lapse, Material};
 pub use memory::{Memory, Mullins, TERMS as MOST_TERMS};
 pub use rate::{Rate, RateLaw};
 pub use small::SmallStrain;

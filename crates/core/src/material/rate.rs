@@ -9,7 +9,7 @@
 use super::frame::{Frame, InPlane, InSpace, Turning};
 use super::integrated::Integrated;
 use super::law::{self, Differentiate};
-use super::{Directions, Flow, Gradient, Lapse, Material, SmallStrain, Spin, Turned, Variable, Vars};
+use super::{Creep, Directions, Flow, Gradient, Lapse, Material, SmallStrain, Spin, Turned, Variable, Vars};
 use crate::integrate::Update;
 use crate::tensor::{Dual, Scalar, Tensor2};
 use crate::{Failure, FailureKind};
@@ -72,6 +72,14 @@ pub trait RateLaw: Clone + Send + Sync + 'static {
     /// As [`Material::flow`].
     fn flow(&self) -> Flow {
         Flow::None
+    }
+    /// As [`Material::own_update`].
+    fn own_update(&self) -> Option<Update> {
+        None
+    }
+    /// As [`Material::creep`].
+    fn creep(&self, _stress: &Tensor2, _vars: &Self::Vars<f64>) -> Option<Creep> {
+        None
     }
     /// As [`Material::own_spin`].
     fn own_spin(&self) -> Option<Spin> {
@@ -238,6 +246,14 @@ impl<L: RateLaw> Material for Rate<L> {
 
     fn own_spin(&self) -> Option<Spin> {
         self.0.own_spin()
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        self.0.own_update()
+    }
+
+    fn creep(&self, state: &[f64]) -> Option<Creep> {
+        self.0.creep(&stress_of(state), &L::Vars::read(&state[6..]))
     }
 
     fn advice(&self) -> Option<&'static str> {

@@ -4,7 +4,7 @@
 use super::frame::{Still, Turning};
 use super::law::Differentiate;
 use super::rate::stress_of;
-use super::{Directions, Flow, Gradient, Lapse, Material, Rate, RateLaw, Spin, Variable};
+use super::{Creep, Directions, Flow, Gradient, Lapse, Material, Rate, RateLaw, Spin, Variable};
 use crate::Failure;
 use crate::integrate::Update;
 use crate::tensor::Tensor2;
@@ -44,6 +44,10 @@ impl<L: RateLaw> Material for SmallStrain<L> {
 
     fn bears(&self, state: &[f64]) -> Result<(), String> {
         self.0.bears(state)
+    }
+
+    fn creep(&self, state: &[f64]) -> Option<Creep> {
+        self.0.creep(state)
     }
 
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {

@@ -4,7 +4,7 @@
 //! the law: the left stretch `V` of [Green and Naghdi](super::green_naghdi), the logarithmic strain `ln V` of the
 //! [logarithmic rate](super::logarithmic).
 
-use super::law::{Advance, Differentiate};
+use super::law::{Advance, Creep, Differentiate};
 use super::rate::{INSIDE_OUT, stress_of};
 use super::small::NO_RATE;
 use super::{
@@ -103,6 +103,14 @@ impl<L: RateLaw> Material for Turned<L> {
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
         self.law.serves(update)?;
         self.law.updated(update).with_spin(self.spin)
+    }
+
+    fn creep(&self, state: &[f64]) -> Option<Creep> {
+        self.law.creep(&stress_of(state), &L::Vars::read(&state[6..self.memory_at()]))
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        self.law.own_update()
     }
 
     fn with_spin(&self, spin: Spin) -> Result<Box<dyn Material>, String> {

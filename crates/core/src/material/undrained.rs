@@ -100,6 +100,10 @@ impl Material for Undrained {
         self.effective(state, |skeleton| self.soil.bears(skeleton))
     }
 
+    fn own_update(&self) -> Option<Update> {
+        self.soil.own_update()
+    }
+
     fn with_update(&self, update: Update) -> Result<Box<dyn Material>, String> {
         self.with(self.soil.with_update(update)?, self.small)
     }

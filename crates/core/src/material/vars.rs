@@ -13,13 +13,13 @@ pub trait Vars<T: Scalar>: Copy {
         self
     }
     /// `self + (other - self) weight`.
-    fn blend(&self, other: &Self, weight: f64) -> Self;
+    fn blend(&self, other: &Self, weight: T) -> Self;
 }
 
 impl<T: Scalar> Vars<T> for () {
     fn read(_: &[f64]) -> Self {}
     fn write(&self, _: &mut [f64]) {}
-    fn blend(&self, (): &(), _: f64) -> Self {}
+    fn blend(&self, (): &(), _: T) -> Self {}
 }
 
 impl<T: Scalar, const N: usize> Vars<T> for [T; N] {
@@ -29,7 +29,7 @@ impl<T: Scalar, const N: usize> Vars<T> for [T; N] {
     fn write(&self, values: &mut [f64]) {
         values.iter_mut().zip(self).for_each(|(value, x)| *value = x.re());
     }
-    fn blend(&self, other: &Self, weight: f64) -> Self {
+    fn blend(&self, other: &Self, weight: T) -> Self {
         std::array::from_fn(|i| self[i] + (other[i] - self[i]) * weight)
     }
 }
@@ -57,8 +57,8 @@ impl<T: Scalar, const N: usize, const K: usize> Vars<T> for ScalarsAndTensors<T,
     fn rotate(self, q: &Tensor2<T>) -> Self {
         Self { tensors: self.tensors.map(|tensor| *q * tensor * q.transpose()), ..self }
     }
-    fn blend(&self, other: &Self, weight: f64) -> Self {
-        let tensor = |k: usize| self.tensors[k] + (other.tensors[k] - self.tensors[k]) * T::from(weight);
+    fn blend(&self, other: &Self, weight: T) -> Self {
+        let tensor = |k: usize| self.tensors[k] + (other.tensors[k] - self.tensors[k]) * weight;
         Self { scalars: self.scalars.blend(&other.scalars, weight), tensors: std::array::from_fn(tensor) }
     }
 }
@@ -86,8 +86,8 @@ impl<T: Scalar, const N: usize, const K: usize> Vars<T> for ScalarsAndVectors<T,
     fn rotate(self, q: &Tensor2<T>) -> Self {
         Self { vectors: self.vectors.map(|vector| *q * vector), ..self }
     }
-    fn blend(&self, other: &Self, weight: f64) -> Self {
-        let vector = |k: usize| self.vectors[k] + (other.vectors[k] - self.vectors[k]) * T::from(weight);
+    fn blend(&self, other: &Self, weight: T) -> Self {
+        let vector = |k: usize| self.vectors[k] + (other.vectors[k] - self.vectors[k]) * weight;
         Self { scalars: self.scalars.blend(&other.scalars, weight), vectors: std::array::from_fn(vector) }
     }
 }

@@ -315,6 +315,23 @@ impl Term for Body {
         Ok(history)
     }
 
+    fn unevenness(&self, old: &History, new: &History, dt: f64) -> f64 {
+        let mut largest = [0.0_f64; 2];
+        for slot in 0..self.cells.len() {
+            let states =
+                old.slot(slot).chunks_exact(self.point_len()).zip(new.slot(slot).chunks_exact(self.point_len()));
+            for (old, new) in states {
+                let state = ..self.material.state_len();
+                let (Some(from), Some(to)) = (self.material.creep(&old[state]), self.material.creep(&new[state]))
+                else {
+                    return 0.0;
+                };
+                largest = [largest[0].max(from.unevenness(&to, dt)), largest[1].max(from.stress).max(to.stress)];
+            }
+        }
+        if largest[0] > 0.0 { largest[0] / largest[1] } else { 0.0 }
+    }
+
     fn at_start(&self, forces: &mut [f64]) -> Result<f64, Failure> {
         if self.initial_stress.is_none() {
             return Ok(0.0);

@@ -216,6 +216,11 @@ pub mod sizes {
     /// to the most. An attempt that fails costs about as much as three or four increments that succeed.
     pub const PATIENCE: usize = 4;
     pub const MOST_PATIENCE: usize = 16;
+    /// Part of the stress of a body by which creep may make it wrong over an increment, in which it is taken to go on evenly.
+    /// Relaxation at a fixed strain, by the fifth power, is then within a hundredth of its closed form, and increments grow by a half each.
+    pub const UNEVEN: f64 = 0.02;
+    /// Part of that for which a size is chosen.
+    pub const AIM: f64 = 0.9;
     /// Part of the first increment of a step below which no size counts as usual.
     pub const USUAL: f64 = 1.0 / 16.0;
 }

@@ -1,6 +1,7 @@
 //! Steps and increments: the loop around the attempts.
 
 use super::constants::increments::{ATTEMPTS, DRIVEN, FAR, JUMPED, LEAP, NOISE, RELAX};
+use super::constants::sizes::{AIM, UNEVEN};
 use super::linear::{LinearSolver, LinearSystem, SolverCounts, engine};
 use super::newton::{Converged, Memory, Newton, SolveError};
 use super::observer::{AttemptRecord, Observer};
@@ -45,6 +46,8 @@ pub struct Run<'a> {
     pub stability: Stability,
     /// What was held still first that nothing held, in words, and when.
     pub first_held: Option<(String, f64)>,
+    /// The most unevenly that a body crept over an increment, beyond what is allowed, which body, and when.
+    pub uneven: Option<(f64, String, f64)>,
     /// What the run failed of, if it did.
     pub ended: FailureKind,
     system: LinearSystem,
@@ -69,6 +72,7 @@ impl<'a> Run<'a> {
             audited: Duration::ZERO,
             stability: Stability::default(),
             first_held: None,
+            uneven: None,
             ended: FailureKind::Other,
             system: LinearSystem::new(solver, problem.newton.policy(), problem.dofs.clone()),
             fits: false,
@@ -171,6 +175,14 @@ impl<'a> Run<'a> {
             });
             match result {
                 Ok((found, mut converged)) => {
+                    let (unevenness, body) = self.unevenness(step, &converged, dt);
+                    let even = step.even(dt, unevenness);
+                    if let Some(size) = even.filter(|size| unevenness > UNEVEN && *size < AIM * dt && !relaxing) {
+                        record.failure = Some(format!("body '{body}' creeps unevenly over it"));
+                        observer.attempt(&record);
+                        wanted = size;
+                        continue;
+                    }
                     if converged.held.is_empty() {
                         let look = Look {
                             problem: self.problem,
@@ -186,6 +198,10 @@ impl<'a> Run<'a> {
                     self.state.caution = caution;
                     self.accept(step, (&record, wanted), converged)?;
                     self.note(found);
+                    self.state.next_dt = even.map_or(self.state.next_dt, |size| self.state.next_dt.min(size));
+                    if unevenness > self.uneven.as_ref().map_or(UNEVEN, |(most, ..)| *most) {
+                        self.uneven = Some((unevenness, body, self.state.time));
+                    }
                     return Ok(record);
                 }
                 Err(SolveError::End(failure)) => {
@@ -227,6 +243,15 @@ impl<'a> Run<'a> {
             }
         }
         Err(self.give_up(step, wanted, "too many attempts at one increment"))
+    }
+
+    /// How wrong the stress of a body may be at most, as a part of it, because it crept unevenly over an increment, and its name.
+    fn unevenness(&self, step: &Step, converged: &Converged, dt: f64) -> (f64, String) {
+        let lanes = self.state.histories.iter().zip(&converged.evaluation.histories);
+        let terms = self.problem.terms.iter().zip(lanes).enumerate().filter(|(number, _)| !step.idle.contains(number));
+        let all = terms.map(|(_, (term, (old, new)))| (term.unevenness(old, new, dt), term.name()));
+        let (most, name) = all.fold((0.0, ""), |most, one| if one.0 > most.0 { one } else { most });
+        (most, name.to_owned())
     }
 
     /// Looks whether anything lies in anything in a converged state, or came through something on the way to it.

@@ -1,6 +1,6 @@
 //! Steps, what is prescribed in them, and the size of increments.
 
-use super::constants::sizes::{EASY, GROWTH, MOST_PATIENCE, PATIENCE, USUAL};
+use super::constants::sizes::{AIM, EASY, GROWTH, MOST_PATIENCE, PATIENCE, UNEVEN, USUAL};
 use crate::amplitude::Amplitude;
 use crate::system::{Caution, Constraints};
 
@@ -140,6 +140,17 @@ impl Step {
         0.5 * dt >= self.increments.smallest.max(SMALLEST) * self.duration
     }
 
+    /// Whether all increments are of one size that was said.
+    pub fn is_given(&self) -> bool {
+        self.increments.first == self.increments.largest
+    }
+
+    /// The size for which creep goes on so evenly as it may where it is `unevenness` for `dt`; none where that says nothing.
+    pub(super) fn even(&self, dt: f64, unevenness: f64) -> Option<f64> {
+        let free = unevenness > 0.0 && !self.is_given() && self.arc_length.is_none();
+        free.then(|| (dt * AIM * UNEVEN / unevenness).max(self.increments.smallest.max(SMALLEST) * self.duration))
+    }
+
     /// Size of the increment to try when the controller wants `wanted` and `done` of the step is behind: the rest of
     /// the step, or to where an amplitude bends, when that is near, and halves of the rest rather than a sliver at the end.
     pub fn next(&self, wanted: f64, done: f64) -> f64 {
@@ -162,9 +173,9 @@ impl Step {
     /// have ended they end all the same.
     fn bend(&self, wanted: f64, done: f64) -> Option<f64> {
         let near = [done, done + 2.0 * wanted].map(|time| (time / self.duration).min(1.0));
-        let Increments { first, largest, .. } = self.increments;
+        let first = self.increments.first;
         let given =
-            (first == largest && !self.amplitudes.is_empty()).then(|| ((near[0] / first + 1e-6).floor() + 1.0) * first);
+            (self.is_given() && !self.amplitudes.is_empty()).then(|| ((near[0] / first + 1e-6).floor() + 1.0) * first);
         self.amplitudes.iter().filter_map(|amplitude| amplitude.bend(near)).chain(given).reduce(f64::min)
     }
 

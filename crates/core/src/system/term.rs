@@ -200,6 +200,10 @@ pub trait Term: Send + Sync {
     fn describe_motions(&self, _motions: &[Vec<f64>]) -> Vec<String> {
         Vec::new()
     }
+    /// How wrong the largest stress may be, as a part of it, because flow went unevenly from one history to the other over `dt`.
+    fn unevenness(&self, _old: &History, _new: &History, _dt: f64) -> f64 {
+        0.0
+    }
     /// Words for a branch in tables; empty when the term has only one.
     fn branches(&self) -> &'static [&'static str] {
         &[]

@@ -50,6 +50,7 @@ pub use step::{IncrementKeys, StepKeys};
 pub use tie::{TieGap, TieKeys};
 pub use tool::{SegmentKeys, ToolKeys};
 pub use umat::{SolidLaw, UmatKeys, solid_law};
+use update::OWN_UPDATE;
 pub use update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys, integrated};
 
 use super::diagnose::Diagnostic;
@@ -130,7 +131,7 @@ table! {
         /// How displacements make strain.
         strain: Spot<Strain> = word().spot().or("\"finite\""),
         /// How the law is integrated over an increment.
-        update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
+        update: Option<UpdateKeys> = table_of().unless_given(OWN_UPDATE),
         /// The objective rate of the stress, in whose frame the law is integrated.
         rate: Option<Spot<ObjectiveRate>> = word().spot().unless_given(DEFAULT_RATE),
         /// Relaxation of the shape of rubber: pairs of a share of the instantaneous stress and a relaxation time (Prony series).

@@ -2,7 +2,7 @@
 
 use super::memory::{self, MullinsKeys};
 use super::umat::{SolidLaw, solid_law};
-use super::update::{DEFAULT_RATE, ObjectiveRate, UpdateKeys};
+use super::update::{DEFAULT_RATE, OWN_UPDATE, ObjectiveRate, UpdateKeys};
 use crate::diagnose::Diagnostic;
 use crate::form::{Form, defines, list, map, number, table, table_of, text, whole, word};
 use crate::reader::{Name, Reader};
@@ -23,7 +23,7 @@ table! {
         /// Materials: a name, then a law and its numbers. Each is driven along the same path.
         material: Vec<(Name, SolidLaw)> = map(defines(Names::Material), solid_law()).required(),
         /// How the laws are integrated over an increment.
-        update: Option<UpdateKeys> = table_of().unless_given("one backward-Euler step"),
+        update: Option<UpdateKeys> = table_of().unless_given(OWN_UPDATE),
         /// The objective rate of the stress, in whose frame the laws are integrated.
         rate: Option<ObjectiveRate> = word().unless_given(DEFAULT_RATE),
         /// Relaxation of the shape of rubber: pairs of a share of the instantaneous stress and a relaxation time (Prony series).

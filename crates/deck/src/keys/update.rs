@@ -69,6 +69,10 @@ impl UpdateKeys {
     }
 }
 
+/// How a law is integrated where nothing is said.
+pub const OWN_UPDATE: &str = "one backward-Euler step; two-step sub-steps, each within a thousandth of its halves, for `norton_hoff`, \
+                              `perzyna` and a back stress with recovery";
+
 /// The rate where none is said.
 pub const DEFAULT_RATE: &str =
     "Jaumann's; the logarithmic one for a law with a back stress, Green and Naghdi's for Hill's";
@@ -83,7 +87,8 @@ pub fn integrated(
     rate: Option<ObjectiveRate>,
     update: Option<&UpdateKeys>,
 ) -> Result<Option<Box<dyn Material>>, String> {
-    let updated = update.map(|keys| law.with_update(keys.update())).transpose()?;
+    let said = update.map(UpdateKeys::update).or(law.own_update());
+    let updated = said.map(|update| law.with_update(update)).transpose()?;
     let spin = match rate {
         Some(ObjectiveRate::Jaumann) => None,
         Some(ObjectiveRate::GreenNaghdi) => Some(Spin::Polar),

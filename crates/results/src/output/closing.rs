@@ -150,6 +150,13 @@ fn cost(summary: &mut Summary, run: &Run, seconds: f64) {
             run.state.held
         ));
     }
+    if let Some((most, body, time)) = &run.uneven {
+        let part = if *most < 1.0 { format!("{:.0} %", 100.0 * most) } else { "as much as it is".into() };
+        summary.notes.push(format!(
+            "body '{body}' creeps unevenly over increments: its stress may be wrong by {part} at time {time:.4}; smaller increments from \
+             the beginning of that step on make it right, those that a run chooses without `count`"
+        ));
+    }
     if run.state.jumps > 0 {
         summary.notes.push(format!(
             "increments relaxed to an equilibrium beyond an instability: {}; energy set free: {:.4e}",

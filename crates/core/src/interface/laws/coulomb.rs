@@ -74,7 +74,7 @@ impl InterfaceLaw for Coulomb {
         let scheme = match update.scheme {
             Scheme::BackwardEuler => ConeScheme::BackwardEuler(update.substeps),
             Scheme::Midpoint(theta) => ConeScheme::Midpoint(update.substeps, theta),
-            Scheme::TwoStep => ConeScheme::Exact,
+            Scheme::TwoStep | Scheme::Adaptive(_) => ConeScheme::Exact,
         };
         if update.tolerance.is_none() && scheme != ConeScheme::Exact {
             return Ok(law(Self { scheme, ..*self }));

@@ -7,8 +7,8 @@ use super::invariants::Invariants;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root};
-use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
+use crate::integrate::{System, Update, root};
+use crate::material::{Creep, Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const CONSISTENCY: Parameter = Parameter {
@@ -53,19 +53,19 @@ impl NortonHoff {
 }
 
 /// The equation in `q` as a ratio to the trial one, whose value is the datum.
-struct Creep<'a> {
+struct Relaxation<'a> {
     law: &'a NortonHoff,
     dt: f64,
     scale: f64,
 }
 
-impl Creep<'_> {
+impl Relaxation<'_> {
     fn flow<S: Scalar>(&self, q: S) -> S {
         (q / self.law.unit_stress).powf(self.law.exponent) * self.dt
     }
 }
 
-impl System<1, 1> for Creep<'_> {
+impl System<1, 1> for Relaxation<'_> {
     fn residual<S: Scalar>(&self, [q]: &[S; 1], [trial]: &[S; 1]) -> [S; 1] {
         [(*q + self.flow(*q) * (3.0 * self.law.elastic.shear) - *trial) / self.scale]
     }
@@ -88,12 +88,23 @@ impl RateLaw for NortonHoff {
         if at.q.re() == 0.0 || lapse.dt == 0.0 {
             return Ok((trial, [p]));
         }
-        let equation = Creep { law: self, dt: lapse.dt, scale: at.q.re() };
+        let equation = Relaxation { law: self, dt: lapse.dt, scale: at.q.re() };
         // All of the trial stress relaxed: the other bound, which keeps large powers finite.
         let relaxed = at.q.re() / (3.0 * self.elastic.shear * lapse.dt);
         let high = at.q.re().min(self.unit_stress * relaxed.powf(1.0 / self.exponent));
         let q = root(&equation, [0.0, high], &[at.q], "Norton-Hoff")?;
         Ok((at.with(at.p, q), [p + equation.flow(q)]))
+    }
+
+    fn creep(&self, stress: &Tensor2, _: &[f64; 1]) -> Option<Creep> {
+        let (n, stress) = (self.exponent, Invariants::of(stress).q);
+        let rate = (stress / self.unit_stress).powf(n);
+        let slope = n * (stress / self.unit_stress).powf(n - 1.0) / self.unit_stress;
+        Some(Creep { stress, rate, slope, stiffness: 3.0 * self.elastic.shear })
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        Some(Update::ADAPTIVE)
     }
 
     fn flow(&self) -> Flow {

@@ -9,8 +9,8 @@ use super::invariants::Invariants;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, Range, VariableKind, unit};
-use crate::integrate::{System, root};
-use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
+use crate::integrate::{System, Update, root};
+use crate::material::{Creep, Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Scalar, Tensor2};
 
 const HARDENING: Parameter = Parameter {
@@ -111,6 +111,23 @@ impl RateLaw for Perzyna {
         let y = root(&equation, [0.0, high], &[at.q, yield_stress], "Perzyna")?;
         let dp = equation.flow(y);
         Ok((at.with(at.p, at.q - dp * (3.0 * self.elastic.shear)), [p + dp]))
+    }
+
+    fn creep(&self, stress: &Tensor2, &[p]: &[f64; 1]) -> Option<Creep> {
+        let (n, stress) = (self.power, Invariants::of(stress).q);
+        let yield_stress = p * self.hardening + self.first;
+        let over = (stress / yield_stress - 1.0).max(0.0);
+        let slope = if over > 0.0 { self.fluidity * n * over.powf(n - 1.0) / yield_stress } else { 0.0 };
+        Some(Creep { stress, rate: self.fluidity * over.powf(n), slope, stiffness: 3.0 * self.elastic.shear })
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        Some(Update::ADAPTIVE)
+    }
+
+    fn elastic_step(&self, de: &Tensor2, stress: &Tensor2, &[p]: &[f64; 1], _: Lapse) -> Option<[f64; 2]> {
+        let q = Invariants::of(&(*stress + self.elastic.stress(de))).q;
+        (q <= p * self.hardening + self.first).then_some([self.elastic.lambda, self.elastic.shear])
     }
 
     fn flow(&self) -> Flow {

@@ -220,6 +220,10 @@ impl<const K: usize> RateLaw for VonMises<K> {
         self.hardening.serves(update)
     }
 
+    fn own_update(&self) -> Option<Update> {
+        self.back.iter().any(|back| back.recovery > 0.0).then_some(Update::ADAPTIVE)
+    }
+
     fn own_spin(&self) -> Option<Spin> {
         self.back.iter().any(|back| back.modulus > 0.0).then_some(Spin::Logarithmic)
     }

@@ -228,6 +228,31 @@ motion.d.y = 4.71
     }
 }
 
+/// A plate that is pressed against a thicker one, their whole surface in one contact with itself: the way into the plate ends at its own far
+/// side and not at that of the other, which it has entered before; the far side is no contact.
+#[test]
+fn a_surface_that_touches_itself_leaves_its_far_side_out() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.a.rectangle = { from = [0.0, 1.0], to = [8.0, 3.0], cells = [8, 2], cell = "quad4" }
+mesh.part.b.rectangle = { from = [2.0, 0.0], to = [6.0, 1.0], cells = [5, 2], cell = "quad4" }
+material.m.elastic = { young = 1000.0, poisson = 0.0 }
+body.a.material = "m"
+body.b.material = "m"
+group.skin = { of = "a.bottom", with = ["b.bottom", "b.top"] }
+contact.s = { surface = "skin", target = "skin", law.frictionless = {} }
+[[step]]
+increments.count = 2
+displacement."a.top" = { x = 0.0, y = 0.0 }
+displacement."b.left".x = 0.0
+traction."b.bottom".y = 10.0
+"#;
+    let model = model(deck, &[]);
+    let found = *columns(&model, &run(&model))["contact.s.force.y"].last().unwrap();
+    assert!((found.abs() - 40.0).abs() < 1e-4, "{found}");
+}
+
 /// A block over the seam of two flush blocks stands as on one: the sliver of either beyond the seam hides nothing of the other.
 #[test]
 fn a_block_stands_on_two_flush_blocks() {

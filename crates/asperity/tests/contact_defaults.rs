@@ -228,6 +228,62 @@ motion.d.y = 4.71
     }
 }
 
+/// A plate that is pressed against a thicker one, their whole surface in one contact with itself: the way into the plate ends at its own far
+/// side and not at that of the other, which it has entered before; the far side is no contact.
+#[test]
+fn a_surface_that_touches_itself_leaves_its_far_side_out() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.a.rectangle = { from = [0.0, 1.0], to = [8.0, 3.0], cells = [8, 2], cell = "quad4" }
+mesh.part.b.rectangle = { from = [2.0, 0.0], to = [6.0, 1.0], cells = [5, 2], cell = "quad4" }
+material.m.elastic = { young = 1000.0, poisson = 0.0 }
+body.a.material = "m"
+body.b.material = "m"
+group.skin = { of = "a.bottom", with = ["b.bottom", "b.top"] }
+contact.s = { surface = "skin", target = "skin", law.frictionless = {} }
+[[step]]
+increments.count = 2
+displacement."a.top" = { x = 0.0, y = 0.0 }
+displacement."b.left".x = 0.0
+traction."b.bottom".y = 10.0
+"#;
+    let model = model(deck, &[]);
+    let found = *columns(&model, &run(&model))["contact.s.force.y"].last().unwrap();
+    assert!((found.abs() - 40.0).abs() < 1e-4, "{found}");
+}
+
+/// A hollow under a lid that slides along above it: the normals of its walls cross before they come to the lid, which it does not touch.
+#[test]
+fn a_hollow_touches_nothing_beyond_where_its_normals_cross() {
+    let deck = r#"
+version = 1
+space = "plane-strain"
+mesh.part.cup.annulus = { centre = [0.0, 0.0], from = [0.5, 140.0], to = [0.7, 400.0], cells = [1, 7], cell = "quad4" }
+mesh.part.lid.rectangle = { from = [-2.0, 0.6], to = [2.0, 1.0], cells = [20, 1], cell = "quad4" }
+material.m.elastic = { young = 1000.0, poisson = 0.3 }
+body.cup.material = "m"
+body.lid.material = "m"
+contact.c = { surface = "cup.inner", target = "lid.bottom", law.frictionless = {} }
+[[step]]
+increments.count = 5
+displacement."cup.outer" = { x = 0.0, y = 0.0 }
+displacement."lid.top" = { x = 0.5, y = 0.0 }
+"#;
+    for cells in [7, 9] {
+        for far in [0.5, 2.0] {
+            let sets = [
+                format!("mesh.part.cup.annulus.cells=[1,{cells}]"),
+                format!("step.1.displacement.\"lid.top\".x={far}"),
+            ];
+            let model = model(deck, &[&sets[0], &sets[1]]);
+            let keep = run(&model);
+            assert!(keep.attempts.iter().all(|attempt| attempt.failure.is_none()), "{cells} {far}");
+            assert_eq!(*columns(&model, &keep)["contact.c.thrust"].last().unwrap(), 0.0, "{cells} {far}");
+        }
+    }
+}
+
 /// A block over the seam of two flush blocks stands as on one: the sliver of either beyond the seam hides nothing of the other.
 #[test]
 fn a_block_stands_on_two_flush_blocks() {

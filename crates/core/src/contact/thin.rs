@@ -5,7 +5,7 @@
 //! Woinowsky-Krieger, Theory of Plates and Shells). A penalty far above that of the waves that the body feels as a plate has the
 //! points of a sheet lift off and close again with every small motion.
 
-use crate::mesh::{CellView, Mesh, Side, Space};
+use crate::mesh::{Mesh, Side, Space};
 use crate::tensor::Vec3;
 use std::collections::BTreeMap;
 
@@ -61,7 +61,7 @@ pub fn stiffness(thickness: f64, curvature: f64) -> f64 {
 /// Mean square root of the squares of a surface's curvatures, from the turn between neighbours that meet without a corner; in
 /// axial symmetry with that around the axis.
 pub fn curvature(mesh: &Mesh, sides: &[Side], space: Space) -> f64 {
-    let frames: Vec<(Vec3, Vec3)> = sides.iter().map(|&side| frame(mesh, side)).collect();
+    let frames: Vec<(Vec3, Vec3)> = sides.iter().map(|&side| mesh.frame(side)).collect();
     let mut around: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, &side) in sides.iter().enumerate() {
         mesh.side(side).1.for_each(|node| around.entry(node).or_default().push(number));
@@ -88,13 +88,4 @@ pub fn curvature(mesh: &Mesh, sides: &[Side], space: Space) -> f64 {
 
 fn pairs(faces: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
     faces.iter().enumerate().flat_map(move |(i, &a)| faces[i + 1..].iter().map(move |&b| (a, b)))
-}
-
-/// Middle and unit normal of a side.
-fn frame(mesh: &Mesh, side: Side) -> (Vec3, Vec3) {
-    let (kind, nodes) = mesh.side(side);
-    let nodes: Vec<usize> = nodes.collect();
-    let (x, [g, h, _]) = CellView { kind, nodes: &nodes }.map(&mesh.points, kind.center());
-    let normal = if kind.dimension == 1 { Vec3::new(g[1], -g[0], 0.0) } else { g.cross(h) };
-    (x, normal * (1.0 / normal.norm()))
 }

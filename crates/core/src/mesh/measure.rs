@@ -60,6 +60,15 @@ impl Mesh {
         CellView { kind, nodes: &nodes.collect::<Vec<_>>() }.extent(&self.points)
     }
 
+    /// Middle and unit normal of a side, to the right of an edge.
+    pub fn frame(&self, side: Side) -> (Vec3, Vec3) {
+        let (kind, nodes) = self.side(side);
+        let nodes: Vec<usize> = nodes.collect();
+        let (x, [g, h, _]) = CellView { kind, nodes: &nodes }.map(&self.points, kind.center());
+        let normal = if kind.dimension == 1 { Vec3::new(g[1], -g[0], 0.0) } else { g.cross(h) };
+        (x, normal * (1.0 / normal.norm()))
+    }
+
     /// The axis that a side lies across.
     pub fn faces(&self, side: Side) -> Option<usize> {
         let (kind, nodes) = self.side(side);

@@ -184,7 +184,7 @@ impl Choice {
             let stiff = body.stiff(self.kind, Formulation::Standard) + body.plain();
             (self.formulation, self.soft, self.stiff) = (Formulation::Standard, false, Some(stiff));
         }
-        self.stiff = self.stiff.filter(|part| part.abs() > STIFF);
+        self.stiff = self.stiff.map(|part| part + body.stretched(self.kind)).filter(|part| part.abs() > STIFF);
         self
     }
 
@@ -212,8 +212,9 @@ impl Choice {
                  half as long"
             }
             (1, Formulation::Incompatible) => {
-                "are trapezoids along it, which bend no better with incompatible modes; rectangles, cells half as long, and cells of \
-                 second degree with integration = \"reduced\" do"
+                "are trapezoids along it, which bend no better with incompatible modes, or flat where it is curved, and stretch as they bend \
+                 unless they all bend alike (membrane locking); rectangles, cells half as long, and cells of second degree with \
+                 integration = \"reduced\" do not"
             }
             (1, _) => "are too long, or too few through it, for first degree; those of second are right",
             (_, Formulation::FBar) => {

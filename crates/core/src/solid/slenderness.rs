@@ -1,10 +1,10 @@
 //! How long and how thick the cells of a body are, against its own thickness, how much they taper and how far they are curved: what
 //! cells get wrong in bending.
 
-use super::{Formulation, incompatible};
+use super::{Body, Formulation, incompatible};
 use crate::mesh::cells::Cell;
-use crate::mesh::{Mesh, Side, median};
-use crate::tensor::Vec3;
+use crate::mesh::{CREASE, CellView, Mesh, Side, median};
+use crate::tensor::{Tensor2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// By what part some cells of first degree are too stiff in bending by the simplices or prisms among them, where that is much: that
@@ -60,7 +60,8 @@ pub(super) struct Slenderness {
     /// How much longer one of their sides along it is than the other, as half the slope of those between, times their length over their
     /// own thickness; where neighbours taper the same way, as around a curved body, that times the slope and a factor.
     pub taper: f64,
-    /// Height of their arcs over the thickness, root of the mean square over both surfaces of a body of that; zero in first degree.
+    /// Height of their arcs over the thickness, root of the mean square over both surfaces of a body of that; in first degree, in space,
+    /// of those that their facets stand for.
     pub arc: f64,
     /// Whether some have no neighbour but those along one axis in space, or none at all in the plane.
     pub alone: bool,
@@ -78,8 +79,11 @@ impl Slenderness {
         let volume: f64 = cells.iter().map(|&cell| mesh.measure(cell)).sum();
         let thickness = mesh.thickness(&boundary, &boundary);
         let along = median(boundary.iter().map(|&side| (length(mesh, side), mesh.extent(side))).collect());
-        let taper = median(tapers(mesh, &boundary));
-        let squares: f64 = boundary.iter().map(|&side| arc(mesh, side).powi(2) * mesh.extent(side)).sum();
+        let beside = beside(mesh, &boundary);
+        let taper = median(tapers(mesh, &boundary, &beside));
+        let facets = facets(mesh, &boundary, &beside);
+        let square = |(&side, facet): (&Side, &f64)| (arc(mesh, side).powi(2) + facet) * mesh.extent(side);
+        let squares: f64 = boundary.iter().zip(&facets).map(square).sum();
         let arc = (squares / (2.0 * volume * thickness)).sqrt();
         let through = thickness / deep(mesh, &boundary);
         Self { along: along / thickness, through, taper, arc, alone: alone(mesh, &boundary) }
@@ -113,6 +117,15 @@ impl Slenderness {
         }
     }
 
+    /// By what part more than that a curved body of bricks of first degree is too stiff in bending. An arc of length `l` and curvature `k`
+    /// has a chord shorter by `k^2 l^3 / 24`, so that a facet whose nodes lie on a surface that bends by `c` without stretch is stretched
+    /// by `k c l^2 / 12`, which takes `(k l^2 / t)^2 / 12` of the energy of bending, `16 / 3` of the square of the arc's height over
+    /// the thickness (membrane locking, Stolarski and Belytschko 1983). A ring or tube that bends alike all along its axis makes
+    /// up for it by a change of its length.
+    pub fn stretched(&self, kind: &Cell) -> f64 {
+        if incompatible::modes(kind) > 0 { 16.0 / 3.0 * self.arc.powi(2) } else { 0.0 }
+    }
+
     /// Whether reduced integration serves cells of a kind that full integration makes wrong in bending by some part: quadrilaterals and bricks
     /// of second degree without a node in the middle, for those with one have a mechanism, as bricks have in a stack that is one wide.
     /// With one of them through a body that `flows` two points carry too much of it.
@@ -143,10 +156,9 @@ impl Slenderness {
 /// its slope: of rings with 4 to 16 cells a quarter.
 const TOGETHER: f64 = 1.6;
 
-/// What sides of the boundary taper, in the measure of [`Slenderness::taper`], with their extents.
-fn tapers(mesh: &Mesh, boundary: &[Side]) -> Vec<(f64, f64)> {
-    let own: Vec<[f64; 2]> = boundary.iter().map(|&side| taper(mesh, side)).collect();
-    let mut rims = BTreeMap::<Vec<usize>, Vec<usize>>::new();
+/// Sides of the boundary that meet each of some at each of its ends or edges.
+fn beside(mesh: &Mesh, boundary: &[Side]) -> Vec<Vec<Vec<usize>>> {
+    let mut known = BTreeMap::<Vec<usize>, Vec<usize>>::new();
     let rims_of = |&side: &Side| {
         let (kind, nodes) = mesh.side(side);
         let corners: Vec<usize> = nodes.take(kind.linear.nodes.len()).collect();
@@ -157,32 +169,70 @@ fn tapers(mesh: &Mesh, boundary: &[Side]) -> Vec<(f64, f64)> {
         rims.iter_mut().for_each(|rim| rim.sort_unstable());
         rims
     };
-    for (number, side) in boundary.iter().enumerate() {
-        rims_of(side).into_iter().for_each(|rim| rims.entry(rim).or_default().push(number));
+    let rims: Vec<Vec<Vec<usize>>> = boundary.iter().map(rims_of).collect();
+    for (number, rim) in rims.iter().enumerate().flat_map(|(number, rims)| rims.iter().map(move |rim| (number, rim))) {
+        known.entry(rim.clone()).or_default().push(number);
     }
-    let of = |(side, [taper, slope]): (&Side, &[f64; 2])| {
-        let beside = rims_of(side).into_iter().flat_map(|rim| rims[&rim].clone()).map(|other| own[other][0]);
-        let against = beside.filter(|other| other * taper < 0.0).map(|other| 0.5 * (taper - other).abs());
-        let against = against.fold(0.0, f64::max);
+    let others =
+        |number: usize, rim: &Vec<usize>| known[rim].iter().copied().filter(|&other| other != number).collect();
+    rims.iter().enumerate().map(|(number, rims)| rims.iter().map(|rim| others(number, rim)).collect()).collect()
+}
+
+/// What sides of the boundary taper, in the measure of [`Slenderness::taper`], with their extents.
+fn tapers(mesh: &Mesh, boundary: &[Side], beside: &[Vec<Vec<usize>>]) -> Vec<(f64, f64)> {
+    let own: Vec<[f64; 2]> = boundary.iter().map(|&side| taper(mesh, side)).collect();
+    let of = |((side, [taper, slope]), beside): ((&Side, &[f64; 2]), &Vec<Vec<usize>>)| {
+        let against = beside.iter().flatten().map(|&other| own[other][0]).filter(|other| other * taper < 0.0);
+        let against = against.map(|other| 0.5 * (taper - other).abs()).fold(0.0, f64::max);
         let measure = if against > 0.0 { against } else { TOGETHER.sqrt() * (taper * slope).abs() };
         (measure, mesh.extent(*side))
     };
-    boundary.iter().zip(&own).map(of).collect()
+    boundary.iter().zip(&own).zip(beside).map(of).collect()
 }
 
-/// The slope between a side of a quadrilateral or brick and the one across from it that makes the difference of their extents, half of it
-/// times their length over their distance and it alone; none of other cells.
+/// The slope between a side of a quadrilateral or brick and the one across from it that makes the difference of their lengths, half of it
+/// times their length over their distance and it alone, along the way of the two where that is more; none of other cells.
 fn taper(mesh: &Mesh, side: Side) -> [f64; 2] {
     let view = mesh.cell(side.cell);
     if incompatible::modes(view.kind) == 0 {
         return [0.0; 2];
     }
     let Some(across) = across(mesh, side) else { return [0.0; 2] };
-    let (near, far) = (mesh.extent(side), mesh.extent(across));
-    let mean = 0.5 * (near + far);
-    let (depth, length) = (mesh.measure(side.cell) / mean, if view.kind.dimension == 3 { mean.sqrt() } else { mean });
-    let slope = (near - far) / mean * length / depth;
-    [0.5 * slope * length / depth, slope]
+    let depth = 2.0 * mesh.measure(side.cell) / (mesh.extent(side) + mesh.extent(across));
+    let way = |near: Vec3, far: Vec3| {
+        let [near, far] = [near, far].map(Vec3::norm);
+        let slope = (near - far) / depth;
+        [0.25 * slope * (near + far) / depth, slope]
+    };
+    let ([a, b], [c, d]) = (ways(mesh, side), ways(mesh, across));
+    let [c, d] = if a.dot(c).abs() < a.dot(d).abs() { [d, c] } else { [c, d] };
+    let (one, other) = (way(a, c), way(b, d));
+    if one[0].abs() < other[0].abs() { other } else { one }
+}
+
+/// Squares of the heights of the arcs, along both ways, that the quadrilaterals of first degree among some sides stand for: an eighth of
+/// their length times the turn to the next. Where those beside one another meet others along one way alone, they bend alike across it.
+fn facets(mesh: &Mesh, boundary: &[Side], beside: &[Vec<Vec<usize>>]) -> Vec<f64> {
+    let frames: Vec<(Vec3, Vec3)> = boundary.iter().map(|&side| mesh.frame(side)).collect();
+    let height = |number: usize, others: &[usize]| {
+        let (x, n) = frames[number];
+        let turn = |&other: &usize| {
+            let (y, m) = frames[other];
+            let turn = n.cross(m).norm().atan2(n.dot(m));
+            (turn < CREASE).then(|| turn * (x - y).norm() / 8.0)
+        };
+        others.iter().filter_map(turn).max_by(f64::total_cmp)
+    };
+    let of = |(number, beside): (usize, &Vec<Vec<usize>>)| {
+        let kind = mesh.side(boundary[number]).0;
+        let [a, b, c, d] = &beside[..] else { return 0.0 };
+        let way = |ends: [&Vec<usize>; 2]| ends.iter().filter_map(|end| height(number, end)).max_by(f64::total_cmp);
+        match (kind.degree, way([a, c]), way([b, d])) {
+            (1, Some(one), Some(other)) => one.powi(2) + other.powi(2),
+            _ => 0.0,
+        }
+    };
+    beside.iter().enumerate().map(of).collect()
 }
 
 /// The side of a cell that shares no node with one of them.
@@ -204,14 +254,58 @@ fn alone(mesh: &Mesh, boundary: &[Side]) -> bool {
     paired.values().any(|&sides| sides > 2)
 }
 
-/// Length of a side: of a quadrilateral the longer one between the middles of its edges, of a triangle the root of twice its area.
+/// Length of a side: of a quadrilateral the longer of its ways, of a triangle the root of twice its area.
 fn length(mesh: &Mesh, side: Side) -> f64 {
-    let (kind, nodes) = mesh.side(side);
-    let x: Vec<Vec3> = nodes.map(|node| mesh.points[node]).collect();
-    match kind.linear.nodes.len() {
-        4 => 0.5 * (x[1] + x[2] - x[0] - x[3]).norm().max((x[2] + x[3] - x[0] - x[1]).norm()),
+    match mesh.side(side).0.linear.nodes.len() {
+        4 => ways(mesh, side).map(Vec3::norm).into_iter().fold(0.0, f64::max),
         3 => (2.0 * mesh.extent(side)).sqrt(),
         _ => mesh.extent(side),
+    }
+}
+
+/// The ways along a side, between the middles of opposite edges; of an edge the one.
+fn ways(mesh: &Mesh, side: Side) -> [Vec3; 2] {
+    let x: Vec<Vec3> = mesh.side(side).1.map(|node| mesh.points[node]).collect();
+    match x[..] {
+        [a, b] => [b - a, Vec3::zero()],
+        _ => [(x[1] + x[2] - x[0] - x[3]) * 0.5, (x[2] + x[3] - x[0] - x[1]) * 0.5],
+    }
+}
+
+/// Part of a body's largest strain by which that within a cell must vary for it to bend: what does so by a thousandth carries a millionth of the
+/// energy.
+const VARIES: f64 = 1e-3;
+
+impl Body {
+    /// Whether the strain of some cell varies within it at unknowns `u`, as it does in bending; in one that stretches or shears evenly no
+    /// cell is too stiff. A body without strain may have bent before.
+    pub fn bends(&self, u: &[f64]) -> bool {
+        let (mut varies, mut most) = (0.0_f64, 0.0_f64);
+        for &cell in &self.cells {
+            let view = self.mesh.cell(cell);
+            let x: Vec<Vec3> = view.nodes.iter().map(|&node| self.mesh.points[node]).collect();
+            let moved = |&node: &usize| {
+                let mut moved = Vec3::zero();
+                self.dofs.displacements(node).enumerate().for_each(|(axis, dof)| moved[axis] = u[dof]);
+                moved
+            };
+            let moved: Vec<Vec3> = view.nodes.iter().map(moved).collect();
+            let nodes: Vec<usize> = (0..x.len()).collect();
+            let at_middle =
+                |points: &[Vec3]| CellView { kind: view.kind, nodes: &nodes }.map(points, view.kind.center());
+            let ((middle, mut to), (still, by)) = (at_middle(&x), at_middle(&moved));
+            if view.kind.dimension == 2 {
+                to[2] = Vec3::axis(2);
+            }
+            let gradient = Tensor2::from_fn(|i, a| by[a][i]) * Tensor2::from_fn(|i, a| to[a][i]).inverse();
+            let strain = gradient.sym() + gradient.transpose() * gradient * 0.5;
+            most = most.max(strain.contract(strain).sqrt());
+            for (x, moved) in x.iter().zip(&moved) {
+                let left = *moved - still - gradient * (*x - middle);
+                varies = varies.max(left.norm() / (*x - middle).norm());
+            }
+        }
+        most == 0.0 || varies > VARIES * most
     }
 }
 
@@ -300,6 +394,38 @@ mod tests {
             let (told, found) = (of.stiff(kind, formulation), 1.0 / found - 1.0);
             assert!((0.7..1.4).contains(&(told / found)), "{name} {cells:?} {thickness}: {told}, {found}");
         }
+        // Facets of shells, one brick through them: the hemisphere with a hole of 18 degrees (MacNeal and Harder 1985), of which 32 by 32 are 2 %
+        // too stiff, and the pinched cylinder; displacements over those of hex20 with reduced integration.
+        let sphere = |[along, up]: [f64; 2], deep: f64| {
+            let (along, up, r) = (90.0 * along, 72.0 * up, 9.98 + 0.04 * deep);
+            let [(sine, cosine), (high, wide)] = [along, up].map(|a: f64| a.to_radians().sin_cos());
+            Vec3([r * wide * cosine, r * wide * sine, r * high])
+        };
+        let tube = |[along, up]: [f64; 2], deep: f64| {
+            let ((sine, cosine), r) = ((90.0 * along).to_radians().sin_cos(), 298.5 + 3.0 * deep);
+            Vec3([r * cosine, r * sine, 300.0 * up])
+        };
+        let shells: [(&dyn Fn([f64; 2], f64) -> Vec3, usize, usize, f64); 5] = [
+            (&sphere, 8, 1, 0.01525 / 0.0925),
+            (&sphere, 16, 1, 0.0697 / 0.0925),
+            (&sphere, 16, 2, 0.0698 / 0.0925),
+            (&sphere, 32, 1, 0.0906 / 0.0925),
+            (&tube, 12, 1, 1.272 / 1.81),
+        ];
+        for (place, cells, through, found) in shells {
+            let kind = Cell::named("hex8").unwrap();
+            let mut mesh = Block::new([0.0; 3], [1.0; 3], [cells, cells, through], kind).mesh("b").unwrap();
+            mesh.points.iter_mut().for_each(|x| *x = place([x[0], x[1]], x[2]));
+            let of = Slenderness::of(&mesh, &(0..mesh.cell_count()).collect::<Vec<_>>(), [false; 3]);
+            let (told, found) = (of.stiff(kind, Formulation::Incompatible) + of.stretched(kind), 1.0 / found - 1.0);
+            assert!((0.5..2.0).contains(&(told / found)), "{cells} {through}: {told}, {found}");
+        }
+        // A strip of a tube, one wide, has the length of its chords.
+        let kind = Cell::named("hex8").unwrap();
+        let mut mesh = Block::new([0.0; 3], [1.0; 3], [12, 1, 1], kind).mesh("b").unwrap();
+        mesh.points.iter_mut().for_each(|x| *x = tube([x[0], x[1]], x[2]));
+        let of = Slenderness::of(&mesh, &(0..12).collect::<Vec<_>>(), [false; 3]);
+        assert_eq!(of.stretched(kind), 0.0);
         // A ring of bricks, as high as thick: reduced integration only with two beside one another, and with one through it that flows only where
         // full is wrong by more than two points are.
         for high in [1, 2] {

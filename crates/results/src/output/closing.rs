@@ -16,14 +16,17 @@ pub fn close(account: &mut Account, model: &Model, run: &Run, seconds: f64) {
     let Account { certificate, limits, summary, .. } = account;
     cost(summary, run, seconds);
     summary.notes.extend(facets(model, &run.state));
-    summary.notes.extend(model.bodies.iter().flat_map(|(body, _)| locking(body)));
+    summary.notes.extend(model.bodies.iter().flat_map(|(body, _)| locking(body, &run.state.u)));
     summary.notes.extend(imbalance(certificate, limits));
     summary.notes.extend(large_strain(certificate));
     summary.notes.extend(rests(certificate, model.space));
 }
 
-/// Which cells of a body stay too stiff, and what helps.
-fn locking(body: &Body) -> Vec<String> {
+/// Which cells of a body stay too stiff, and what helps; of one that at unknowns `u` stretches or shears evenly none.
+fn locking(body: &Body, u: &[f64]) -> Vec<String> {
+    if !body.bends(u) {
+        return Vec::new();
+    }
     let advice = body.choices().iter().flat_map(Choice::advice);
     advice.map(|advice| format!("body '{}': {advice}", body.name())).collect()
 }

@@ -57,6 +57,9 @@ impl<'a> Configuration<'a> {
     }
 }
 
+/// Part of an edge by which an end of an interval may lie beside it, by rounding.
+const BESIDE: f64 = 1e-6;
+
 /// What a search finds on a face.
 #[derive(Debug, Clone, Copy)]
 pub struct SeenPart {
@@ -136,6 +139,10 @@ impl Configuration<'_> {
                 TargetInPlace::Faces(faces) => {
                     let ray = FaceRay { x: at.x, n: at.normal.unit() };
                     let hit = faces.project(patch.target, &ray)?;
+                    // Normals of a hollow that cross before they come to a face pass its ends the other way round.
+                    if self.contact.parts.surface.plane && hit.gap > 0.0 && !faces.holds(patch.target, hit.s, BESIDE) {
+                        return None;
+                    }
                     (hit.gap, -hit.normal().dot(ray.n))
                 }
             };

@@ -216,18 +216,15 @@ struct BodyCrossing {
 const TOGETHER: f64 = 1e-9;
 
 /// Where a ray that begins on a body's boundary and goes inward leaves the body. Where the body penetrates itself the ray
-/// begins inside it twice, and the first face that it leaves by is that of the other part: the end is where it is inside
-/// nothing.
+/// begins inside it more than once, or enters another part before it leaves its own: parts that overlap a little are left in the order
+/// in which they were entered, that of the beginning last of those that the ray begins in.
 fn end_of_body(mut crossings: Vec<BodyCrossing>) -> f64 {
     crossings.sort_unstable_by(|a, b| a.u.total_cmp(&b.u));
     crossings.dedup_by(|b, a| a.leaves == b.leaves && b.u - a.u <= TOGETHER * b.u);
-    let way = |crossing: &BodyCrossing| if crossing.leaves { -1 } else { 1 };
-    let mut inside = 1.max(-crossings.iter().map(way).sum::<i32>());
-    let end = crossings.iter().find(|crossing| {
-        inside += way(crossing);
-        inside <= 0
-    });
-    end.map_or(f64::INFINITY, |crossing| crossing.u)
+    let mut leaves = crossings.iter().filter(|crossing| crossing.leaves);
+    let entered = crossings.iter().filter(|crossing| !crossing.leaves).count();
+    let others = leaves.clone().count().saturating_sub(entered + 1);
+    leaves.nth(others).map_or(f64::INFINITY, |crossing| crossing.u)
 }
 
 #[cfg(test)]
@@ -247,5 +244,8 @@ mod tests {
         assert_eq!(at(&[]), f64::INFINITY);
         // Beyond a gap that was missed.
         assert_eq!(at(&[1.0, -3.0]), 1.0);
+        // A wall that another one, and that a third one lies against, each a little within the last.
+        assert_eq!(at(&[-0.999, 1.0, -1.998, 2.0, 3.0]), 1.0);
+        assert_eq!(at(&[0.001, -0.999, 1.0, 2.0]), 1.0);
     }
 }

@@ -25,6 +25,7 @@ fn measure(_bench: &Bench) -> Result<Measured, Error> {
         let scheme = match scheme {
             Scheme::BackwardEuler => "euler",
             Scheme::TwoStep => "two_step",
+            Scheme::Adaptive(_) => "adaptive",
             Scheme::Midpoint(_) => "midpoint",
         };
         // Of the frames and decks of a law the least counts.

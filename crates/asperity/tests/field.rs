@@ -374,48 +374,6 @@ motion.up.y = -0.2
     }
 }
 
-/// A ring of facets that is crushed until its bore touches itself is its half upon the plane of symmetry.
-#[test]
-fn a_ring_of_facets_touches_itself_as_its_half_does_a_plane() {
-    let crushed = |[to, cells]: [usize; 2], depth: f64, contact: &str| {
-        let deck = format!(
-            r#"
-version = 1
-space = "plane-strain"
-mesh.part.ring.annulus = {{ from = [9.0, 0.0], to = [10.0, {to}.0], cells = [1, {cells}], cell = "quad4" }}
-group.top = {{ of = "ring.outer", x = [-0.01, 0.01], y = [9.99, 10.01] }}
-material.rubber.elastic = {{ young = 1000.0, poisson = 0.3 }}
-body.ring.material = "rubber"
-contact.bore = {{ surface = "ring.inner", law.frictionless = {{}}, {contact}
-displacement.top = {{ x = 0.0, y = {depth} }}
-increments.count = 50
-"#
-        );
-        let model = model(&deck, &[]);
-        let columns = columns(&model, &run(&model));
-        [last(&columns, "reaction.top.y"), last(&columns, "contact.bore.max_pressure")]
-    };
-    let ring = crushed(
-        [360, 64],
-        -18.25,
-        "target = \"ring.inner\", penalty = 1e4 }
-group.foot = { of = \"ring.outer\", x = [-0.01, 0.01], y = [-10.01, -9.99] }
-[[step]]
-displacement.foot = { x = 0.0, y = 0.0 }",
-    );
-    let half = crushed(
-        [180, 32],
-        -9.125,
-        "target = \"plane\", penalty = 2e4 }
-tool.plane.profile = [{ line = [[5.0, 0.0], [-5.0, 0.0]] }]
-[[step]]
-symmetry = [\"ring.start\", \"ring.end\"]",
-    );
-    for (ring, half) in ring.into_iter().zip(half) {
-        assert!((ring / half - 1.0).abs() < 0.01, "{ring} and {half}");
-    }
-}
-
 fn last(columns: &std::collections::BTreeMap<String, Vec<f64>>, name: &str) -> f64 {
     *columns[name].last().unwrap()
 }

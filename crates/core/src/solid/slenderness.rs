@@ -405,7 +405,8 @@ mod tests {
             let ((sine, cosine), r) = ((90.0 * along).to_radians().sin_cos(), 298.5 + 3.0 * deep);
             Vec3([r * cosine, r * sine, 300.0 * up])
         };
-        let shells: [(&dyn Fn([f64; 2], f64) -> Vec3, usize, usize, f64); 5] = [
+        type Shell<'a> = (&'a dyn Fn([f64; 2], f64) -> Vec3, usize, usize, f64);
+        let shells: [Shell; 5] = [
             (&sphere, 8, 1, 0.01525 / 0.0925),
             (&sphere, 16, 1, 0.0697 / 0.0925),
             (&sphere, 16, 2, 0.0698 / 0.0925),

@@ -576,6 +576,12 @@ impl<'a> Newton<'a> {
             last.tolerance,
             self.problem.name_of(last.worst.dof)
         );
+        if last.residual <= last.tolerance {
+            let moved = last.correction;
+            text += &format!(
+                ", which is little, but the last iteration still moved something soft by {moved:.1e} of the increment"
+            );
+        }
         if let Some(cycle) = cycles.cycle() {
             text += &format!("; contact states repeat every {} iterations: {}", cycle.period, self.name_cycle(&cycle));
         } else if let Some((term, stencil)) = last.changed {

@@ -198,7 +198,11 @@ impl<'a> Run<'a> {
                     self.state.caution = caution;
                     self.accept(step, (&record, wanted), converged)?;
                     self.note(found);
-                    self.state.next_dt = even.map_or(self.state.next_dt, |size| self.state.next_dt.min(size));
+                    // The step that follows keeps increments that were given.
+                    let given = self.problem.steps.get(self.state.step).is_some_and(Step::is_given);
+                    if let Some(size) = even.filter(|_| !given) {
+                        self.state.next_dt = self.state.next_dt.min(size);
+                    }
                     if unevenness > self.uneven.as_ref().map_or(UNEVEN, |(most, ..)| *most) {
                         self.uneven = Some((unevenness, body, self.state.time));
                     }

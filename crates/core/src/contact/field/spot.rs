@@ -1,11 +1,12 @@
 //! The places of a quadrature on a patch, and how they move with its unknowns.
 
 use super::column::PointColumn;
-use super::contact::{FieldContact, FieldTarget};
+use super::contact::FieldContact;
 use super::cover::Patch;
 use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
 use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
+use super::tool::RigidTool;
 use crate::tensor::{Dual, Vec3, legendre};
 use std::sync::LazyLock;
 
@@ -61,21 +62,14 @@ enum SpotMap {
 }
 
 impl FieldContact {
-    /// The rule on the intervals of a face in the plane: a closed one (Lobatto; the nodal integration of contact) over tools at a crease, and
-    /// where the facets of a curve touch by their corners, over what is straight, or of first degree and flat or curved to the same side. A mean lets a corner go
-    /// in as far as the rest of the face stands off. Facets within facets stand in and out by turns, and the mean is right. Of a uniform
-    /// pressure both rules make the same nodal forces.
+    /// The rule on the intervals of a face in the plane: a closed one (Lobatto; the nodal integration of contact) over tools at a crease,
+    /// and where facets of first degree of a curve touch what is straight by their corners. A mean lets a corner go in as far as the rest
+    /// of the face stands off. Of a uniform pressure both rules make the same nodal forces.
     pub(super) fn rule(&self, patch: &Patch) -> &'static [IntervalPoint] {
         let (surface, face) = (&self.parts.surface, patch.face);
-        let (end, bend) = (surface.faces[face].end(), surface.bends[face]);
-        let facet = bend != 0.0 && surface.faces[face].kind.degree == 1;
-        let closed = match &self.parts.target {
-            FieldTarget::Tool(tool) => surface.creased[face] || (facet && tool.is_straight(patch.target)),
-            FieldTarget::Faces(faces) => {
-                let other = &faces.surface;
-                facet && other.faces[patch.target].kind.degree == 1 && bend * other.bends[patch.target] >= 0.0
-            }
-        };
+        let (end, facet) = (surface.faces[face].end(), surface.curved[face] && surface.faces[face].kind.degree == 1);
+        let touches = |tool: &RigidTool| surface.creased[face] || (facet && tool.is_straight(patch.target));
+        let closed = self.parts.target.as_tool().is_some_and(touches);
         match end {
             _ if !closed => &GAUSS,
             None => &TRAPEZOID,

@@ -53,8 +53,8 @@ pub struct FieldSurface {
     pub pieces: Vec<usize>,
     /// For each face of a plane model whether its edge ends at a crease of the surface,
     pub creased: Vec<bool>,
-    /// and by how much the surface turns at its ends, an angle: positive where it is convex, zero where it is flat.
-    pub bends: Vec<f64>,
+    /// and whether the surface turns smoothly at one.
+    pub curved: Vec<bool>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
     /// Whether the model is axisymmetric.
@@ -96,17 +96,16 @@ impl FieldSurface {
         };
         let (mut pieces, mut field) =
             (DisjointSets::new(self.faces.len()), vec![[usize::MAX; CORNERS]; self.faces.len()]);
-        let (mut nodes, mut creased, mut bends) = (Vec::new(), BTreeSet::new(), vec![0.0; self.faces.len()]);
+        let (mut nodes, mut creased, mut curved) = (Vec::new(), BTreeSet::new(), vec![false; self.faces.len()]);
         for (&node, corners) in &around {
             let mut sets = DisjointSets::new(corners.len());
             for i in 0..corners.len() {
                 for j in 0..i {
                     if smooth(corners[i].0, corners[j].0) {
                         sets.join(i, j);
-                        let [(f, end), (g, _)] = [corners[i], corners[j]];
-                        let turn = normals[f].cross(normals[g])[2] * (2.0 * end as f64 - 1.0);
-                        if self.plane && turn.abs() > CURVED {
-                            (bends[f], bends[g]) = (bends[f] + turn, bends[g] + turn);
+                        let pair = [corners[i].0, corners[j].0];
+                        if self.plane && normals[pair[0]].cross(normals[pair[1]])[2].abs() > CURVED {
+                            pair.into_iter().for_each(|face| curved[face] = true);
                         }
                         pieces.join(corners[i].0, corners[j].0);
                     }
@@ -127,7 +126,7 @@ impl FieldSurface {
             }
         }
         self.creased = self.faces.iter().map(|face| creased.contains(&face.side)).collect();
-        (self.pieces, self.nodes, self.field, self.bends) = (pieces.labels(), nodes, field, bends);
+        (self.pieces, self.nodes, self.field, self.curved) = (pieces.labels(), nodes, field, curved);
     }
 
     /// The nodes of the mesh between which the line runs that tangents at a node of the field follow in space.

@@ -178,6 +178,7 @@ fn what_has_nothing_to_integrate_is_refused() {
 /// where it is more than a hundredth the law takes sub-steps by itself, and keeps it.
 #[test]
 fn what_a_law_takes_by_itself_keeps_a_hundredth() {
+    let mut worse = Vec::new();
     for sample in samples().iter().filter(|sample| claim(sample.law) != Claim::Closed) {
         let material = sample.material.as_ref();
         let end = |update: Option<Update>| {
@@ -198,9 +199,11 @@ fn what_a_law_takes_by_itself_keeps_a_hundredth() {
             (e.contract(e) / exact.contract(exact)).sqrt()
         };
         let (one, own) = (off(end(None)), off(end(material.own_update())));
-        eprintln!("| {} | {} | {one:.1e} | {own:.1e} | {} |", sample.law, sample.name, material.own_update().is_some());
-        assert!(own < 1e-2, "{}: {own:.1e}, one step {one:.1e}", sample.name);
+        if own >= 1e-2 {
+            worse.push(format!("{}: {own:.1e}, one step {one:.1e}", sample.name));
+        }
     }
+    assert!(worse.is_empty(), "{worse:#?}");
 }
 
 /// The tangent of the adaptive scheme is that of its stress, wherever the sizes of its parts change.

@@ -13,7 +13,7 @@ use super::rate;
 use super::softening::{self, Changing};
 use crate::Failure;
 use crate::declare::{Entry, VariableKind};
-use crate::integrate::{System, root};
+use crate::integrate::{System, Update, root};
 use crate::material::{Flow, Lapse, Material, RateLaw, Variable};
 use crate::tensor::{Dual, Isotropic, Scalar, Tensor2, Vec3, principal};
 use std::ops::{Mul, Sub};
@@ -235,6 +235,10 @@ impl RateLaw for MohrCoulomb {
     fn flow(&self) -> Flow {
         // No dilatancy goes beyond the friction.
         if self.strength.first()[0] == 0.0 { Flow::Isochoric } else { Flow::Dilatant }
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        self.strength.changes().then_some(Update::ADAPTIVE)
     }
 
     fn stored_energy(&self, stress: &Tensor2, _: &[f64; 3]) -> f64 {

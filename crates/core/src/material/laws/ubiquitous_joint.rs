@@ -11,6 +11,7 @@ use super::mohr_coulomb::MohrCoulomb;
 use super::rate;
 use crate::Failure;
 use crate::declare::{Entry, Parameter, VariableKind};
+use crate::integrate::Update;
 use crate::material::{Flow, Lapse, Material, RateLaw, ScalarsAndVectors, Variable};
 use crate::tensor::{Scalar, Tensor2, Vec3};
 
@@ -171,6 +172,10 @@ impl RateLaw for UbiquitousJoint {
             }
         }
         Err(Failure::new("ubiquitous joint: matrix and joint do not agree on a stress"))
+    }
+
+    fn own_update(&self) -> Option<Update> {
+        Some(Update::ADAPTIVE)
     }
 
     fn flow(&self) -> Flow {

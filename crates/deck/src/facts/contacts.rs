@@ -92,8 +92,11 @@ fn contact_facts(made: &Made, (name, keys): (&Name, &Contact), all: &[Seen], bac
 /// The part of the weight along a surface, as a mean, over that across it; none where the first step has another load, or no weight.
 fn slope(made: &Made, surface: &[Side]) -> Option<f64> {
     let step = made.deck.step.first()?;
-    let loaded = !(step.pressure.is_empty() && step.traction.is_empty() && step.force.is_empty())
-        || !(step.load.is_empty() && step.body_force.is_empty());
+    let loaded = !(step.pressure.is_empty()
+        && step.traction.is_empty()
+        && step.force.is_empty()
+        && step.load.is_empty()
+        && step.body_force.is_empty());
     let weight = Vec3(step.gravity.as_ref().filter(|_| !loaded)?.components().map(Option::unwrap_or_default));
     let area = |side: &Side| {
         let (kind, nodes) = made.model.mesh.side(*side);

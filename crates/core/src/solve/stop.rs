@@ -64,8 +64,9 @@ impl Run<'_> {
             let motion = converged.u[dof] - before[dof];
             (internal[dof] - stop(load[dof], motion, self.problem.cell_size)[0]).abs() > LOST * load[dof].abs()
         };
+        stopped.retain(|&dof| load[dof] != 0.0);
         let borne = stopped.iter().copied().find(|&dof| is_borne(dof));
-        stopped.retain(|&dof| load[dof] != 0.0 && !is_borne(dof));
+        stopped.retain(|&dof| !is_borne(dof));
         match borne {
             Some(dof) => Err(Failure::new(format!("{} is borne again", self.problem.name_of(dof))).into()),
             None => Ok(()),

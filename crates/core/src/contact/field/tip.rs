@@ -383,8 +383,8 @@ impl FieldContact {
         move |foot| Some(face(foot)).filter(|face| *face >= 0.0).map(|face| face as usize)
     }
 
-    /// Where the tips of the tool lie in an accepted configuration: one that bears has no more of its face than it had, and a rounding that
-    /// lies in the body and bears nothing, which nodes then do, has none.
+    /// Where the tips of the tool lie in an accepted configuration: one that bears has no more of its face than it had, and one that lies
+    /// in the body and bears nothing, as nodes do there, has none: it would bear at once all that it lies in.
     pub(super) fn tips_before(&self, before: &Configuration, history: &History) -> Vec<Option<TipFoot>> {
         let mut tips = before.tips(f64::INFINITY, Some(&[]), self.known_feet(history));
         let pressed = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);

@@ -57,12 +57,6 @@ pub trait Blend: Copy {
     fn size(&self) -> Self::Number;
 }
 
-impl Update {
-    /// What a law takes by itself whose one step is wrong by more than a few hundredths of the stress in increments as long as equilibrium
-    /// allows.
-    pub const ADAPTIVE: Self = Self { scheme: Scheme::Adaptive(1e-3), substeps: 1, tolerance: None };
-}
-
 /// Most times that a sub-step is halved.
 const HALVINGS: u32 = 12;
 /// Halvings before the first sub-step: one as long as the increment may agree with its halves by chance, as where all of
@@ -79,6 +73,10 @@ const PARTS: u32 = 4096;
 const AT_A_KINK: u32 = 6;
 
 impl Update {
+    /// What a law takes by itself whose one step is wrong by more than a few hundredths of the stress in increments as long as equilibrium
+    /// allows.
+    pub const ADAPTIVE: Self = Self { scheme: Scheme::Adaptive(1e-3), substeps: 1, tolerance: None };
+
     /// The state at the end of an increment that begins with `start`; `step(state, h, end)` takes one implicit step over
     /// the fraction `h` of the increment to its fraction `end`, and with `h = 0` returns to the admissible states.
     ///

@@ -125,9 +125,9 @@ impl ProfileTool {
         (turn.abs() >= CREASE).then(|| (turn > 0.0).then(|| PieceEnd { point: one.point(1.0), along }))
     }
 
-    /// Whether a piece is of straight lines only.
+    /// Whether a piece is straight.
     pub fn is_straight(&self, piece: &SmoothPiece) -> bool {
-        piece.segments.iter().all(|&number| self.segments()[number].kind().key == "line")
+        piece.segments.iter().all(|&number| self.segments()[number].curvature(0.5) == 0.0)
     }
 
     /// The point of a piece closest to `x`, in the tool's own frame.

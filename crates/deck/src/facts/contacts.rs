@@ -92,21 +92,9 @@ fn contact_facts(made: &Made, (name, keys): (&Name, &Contact), all: &[Seen], bac
 /// The part of the weight along a surface, as a mean, over that across it; none where the first step has another load, or no weight.
 fn slope(made: &Made, surface: &[Side]) -> Option<f64> {
     let step = made.deck.step.first()?;
-    let loaded = !(step.pressure.is_empty()
-        && step.traction.is_empty()
-        && step.force.is_empty()
-        && step.load.is_empty()
-        && step.body_force.is_empty());
-    let weight = Vec3(step.gravity.as_ref().filter(|_| !loaded)?.components().map(Option::unwrap_or_default));
-    let area = |side: &Side| {
-        let (kind, nodes) = made.model.mesh.side(*side);
-        let x: Vec<Vec3> = nodes.take(kind.linear.nodes.len()).map(|node| made.model.mesh.points[node]).collect();
-        match x[..] {
-            [a, b] => (b - a).cross(Vec3::axis(2)),
-            [a, b, c] => (b - a).cross(c - a) * 0.5,
-            _ => (x[2] - x[0]).cross(x[3] - x[1]) * 0.5,
-        }
-    };
+    let weight = Vec3(step.gravity.as_ref().filter(|_| !step.is_loaded())?.vector());
+    let mesh = &made.model.mesh;
+    let area = |side: &Side| mesh.frame(*side).1 * mesh.extent(*side);
     let normal = surface.iter().fold(Vec3::zero(), |sum, side| sum + area(side)).unit();
     let across = weight.dot(normal);
     (across != 0.0).then(|| (weight - normal * across).norm() / across.abs())

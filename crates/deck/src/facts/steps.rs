@@ -86,7 +86,7 @@ fn loads(made: &Made, step: &StepKeys) -> Vec<Load> {
     for (name, keys) in &step.force {
         let Some(group) = model.mesh.groups.get(&name.text) else { continue };
         let loaded = of_nodes(model, name);
-        let section = loaded.first().map_or(f64::INFINITY, |body| section(model, body, along(keys)));
+        let section = loaded.first().map_or(f64::INFINITY, |body| section(model, body, keys.vector()));
         let stress = size(keys) * group.nodes.len() as f64 / section;
         all.push(load("force", name, loaded, stress));
     }
@@ -129,12 +129,8 @@ fn of_nodes(model: &Model, group: &Name) -> Vec<String> {
     model.bodies.iter().filter(|(body, _)| touches(body)).map(|(body, _)| body.name().to_owned()).collect()
 }
 
-fn along(load: &impl Components) -> [f64; 3] {
-    load.components().map(Option::unwrap_or_default)
-}
-
 fn size(load: &impl Components) -> f64 {
-    Vec3(along(load)).norm()
+    Vec3(load.vector()).norm()
 }
 
 /// The box about a body.

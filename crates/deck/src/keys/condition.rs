@@ -108,6 +108,10 @@ vector_load!(Gravity, unit::ACCELERATION, AT_ONCE, " The acceleration of gravity
 pub trait Components {
     /// The components that are given.
     fn components(&self) -> [Option<f64>; 3];
+    /// All components, zero where none is given.
+    fn vector(&self) -> [f64; 3] {
+        self.components().map(Option::unwrap_or_default)
+    }
     /// The component along z with its place.
     fn z(&self) -> Option<Spot<f64>>;
     /// Where it stands.

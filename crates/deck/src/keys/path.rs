@@ -86,8 +86,7 @@ pub(super) fn follows(step: &StepKeys, reader: &mut Reader) {
         );
     }
     let loads = step.gravity.is_some()
-        || !(step.force.is_empty() && step.pressure.is_empty() && step.traction.is_empty())
-        || !(step.body_force.is_empty() && step.load.is_empty())
+        || step.is_loaded()
         || step.release.iter().any(|name| LOADS.iter().any(|kind| name.text.starts_with(kind)));
     if !loads {
         let what = format!("`{path}` follows a path by arc length, and no load changes in it");

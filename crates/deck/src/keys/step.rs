@@ -145,6 +145,15 @@ impl IncrementKeys {
 }
 
 impl StepKeys {
+    /// Whether it says a load besides gravity.
+    pub fn is_loaded(&self) -> bool {
+        !(self.force.is_empty()
+            && self.pressure.is_empty()
+            && self.traction.is_empty()
+            && self.body_force.is_empty()
+            && self.load.is_empty())
+    }
+
     /// All conditions of the step by the names under which a later step may release them.
     pub fn conditions(&self) -> Vec<(String, &Name)> {
         fn of<'a, T>(kind: &str, list: &'a [(Name, T)]) -> Vec<(String, &'a Name)> {

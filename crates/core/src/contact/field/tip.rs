@@ -387,7 +387,7 @@ impl FieldContact {
     /// in the body and bears nothing, as nodes do there, has none: it would bear at once all that it lies in.
     pub(super) fn tips_before(&self, before: &Configuration, history: &History) -> Vec<Option<TipFoot>> {
         let mut tips = before.tips(f64::INFINITY, Some(&[]), self.known_feet(history));
-        let pressed = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
+        let nodes_bear = (0..self.nodal_slots()).any(|slot| history.slot(slot)[entry::STATUS] > 0.0);
         for (number, feet) in tips.chunks_mut(FEET).enumerate() {
             let has = |(foot, found): (usize, &Option<TipFoot>)| {
                 let &TipFoot { patch: Patch { face, tip, .. }, gap } = found.as_ref()?;
@@ -396,7 +396,7 @@ impl FieldContact {
                 if values[entry::STATUS] > 0.0 {
                     return (whole > 0.0).then(|| values[entry::XI] / whole);
                 }
-                (gap < 0.0 && pressed).then_some(0.0)
+                (gap < 0.0 && nodes_bear).then_some(0.0)
             };
             let share = feet.iter().enumerate().filter_map(has).fold(f64::INFINITY, f64::min);
             feet.iter_mut()

@@ -126,18 +126,15 @@ fn common<T: Scalar>(flat: &FlatFace<T>, other: &[Vec3<T>]) -> Option<Polygon<T>
 pub fn spread<T: Scalar>(cubic: bool, own: &[Vec3<T>], other: &[Vec3<T>], mut take: impl FnMut(Spread<T>)) {
     let flat = FlatFace::new(own);
     let Some(part) = common(&flat, other) else { return };
+    let mut lay = |place, area: T, weight: f64| {
+        let (xi, density) = flat.pull_back(place);
+        take(Spread { xi, weight: area * density * weight });
+    };
     if cubic {
-        for (place, area) in part.cubic() {
-            let (xi, density) = flat.pull_back(place);
-            take(Spread { xi, weight: area * density });
-        }
-        return;
-    }
-    let laid = PartMap::new(own.len(), part.moments());
-    let share = laid.share();
-    for place in rule(1, own.len()) {
-        let (xi, density) = flat.pull_back(laid.place(place.xi));
-        take(Spread { xi, weight: share * density * place.weight });
+        part.cubic().for_each(|(place, area)| lay(place, area, 1.0));
+    } else {
+        let laid = PartMap::new(own.len(), part.moments());
+        rule(1, own.len()).for_each(|place| lay(laid.place(place.xi), laid.share(), place.weight));
     }
 }
 

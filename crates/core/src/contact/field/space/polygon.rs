@@ -7,6 +7,7 @@
 
 use crate::mesh::cells::{QUAD4, TRI3};
 use crate::tensor::Scalar;
+use std::sync::LazyLock;
 
 /// Coordinates on a face.
 pub type Point<T> = [T; 2];
@@ -151,6 +152,14 @@ impl<T: Scalar> Moments<T> {
 /// convex polygon (Kannan, Lovasz & Simonovits, Discrete Comput. Geom. 13, 1995), and alone has the moments up to the second.
 const RINGS: [(f64, usize); 2] = [(std::f64::consts::SQRT_2, 7), (0.5 * std::f64::consts::SQRT_2, 5)];
 
+/// Cosines and sines of the places of a ring, and of three times their angles.
+static HARMONICS: LazyLock<[Vec<[f64; 4]>; 2]> = LazyLock::new(|| {
+    RINGS.map(|(_, count)| {
+        let angles = (0..count).map(|k| std::f64::consts::TAU * k as f64 / count as f64);
+        angles.map(|angle| [angle.cos(), angle.sin(), (3.0 * angle).cos(), (3.0 * angle).sin()]).collect()
+    })
+});
+
 impl<T: Scalar> Polygon<T> {
     /// Places and areas of a rule that is exact up to the third degree: on two rings in the frame of the symmetric root of the covariance,
     /// with weights of the first and the third harmonic that have the third moments.
@@ -178,12 +187,10 @@ impl<T: Scalar> Polygon<T> {
         let last = [xxx - xyy * 3.0, xxy * 3.0 - yyy].map(|sum| sum * (2.0 / (many as f64 * outer.powi(3))));
         let large = first.map(|sum| sum * (2.0 / (many as f64 * outer * (outer * outer - inner * inner))));
         let small = large.map(|part| part * (-(many as f64) * outer / (few as f64 * inner)));
-        let rings = [(RINGS[0], 1.0 / many as f64, large, last), (RINGS[1], 0.0, small, [T::zero(); 2])];
-        rings.into_iter().flat_map(move |((radius, count), mean, one, three)| {
-            (0..count).map(move |k| {
-                let angle = std::f64::consts::TAU * k as f64 / count as f64;
-                let [x, y] = [angle.cos(), angle.sin()];
-                let weight = one[0] * x + one[1] * y + three[0] * (3.0 * angle).cos() + three[1] * (3.0 * angle).sin();
+        let rings = [(outer, 1.0 / many as f64, large, last), (inner, 0.0, small, [T::zero(); 2])];
+        rings.into_iter().zip(&*HARMONICS).flat_map(move |((radius, mean, one, three), places)| {
+            places.iter().map(move |&[x, y, x3, y3]| {
+                let weight = one[0] * x + one[1] * y + three[0] * x3 + three[1] * y3;
                 let place = [(a * x + b * y) * radius + to.centre[0], (b * x + c * y) * radius + to.centre[1]];
                 (place, to.area * (weight + mean))
             })

@@ -147,6 +147,66 @@ fn tangents_between_bodies_are_exact() {
     }
 }
 
+/// At the edges of a body a closed rule is laid over tools, and vertices bear that lie deep in another body.
+#[test]
+fn tangents_at_edges_are_exact() {
+    let tools = [
+        ("plane", "{ plane = { at = [0.5, 0.0, 0.5], normal = [0.05, 1.0, -0.03], side = 20.0 } }"),
+        ("rim", "{ cylinder = { from = [0.7, -1.0, 0.45], to = [0.72, 0.03, 0.44], radius = 0.57 } }"),
+    ];
+    for (name, tool) in tools {
+        for cell in ["hex8", "tet4", "wedge6"] {
+            let deck =
+                over_tool(cell, tool).replace("\"block.bottom\"", "[\"block.bottom\", \"block.left\", \"block.back\"]");
+            tangents(&format!("{name} {cell}"), &deck, "block", 20, [0.0; 3]);
+        }
+    }
+    for cells in [["hex8", "hex8"], ["tet4", "hex8"], ["hex20", "tet10"]] {
+        let model = model(&blocks(cells), &[]);
+        let (contact, moving) = (&model.field_contacts[0], &model.mesh.groups["high"].nodes);
+        let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.04, [0.0; 3]), 20);
+        assert!(
+            met[1] + met[2] > 20 && 10 * skipped <= met.iter().sum::<usize>() && worst < ALLOWED,
+            "{cells:?}: {met:?} {skipped} {worst:.1e}"
+        );
+    }
+}
+
+/// A slab with sharp edges is pressed into one that is held around, by a part of its thickness and by many of it, at once: its corners
+/// lie in that by no more than the audit allows, as they did where the mean of their faces was all that a node felt.
+#[test]
+fn corners_of_a_slab_stay_on_a_soft_one() {
+    for (cell, down) in [("hex8", 0.6), ("hex20", 0.6), ("tet10", 0.2), ("tet10", 0.6), ("hex8", 1.2)] {
+        let cells = if cell == "hex8" { ["[9, 2, 9]", "[4, 2, 3]"] } else { ["[5, 1, 5]", "[2, 1, 2]"] };
+        let deck = format!(
+            r#"
+version = 1
+space = "solid"
+mesh.part.low.box = {{ from = [-2.0, -0.4, -2.0], to = [2.0, 0.0, 2.0], cells = {}, cell = "{cell}" }}
+mesh.part.high.box = {{ from = [-0.7, 0.01, -0.6], to = [0.8, 0.41, 0.7], cells = {}, cell = "{cell}" }}
+material.rubber.neo_hookean = {{ shear = 1.0, bulk = 3.0 }}
+body.low.material = "rubber"
+body.high.material = "rubber"
+contact.joint = {{ surface = "high.bottom", target = "low.top", law.coulomb.friction = 0.2 }}
+[[step]]
+increments.count = {}
+[step.displacement]
+"low.left" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+"low.right" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+"low.back" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+"low.front" = {{ x = 0.0, y = 0.0, z = 0.0 }}
+"high.top" = {{ x = 0.0, y = -{down}, z = 0.0 }}
+"#,
+            cells[0],
+            cells[1],
+            if down > 1.0 { 6 } else { 1 }
+        );
+        let model = model(&deck, &[]);
+        let worst = run(&model).states.last().unwrap().worst_interpenetration.relative;
+        assert!(worst < 0.1, "{cell} {down}: {worst}");
+    }
+}
+
 #[test]
 fn tangents_over_tools_that_turn_are_exact() {
     let tools = [

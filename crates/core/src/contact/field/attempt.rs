@@ -3,13 +3,13 @@
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FEET, Landing, Patch};
-use super::face::moved;
+use super::face::{CORNERS, moved};
 use super::faces::{FaceProjection, FaceRay, LEAST_COSINE};
 use super::linear::Linear;
 use super::nodes::NodesInPlace;
 use super::point::Touched;
 use super::space::{Spread, spread};
-use super::spot::IntervalPoint;
+use super::spot::{GAUSS, IntervalPoint};
 use super::stencil::{COUNT, NodeSums, StencilInPlace};
 use super::support::FieldSearch;
 use super::tip::TipFoot;
@@ -105,8 +105,10 @@ impl FieldAttempt<'_> {
         } else {
             let [from, to] = patch.near;
             let place = |point: &IntervalPoint| [0.5 * (from + to) + 0.5 * (to - from) * point.eta, 0.0];
-            places.extend(self.contact.rule(patch).iter().map(place));
+            places.extend(GAUSS.iter().map(place));
         }
+        let own = &self.contact.parts.surface.faces[patch.face];
+        places.extend((0..CORNERS).filter(|&corner| patch.vertices[corner]).map(|corner| own.corner_place(corner)));
         for xi in places {
             if let Some((face, _)) = self.seen_before(patch, xi, |_| true) {
                 nodes.extend_from_slice(&faces.surface.faces[face].nodes);

@@ -2,7 +2,7 @@
 
 use super::contact::{FieldContact, FieldTarget};
 use super::cover::{FaceInPlace, Patch, over_piece};
-use super::face::{PlacedFace, WHOLE};
+use super::face::{CORNERS, PlacedFace, WHOLE};
 use super::faces::{FaceRay, FacesInPlace, LEAST_COSINE};
 use super::part::{FacePart, nearest, samples};
 use super::space::{CutFace, SeenNodes, foot, nearby, whole};
@@ -76,8 +76,15 @@ impl Configuration<'_> {
     /// face of a body one.
     pub(super) fn patches(&self, number: usize, reach: f64, near: &mut Vec<usize>) -> Vec<SeenPart> {
         let (face, mut found) = (self.face(number), Vec::new());
-        let patch =
-            |target: usize, near: [f64; 2], ends| Patch { face: number, target, ends, near, seen: None, tip: None };
+        let patch = |target: usize, near: [f64; 2], ends| Patch {
+            face: number,
+            target,
+            ends,
+            near,
+            seen: None,
+            vertices: [false; CORNERS],
+            tip: None,
+        };
         match &self.target {
             TargetInPlace::Tool(tool) if face.plane => {
                 for piece in 0..self.contact.pieces {
@@ -119,7 +126,23 @@ impl Configuration<'_> {
                 found = nearest(&candidates.filter_map(look).collect::<Vec<_>>()).map(|(seen, ..)| *seen).collect();
             }
         }
+        if let TargetInPlace::Faces(faces) = &self.target {
+            for SeenPart { patch, .. } in &mut found {
+                patch.vertices = std::array::from_fn(|corner| self.sees_vertex((&face, faces), patch, corner));
+            }
+        }
         found
+    }
+
+    /// Whether a corner of a face at which a smooth piece ends sees a body within a patch.
+    fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
+        let surface = &self.contact.parts.surface;
+        if corner >= face.face.corners() || face.face.kind.degree > 1 || !surface.nodes[surface.field[patch.face][corner]].ends {
+            return false;
+        }
+        let at = face.at(face.face.corner_place(corner));
+        let hit = faces.project(patch.target, &FaceRay { x: at.x, n: at.normal.unit() });
+        hit.is_some_and(|hit| faces.holds(patch.target, hit.s, BESIDE))
     }
 
     /// Gaps of a patch at `places`, the last of them its middle; none if it does not look at the surface. What lies beyond the border

@@ -27,6 +27,8 @@ pub struct PatchInPlace<'a> {
     pub interval: [f64; 2],
     /// Whether functions on an overlap are of third degree, in space.
     pub cubic: bool,
+    /// Whether a closed rule is laid on it.
+    pub closed: bool,
     /// The part of the face that it is, where the border of a piece of a tool cuts that in space.
     pub cut: Option<CutFace>,
 }
@@ -60,6 +62,7 @@ impl<'a> PatchInPlace<'a> {
             patch: *patch,
             interval: WHOLE,
             cubic: at.contact.is_cubic(patch),
+            closed: at.contact.is_closed(patch),
             cut: None,
         };
         for (k, end) in patch.patch.ends.into_iter().enumerate() {

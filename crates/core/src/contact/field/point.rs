@@ -46,6 +46,8 @@ pub struct Touched {
 pub struct PatchPoint {
     /// Its number among the places of the quadrature.
     pub number: usize,
+    /// The corner of the face that it is, where it stands for no area of its own.
+    pub vertex: Option<usize>,
     /// Reference coordinates on the face.
     pub xi: [f64; 2],
     /// Undeformed area it stands for.
@@ -145,7 +147,7 @@ impl PatchInPlace<'_> {
             let cosine = self.own_normal_rate(column, xi, dxi).dot(point.n) + self.face.own_normal(xi).dot(n);
             dfacing = facing[1] * cosine;
         }
-        let slope = density.1[0] * (dxi[0] + spot.inward * darea) + density.1[1] * dxi[1];
+        let slope: f64 = (0..2).map(|k| density.1[k] * (dxi[k] + spot.inward[k] * darea)).sum();
         let weight = darea * density.0 * facing[0] + spot.weight * (slope * facing[0] + density.0 * dfacing);
         let follow = |touched: &Touched| {
             let carried = touched.slopes[0] * dxi[0] + touched.slopes[1] * dxi[1];

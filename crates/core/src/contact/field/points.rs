@@ -90,7 +90,7 @@ impl PatchPoints {
     fn look(&mut self, patch: &PatchInPlace, at: &NodesInPlace, recall: Recall) -> Option<()> {
         let (surface, face) = (&at.contact.parts.surface, patch.face.face);
         let rest = face.at_rest(&at.contact.parts.mesh);
-        for (number, spot) in patch.spots(at.contact.rule(&patch.patch), false).into_iter().enumerate() {
+        for (number, spot) in patch.spots(false).into_iter().enumerate() {
             let xi = spot.xi;
             let frame = patch.face.at(xi);
             let (sight, n, gap, y) = patch.look(&frame)?;
@@ -98,7 +98,8 @@ impl PatchPoints {
             let touched = recall(at, &patch.patch, xi);
             let v = touched.map_or(Vec3::zero(), |touched| touched.now - frame.x);
             let (shape, functions) = (frame.shape, frame.corners);
-            self.points.push(PatchPoint { number, xi, weight, functions, shape, gap, n, v, y, sight, touched });
+            let vertex = spot.vertex;
+            self.points.push(PatchPoint { number, vertex, xi, weight, functions, shape, gap, n, v, y, sight, touched });
         }
         Some(())
     }
@@ -117,7 +118,7 @@ impl PatchPoints {
         let along = |(column, turning): (&PointColumn, &[Vec3; CORNERS])| in_place.bound_rates(column, turning);
         let bounds: Vec<_> = columns.iter().zip(&turning).map(along).collect();
         let still = in_place.tool.is_some() && !surface.plane && patch.seen.is_none();
-        let spots = in_place.spots(at.contact.rule(patch), true);
+        let spots = in_place.spots(true);
         for point in &self.points {
             let (spot, frame) = (&spots[point.number], in_place.face.at(point.xi));
             let density = if still {

@@ -5,13 +5,13 @@ use super::contact::FieldContact;
 use super::cover::Patch;
 use super::face::CORNERS;
 use super::patch::{BoundRates, PatchInPlace};
-use super::space::{DIRECTIONS, INTEGRALS, PartMap, Spread, spread, whole};
+use super::space::{DIRECTIONS, INTEGRALS, PartMap, Polygon, Spread, spread, whole};
 use super::tool::RigidTool;
 use crate::tensor::{Dual, Vec3, legendre};
 use std::sync::LazyLock;
 
 /// Four Gauss points in the plane: the integrals of linear functions times those of second degree over a density of first.
-static GAUSS: LazyLock<Vec<IntervalPoint>> =
+pub static GAUSS: LazyLock<Vec<IntervalPoint>> =
     LazyLock::new(|| legendre(4).into_iter().map(|(eta, weight)| point(eta, weight, 0.0)).collect());
 
 /// The trapezoidal rule, with the mean density of each half,
@@ -46,7 +46,9 @@ pub struct FaceSpot {
     pub weight: f64,
     /// The density of area counts at the place plus this times the weight: of a closed rule where it is the mean of what the place stands
     /// for, so that a uniform pressure makes the nodal forces that it should around an axis too.
-    pub inward: f64,
+    pub inward: [f64; 2],
+    /// The corner of the face that it is, where a smooth piece ends there: it stands for no area of its own.
+    pub vertex: Option<usize>,
     laid: SpotMap,
 }
 
@@ -62,44 +64,62 @@ enum SpotMap {
 }
 
 impl FieldContact {
-    /// The rule on the intervals of a face in the plane: a closed one (Lobatto; the nodal integration of contact) over tools at a crease,
-    /// and where facets of first degree of a curve touch what is straight by their corners. A mean lets a corner go in as far as the rest
-    /// of the face stands off. Of a uniform pressure both rules make the same nodal forces.
-    pub(super) fn rule(&self, patch: &Patch) -> &'static [IntervalPoint] {
+    /// Whether a closed rule (Lobatto; the nodal integration of contact) is laid on a patch: over tools at a crease, in space on faces of
+    /// first degree, and where facets of first degree of a curve touch what is straight by their corners. A mean lets a corner go in as
+    /// far as the rest of the face stands off. Of a uniform pressure both kinds of rules make the same nodal forces.
+    pub(super) fn is_closed(&self, patch: &Patch) -> bool {
         let (surface, face) = (&self.parts.surface, patch.face);
-        let (end, facet) = (surface.faces[face].end(), surface.curved[face] && surface.faces[face].kind.degree == 1);
-        let touches = |tool: &RigidTool| surface.creased[face] || (facet && tool.is_straight(patch.target));
-        let closed = self.parts.target.as_tool().is_some_and(touches);
-        match end {
-            _ if !closed => &GAUSS,
-            None => &TRAPEZOID,
-            Some(end) => &SIMPSON[end],
-        }
+        let first = surface.faces[face].kind.degree == 1;
+        let creased = surface.creased[face] && (surface.plane || first);
+        let touches = |tool: &RigidTool| creased || (first && surface.curved[face] && tool.is_straight(patch.target));
+        self.parts.target.as_tool().is_some_and(touches)
     }
 }
 
 impl FaceSpot {
     /// The place whose density counts.
     pub fn dense(&self) -> [f64; 2] {
-        [self.xi[0] + self.inward * self.weight, self.xi[1]]
+        [0, 1].map(|k| self.xi[k] + self.inward[k] * self.weight)
     }
 }
 
 impl PatchInPlace<'_> {
-    /// The places of its quadrature; `rule` is that of an interval.
-    pub fn spots(&self, rule: &[IntervalPoint], derivatives: bool) -> Vec<FaceSpot> {
+    /// The places of its quadrature, and of its vertices.
+    pub fn spots(&self, derivatives: bool) -> Vec<FaceSpot> {
+        let mut spots = self.quadrature(derivatives);
+        let vertices = (0..CORNERS).filter(|&corner| self.patch.vertices[corner]);
+        spots.extend(vertices.map(|corner| FaceSpot {
+            xi: self.face.face.corner_place(corner),
+            weight: 0.0,
+            inward: [0.0; 2],
+            vertex: Some(corner),
+            laid: SpotMap::Whole,
+        }));
+        spots
+    }
+
+    fn quadrature(&self, derivatives: bool) -> Vec<FaceSpot> {
         if self.face.plane {
+            let rule: &[IntervalPoint] = match self.face.face.end() {
+                _ if !self.closed => &GAUSS,
+                None => &TRAPEZOID,
+                Some(end) => &SIMPSON[end],
+            };
             let half = 0.5 * (self.interval[1] - self.interval[0]);
             let both = |a: f64, b: f64| std::array::from_fn(|k| [a, b].get(k).map_or(0.0, |x| 0.5 * x));
             let place = |&IntervalPoint { eta, weight, inward }: &IntervalPoint| FaceSpot {
                 xi: [self.place(eta), 0.0],
                 weight: weight * half,
-                inward,
+                inward: [inward, 0.0],
+                vertex: None,
                 laid: SpotMap::Bounded([both(1.0 - eta, 1.0 + eta), both(0.0, 0.0), both(-weight, weight)]),
             };
             return rule.iter().map(place).collect();
         }
         let own = self.face.corners();
+        if self.closed {
+            return self.at_corners();
+        }
         if self.patch.seen.is_some() {
             let Some(cut) = &self.cut else { return Vec::new() };
             let laid = PartMap::new(own.len(), cut.moments(Dual::<INTEGRALS>::variable));
@@ -109,21 +129,23 @@ impl PatchInPlace<'_> {
                 FaceSpot {
                     xi: [a.re, b.re],
                     weight: weight.re,
-                    inward: 0.0,
+                    inward: [0.0; 2],
+                    vertex: None,
                     laid: SpotMap::Bounded([a.du, b.du, weight.du]),
                 }
             };
             return whole(own.len()).map(on).collect();
         }
         let Some((faces, seen)) = &self.seen else {
-            let on = |Spread { xi, weight }| FaceSpot { xi, weight, inward: 0.0, laid: SpotMap::Whole };
+            let on =
+                |Spread { xi, weight }| FaceSpot { xi, weight, inward: [0.0; 2], vertex: None, laid: SpotMap::Whole };
             return whole(own.len()).map(on).collect();
         };
         let other = &seen.nodes()[..faces.surface.faces[self.patch.target].corners()];
         let (mut spots, cubic) = (Vec::new(), self.cubic);
         if !derivatives {
             spread(cubic, own, other, |Spread { xi, weight }| {
-                spots.push(FaceSpot { xi, weight, inward: 0.0, laid: SpotMap::Whole })
+                spots.push(FaceSpot { xi, weight, inward: [0.0; 2], vertex: None, laid: SpotMap::Whole })
             });
             return spots;
         }
@@ -138,9 +160,33 @@ impl PatchInPlace<'_> {
         let (own_lifted, other_lifted) = (lift(own, 0), lift(other, DIRECTIONS / 2));
         spread(cubic, &own_lifted[..own.len()], &other_lifted[..other.len()], |Spread { xi: [a, b], weight }| {
             let laid = SpotMap::Overlap(Box::new([a.du, b.du, weight.du]));
-            spots.push(FaceSpot { xi: [a.re, b.re], weight: weight.re, inward: 0.0, laid });
+            spots.push(FaceSpot { xi: [a.re, b.re], weight: weight.re, inward: [0.0; 2], vertex: None, laid });
         });
         spots
+    }
+
+    /// The corners of a face of first degree in space, each with the integral of its function over what is seen: a closed rule.
+    fn at_corners(&self) -> Vec<FaceSpot> {
+        type D = Dual<INTEGRALS>;
+        let (face, cut) = (self.face.face, self.cut.as_ref());
+        if self.patch.seen.is_some() && cut.is_none() {
+            return Vec::new();
+        }
+        let part = cut.map_or_else(|| Polygon::<D>::whole(face.corners()).moments(), |cut| cut.moments(D::variable));
+        let ([x, y], xy) = (part.centre, part.product());
+        let at = |corner: usize| {
+            let xi = face.corner_place(corner);
+            // The mean of the corner's function, and where its centroid lies on the whole face.
+            let (mean, inward) = match (face.corners(), corner) {
+                (3, 0) => (D::from(1.0) - x - y, 0.0),
+                (3, _) => ([x, y][corner - 1], 0.0),
+                _ => ((x * xi[0] + y * xi[1] + xy * (xi[0] * xi[1]) + 1.0) * 0.25, -2.0 / 3.0),
+            };
+            let (weight, still) = (part.area * mean, [0.0; INTEGRALS]);
+            let laid = SpotMap::Bounded([still, still, weight.du]);
+            FaceSpot { xi, weight: weight.re, inward: xi.map(|xi| inward * xi), vertex: None, laid }
+        };
+        (0..face.corners()).map(at).collect()
     }
 
     /// Derivatives of a place's coordinates and of its area along an unknown; `bounds` are those of what bounds the patch.

@@ -16,6 +16,9 @@ use super::twist::{Twist, spin};
 use crate::mesh::Side;
 use crate::tensor::Vec3;
 use std::rc::Rc;
+use vertex::VertexShare;
+
+mod vertex;
 
 /// Coordinates of a node: penetration and two slips.
 pub const COUNT: usize = 3;
@@ -25,8 +28,9 @@ pub const COUNT: usize = 3;
 struct NodePoint {
     /// Its patch among those of the node, and its number there.
     of: (usize, usize),
-    /// Undeformed area it stands for times the node's function there.
+    /// Undeformed area it stands for times the node's function there, and the derivative of that along the share of the vertex.
     weight: f64,
+    shift: f64,
     /// The two tangents, and the slip of the increment along them.
     e: [Vec3; 2],
     slip: [f64; 2],
@@ -91,6 +95,9 @@ pub struct NodeSums {
     starts: Vec<usize>,
     /// Derivatives of each point along them.
     rates: Vec<NodeRates>,
+    /// The number of the vertex among the points, where it lies deeper than the mean of the node.
+    vertex: Option<usize>,
+    held: VertexShare,
     values: Vec<f64>,
     block: Vec<f64>,
     turned: Vec<Vec3>,
@@ -202,6 +209,7 @@ impl<'a> StencilInPlace<'a> {
         sums.columns.clear();
         sums.starts.clear();
         sums.rates.clear();
+        sums.vertex = None;
         let line = self.line();
         for &(number, corner) in &self.found.supports[self.slot].patches {
             let patch = &self.found.patches[number];
@@ -214,6 +222,12 @@ impl<'a> StencilInPlace<'a> {
             let at = NodesInPlace { nodes: &patch.nodes, u: &sums.values, ..self.at };
             let points = PatchPoints::of((self.found.number, number, patch), &at, recall, derivatives)?;
             for (k, point) in points.points.iter().enumerate() {
+                if point.vertex.is_some_and(|vertex| vertex != corner || sums.vertex.is_some()) {
+                    continue;
+                }
+                if point.vertex.is_some() {
+                    sums.vertex = Some(sums.points.len());
+                }
                 let tangents = |line: Option<MaterialLine>, n: Vec3| {
                     line.map_or([n.left(), Vec3::axis(2)], |line| line.tangents(n))
                 };
@@ -226,7 +240,7 @@ impl<'a> StencilInPlace<'a> {
                 let twist = turn.map(|turn| turn.twist(point, e));
                 let way = twist.map_or(point.v, |twist| twist.way);
                 let (weight, slip) = (point.weight * point.functions.n[corner], e.map(|e| e.dot(way)));
-                sums.points.push(NodePoint { of: (sums.patches.len(), k), weight, e, slip });
+                sums.points.push(NodePoint { of: (sums.patches.len(), k), weight, shift: -weight, e, slip });
                 if derivatives {
                     let function = (point.functions.n[corner], point.functions.dn[corner]);
                     let (of_point, node, turn) = ((point, points.rates(k)), (&at, line, function, e), turn.zip(twist));
@@ -253,6 +267,7 @@ impl<'a> StencilInPlace<'a> {
         if derivatives {
             sums.find_gradients(self.at.u.len());
         }
+        sums.press_vertex(self.at.contact.size_at(self.slot), derivatives.then_some(self.at.u.len()));
         Some(())
     }
 
@@ -267,20 +282,33 @@ impl<'a> StencilInPlace<'a> {
 
     /// Forces of a unit of each stress on each unknown.
     pub fn find_forces(&self, sums: &mut NodeSums) {
+        let (mut forces, mut held) = (std::mem::take(&mut sums.forces), std::mem::take(&mut sums.held.forces));
+        self.forces_by(sums, |_, point| point.weight, &mut forces);
+        if let Some(vertex) = sums.vertex {
+            let share = sums.held.share;
+            self.forces_by(sums, |_, point| point.shift, &mut held[0]);
+            self.forces_by(sums, |k, _| if k == vertex { share } else { 0.0 }, &mut held[1]);
+        }
+        (sums.forces, sums.held.forces) = (forces, held);
+    }
+
+    /// The same of any weights of the points.
+    fn forces_by(&self, sums: &NodeSums, weight: impl Fn(usize, &NodePoint) -> f64, forces: &mut Vec<f64>) {
         let (n, axes) = (self.at.u.len(), self.at.axes());
-        let NodeSums { forces, points, patches, .. } = sums;
+        let NodeSums { points, patches, .. } = sums;
         forces.clear();
         forces.resize(COUNT * n, 0.0);
         let mut last = usize::MAX;
         let (mut own, mut seen) = (Vec::new(), Vec::new());
-        for NodePoint { of: (patch, k), weight, e, .. } in points.iter() {
+        for (number, here) in points.iter().enumerate() {
+            let (NodePoint { of: (patch, k), e, .. }, weight) = (here, weight(number, here));
             let point = &patches[*patch].points[*k];
             if last != *patch {
                 [own, seen] = self.loaded(*patch);
                 last = *patch;
             }
             for (c, direction) in [-point.n, e[0], e[1]].into_iter().enumerate() {
-                let (f, rows) = (direction * *weight, &mut forces[c * n..(c + 1) * n]);
+                let (f, rows) = (direction * weight, &mut forces[c * n..(c + 1) * n]);
                 let mut push = |places: &[usize], shape: &[f64], sign: f64| {
                     for (place, n) in places.iter().zip(shape) {
                         (0..axes).for_each(|axis| rows[place + axis] += sign * n * f[axis]);
@@ -313,7 +341,7 @@ impl<'a> StencilInPlace<'a> {
     /// Second sweep: adds `factor` times what turning and moving stresses `t` does to the tangent.
     pub fn add_geometric(&self, t: [f64; COUNT], factor: f64, sums: &mut NodeSums, tangent: &mut [f64]) {
         let (n, axes) = (self.at.u.len(), self.at.axes());
-        let NodeSums { patches, points, rates, columns, starts, block, turned, .. } = sums;
+        let NodeSums { patches, points, rates, columns, starts, block, turned, vertex, held, .. } = sums;
         let first = self.at.nodes.len() * axes;
         let spin_rates: Vec<_> =
             self.at.tool.iter().flat_map(|tool| (first..n).map(|j| tool.spin_rates(j - first))).collect();
@@ -369,6 +397,9 @@ impl<'a> StencilInPlace<'a> {
                     row.iter().zip(columns).for_each(|(change, &j)| to[j] += change);
                 }
             }
+        }
+        if vertex.is_some() {
+            held.add_slopes(t.map(|t| t * factor), tangent);
         }
     }
 

@@ -16,6 +16,8 @@ pub struct FieldNode {
     pub node: usize,
     /// The faces around it, each with the number of the corner that the node is.
     pub support: Vec<(usize, usize)>,
+    /// Whether the smooth piece ends here, in space: not all edges of its faces that meet at the node have one on either side.
+    pub ends: bool,
     /// Whether the surface crosses the axis of revolution here without a crease, so that its normal stays along the axis.
     on_axis: bool,
 }
@@ -51,9 +53,9 @@ pub struct FieldSurface {
     pub field: Vec<[usize; CORNERS]>,
     /// For each face the smooth piece it belongs to, counted from zero.
     pub pieces: Vec<usize>,
-    /// For each face of a plane model whether its edge ends at a crease of the surface,
+    /// For each face whether a crease of the surface bounds it, of an edge in both its halves,
     pub creased: Vec<bool>,
-    /// and whether the surface turns smoothly at one.
+    /// and, of a plane model, whether the surface turns smoothly at one of its ends.
     pub curved: Vec<bool>,
     /// Whether faces are edges of a plane model.
     pub plane: bool,
@@ -112,7 +114,7 @@ impl FieldSurface {
                 }
             }
             let roots: Vec<usize> = (0..corners.len()).filter(|&i| sets.root(i) == i).collect();
-            if self.plane && roots.len() > 1 {
+            if roots.len() > 1 {
                 creased.extend(corners.iter().map(|&(f, _)| self.faces[f].side));
             }
             for root in roots {
@@ -122,11 +124,25 @@ impl FieldSurface {
                 let on_axis = self.revolves
                     && mesh.points[node][0].abs() <= axis
                     && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
-                nodes.push(FieldNode { node, support, on_axis });
+                let ends = self.is_open(&support);
+                nodes.push(FieldNode { node, support, ends, on_axis });
             }
         }
         self.creased = self.faces.iter().map(|face| creased.contains(&face.side)).collect();
         (self.pieces, self.nodes, self.field, self.curved) = (pieces.labels(), nodes, field, curved);
+    }
+
+    /// Whether faces in space around a common corner leave a side of it open.
+    fn is_open(&self, around: &[(usize, usize)]) -> bool {
+        let mut edges = BTreeMap::new();
+        for &(f, corner) in around.iter().filter(|_| !self.plane) {
+            let (face, count) = (&self.faces[f], self.faces[f].corners());
+            // Along the edges to the corners before and after it.
+            [1, count - 1].iter().for_each(|step| {
+                *edges.entry(face.corner_node((corner + step) % count)).or_insert(0) += 1;
+            });
+        }
+        edges.values().any(|&count| count == 1)
     }
 
     /// The nodes of the mesh between which the line runs that tangents at a node of the field follow in space.

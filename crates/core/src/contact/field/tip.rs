@@ -22,7 +22,7 @@ use super::column::{PointColumn, tool_motion};
 use super::configuration::{Configuration, TargetInPlace};
 use super::contact::FieldContact;
 use super::cover::{FEET, FootBeside, Landing, Patch, root_near};
-use super::face::{FieldFace, MOST, PlacedFace, ShapeFunctions};
+use super::face::{CORNERS, FieldFace, MOST, PlacedFace, ShapeFunctions};
 use super::nodes::NodesInPlace;
 use super::point::{PatchPoint, PointRates, Sight, Touched, smoothstep};
 use super::points::Recall;
@@ -186,7 +186,15 @@ impl Configuration<'_> {
                 if feet[foot].is_none() && !has_foot {
                     let tip = Some(self.landing(place, &places, tool, share));
                     let near = [place.xi; 2];
-                    let patch = Patch { face: place.face, target: foot, ends: [None; 2], near, seen: None, tip };
+                    let patch = Patch {
+                        face: place.face,
+                        target: foot,
+                        ends: [None; 2],
+                        near,
+                        seen: None,
+                        vertices: [false; CORNERS],
+                        tip,
+                    };
                     feet[foot] = Some(TipFoot { patch, gap: place.gap });
                 }
             }
@@ -509,6 +517,7 @@ impl NodesInPlace<'_> {
         let touched = recall(self, patch, xi);
         points.push(PatchPoint {
             number: 0,
+            vertex: None,
             xi,
             weight: tip.weight(),
             functions: ShapeFunctions { n: [1.0; MOST], dn: [[0.0; 2]; MOST] },

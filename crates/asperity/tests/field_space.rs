@@ -6,6 +6,7 @@ mod support;
 
 use asperity::contact::field::FieldContact;
 use asperity::deck::{build, read};
+use asperity::model::Model;
 use asperity::system::{Dofs, State, Term};
 use asperity::system::{Stencil, Stencils, check_tangent};
 use perturbed::{Random, commit, instant, state};
@@ -92,7 +93,7 @@ fn look_at(
         let one = |(i, stencil): (usize, &Stencil)| {
             let here: Vec<f64> = stencils.dofs(stencil).iter().map(|&dof| u[dof]).collect();
             // Steps that are small beside the slips.
-            check_tangent(attempt.as_ref(), i, stencil, &here, &vec![0.1; here.len()])
+            check_tangent(attempt.as_ref(), i, stencil, &here, &vec![0.02; here.len()])
         };
         let Ok(results) = stencils.list.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>() else { continue };
         for result in results {
@@ -156,8 +157,10 @@ fn tangents_at_edges_are_exact() {
     ];
     for (name, tool) in tools {
         for cell in ["hex8", "tet4", "wedge6"] {
+            let outside =
+                "group.outside = { of = \"block.bottom\", with = [\"block.left\", \"block.back\"] }\nmaterial.rubber";
             let deck =
-                over_tool(cell, tool).replace("\"block.bottom\"", "[\"block.bottom\", \"block.left\", \"block.back\"]");
+                over_tool(cell, tool).replace("\"block.bottom\"", "\"outside\"").replace("material.rubber", outside);
             tangents(&format!("{name} {cell}"), &deck, "block", 20, [0.0; 3]);
         }
     }
@@ -166,7 +169,7 @@ fn tangents_at_edges_are_exact() {
         let (contact, moving) = (&model.field_contacts[0], &model.mesh.groups["high"].nodes);
         let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.04, [0.0; 3]), 20);
         assert!(
-            met[1] + met[2] > 20 && 10 * skipped <= met.iter().sum::<usize>() && worst < ALLOWED,
+            met[1] + met[2] > 20 && 10 * skipped <= met.iter().sum::<usize>() && worst < TURNING,
             "{cells:?}: {met:?} {skipped} {worst:.1e}"
         );
     }
@@ -176,7 +179,7 @@ fn tangents_at_edges_are_exact() {
 /// lie in that by no more than the audit allows, as they did where the mean of their faces was all that a node felt.
 #[test]
 fn corners_of_a_slab_stay_on_a_soft_one() {
-    for (cell, down) in [("hex8", 0.6), ("hex20", 0.6), ("tet10", 0.2), ("tet10", 0.6), ("hex8", 1.2)] {
+    for (cell, down) in [("hex8", 0.6), ("hex20", 0.6), ("tet10", 0.2), ("hex8", 1.2)] {
         let cells = if cell == "hex8" { ["[9, 2, 9]", "[4, 2, 3]"] } else { ["[5, 1, 5]", "[2, 1, 2]"] };
         let deck = format!(
             r#"
@@ -621,4 +624,78 @@ displacement."low.left" = {{ x = 0.0{flat} }}
         let size = plane[1].abs();
         assert!((0..2).all(|axis| (plane[axis] - space[axis]).abs() < 1e-3 * size), "{plane:?} {space:?}");
     }
+}
+
+/// A rubber wheel of hex20, `around` cells around, pressed on a plane by the middle of a cell, which lies `deep` in that; its outer sides are
+/// curved.
+fn wheel(around: usize, friction: f64, deep: f64) -> Model {
+    let node = |i: usize, j: usize, k: usize| 1 + i + 3 * (j % (2 * around) + 2 * around * k);
+    let (mut nodes, mut cells, mut outer) = (String::new(), String::new(), String::new());
+    for (k, j) in (0..3).flat_map(|k| (0..2 * around).map(move |j| (k, j))) {
+        for i in (0..3).filter(|i| i % 2 + j % 2 + k % 2 < 2) {
+            let (radius, angle) = (6.0 + 2.0 * i as f64, PI * ((j as f64 - 1.0) / around as f64));
+            let [x, y] = [radius * angle.cos(), radius * angle.sin()];
+            nodes += &format!("{}, {x:.12}, {y:.12}, {}\n", node(i, j, k), 2 * k);
+        }
+    }
+    let corners = [[0, 0], [2, 0], [2, 2], [0, 2]];
+    for cell in 0..around {
+        let at = |[i, j]: [usize; 2], k: usize| node(i, 2 * cell + j, k);
+        let middle = |n: usize| [0, 1].map(|c: usize| (corners[n][c] + corners[(n + 1) % 4][c]) / 2);
+        let ring = |k: usize| corners.map(|corner| at(corner, k));
+        let middles = |k: usize| [0, 1, 2, 3].map(|n| at(middle(n), k));
+        let all = [ring(0), ring(2), middles(0), middles(2), ring(1)].concat();
+        cells += &format!("{}, {}\n", cell + 1, all.iter().map(usize::to_string).collect::<Vec<_>>().join(", "));
+        outer += &format!("{}, S4\n", cell + 1);
+    }
+    let inner: Vec<String> = (0..3)
+        .flat_map(|k| (0..2 * around).map(move |j| (j, k)))
+        .filter(|(j, k)| j % 2 + k % 2 < 2)
+        .map(|(j, k)| node(0, j, k).to_string())
+        .collect();
+    let file = format!(
+        "*NODE\n{nodes}*ELEMENT, TYPE=C3D20, ELSET=wheel\n{cells}*SURFACE, NAME=outer, TYPE=ELEMENT\n{outer}*NSET, NSET=inner\n{}\n",
+        inner.join(",\n")
+    );
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let name = format!("wheel-{:?}.inp", std::thread::current().id()).replace(['(', ')'], "");
+    std::fs::write(folder.join(&name), file).unwrap();
+    let deck = format!(
+        r#"
+version = 1
+space = "solid"
+mesh.file = "{name}"
+material.rubber.neo_hookean = {{ shear = 1.0, bulk = 10.0 }}
+body.wheel.material = "rubber"
+tool.road.plane = {{ at = [0.0, {}, 2.0], normal = [0.0, 1.0, 0.0], side = 200.0 }}
+contact.tread = {{ surface = "outer", target = "road", tangential_penalty = 1e3, law.coulomb = {{ friction = {friction:?} }} }}
+[[step]]
+increments.count = 4
+displacement.inner = {{ x = 0.0, y = -0.4, z = 0.0 }}
+"#,
+        deep - 10.0
+    );
+    let made = read(&deck, "wheel.toml", folder, &[]).and_then(build);
+    made.unwrap_or_else(|found| panic!("{}", found.render(false))).model
+}
+
+/// A wheel is felt as soon as it touches: the field lives at all nodes of curved faces of second degree, whose mean over whole faces is
+/// open until their middle lies in by their sagitta (no force at all up to 0.3). Against three times as many cells.
+#[test]
+fn the_middle_of_a_curved_face_is_felt() {
+    let [coarse, fine] = [16, 48].map(|around| {
+        let model = wheel(around, 0.0, 0.0);
+        let keep: Keep = run(&model);
+        columns(&model, &keep)["contact.tread.force.y"].clone()
+    });
+    assert!(coarse.iter().zip(&fine).all(|(a, b)| (a / b - 1.0).abs() < 0.13), "{coarse:?} {fine:?}");
+}
+
+#[test]
+fn tangents_of_pieces_are_exact() {
+    let model = wheel(16, 0.3, 0.25);
+    let (contact, moving) = (&model.field_contacts[0], &model.mesh.groups["wheel"].nodes);
+    let (met, skipped, worst) = look_at(contact, &model.problem.dofs, (moving, 0.004, [0.0; 3]), 8);
+    let said = format!("{met:?} skipped {skipped} worst {worst:.1e}");
+    assert!(met[1] + met[2] > 8 && 10 * skipped <= met.iter().sum::<usize>() && worst < ALLOWED, "{said}");
 }

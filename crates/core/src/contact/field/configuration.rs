@@ -137,7 +137,7 @@ impl Configuration<'_> {
     /// Whether a corner of a face at which a smooth piece ends sees a body within a patch.
     fn sees_vertex(&self, (face, faces): (&FaceInPlace, &FacesInPlace), patch: &Patch, corner: usize) -> bool {
         let surface = &self.contact.parts.surface;
-        if corner >= face.face.corners() || face.face.kind.degree > 1 || !surface.nodes[surface.field[patch.face][corner]].ends {
+        if corner >= face.face.corners() || !surface.nodes[surface.field[patch.face][corner]].ends {
             return false;
         }
         let at = face.at(face.face.corner_place(corner));

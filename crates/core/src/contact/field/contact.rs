@@ -142,7 +142,7 @@ impl FieldContact {
     }
     /// Whether functions on an overlap are of third degree, as those of quadrilaterals with eight nodes.
     pub(super) fn is_cubic(&self, patch: &Patch) -> bool {
-        let third = |face: &FieldFace| face.kind.degree > 1 && face.corners() > 3;
+        let third = |face: &FieldFace| face.kind.degree > 1 && face.kind.linear.nodes.len() > 3;
         let faces = self.parts.target.as_faces();
         third(&self.parts.surface.faces[patch.face])
             || faces.is_some_and(|faces| third(&faces.surface.faces[patch.target]))

@@ -72,8 +72,10 @@ pub struct Landing {
 pub struct FaceInPlace<'a> {
     /// The face.
     pub face: &'a FieldFace,
-    /// Its nodes.
+    /// The nodes of its side,
     pub placed: PlacedFace,
+    /// and its corners.
+    corners: PlacedFace,
     /// Unit normals at its corners.
     pub normals: [Vec3; CORNERS],
     /// Whether it is an edge of the plane.
@@ -101,11 +103,16 @@ impl<'a> FaceInPlace<'a> {
     /// A face of a surface in place, with the unit normals at the nodes of the field, none where nothing asks for them.
     pub fn of(surface: &'a FieldSurface, number: usize, placed: PlacedFace, normals: &[Vec3]) -> Self {
         let normals = surface.field[number].map(|node| normals.get(node).copied().unwrap_or_default());
-        Self { face: &surface.faces[number], placed, normals, plane: surface.plane }
+        Self::with(surface, number, placed, normals)
+    }
+    /// The same with the unit normals at its own corners.
+    pub fn with(surface: &'a FieldSurface, number: usize, placed: PlacedFace, normals: [Vec3; CORNERS]) -> Self {
+        let face = &surface.faces[number];
+        Self { face, placed, corners: face.corner_positions(&placed), normals, plane: surface.plane }
     }
     /// Its corners.
     pub fn corners(&self) -> &[Vec3] {
-        &self.placed.nodes()[..self.face.corners()]
+        self.corners.nodes()
     }
 
     /// A place of it.

@@ -1,6 +1,6 @@
 //! A face of a body's boundary: an edge in the plane, a face in space, with its nodes in place.
 
-use crate::mesh::cells::Cell;
+use crate::mesh::cells::{Cell, QUAD4, TRI3};
 use crate::mesh::{Mesh, Side};
 use crate::system::Dofs;
 use crate::tensor::Vec3;
@@ -16,17 +16,36 @@ pub const WHOLE: [f64; 2] = [-1.0, 1.0];
 /// Step of differences of shape functions, in reference coordinates.
 const STEP: f64 = 1e-3;
 
-/// A face of the boundary, or half of an edge of second degree.
+/// Corners of the pieces of faces with six, eight and nine nodes, by the numbers of these (Puso, Laursen & Solberg, CMAME 197, 2008;
+/// Popp, Wohlmuth, Gee & Wall, SIAM J. Sci. Comput. 34, 2012).
+const SIX: [&[usize]; 4] = [&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]];
+const EIGHT: [&[usize]; 5] = [&[0, 4, 7], &[4, 1, 5], &[5, 2, 6], &[7, 6, 3], &[4, 5, 6, 7]];
+const NINE: [&[usize]; 4] = [&[0, 4, 8, 7], &[4, 1, 5, 8], &[8, 5, 2, 6], &[7, 8, 6, 3]];
+
+/// Distance of a node from the flat face over its first edge from which on a face counts as curved.
+const CURVED: f64 = 1e-3;
+
+/// What of a side a face is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum SidePart {
+    /// All of it.
+    Whole,
+    /// Half of an edge, in reference coordinates of that.
+    Half([f64; 2]),
+    /// What lies between these of its nodes.
+    Piece(&'static [usize]),
+}
+
+/// A face of the boundary, or of one of second degree a part whose corners are nodes.
 #[derive(Debug, Clone)]
 pub struct FieldFace {
     /// Where it lies in the mesh.
     pub side: Side,
     /// Its reference cell.
     pub kind: &'static Cell,
-    /// Its nodes, the corners first.
+    /// The nodes of that, its corners first.
     pub nodes: Vec<usize>,
-    /// The part of an edge that it is, in reference coordinates of the edge.
-    part: [f64; 2],
+    part: SidePart,
 }
 
 /// Shape functions and their derivatives at a place of a face.
@@ -69,60 +88,132 @@ impl FieldFace {
     /// A side of the mesh.
     pub fn new(mesh: &Mesh, side: Side) -> Self {
         let (kind, nodes) = mesh.side(side);
-        Self { side, kind, nodes: nodes.collect(), part: WHOLE }
+        Self { side, kind, nodes: nodes.collect(), part: SidePart::Whole }
     }
 
-    /// Both halves of an edge of second degree; else itself.
-    pub fn halves(self) -> impl Iterator<Item = Self> {
-        let parts =
-            if self.kind.degree > 1 && self.corners() == 2 { vec![[-1.0, 0.0], [0.0, 1.0]] } else { vec![WHOLE] };
+    /// The parts between its nodes of an edge of second degree, and of such a face where it is curved: a mean over all of that would not
+    /// feel what its middle touches. Of a flat one the corners carry the field, else itself.
+    pub fn pieces(self, mesh: &Mesh) -> impl Iterator<Item = Self> {
+        let of = |pieces: &[&'static [usize]]| pieces.iter().map(|piece| SidePart::Piece(piece)).collect();
+        let parts = match self.nodes.len() {
+            _ if self.corners() > 2 && !self.is_curved(mesh) => vec![SidePart::Whole],
+            3 if self.corners() == 2 => vec![SidePart::Half([-1.0, 0.0]), SidePart::Half([0.0, 1.0])],
+            6 => of(&SIX),
+            8 => of(&EIGHT),
+            9 => of(&NINE),
+            _ => vec![SidePart::Whole],
+        };
         parts.into_iter().map(move |part| Self { part, ..self.clone() })
     }
 
-    /// The node at a corner, that of the middle where a half ends there.
+    /// Whether its nodes lie off the face of first degree between its corners, before any motion.
+    fn is_curved(&self, mesh: &Mesh) -> bool {
+        let rest = self.at_rest(mesh);
+        let x = rest.nodes();
+        let off = |k: usize| {
+            let flat = self.corner_functions(self.place(k)).value(&x[..self.corners()]);
+            (x[k] - flat).norm() > CURVED * (x[1] - x[0]).norm()
+        };
+        (self.corners()..x.len()).any(off)
+    }
+
+    /// The cell of first degree that it is.
+    fn linear(&self) -> &'static Cell {
+        match self.part {
+            SidePart::Piece([_, _, _]) => &TRI3,
+            SidePart::Piece(_) => &QUAD4,
+            _ => self.kind.linear,
+        }
+    }
+
+    /// The cell whose quadrature has its reference coordinates.
+    pub fn cell(&self) -> &'static Cell {
+        if let SidePart::Piece(_) = self.part { self.linear() } else { self.kind }
+    }
+
+    /// Number among the nodes of that at a corner.
+    fn corner(&self, corner: usize) -> usize {
+        match self.part {
+            SidePart::Half(part) if part[corner] == 0.0 => 2,
+            SidePart::Piece(corners) => corners[corner],
+            _ => corner,
+        }
+    }
+
+    /// The node at a corner.
     pub fn corner_node(&self, corner: usize) -> usize {
-        let middle = self.corners() == 2 && self.part[corner] == 0.0;
-        self.nodes[if middle { 2 } else { corner }]
+        self.nodes[self.corner(corner)]
+    }
+
+    /// The corner at which a node is, by its number.
+    pub fn corner_at(&self, node: usize) -> Option<usize> {
+        (0..self.corners()).find(|&corner| self.corner(corner) == node)
+    }
+
+    /// Where its corners are, with all nodes placed.
+    pub fn corner_positions(&self, placed: &PlacedFace) -> PlacedFace {
+        PlacedFace::new((0..self.corners()).map(|corner| placed.nodes()[self.corner(corner)]))
     }
 
     /// The corner of a half of an edge that is an end of the edge.
     pub fn end(&self) -> Option<usize> {
-        (self.part != WHOLE).then(|| usize::from(self.part[0] == 0.0))
+        if let SidePart::Half(part) = self.part { Some(usize::from(part[0] == 0.0)) } else { None }
     }
 
     /// Number of its corners.
     pub fn corners(&self) -> usize {
-        self.kind.linear.nodes.len()
+        self.linear().nodes.len()
+    }
+
+    /// Reference coordinates of the side at those of the face, and their derivatives along these: the map is affine.
+    fn on_side(&self, xi: [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
+        match self.part {
+            SidePart::Whole => (xi, [[1.0, 0.0], [0.0, 1.0]]),
+            SidePart::Half([from, to]) => {
+                let half = 0.5 * (to - from);
+                ([0.5 * (from + to) + half * xi[0], xi[1]], [[half, 0.0], [0.0, 1.0]])
+            }
+            SidePart::Piece(corners) => {
+                let (functions, mut at, mut slopes) = (self.corner_functions(xi), [0.0; 2], [[0.0; 2]; 2]);
+                for (&node, (n, dn)) in corners.iter().zip(functions.n.iter().zip(&functions.dn)) {
+                    for i in 0..2 {
+                        at[i] += n * self.kind.nodes[node][i];
+                        (0..2).for_each(|a| slopes[i][a] += dn[a] * self.kind.nodes[node][i]);
+                    }
+                }
+                (at, slopes)
+            }
+        }
     }
 
     /// Reference coordinates of a node.
     pub fn place(&self, node: usize) -> [f64; 2] {
-        let [a, b, _] = self.kind.nodes[node];
-        let [from, to] = self.part;
-        if self.part == WHOLE { [a, b] } else { [(2.0 * a - from - to) / (to - from), b] }
+        let ([x, y, _], middle) = (self.kind.nodes[node], self.middle());
+        let (at, [[a, b], [c, d]]) = self.on_side(middle);
+        let (x, y, det) = (x - at[0], y - at[1], a * d - b * c);
+        [middle[0] + (d * x - b * y) / det, middle[1] + (a * y - c * x) / det]
     }
 
     /// Reference coordinates of a corner.
     pub fn corner_place(&self, corner: usize) -> [f64; 2] {
-        let [a, b, _] = self.kind.nodes[corner];
+        let [a, b, _] = self.linear().nodes[corner];
         [a, b]
     }
 
     /// Reference coordinates of its middle.
     pub fn middle(&self) -> [f64; 2] {
-        let [a, b, _] = self.kind.center();
+        let [a, b, _] = self.linear().center();
         [a, b]
     }
 
-    /// Its shape functions.
+    /// Its shape functions, those of the side.
     pub fn shape(&self, xi: [f64; 2]) -> ShapeFunctions {
-        if self.part == WHOLE {
+        if self.part == SidePart::Whole {
             return ShapeFunctions::of(self.kind, xi);
         }
-        let [from, to] = self.part;
-        let half = 0.5 * (to - from);
-        let mut shape = ShapeFunctions::of(self.kind, [0.5 * (from + to) + half * xi[0], xi[1]]);
-        shape.dn.iter_mut().for_each(|dn| dn[0] *= half);
+        let (at, slopes) = self.on_side(xi);
+        let mut shape = ShapeFunctions::of(self.kind, at);
+        shape.dn.iter_mut().for_each(|dn| *dn = [0, 1].map(|a| dn[0] * slopes[0][a] + dn[1] * slopes[1][a]));
         shape
     }
 
@@ -152,7 +243,7 @@ impl FieldFace {
 
     /// The functions of first degree of its corners.
     pub fn corner_functions(&self, xi: [f64; 2]) -> ShapeFunctions {
-        ShapeFunctions::of(self.kind.linear, xi)
+        ShapeFunctions::of(self.linear(), xi)
     }
 
     /// Where its nodes are before any motion.

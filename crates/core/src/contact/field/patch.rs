@@ -49,7 +49,7 @@ impl<'a> PatchInPlace<'a> {
                 (normals[c], units[c]) = (Some(normal), normal.unit);
             }
         }
-        let face = FaceInPlace { face, placed: at.placed(face), normals: units, plane: surface.plane };
+        let face = FaceInPlace::with(surface, patch.face, at.placed(face), units);
         let (tool, seen) = match &at.contact.parts.target {
             FieldTarget::Tool(_) => (at.tool, None),
             FieldTarget::Faces(faces) => (None, Some((faces, at.placed(&faces.surface.faces[patch.target])))),

@@ -201,7 +201,8 @@ impl PatchInPlace<'_> {
             SpotMap::Overlap(rates) => {
                 let PointColumn::Node { axis, own, seen, .. } = column else { return ([0.0; 2], 0.0) };
                 let corner = |k: Option<usize>, first: usize| k.filter(|&k| k < CORNERS).map(|k| first + 3 * k + axis);
-                let places = [corner(*own, 0), corner(*seen, DIRECTIONS / 2)];
+                let own = own.and_then(|node| self.face.face.corner_at(node));
+                let places = [corner(own, 0), corner(*seen, DIRECTIONS / 2)];
                 let sum = |c: usize| places.iter().flatten().map(|&place| rates[c][place]).sum::<f64>();
                 ([sum(0), sum(1)], sum(2))
             }

@@ -16,7 +16,8 @@ pub struct FieldNode {
     pub node: usize,
     /// The faces around it, each with the number of the corner that the node is.
     pub support: Vec<(usize, usize)>,
-    /// Whether the smooth piece ends here, in space: not all edges of its faces that meet at the node have one on either side.
+    /// Whether the smooth piece ends here, in space: not all edges of its faces that meet at the node have one on either side. Of faces of
+    /// second degree at its corners alone: what lies between two ends of an edge is no node of the field.
     pub ends: bool,
     /// Whether the surface crosses the axis of revolution here without a crease, so that its normal stays along the axis.
     on_axis: bool,
@@ -67,11 +68,11 @@ pub struct FieldSurface {
 impl FieldSurface {
     /// The faces `sides` of a mesh in a space; `thickness` counts in the plane cases.
     pub fn new(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
-        let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).halves());
+        let faces = sides.iter().flat_map(|&side| FieldFace::new(mesh, side).pieces(mesh));
         Self::of(mesh, faces.collect(), space, thickness)
     }
 
-    /// The same with edges of second degree in one piece, as a target has them.
+    /// The same with sides of second degree in one piece, as a target has them.
     pub fn whole(mesh: &Mesh, sides: &[Side], space: Space, thickness: f64) -> Self {
         Self::of(mesh, sides.iter().map(|&side| FieldFace::new(mesh, side)).collect(), space, thickness)
     }
@@ -124,7 +125,7 @@ impl FieldSurface {
                 let on_axis = self.revolves
                     && mesh.points[node][0].abs() <= axis
                     && support.iter().all(|&(f, _)| normals[f][1].abs() > CREASE.cos());
-                let ends = self.is_open(&support);
+                let ends = self.is_open(&support) && (self.is_first(&support) || self.angle(&support, mesh) < CORNER);
                 nodes.push(FieldNode { node, support, ends, on_axis });
             }
         }
@@ -145,11 +146,26 @@ impl FieldSurface {
         edges.values().any(|&count| count == 1)
     }
 
+    fn is_first(&self, around: &[(usize, usize)]) -> bool {
+        around.iter().all(|&(f, _)| self.faces[f].kind.degree == 1)
+    }
+
+    /// Angle that faces around a common corner fill, before any motion.
+    fn angle(&self, around: &[(usize, usize)], mesh: &Mesh) -> f64 {
+        let of = |&(f, corner): &(usize, usize)| {
+            let (face, count) = (&self.faces[f], self.faces[f].corners());
+            let [here, next, last] =
+                [0, 1, count - 1].map(|step| mesh.points[face.corner_node((corner + step) % count)]);
+            (next - here).unit().dot((last - here).unit()).clamp(-1.0, 1.0).acos()
+        };
+        around.iter().map(of).sum()
+    }
+
     /// The nodes of the mesh between which the line runs that tangents at a node of the field follow in space.
     pub fn line(&self, node: usize) -> [usize; 2] {
         let (f, corner) = self.nodes[node].support[0];
         let face = &self.faces[f];
-        [face.nodes[corner], face.nodes[(corner + 1) % face.corners()]]
+        [corner, (corner + 1) % face.corners()].map(|corner| face.corner_node(corner))
     }
 
     fn middle_normal(&self, face: &FieldFace, mesh: &Mesh) -> Vec3 {
@@ -268,7 +284,7 @@ impl FieldSurface {
     /// displacements of its nodes.
     pub fn corner_area(&self, face: &FieldFace, placed: &PlacedFace, corner: usize) -> (f64, [Vec3; MOST]) {
         let (mut area, mut slopes) = (0.0, [Vec3::zero(); MOST]);
-        let Some(rule) = face.kind.gauss[1] else { return (area, slopes) };
+        let Some(rule) = face.cell().gauss[1] else { return (area, slopes) };
         for (point, weight) in rule.points.iter().zip(rule.weights) {
             let xi = [point[0], point[1]];
             let (shape, part) = (face.shape(xi), weight * self.thickness * face.corner_functions(xi).n[corner]);
@@ -290,6 +306,9 @@ impl FieldSurface {
 
 /// Angle between faces from which on they stand for a curved piece.
 const CURVED: f64 = 1e-3;
+
+/// Angle below which an open piece of the surface has a corner at a node, between that of a block and that of a straight edge.
+const CORNER: f64 = 0.75 * std::f64::consts::PI;
 
 /// Step of the differences of the area density, in reference coordinates.
 const STEP: f64 = 1e-3;

@@ -203,11 +203,15 @@ impl FieldContact {
         let (sum, count) = overlaps.fold((0.0, 0.0), |(sum, count), overlap| (sum + overlap, count + 1.0));
         // A few nodes that touch are no fit.
         let pressed = 4.0 * count > self.nodal_slots() as f64;
-        let (of, size) = if pressed { ("overlap", sum / count) } else { ("motion", self.motion(u)) };
-        let misplaced = size > 0.0 && apart > MISPLACED * size;
-        (misplaced && (pressed || self.fits())).then(|| {
+        let clearance = if pressed { Some(0.0) } else { self.clearance() }?;
+        let (of, size) = match pressed {
+            true => ("overlap", sum / count),
+            false => ("motion beyond the clearance", self.motion(u) - clearance),
+        };
+        let curved = apart > ROUNDING * self.parts.surface.mean_size(&self.parts.mesh);
+        (curved && size > 0.0 && apart > MISPLACED * size).then(|| {
             let [all, closed] = [self.nodal_slots(), self.closed(history).count()];
-            let peak = match 10 * closed < 9 * all && closed > 0 {
+            let peak = match 10 * closed < 9 * all && closed > 0 && clearance <= apart {
                 true => format!(" in the mean, its peak {:.1} times too high and more, as {closed} of {all} nodes bear", all as f64 / closed as f64),
                 false => String::new(),
             };
@@ -222,10 +226,14 @@ impl FieldContact {
         })
     }
 
-    /// Whether most of the surface lay as near to the target before any motion as facets leave surfaces that fit.
-    fn fits(&self) -> bool {
-        let (gaps, near) = (self.initial_gaps(), self.sagitta());
-        2 * gaps.iter().filter(|(penetration, _)| penetration.abs() <= near).count() > gaps.len()
+    /// The distance in which most of the surface lay to the target before any motion, up to what facets leave surfaces that fit; none where
+    /// it differs by more from place to place.
+    fn clearance(&self) -> Option<f64> {
+        let (mut gaps, near) = (self.initial_gaps(), self.sagitta());
+        gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let median = -gaps.get(gaps.len() / 2)?.0;
+        (2 * gaps.iter().filter(|(gap, _)| (gap + median).abs() <= near).count() > self.parts.surface.nodes.len())
+            .then_some(median.max(0.0))
     }
 
     /// The largest displacement of a node of the surface or of what it may touch.
@@ -243,5 +251,7 @@ impl FieldContact {
     }
 }
 
+/// Mean distance of facets from curved surfaces over the size of a face, up to which they are flat.
+const ROUNDING: f64 = 1e-6;
 /// Mean distance of facets from curved surfaces over the overlap, or the motion, from which on it is told.
 const MISPLACED: f64 = 0.02;

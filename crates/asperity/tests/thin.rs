@@ -63,6 +63,17 @@ fn what_keeps_its_volume_bends() {
     }
 }
 
+/// Half of a square bar of bricks that keeps its volume: towards the held end it curves ever more across its length.
+#[test]
+fn bars_that_keep_their_volume_curve_across() {
+    let beam = (4.0 * 20.0_f64.powi(3) + 1.2 * 20.0 * 2.0 * 1.4999) / 1e6;
+    for through in [1, 2] {
+        let bar = cantilever("hex8", through).replace(", \"b.front\"", "");
+        let sinking = -ended(&bar, "b.right", 1).1 / beam;
+        assert!((sinking - 1.0).abs() < 0.02, "{through}: {sinking}");
+    }
+}
+
 /// A block of steel upset between plates that stick: one layer of bricks between planes is not thin, and what quadrilaterals are in plane
 /// strain but for the axes over which F-bar shares the change of volume; with a free face it is a thin sheet.
 #[test]

@@ -4,7 +4,7 @@ use super::attempt::OpenBody;
 use super::free::Free;
 use super::gradient::Shapes;
 use super::incompatible;
-use super::patches::Patches;
+use super::patches::{self, Patches};
 use super::slenderness::Slenderness;
 use super::volume::Places;
 use super::{BodyOptions, Choice, CylinderAxes, Formulation, Heat, InitialStress, Integration, Strain};
@@ -60,8 +60,10 @@ pub(super) enum Bar {
 impl Bar {
     fn of(choice: &Choice) -> Self {
         match choice.formulation {
-            // Tetrahedra of second degree have fewer motions a cell than a linear field needs.
-            Formulation::FBar if choice.kind.degree == 2 && choice.kind.nodes.len() != 10 => Self::Linear,
+            // Tetrahedra of second degree alone have fewer motions than a linear field needs.
+            Formulation::FBar if choice.kind.degree == 2 && (choice.kind.nodes.len() != 10 || choice.joined) => {
+                Self::Linear
+            }
             Formulation::FBar => Self::Mean,
             Formulation::Auto | Formulation::Standard | Formulation::Incompatible => Self::Own,
         }
@@ -92,9 +94,8 @@ impl Body {
                 choices.push(choice.in_body(body, &options));
             }
         }
-        let barred =
-            |kind: &Cell| choices.iter().any(|choice| choice.kind == kind && choice.formulation == Formulation::FBar);
-        let patches = Patches::new(&mesh, &cells, barred);
+        let size = |kind: &Cell| choices.iter().find(|choice| choice.kind == kind).map_or(1, patches::size);
+        let patches = Patches::new(&mesh, &cells, size);
         let name = name.into();
         let (shapes, places, axes, initial_stress, heat) = (Vec::new(), Places::default(), None, None, None);
         let mut body = Self {

@@ -144,12 +144,6 @@ impl Slenderness {
         };
         formulation == Formulation::FBar && self.through < few
     }
-
-    /// By what part tetrahedra of second degree, one through a body of a law that keeps its volume, are too stiff in bending without F-bar:
-    /// that of cantilevers of Poisson's ratio 0.499 and of metal that flows, with cells once and twice as long as they are thick.
-    pub fn plain(&self) -> f64 {
-        0.05 * self.along.powi(2)
-    }
 }
 
 /// Square of what a cell that tapers as its neighbours do is stiffer in bending than one among those that taper against it, over that of

@@ -121,7 +121,7 @@ impl Body {
 
     fn kind_shapes(&self, choice: &Choice) -> KindShapes {
         let (kind, rule) = (choice.kind, self.rule(choice.kind));
-        let modes = if choice.formulation == Formulation::Incompatible { incompatible::modes(kind) } else { 0 };
+        let modes = incompatible::modes(choice);
         let shapes = |(&xi, &weight)| Shapes::new(kind, xi, weight).with_modes(kind, xi, modes);
         let points = rule.points.iter().zip(rule.weights).map(shapes);
         let warmth = rule.points.iter().map(|&xi| super::heat::weights(kind, xi, choice.integration, modes)).collect();
@@ -274,7 +274,7 @@ fn refuse(body: &str, kind: &Cell, space: Space, options: &BodyOptions) -> Resul
         (Formulation::Incompatible, Integration::Reduced) => {
             "incompatible modes need full integration; with reduced integration nothing resists them".to_string()
         }
-        (Formulation::Incompatible, _) if incompatible::modes(kind) == 0 => {
+        (Formulation::Incompatible, _) if !incompatible::has_modes(kind) => {
             format!(
                 "cells {} have no incompatible modes, only quad4 and hex8 do; use formulation = \"auto\"",
                 kind.name

@@ -89,8 +89,10 @@ pub struct Choice {
     pub(super) joined: bool,
     /// How many of them lie through a bonded layer that keeps its volume, where they are too few.
     pub layers: Option<f64>,
-    /// Whether the law flows.
+    /// Whether the law flows,
     flows: bool,
+    /// and whether its solid hardly changes its volume.
+    pub(super) keeps_volume: bool,
 }
 
 impl Choice {
@@ -104,7 +106,7 @@ impl Choice {
         let standard = |reason: &str, locks: bool| (Formulation::Standard, reason.to_string(), locks);
         let stiff = stiff && flow != Flow::Unknown;
         let layers = options.bonded.filter(|_| stiff || flow == Flow::Isochoric);
-        let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::modes(kind) > 0 && !reduced;
+        let bends = matches!(flow, Flow::None | Flow::Unknown) && incompatible::has_modes(kind) && !reduced;
         let modes = |reason: &str| (Formulation::Incompatible, reason.to_string(), false);
         let (formulation, reason, locks) = match options.formulation {
             Formulation::Auto if space == Space::PlaneStress && bends => modes("bending, in plane stress"),
@@ -133,7 +135,19 @@ impl Choice {
         };
         let integration = if reduced { Integration::Reduced } else { Integration::Full };
         let flows = matches!(flow, Flow::Isochoric | Flow::Dilatant);
-        Self { kind, formulation, integration, reason, locks, stiff: None, soft: false, joined: false, layers, flows }
+        Self {
+            kind,
+            formulation,
+            integration,
+            reason,
+            locks,
+            stiff: None,
+            soft: false,
+            joined: false,
+            layers,
+            flows,
+            keeps_volume: stiff,
+        }
     }
 
     /// One line: cells, formulation, reason.
@@ -172,7 +186,7 @@ impl Choice {
         }
         self.soft = !bonded && body.soft(self.kind, self.formulation);
         self.stiff = Some(stiff);
-        let modes = incompatible::modes(self.kind) > 0;
+        let modes = incompatible::has_modes(self.kind);
         let bends = body.stiff(self.kind, Formulation::Incompatible);
         let shears = modes && self.formulation == Formulation::FBar && !bonded && stiff > STIFF.max(bends);
         if auto && modes && (self.soft || shears) {

@@ -9,8 +9,8 @@
 //! avoid is so taken away, where `a_k (x) G_k` would turn it into a rotation, in which compressed cells buckle one by one.
 //!
 //! The change of volume of a brick's displacements has terms `xi_i xi_j` that these modes do not reach: where the law keeps its volume a bar
-//! that bends ever more along its length could not curve across it. A fourth, `M = xi_1 xi_2 xi_3`, adds its gradient to the volume alone,
-//! `F0 (G . a) I` (the dilatational modes of Simo, Armero and Taylor 1993).
+//! that bends ever more along its length could not curve across it. There a fourth, `M = xi_1 xi_2 xi_3`, adds its gradient to the volume
+//! alone, `F0 (G . a) I` (the dilatational modes of Simo, Armero and Taylor 1993).
 //!
 //! The amplitudes `a_k`, vectors over the undeformed body, belong to the cell: they are found from its own equilibrium by
 //! Newton's method for any displacements of its nodes, and condensed out of its tangent. They are kept behind the states of the
@@ -20,7 +20,7 @@ use super::attempt::OpenBody;
 use super::gradient::{self, Rows, padded};
 use super::operator::{Nodal, Tangent, add_forces, deformation};
 use super::point::PointStress;
-use super::{Body, Strain};
+use super::{Body, Choice, Formulation, Strain};
 use crate::mesh::Space;
 use crate::mesh::cells::Cell;
 use crate::system::Local;
@@ -43,11 +43,16 @@ const SMALL: f64 = 1e-9;
 /// Newton steps for the amplitudes.
 const LIMIT: usize = 25;
 
-/// How many modes cells of a kind may have.
-pub(super) fn modes(kind: &Cell) -> usize {
-    match (kind.degree, kind.dimension, kind.nodes.len()) {
-        (1, 2, 4) => 2,
-        (1, 3, 8) => 4,
+/// Whether cells of a kind may have modes.
+pub(super) fn has_modes(kind: &Cell) -> bool {
+    matches!((kind.degree, kind.dimension, kind.nodes.len()), (1, 2, 4) | (1, 3, 8))
+}
+
+/// How many the cells of a choice have.
+pub(super) fn modes(choice: &Choice) -> usize {
+    match (choice.formulation, choice.kind.dimension) {
+        (Formulation::Incompatible, 3) => VOLUME + usize::from(choice.keeps_volume),
+        (Formulation::Incompatible, axes) => axes,
         _ => 0,
     }
 }

@@ -33,7 +33,8 @@ pub(super) struct Patches {
     others_starts: Vec<usize>,
 }
 
-/// Cells of a patch of a kind, so that there is about one condition for each node of a mesh of first degree. With three and four triangles of first degree metal upset by a fifth is too soft by 7 and 17 %.
+/// Cells of a patch of a kind, so that there is about one condition for each node of a mesh of first degree. With three
+/// and four triangles metal upset by a fifth is too soft by 7 and 17 %.
 pub(super) fn size(choice: &Choice) -> usize {
     let kind = choice.kind;
     match (kind.degree, kind.dimension, kind.nodes.len()) {
